@@ -15,8 +15,7 @@ namespace assay::corpus {
 namespace {
 
 Problem refused(const std::filesystem::path& path, int error) {
-  return problem_in(FileProblem::cannot_write, path,
-                    fmt::format("cannot be written: {}", std::strerror(error)));
+  return problem_in(path, fmt::format("cannot be written: {}", std::strerror(error)));
 }
 
 // The file that is written and then becomes `path`: NAME.part, or NAME.1.part while another writer

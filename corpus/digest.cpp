@@ -46,9 +46,7 @@ std::string sha256_of(std::string_view bytes) {
 
 Expected<std::string> sha256_of_file(const std::filesystem::path& path) {
   const OpenFile file(std::fopen(path.c_str(), "rb"));
-  const auto failed = [&] {
-    return problem_in(FileProblem::cannot_open, path, std::strerror(errno));
-  };
+  const auto failed = [&] { return problem_in(path, std::strerror(errno)); };
   if (!file) return failed();
   Sha256 digest;
   std::array<char, 1 << 16> piece;

@@ -12,8 +12,7 @@ namespace assay::corpus {
 // The digest as 64 hexadecimal digits, lower case.
 std::string sha256_of(std::string_view bytes);
 
-// The same for a file, which is read in pieces. cannot_open, with the reason, when it cannot be
-// read.
+// The same for a file, which is read in pieces. The problem states why it cannot be read.
 Expected<std::string> sha256_of_file(const std::filesystem::path& path);
 
 }  // namespace assay::corpus

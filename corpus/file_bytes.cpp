@@ -22,19 +22,15 @@ struct EndInflate {
 };
 
 Problem too_large(const std::filesystem::path& path, std::size_t limit) {
-  return problem_in(FileProblem::too_large, path,
-                    fmt::format("larger than the {} bytes that are read", limit));
+  return problem_in(path, fmt::format("larger than the {} bytes that are read", limit));
 }
 
 Problem no_memory(const std::filesystem::path& path) {
-  return problem_in(FileProblem::too_large, path, "larger than the memory at hand");
+  return problem_in(path, "larger than the memory at hand");
 }
 
 Problem open_problem(const std::filesystem::path& path, int error) {
-  const FileProblem kind = error == EACCES || error == EPERM ? FileProblem::permission_denied
-                           : error == EISDIR                 ? FileProblem::is_directory
-                                                             : FileProblem::cannot_open;
-  return problem_in(kind, path, fmt::format("cannot be read: {}", std::strerror(error)));
+  return problem_in(path, fmt::format("cannot be read: {}", std::strerror(error)));
 }
 
 Expected<OpenFile> open_to_read(const std::filesystem::path& path) {
@@ -42,7 +38,7 @@ Expected<OpenFile> open_to_read(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path, ignored)) return open_problem(path, EISDIR);
   // A pipe or a device may never end.
   if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored)) {
-    return problem_in(FileProblem::cannot_open, path, "is not a regular file");
+    return problem_in(path, "is not a regular file");
   }
   OpenFile file(std::fopen(path.c_str(), "rb"));
   if (!file) return open_problem(path, errno);
@@ -66,13 +62,10 @@ bool is_gzip(const std::string& bytes) {
 }
 
 Problem corrupt(const std::filesystem::path& path, const char* how, std::size_t offset) {
-  return problem_in(FileProblem::corrupt_gzip, path,
-                    fmt::format("the gzip stream {} (compressed byte {})", how, offset));
+  return problem_in(path, fmt::format("the gzip stream {} (compressed byte {})", how, offset));
 }
 
-Problem empty(const std::filesystem::path& path) {
-  return problem_in(FileProblem::empty_file, path, "the file is empty");
-}
+Problem empty(const std::filesystem::path& path) { return problem_in(path, "the file is empty"); }
 
 // A file that is named like a gzip stream and is none.
 Problem no_gzip(const std::filesystem::path& path) {

@@ -21,8 +21,8 @@ struct CloseFile {
 };
 using OpenFile = std::unique_ptr<std::FILE, CloseFile>;
 
-// Reads the whole file. Problems: cannot_open, is_directory, permission_denied, empty_file,
-// corrupt_gzip, too_large. A gzip stream of nothing is an empty_file too.
+// Reads the whole file. Refuses what cannot be opened, a folder, an empty file, a damaged gzip
+// stream, and what is larger than `limit`. A gzip stream of nothing is an empty file too.
 Expected<std::string> read_bytes(const std::filesystem::path& path,
                                  std::size_t limit = largest_file);
 

@@ -3,13 +3,12 @@
 #include "detector/assembly.h"
 #include "detector/mesh/mesh_checks.h"
 #include "detector/mesh/paced_stop.h"
-#include "detector/parallel/shared_stop.h"
+#include "detector/parallel/workers.h"
 #include "detector/state/state_bytes.h"
 #include "detector/step/cost_model.h"
 #include "detector/step/step.h"
 
 namespace assay::detector {
-
 namespace {
 
 // One anchor for each component: where it is seen from best, with its ghosts, at these positions.

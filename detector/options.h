@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "detector/mesh/arithmetic.h"
+#include "detector/mesh/step_types.h"
 
 namespace assay::detector {
 
@@ -16,6 +16,16 @@ enum class Culling : std::uint8_t {
   none,         // every pair, no boxes: for small meshes and for comparison
   automatic,    // view_auto and normal_cone in one descent, each if it is expected to pay
 };
+constexpr auto names_of(Culling) {
+  using enum Culling;
+  return std::to_array<Named<Culling>>({{automatic, "auto"},
+                                        {view_auto, "view-auto"},
+                                        {view_point, "view-point"},
+                                        {view_line, "view-line"},
+                                        {normal_cone, "normal-cone"},
+                                        {bvh, "bvh"},
+                                        {none, "none"}});
+}
 
 // Whether each step decides for itself if it uses views.
 constexpr bool chooses_views(Culling culling) {
@@ -35,36 +45,38 @@ enum class Start : std::uint8_t {
   clean,     // the caller vouches that nothing is in contact and that layers are common
   unknown,   // everything is dirty
 };
+constexpr auto names_of(Start) {
+  using enum Start;
+  return std::to_array<Named<Start>>(
+      {{verified, "verified"}, {clean, "clean"}, {unknown, "unknown"}});
+}
 
 // Which pairs in contact a step reports.
 enum class Pairs : std::uint8_t {
   all,    // the complete pair set of the step (K with closure, L7)
   first,  // those found through K: the first contact time is right, the set is not complete (L6)
 };
-
-// How dirty triangles become clean again within a sequence.
-enum class Release : std::uint8_t {
-  pieces,  // piece by piece (L9)
-  model,   // a component at once, when L9 releases all of it
-  view,    // a component at once, when all of it is positive and has winding number 1 (L5)
-};
-
-// When a ghost counts as touching a triangle.
-enum class GhostTest : std::uint8_t {
-  exact,  // their closed faces meet
-  boxes,  // their moving boxes are not apart: a superset, as sound, with more dirty triangles
-};
+constexpr auto names_of(Pairs) {
+  return std::to_array<Named<Pairs>>({{Pairs::all, "all"}, {Pairs::first, "first"}});
+}
 
 struct Options {
   Culling culling = Culling::automatic;
   Start start = Start::verified;
   Pairs pairs = Pairs::all;
   Arithmetic arithmetic = Arithmetic::exact;
-  Release release = Release::pieces;
-  GhostTest ghost_test = GhostTest::exact;
   // How many threads a step and create() may use; 0 means as many as the machine has. Results are
   // the same for any number, counts included. A library built without oneTBB uses one thread.
   std::uint32_t threads = 1;
 };
+
+// Calls `visit` with the name of each option that is one of a list of values, and with the option.
+template <class Options, class Visit>
+constexpr void for_each_choice(Options& options, const Visit& visit) {
+  visit("culling", options.culling);
+  visit("start", options.start);
+  visit("pairs", options.pairs);
+  visit("arithmetic", options.arithmetic);
+}
 
 }  // namespace assay::detector

@@ -29,6 +29,19 @@ enum class ViewUse : std::uint8_t {
   among_ghosts,       // too many triangles are near ghosts
   among_dirty,        // too few triangles are clean
 };
+// Their names follow the words "no views, ".
+constexpr auto names_of(ViewUse) {
+  using enum ViewUse;
+  return std::to_array<Named<ViewUse>>(
+      {{used, "used"},
+       {not_asked_for, "the culling has none"},
+       {resting, "they have not paid in the steps before"},
+       {start_unknown, "too little is seen to be clean at a start that nothing is known of"},
+       {hopeless, "of a few triangles doubles can tell too few signs"},
+       {saving_too_little, "too few triangles are of one sign"},
+       {among_ghosts, "too many triangles are near ghosts"},
+       {among_dirty, "too few triangles are clean"}});
+}
 
 struct StepResult {
   Answer answer = Answer::error;

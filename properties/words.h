@@ -11,7 +11,11 @@
 #include <string_view>
 #include <vector>
 
+#include "detector/mesh/enum_names.h"
+
 namespace assay::properties {
+
+using assay::name_of;  // of enums that list their values
 
 // The word of a value; "unknown" for a value that the enum does not have.
 template <class Enum, std::size_t n>

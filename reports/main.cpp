@@ -11,10 +11,9 @@
 #include <system_error>
 #include <vector>
 
-#include "oracle/out_of_memory.h"
+#include "oracle/libraries.h"
 #include "properties/words.h"
 #include "reports/terminal/complaint.h"
-#include "reports/terminal/exit_code.h"
 #include "reports/terminal/version.h"
 #include "reports/verbs/verbs.h"
 

@@ -18,6 +18,8 @@
 
 namespace assay::corpus {
 
+inline constexpr std::string_view case_schema = "assay-case/1";
+
 // A view primitive: one place for each frame, linear in between. q1 is empty for a view-point.
 struct CaseView {
   std::vector<detector::Point> q0, q1;
@@ -101,8 +103,7 @@ Expected<Case> parse_case(std::string_view text, std::string_view name);
 
 Expected<Case> read_case(const std::filesystem::path& path);
 // Refuses what read_case would refuse, with the same problem, because a file that was written has
-// to be readable. A coordinate that is not finite has no JSON form, so it is malformed.
-// cannot_write when the file system refuses.
+// to be readable. A coordinate that is not finite has no JSON form, so it is refused too.
 Expected<void> write_case(const std::filesystem::path& path, const Case& c);
 
 // The case files of a folder (*.json), sorted by name.

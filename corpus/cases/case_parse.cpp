@@ -1,17 +1,119 @@
 // Reads the text of a case: see case_file.h.
+
 #include <fmt/format.h>
 
 #include <boost/outcome/try.hpp>
+#include <cstddef>
+#include <cstdint>
 #include <new>
 #include <utility>
+#include <vector>
 
 #include "corpus/cases/case_file.h"
-#include "corpus/cases/case_items.h"
-#include "corpus/cases/case_names.h"
 #include "corpus/json_fields.h"
+#include "corpus/problem.h"
+#include "detector/mesh/step_types.h"
 
 namespace assay::corpus {
+
 namespace {
+
+// The small parts of a case file: points, triangles, times, signs.
+
+// Reads a JSON array, item by item.
+template <class T, class ReadItem>
+Expected<std::vector<T>> read_list(const JsonField& field, ReadItem read_item) {
+  BOOST_OUTCOME_TRY(size, field.size());
+  std::vector<T> list;
+  for (std::size_t i = 0; i < size; ++i) {
+    BOOST_OUTCOME_TRY(item, read_item(field.item(i)));
+    list.push_back(std::move(item));
+  }
+  return list;
+}
+
+// Fails unless `field` is an array of `wanted` items.
+Expected<void> expect_size(const JsonField& field, std::size_t wanted) {
+  BOOST_OUTCOME_TRY(size, field.size());
+  if (size != wanted) return field.problem(fmt::format("{} items expected, not {}", wanted, size));
+  return boost::outcome_v2::success();
+}
+
+Expected<detector::Point> read_point(const JsonField& field) {
+  BOOST_OUTCOME_TRY(expect_size(field, 3));
+  detector::Point x{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    BOOST_OUTCOME_TRY(value, field.item(k).number());
+    x[k] = value;
+  }
+  return x;
+}
+
+Expected<std::vector<detector::Point>> read_points(const JsonField& field) {
+  return read_list<detector::Point>(field, read_point);
+}
+
+Expected<detector::Positions> read_frame(const JsonField& field) {
+  BOOST_OUTCOME_TRY(points, read_points(field));
+  detector::Positions x(static_cast<Eigen::Index>(points.size()), 3);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      x(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = points[i][k];
+    }
+  }
+  return x;
+}
+
+// Reads triples of indices below `vertices`; unless `may_repeat`, the three of a triple differ.
+Expected<detector::Triangles> read_triangles(const JsonField& field, std::int64_t vertices,
+                                             bool may_repeat) {
+  BOOST_OUTCOME_TRY(size, field.size());
+  detector::Triangles triangles(static_cast<Eigen::Index>(size), 3);
+  for (std::size_t i = 0; i < size; ++i) {
+    const JsonField item = field.item(i);
+    BOOST_OUTCOME_TRY(expect_size(item, 3));
+    auto row = triangles.row(static_cast<Eigen::Index>(i));
+    for (std::size_t k = 0; k < 3; ++k) {
+      BOOST_OUTCOME_TRY(index, item.item(k).integer(0, vertices));
+      row(static_cast<Eigen::Index>(k)) = index;
+    }
+    const bool repeats = row(0) == row(1) || row(1) == row(2) || row(0) == row(2);
+    if (repeats && !may_repeat) {
+      return item.problem("a vertex named twice");
+    }
+  }
+  return triangles;
+}
+
+// Reads two numbers, and demands 0 <= lo <= hi <= 1.
+Expected<detector::TimeEnclosure> read_time(const JsonField& lo, const JsonField& hi) {
+  detector::TimeEnclosure time;
+  BOOST_OUTCOME_TRY(low, lo.number());
+  BOOST_OUTCOME_TRY(high, hi.number());
+  time.lo = low;
+  time.hi = high;
+  if (!(0 <= time.lo && time.lo <= time.hi && time.hi <= 1)) {
+    return lo.problem("times with 0 <= lo <= hi <= 1 expected");
+  }
+  return time;
+}
+
+// Reads `count` signs, each -1, 0 or 1.
+Expected<std::vector<detector::ViewSign>> read_signs(const JsonField& field, std::size_t count) {
+  BOOST_OUTCOME_TRY(expect_size(field, count));
+  return read_list<detector::ViewSign>(field,
+                                       [](const JsonField& item) -> Expected<detector::ViewSign> {
+                                         BOOST_OUTCOME_TRY(sign, item.integer(-1, 2));
+                                         return static_cast<detector::ViewSign>(sign);
+                                       });
+}
+
+Expected<detector::Answer> read_answer(const JsonField& field) {
+  BOOST_OUTCOME_TRY(name, field.text());
+  const auto answer = from_name<detector::Answer>(name);
+  if (!answer) return field.problem("free, collision, undecided or error expected");
+  return *answer;
+}
 
 class CaseParser {
  public:
@@ -20,7 +122,7 @@ class CaseParser {
   Expected<Case> read() {
     BOOST_OUTCOME_TRY(schema, top_.at("schema"));
     if (schema.json() != case_schema) {
-      return schema.problem(fmt::format("{} expected", case_schema), FileProblem::wrong_schema);
+      return schema.problem(fmt::format("{} expected", case_schema));
     }
     BOOST_OUTCOME_TRY(read_text("id", case_.id));
     BOOST_OUTCOME_TRY(read_text("about", case_.about));
@@ -58,8 +160,7 @@ class CaseParser {
     for (std::size_t i = 1; i < list.size(); ++i) {
       if (list[i].rows() != list[0].rows()) {
         return frames.item(i).problem(
-            fmt::format("{} vertices, but frame 0 has {}", list[i].rows(), list[0].rows()),
-            FileProblem::vertex_counts_differ);
+            fmt::format("{} vertices, but frame 0 has {}", list[i].rows(), list[0].rows()));
       }
     }
     case_.frames = std::move(list);
@@ -72,7 +173,7 @@ class CaseParser {
     BOOST_OUTCOME_TRY(field, top_.at("triangles"));
     BOOST_OUTCOME_TRY(triangles, read_triangles(field, case_.frames[0].rows(),
                                                 case_.expected.answer == detector::Answer::error));
-    if (triangles.rows() == 0) return field.problem("none", FileProblem::no_triangles);
+    if (triangles.rows() == 0) return field.problem("none");
     case_.triangles = std::move(triangles);
     return boost::outcome_v2::success();
   }
@@ -213,7 +314,7 @@ Expected<Case> parse_case(std::string_view text, std::string_view name) try {
   BOOST_OUTCOME_TRY(json, parse_json(text, file));
   return CaseParser(JsonField(json, file)).read();
 } catch (const std::bad_alloc&) {
-  return problem_in(FileProblem::too_large, name, "larger than the memory at hand");
+  return problem_in(name, "larger than the memory at hand");
 }
 
 }  // namespace assay::corpus

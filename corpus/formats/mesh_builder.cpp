@@ -16,17 +16,17 @@ constexpr std::int64_t most_vertices = std::numeric_limits<std::int32_t>::max();
 
 std::string shown(const Place& place) { return fmt::format("{} {}", place.unit, place.number); }
 
-Problem MeshBuilder::problem(FileProblem kind, const Place& place, std::string_view detail) const {
-  return problem_in(kind, file_, fmt::format("{}: {}", shown(place), detail));
+Problem MeshBuilder::problem(const Place& place, std::string_view detail) const {
+  return problem_in(file_, fmt::format("{}: {}", shown(place), detail));
 }
 
 Expected<void> MeshBuilder::add_vertex(double x, double y, double z, const Place& place) {
   if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) {
-    return problem(FileProblem::non_finite_coordinate, place,
+    return problem(place,
                    fmt::format("vertex {} ({}, {}, {}) is not finite", vertex_count(), x, y, z));
   }
   if (static_cast<std::int64_t>(vertex_count()) >= most_vertices) {
-    return problem(FileProblem::too_large, place, "more vertices than 32-bit indices can name");
+    return problem(place, "more vertices than 32-bit indices can name");
   }
   coordinates_.insert(coordinates_.end(), {x, y, z});
   return boost::outcome_v2::success();
@@ -35,12 +35,11 @@ Expected<void> MeshBuilder::add_vertex(double x, double y, double z, const Place
 Expected<void> MeshBuilder::add_polygon(std::span<const std::int64_t> vertices,
                                         const Place& place) {
   if (vertices.size() < 3) {
-    return problem(FileProblem::malformed, place,
-                   fmt::format("a face of {} vertices", vertices.size()));
+    return problem(place, fmt::format("a face of {} vertices", vertices.size()));
   }
   for (const std::int64_t vertex : vertices) {
     if (vertex < 0 || vertex >= most_vertices) {
-      return problem(FileProblem::index_out_of_range, place,
+      return problem(place,
                      fmt::format("vertex index {} (counted from 0) is out of range", vertex));
     }
     if (vertex > highest_) {
@@ -52,7 +51,7 @@ Expected<void> MeshBuilder::add_polygon(std::span<const std::int64_t> vertices,
     const std::int64_t a = vertices[0], b = vertices[i], c = vertices[i + 1];
     if (a == b || b == c || a == c) {
       return problem(
-          FileProblem::repeated_index, place,
+          place,
           fmt::format("triangle ({}, {}, {}) (counted from 0) names a vertex twice", a, b, c));
     }
     corners_.insert(corners_.end(), {static_cast<std::int32_t>(a), static_cast<std::int32_t>(b),
@@ -63,11 +62,10 @@ Expected<void> MeshBuilder::add_polygon(std::span<const std::int64_t> vertices,
 
 Expected<Mesh> MeshBuilder::finish() const {
   if (corners_.empty()) {
-    return problem_in(FileProblem::no_triangles, file_,
-                      fmt::format("{} vertices and no triangle", vertex_count()));
+    return problem_in(file_, fmt::format("{} vertices and no triangle", vertex_count()));
   }
   if (highest_ >= static_cast<std::int64_t>(vertex_count())) {
-    return problem(FileProblem::index_out_of_range, highest_place_,
+    return problem(highest_place_,
                    fmt::format("vertex index {} (counted from 0), but there are {} vertices",
                                highest_, vertex_count()));
   }

@@ -25,19 +25,19 @@ class MeshBuilder {
  public:
   explicit MeshBuilder(const std::filesystem::path& file) : file_(file) {}
 
-  // Problems: non_finite_coordinate, too_large.
+  // Refuses a coordinate that is not finite, and more vertices than indices can name.
   Expected<void> add_vertex(double x, double y, double z, const Place& place);
 
   // Adds a polygon as a fan of triangles from its first vertex. Vertices are counted from 0. They
-  // may be added later, because finish() checks their range. Problems: malformed (fewer than
-  // three), index_out_of_range, repeated_index.
+  // may be added later, because finish() checks their range. Refuses fewer than three, an index out
+  // of any range, and a triangle that names one vertex twice.
   Expected<void> add_polygon(std::span<const std::int64_t> vertices, const Place& place);
 
   std::size_t vertex_count() const { return coordinates_.size() / 3; }
 
-  Problem problem(FileProblem kind, const Place& place, std::string_view detail) const;
+  Problem problem(const Place& place, std::string_view detail) const;
 
-  // The mesh. Problems: no_triangles, index_out_of_range.
+  // The mesh. Refuses one without a triangle, and an index beyond its vertices.
   Expected<Mesh> finish() const;
 
  private:

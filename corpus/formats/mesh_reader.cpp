@@ -7,10 +7,7 @@
 #include <string>
 
 #include "corpus/file_bytes.h"
-#include "corpus/formats/obj_reader.h"
-#include "corpus/formats/off_reader.h"
 #include "corpus/formats/ply_header.h"
-#include "corpus/formats/ply_reader.h"
 
 namespace assay::corpus {
 namespace {
@@ -35,8 +32,7 @@ Expected<Format> format_of(std::string_view bytes, const std::filesystem::path& 
   if (looks_like_ply(bytes)) return Format::ply;
   if (looks_like_off(bytes)) return Format::off;
   if (mesh_extension(path) == ".obj") return Format::obj;
-  return problem_in(FileProblem::unknown_format, path,
-                    "neither PLY nor OFF by its first line, nor .obj by its name");
+  return problem_in(path, "neither PLY nor OFF by its first line, nor .obj by its name");
 }
 
 Expected<Mesh> parse_mesh(std::string_view bytes, const std::filesystem::path& path) {
@@ -58,7 +54,7 @@ Expected<Mesh> read_mesh(const std::filesystem::path& path) try {
   BOOST_OUTCOME_TRY(bytes, read_bytes(path));
   return parse_mesh(bytes, path);
 } catch (const std::bad_alloc&) {
-  return problem_in(FileProblem::too_large, path, "larger than the memory at hand");
+  return problem_in(path, "larger than the memory at hand");
 }
 
 Expected<void> look_at_mesh(const std::filesystem::path& path) {

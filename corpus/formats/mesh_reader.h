@@ -1,15 +1,15 @@
 // Reads triangle meshes: OBJ, PLY (ascii and binary), OFF, each also compressed with gzip.
 //
 // Guarantee: a decimal number becomes the double nearest to it (ties to even); float32 and integer
-// values convert exactly; nothing is merged, moved or reordered: vertex i of the file is row i,
-// and triangles keep the file's order. A polygon is fanned from its first vertex.
-// Refused by name: what FileProblem lists for meshes, such as an index out of range, an index
-// repeated in a triangle, a coordinate that is not finite. NOT refused, because the detector
-// judges them: two triangles with the same three vertices, unused or duplicate vertices, zero-area
-// triangles.
+// values convert exactly; nothing is merged, moved or reordered: vertex i of the file is row i, and
+// triangles keep the file's order. A polygon is fanned from its first vertex. Refused, in words: an
+// index out of range, an index repeated in a triangle, a coordinate that is not finite, and all
+// that MeshBuilder refuses. NOT refused, because the detector judges them: two triangles with the
+// same three vertices, unused or duplicate vertices, zero-area triangles.
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "corpus/problem.h"
 #include "detector/mesh/types.h"
@@ -28,5 +28,24 @@ Expected<Mesh> read_mesh(const std::filesystem::path& path);
 // Refuses what is known of a file without reading all of it: that it is not there, may not be
 // read, is empty or of no format. The problem is that of read_mesh.
 Expected<void> look_at_mesh(const std::filesystem::path& path);
+
+// The formats, each from the bytes of a file; `file` stands for it in messages.
+
+// OBJ: `v` and `f` (v, v/vt, v//vn, v/vt/vn, negative indices, polygons) make the mesh; texture
+// coordinates, normals, groups, materials, lines, points and curves are passed over. A line with
+// any other keyword is refused, so that noise is not taken for a mesh.
+Expected<Mesh> read_obj(std::string_view text, const std::filesystem::path& file);
+
+// Whether the text begins as an OFF file: OFF after the optional letters ST, C, N, 4, n.
+bool looks_like_off(std::string_view text);
+// OFF in text form: a header word, the counts, one vertex a line and one polygon a line; `#` starts
+// a comment. Normals, colours and texture coordinates are passed over; 4-dimensional and binary
+// files are refused.
+Expected<Mesh> read_off(std::string_view text, const std::filesystem::path& file);
+
+// PLY, ascii, binary little-endian and big-endian: x, y, z of any type from element `vertex`, and
+// from element `face` a list vertex_indices or vertex_index of an integer type. All other elements
+// and properties are skipped.
+Expected<Mesh> read_ply(std::string_view bytes, const std::filesystem::path& file);
 
 }  // namespace assay::corpus

@@ -50,7 +50,7 @@ Expected<void> write_mesh(const std::filesystem::path& path,
                           const detector::TrianglesView& triangles) try {
   return write_file_atomically(path, ply_bytes(positions, triangles));
 } catch (const std::bad_alloc&) {
-  return problem_in(FileProblem::too_large, path, "larger than the memory at hand");
+  return problem_in(path, "larger than the memory at hand");
 }
 
 Expected<std::vector<std::filesystem::path>> write_sequence(const std::filesystem::path& folder,
@@ -58,7 +58,7 @@ Expected<std::vector<std::filesystem::path>> write_sequence(const std::filesyste
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) {
-    return problem_in(FileProblem::cannot_write, folder, "cannot be made: " + error.message());
+    return problem_in(folder, "cannot be made: " + error.message());
   }
   std::vector<std::filesystem::path> paths;
   for (const detector::Positions& frame : sequence.frames) {

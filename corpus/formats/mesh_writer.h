@@ -12,7 +12,7 @@
 
 namespace assay::corpus {
 
-// Problems: cannot_write, with the reason, when the file system refuses; too_large.
+// Fails, with the reason, when the file system refuses, and when memory does not suffice.
 Expected<void> write_mesh(const std::filesystem::path& path,
                           const detector::PositionsView& positions,
                           const detector::TrianglesView& triangles);

@@ -1,5 +1,3 @@
-#include "corpus/formats/obj_reader.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,7 +5,7 @@
 #include <boost/outcome/try.hpp>
 
 #include "corpus/formats/mesh_builder.h"
-#include "corpus/formats/numbers.h"
+#include "corpus/formats/mesh_reader.h"
 #include "corpus/formats/text_lines.h"
 
 namespace assay::corpus {
@@ -26,13 +24,12 @@ constexpr std::array<std::string_view, 38> passed_over = {
 Expected<void> read_vertex(const Words& words, const Place& place, MeshBuilder& builder) {
   std::array<double, 3> x{};
   if (words.size() < 4) {
-    return builder.problem(FileProblem::malformed, place, "a vertex of fewer than 3 coordinates");
+    return builder.problem(place, "a vertex of fewer than 3 coordinates");
   }
   for (std::size_t k = 0; k < 3; ++k) {
     const auto value = parse_double(words[k + 1]);
     if (!value) {
-      return builder.problem(FileProblem::malformed, place,
-                             excerpt(words[k + 1]) + " is no number");
+      return builder.problem(place, excerpt(words[k + 1]) + " is no number");
     }
     x[k] = *value;
   }
@@ -63,11 +60,11 @@ Expected<void> read_face(const Words& words, const Place& place, MeshBuilder& bu
   for (std::size_t i = 1; i < words.size(); ++i) {
     const auto vertex = corner_vertex(words[i]);
     if (!vertex) {
-      return builder.problem(FileProblem::malformed, place, excerpt(words[i]) + " is no corner");
+      return builder.problem(place, excerpt(words[i]) + " is no corner");
     }
     if (*vertex == 0 || *vertex < -count) {
       return builder.problem(
-          FileProblem::index_out_of_range, place,
+          place,
           fmt::format("vertex index {} is out of range ({} vertices so far)", *vertex, count));
     }
     vertices.push_back(*vertex > 0 ? *vertex - 1 : count + *vertex);
@@ -90,8 +87,7 @@ Expected<Mesh> read_obj(std::string_view text, const std::filesystem::path& file
     } else if (words[0] == "f") {
       BOOST_OUTCOME_TRY(read_face(words, place, builder, vertices));
     } else if (std::find(passed_over.begin(), passed_over.end(), words[0]) == passed_over.end()) {
-      return builder.problem(FileProblem::malformed, place,
-                             excerpt(words[0]) + " is no statement of an OBJ file");
+      return builder.problem(place, excerpt(words[0]) + " is no statement of an OBJ file");
     }
   }
   return builder.finish();

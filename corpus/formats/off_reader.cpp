@@ -1,11 +1,9 @@
-#include "corpus/formats/off_reader.h"
-
 #include <fmt/format.h>
 
 #include <boost/outcome/try.hpp>
 
 #include "corpus/formats/mesh_builder.h"
-#include "corpus/formats/numbers.h"
+#include "corpus/formats/mesh_reader.h"
 #include "corpus/formats/text_lines.h"
 
 namespace assay::corpus {
@@ -43,16 +41,15 @@ class OffReader {
   }
 
  private:
-  Problem wrong(std::string_view detail, FileProblem kind = FileProblem::malformed) const {
-    return builder_.problem(kind, {"line", lines_.number()}, detail);
+  Problem wrong(std::string_view detail) const {
+    return builder_.problem({"line", lines_.number()}, detail);
   }
 
   // The words of the next line; `expected` is named in the message if the line is missing.
   Expected<void> next_line(std::string_view expected) {
     const auto line = lines_.next();
     if (!line) {
-      return wrong(fmt::format("the file ends where {} should follow", expected),
-                   FileProblem::truncated);
+      return wrong(fmt::format("the file ends where {} should follow", expected));
     }
     split_words(*line, words_);
     return boost::outcome_v2::success();
@@ -88,8 +85,7 @@ class OffReader {
     if (vertices < 0 || faces < 0) return wrong("a negative count");
     if (vertices > most || faces > most) {
       return wrong(
-          fmt::format("{} vertices and {} faces in a file of {} bytes", vertices, faces, size_),
-          FileProblem::truncated);
+          fmt::format("{} vertices and {} faces in a file of {} bytes", vertices, faces, size_));
     }
     vertices_ = vertices;
     faces_ = faces;

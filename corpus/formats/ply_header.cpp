@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <boost/outcome/try.hpp>
 
-#include "corpus/formats/numbers.h"
 #include "corpus/formats/text_lines.h"
 
 namespace assay::corpus {
@@ -33,7 +32,7 @@ class HeaderReader {
     while (true) {
       const std::size_t end = bytes_.find('\n', header_.size);
       if (end == std::string_view::npos) {
-        return wrong("the header has no end_header", FileProblem::truncated);
+        return wrong("the header has no end_header");
       }
       split_words(bytes_.substr(header_.size, end - header_.size), words_);
       header_.size = end + 1;
@@ -48,8 +47,8 @@ class HeaderReader {
   }
 
  private:
-  Problem wrong(std::string_view detail, FileProblem kind = FileProblem::malformed) const {
-    return problem_in(kind, file_, fmt::format("line {}: {}", header_.lines, detail));
+  Problem wrong(std::string_view detail) const {
+    return problem_in(file_, fmt::format("line {}: {}", header_.lines, detail));
   }
 
   Expected<void> statement() {

@@ -41,7 +41,7 @@ struct PlyHeader {
 
 bool looks_like_ply(std::string_view bytes);
 
-// Problems: malformed (with the line), truncated (no end_header).
+// A problem names the line.
 Expected<PlyHeader> read_ply_header(std::string_view bytes, const std::filesystem::path& file);
 
 }  // namespace assay::corpus

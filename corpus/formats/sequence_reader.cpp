@@ -21,11 +21,10 @@ Expected<detector::Positions> SequenceReader::next() {
     triangles_ = std::move(mesh.triangles);
     vertices_ = mesh.positions.rows();
   } else if (mesh.positions.rows() != vertices_) {
-    return problem_in(FileProblem::vertex_counts_differ, file,
-                      fmt::format("{} vertices, but {} has {}", mesh.positions.rows(),
-                                  files_[0].string(), vertices_));
+    return problem_in(file, fmt::format("{} vertices, but {} has {}", mesh.positions.rows(),
+                                        files_[0].string(), vertices_));
   } else if (!same(mesh.triangles, triangles_)) {
-    return problem_in(FileProblem::triangles_differ, file,
+    return problem_in(file,
                       fmt::format("its {} triangles are not the {} of {}", mesh.triangles.rows(),
                                   triangles_.rows(), files_[0].string()));
   }
@@ -41,7 +40,7 @@ Expected<void> SequenceReader::look_ahead() const {
 }
 
 Expected<Sequence> read_sequence(std::span<const std::filesystem::path> paths) {
-  if (paths.empty()) return problem_in(FileProblem::no_frames, {}, "no mesh file is given");
+  if (paths.empty()) return problem_in({}, "no mesh file is given");
   SequenceReader reader({paths.begin(), paths.end()});
   std::vector<detector::Positions> frames;
   while (!reader.at_end()) {

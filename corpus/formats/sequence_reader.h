@@ -46,7 +46,7 @@ class SequenceReader {
   Eigen::Index vertices_ = 0;
 };
 
-// Reads all frames. no_frames when `paths` is empty.
+// Reads all frames. Fails when `paths` is empty.
 Expected<Sequence> read_sequence(std::span<const std::filesystem::path> paths);
 
 }  // namespace assay::corpus

@@ -1,8 +1,11 @@
 #include "corpus/formats/text_lines.h"
 
 #include <algorithm>
+#include <charconv>
+#include <limits>
 
 namespace assay::corpus {
+
 namespace {
 
 constexpr std::string_view blanks = " \t\r\v\f";
@@ -57,6 +60,65 @@ std::string excerpt(std::string_view word) {
   text += word.substr(0, most);
   text += word.size() > most ? "...\"" : "\"";
   return text;
+}
+
+namespace {
+
+std::string_view without_plus(std::string_view word) {
+  // "+-1" must stay wrong.
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
+  return word;
+}
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+// from_chars does not say whether a number out of range is huge or tiny. Such a number is beyond
+// 1e308 or below 1e-323, so the place of its first digit that is not zero decides.
+bool is_huge(std::string_view word) {
+  std::int64_t place = 0;
+  bool nonzero = false, fraction = false;
+  std::size_t i = word.starts_with('-') ? 1 : 0;
+  for (; i < word.size() && word[i] != 'e' && word[i] != 'E'; ++i) {
+    if (word[i] == '.') {
+      fraction = true;
+    } else {
+      if (!nonzero && fraction) --place;
+      if (word[i] != '0') nonzero = true;
+      if (nonzero && !fraction) ++place;
+    }
+  }
+  bool negative = false;
+  std::int64_t exponent = 0;
+  for (++i; i < word.size(); ++i) {
+    if (word[i] == '-') negative = true;
+    // It saturates, because more digits cannot change the outcome.
+    if (is_digit(word[i]) && exponent < 1'000'000'000'000) exponent = 10 * exponent + word[i] - '0';
+  }
+  return nonzero && place + (negative ? -exponent : exponent) > 0;
+}
+
+}  // namespace
+
+std::optional<double> parse_double(std::string_view word) {
+  word = without_plus(word);
+  double value = 0;
+  const char* end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(word.data(), end, value);
+  if (error == std::errc::invalid_argument || stop != end) return std::nullopt;
+  if (error == std::errc::result_out_of_range) {
+    value = is_huge(word) ? std::numeric_limits<double>::infinity() : 0.0;
+    if (word.starts_with('-')) value = -value;
+  }
+  return value;
+}
+
+std::optional<std::int64_t> parse_integer(std::string_view word) {
+  word = without_plus(word);
+  std::int64_t value = 0;
+  const char* end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(word.data(), end, value);
+  if (error != std::errc() || stop != end) return std::nullopt;
+  return value;
 }
 
 }  // namespace assay::corpus

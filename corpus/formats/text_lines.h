@@ -1,13 +1,26 @@
-// Splits text into lines and words.
+// Splits text into lines and words, and reads the numbers in it.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace assay::corpus {
+
+// Numbers in text, independent of the locale.
+
+// The double nearest to a decimal number, ties to even, denormals included: infinity for a number
+// beyond the largest double, zero for one below half the least denormal. A leading + is allowed;
+// "nan" and "inf" are read as such. Nothing when `word` is not a number from its first to its last
+// character.
+std::optional<double> parse_double(std::string_view word);
+
+// The decimal integer that the whole of `word` is, if it fits into 64 bits; else nothing. A
+// leading + is allowed.
+std::optional<std::int64_t> parse_integer(std::string_view word);
 
 // Lines of a text that end in \n, \r\n or at the end of the text. Blanks and \r at either end of a
 // line are dropped.

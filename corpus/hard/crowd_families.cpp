@@ -1,7 +1,7 @@
 // Many things at once: contacts at one time, copies of vertices and triangles, sheets in one
 // plane.
-#include "corpus/hard/family_rows.h"
-#include "corpus/hard/solids.h"
+#include "corpus/hard/grid_mesh.h"
+#include "corpus/hard/hard_families.h"
 
 namespace assay::corpus {
 namespace {

@@ -1,7 +1,7 @@
 // Features that are nearly in one plane, nearly parallel, nearly without area, or pass each other
 // by a hair. Grazing gaps go from 2^40 ulp down to one, both sides.
-#include "corpus/hard/family_rows.h"
-#include "corpus/hard/solids.h"
+#include "corpus/hard/grid_mesh.h"
+#include "corpus/hard/hard_families.h"
 
 namespace assay::corpus {
 namespace {

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "corpus/hard/family_rows.h"
-
 namespace assay::corpus {
 
 std::span<const HardFamily> hard_families() {

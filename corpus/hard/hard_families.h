@@ -10,6 +10,7 @@
 
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "corpus/cases/case_file.h"
 #include "corpus/hard/variation.h"
@@ -41,5 +42,13 @@ std::span<const HardFamily> hard_families();
 // and view signs are stated if the construction tells them. REQUIRES 0 <= strength <=
 // last_strength(), variant >= 0. Cases are small: at most 4,100 triangles, mostly 8.
 Case hard_case(const HardFamily& family, int strength, int variant);
+
+// The hard families that each file makes; hard_families.cpp puts them together.
+
+std::vector<HardFamily> feature_families();  // near-coplanar, near-parallel, slivers, ...
+std::vector<HardFamily> time_families();     // the ends of the step, multiple roots, lengths
+std::vector<HardFamily> view_families();     // view tests near zero
+std::vector<HardFamily> number_families();   // offsets, scales, denormals
+std::vector<HardFamily> crowd_families();    // duplicates, coplanar sheets, many at once
 
 }  // namespace assay::corpus

@@ -2,8 +2,8 @@
 // all axes or another for each; denormals.
 #include <algorithm>
 
-#include "corpus/hard/family_rows.h"
-#include "corpus/hard/solids.h"
+#include "corpus/hard/grid_mesh.h"
+#include "corpus/hard/hard_families.h"
 
 namespace assay::corpus {
 namespace {

@@ -2,17 +2,23 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <boost/multiprecision/cpp_int.hpp>
 #include <boost/outcome/try.hpp>
+#include <cmath>
+#include <cstdint>
+#include <limits>
 #include <new>
+#include <string>
 #include <string_view>
 #include <utility>
 
 #include "corpus/file_bytes.h"
-#include "corpus/queries/truth_json.h"
-#include "corpus/rational.h"
+#include "corpus/json_fields.h"
 
 namespace assay::corpus {
+
 namespace {
 
 constexpr std::size_t rows_a_query = 8;
@@ -54,8 +60,7 @@ class CsvReader {
       if (line.empty() && text_.find_first_not_of(" \t\r\n") == std::string_view::npos) break;
       BOOST_OUTCOME_TRY(row, read_row(line));
       if (filled > 0 && row.label != rows[0].label) {
-        return wrong(FileProblem::labels_differ,
-                     fmt::format("this row's label is not that of its query's first row, {} before",
+        return wrong(fmt::format("this row's label is not that of its query's first row, {} before",
                                  filled));
       }
       rows[filled++] = row;
@@ -65,15 +70,14 @@ class CsvReader {
       }
     }
     if (filled != 0 || queries.empty()) {
-      return wrong(FileProblem::wrong_row_count,
-                   fmt::format("{} rows are not a multiple of 8", 8 * queries.size() + filled));
+      return wrong(fmt::format("{} rows are not a multiple of 8", 8 * queries.size() + filled));
     }
     return queries;
   }
 
  private:
-  Problem wrong(FileProblem kind, std::string_view detail) const {
-    return problem_in(kind, file_, fmt::format("line {}: {}", line_, detail));
+  Problem wrong(std::string_view detail) const {
+    return problem_in(file_, fmt::format("line {}: {}", line_, detail));
   }
 
   std::string_view next_line() {
@@ -94,8 +98,7 @@ class CsvReader {
       line.remove_prefix(more ? comma + 1 : comma);
     }
     if (count != 6 && count != 7) {
-      return wrong(FileProblem::wrong_column_count,
-                   fmt::format("{} columns, where 6 or 7 are expected", count));
+      return wrong(fmt::format("{} columns, where 6 or 7 are expected", count));
     }
     Row row;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -104,7 +107,7 @@ class CsvReader {
     }
     if (count == 7) {
       if (columns[6] != "0" && columns[6] != "1") {
-        return wrong(FileProblem::malformed, "the label is neither 0 nor 1");
+        return wrong("the label is neither 0 nor 1");
       }
       row.label = columns[6] == "1";
     }
@@ -118,14 +121,13 @@ class CsvReader {
       case RationalState::exact:
         return value.value;
       case RationalState::not_a_number:
-        return wrong(FileProblem::malformed,
-                     fmt::format("{}: numerator or denominator is not a whole number", axis));
+        return wrong(fmt::format("{}: numerator or denominator is not a whole number", axis));
       case RationalState::zero_denominator:
-        return wrong(FileProblem::zero_denominator, fmt::format("{}: denominator 0", axis));
+        return wrong(fmt::format("{}: denominator 0", axis));
       case RationalState::not_a_double:
         break;
     }
-    return wrong(FileProblem::not_a_double, fmt::format("{}: no double has this value", axis));
+    return wrong(fmt::format("{}: no double has this value", axis));
   }
 
   static std::string_view trimmed(std::string_view text) {
@@ -156,7 +158,7 @@ Expected<std::vector<LabelledQuery>> read_queries(
     const std::filesystem::path& csv, const std::optional<std::filesystem::path>& truth_json) try {
   const auto kind = kind_of(csv);
   if (!kind) {
-    return problem_in(FileProblem::unknown_query_kind, csv,
+    return problem_in(csv,
                       "vertex-face or edge-edge queries? The path should have a folder of that "
                       "name, or the file's name should end in vf or ee");
   }
@@ -165,15 +167,88 @@ Expected<std::vector<LabelledQuery>> read_queries(
   if (truth_json) {
     BOOST_OUTCOME_TRY(truths, read_truths(*truth_json));
     if (truths.size() != queries.size()) {
-      return problem_in(FileProblem::truth_count_differs, *truth_json,
-                        fmt::format("{} truths, but {} has {} queries", truths.size(), csv.string(),
-                                    queries.size()));
+      return problem_in(*truth_json, fmt::format("{} truths, but {} has {} queries", truths.size(),
+                                                 csv.string(), queries.size()));
     }
     for (std::size_t i = 0; i < queries.size(); ++i) queries[i].truth = truths[i];
   }
   return std::move(queries);
 } catch (const std::bad_alloc&) {
-  return problem_in(FileProblem::too_large, csv, "larger than the memory at hand");
+  return problem_in(csv, "larger than the memory at hand");
+}
+
+Expected<std::vector<bool>> read_truths(const std::filesystem::path& path) {
+  BOOST_OUTCOME_TRY(bytes, read_bytes(path));
+  BOOST_OUTCOME_TRY(json, parse_json(bytes, path));
+  if (!json.is_array()) {
+    return problem_in(path, "an array of booleans expected");
+  }
+  std::vector<bool> truths;
+  for (const Json& truth : json) {
+    if (!truth.is_boolean()) {
+      return problem_in(path, fmt::format("item {} is not a boolean", truths.size()));
+    }
+    truths.push_back(truth.get<bool>());
+  }
+  return truths;
+}
+
+namespace {
+
+using boost::multiprecision::cpp_int;
+
+constexpr std::size_t most_digits = 20'000;
+
+// An optional sign and digits. cpp_int itself would take hexadecimal and octal too.
+std::optional<cpp_int> parse_big(std::string_view text) {
+  const bool negative = text.starts_with('-');
+  if (negative || text.starts_with('+')) text.remove_prefix(1);
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  if (text.empty() || text.size() > most_digits) return std::nullopt;
+  if (!std::all_of(text.begin(), text.end(), is_digit)) return std::nullopt;
+  text.remove_prefix(std::min(text.find_first_not_of('0'), text.size() - 1));
+  cpp_int value{std::string(text)};
+  return negative ? cpp_int(-value) : value;
+}
+
+// Takes the factors 2 out of a number that is not 0, and says how many.
+std::int64_t take_twos(cpp_int& value) {
+  const auto twos = boost::multiprecision::lsb(value);
+  value >>= twos;
+  return static_cast<std::int64_t>(twos);
+}
+
+// m * 2^exponent with m odd, if that is a double.
+std::optional<double> scaled(const cpp_int& m, std::int64_t exponent) {
+  const auto bits = static_cast<std::int64_t>(boost::multiprecision::msb(m)) + 1;
+  using Limits = std::numeric_limits<double>;
+  constexpr std::int64_t least = Limits::min_exponent - Limits::digits;  // of the least denormal
+  if (bits > Limits::digits || exponent < least || bits + exponent > Limits::max_exponent) {
+    return std::nullopt;
+  }
+  return std::ldexp(static_cast<double>(static_cast<std::uint64_t>(m)), static_cast<int>(exponent));
+}
+
+}  // namespace
+
+RationalValue exact_double(std::string_view numerator, std::string_view denominator) {
+  auto n = parse_big(numerator);
+  auto d = parse_big(denominator);
+  if (!n || !d) return {RationalState::not_a_number, 0};
+  if (*d == 0) return {RationalState::zero_denominator, 0};
+  if (*n == 0) return {RationalState::exact, 0};
+  const bool negative = (*n < 0) != (*d < 0);
+  cpp_int m = abs(*n), over = abs(*d);
+  const std::int64_t exponent = take_twos(m) - take_twos(over);
+  // m/over is dyadic only when the odd part of the denominator divides it.
+  if (over != 1) {
+    const cpp_int quotient = m / over;
+    if (quotient * over != m) return {RationalState::not_a_double, 0};
+    m = quotient;
+  }
+  const auto value = scaled(m, exponent);
+  if (!value) return {RationalState::not_a_double, 0};
+  return {RationalState::exact, negative ? -*value : *value};
 }
 
 }  // namespace assay::corpus

@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -23,10 +24,28 @@ struct LabelledQuery {
 
 // The path tells whether a file holds vertex-face or edge-edge queries: it has a folder named
 // `vertex-face` or `edge-edge`, or a name that ends in vf or ee (3036vf.csv, 3036ee.csv.gz);
-// unknown_query_kind otherwise.
+// otherwise it is refused.
 // `truth_json` is a file with an array of booleans, one a query, which replace labels in the rows.
 Expected<std::vector<LabelledQuery>> read_queries(
     const std::filesystem::path& csv,
     const std::optional<std::filesystem::path>& truth_json = std::nullopt);
+
+// Truths of a query set: a JSON array of booleans.
+// Refuses what read_bytes and parse_json refuse, and what is not an array of booleans.
+Expected<std::vector<bool>> read_truths(const std::filesystem::path& path);
+
+// Turns exact rationals into doubles.
+
+enum class RationalState { exact, not_a_number, zero_denominator, not_a_double };
+
+struct RationalValue {
+  RationalState state;
+  double value;  // when exact
+};
+
+// The double that equals numerator/denominator, two decimal integers of any sign and length.
+// not_a_number: one of them has letters, blanks inside, or more than 20,000 digits (no double
+// needs them). not_a_double: no double is equal, overflow included.
+RationalValue exact_double(std::string_view numerator, std::string_view denominator);
 
 }  // namespace assay::corpus

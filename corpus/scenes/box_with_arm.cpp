@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "corpus/scenes/mesh_maker.h"
 #include "corpus/scenes/shapes.h"
 #include "corpus/scenes/trigonometry.h"
 

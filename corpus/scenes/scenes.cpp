@@ -9,7 +9,6 @@
 
 #include "corpus/scenes/box_with_arm.h"
 #include "corpus/scenes/deformations.h"
-#include "corpus/scenes/passages.h"
 #include "corpus/scenes/shapes.h"
 #include "corpus/scenes/trigonometry.h"
 
@@ -169,8 +168,7 @@ constexpr std::array<Frames, 14> makers = {
     ball_in_tube,     inverted_sleeve, crossing_fans, winding_spiral};
 
 Problem wrong_option(std::string_view scene, std::string_view detail) {
-  return problem_in(FileProblem::wrong_scene_option, {},
-                    fmt::format("scene {}: {}", scene, detail));
+  return problem_in({}, fmt::format("scene {}: {}", scene, detail));
 }
 
 bool is_valid(const Mesh& mesh) {
@@ -184,8 +182,7 @@ Problem unknown_scene(std::string_view name) {
     names += names.empty() ? "" : ", ";
     names += info.name;
   }
-  return problem_in(FileProblem::unknown_scene, {},
-                    fmt::format("no scene is named {}; there are {}", name, names));
+  return problem_in({}, fmt::format("no scene is named {}; there are {}", name, names));
 }
 
 Expected<Sequence> make(std::size_t i, SceneOptions options) {
@@ -233,8 +230,7 @@ Expected<Sequence> make_scene(std::string_view name, const SceneOptions& options
   }
   return unknown_scene(name);
 } catch (const std::bad_alloc&) {
-  return problem_in(FileProblem::too_large, {},
-                    fmt::format("scene {}: larger than the memory at hand", name));
+  return problem_in({}, fmt::format("scene {}: larger than the memory at hand", name));
 }
 
 }  // namespace assay::corpus

@@ -38,7 +38,8 @@ struct SceneOptions {
   std::optional<Mesh> mesh;  // deform this one in place of the scene's own shape; size is ignored
 };
 
-// Problems: unknown_scene (the message lists the names), wrong_scene_option, too_large.
+// Refuses an unknown name (the message lists the names), options that the scene does not take, and
+// what is too large.
 Expected<Sequence> make_scene(std::string_view name, const SceneOptions& options);
 
 }  // namespace assay::corpus

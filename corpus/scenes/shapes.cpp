@@ -4,7 +4,6 @@
 #include <map>
 #include <utility>
 
-#include "corpus/scenes/mesh_maker.h"
 #include "corpus/scenes/trigonometry.h"
 
 namespace assay::corpus {

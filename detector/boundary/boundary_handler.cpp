@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 
-#include "detector/boundary/apex_choice.h"
 #include "detector/parallel/workers.h"
 
 namespace assay::detector {
@@ -63,8 +62,6 @@ bool BoundaryHandler::sweep(const GhostSweep& sweep, std::span<const std::int32_
                             const StopFunction& stop, std::vector<std::uint8_t>& touched,
                             GhostCounts& counts) const {
   if (ghosts.empty()) return true;
-  GhostSweep as_asked = sweep;
-  if (test_ == GhostTest::boxes) as_asked.test = test_;
   const Topology& all = sweep.surface.all();
   const auto holes = make_hole_trees(all, ghosts, sweep.tree.grid(), sweep.motion);
   const auto component = all.component_of_triangle[at(ghosts[0])];
@@ -79,7 +76,7 @@ bool BoundaryHandler::sweep(const GhostSweep& sweep, std::span<const std::int32_
   std::atomic<bool> is_whole = true;
   const auto run = [&](const LoopPiece& piece) {
     const bool completed = std::all_of(holes.begin(), holes.end(), [&](const HoleTree& hole) {
-      return sweep_hole_below(parts[piece.begin], as_asked, hole, stop, touched,
+      return sweep_hole_below(parts[piece.begin], sweep, hole, stop, touched,
                               lanes[piece.lane].counts);
     });
     if (!completed) is_whole = false;

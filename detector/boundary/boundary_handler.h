@@ -9,7 +9,6 @@ namespace assay::detector {
 
 class BoundaryHandler {
  public:
-  explicit BoundaryHandler(GhostTest test = GhostTest::exact) : test_(test) {}
   virtual ~BoundaryHandler() = default;
 
   // The mesh with its ghosts. If `pace` was stopped, it must not be used.
@@ -17,7 +16,7 @@ class BoundaryHandler {
                            PacedStop& pace) const;
 
   // The rule that places the apex of each loop for the life of a detector: one whose ghosts touch
-  // few triangles at x (apex_choice.h). If `stop` asked for an end, it must not be used.
+  // few triangles at x (apex.h). If `stop` asked for an end, it must not be used.
   virtual std::vector<ApexRule> choose_apexes(const Surface& surface, BoundingVolumeTree& tree,
                                               const PositionsView& x,
                                               const ElementaryTest& elementary,
@@ -34,9 +33,6 @@ class BoundaryHandler {
   virtual bool sweep(const GhostSweep& sweep, std::span<const std::int32_t> ghosts,
                      const StopFunction& stop, std::vector<std::uint8_t>& touched,
                      GhostCounts& counts) const;
-
- private:
-  GhostTest test_;
 };
 
 }  // namespace assay::detector

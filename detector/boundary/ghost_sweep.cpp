@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "detector/contact/contact_filter.h"
+
 namespace assay::detector {
 namespace {
 
@@ -103,8 +105,7 @@ class HoleSweep {
     if (counts_.pairs++ == 0) ask();
     if (sweep_.near) (*sweep_.near)[at(t)] = 1;
     if (stopped_ || touched_[at(t)]) return;
-    touched_[at(t)] = sweep_.test == GhostTest::boxes ||
-                      faces_.meet(all_.triangles[at(ghost)], all_.triangles[at(t)], counts_);
+    touched_[at(t)] = faces_.meet(all_.triangles[at(ghost)], all_.triangles[at(t)], counts_);
     if (touched_[at(t)] && sweep_.found) sweep_.found->push_back(t);
   }
 
@@ -152,6 +153,78 @@ bool sweep_hole_below(std::int32_t node, const GhostSweep& sweep, const HoleTree
                       const StopFunction& stop, std::vector<std::uint8_t>& touched,
                       GhostCounts& counts) {
   return HoleSweep(node, sweep, hole, stop, touched, counts).run();
+}
+
+HoleTree::HoleTree(const Topology& all, std::span<const std::int32_t> ghosts, const FloatGrid& grid,
+                   const SteppedMesh& motion)
+    : ghosts_(ghosts), boxes_(2 * ghosts.size() - 1) {
+  const std::size_t first_leaf = ghosts.size() - 1;
+  for (std::size_t i = 0; i < ghosts.size(); ++i) {
+    const auto& v = all.triangles[static_cast<std::size_t>(ghosts[i])];
+    boxes_[first_leaf + i] = box_of(grid(motion, v[0]), grid(motion, v[1]), grid(motion, v[2]));
+  }
+  for (std::size_t n = first_leaf; n-- > 0;) {
+    boxes_[n] = join(boxes_[child(n)], boxes_[child(n) + 1]);
+  }
+}
+
+std::vector<HoleTree> make_hole_trees(const Topology& all, std::span<const std::int32_t> ghosts,
+                                      const FloatGrid& grid, const SteppedMesh& motion) {
+  const auto apex = [&](std::size_t i) {
+    return all.triangles[static_cast<std::size_t>(ghosts[i])][2];
+  };
+  std::vector<HoleTree> trees;
+  for (std::size_t begin = 0, end = 0; begin < ghosts.size(); begin = end) {
+    while (end < ghosts.size() && apex(end) == apex(begin)) ++end;
+    trees.emplace_back(all, ghosts.subspan(begin, end - begin), grid, motion);
+  }
+  return trees;
+}
+
+namespace {
+
+bool contains(const FacePairTest::Corners& triangle, std::int32_t vertex) {
+  return triangle[0] == vertex || triangle[1] == vertex || triangle[2] == vertex;
+}
+
+}  // namespace
+
+bool FacePairTest::meet(const Corners& a, const Corners& b, GhostCounts& counts) const {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!contains(b, a[i]) &&
+        contact({{path(a[i]), path(b[0]), path(b[1]), path(b[2])}, 1}, counts))
+      return true;
+    if (!contains(a, b[i]) &&
+        contact({{path(b[i]), path(a[0]), path(a[1]), path(a[2])}, 1}, counts))
+      return true;
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto u0 = a[i], u1 = a[(i + 1) % 3];
+    for (std::size_t j = 0; j < 3; ++j) {
+      const auto v0 = b[j], v1 = b[(j + 1) % 3];
+      if (u0 == v0 || u0 == v1 || u1 == v0 || u1 == v1) continue;
+      if (contact({{path(u0), path(u1), path(v0), path(v1)}, 2}, counts)) return true;
+    }
+  }
+  return pierces_too_ && (pierces(a, b) || pierces(b, a));
+}
+
+bool FacePairTest::contact(const FourPoints& query, GhostCounts& counts) const {
+  if (separated_along_an_axis(query)) return false;
+  ++counts.elementary_tests;
+  return elementary_.test(query, Want::yes_no).contact;
+}
+
+bool FacePairTest::pierces(const Corners& edges_of, const Corners& face) const {
+  const auto start = [&](std::int32_t v) { return motion_.start(v); };
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto u = edges_of[i], v = edges_of[(i + 1) % 3];
+    if (contains(face, u) || contains(face, v)) continue;
+    if (elementary_.pierces(start(u), start(v), {start(face[0]), start(face[1]), start(face[2])})) {
+      return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace assay::detector

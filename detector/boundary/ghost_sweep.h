@@ -1,13 +1,83 @@
 // Which triangles of the mesh the ghosts touch (L11).
 #pragma once
 
-#include "detector/boundary/face_pair.h"
-#include "detector/boundary/hole_tree.h"
+#include <span>
+#include <vector>
+
+#include "detector/contact/elementary.h"
 #include "detector/mesh/paced_stop.h"
-#include "detector/options.h"
+#include "detector/mesh/step_counts.h"
+#include "detector/mesh/surface.h"
+#include "detector/search/moving_box.h"
 #include "detector/search/pair_search.h"
 
 namespace assay::detector {
+
+// Whether two triangles of the surface, of the mesh or ghosts, meet, tested feature by feature.
+class FacePairTest {
+ public:
+  using Corners = std::array<std::int32_t, 3>;
+
+  // Corners are rows of the views. With piercing_at_start two triangles also meet if an edge of
+  // one pierces the other at t=0. No features need meet during the step for that, so it has a test
+  // of its own.
+  FacePairTest(const SteppedMesh& motion, const ElementaryTest& elementary, bool piercing_at_start)
+      : motion_(motion), elementary_(elementary), pierces_too_(piercing_at_start) {}
+
+  // Whether closed faces of the two (vertices, edges, triangles) that share no vertex meet at some
+  // time of the step. Makes up to 15 elementary tests, most of which are settled by axis order.
+  bool meet(const Corners& a, const Corners& b, GhostCounts& counts) const;
+
+ private:
+  MovingPoint path(std::int32_t v) const { return motion_.path(v); }
+  bool contact(const FourPoints& query, GhostCounts& counts) const;
+  bool pierces(const Corners& edges_of, const Corners& face) const;
+
+  SteppedMesh motion_;
+  const ElementaryTest& elementary_;
+  bool pierces_too_;
+};
+
+// A small tree for each hole, over the ghosts of its fan as they move.
+//
+// The leaves have the order of the fan along its loop, so nothing needs to be sorted. Node n has
+// the children 2n+1 and 2n+2; the last nodes are the leaves.
+class HoleTree {
+ public:
+  // REQUIRES the ghosts of one loop in its order, at least one. Their corners are vertices of
+  // `motion`. The boxes may be compared with others of the same grid. 50 ns a ghost.
+  HoleTree(const Topology& all, std::span<const std::int32_t> ghosts, const FloatGrid& grid,
+           const SteppedMesh& motion);
+
+  static constexpr std::size_t root = 0;
+  bool is_leaf(std::size_t node) const { return node + 1 >= ghosts_.size(); }
+  std::size_t child(std::size_t node) const { return 2 * node + 1; }  // the other is the next
+  std::int32_t first_ghost() const { return ghosts_.front(); }
+  std::int32_t ghost(std::size_t leaf) const { return ghosts_[leaf + 1 - ghosts_.size()]; }
+  const MovingBox& box(std::size_t node) const { return boxes_[node]; }
+
+  // Calls visit(ghost) for the ghosts whose box is not apart from `box`, until it returns true.
+  // Returns whether it did.
+  template <class Visit>
+  bool any_near(const MovingBox& box, Visit visit) const {
+    return any_near(root, box, visit);
+  }
+
+ private:
+  template <class Visit>
+  bool any_near(std::size_t node, const MovingBox& box, Visit& visit) const {
+    if (apart(boxes_[node], box)) return false;
+    if (is_leaf(node)) return visit(ghost(node));
+    return any_near(child(node), box, visit) || any_near(child(node) + 1, box, visit);
+  }
+
+  std::span<const std::int32_t> ghosts_;
+  std::vector<MovingBox> boxes_;
+};
+
+// A tree for each hole of a component, whose ghosts are given.
+std::vector<HoleTree> make_hole_trees(const Topology& all, std::span<const std::int32_t> ghosts,
+                                      const FloatGrid& grid, const SteppedMesh& motion);
 
 // For sweeps in which nothing moves: whether to leave out also the triangles on one side of a
 // ghost's plane. These are then not `near` either. `strict` leaves out what lies strictly on one
@@ -23,7 +93,6 @@ struct GhostSweep {
   const ElementaryTest& elementary;
   // Whether edges that pierce at t=0 count too; needed if no state is known at t=0.
   bool piercing_at_start = false;
-  GhostTest test = GhostTest::exact;
   // If given, set to 1 for each triangle whose moving box is not apart from that of a ghost.
   std::vector<std::uint8_t>* near = nullptr;
   // If given, gets the triangles that the sweep has set as touched, each once.

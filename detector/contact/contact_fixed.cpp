@@ -2,10 +2,209 @@
 
 #include <cassert>
 
-#include "detector/contact/fixed_search.h"
+#include "detector/contact/fixed_products.h"
+#include "detector/contact/fixed_root.h"
 
 namespace assay::detector {
 namespace {
+
+// Finds the first contact by exact Bernstein coefficients over pieces of [0,1], in time order. All
+// signs are exact here; in contact_pieces.h, which works in doubles, some are uncertain.
+//
+// The cubic is the coplanarity of the four points over time. The dependencies of an axis are four
+// quadratics: the coefficients of the one linear dependency of the four points, once they are
+// projected along that axis (contact_pieces.h). When the points are coplanar, they meet unless the
+// dependencies of some axis have both strict signs.
+//
+// The ends of a piece are looked at by themselves, because the first and the last coefficient have
+// the signs of the values there. Inside a piece, known signs may decide: both strict signs along
+// one axis mean no contact. Otherwise a contact is decided if the cubic has only one root there
+// and each dependency at most one. SignAtRoot then says which sign the dependency has at the root
+// of the cubic. What is still undecided when a piece is max_fixed_depth halvings deep stays open:
+// roots that are close together, double roots inside a piece, and collinear points.
+//
+// Points that are coplanar throughout have no cubic. Suppose that there is no contact where the
+// piece begins. Then each axis whose dependencies do not all vanish has both strict signs there,
+// and at the first contact it has them no longer. Hence one of its dependencies vanishes at that
+// time, so the roots of the dependencies of one such axis are all that has to be tried.
+template <std::size_t W>
+class FixedSearch {
+ public:
+  // W is the number of 64-bit words of the integers. first_group is the number of points of the
+  // first primitive: 1 for vertex-face, 2 for edge-edge. REQUIRES query.bits() <= most_bits<W>.
+  FixedSearch(const QueryIntegers& query, int first_group, Want want)
+      : bits_(query.bits()),
+        want_(want),
+        products_(query, first_group),
+        b_(products_.coplanarity()) {}
+
+  // Is called once.
+  Decision run() {
+    Piece whole;
+    whole.f = {b_[0] + b_[0] + b_[0], b_[1], b_[2], b_[3] + b_[3] + b_[3]};
+    coplanar_ = piece_signs(whole.f).first == 0;
+    whole.lo = 0;
+    whole.hi = 1;
+    if (coplanar_ || b_[0].is_zero()) {
+      const Decision at_start = look_at(whole, 0, [](const auto& l) { return l.front().sign(); });
+      if (at_start != Decision::no) return at_start;
+    }
+    return visit(whole, 0);
+  }
+
+  // The time of the contact. Meaningful only if run() said yes and a time was wanted.
+  const TimeEnclosure& time() const { return time_; }
+
+ private:
+  using Piece = FixedPiece<W>;
+  using Triple = typename Piece::Triple;
+
+  // Whether there is a contact at `time`, an end of the piece. REQUIRES that the points are
+  // coplanar then.
+  template <class SignThere>
+  Decision look_at(Piece& piece, double time, SignThere sign_there) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      SignSet signs;
+      for (const auto& l : piece.dependency(axis, products_)) signs.add(sign_there(l));
+      if (signs.both()) return Decision::no;
+      if (!signs.any()) continue;
+      time_ = {time, time};
+      return Decision::yes;
+    }
+    return Decision::open;  // collinear
+  }
+
+  // Looks for a contact in the piece without its beginning.
+  Decision visit(Piece& piece, int depth) {
+    const PieceSigns f = piece_signs(piece.f);
+    if (coplanar_ || f.changes > 0) {
+      const Decision inside = coplanar_ ? look_inside_coplanar(piece) : look_inside(piece, f);
+      if (inside == Decision::open && depth < max_fixed_depth) {
+        // The piece keeps what it has computed, and its halves are made of that.
+        for (std::size_t k = 0; k < 3; ++k) piece.dependency(k, products_);
+        for (Piece& half : piece.halves()) {
+          const Decision found = visit(half, depth + 1);
+          if (found != Decision::no) return found;
+        }
+        return Decision::no;
+      }
+      if (inside != Decision::no) return inside;
+    }
+    if (!coplanar_ && !piece.f.back().is_zero()) return Decision::no;
+    return look_at(piece, piece.hi, [](const auto& l) { return l.back().sign(); });
+  }
+
+  // Looks for a contact in the open piece.
+  Decision look_inside(Piece& piece, PieceSigns f) {
+    const bool single = f.changes == 1;
+    Decision found = look_at_signs(piece, single);
+    if (found == Decision::open && single) found = look_at_root(piece, piece.f, f.first);
+    if (found == Decision::yes && want_ == Want::first_time) {
+      time_ = bracket(piece, b_, piece.f, f.first);
+    }
+    return found;
+  }
+
+  Decision look_inside_coplanar(Piece& piece) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto& dependency = piece.dependency(axis, products_);
+      bool vanishes = true;
+      for (const auto& l : dependency) vanishes &= piece_signs(l).first == 0;
+      if (!vanishes) {
+        const Decision found = look_at_signs(piece, false);
+        return found == Decision::open ? look_at_changes(piece, axis) : found;
+      }
+    }
+    return Decision::open;  // collinear
+  }
+
+  Decision look_at_changes(Piece& piece, std::size_t axis) {
+    std::optional<TimeEnclosure> first;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto& l = piece.dependency(axis, products_)[i];
+      const PieceSigns signs = piece_signs(l);
+      if (signs.known()) continue;
+      if (signs.changes > 1) return Decision::open;
+      const auto cubic = raised<W>(l);
+      const Decision found = look_at_root(piece, cubic, signs.first);
+      if (found == Decision::open) return Decision::open;
+      if (found == Decision::no) continue;
+      if (want_ == Want::yes_no) return Decision::yes;
+      const auto over_step = products_.dependency(axis)[i];
+      auto whole = raised<W>(over_step);
+      whole[0] = Triple(over_step[0]);
+      whole[3] = Triple(over_step[2]);
+      const TimeEnclosure time = bracket(piece, whole, cubic, signs.first);
+      if (!first || !(*first <= time)) first = time;
+    }
+    if (!first) return Decision::no;
+    time_ = *first;
+    return Decision::yes;
+  }
+
+  // Decides by the signs that are known throughout the open piece. If both strict signs occur
+  // along some axis there is no contact. If all signs along some axis are known and not all zero,
+  // and the cubic has a root inside (`has_root`), there is one.
+  Decision look_at_signs(Piece& piece, bool has_root) const {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      SignSet inside;
+      bool known = true;
+      for (const auto& l : piece.dependency(axis, products_)) {
+        const PieceSigns signs = piece_signs(l);
+        if (signs.known()) {
+          inside.add(signs.first);
+        } else {
+          known = false;
+        }
+      }
+      if (inside.both()) return Decision::no;
+      if (has_root && known && inside.any()) return Decision::yes;
+    }
+    return Decision::open;
+  }
+
+  // Decides whether there is a contact at the root of `cubic` in the open piece. REQUIRES that the
+  // cubic has one root there and the sign `before` before it.
+  Decision look_at_root(Piece& piece, const FixedCubic<Triple>& cubic, int before) {
+    std::optional<SignAtRoot<W>> sign_at_root;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      SignSet there;
+      bool known = true;
+      const auto& dependency = piece.dependency(axis, products_);
+      for (const auto& l : dependency) {
+        const PieceSigns signs = piece_signs(l);
+        if (signs.known()) {
+          there.add(signs.first);
+        } else if (signs.changes == 1) {
+          if (!sign_at_root) sign_at_root.emplace(cubic, before, bits_);
+          there.add(sign_at_root->of(l, signs.first));
+        } else {
+          known = false;
+        }
+      }
+      if (there.both()) return Decision::no;
+      if (known && there.any()) return Decision::yes;
+    }
+    return Decision::open;
+  }
+
+  // The enclosure of the one root of a cubic in the open piece. `whole` holds the cubic over the
+  // step, in the form of coplanarity(); `cubic` holds it over the piece.
+  TimeEnclosure bracket(const Piece& piece, const FixedCubic<Triple>& whole,
+                        const FixedCubic<Triple>& cubic, int before) const {
+    Cubic f;
+    for (std::size_t i = 0; i < 4; ++i) f[i] = cubic[i].approximate(3 * bits_);
+    const double guess = piece.lo + guess_root(f) * (piece.hi - piece.lo);
+    return FixedRoot<W>(whole, bits_).bracket(before, piece.lo, piece.hi, guess);
+  }
+
+  int bits_;
+  Want want_;
+  FixedProducts<W> products_;
+  FixedCubic<Triple> b_;
+  bool coplanar_ = false;
+  TimeEnclosure time_;
+};
 
 // Calls call(width) with the least of a few widths that holds the coordinates. Returns `otherwise`
 // if none does.

@@ -21,8 +21,8 @@
 // quadratic_error (of lam_0) and cubic_error (of F) are these with one u more.
 #pragma once
 
-#include "detector/bernstein/bernstein.h"
-#include "detector/contact/four_points.h"
+#include "detector/exact/bernstein.h"
+#include "detector/mesh/step_types.h"
 
 namespace assay::detector {
 

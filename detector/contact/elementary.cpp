@@ -1,10 +1,8 @@
 #include "detector/contact/elementary.h"
 
-#include "detector/contact/contact_bounded.h"
+#include "detector/contact/contact_doubles.h"
 #include "detector/contact/contact_exact.h"
 #include "detector/contact/contact_filter.h"
-#include "detector/contact/contact_plain.h"
-#include "detector/contact/piercing.h"
 
 namespace assay::detector {
 

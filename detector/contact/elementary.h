@@ -4,15 +4,14 @@
 //
 // Guarantee of exact arithmetic: for every finite input the answer is that of exact arithmetic on
 // the doubles given. Touching counts, and so do t=0 and t=1. A time is the unique enclosure of
-// TimeEnclosure. For the other arithmetics see contact_bounded.h and contact_plain.h.
+// TimeEnclosure. For the other arithmetics see contact_doubles.h.
 #pragma once
 
 #include <memory>
 
-#include "detector/contact/four_points.h"
 #include "detector/geometry/orientation.h"
-#include "detector/mesh/arithmetic.h"
 #include "detector/mesh/step_counts.h"
+#include "detector/mesh/step_types.h"
 
 namespace assay::detector {
 

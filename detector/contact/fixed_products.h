@@ -20,9 +20,82 @@
 // cubic 3c + 20 <= 192 W - 4: 2 W limbs hold a dependency, 3 W limbs the cubic, signs included.
 #pragma once
 
-#include "detector/contact/query_integers.h"
+#include <bit>
+#include <climits>
+#include <optional>
+
+#include "detector/exact/fixed_integer.h"
+#include "detector/mesh/step_types.h"
 
 namespace assay::detector {
+
+// The coordinates of an elementary query as integers. Each axis is multiplied by a power of two of
+// its own. This is an affine map, so contacts and their times stay the same, and the integers are
+// as short as they can be.
+class QueryIntegers {
+ public:
+  explicit QueryIntegers(const FourPoints& query) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      int least = INT_MAX, beyond = INT_MIN;
+      for (std::size_t i = 0; i < 4; ++i) {
+        for (std::size_t end = 0; end < 2; ++end) {
+          Coordinate& c = coordinates_[i][end][k];
+          c = split(end == 0 ? query.points[i].t0[k] : query.points[i].t1[k]);
+          if (c.mantissa == 0) continue;
+          least = std::min(least, c.exponent + std::countr_zero(c.mantissa));
+          beyond = std::max(beyond, c.exponent + static_cast<int>(std::bit_width(c.mantissa)));
+        }
+      }
+      least_[k] = least;
+      if (beyond > least) bits_ = std::max(bits_, beyond - least);
+    }
+  }
+
+  // Every integer is below 2^bits() in size.
+  int bits() const { return bits_; }
+
+  // The coordinate of point i along axis k, at t=0 (end 0) or t=1 (end 1). REQUIRES bits() < 64
+  // limbs.
+  template <std::size_t limbs>
+  FixedInteger<limbs> at(std::size_t i, std::size_t end, std::size_t k) const {
+    const Coordinate& c = coordinates_[i][end][k];
+    FixedInteger<limbs> value;
+    if (c.mantissa == 0) return value;
+    const int shift = c.exponent - least_[k];
+    if (shift <= 0) {
+      value.limb(0) = c.mantissa >> -shift;
+    } else {
+      const auto whole = static_cast<std::size_t>(shift) / 64;
+      const auto part = static_cast<unsigned>(shift) % 64;
+      value.limb(whole) = c.mantissa << part;
+      if (part > 0 && whole + 1 < limbs) value.limb(whole + 1) = c.mantissa >> (64 - part);
+    }
+    return c.negative ? -value : value;
+  }
+
+ private:
+  struct Coordinate {
+    std::uint64_t mantissa;
+    int exponent;
+    bool negative;
+  };
+
+  // A finite double as its sign and mantissa times 2^exponent.
+  static Coordinate split(double value) {
+    const auto pattern = std::bit_cast<std::uint64_t>(value);
+    constexpr unsigned fraction_bits = 52;
+    constexpr int least_exponent = -1074;
+    const std::uint64_t fraction = pattern & ((std::uint64_t{1} << fraction_bits) - 1);
+    const auto biased = static_cast<int>(pattern >> fraction_bits & 0x7ff);
+    const bool negative = pattern >> 63 != 0;
+    if (biased == 0) return {fraction, least_exponent, negative};
+    return {fraction | std::uint64_t{1} << fraction_bits, least_exponent + biased - 1, negative};
+  }
+
+  std::array<std::array<std::array<Coordinate, 3>, 2>, 4> coordinates_;
+  std::array<int, 3> least_;
+  int bits_ = 0;
+};
 
 inline constexpr int max_fixed_depth = 4;
 template <std::size_t W>
@@ -104,6 +177,93 @@ void halve_undivided(std::array<T, n> row, std::array<T, n>& left, std::array<T,
     right[n - 1 - level] = row[n - 1 - level].shifted(missing);
     for (std::size_t i = 0; i + 1 + level < n; ++i) row[i] = row[i] + row[i + 1];
   }
+}
+
+// A piece of the step in exact Bernstein coefficients, and what the signs of the coefficients
+// tell.
+//
+// Leave out the zeros among the coefficients of a polynomial over a piece. Then:
+// - If the rest have one sign, the polynomial has that sign throughout the open piece.
+// - The number of sign changes is the number of roots in the open piece, or more by an even number
+//   (Descartes' rule, by s/(1-s)). So with no change there is no root, and with one change there
+//   is exactly one, a simple one.
+//
+// The signs of one polynomial over the open piece.
+struct PieceSigns {
+  int changes = 0;
+  int first = 0;  // the sign just after the beginning; 0 if the polynomial vanishes throughout
+  bool known() const { return changes == 0; }  // `first` is then the sign throughout
+};
+
+template <class T, std::size_t n>
+PieceSigns piece_signs(const std::array<T, n>& coefficients) {
+  PieceSigns signs;
+  int last = 0;
+  for (const auto& c : coefficients) {
+    const int sign = c.sign();
+    if (sign == 0) continue;
+    if (last == 0) signs.first = sign;
+    signs.changes += last != 0 && sign != last;
+    last = sign;
+  }
+  return signs;
+}
+
+// Which of the two strict signs occur among some polynomials.
+struct SignSet {
+  bool positive = false, negative = false;
+  void add(int sign) {
+    positive |= sign > 0;
+    negative |= sign < 0;
+  }
+  bool both() const { return positive && negative; }
+  bool any() const { return positive || negative; }
+};
+
+template <std::size_t W>
+struct FixedPiece {
+  using Minor = typename FixedProducts<W>::Minor;
+  using Triple = typename FixedProducts<W>::Triple;
+  using Dependency = std::array<FixedQuadratic<Minor>, 4>;
+
+  FixedCubic<Triple> f;
+  std::array<std::optional<Dependency>, 3> dependencies;  // computed when asked for
+  double lo, hi;                                          // dyadic, and so exact
+
+  // The dependency of this axis, computed now if it is not there yet. Only a piece that is the
+  // whole step can lack one, because halves() hands all of them on.
+  const Dependency& dependency(std::size_t axis, const FixedProducts<W>& products) {
+    auto& l = dependencies[axis];
+    if (!l) l = products.dependency(axis);
+    return *l;
+  }
+
+  // The two halves. REQUIRES that all dependencies have been computed.
+  std::array<FixedPiece, 2> halves() const {
+    std::array<FixedPiece, 2> out;
+    auto& [left, right] = out;
+    halve_undivided(f, left.f, right.f);
+    for (std::size_t k = 0; k < 3; ++k) {
+      left.dependencies[k].emplace();
+      right.dependencies[k].emplace();
+      for (std::size_t i = 0; i < 4; ++i) {
+        halve_undivided((*dependencies[k])[i], (*left.dependencies[k])[i],
+                        (*right.dependencies[k])[i]);
+      }
+    }
+    left.lo = lo;
+    right.hi = hi;
+    left.hi = right.lo = (lo + hi) / 2;
+    return out;
+  }
+};
+
+// The coefficients b0, b1, b2, b3, times 3, of the quadratic q0, q1, q2 written as a cubic.
+template <std::size_t W>
+FixedCubic<FixedInteger<3 * W>> raised(const FixedQuadratic<FixedInteger<2 * W>>& quadratic) {
+  using Triple = FixedInteger<3 * W>;
+  const Triple q0(quadratic[0]), q1(quadratic[1]), q2(quadratic[2]);
+  return {q0 + q0 + q0, q0 + q1 + q1, q1 + q1 + q2, q2 + q2 + q2};
 }
 
 }  // namespace assay::detector

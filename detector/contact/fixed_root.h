@@ -14,11 +14,11 @@
 // are 192 W + 192 bits, and with e <= 128 it fits 3 W + 6 limbs.
 #pragma once
 
-#include "detector/bernstein/bernstein.h"
 #include "detector/contact/contact_pieces.h"
 #include "detector/contact/fixed_products.h"
+#include "detector/exact/bernstein.h"
 #include "detector/exact/polynomial.h"
-#include "detector/exact/root_bracket.h"
+#include "detector/exact/root_isolation.h"
 
 namespace assay::detector {
 
@@ -93,6 +93,138 @@ class FixedRoot {
 
   int bits_;
   FixedCubic<Coefficient> c_;
+};
+
+// The sign of a quadratic L at the root r of a cubic F in (0,1). REQUIRES that each of them has
+// exactly one root in (0,1). It is found by a resultant: no interval has to be made small, and
+// common roots are no special case.
+//
+// Let p be the root of L. On (0,1) F has the sign f before r and -f after it, and L has the sign l
+// before p and -l after it. So F(p) tells the order of r and p:
+//
+//   F(p) = 0      r = p, and L(r) = 0
+//   F(p) has f    p < r, and L(r) has -l
+//   F(p) has -f   r < p, and L(r) has l
+//
+// F(p) is found by division. With L = l2 s^2 + l1 s + l0, l2 not 0, there are a and b with
+//
+//   l2^2 F = (...) L + R,   R = a s + b,
+//
+// so F(p) has the sign of R(p). If R has the same sign at 0 and 1, R(p) has that sign too. Else R
+// vanishes at q = -b/a in (0,1), and L(q) tells the order of p and q in the same way:
+//
+//   a^2 L(q) = l2 b^2 - l1 a b + l0 a^2.
+//
+// If l2 = 0 the root is p = -l0/l1, and F(p) is computed directly.
+//
+// Widths. As in fixed_products.h W is the number of limbs of a coordinate and c its bits, at most
+// 64 W - 8. After 4 halvings the Bernstein coefficients of F have 3c + 20 bits, those of L have
+// 2c + 14.
+//
+//   quantity                          | below, in size            | bits       | limbs
+//   f0..f3: F by powers of s          | 12 * 2^(3c + 20)          | 3c + 24    | 3 W + 1
+//   l0..l2: L by powers of s          | 4 * 2^(2c + 14)           | 2c + 16    | 2 W + 1
+//   first step of the division        | 2 * 2^(5c + 40)           | 5c + 41    | 5 W + 1
+//   a, b: the second step             | 2 * 2^(7c + 57)           | 7c + 58    | 7 W + 1
+//   a^2 L(q)                          | 3 * 2^(16c + 132)         | 16c + 134  | 16 W + 3
+//   l1^3 F(-l0/l1)                    | 4 * 2^(9c + 72)           | 9c + 74    | 9 W + 4
+//
+// Doubles come first. Their errors, in units of u = 2^-53 of the quantity itself, or of S, the sum
+// of the sizes of all terms:
+//
+//   quantity                      | operations                         | error in u
+//   a coefficient as a double     | two limbs rounded, one sum         | less than 4
+//   the quotient p = -l0/l1       | a division                         | 4 + 4 + 1 = 9
+//   a term                        | four of these at most, multiplied  | at most 4 (9 + 1) = 40
+//   a sum of seven terms at most  | six sums                           | 40 + 6 = 46 S
+//
+// The code asks for 2^-46 S = 128 u S. If S is so small that a term may have lost bits by
+// underflow, doubles decide nothing.
+template <std::size_t W>
+class SignAtRoot {
+ public:
+  using Minor = typename FixedProducts<W>::Minor;
+  using Triple = typename FixedProducts<W>::Triple;
+
+  // f: the Bernstein coefficients of F over (0,1). sign_before: the sign of F before its root.
+  // bits: those of the coordinates.
+  SignAtRoot(const FixedCubic<Triple>& f, int sign_before, int bits)
+      : f_before_(sign_before), bits_(bits) {
+    const FixedCubic<F> b = {F(f[0]), F(f[1]), F(f[2]), F(f[3])};
+    const F d1 = b[1] - b[0], d2 = b[2] - b[1];
+    f_ = {b[0], d1 + d1 + d1, (d2 - d1) + (d2 - d1) + (d2 - d1), b[3] - b[0] - (d2 + d2 + d2)};
+    for (std::size_t i = 0; i < 4; ++i) near_f_[i] = f_[i].approximate(3 * bits_);
+  }
+
+  // The sign at the root of F of the L with these Bernstein coefficients. l_before: the sign of L
+  // before its own root.
+  int of(const FixedQuadratic<Minor>& quadratic, int l_before) const {
+    const FixedQuadratic<L> b = {L(quadratic[0]), L(quadratic[1]), L(quadratic[2])};
+    const L d0 = b[1] - b[0], d1 = b[2] - b[1];
+    const int order = sign_at_root_of({b[0], d0 + d0, d1 - d0}, l_before);
+    return order == 0 ? 0 : order == f_before_ ? -l_before : l_before;
+  }
+
+ private:
+  using F = FixedInteger<3 * W + 1>;
+  using L = FixedInteger<2 * W + 1>;
+  using Step1 = FixedInteger<5 * W + 1>;
+  using Step2 = FixedInteger<7 * W + 1>;
+  using Value = FixedInteger<16 * W + 3>;
+
+  // The sign of F at the root p of L.
+  int sign_at_root_of(const FixedQuadratic<L>& l, int l_before) const {
+    const Quadratic near_l = {l[0].approximate(2 * bits_), l[1].approximate(2 * bits_),
+                              l[2].approximate(2 * bits_)};
+    const bool is_linear = l[2].is_zero();
+    if (const int sure = is_linear ? sure_at_quotient(near_l) : sure_remainder(near_l)) return sure;
+    if (is_linear) return sign_at_quotient(l[0], l[1]);
+    const Step1 d2(l[2] * f_[2] - l[1] * f_[3]), d1(l[2] * f_[1] - l[0] * f_[3]), d0(l[2] * f_[0]);
+    const Step2 a(l[2] * d1 - l[1] * d2), b(l[2] * d0 - l[0] * d2);
+    const int at_0 = b.sign(), at_1 = (a + b).sign();
+    if (at_0 * at_1 >= 0) return at_0 != 0 ? at_0 : at_1;
+    const Value at_q(l[2] * (b * b) - l[1] * (a * b) + l[0] * (a * a));
+    const int sign = at_q.sign();
+    return sign == 0 ? 0 : sign == l_before ? at_1 : at_0;
+  }
+
+  // l1^3 F(-l0/l1) = ((f3 p + f2 l1) p + f1 l1^2) p + f0 l1^3, p = -l0.
+  int sign_at_quotient(const L& l0, const L& l1) const {
+    const L p = -l0;
+    const auto l1_2 = l1 * l1;
+    const auto quadratic = (f_[3] * p + f_[2] * l1) * p + f_[1] * l1_2;
+    const int sign = (quadratic * p + f_[0] * (l1_2 * l1)).sign();
+    return l1.negative() ? -sign : sign;
+  }
+
+  static int sure(double value, double size) {
+    constexpr double relative_error = 0x1p-46, least_size = 0x1p-800;
+    return size > least_size ? sign_beyond(value, relative_error * size) : 0;
+  }
+
+  int sure_at_quotient(const Quadratic& l) const {
+    const double p = -l[0] / l[1];
+    const double terms[] = {near_f_[0], near_f_[1] * p, near_f_[2] * p * p, near_f_[3] * p * p * p};
+    return sure(terms[0] + terms[1] + terms[2] + terms[3],
+                std::abs(terms[0]) + std::abs(terms[1]) + std::abs(terms[2]) + std::abs(terms[3]));
+  }
+
+  // The sign of the remainder R if it surely has one sign on (0,1), else 0.
+  int sure_remainder(const Quadratic& l) const {
+    const Cubic& f = near_f_;
+    const double a[] = {l[2] * l[2] * f[1], -l[2] * l[0] * f[3], -l[1] * l[2] * f[2],
+                        l[1] * l[1] * f[3]};
+    const double b[] = {l[2] * l[2] * f[0], -l[0] * l[2] * f[2], l[0] * l[1] * f[3]};
+    double at_0 = 0, size_0 = 0, slope = 0, size = 0;
+    for (const double term : b) at_0 += term, size_0 += std::abs(term);
+    for (const double term : a) slope += term, size += std::abs(term);
+    const int sign = sure(at_0, size_0);
+    return sign != 0 && sure(at_0 + slope, size_0 + size) == sign ? sign : 0;
+  }
+
+  int f_before_, bits_;
+  FixedCubic<F> f_;
+  Cubic near_f_;  // f_ times 2^(-3 bits), in doubles
 };
 
 }  // namespace assay::detector

@@ -1,10 +1,10 @@
 // The distinct real roots of an integer polynomial in [0,1], their unique enclosures in doubles,
 // and the exact sign of a quadratic at a root.
 //
-// Method: multiple roots are made simple (square_free.h), then Descartes' rule tells the roots
+// Method: multiple roots are made simple (polynomial.h), then Descartes' rule tells the roots
 // apart (root_isolation.h). Signs at doubles enclose each root. The sign of a quadratic at a root
 // follows from its signs on the root's interval, or, if these do not tell, from the order of two
-// roots (root_sign.cpp). Every sign is first computed in balls (ball.h). Nothing here is
+// roots (real_root.cpp). Every sign is first computed in balls (ball.h). Nothing here is
 // recursive: intervals wait in lists.
 #pragma once
 

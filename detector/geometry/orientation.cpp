@@ -1,10 +1,6 @@
 #include "detector/geometry/orientation.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "detector/exact/integer.h"
-#include "detector/geometry/orientation_filter.h"
 
 namespace assay::detector {
 namespace {
@@ -25,7 +21,7 @@ int exact_orientation(const Point& a, const Point& b, const Point& c, const Poin
 }
 
 // Whether doubles prove that both ends of the segment are strictly on one side of the triangle's
-// plane. It computes two orientations with the bound of orientation_filter.h, with M_k the largest
+// plane. It computes two orientations with the bound of orientation.h, with M_k the largest
 // |coordinate k| of all four differences.
 bool surely_on_one_side(const Point& e0, const Point& e1, const std::array<Point, 3>& face) {
   double u[4][3], magnitude[3] = {0, 0, 0};
@@ -65,5 +61,90 @@ bool segment_pierces_triangle(const Point& e0, const Point& e1, const std::array
   return turn != 0 && orientation(e0, e1, face[1], face[2]) == turn &&
          orientation(e0, e1, face[2], face[0]) == turn;
 }
+
+// The segment pierces the triangle strictly if its ends lie strictly on opposite sides of the
+// triangle's plane and its line passes strictly inside the three edges (segment_pierces_triangle).
+// If the sides of the plane cannot be told, as between coplanar triangles, projections may settle
+// it: a segment that pierces meets the triangle in the projection along every axis. In a
+// projection the two are apart if a line through an edge of the triangle, or through the segment,
+// has one of them strictly on one side and no point of the other on that side.
+//
+// Error bound of a side in the projection along axis k. With p and q the other two axes, and M_p
+// and M_q the largest |difference| along them, (b-a) x (c-a) is one minor, off by 8 u M_p M_q
+// (bernstein.h). side_error is this and one u more.
+
+namespace {
+
+constexpr double side_error = 9 * unit_roundoff;
+
+// The sign of (b-a) x (c-a) in the projection along `axis`, or 0 if it is not sure.
+int sure_side(const Point& a, const Point& b, const Point& c, std::size_t axis) {
+  const std::size_t p = (axis + 1) % 3, q = (axis + 2) % 3;
+  const double bp = b[p] - a[p], bq = b[q] - a[q], cp = c[p] - a[p], cq = c[q] - a[q];
+  const double mp = std::max(std::abs(bp), std::abs(cp)), mq = std::max(std::abs(bq), std::abs(cq));
+  if (!(mp > least_magnitude && mp < greatest_magnitude) ||
+      !(mq > least_magnitude && mq < greatest_magnitude)) {
+    return 0;
+  }
+  return sign_beyond(bp * cq - bq * cp, side_error * mp * mq);
+}
+
+bool surely_apart(const Point& e0, const Point& e1, const std::array<Point, 3>& face,
+                  std::size_t axis) {
+  const auto &a = face[0], &b = face[1], &c = face[2];
+  const int of_segment = sure_side(e0, e1, a, axis);
+  if (of_segment != 0 && sure_side(e0, e1, b, axis) == of_segment &&
+      sure_side(e0, e1, c, axis) == of_segment) {
+    return true;
+  }
+  const int inside = sure_side(a, b, c, axis);
+  if (inside == 0) return false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto &u = face[i], &v = face[(i + 1) % 3];
+    if (sure_side(u, v, e0, axis) == -inside && sure_side(u, v, e1, axis) == -inside) return true;
+  }
+  return false;
+}
+
+// On which sides of the triangle's plane the two ends are, and the signs of the three turns of the
+// triangle's edges around the segment.
+template <class Bounds>
+struct PiercingSigns {
+  PiercingSigns(const Point& e0, const Point& e1, const std::array<Point, 3>& face)
+      : side0(filtered_orientation<Bounds>(face[0], face[1], face[2], e0)),
+        side1(filtered_orientation<Bounds>(face[0], face[1], face[2], e1)),
+        turns{filtered_orientation<Bounds>(e0, e1, face[0], face[1]),
+              filtered_orientation<Bounds>(e0, e1, face[1], face[2]),
+              filtered_orientation<Bounds>(e0, e1, face[2], face[0])} {}
+
+  bool pierces() const {
+    return side0 * side1 < 0 && turns[0] != 0 && turns[0] == turns[1] && turns[1] == turns[2];
+  }
+
+  int side0, side1;
+  std::array<int, 3> turns;
+};
+
+}  // namespace
+
+Decision bounded_piercing(const Point& e0, const Point& e1, const std::array<Point, 3>& face) {
+  const PiercingSigns<ProvedBounds> signs(e0, e1, face);
+  if (signs.pierces()) return Decision::yes;
+  if (signs.side0 * signs.side1 > 0) return Decision::no;
+  const auto [least, greatest] = std::minmax_element(signs.turns.begin(), signs.turns.end());
+  if (*least < 0 && *greatest > 0) return Decision::no;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (surely_apart(e0, e1, face, axis)) return Decision::no;
+  }
+  return Decision::open;
+}
+
+template <class Number>
+bool plain_piercing(const Point& e0, const Point& e1, const std::array<Point, 3>& face) {
+  return PiercingSigns<NoBounds<Number>>(e0, e1, face).pierces();
+}
+
+template bool plain_piercing<double>(const Point&, const Point&, const std::array<Point, 3>&);
+template bool plain_piercing<float>(const Point&, const Point&, const std::array<Point, 3>&);
 
 }  // namespace assay::detector

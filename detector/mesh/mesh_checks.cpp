@@ -6,8 +6,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "detector/mesh/paced_sort.h"
-
 namespace assay::detector {
 namespace {
 

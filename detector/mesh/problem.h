@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <string>
 
+#include "detector/mesh/enum_names.h"
+
 namespace assay::detector {
 
 enum class InputError : std::uint8_t {
@@ -24,8 +26,22 @@ enum class InputError : std::uint8_t {
   mesh_too_large = 12,        // more triangles or vertices than the detector's indices can number
   stopped = 13,               // the stop function asked for an end before there was a detector
 };
-
-const char* name_of(InputError error);
+constexpr auto names_of(InputError) {
+  using enum InputError;
+  return std::to_array<Named<InputError>>({{no_triangles, "no_triangles"},
+                                           {index_out_of_range, "index_out_of_range"},
+                                           {repeated_index, "repeated_index"},
+                                           {same_vertices_twice, "same_vertices_twice"},
+                                           {wrong_frame_size, "wrong_frame_size"},
+                                           {non_finite_coordinate, "non_finite_coordinate"},
+                                           {wrong_primitive_count, "wrong_primitive_count"},
+                                           {nothing_to_commit, "nothing_to_commit"},
+                                           {foreign_state, "foreign_state"},
+                                           {damaged_state, "damaged_state"},
+                                           {other_state_version, "other_state_version"},
+                                           {mesh_too_large, "mesh_too_large"},
+                                           {stopped, "stopped"}});
+}
 
 struct Problem {
   InputError error;

@@ -88,8 +88,7 @@ struct GhostCounts {
   std::uint64_t box_tests = 0;
   std::uint64_t pairs = 0;             // ghost and triangle, with moving boxes that are not apart
   std::uint64_t elementary_tests = 0;  // feature pairs of these that axis order left open
-  // The triangles of the pairs that the step itself met, each counted once. GhostTest::boxes calls
-  // these triangles violated.
+  // The triangles of the pairs that the step itself met, each counted once.
   std::uint64_t near_triangles = 0;
 
   // The work in units of a box test (5 ns). For one pair up to 15 feature pairs are tested by axis

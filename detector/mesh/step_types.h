@@ -5,9 +5,25 @@
 #include <cstdint>
 #include <functional>
 
+#include "detector/mesh/enum_names.h"
 #include "detector/mesh/types.h"
 
 namespace assay::detector {
+
+// In which numbers a step is computed. detector/README.md says what each arithmetic promises.
+enum class Arithmetic : std::uint8_t {
+  exact,             // doubles with proved bounds, integers where these cannot tell: never wrong
+  bounded,           // doubles with proved bounds alone: what they cannot tell counts as contact
+  double_precision,  // doubles with bounds 0: promises nothing, made to be measured
+  single_precision,  // floats with bounds 0, coordinates rounded to float first: promises nothing
+};
+constexpr auto names_of(Arithmetic) {
+  using enum Arithmetic;
+  return std::to_array<Named<Arithmetic>>({{exact, "exact"},
+                                           {bounded, "bounded"},
+                                           {double_precision, "double"},
+                                           {single_precision, "float"}});
+}
 
 // Vertex against closed triangle; the two share no mesh vertex.
 struct VertexFace {
@@ -41,6 +57,13 @@ struct TrianglePair {
 };
 
 enum class FeatureKind : std::uint8_t { vertex_face, edge_edge, piercing, same_vertices };
+constexpr auto names_of(FeatureKind) {
+  using enum FeatureKind;
+  return std::to_array<Named<FeatureKind>>({{vertex_face, "vertex-face"},
+                                            {edge_edge, "edge-edge"},
+                                            {piercing, "piercing"},
+                                            {same_vertices, "same-vertices"}});
+}
 
 // Two features that meet, by their mesh vertices:
 //   vertex_face    v, f0 f1 f2
@@ -62,6 +85,12 @@ struct PairContact {
 };
 
 enum class Answer : std::uint8_t { free, collision, undecided, error };
+constexpr auto names_of(Answer) {
+  return std::to_array<Named<Answer>>({{Answer::free, "free"},
+                                       {Answer::collision, "collision"},
+                                       {Answer::undecided, "undecided"},
+                                       {Answer::error, "error"}});
+}
 
 // What a method says of a question that it may be unable to decide. `no` and `yes` are proved.
 // `open` says that this method cannot tell; another one may.
@@ -80,5 +109,23 @@ struct ViewPrimitive {
 // Asked now and then during long work. If it returns true the work stops and the answer is
 // `undecided`. It may be empty: then nothing stops the work.
 using StopFunction = std::function<bool()>;
+
+// The common form of the two elementary queries: four moving points in two groups.
+//
+// The groups of a vertex-face query are {0} | {1,2,3}, those of an edge-edge query {0,1} | {2,3}.
+// The features are the closed convex hulls of the groups, whatever these have become: a zero-area
+// triangle is the segment or point that is left of it. A contact at t means that the two hulls
+// meet at t.
+struct FourPoints {
+  std::array<MovingPoint, 4> points;
+  int first_group = 1;  // number of points in the first group: 1 or 2
+  bool in_first_group(int i) const { return i < first_group; }
+};
+
+inline FourPoints four_points(const VertexFace& q) {
+  return {{q.vertex, q.face[0], q.face[1], q.face[2]}, 1};
+}
+
+inline FourPoints four_points(const EdgeEdge& q) { return {{q.a[0], q.a[1], q.b[0], q.b[1]}, 2}; }
 
 }  // namespace assay::detector

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "detector/mesh/paced_sort.h"
-
 namespace assay::detector {
 namespace {
 

@@ -1,8 +1,6 @@
 #include "detector/parallel/workers.h"
 
 #include <algorithm>
-#include <atomic>
-#include <thread>
 #include <utility>
 
 namespace assay::detector {

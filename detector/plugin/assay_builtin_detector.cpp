@@ -10,33 +10,6 @@
 namespace assay::detector {
 namespace {
 
-// The numbers of the C interface are those of the enumerations in C++.
-static_assert(ASSAY_BUILTIN_NO_TRIANGLES == static_cast<int>(InputError::no_triangles));
-static_assert(ASSAY_BUILTIN_OTHER_STATE_VERSION ==
-              static_cast<int>(InputError::other_state_version));
-static_assert(ASSAY_BUILTIN_MESH_TOO_LARGE == static_cast<int>(InputError::mesh_too_large));
-static_assert(ASSAY_BUILTIN_STOPPED == static_cast<int>(InputError::stopped));
-static_assert(ASSAY_CULLING_VIEW_AUTO == static_cast<int>(Culling::view_auto));
-static_assert(ASSAY_CULLING_VIEW_POINT == static_cast<int>(Culling::view_point));
-static_assert(ASSAY_CULLING_VIEW_LINE == static_cast<int>(Culling::view_line));
-static_assert(ASSAY_CULLING_NORMAL_CONE == static_cast<int>(Culling::normal_cone));
-static_assert(ASSAY_CULLING_BVH == static_cast<int>(Culling::bvh));
-static_assert(ASSAY_CULLING_NONE == static_cast<int>(Culling::none));
-static_assert(ASSAY_CULLING_AUTO == static_cast<int>(Culling::automatic));
-static_assert(ASSAY_START_VERIFIED == static_cast<int>(Start::verified));
-static_assert(ASSAY_START_CLEAN == static_cast<int>(Start::clean));
-static_assert(ASSAY_START_UNKNOWN == static_cast<int>(Start::unknown));
-static_assert(ASSAY_PAIRS_ALL == static_cast<int>(Pairs::all));
-static_assert(ASSAY_PAIRS_FIRST == static_cast<int>(Pairs::first));
-static_assert(ASSAY_ARITHMETIC_EXACT == static_cast<int>(Arithmetic::exact));
-static_assert(ASSAY_ARITHMETIC_BOUNDED == static_cast<int>(Arithmetic::bounded));
-static_assert(ASSAY_ARITHMETIC_DOUBLE == static_cast<int>(Arithmetic::double_precision));
-static_assert(ASSAY_ARITHMETIC_FLOAT == static_cast<int>(Arithmetic::single_precision));
-static_assert(ASSAY_RELEASE_PIECES == static_cast<int>(Release::pieces));
-static_assert(ASSAY_RELEASE_MODEL == static_cast<int>(Release::model));
-static_assert(ASSAY_RELEASE_VIEW == static_cast<int>(Release::view));
-static_assert(ASSAY_GHOST_TEST_EXACT == static_cast<int>(GhostTest::exact));
-static_assert(ASSAY_GHOST_TEST_BOXES == static_cast<int>(GhostTest::boxes));
 static_assert(sizeof(assay_view_primitive) == sizeof(ViewPrimitive));
 
 void tell(assay_builtin_error* error, std::int32_t code, const char* message) {
@@ -71,22 +44,20 @@ std::int32_t guarded(assay_builtin_error* error, const Function& function) {
 
 // Sets `choice` to the value with this number. False, and nothing is set, if there is none.
 template <class Enum>
-bool choose(Enum& choice, std::int32_t number, Enum last) {
-  if (number < 0 || number > static_cast<std::int32_t>(last)) return false;
-  choice = static_cast<Enum>(number);
-  return true;
+bool choose(Enum& choice, std::int32_t number) {
+  const auto value = from_number<Enum>(number);
+  if (value) choice = *value;
+  return value.has_value();
 }
 
-// Copies the given options. Returns what is wrong with them, or null.
+// Copies the given options. Returns what is wrong with them, or null. The numbers of the C
+// interface are those of the enumerations in C++.
 const char* read_options(const assay_builtin_options& given, Options& options) {
   if (given.struct_size != sizeof given) return "struct_size is not the size of the options";
-  if (!choose(options.culling, given.culling, Culling::automatic)) return "no such culling";
-  if (!choose(options.start, given.start, Start::unknown)) return "no such start";
-  if (!choose(options.pairs, given.pairs, Pairs::first)) return "no such choice of pairs";
-  if (!choose(options.arithmetic, given.arithmetic, Arithmetic::single_precision))
-    return "no such arithmetic";
-  if (!choose(options.release, given.release, Release::view)) return "no such release";
-  if (!choose(options.ghost_test, given.ghost_test, GhostTest::boxes)) return "no such ghost test";
+  if (!choose(options.culling, given.culling)) return "no such culling";
+  if (!choose(options.start, given.start)) return "no such start";
+  if (!choose(options.pairs, given.pairs)) return "no such choice of pairs";
+  if (!choose(options.arithmetic, given.arithmetic)) return "no such arithmetic";
   options.threads = given.threads;
   return nullptr;
 }
@@ -109,8 +80,8 @@ const char* assay_builtin_error_name(std::int32_t code) {
     case ASSAY_BUILTIN_NO_MEMORY:
       return "no_memory";
     default:
-      return code > 0 && code < ASSAY_BUILTIN_WRONG_OPTIONS ? name_of(static_cast<InputError>(code))
-                                                            : "unknown_error";
+      const auto known = assay::from_number<InputError>(code);
+      return known ? name_of(*known) : "unknown_error";
   }
 }
 

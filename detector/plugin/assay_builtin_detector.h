@@ -93,32 +93,18 @@ enum {
   ASSAY_ARITHMETIC_DOUBLE = 2,  /* promises nothing; made to be measured */
   ASSAY_ARITHMETIC_FLOAT = 3    /* promises nothing; made to be measured */
 };
-/* When dirty triangles become clean again. */
-enum {
-  ASSAY_RELEASE_PIECES = 0, /* piece by piece */
-  ASSAY_RELEASE_MODEL = 1,  /* a component at once, when all its pieces may become clean */
-  ASSAY_RELEASE_VIEW = 2    /* a component at once, when all of it is positive seen from inside */
-};
-/* Which triangles are violated by a ghost. */
-enum {
-  ASSAY_GHOST_TEST_EXACT = 0, /* those that the ghost touches */
-  ASSAY_GHOST_TEST_BOXES = 1  /* those whose moving box is not apart from the ghost's: some more */
-};
-
 typedef struct assay_builtin_options {
   uint32_t struct_size; /* sizeof(assay_builtin_options): later versions may add members */
   int32_t culling;      /* ASSAY_CULLING_... */
   int32_t start;        /* ASSAY_START_... */
   int32_t pairs;        /* ASSAY_PAIRS_... */
   int32_t arithmetic;   /* ASSAY_ARITHMETIC_... */
-  int32_t release;      /* ASSAY_RELEASE_... */
-  int32_t ghost_test;   /* ASSAY_GHOST_TEST_... */
   uint32_t threads;     /* how many it may use; 0: as many as the machine has. The results do not
                            depend on the number */
 } assay_builtin_options;
 
 #define ASSAY_BUILTIN_DEFAULTS \
-  { sizeof(assay_builtin_options), ASSAY_CULLING_AUTO, 0, 0, 0, 0, 0, 1 }
+  { sizeof(assay_builtin_options), ASSAY_CULLING_AUTO, 0, 0, 0, 1 }
 
 /* As the table's create. options may be NULL: the defaults. *handle is set with ASSAY_OK only. */
 int32_t assay_builtin_create(const int32_t* triangles, uint64_t triangle_count,

@@ -2,7 +2,7 @@
 //
 // A pair of features, one of each triangle, is taken if
 //   each triangle represents its feature (representatives.h);
-//   the two share no vertex, and their boxes are not apart (feature_boxes.h);
+//   the two share no vertex, and their boxes are not apart;
 //   no earlier search has asked for them;
 //   among all triangles that hold the two, these have the first types that the search asks for.
 // Over the candidates of all searches this takes each feature pair once. Types are enough to
@@ -10,14 +10,158 @@
 // of them whose types are asked for is a candidate (or was proved apart, L14).
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <vector>
 
-#include "detector/search/asked_types.h"
-#include "detector/search/feature_boxes.h"
-#include "detector/search/feature_key.h"
+#include "detector/mesh/step_types.h"
+#include "detector/search/moving_box.h"
+#include "detector/search/pair_rule.h"
 #include "detector/search/representatives.h"
 
 namespace assay::detector {
+
+// A feature pair as one number: its kind, the index of its first feature (a vertex or an edge) and
+// that of its second (a face or an edge).
+
+using FeatureKey = std::uint64_t;
+
+namespace feature_key {
+inline constexpr int index_bits = 31;
+inline constexpr FeatureKey index_mask = (FeatureKey{1} << index_bits) - 1;
+}  // namespace feature_key
+
+constexpr FeatureKey key_of(FeatureKind kind, std::int32_t first, std::int32_t second) {
+  return (static_cast<FeatureKey>(kind) << (2 * feature_key::index_bits)) |
+         (static_cast<FeatureKey>(first) << feature_key::index_bits) |
+         static_cast<FeatureKey>(second);
+}
+constexpr FeatureKind kind_of(FeatureKey key) {
+  return static_cast<FeatureKind>(key >> (2 * feature_key::index_bits));
+}
+constexpr std::int32_t first_of(FeatureKey key) {
+  return static_cast<std::int32_t>((key >> feature_key::index_bits) & feature_key::index_mask);
+}
+constexpr std::int32_t second_of(FeatureKey key) {
+  return static_cast<std::int32_t>(key & feature_key::index_mask);
+}
+
+// The bounds of a feature that are compared before any elementary test: a moving box along the
+// axes, and one along the four diagonals (1,1,1), (1,1,-1), (1,-1,1), (-1,1,1).
+//
+// Two features that are strictly ordered along any one direction, in the same sense at both ends
+// of the step, are in no contact. Along the axes the order of the floats alone proves this
+// (moving_box.h). Along a diagonal the sum of coordinates is rounded, so an order counts only if
+// it holds by more than a margin:
+//   y_k = (x_k - centre_k) * scale, |y_k| <= 2 (FloatGrid::scaled), is off by 2^-52 at most; a sum
+//   of three, at most 6, takes two more roundings and is off by less than 2^-49. It is rounded to
+//   the nearest float g, off by at most 2^-22 (half a unit of floats in [4,8)). If
+//   g(a) + margin < g(b) in floats, with the sum's own rounding of at most 2^-22 and margin 2^-20,
+//   then the true sums differ by more than 2^-20 - 3 * 2^-22 - 2 * 2^-49 > 0.
+// So diagonals do not tell apart what lies closer than about a millionth of the mesh's size.
+
+inline constexpr float diagonal_margin = 0x1p-20f;
+
+// A vertex over the step, in one cache line.
+struct alignas(64) FeaturePoint {
+  RoundedPoint axes, diagonals;
+};
+
+struct FeatureBox {
+  MovingBox axes, diagonals;
+};
+
+inline FeatureBox feature_box(const FeaturePoint& p) {
+  return {box_of(p.axes), box_of(p.diagonals)};
+}
+inline FeatureBox feature_box(const FeaturePoint& p, const FeaturePoint& q) {
+  return {box_of(p.axes, q.axes), box_of(p.diagonals, q.diagonals)};
+}
+inline FeatureBox feature_box(const FeaturePoint& p, const FeaturePoint& q, const FeaturePoint& r) {
+  return {box_of(p.axes, q.axes, r.axes), box_of(p.diagonals, q.diagonals, r.diagonals)};
+}
+
+inline bool apart_along_diagonals(const MovingBox& a, const MovingBox& b) {
+  constexpr float m = diagonal_margin;
+  constexpr FloatLanes margin = {m, m, m, m};
+  return any(((a.hi_t0 + margin < b.lo_t0) & (a.hi_t1 + margin < b.lo_t1)) |
+             ((b.hi_t0 + margin < a.lo_t0) & (b.hi_t1 + margin < a.lo_t1)));
+}
+
+inline bool apart(const FeatureBox& a, const FeatureBox& b) {
+  return apart(a.axes, b.axes) || apart_along_diagonals(a.diagonals, b.diagonals);
+}
+
+// All vertices of a step. Memory: 32 bytes a triangle.
+class FeaturePoints {
+ public:
+  // If `pace` was stopped, they must not be used.
+  explicit FeaturePoints(const SteppedMesh& motion, PacedStop* pace = nullptr);
+  const FeaturePoint& operator[](std::int32_t vertex) const {
+    return points_[static_cast<std::size_t>(vertex)];
+  }
+
+ private:
+  std::unique_ptr<FeaturePoint[]> points_;
+};
+
+// The pair rule in terms of triangle types: which pairs of types the present search asks for, and
+// which were asked for by searches before it.
+//
+// A symmetric relation between types.
+class TypeRelation {
+ public:
+  // Adds the pairs of types whose flags, by this table of flags, the pair table asks for.
+  void add(const PairTable& table, const type_flags::Table& flags) {
+    for (std::size_t a = 0; a < triangle_types; ++a) {
+      for (std::size_t b = 0; b < triangle_types; ++b) {
+        if (table.asks(flags[a], flags[b])) rows_[a] |= static_cast<TypeSet>(1u << b);
+      }
+    }
+  }
+  bool holds(TriangleType a, TriangleType b) const {
+    return (rows_[static_cast<std::size_t>(a)] & set_of(b)) != 0;
+  }
+  bool holds_for_some(TypeSet a, TypeSet b) const {
+    for (std::size_t i = 0; a >> i != 0; ++i) {
+      if ((a >> i & 1) && (rows_[i] & b)) return true;
+    }
+    return false;
+  }
+  // REQUIRES that (a, b) is in the relation. Whether no pair of `in_a` x `in_b` that is in the
+  // relation comes before it, in the order by a, then by b.
+  bool is_first(TriangleType a, TypeSet in_a, TriangleType b, TypeSet in_b) const {
+    const auto below_a = static_cast<TypeSet>(in_a & (set_of(a) - 1));
+    const auto below_b = static_cast<TypeSet>(in_b & (set_of(b) - 1));
+    return !(below_a && holds_for_some(below_a, in_b)) &&
+           !(rows_[static_cast<std::size_t>(a)] & below_b);
+  }
+
+ private:
+  std::array<TypeSet, triangle_types> rows_{};
+};
+
+// `within` is for pairs of triangles of one component, `across` for pairs of two components. There
+// is no across_before, because only the first search asks for pairs of two components.
+struct AskedTypes {
+  TypeRelation within_now, across_now;
+  TypeRelation within_before;
+
+  static AskedTypes in_first_search(const PairTables& candidates) {
+    AskedTypes asked;
+    asked.within_now.add(candidates.within, type_flags::now);
+    asked.across_now.add(candidates.across, type_flags::now);
+    return asked;
+  }
+  static AskedTypes in_closure(const PairTables& candidates, const PairTables& closure) {
+    AskedTypes asked;
+    asked.within_now.add(closure.within, type_flags::now);
+    asked.across_now.add(closure.across, type_flags::now);
+    asked.within_before.add(candidates.within, type_flags::first);
+    asked.within_before.add(closure.within, type_flags::earlier_round);
+    return asked;
+  }
+};
 
 class FeaturePairs {
  public:

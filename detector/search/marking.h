@@ -18,7 +18,7 @@
 
 #include "detector/mesh/step_counts.h"
 #include "detector/search/bounding_volume_tree.h"
-#include "detector/search/triangle_type.h"
+#include "detector/search/pair_rule.h"
 
 namespace assay::detector {
 

@@ -20,7 +20,7 @@
 
 namespace assay::detector {
 
-// Three coordinates and a 0, or sums along four diagonals (feature_boxes.h).
+// Three coordinates and a 0, or sums along four diagonals (feature_pairs.h).
 using FloatLanes = float __attribute__((vector_size(16)));
 using LaneTruth = int __attribute__((vector_size(16)));
 

@@ -28,7 +28,7 @@
 
 #include "detector/mesh/paced_stop.h"
 #include "detector/mesh/topology.h"
-#include "detector/search/triangle_type.h"
+#include "detector/search/pair_rule.h"
 
 namespace assay::detector {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "detector/mesh/arithmetic.h"
+#include "detector/mesh/step_types.h"
 #include "detector/mesh/surface.h"
 
 namespace assay::detector {

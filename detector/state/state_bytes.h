@@ -10,11 +10,11 @@
 #include <span>
 
 #include "detector/mesh/problem.h"
-#include "detector/state/state_fields.h"
+#include "detector/state/step_state.h"
 
 namespace assay::detector {
 
-inline constexpr std::uint64_t state_version = 1;
+inline constexpr std::uint64_t state_version = 2;
 
 // How many bytes the state takes: 24 for each vertex, 1 for each triangle, 16 for each pair in
 // contact, and some for its components and holes. O(M).

@@ -1,15 +1,38 @@
 // What the detector knows of its mesh between steps (L8).
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "detector/boundary/apex.h"
 #include "detector/mesh/paced_stop.h"
 #include "detector/mesh/step_types.h"
+#include "detector/mesh/surface.h"
 #include "detector/mesh/topology.h"
-#include "detector/state/policy_state.h"
+#include "detector/options.h"
+#include "detector/view/view_anchor.h"
 
 namespace assay::detector {
+
+// What the cost model (step/cost_model.h) keeps from step to step: where components are seen from,
+// and whether using views has paid.
+struct PolicyState {
+  // One anchor for each component. Null: those of the detector's preprocessing.
+  std::shared_ptr<const std::vector<ViewAnchor>> anchors;
+  bool anchors_are_due = false;         // the anchors are chosen again when views are next due
+  std::uint64_t anchor_age = 0;         // steps since the anchors were chosen
+  std::uint64_t least_anchor_age = 16;  // they are kept for at least so many steps
+  double best_share = 0;   // the greatest share of pairs that the signs from these anchors saved
+  double replaced_at = 0;  // the share to which the anchors before them had come down
+
+  std::uint64_t pause = 0;       // so many steps to come do without views
+  std::uint64_t next_pause = 1;  // the pause if views do not pay when they are next due
+  std::uint64_t candidates = 0;  // of the last search that proved nothing apart; 0: there was none
+  // What closure, ghost sweep and release cost, in candidates, when views were last used in a
+  // search. It is halved by each step since in which views were due.
+  double overhead = 0;
+};
 
 struct StepState {
   // The end of the step. The rest holds at these positions alone, compared in every bit.
@@ -35,5 +58,24 @@ struct StepState {
   void keep(const PositionsView& x, const PacedStop& pace = PacedStop(never_stops));
   bool holds_at(const PositionsView& x, const PacedStop& pace = PacedStop(never_stops)) const;
 };
+
+// What a SavedState (detector.h) holds.
+struct StateFields {
+  std::uint64_t mesh = 0;  // digest of the triangles and the number of vertices
+  Culling culling = Culling::view_point;
+  std::optional<StepState> committed;  // nothing: the next step is a new start
+  // Rules and anchors are chosen from the positions that the detector was made from. They belong
+  // to the state because an apex must not jump between steps (cases D7, D9).
+  std::vector<ApexRule> apex_rules;
+  std::vector<ViewAnchor> anchors;
+};
+
+// The digest of a mesh: equal for equal triangles in the same order and equal vertex counts. O(M).
+std::uint64_t digest_of(const Topology& mesh, std::int32_t vertex_count);
+
+// Whether all sizes and indices of the state fit a detector of this surface that has so many
+// anchors of its own. REQUIRES as many apex rules as that detector has. What the state says of its
+// triangles is not checked. O(M).
+bool fits(const StateFields& state, const Surface& surface, std::size_t anchors);
 
 }  // namespace assay::detector

@@ -1,11 +1,106 @@
 #include "detector/step/cost_model.h"
 
 #include <algorithm>
+#include <atomic>
 
-#include "detector/step/estimates.h"
+#include "detector/parallel/for_all.h"
+#include "detector/step/step_work.h"
+#include "detector/view/view_signs.h"
 
 namespace assay::detector {
 namespace {
+
+// What a step with views may save and cost, estimated before it is known. The cost model decides by
+// these numbers (cost_model.h).
+
+// The share of pairs that are left out because both triangles lie in V+ or both in V-. Near pairs
+// have equal signs more often than far ones, so of a component with p positive and n negative
+// triangles of m, at least about (p^2 + n^2) / m^2 of the pairs are left out. Only triangles whose
+// `counts` is not 0 are among the p and n; without `counts` all are.
+double saved_share(const GivenStep& step, const StepMarks& marks,
+                   const std::vector<std::uint8_t>* counts = nullptr) {
+  double saved = 0, count = 0;
+  for (std::size_t c = 0; c < marks.primitives.size(); ++c) {
+    std::size_t positive = 0, negative = 0;
+    for (const auto t : step.own_triangles(c)) {
+      if (counts && (*counts)[at(t)] == 0) continue;
+      positive += marks.signs[at(t)] == ViewSign::positive;
+      negative += marks.signs[at(t)] == ViewSign::negative;
+    }
+    const auto p = static_cast<double>(positive), n = static_cast<double>(negative),
+               m = static_cast<double>(step.own_triangles(c).size());
+    saved += (p * p + n * n) / m;
+    count += m;
+  }
+  return saved / count;
+}
+
+// By triangle: 1 if it was in no contact with its own component in the step before.
+// REQUIRES that the step goes on from one.
+std::vector<std::uint8_t> untouched_before(const GivenStep& step) {
+  std::vector<std::uint8_t> untouched(step.surface.mesh.triangles.size(), 1);
+  for (const auto& pair : step.known->met) untouched[at(pair.a)] = untouched[at(pair.b)] = 0;
+  return untouched;
+}
+
+// What a sample of a component's triangles has shown.
+struct SampledSigns {
+  std::size_t count = 0, positive = 0, negative = 0;
+  ViewCounts rungs = {};
+
+  double share_of(std::uint64_t n) const {
+    return static_cast<double>(n) / static_cast<double>(count);
+  }
+  double saved() const {
+    const double p = share_of(positive), n = share_of(negative);
+    return p * p + n * n;
+  }
+  bool is_clear() const { return rungs.open == 0 && positive + negative >= count - count / 4; }
+};
+
+// Classifies `size` triangles, spread evenly over those given, in doubles alone.
+SampledSigns sample_signs(const GivenStep& step, const ViewPrimitive& primitive,
+                          std::span<const std::int32_t> triangles, std::size_t size) {
+  SampledSigns sample{.count = size};
+  for (std::size_t i = 0; i < size; ++i) {
+    const auto& v = step.surface.mesh.triangles[at(triangles[i * triangles.size() / size])];
+    const MovingTriangle triangle = {step.motion.path(v[0]), step.motion.path(v[1]),
+                                     step.motion.path(v[2])};
+    const ViewSign sign = view_sign(triangle, primitive, sample.rungs, Arithmetic::bounded);
+    sample.positive += sign == ViewSign::positive;
+    sample.negative += sign == ViewSign::negative;
+  }
+  return sample;
+}
+
+// Whether more than `limit` triangles lie in the boxes of ghosts of components that are not free.
+bool has_more_ghost_pairs(const GivenStep& step, const StepMarks& marks, double limit,
+                          PacedStop& pace) {
+  // The workers add up the pairs of their ghosts. None of them goes on when the sum is too large,
+  // and whether it is depends on no order, although the sum that is then reached does.
+  std::atomic<double> pairs = 0;
+  constexpr std::uint64_t work_of_box = 10;
+  constexpr std::size_t ghosts_of_piece = 1;  // because one may have the whole mesh in its box
+  for (std::size_t c = 0; c < marks.primitives.size(); ++c) {
+    if (marks.free[c]) continue;
+    const auto ghosts = step.ghosts(c);
+    const auto count_near = [&](std::size_t i, std::size_t, std::size_t) {
+      SearchCounts counts;
+      double sum = 0;
+      const auto count = [&](std::int32_t) { return ++sum <= limit; };
+      if (pairs.load() <= limit) {
+        const auto box =
+            step.tree.box_of_triangle(step.surface.all().triangles[at(ghosts[i])], step.motion);
+        search_box(step.tree, box, counts, count);
+      }
+      if (sum > 0) pairs.fetch_add(sum);
+      return work_of_box + counts.box_tests;
+    };
+    if (!for_all_counted(ghosts.size(), ghosts_of_piece, &pace, count_near)) return true;
+    if (pairs.load() > limit) return true;
+  }
+  return false;
+}
 
 // A pair that is left out saves about a third of a candidate's cost, because the boxes above it are
 // still tested (measured on meshes whose V+ and V- lie upon each other).

@@ -15,6 +15,8 @@
 // winding number 1, S is embedded with one layer.
 #pragma once
 
+#include <span>
+
 #include "detector/step/step_work.h"
 
 namespace assay::detector {
@@ -22,8 +24,7 @@ namespace assay::detector {
 class ReleaseRule {
  public:
   // In bounded arithmetic a triangle of which doubles cannot tell is not released.
-  explicit ReleaseRule(Arithmetic arithmetic = Arithmetic::exact, Release release = Release::pieces)
-      : arithmetic_(arithmetic), release_(release) {}
+  explicit ReleaseRule(Arithmetic arithmetic = Arithmetic::exact) : arithmetic_(arithmetic) {}
   virtual ~ReleaseRule() = default;
 
   // L8: whether the state of the last commit is valid for a step that starts at vertices_t0.
@@ -49,7 +50,7 @@ class ReleaseRule {
 
   // L9 at t=0 of a step that goes on from step.known, for the components listed. Their triangles
   // whose marks.clean is 0 are in doubt by L8; it is set to 1 for those released. False if
-  // stopped. The cost is that of the triangles in doubt (static_touches.h, layers.h).
+  // stopped. The cost is that of the triangles in doubt (layers.h).
   virtual bool release(const GivenStep& step, StepMarks& marks, StepCost& cost,
                        const std::vector<std::int32_t>& components) const;
 
@@ -84,7 +85,29 @@ class ReleaseRule {
                                const std::vector<std::int32_t>& components) const;
 
   Arithmetic arithmetic_;
-  Release release_;
 };
+
+// What the triangles in doubt touch at the start of a step that goes on from a committed one (L9).
+//
+// Only triangles in doubt need to be looked at, because clean ones touch nothing (L8), and what
+// they may touch is known from the committed step:
+//   Mesh against mesh: a pair that meets at the end of a step was in contact during it, so it is
+//   in that step's complete pair set (L7). If one triangle pierces the other there without any
+//   contact of features, it did so at the start of that step too. Both were dirty then, and the
+//   pair was tested for that.
+//   Mesh against ghosts: a triangle that a ghost meets at the end was touched during the step, or
+//   it was pierced since before the step and so was dirty (L11). Either way it is in doubt.
+//
+// Sets touched[t] for the triangles of those pairs in step.known->met that still meet at t=0.
+// False if stopped. Costs at most 15 elementary tests a pair.
+bool add_lasting_contacts(const GivenStep& step, StepCost& cost,
+                          std::vector<std::uint8_t>& touched);
+
+// Sets touched[t] for those triangles in doubt of component c that a ghost of it meets or pierces
+// at t=0. False if stopped. For each triangle it descends the tree of each hole. REQUIRES the grid
+// of the mesh at rest at t=0, which the caller makes once for all components, because that takes a
+// pass over all vertices.
+bool add_ghost_touches(const GivenStep& step, StepCost& cost, const FloatGrid& grid, std::size_t c,
+                       std::span<const std::int32_t> in_doubt, std::vector<std::uint8_t>& touched);
 
 }  // namespace assay::detector

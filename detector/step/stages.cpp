@@ -8,7 +8,7 @@ Stages standard_stages(const Options& options) {
   const Culling culling = options.culling;
   Stages stages;
   stages.classifier = std::make_shared<ViewClassifier>(options.arithmetic);
-  stages.boundary = std::make_shared<BoundaryHandler>(options.ghost_test);
+  stages.boundary = std::make_shared<BoundaryHandler>();
   stages.pair_rule =
       uses_views(culling) ? std::make_shared<PairRule>() : std::make_shared<EveryPair>();
   stages.marking = std::make_shared<Marking>();
@@ -23,7 +23,7 @@ Stages standard_stages(const Options& options) {
     stages.pair_search = std::make_shared<TreeSearch>();
   }
   stages.elementary = make_elementary_test(options.arithmetic);
-  stages.release = std::make_shared<ReleaseRule>(options.arithmetic, options.release);
+  stages.release = std::make_shared<ReleaseRule>(options.arithmetic);
   return stages;
 }
 

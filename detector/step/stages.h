@@ -10,7 +10,7 @@
 #include "detector/boundary/boundary_handler.h"
 #include "detector/search/candidate_search.h"
 #include "detector/step/release_rule.h"
-#include "detector/view/view_classifier.h"
+#include "detector/view/view_signs.h"
 
 namespace assay::detector {
 

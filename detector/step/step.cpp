@@ -32,17 +32,76 @@
 //     +   closure: (U,H) until H is stable                       close_pairs, PairRule (L7)
 //         free: Vv is released
 //     +     Vv is what is not known to be clean                  finish, ReleaseRule (L8)
+
 #include "detector/step/step.h"
 
-#include "detector/parallel/shared_stop.h"
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <span>
+
+#include "detector/mesh/mesh_checks.h"
+#include "detector/mesh/paced_stop.h"
+#include "detector/mesh/problem.h"
+#include "detector/mesh/step_types.h"
+#include "detector/mesh/surface.h"
+#include "detector/options.h"
+#include "detector/parallel/for_all.h"
 #include "detector/search/stopwatch.h"
 #include "detector/step/cost_model.h"
-#include "detector/step/step_input.h"
 #include "detector/step/step_run.h"
-#include "detector/step_result.h"
 
 namespace assay::detector {
 namespace {
+
+// Whether check_positions would find nothing. The workers share the rows, because no row has to be
+// named here.
+bool is_whole(const PositionsView& x, Eigen::Index vertex_count, const PacedStop& pace) {
+  if (x.rows() != vertex_count) return false;
+  std::atomic<bool> found_nothing = true;
+  PacedStop unasked = pace.unasked();
+  for_all_pieces(static_cast<std::size_t>(x.rows()), rows_of_piece, 0, &unasked,
+                 [&](std::size_t begin, std::size_t end, std::size_t) {
+                   const auto first = static_cast<Eigen::Index>(begin),
+                              count = static_cast<Eigen::Index>(end - begin);
+                   if (check_positions(x.middleRows(first, count), count)) found_nothing = false;
+                 });
+  return found_nothing;
+}
+
+// Checks the input of a step. Errors: wrong_frame_size, non_finite_coordinate,
+// wrong_primitive_count (neither none, nor one, nor one for each component). Of `pace` only the
+// workers are used; it is not asked to stop.
+std::optional<Problem> check_step_input(const Surface& surface, const SteppedMesh& motion,
+                                        std::span<const ViewPrimitive> primitives,
+                                        PacedStop& pace) {
+  for (const auto* x : {&motion.vertices_t0, &motion.vertices_t1}) {
+    if (!is_whole(*x, surface.first_apex, pace)) return check_positions(*x, surface.first_apex);
+  }
+  const auto components = surface.mesh.components.size();
+  if (primitives.size() > 1 && primitives.size() != components) {
+    return Problem{InputError::wrong_primitive_count,
+                   std::to_string(primitives.size()) + " view primitives for " +
+                       std::to_string(components) + " components"};
+  }
+  for (const auto& primitive : primitives) {
+    for (const auto* point :
+         {&primitive.q0.t0, &primitive.q0.t1, &primitive.q1.t0, &primitive.q1.t1}) {
+      if (!std::all_of(point->begin(), point->end(), [](double c) { return std::isfinite(c); })) {
+        return Problem{InputError::non_finite_coordinate, "a view primitive is not finite"};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+// The result of a step that is refused: Answer::error with this problem.
+StepResult refused(Problem problem) {
+  StepResult result;
+  result.answer = Answer::error;
+  result.problem = std::move(problem);
+  return result;
+}
 
 // The algorithm above, in its order. False if it was stopped.
 bool run_stages(StepRun& step, const SteppedMesh& mesh, std::span<const ViewPrimitive> primitives) {

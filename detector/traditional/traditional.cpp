@@ -42,7 +42,7 @@
 #include <optional>
 
 #include "detector/parallel/workers.h"
-#include "detector/traditional/sample_patches.h"
+#include "detector/traditional/patch_contours.h"
 
 namespace assay::detector {
 namespace {

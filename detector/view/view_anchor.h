@@ -13,6 +13,9 @@
 namespace assay::detector {
 
 enum class ViewKind : std::uint8_t { point, line };
+constexpr auto names_of(ViewKind) {
+  return std::to_array<Named<ViewKind>>({{ViewKind::point, "point"}, {ViewKind::line, "line"}});
+}
 
 struct ViewAnchor {
   ViewKind kind = ViewKind::point;

@@ -43,7 +43,7 @@
 
 #include <cmath>
 
-#include "detector/bernstein/bernstein.h"
+#include "detector/exact/bernstein.h"
 #include "detector/mesh/topology.h"
 #include "detector/parallel/for_all.h"
 

@@ -28,8 +28,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detector/bernstein/bernstein.h"
-
 namespace assay::detector {
 namespace {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "detector/bernstein/bounds.h"
+#include "detector/exact/bernstein.h"
 #include "detector/mesh/step_types.h"
 
 namespace assay::detector {

@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "detector/mesh/arithmetic.h"
 #include "detector/mesh/paced_stop.h"
 #include "detector/mesh/step_counts.h"
 #include "detector/mesh/step_types.h"
@@ -13,6 +12,13 @@
 #include "detector/view/view_lanes.h"
 
 namespace assay::detector {
+
+// The view test in exact integers. It decides what the filter leaves open.
+//
+// The exact sign over the whole step (L1, L2), for every finite input. The middle piece of a
+// view-line whose ends move apart is a quintic. 10 to 100 us; if denormals stand beside ordinary
+// numbers 1 ms, rarely 20 ms.
+ViewSign exact_view_sign(const MovingTriangle& triangle, const ViewPrimitive& primitive);
 
 // The sign of a triangle over the step. The filter comes first. What it leaves open is decided by
 // integers in exact arithmetic, and is zero in bounded arithmetic, so that it is never wrongly
@@ -34,5 +40,25 @@ bool classify(const Topology& mesh, const Component& component, const SteppedMes
 bool all_positive_at(const Topology& mesh, const Component& component, const PositionsView& x,
                      const Point& q0, const Point& q1, Arithmetic arithmetic = Arithmetic::exact,
                      PacedStop* pace = nullptr);
+
+// The view test as a stage of the detector: the signs of triangles over a step.
+class ViewClassifier {
+ public:
+  explicit ViewClassifier(Arithmetic arithmetic = Arithmetic::exact) : arithmetic_(arithmetic) {}
+  virtual ~ViewClassifier() = default;
+  // Writes the signs over the step (L1, L2) of the triangles of a component of `surface`, ghosts
+  // included, to signs[triangle]. REQUIRES of overriding functions that no triangle is wrongly
+  // called positive or negative. It may be wrongly called zero, which only costs time. False if
+  // stopped: then the signs are of no use.
+  virtual bool classify(const Topology& surface, const Component& component,
+                        const SteppedMesh& motion, const ViewPrimitive& primitive,
+                        std::vector<ViewSign>& signs, ViewCounts& counts, PacedStop& pace) const {
+    return detector::classify(surface, component, motion, primitive, signs, counts,
+                              best_instruction_set(), arithmetic_, &pace);
+  }
+
+ private:
+  Arithmetic arithmetic_;
+};
 
 }  // namespace assay::detector

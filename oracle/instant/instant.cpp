@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "oracle/query/integer_scale.h"
+#include "oracle/query/integer_polynomial.h"
 
 namespace assay::oracle {
 

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
-#include "oracle/instant/static_contact.h"
-#include "oracle/mesh/feature_contacts.h"
+#include "oracle/mesh/feature_pairs.h"
 
 namespace assay::oracle {
 
@@ -74,6 +73,90 @@ std::vector<std::uint8_t> touched_at(const Instant& instant,
                     },
                     [&](std::int32_t t, std::int32_t, int) { touched[t] = 1; }});
   return {touched.begin(), touched.end()};
+}
+
+namespace {
+
+// The four points of a query at one time, with the notation and the rule of four_points.h.
+struct Rest {
+  std::array<const IntegerPoint*, 4> x;
+  int first_group;
+};
+
+int sign_for(const Rest& q, int i, const Integer& lam) {
+  return i < q.first_group ? sgn(lam) : -sgn(lam);
+}
+
+// Whether the groups meet if all points lie on one line. They miss each other when they are
+// strictly ordered along an axis along which the points differ.
+bool meet_on_a_line(const Rest& q) {
+  for (int k = 0; k < 3; ++k) {
+    bool differ = false, before = true, after = true;
+    for (int i = 0; i < q.first_group; ++i) {
+      for (int j = q.first_group; j < 4; ++j) {
+        const int order = cmp((*q.x[i])[k], (*q.x[j])[k]);
+        differ |= order != 0;
+        before &= order < 0;
+        after &= order > 0;
+      }
+    }
+    if (differ) return !before && !after;
+  }
+  return true;  // all four coincide
+}
+
+bool meet(const Rest& q) {
+  const IntegerPoint u1 = *q.x[1] - *q.x[0], u2 = *q.x[2] - *q.x[0], u3 = *q.x[3] - *q.x[0];
+  const IntegerPoint lam1 = cross(u2, u3);
+  if (dot(u1, lam1) != 0) return false;
+  const IntegerPoint lam2 = cross(u3, u1), lam3 = cross(u1, u2);
+  for (int k = 0; k < 3; ++k) {
+    const Integer lam0 = -(lam1[k] + lam2[k] + lam3[k]);
+    const std::array<int, 4> signs = {sign_for(q, 0, lam0), sign_for(q, 1, lam1[k]),
+                                      sign_for(q, 2, lam2[k]), sign_for(q, 3, lam3[k])};
+    bool some_above = false, some_below = false;
+    for (const int s : signs) {
+      some_above |= s > 0;
+      some_below |= s < 0;
+    }
+    if (some_above || some_below) return !(some_above && some_below);
+  }
+  return meet_on_a_line(q);
+}
+
+int orientation(StaticPoints x, std::int32_t o, std::int32_t a, std::int32_t b, std::int32_t c) {
+  return sgn(dot(x[a] - x[o], cross(x[b] - x[o], x[c] - x[o])));
+}
+
+}  // namespace
+
+IntegerPoint operator-(const IntegerPoint& a, const IntegerPoint& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+IntegerPoint cross(const IntegerPoint& a, const IntegerPoint& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+Integer dot(const IntegerPoint& a, const IntegerPoint& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+bool vertex_meets_face(StaticPoints x, std::int32_t vertex, const StaticFace& face) {
+  return meet({{&x[vertex], &x[face[0]], &x[face[1]], &x[face[2]]}, 1});
+}
+
+bool edges_meet(StaticPoints x, const StaticEdge& a, const StaticEdge& b) {
+  return meet({{&x[a[0]], &x[a[1]], &x[b[0]], &x[b[1]]}, 2});
+}
+
+bool edge_pierces_face(StaticPoints x, const StaticEdge& e, const StaticFace& f) {
+  if (orientation(x, f[0], f[1], f[2], e[0]) * orientation(x, f[0], f[1], f[2], e[1]) >= 0) {
+    return false;
+  }
+  const int s = orientation(x, e[0], e[1], f[0], f[1]);
+  return s != 0 && s == orientation(x, e[0], e[1], f[1], f[2]) &&
+         s == orientation(x, e[0], e[1], f[2], f[0]);
 }
 
 }  // namespace assay::oracle

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "oracle/instant/instant.h"
-#include "oracle/instant/static_contact.h"
-#include "oracle/mesh/feature_contacts.h"
+#include "oracle/instant/instant_contacts.h"
+#include "oracle/mesh/feature_pairs.h"
 
 namespace assay::oracle {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "oracle/instant/static_contact.h"
+#include "oracle/instant/instant_contacts.h"
 
 namespace assay::oracle {
 

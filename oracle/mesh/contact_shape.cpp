@@ -3,7 +3,7 @@
 #include <array>
 
 #include "oracle/query/contact.h"
-#include "oracle/query/contact_polynomials.h"
+#include "oracle/query/contact_events.h"
 
 namespace assay::oracle {
 

@@ -1,11 +1,8 @@
 #include "oracle/query/contact.h"
 
 #include "oracle/processor_state.h"
-#include "oracle/query/algebraic_answer.h"
-#include "oracle/query/axis_rung.h"
-#include "oracle/query/interval_rung.h"
-#include "oracle/query/quadratic_rung.h"
-#include "oracle/query/times/simple_zero.h"
+#include "oracle/query/rungs.h"
+#include "oracle/query/times/time_enclosure.h"
 
 namespace assay::oracle {
 

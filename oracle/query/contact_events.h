@@ -1,13 +1,40 @@
-// When a contact can begin, and whether it does: what all exact rungs share (notation of
-// four_points.h).
+// The polynomials of a query, when a contact can begin, and whether it does: what all exact rungs
+// share (notation of four_points.h).
 #pragma once
 
+#include <array>
+#include <optional>
 #include <vector>
 
-#include "oracle/query/contact_polynomials.h"
-#include "oracle/query/times/exact_times.h"
+#include "oracle/query/four_points.h"
+#include "oracle/query/integer_polynomial.h"
+#include "oracle/query/times/time_enclosure.h"
 
 namespace assay::oracle {
+
+// The polynomials of one query, with integer coefficients.
+// Makes F and the L when they are first asked for, and keeps them. One object belongs to one query
+// in one thread.
+class ContactPolynomials {
+ public:
+  explicit ContactPolynomials(const FourPoints& q);
+
+  // F, which is zero when the four points are coplanar.
+  const IntegerPolynomial& coplanarity();
+  // L_0..L_3, of the points projected along this axis.
+  const std::array<IntegerPolynomial, 4>& sides(int axis);
+  // All D of this axis.
+  std::vector<IntegerPolynomial> gaps(int axis) const;
+
+ private:
+  const PolynomialVector& normal(int i);  // u_{i+1} x u_{i+2}, indices cyclic in 1..3
+
+  int first_group_;
+  std::array<PolynomialVector, 3> u_;
+  std::array<std::optional<PolynomialVector>, 3> normals_;
+  std::optional<IntegerPolynomial> coplanarity_;
+  std::array<std::optional<std::array<IntegerPolynomial, 4>>, 3> sides_;
+};
 
 // What an exact rung answers.
 struct ExactAnswer {

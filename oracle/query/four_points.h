@@ -12,23 +12,11 @@
 // meet exactly when these L do not take both signs.
 #pragma once
 
-#include <array>
-
 #include "detector/mesh/step_types.h"
 
 namespace assay::oracle {
 
-struct FourPoints {
-  std::array<detector::MovingPoint, 4> x;
-  int first_group = 1;  // |S|: points 0 .. first_group - 1
-};
-
-inline FourPoints four_points(const detector::VertexFace& q) {
-  return {{q.vertex, q.face[0], q.face[1], q.face[2]}, 1};
-}
-
-inline FourPoints four_points(const detector::EdgeEdge& q) {
-  return {{q.a[0], q.a[1], q.b[0], q.b[1]}, 2};
-}
+using detector::four_points;
+using detector::FourPoints;
 
 }  // namespace assay::oracle

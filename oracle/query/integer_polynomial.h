@@ -1,9 +1,13 @@
-// Polynomials in time with integer coefficients of any size.
+// Polynomials in time with integer coefficients of any size, and how a query's doubles become such.
 #pragma once
 
 #include <gmpxx.h>
 
+#include <array>
+#include <span>
 #include <vector>
+
+#include "detector/mesh/types.h"
 
 namespace assay::oracle {
 
@@ -30,7 +34,7 @@ IntegerPolynomial derivative(const IntegerPolynomial& p);
 // The exact sign of p at t. REQUIRES t finite and >= 0.
 int sign_at(const IntegerPolynomial& p, double t);
 
-// The scaled Bernstein coefficients of p over [0,1] (scaled_bernstein.h): the first and the last
+// The scaled Bernstein coefficients of p over [0,1] (interval_sign.h): the first and the last
 // are p(0) and p(1). Empty for the zero polynomial.
 std::vector<Integer> bernstein_over_unit(const IntegerPolynomial& p);
 
@@ -40,5 +44,31 @@ int sign_changes(const std::vector<Integer>& sequence);
 
 // True: p has no zero in [0,1], by Descartes' rule in Bernstein form. False: nothing is known.
 bool surely_no_zero_in_unit(const IntegerPolynomial& p);
+
+// Turns the doubles of a query into integers: it multiplies by the least power of two that makes
+// every coordinate of the points an integer. The sign of any homogeneous polynomial of the
+// coordinates stays as it is, and so does every contact time.
+class IntegerScale {
+ public:
+  explicit IntegerScale(std::span<const detector::MovingPoint> points);
+
+  // REQUIRES a coordinate of the given points.
+  Integer operator()(double coordinate) const;
+  // A coordinate is its integer times 2^exponent().
+  int exponent() const { return exponent_; }
+
+ private:
+  int exponent_ = 0;  // every coordinate is a multiple of 2^exponent_
+};
+
+// A vector whose coordinates are polynomials in time.
+using PolynomialVector = std::array<IntegerPolynomial, 3>;
+
+// `to - from`, scaled: three linear polynomials.
+PolynomialVector moving_difference(const IntegerScale& scale, const detector::MovingPoint& from,
+                                   const detector::MovingPoint& to);
+
+PolynomialVector cross(const PolynomialVector& u, const PolynomialVector& v);
+IntegerPolynomial dot(const PolynomialVector& u, const PolynomialVector& v);
 
 }  // namespace assay::oracle

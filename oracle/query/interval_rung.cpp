@@ -1,9 +1,7 @@
-#include "oracle/query/interval_rung.h"
-
 #include <CGAL/Interval_nt.h>
 
 #include "oracle/query/interval_sign.h"
-#include "oracle/query/scaled_bernstein.h"
+#include "oracle/query/rungs.h"
 
 namespace assay::oracle {
 
@@ -32,8 +30,8 @@ struct Differences {
   explicit Differences(const FourPoints& q) {
     for (int j = 0; j < 3; ++j) {
       for (int k = 0; k < 3; ++k) {
-        t0[j][k] = Interval(q.x[j + 1].t0[k]) - Interval(q.x[0].t0[k]);
-        t1[j][k] = Interval(q.x[j + 1].t1[k]) - Interval(q.x[0].t1[k]);
+        t0[j][k] = Interval(q.points[j + 1].t0[k]) - Interval(q.points[0].t0[k]);
+        t1[j][k] = Interval(q.points[j + 1].t1[k]) - Interval(q.points[0].t1[k]);
       }
     }
   }
@@ -138,7 +136,7 @@ PieceDecision judge_piece(const std::array<Linear, 3>& u, int first_group) {
 }  // namespace
 
 IntervalAnswer interval_answer(const FourPoints& q, detector::Want want) {
-  if (!all_coordinates_below(q.x, largest_coordinate)) return {};
+  if (!all_coordinates_below(q.points, largest_coordinate)) return {};
   const Interval::Protector round_upward;
   return judge_pieces(q, want);
 }

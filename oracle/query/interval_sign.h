@@ -36,4 +36,80 @@ bool all_coordinates_below(const Points& points, double bound) {
   return true;
 }
 
+// Polynomials on a piece [s,e] of the step, in scaled Bernstein form, over any number type.
+//
+// With w = (t - s)/(e - s), the coefficient c_k is that of (1-w)^(n-k) w^k, without the binomial,
+// so that products are plain convolutions. These basis functions are >= 0 on the piece and never
+// all 0. So if all coefficients have one strict sign, the polynomial has it on the whole (closed)
+// piece. The first and last coefficients are the values at s and e.
+
+template <class Number, std::size_t Degree>
+using Bernstein = std::array<Number, Degree + 1>;
+
+template <class Number>
+using Vector3 = std::array<Number, 3>;
+
+// A vector whose coordinates are linear on the piece.
+template <class Number>
+struct LinearVector {
+  Vector3<Number> s, e;
+};
+
+// A vector whose coordinates are quadratic on the piece: coefficients by axis.
+template <class Number>
+using QuadraticVector = std::array<Bernstein<Number, 2>, 3>;
+
+template <class Number, std::size_t M, std::size_t N>
+std::array<Number, M + N - 1> product(const std::array<Number, M>& a,
+                                      const std::array<Number, N>& b) {
+  std::array<Number, M + N - 1> c;
+  for (std::size_t k = 0; k < M + N - 1; ++k) {
+    const std::size_t first = k < N ? 0 : k - N + 1;
+    const std::size_t last = k < M ? k : M - 1;
+    c[k] = a[first] * b[k - first];
+    for (std::size_t i = first + 1; i <= last; ++i) c[k] = c[k] + a[i] * b[k - i];
+  }
+  return c;
+}
+
+template <class Number, std::size_t N>
+std::array<Number, N> sum(const std::array<Number, N>& a, const std::array<Number, N>& b) {
+  std::array<Number, N> c;
+  for (std::size_t k = 0; k < N; ++k) c[k] = a[k] + b[k];
+  return c;
+}
+
+template <class Number, std::size_t N>
+std::array<Number, N> difference(const std::array<Number, N>& a, const std::array<Number, N>& b) {
+  std::array<Number, N> c;
+  for (std::size_t k = 0; k < N; ++k) c[k] = a[k] - b[k];
+  return c;
+}
+
+template <class Number>
+QuadraticVector<Number> cross(const LinearVector<Number>& u, const LinearVector<Number>& v) {
+  QuadraticVector<Number> w;
+  for (int k = 0; k < 3; ++k) {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    w[k] = {u.s[i] * v.s[j] - u.s[j] * v.s[i],
+            (u.s[i] * v.e[j] - u.s[j] * v.e[i]) + (u.e[i] * v.s[j] - u.e[j] * v.s[i]),
+            u.e[i] * v.e[j] - u.e[j] * v.e[i]};
+  }
+  return w;
+}
+
+template <class Number>
+Bernstein<Number, 3> dot(const LinearVector<Number>& u, const QuadraticVector<Number>& w) {
+  auto term = [&](int k) { return product(Bernstein<Number, 1>{u.s[k], u.e[k]}, w[k]); };
+  return sum(sum(term(0), term(1)), term(2));
+}
+
+template <class Number>
+Bernstein<Number, 2> dot(const LinearVector<Number>& u, const LinearVector<Number>& v) {
+  auto term = [&](int k) {
+    return product(Bernstein<Number, 1>{u.s[k], u.e[k]}, Bernstein<Number, 1>{v.s[k], v.e[k]});
+  };
+  return sum(sum(term(0), term(1)), term(2));
+}
+
 }  // namespace assay::oracle

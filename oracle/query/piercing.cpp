@@ -3,9 +3,8 @@
 
 #include "oracle/processor_state.h"
 #include "oracle/query/contact.h"
-#include "oracle/query/integer_scale.h"
+#include "oracle/query/integer_polynomial.h"
 #include "oracle/query/interval_sign.h"
-#include "oracle/query/scaled_bernstein.h"
 
 namespace assay::oracle {
 

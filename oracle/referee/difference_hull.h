@@ -61,7 +61,7 @@ struct DoubleHull {
   bool usable = false;
 
   // The corners at t in [0,1], a multiple of 2^-53. Wrong by at most 3.01 u size[k] + 2^-1072
-  // (derived in separation.cpp).
+  // (derived in existence.cpp).
   Hull<double> at(double t) const;
 };
 

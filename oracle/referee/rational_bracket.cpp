@@ -63,7 +63,7 @@ class Bracket {
     std::array<LinearPoint, 4> x;
     for (std::size_t i = 0; i < 4; ++i) {
       for (std::size_t k = 0; k < 3; ++k) {
-        const Rational begin(query.x[i].t0[k]), way = Rational(query.x[i].t1[k]) - begin;
+        const Rational begin(query.points[i].t0[k]), way = Rational(query.points[i].t1[k]) - begin;
         x[i][k] = {begin + way * from, way * length};
       }
     }

@@ -7,7 +7,6 @@
 
 #include "oracle/processor_state.h"
 #include "oracle/referee/existence.h"
-#include "oracle/referee/separation.h"
 
 namespace assay::oracle {
 

@@ -4,7 +4,7 @@
 // coplanarity cubic, no roots, no code of the rungs. open means that neither proof was found,
 // which is usual when features touch without crossing, and rare otherwise.
 //   no_contact: [0,1] is cut into pieces, and on each some direction separates the two hulls
-//               (separation.h);
+//               (existence.h);
 //   contact:    the origin lies in the hull of differences at a rational time, or a box of time
 //               and two parameters holds a zero by Poincare-Miranda (existence.h).
 // Coordinates must be finite. Cost: 1 us if a direction separates over the whole step, tens of us

@@ -3,7 +3,6 @@
 #include <CGAL/Interval_nt.h>
 
 #include "oracle/query/interval_sign.h"
-#include "oracle/query/scaled_bernstein.h"
 
 namespace assay::oracle {
 

@@ -3,8 +3,8 @@
 #include <atomic>
 #include <cassert>
 
-#include "oracle/instant/static_contact.h"
-#include "oracle/mesh/feature_contacts.h"
+#include "oracle/instant/instant_contacts.h"
+#include "oracle/mesh/feature_pairs.h"
 #include "oracle/processor_state.h"
 #include "oracle/query/contact.h"
 

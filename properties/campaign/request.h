@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "properties/campaign/ledger/evidence.h"
 #include "properties/campaign/plan.h"
-#include "properties/campaign/stored/evidence.h"
 #include "properties/campaign/trials/trial.h"
 #include "properties/worker/plugin/judged_library.h"
 #include "properties/worker/worker_process.h"

@@ -1,7 +1,8 @@
-// What a detector claims. It is judged by its claims and its contract alone.
+// What a detector claims of its answers.
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <vector>
 
 #include "detector/options.h"
@@ -21,23 +22,65 @@ enum class Claim : std::uint8_t {
   deterministic,  // the same input gives the same result
   total,          // every valid input within the limits is answered
   candidates,     // every pair of the oracle is among the candidate pairs of its broad phase
+  // Every time is the enclosure of exact arithmetic, so it has to be the oracle's in every bit.
+  // This is how the other claims on times are read of a detector that claims it. Only the built-in
+  // detector does: nobody claims it from outside, and no list names it.
+  times_unique,
+};
+constexpr auto names_of(Claim) {
+  using enum Claim;
+  return std::to_array<Named<Claim>>({{free_sound, "free-sound"},
+                                      {not_late, "not-late"},
+                                      {first_time, "first-time"},
+                                      {first_pairs, "first-pairs"},
+                                      {all_pairs, "all-pairs"},
+                                      {no_spurious, "no-spurious"},
+                                      {deterministic, "deterministic"},
+                                      {total, "total"},
+                                      {candidates, "candidates"},
+                                      {times_unique, "times-unique"}});
+}
+
+// A set of claims.
+class Claims {
+ public:
+  constexpr Claims() = default;
+  constexpr Claims(std::initializer_list<Claim> claims) {
+    for (const Claim claim : claims) bits_ |= bit_of(claim);
+  }
+  static constexpr Claims of_bits(std::uint32_t bits) {
+    Claims claims;
+    claims.bits_ = bits;
+    return claims;
+  }
+
+  constexpr std::uint32_t bits() const { return bits_; }
+  constexpr bool empty() const { return bits_ == 0; }
+  constexpr bool has(Claim claim) const { return (bits_ & bit_of(claim)) != 0; }
+  constexpr bool has_any(const Claims& others) const { return (bits_ & others.bits_) != 0; }
+  constexpr Claims& set(Claim claim, bool is_claimed = true) {
+    bits_ = is_claimed ? bits_ | bit_of(claim) : bits_ & ~bit_of(claim);
+    return *this;
+  }
+  // Those of them that are also among the others, and those that are not.
+  constexpr Claims only(const Claims& others) const { return of_bits(bits_ & others.bits_); }
+  constexpr Claims without(const Claims& others) const { return of_bits(bits_ & ~others.bits_); }
+
+  friend constexpr bool operator==(const Claims&, const Claims&) = default;
+
+ private:
+  static constexpr std::uint32_t bit_of(Claim claim) { return 1u << static_cast<unsigned>(claim); }
+  std::uint32_t bits_ = 0;
 };
 
-struct Claims {
-  bool free_sound = false, not_late = false, first_time = false, first_pairs = false,
-       all_pairs = false, no_spurious = false, deterministic = false, total = false,
-       candidates = false;
-  bool has(Claim claim) const;
-  friend bool operator==(const Claims&, const Claims&) = default;
-};
+// Those that a detector may claim from outside. Their numbers are the bits of
+// assay_description::claims (detector/plugin/assay_detector.h).
+inline constexpr Claims claims_from_outside =
+    Claims::of_bits((1u << static_cast<unsigned>(Claim::times_unique)) - 1);
 
-// The word of a claim in reports and certificates, such as "free-sound".
-const char* name_of(Claim claim);
-
-// In the order of Claim.
-const std::vector<Claim>& all_claims();
-// The claims that `claims` has, in the order of Claim.
+// Those of claims_from_outside that `claims` has, in the order of Claim; and all of them.
 std::vector<Claim> list_of(const Claims& claims);
+std::vector<Claim> all_claims();
 
 // What the built-in detector claims. exact: everything. bounded: everything but no-spurious (its
 // intervals hold the times by construction, see StepResult::first). double and float:
@@ -47,6 +90,6 @@ Claims claims_of(const detector::Options& options);
 // The claims that are judged under this contract. If it has a margin, no-spurious is not judged,
 // because the detector may then report a collision before there is one. First-pairs and all-pairs
 // are not judged of a detector that reports no pairs.
-std::vector<Claim> judged_claims(const Claims& claims, const Contract& contract);
+Claims judged_claims(const Claims& claims, const Contract& contract);
 
 }  // namespace assay::properties

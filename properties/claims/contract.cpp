@@ -3,23 +3,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "properties/words.h"
-
 namespace assay::properties {
-
-const char* name_of(Adjacency adjacency) {
-  return word_of({"all", "not-edge-sharing", "no-shared-vertex"}, adjacency);
-}
-
-const char* name_of(Coordinates coordinates) {
-  return word_of({"float64", "float32"}, coordinates);
-}
-
-const char* name_of(StartRule start) { return word_of({"any", "free", "apart"}, start); }
-
-const char* name_of(TestedFeatures features) {
-  return word_of({"both", "vertex-face", "edge-edge"}, features);
-}
 
 std::string number_text(double x) {
   char text[32];

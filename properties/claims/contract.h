@@ -9,6 +9,7 @@
 
 #include "detector/mesh/step_types.h"
 #include "detector/mesh/types.h"
+#include "properties/words.h"
 
 namespace assay::properties {
 
@@ -18,10 +19,20 @@ enum class Adjacency : std::uint8_t {
   not_edge_sharing,  // pairs that share at most one vertex
   no_shared_vertex,  // pairs that share nothing
 };
+constexpr auto names_of(Adjacency) {
+  using enum Adjacency;
+  return std::to_array<Named<Adjacency>>({{all, "all"},
+                                          {not_edge_sharing, "not-edge-sharing"},
+                                          {no_shared_vertex, "no-shared-vertex"}});
+}
 
 // The coordinates that the detector computes with. Inputs of a float32 detector are rounded to the
 // nearest float32 before the detector and the oracle see them.
 enum class Coordinates : std::uint8_t { float64, float32 };
+constexpr auto names_of(Coordinates) {
+  return std::to_array<Named<Coordinates>>(
+      {{Coordinates::float64, "float64"}, {Coordinates::float32, "float32"}});
+}
 
 // Which steps the detector takes, by how the mesh lies at t = 0. The others are left out, and
 // counted.
@@ -30,10 +41,19 @@ enum class StartRule : std::uint8_t {
   free,   // steps that start without a contact
   apart,  // steps that start with all features at least start_distance apart
 };
+constexpr auto names_of(StartRule) {
+  using enum StartRule;
+  return std::to_array<Named<StartRule>>({{any, "any"}, {free, "free"}, {apart, "apart"}});
+}
 
 // Which features the detector tests against each other. Contacts of the others are not held
 // against it.
 enum class TestedFeatures : std::uint8_t { both, vertex_face, edge_edge };
+constexpr auto names_of(TestedFeatures) {
+  using enum TestedFeatures;
+  return std::to_array<Named<TestedFeatures>>(
+      {{both, "both"}, {vertex_face, "vertex-face"}, {edge_edge, "edge-edge"}});
+}
 
 // A contract that asks for more is refused.
 inline constexpr double widest_time_tolerance = 1e-3;
@@ -61,12 +81,16 @@ struct Contract {
   bool has_range() const { return largest > 0; }
 };
 
-// The words in reports and certificates, such as "not-edge-sharing", "float32", "free",
-// "vertex-face".
-const char* name_of(Adjacency adjacency);
-const char* name_of(Coordinates coordinates);
-const char* name_of(StartRule start);
-const char* name_of(TestedFeatures features);
+// Each member by its name, in reports, certificates and messages.
+template <class Archive>
+void fields(Archive& archive, Contract& contract) {
+  auto& [adjacency, coordinates, margin, start, start_distance, least_nonzero, largest, features,
+         time_tolerance, reports_pairs] = contract;
+  archive("adjacency", adjacency, "coordinates", coordinates, "margin", margin);
+  archive("start", start, "start_distance", start_distance);
+  archive("least_nonzero", least_nonzero, "largest", largest, "features", features);
+  archive("time_tolerance", time_tolerance, "reports_pairs", reports_pairs);
+}
 
 // The shortest decimal that reads back to the same double. It is made without libfmt, because the
 // worker does not use that.

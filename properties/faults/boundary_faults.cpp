@@ -1,9 +1,13 @@
-// Wrong treatment of holes: meshes taken as closed, apexes that jump (L11).
+// Wrong treatment of holes (L11): meshes taken as closed, apexes that jump, wrong sweeps of ghosts.
+
 #include <algorithm>
 
+#include "detector/contact/contact_filter.h"
+#include "detector/geometry/winding.h"
 #include "properties/faults/planting.h"
 
 namespace assay::properties {
+
 namespace {
 
 using detector::BoundaryHandler;
@@ -106,6 +110,186 @@ std::vector<Fault> boundary_faults() {
                              "the proof of L3 asks for an apex that moves continuously and not "
                              "where: the choice costs "
                              "time only"),
+  };
+}
+
+// Wrong sweeps of the ghosts: some left out, some half tested, some at the wrong place (L11).
+
+namespace {
+
+using detector::BoundaryHandler;
+using detector::FourPoints;
+using detector::GhostCounts;
+using detector::GhostSweep;
+using detector::MovingPoint;
+using detector::StopFunction;
+
+using Flags = std::vector<std::uint8_t>;
+using GhostIndices = std::span<const std::int32_t>;
+using Corners = std::array<std::int32_t, 3>;
+
+std::ptrdiff_t common_vertices(const Corners& a, const Corners& b) {
+  return std::count_if(a.begin(), a.end(),
+                       [&](auto v) { return std::find(b.begin(), b.end(), v) != b.end(); });
+}
+
+struct NothingSwept : BoundaryHandler {
+  bool sweep(const GhostSweep&, GhostIndices, const StopFunction&, Flags&,
+             GhostCounts&) const override {
+    return true;
+  }
+};
+
+struct OverlapAtEnds : BoundaryHandler {
+  bool sweep(const GhostSweep& s, GhostIndices ghosts, const StopFunction& stop, Flags& touched,
+             GhostCounts& counts) const override {
+    const GhostSweep start{s.surface, s.tree, s.motion.at_start(), s.elementary, true};
+    const GhostSweep end{
+        s.surface, s.tree, {s.motion.vertices_t1, s.motion.vertices_t1}, s.elementary, true};
+    return BoundaryHandler::sweep(start, ghosts, stop, touched, counts) &&
+           BoundaryHandler::sweep(end, ghosts, stop, touched, counts);
+  }
+};
+
+// The ghosts stand where they are at t=0, while the mesh goes past them.
+struct GhostsNotMoved : BoundaryHandler {
+  bool sweep(const GhostSweep& s, GhostIndices ghosts, const StopFunction&, Flags& touched,
+             GhostCounts&) const override {
+    for (const auto ghost : ghosts) {
+      const auto component = s.surface.all().component_of_triangle[at(ghost)];
+      for (const auto t : s.surface.mesh.components[at(component)].triangles) {
+        if (!touched[at(t)]) touched[at(t)] = meet(s, ghost, t);
+      }
+    }
+    return true;
+  }
+
+ private:
+  static bool meet(const GhostSweep& s, std::int32_t ghost, std::int32_t triangle) {
+    const Corners &g = s.surface.all().triangles[at(ghost)],
+                  &t = s.surface.mesh.triangles[at(triangle)];
+    const auto moving = [&](std::size_t i) { return s.motion.path(t[i % 3]); };
+    const auto stays = [&](std::size_t i) {
+      const auto place = s.motion.start(g[i % 3]);
+      return MovingPoint{place, place};
+    };
+    const auto same = [&](std::size_t i, std::size_t j) { return g[i % 3] == t[j % 3]; };
+    const auto contact = [&](const FourPoints& query) {
+      return !detector::separated_along_an_axis(query) &&
+             s.elementary.test(query, detector::Want::yes_no).contact;
+    };
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (!same(i, 0) && !same(i, 1) && !same(i, 2) &&
+          contact({{stays(i), moving(0), moving(1), moving(2)}, 1}))
+        return true;
+      if (!same(0, i) && !same(1, i) && !same(2, i) &&
+          contact({{moving(i), stays(0), stays(1), stays(2)}, 1}))
+        return true;
+      for (std::size_t j = 0; j < 3; ++j) {
+        if (same(i, j) || same(i, j + 1) || same(i + 1, j) || same(i + 1, j + 1)) continue;
+        if (contact({{stays(i), stays(i + 1), moving(j), moving(j + 1)}, 2})) return true;
+      }
+    }
+    return false;
+  }
+};
+
+// Sweeps only some ghosts.
+class GhostsSkipped : public BoundaryHandler {
+ public:
+  bool sweep(const GhostSweep& s, GhostIndices ghosts, const StopFunction& stop, Flags& touched,
+             GhostCounts& counts) const override {
+    std::vector<std::int32_t> kept;
+    std::copy_if(ghosts.begin(), ghosts.end(), std::back_inserter(kept),
+                 [&](std::int32_t ghost) { return !skips(s, ghost); });
+    return BoundaryHandler::sweep(s, kept, stop, touched, counts);
+  }
+  virtual bool skips(const GhostSweep& s, std::int32_t ghost) const = 0;
+};
+
+struct FirstLoopOnly : GhostsSkipped {
+  bool skips(const GhostSweep& s, std::int32_t ghost) const override {
+    return s.surface.all().triangles[at(ghost)][2] != s.surface.first_apex;
+  }
+};
+
+struct FlatGhostsSkipped : GhostsSkipped {
+  bool skips(const GhostSweep& s, std::int32_t ghost) const override {
+    return detector::has_zero_area(s.surface.all(), s.motion.vertices_t0, ghost) ||
+           detector::has_zero_area(s.surface.all(), s.motion.vertices_t1, ghost);
+  }
+};
+
+template <std::ptrdiff_t common>
+struct LoopNeighboursSkipped : BoundaryHandler {
+  bool sweep(const GhostSweep& s, GhostIndices ghosts, const StopFunction&, Flags& touched,
+             GhostCounts& counts) const override {
+    for (const auto ghost : ghosts) {
+      Flags by_this(touched.size(), 0);
+      const detector::HoleTree alone(s.surface.all(), {&ghost, 1}, s.tree.grid(), s.motion);
+      detector::sweep_hole(s, alone, {}, by_this, counts);
+      for (std::size_t t = 0; t < touched.size(); ++t) {
+        touched[t] |= by_this[t] && common_vertices(s.surface.all().triangles[at(ghost)],
+                                                    s.surface.mesh.triangles[t]) < common;
+      }
+    }
+    return true;
+  }
+};
+
+struct VertexFaceTests : detector::ElementaryTest {
+  detector::ContactResult test(const FourPoints& query, detector::Want want) const override {
+    return query.first_group == 1 ? detector::test_contact_past_axis(query, want)
+                                  : detector::ContactResult{};
+  }
+};
+
+struct SweptVertexFaceOnly : BoundaryHandler {
+  bool sweep(const GhostSweep& s, GhostIndices ghosts, const StopFunction& stop, Flags& touched,
+             GhostCounts& counts) const override {
+    const VertexFaceTests no_edges;
+    const GhostSweep half{s.surface, s.tree, s.motion, no_edges, s.piercing_at_start};
+    return BoundaryHandler::sweep(half, ghosts, stop, touched, counts);
+  }
+};
+
+struct PiercedGhostsIgnored : BoundaryHandler {
+  bool sweep(const GhostSweep& s, GhostIndices ghosts, const StopFunction& stop, Flags& touched,
+             GhostCounts& counts) const override {
+    const GhostSweep half{s.surface, s.tree, s.motion, s.elementary, false};
+    return BoundaryHandler::sweep(half, ghosts, stop, touched, counts);
+  }
+};
+
+}  // namespace
+
+std::vector<Fault> ghost_faults() {
+  return {
+      planted<NothingSwept>("boundary/no-ghost-sweep", "no ghost touches anything", "L11",
+                            "F_ghosts_swept", 12),
+      planted<OverlapAtEnds>("boundary/overlap-at-ends", "ghosts are tested at t=0 and t=1 only",
+                             "L11", "F_ghosts_between_ends", 12),
+      planted<GhostsNotMoved>("boundary/ghosts-not-moved", "ghosts stay where they are at t=0",
+                              "L11", "F_ghosts_move", 13),
+      planted<FirstLoopOnly>("boundary/first-loop-only", "ghosts of the first loop only are swept",
+                             "L11", "F_second_loop", 6),
+      planted<FlatGhostsSkipped>("boundary/flat-ghosts-skipped",
+                                 "a ghost without area at t=0 or t=1 is not swept", "L11",
+                                 "F_flat_ghost", 8),
+      planted<SweptVertexFaceOnly>("boundary/swept-vertex-face-only",
+                                   "ghosts are swept without edge-edge tests", "L11",
+                                   "F_ghost_edges", 5),
+      planted<PiercedGhostsIgnored>("boundary/pierced-ghosts-ignored",
+                                    "what pierces a ghost at a new start is not looked for", "L11",
+                                    "F_pierced_ghost", 8),
+      planted<LoopNeighboursSkipped<1>>(
+          "boundary/loop-neighbours-skipped",
+          "triangles that share a vertex with a ghost are not tested against it", "L11",
+          "F_loop_neighbours", 5),
+      planted<LoopNeighboursSkipped<2>>(
+          "boundary/loop-edge-neighbours-skipped",
+          "triangles that share an edge with a ghost are not tested against it", "L11",
+          "F_loop_edge_neighbours", 8),
   };
 }
 

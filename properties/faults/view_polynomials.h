@@ -5,7 +5,7 @@
 #include <type_traits>
 
 #include "detector/exact/real_root.h"
-#include "detector/view/view_classifier.h"
+#include "detector/view/view_signs.h"
 
 namespace assay::properties {
 

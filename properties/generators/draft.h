@@ -5,13 +5,54 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
-#include "properties/generators/generated_case.h"
-#include "properties/generators/points.h"
+#include "corpus/cases/case_file.h"
+#include "detector/mesh/types.h"
 #include "properties/numbering.h"
 #include "properties/random.h"
 
 namespace assay::properties {
+
+// A random case, and words for what it was made of.
+
+// tags: "closed", "shape:torus", "holes:2", "motion:twist", "menu:ulp", "aim:edge", ...; each once,
+// ascending. They say what the generator meant to make; whether, say, an aimed contact is the first
+// one of its step is for the oracle to judge.
+struct GeneratedCase {
+  corpus::Case c;
+  std::vector<std::string> tags;
+};
+
+// Small vector arithmetic for generators: plain sums, so the same bytes on every machine. For the
+// same reason no expression here or in the generators draws two random numbers in an order that the
+// language leaves open (arguments of a call, operands of +).
+
+using detector::Point;
+using Points = std::vector<Point>;
+
+inline Point operator+(const Point& a, const Point& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+inline Point operator-(const Point& a, const Point& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+inline Point operator*(double s, const Point& a) { return {s * a[0], s * a[1], s * a[2]}; }
+
+inline double dot(const Point& a, const Point& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+inline Point cross(const Point& a, const Point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+// 0 gives a, 1 gives b.
+inline Point between(const Point& a, const Point& b, double s) { return a + s * (b - a); }
+
+inline Point mean(const Points& points) {
+  Point sum = {0, 0, 0};
+  for (const auto& p : points) sum = sum + p;
+  return (1.0 / static_cast<double>(points.size())) * sum;
+}
 
 using Face = std::array<std::int32_t, 3>;
 

@@ -1,10 +1,34 @@
 #include "properties/generators/families.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
-#include "properties/generators/recipe.h"
+#include "properties/generators/aims.h"
+#include "properties/generators/draft.h"
+#include "properties/generators/menus.h"
+#include "properties/generators/motions.h"
+#include "properties/generators/primitives.h"
+#include "properties/generators/response.h"
+#include "properties/generators/shapes/closed_shapes.h"
+#include "properties/generators/shapes/open_shapes.h"
 
 namespace assay::properties {
+
+// How a case of a family is put together: shape, motion, aims, menus, primitive, in this order.
+
+struct Recipe {
+  bool closed = true, broken = false;
+  bool exact = false;              // small integers and dyadics, exact aims and collapses
+  bool nearly_degenerate = false;  // ulp neighbours, slivers, aims just missed
+  bool far = false;                // far from the origin, scales, denormals, large steps
+  // Percentages of the cases that are positive by construction, and of those with an aimed
+  // contact.
+  int positive = 0, aimed = 0;
+};
+
+GeneratedCase make_by(const Recipe& recipe, Random& random, std::string id);
+
 namespace {
 
 template <const Recipe& recipe>
@@ -47,6 +71,147 @@ std::span<const Family> families() { return family_table; }
 GeneratedCase make_case(const Family& family, std::string_view id) {
   Random random(id);
   return family.make(random, std::string(id));
+}
+
+namespace {
+
+int any_size(Random& random, const Recipe& recipe) {
+  const int share = random.below(100);
+  const int large = recipe.exact || recipe.far ? 2 : 5;
+  if (share < 50) return random.between(4, 12);
+  if (share < 100 - 4 * large) return random.between(12, 40);
+  if (share < 100 - large) return random.between(40, 100);
+  return random.between(100, 200);
+}
+
+int any_steps(Random& random, int size) {
+  const int share = random.below(100);
+  if (share < 60) return 1;
+  if (share < 80) return 2;
+  if (share < 92 || size > 40) return 3;
+  return random.between(4, 8);
+}
+
+const char* size_class(std::size_t triangles) {
+  if (triangles <= 12) return "size:2-12";
+  if (triangles <= 40) return "size:13-40";
+  if (triangles <= 100) return "size:41-100";
+  return "size:101-200";
+}
+
+// Makes the frames by one to three motions, more often small than large. In some cases the mesh
+// returns on the way it came.
+void move_freely(Random& random, Draft& draft, int steps, const Recipe& recipe) {
+  const auto chosen =
+      some_motions(random, random.between(1, 3), recipe.exact, draft.faces.size() <= 60);
+  const int least = 3;
+  const double mantissa = 1 + random.unit();
+  const double usual = std::ldexp(mantissa, -random.between(1, least));
+  const bool returns = steps > 1 && random.one_in(3);
+  const int forward = returns ? (steps + 1) / 2 : steps;
+  for (int s = 0; s < forward; ++s) {
+    const Motion& motion = *any_of(random, chosen);
+    Points x = draft.frames.back();
+    const double amount = random.one_in(5) ? 1.0 : usual / std::sqrt(static_cast<double>(forward));
+    motion.move(random, draft, x, amount);
+    if (motion.level && !recipe.exact) roughen(random, x, amount);
+    if (recipe.far && random.one_in(3)) {
+      const Point by = {random.signed_unit(), random.signed_unit(), random.signed_unit()};
+      for (auto& p : x) p = p + 64 * by;
+      draft.tag("motion:large-step");
+    }
+    draft.frames.push_back(std::move(x));
+    draft.tag(std::string("motion:") + motion.name);
+  }
+  for (int s = forward; s < steps; ++s) {
+    draft.frames.push_back(
+        draft.frames[static_cast<std::size_t>(std::max(0, 2 * forward - s - 1))]);
+    draft.tag("motion:and-back");
+  }
+}
+
+void shuffle_faces(Random& random, Draft& draft) {
+  draft.faces = shuffled(random, std::move(draft.faces));
+  for (auto& f : draft.faces) std::rotate(f.begin(), f.begin() + random.below(3), f.end());
+  draft.tag("order:shuffled");
+}
+
+Draft any_shape(Random& random, const Recipe& recipe, bool positive, int size) {
+  if (positive) return recipe.closed ? star_shape(random, size) : open_star_shape(random, size);
+  if (recipe.broken) return broken_shape(random, size);
+  return recipe.closed ? closed_shape(random, size) : open_shape(random, size);
+}
+
+// Rounds coordinates to few bits. A coarse grid makes coincidences, a fine one only keeps aims
+// exact.
+void few_bits(Random& random, Draft& draft) {
+  if (random.one_in(3)) {
+    round_to_grid(draft, random.between(2, 5), 0);
+    draft.tag("menu:small-integers");
+  } else {
+    round_to_grid(draft, 1, random.between(3, 10));
+    draft.tag("menu:dyadics");
+  }
+}
+
+void use_far_menus(Random& random, Draft& draft) {
+  switch (random.below(8)) {
+    case 0:
+    case 1:
+      return move_far(random, draft);
+    case 2:
+    case 3:
+    case 4:
+      return mix_scales(random, draft);
+    case 5:
+      return make_denormal(random, draft);
+    case 6:
+      mix_scales(random, draft);
+      return make_denormal(random, draft);
+    default:
+      return;
+  }
+}
+
+}  // namespace
+
+GeneratedCase make_by(const Recipe& recipe, Random& random, std::string id) {
+  const int mode = random.below(100);
+  const bool positive = mode < recipe.positive;
+  const bool aimed = !positive && mode < recipe.positive + recipe.aimed;
+  const int size = any_size(random, recipe);
+  // A case that is made to be positive needs no long sequence.
+  const int steps = std::min(any_steps(random, size), positive ? 2 : 8);
+  Draft draft = any_shape(random, recipe, positive, size);
+  if (!positive && random.one_in(12)) {
+    for (auto& f : draft.faces) std::swap(f[1], f[2]);
+    draft.tag("orientation:inward");
+  }
+  if (positive) {
+    move_positively(random, draft, steps);
+  } else {
+    move_freely(random, draft, steps, recipe);
+  }
+  if (recipe.exact && !positive) few_bits(random, draft);
+  if (recipe.exact && positive) round_to_grid(draft, 1, 14);
+  if (aimed) aim(random, draft, recipe.exact);
+  if (!positive && draft.q0.empty()) choose_view(random, draft);
+  if (recipe.nearly_degenerate) miss_nearly(random, draft);
+  if (recipe.far) use_far_menus(random, draft);
+  if (random.one_in(2)) shuffle_faces(random, draft);
+  draft.tag(recipe.broken ? "broken" : recipe.closed ? "closed" : "unclosed");
+  draft.tag(positive ? "mode:positive" : aimed ? "mode:aimed" : "mode:free");
+  draft.tag(size_class(draft.faces.size()));
+  draft.tag("steps:" + std::to_string(draft.frames.size() - 1));
+  // The response asks for judgements of the oracle, so it is left out on meshes where these are
+  // slow.
+  const std::size_t most_faces = recipe.far ? 16 : 40;
+  const bool responds =
+      draft.frames.size() > 2 && draft.faces.size() <= most_faces && random.one_in(3);
+  if (responds) draft.tag("response");
+  GeneratedCase made = finished(std::move(draft), std::move(id));
+  if (responds) made.c = with_response(made.c);
+  return made;
 }
 
 }  // namespace assay::properties

@@ -13,7 +13,7 @@
 #include <span>
 #include <string_view>
 
-#include "properties/generators/generated_case.h"
+#include "properties/generators/draft.h"
 #include "properties/random.h"
 
 namespace assay::properties {

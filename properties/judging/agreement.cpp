@@ -1,11 +1,14 @@
 #include "properties/judging/agreement.h"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
+#include <set>
+#include <vector>
 
 #include "detector/detector.h"
-#include "properties/judging/first_contact_graph.h"
+#include "detector/mesh/step_types.h"
 #include "properties/judging/step_truth.h"
-#include "properties/words.h"
 
 namespace assay::properties {
 
@@ -14,22 +17,14 @@ using detector::PairContact;
 using detector::TimeEnclosure;
 using detector::TrianglePair;
 
-const char* name_of(Outcome outcome) {
-  return word_of({"holds", "defect", "undecided", "error"}, outcome);
-}
-
-const char* name_of(detector::FeatureKind kind) {
-  return word_of({"vertex-face", "edge-edge", "piercing", "same-vertices"}, kind);
-}
-
 namespace {
 
 // How the times of a detector are read. `unique` says that a time is the enclosure of exact
 // arithmetic. Otherwise it is any interval that holds the time, or misses it by no more than the
 // tolerance.
 struct Times {
-  bool unique = false;
-  double tolerance = 0;
+  bool unique;
+  double tolerance;
 
   // The t* of the oracle is its lo if lo == hi; else it lies strictly between two adjacent
   // doubles. In that case an interval of doubles holds t* if it holds both.
@@ -41,19 +36,44 @@ struct Times {
   }
 };
 
+// Moves from `missing` to `excused` the pairs that need not be found to have the first contact
+// right: pairs later than `first`, and pairs whose part of the graph holds a pair that is not
+// missing. The graph has the triangles as nodes. Its edges are those pairs of `pairs` (all pairs
+// of the oracle that count) whose time is `first`. Times that share an enclosure count as one
+// time. O(n log n).
+void excuse_beside_the_first(const std::vector<PairContact>& pairs, const TimeEnclosure& first,
+                             std::vector<PairContact>& missing, std::vector<PairContact>& excused) {
+  std::set<TrianglePair> lost, of_lost_parts;
+  for (const auto& contact : missing) lost.insert(contact.pair);
+  const auto is_lost = [&](const auto& contact) { return lost.contains(contact.pair); };
+  for (const auto& part : contact_parts(pairs, first)) {
+    if (!std::all_of(part.begin(), part.end(), is_lost)) continue;
+    for (const auto& contact : part) of_lost_parts.insert(contact.pair);
+  }
+  const auto begin = std::stable_partition(
+      missing.begin(), missing.end(),
+      [&](const auto& contact) { return of_lost_parts.contains(contact.pair); });
+  excused.assign(begin, missing.end());
+  missing.erase(begin, missing.end());
+}
+
 class Comparison {
  public:
   Comparison(const detector::StepResult& result, const oracle::StepJudgement& judgement,
-             const Claims& claims, const Contract& contract, bool unique_times)
+             const Claims& claims, const Contract& contract)
       : result_(result),
         judgement_(judgement),
         claims_(claims),
         contract_(contract),
-        times_{unique_times, contract.time_tolerance} {}
+        times_{claims.has(Claim::times_unique), contract.time_tolerance} {}
 
   StepDiff run(StepTruth truth) {
+    diff_.answer = result_.answer;
+    diff_.oracle_complete = judgement_.complete;
+    diff_.nothing_in_contact = judgement_.complete && judgement_.pairs.empty();
+    diff_.claims_pairs = claims_.has(Claim::all_pairs) || claims_.has(Claim::first_pairs);
     if (result_.answer == Answer::error) {
-      broken(Claim::total, true);
+      broken(Claim::total, !result_.problem);
       diff_.outcome = diff_.broken.empty() ? Outcome::error : Outcome::defect;
       return std::move(diff_);
     }
@@ -103,13 +123,13 @@ class Comparison {
     }
     // Without the claim all-pairs the detector claims only the least time of the step and of the
     // pairs that it reports.
-    if (!claims_.all_pairs) diff_.late.clear();
+    if (!claims_.has(Claim::all_pairs)) diff_.late.clear();
   }
 
   void compare_answers() {
     const bool collision = result_.answer == Answer::collision;
     diff_.answered_free = result_.answer == Answer::free && !truth_.pairs.empty();
-    diff_.answered_collision = collision && judgement_.complete && judgement_.pairs.empty();
+    diff_.answered_collision = collision && diff_.nothing_in_contact;
     if (collision && !truth_.pairs.empty()) compare_first_times();
     if (diff_.answered_free || diff_.late_first) return;
     for (const auto& contact : diff_.left_out) {
@@ -143,8 +163,8 @@ class Comparison {
       excused.assign(later, unexcused_.end());
       unexcused_.erase(later, unexcused_.end());
     }
-    if (claims_.all_pairs) return;
-    const bool is_silent = result_.pairs.empty() && !claims_.first_pairs;
+    if (claims_.has(Claim::all_pairs)) return;
+    const bool is_silent = result_.pairs.empty() && !claims_.has(Claim::first_pairs);
     if (!contract_.reports_pairs || is_silent) {
       diff_.missing.clear();
       return;
@@ -183,18 +203,25 @@ class Comparison {
   StepDiff diff_;
 };
 
+// The place of a finite double among all of them. -0 and 0 have the same place.
+std::int64_t ordinal(double x) {
+  const auto bits = std::bit_cast<std::int64_t>(std::abs(x));
+  return x < 0 ? -bits : bits;
+}
+
 }  // namespace
 
 TimeOff time_off(const TimeEnclosure& stated, const TimeEnclosure& exact, double tolerance) {
-  if (stated.lo > exact.lo + tolerance) return {stated.lo - exact.lo, 0};
-  if (stated.lo < exact.lo - tolerance) return {0, exact.lo - stated.lo};
+  const double ulps = std::abs(static_cast<double>(ordinal(stated.lo) - ordinal(exact.lo)));
+  if (stated.lo > exact.lo + tolerance) return {stated.lo - exact.lo, 0, ulps};
+  if (stated.lo < exact.lo - tolerance) return {0, exact.lo - stated.lo, ulps};
   return {};
 }
 
 StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
                  const Claims& claims, const Contract& contract,
                  const detector::TrianglesView& triangles) {
-  return Comparison(result, judgement, claims, contract, false)
+  return Comparison(result, judgement, claims, contract)
       .run(truth_of(judgement, contract, triangles));
 }
 
@@ -208,23 +235,6 @@ oracle::AskedFeatures asked_features(const Contract& contract) {
       return oracle::AskedFeatures::edge_edge;
   }
   return oracle::AskedFeatures::all;
-}
-
-StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
-                 const detector::Options& options) {
-  Claims claims = claims_of(options);
-  // Bad input is refused by name. That is an answer nobody asked for, but no defect, so total is
-  // not claimed.
-  claims.total = false;
-  const bool unique_times = options.arithmetic == detector::Arithmetic::exact;
-  const Contract leaves_nothing_out;
-  return Comparison(result, judgement, claims, leaves_nothing_out, unique_times)
-      .run(truth_of(judgement, leaves_nothing_out, detector::Triangles(0, 3)));
-}
-
-StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
-                 detector::Pairs claimed) {
-  return compare(result, judgement, detector::Options{.pairs = claimed});
 }
 
 std::string stage_that_lost(const detector::TrianglesView& triangles,
@@ -242,6 +252,38 @@ std::string stage_that_lost(const detector::TrianglesView& triangles,
   if (finds(detector::Culling::bvh)) return "view sets";
   if (triangles.rows() > most_triangles_without_tree) return "pair search or elementary test";
   return finds(detector::Culling::none) ? "pair search" : "elementary test";
+}
+
+void judge_candidates(const CandidatePairs& candidates, const oracle::StepJudgement& judgement,
+                      const Claims& claims, const Contract& contract,
+                      const detector::TrianglesView& triangles, StepDiff& diff) {
+  if (!claims.has(Claim::candidates)) return;
+  if (candidates) {
+    const StepTruth truth = truth_of(judgement, contract, triangles);
+    auto ours = candidates->begin();
+    for (const auto& contact : truth.pairs) {
+      while (ours != candidates->end() && *ours < contact.pair) ++ours;
+      const bool is_there = ours != candidates->end() && *ours == contact.pair;
+      if (!is_there) diff.missing_candidates.push_back(contact);
+    }
+    diff.candidates = {candidates->size(), truth.pairs.size()};
+  }
+  if (!diff.missing_candidates.empty()) {
+    diff.broken.push_back(Claim::candidates);
+    diff.outcome = Outcome::defect;
+  } else if (diff.outcome == Outcome::holds && !(candidates && judgement.complete)) {
+    diff.partial = true;
+    diff.outcome = Outcome::undecided;
+  }
+}
+
+StepDiff diff_without_answer(const detector::StepResult& result, const Claims& claims) {
+  StepDiff diff;
+  diff.has_answer = false;
+  if (result.answer != detector::Answer::error) return diff;
+  if (claims.has(Claim::total)) diff.broken.push_back(Claim::total);
+  diff.outcome = claims.has(Claim::total) ? Outcome::defect : Outcome::error;
+  return diff;
 }
 
 }  // namespace assay::properties

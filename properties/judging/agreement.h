@@ -1,23 +1,27 @@
-// Compares one step of a detector with the oracle: the diff says how their answers differ.
+// Compares one step of a detector with the oracle: the diff says how their answers differ, and
+// what the candidate pairs of a broad phase lack.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "corpus/cases/case_names.h"
 #include "detector/options.h"
 #include "detector/step_result.h"
 #include "oracle/mesh/step.h"
 #include "properties/claims/claims.h"
+#include "properties/words.h"
+#include "properties/worker/case_run.h"
 
 namespace assay::properties {
 
 enum class Outcome : std::uint8_t { holds, defect, undecided, error };
-
-const char* name_of(Outcome outcome);
-using corpus::name_of;  // the words of detector::Answer
-const char* name_of(detector::FeatureKind kind);
+constexpr auto names_of(Outcome) {
+  using enum Outcome;
+  return std::to_array<Named<Outcome>>(
+      {{holds, "holds"}, {defect, "defect"}, {undecided, "undecided"}, {error, "error"}});
+}
 
 // A pair whose first time the detector has wrong.
 struct WrongTime {
@@ -29,9 +33,10 @@ struct WrongTime {
 // its interval, because that is how far the caller goes: it is late if this end is after t*, and
 // early if it is before t*, each by more than the tolerance. So [0.25, 1] states a time, and where
 // t* is 0.75 it is early by 0.5, although it holds t*. At most one of the two is not 0. Every count
-// of late and early first times is one of these.
+// of late and early first times is one of these (step_errors.h).
 struct TimeOff {
   double late = 0, early = 0;
+  double ulps = 0;  // how many doubles lie between the two lower ends; 0 if neither late nor early
 };
 TimeOff time_off(const detector::TimeEnclosure& stated, const detector::TimeEnclosure& exact,
                  double tolerance);
@@ -51,6 +56,10 @@ struct CandidateCount {
 struct StepDiff {
   Outcome outcome = Outcome::holds;
   std::vector<Claim> broken;  // claims of the detector that this step refutes
+  detector::Answer answer = detector::Answer::undecided;  // the detector's
+  bool oracle_complete = false;                           // false: the oracle was stopped
+  bool nothing_in_contact = false;  // by a complete oracle, whatever the contract leaves out
+  bool claims_pairs = false;        // all-pairs or first-pairs is claimed
   // The detector or the oracle was stopped: only what both reached is compared.
   bool partial = false;
   bool answered_free = false;       // `free`, although there is a contact that counts
@@ -82,7 +91,7 @@ struct StepDiff {
   std::vector<detector::PairContact> left_out;
   bool left_out_missed = false;
 
-  // Only for a detector that claims candidates (candidate_check.h); nothing if it failed to give
+  // Only for a detector that claims candidates (judge_candidates); nothing if it failed to give
   // them.
   std::optional<CandidateCount> candidates;
   std::vector<detector::PairContact> missing_candidates;
@@ -103,8 +112,10 @@ struct StepDiff {
 // in contact at t* as edges) holds a reported pair.
 //
 // If the contract has a margin, no-spurious is not judged. A step that was answered by an error
-// breaks `total`, or is Outcome::error if `total` is not claimed. `deterministic` is not judged
-// here, because it needs two runs: same_answers. O(n log n) in the number of pairs.
+// breaks `total`, or is Outcome::error if `total` is not claimed. It is Outcome::error too if the
+// built-in detector refuses the input by name (StepResult::problem), because `total` speaks of
+// valid input. `deterministic` is not judged here, because it needs two runs: same_answers.
+// O(n log n) in the number of pairs.
 //
 // What breaks a claim:
 // - free-sound: the answer `free`, although there is a contact.
@@ -115,22 +126,17 @@ struct StepDiff {
 // - no-spurious: `collision` although there is no contact, a spurious pair, or a pair whose time
 //   ends before its contact.
 //
-// REQUIRES a judgement of the oracle that was asked for asked_features(contract).
+// times-unique breaks nothing by itself. If it is claimed, an interval is wrong unless it is the
+// oracle's in every bit.
+//
+// REQUIRES a judgement of the oracle that was asked for asked_features(contract), and the triangles
+// if the contract leaves out neighbours.
 StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
-                 const Claims& claims, const Contract& contract,
-                 const detector::TrianglesView& triangles);
+                 const Claims& claims, const Contract& contract = {},
+                 const detector::TrianglesView& triangles = detector::Triangles(0, 3));
 
 // The features that the oracle is to be asked for under this contract.
 oracle::AskedFeatures asked_features(const Contract& contract);
-
-// Judges a step of the built-in detector by claims_of(options). In exact arithmetic its times are
-// unique enclosures, so each must agree with the oracle's in every bit; in the other arithmetics
-// they are intervals. An input error is Outcome::error.
-StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
-                 const detector::Options& options);
-// The same for the built-in detector in exact arithmetic.
-StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
-                 detector::Pairs claimed);
 
 // The stage of the detector at which a missed pair was lost. It is found by running the step with
 // less culling: "view sets" if culling bvh finds the pair, "pair search" if only culling none
@@ -139,5 +145,17 @@ StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement
 std::string stage_that_lost(const detector::TrianglesView& triangles,
                             const detector::PositionsView& x_t0,
                             const detector::PositionsView& x_t1, detector::TrianglePair pair);
+
+// Adds to the diff of a step what its candidates show: each pair in contact that counts under the
+// contract has to be among them. If there are none, or the oracle was stopped, a step that would
+// hold is undecided. REQUIRES a judgement by asked_features(contract). O(n) in both numbers of
+// pairs.
+void judge_candidates(const CandidatePairs& candidates, const oracle::StepJudgement& judgement,
+                      const Claims& claims, const Contract& contract,
+                      const detector::TrianglesView& triangles, StepDiff& diff);
+
+// The diff of a step of a library of candidates alone, which has no answer: it holds, or was an
+// error, which breaks `total`.
+StepDiff diff_without_answer(const detector::StepResult& result, const Claims& claims);
 
 }  // namespace assay::properties

@@ -45,8 +45,8 @@ class CaseChecker {
     }
     const auto& expected = case_.expected.answer;
     if (!expected) return finish();
-    if (*expected == Answer::collision ? claims_.free_sound && !collision
-                                       : claims_.no_spurious && collision) {
+    if (*expected == Answer::collision ? claims_.has(Claim::free_sound) && !collision
+                                       : claims_.has(Claim::no_spurious) && collision) {
       fail(fmt::format("answer {}, expected {}", collision ? "collision" : "free",
                        name_of(*expected)));
     }
@@ -67,13 +67,14 @@ class CaseChecker {
         player_->play(s),
         oracle::judge_step({player_->x_t0(s), player_->x_t1(s)}, case_.triangles, {jobs_, {}}),
         {}};
-    step.diff = compare(step.result, step.judgement, options_);
+    step.diff = compare(step.result, step.judgement, claims_);
     const std::string where = fmt::format("step {}: ", s + 1);
     if (step.diff.outcome != Outcome::holds) fail(where + "detector and oracle disagree");
     if (s < case_.expected.steps.size()) {
       check_facts(where, case_.expected.steps[s], step.judgement);
     }
-    if (uses_views(options_.culling) && claims_.free_sound) check_signs(where, s, step.result);
+    if (uses_views(options_.culling) && claims_.has(Claim::free_sound))
+      check_signs(where, s, step.result);
     if (const auto view = corpus::view_of_step(case_, s)) check_expected_signs(where, s, *view);
     report_.steps.push_back(std::move(step));
   }
@@ -110,7 +111,8 @@ class CaseChecker {
         const auto ours = result.signs[static_cast<std::size_t>(t)];
         // A triangle in V0 costs time only. Arithmetic that does not certify every sign may put
         // triangles there.
-        const bool allowed = exact == ours || (!claims_.no_spurious && ours == ViewSign::zero);
+        const bool allowed =
+            exact == ours || (!claims_.has(Claim::no_spurious) && ours == ViewSign::zero);
         if (!allowed) {
           fail(fmt::format("{}view sign of triangle {}: detector {}, oracle {}", where, t,
                            static_cast<int>(ours), static_cast<int>(exact)));

@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
+#include "oracle/instant/instant_contacts.h"
 #include "oracle/instant/nearness.h"
-#include "oracle/instant/static_contact.h"
 #include "oracle/mesh/contact_shape.h"
-#include "properties/judging/judged_query.h"
+#include "properties/judging/contracted_case.h"
 #include "properties/words.h"
 
 namespace assay::properties {

@@ -1,4 +1,5 @@
-// A case as a detector's contract has it. Both the detector and the oracle are given this case.
+// A case, and an elementary query, as a detector's contract has it. Both the detector and the
+// oracle are given this case.
 #pragma once
 
 #include <optional>
@@ -6,6 +7,8 @@
 #include <vector>
 
 #include "corpus/cases/case_file.h"
+#include "detector/mesh/step_types.h"
+#include "oracle/mesh/step.h"
 #include "properties/claims/contract.h"
 
 namespace assay::properties {
@@ -31,5 +34,21 @@ std::vector<Edge> edges_of(const corpus::Case& c);
 // expected of the whole case is no longer known, unless it is that the mesh is refused. REQUIRES at
 // least one place.
 corpus::Case with_steps(const corpus::Case& c, const std::vector<std::size_t>& places);
+
+// The exact answer to the query alone, in the form of a judgement of its case (query_case.h). A
+// contact is one of triangles 0 and 1, by the two features that are asked. Cost:
+// oracle/query/contact.h.
+oracle::StepJudgement judge_query(const detector::FourPoints& query);
+
+// Whether the two features are not in contact at t = 0, and not nearer there than the distance.
+bool start_apart(const detector::FourPoints& query, double distance);
+
+// Whether a contract takes the query. This depends on the kind of its features, and on how they
+// lie at t = 0.
+bool takes(const Contract& contract, const detector::FourPoints& query);
+
+// The contract under which an answer to a query is judged. Adjacency leaves nothing out of it,
+// because the two features of a query are no neighbours.
+Contract on_queries(const Contract& contract);
 
 }  // namespace assay::properties

@@ -74,7 +74,7 @@ std::optional<StepDefect> first_defect(std::span<const StepResult> results,
                                        std::span<const oracle::StepJudgement> judgements,
                                        detector::Pairs claimed) {
   for (std::size_t s = 0; s < results.size(); ++s) {
-    StepDefect defect{s, compare(results[s], judgements[s], claimed)};
+    StepDefect defect{s, compare(results[s], judgements[s], claims_of({.pairs = claimed}))};
     if (defect.diff.outcome != Outcome::holds) return defect;
   }
   return std::nullopt;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "properties/judging/candidate_check.h"
-#include "properties/judging/judged_query.h"
+#include "properties/judging/agreement.h"
+#include "properties/judging/contracted_case.h"
 #include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
@@ -27,7 +27,7 @@ void add_broken(JudgedRun& judged, Claim claim) {
 }
 
 void not_answered(JudgedRun& judged, const Claims& claims) {
-  if (claims.total) {
+  if (claims.has(Claim::total)) {
     add_broken(judged, Claim::total);
   } else {
     judged.outcome = Outcome::error;
@@ -62,6 +62,7 @@ StepDiff compare_step(const CaseRun& run, std::size_t s, const oracle::StepJudge
                       const detector::TrianglesView& triangles) {
   StepDiff diff = run.has_answers ? compare(run.steps[s], judgement, claims, contract, triangles)
                                   : diff_without_answer(run.steps[s], claims);
+  diff.oracle_complete = judgement.complete;
   const CandidatePairs none;
   const auto& candidates = s < run.candidates.size() ? run.candidates[s] : none;
   judge_candidates(candidates, judgement, claims, contract, triangles, diff);
@@ -111,7 +112,7 @@ JudgedRun judge_run(const corpus::Case& c, const CaseRun& run,
   const auto ended_by_itself = [](const CaseRun& one) {
     return one.end == RunEnd::completed || one.end == RunEnd::crashed || one.end == RunEnd::refused;
   };
-  if (claims.deterministic && ended_by_itself(run) && ended_by_itself(*again) &&
+  if (claims.has(Claim::deterministic) && ended_by_itself(run) && ended_by_itself(*again) &&
       !same_answers(run, *again)) {
     add_broken(judged, Claim::deterministic);
   }

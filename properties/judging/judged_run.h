@@ -35,7 +35,7 @@ std::vector<oracle::StepJudgement> judge_case(const corpus::Case& c, const Contr
 StepTruth truth_of(const corpus::Case& c, const oracle::StepJudgement& judgement,
                    const Contract& contract);
 
-// The diff of step s of a run: its answer (agreement.h) and its candidates (candidate_check.h).
+// The diff of step s of a run: its answer (agreement.h) and its candidates (judge_candidates).
 // REQUIRES a run that has this step.
 StepDiff compare_step(const CaseRun& run, std::size_t s, const oracle::StepJudgement& judgement,
                       const Claims& claims, const Contract& contract,

@@ -1,10 +1,12 @@
-// What the oracle found in a step, as a contract sees it. Whatever shows or judges a detector's
-// step takes the oracle's facts from here, so that a contract is obeyed everywhere.
+// What the oracle found in a step, as a contract sees it, and the places of contact at one time.
+// Whatever shows or judges a detector's step takes the oracle's facts from here, so that a contract
+// is obeyed everywhere.
 #pragma once
 
 #include <optional>
 #include <vector>
 
+#include "detector/mesh/step_types.h"
 #include "oracle/mesh/step.h"
 #include "properties/claims/contract.h"
 
@@ -29,5 +31,13 @@ struct StepTruth {
 // O(n) in the number of pairs.
 StepTruth truth_of(const oracle::StepJudgement& judgement, const Contract& contract,
                    const detector::TrianglesView& triangles);
+
+using ContactPart = std::vector<detector::PairContact>;
+
+// The connected parts of the contact graph, each with its pairs. Triangles are nodes, and the
+// pairs whose first time is `time` are edges. Two times that share an enclosure count as one;
+// parts may then be joined, but never split. O(n log n).
+std::vector<ContactPart> contact_parts(const std::vector<detector::PairContact>& pairs,
+                                       const detector::TimeEnclosure& time);
 
 }  // namespace assay::properties

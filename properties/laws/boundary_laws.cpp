@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "properties/laws/facts/carried_state.h"
-#include "properties/laws/law_groups.h"
 #include "properties/laws/metamorphic/change_law.h"
 #include "properties/laws/step_law.h"
 
@@ -13,7 +12,6 @@ namespace {
 
 Observation violated_is_what_ghosts_touch(CaseFacts& facts, std::size_t s) {
   if (!facts.has_views(s) || facts.surface().is_closed()) return not_met();
-  if (facts.options().ghost_test != detector::GhostTest::exact) return not_met();
   const auto& doubts = facts.result(s).doubts;
   for (std::size_t t = 0; t < doubts.size(); ++t) {
     const bool violated = (doubts[t] & detector::doubt::violated) != 0;

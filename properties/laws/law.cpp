@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "properties/laws/law_groups.h"
+#include "properties/laws/step_law.h"
+#include "properties/random.h"
 
 namespace assay::properties {
 
@@ -24,6 +25,10 @@ std::span<const Law> laws() {
     return list;
   }();
   return all;
+}
+
+bool is_checked_on(const Law& law, std::string_view case_id) {
+  return Random(Random::hash(case_id), Random::hash(law.name)).one_in(law.one_in);
 }
 
 const Law* law_named(std::string_view name) {

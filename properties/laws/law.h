@@ -38,14 +38,16 @@ struct Law {
   std::string_view statement;  // the law in one or two sentences
   std::string_view needs;      // what the law asks of the oracle
   void (*check)(CaseFacts&, LawTally&);  // adds what it met in this case
-  // A LawTable checks the law on one case in so many, because laws that run the case again are
-  // dear.
+  // The law is checked on one case in so many, because laws that run the case again are dear.
   int one_in = 1;
   MetUnder met_under = MetUnder::any_culling;
 };
 
 // All laws in a fixed order: by number, then sets, claims, changes.
 std::span<const Law> laws();
+
+// Whether the case is in the share of cases on which the law is checked (Law::one_in).
+bool is_checked_on(const Law& law, std::string_view case_id);
 
 // nullptr for an unknown name.
 const Law* law_named(std::string_view name);

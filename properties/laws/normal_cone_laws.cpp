@@ -4,7 +4,6 @@
 
 #include <set>
 
-#include "properties/laws/law_groups.h"
 #include "properties/laws/step_law.h"
 #include "properties/worker/case_player.h"
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "properties/laws/facts/carried_state.h"
-#include "properties/laws/law_groups.h"
 #include "properties/laws/step_law.h"
 
 namespace assay::properties {

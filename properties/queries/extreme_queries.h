@@ -9,7 +9,7 @@
 
 #include <cstdint>
 
-#include "detector/contact/four_points.h"
+#include "detector/mesh/step_types.h"
 #include "detector/view/view_filter.h"
 
 namespace assay::properties {

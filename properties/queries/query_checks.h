@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "properties/queries/query_generators.h"
+#include "properties/queries/query_families.h"
 
 namespace assay::properties {
 

@@ -1,15 +1,19 @@
 #include "properties/queries/query_families.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <deque>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "properties/queries/extreme_queries.h"
-#include "properties/queries/query_generators.h"
+#include "properties/random.h"
 #include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
+
 namespace {
 
 // The place of a query in its generator's sequence is drawn too, because even and odd places are
@@ -71,5 +75,239 @@ bool is_query_family(std::string_view name) {
   const auto known = query_families();
   return std::any_of(known.begin(), known.end(), [&](const Family& f) { return f.name == name; });
 }
+
+namespace {
+
+using detector::MovingPoint;
+using detector::Point;
+
+Query empty_query(std::uint64_t index) {
+  Query q{};
+  q.first_group = index % 2 == 0 ? 1 : 2;
+  return q;
+}
+
+// Calls change(coordinate) for all 24 coordinates, in a fixed order.
+template <class Change>
+void for_each_coordinate(Query& q, const Change& change) {
+  for (MovingPoint& p : q.points) {
+    for (double& c : p.t0) change(c);
+    for (double& c : p.t1) change(c);
+  }
+}
+
+double& any_coordinate(Random& random, Query& q) {
+  MovingPoint& p = q.points[static_cast<std::size_t>(random.below(4))];
+  Point& end = random.below(2) == 0 ? p.t0 : p.t1;
+  return end[static_cast<std::size_t>(random.below(3))];
+}
+
+// A multiple of 2^-52 in [-1, 1).
+double unit(Random& random) {
+  return std::ldexp(static_cast<double>(random.next() >> 11), -52) - 1;
+}
+
+Point integer_point(Random& random, int reach) {
+  Point p;
+  for (double& c : p) c = random.between(-reach, reach);
+  return p;
+}
+
+// Makes planar and collinear worlds in any direction: it replaces p by its shadow in one.
+Point flattened(const Point& p, int dimensions, const std::array<Point, 2>& directions) {
+  if (dimensions == 3) return p;
+  Point shadow = {0, 0, 0};
+  for (std::size_t k = 0; k < 3; ++k) {
+    shadow[k] = p[0] * directions[0][k] + (dimensions == 2 ? p[1] * directions[1][k] : 0);
+  }
+  return shadow;
+}
+
+// Small integers, within a reach of 1 to 4. A fifth of the queries is planar and a tenth lies on
+// one line. The motions range from none to every point moving on its own.
+Query small_integers(Random& random, std::uint64_t index) {
+  Query q = empty_query(index);
+  const int reach = random.between(1, 4);
+  const int shape = random.below(10);
+  const int dimensions = shape == 0 ? 1 : shape <= 2 ? 2 : 3;
+  const std::array<Point, 2> directions = {integer_point(random, 1), integer_point(random, 1)};
+  auto point = [&] { return flattened(integer_point(random, reach), dimensions, directions); };
+  for (MovingPoint& p : q.points) p.t0 = p.t1 = point();
+  const int motion = random.below(8);
+  if (motion == 1) {
+    q.points[static_cast<std::size_t>(random.below(4))].t1 = point();
+  } else if (motion == 2) {
+    const Point by = point();
+    for (int i = 0; i < q.first_group; ++i) {
+      MovingPoint& p = q.points[static_cast<std::size_t>(i)];
+      for (std::size_t k = 0; k < 3; ++k) p.t1[k] += by[k];
+    }
+  } else if (motion > 2) {
+    for (MovingPoint& p : q.points) p.t1 = point();
+  }
+  if (random.below(12) == 0) {
+    q.points[static_cast<std::size_t>(random.below(4))] =
+        q.points[static_cast<std::size_t>(random.below(4))];
+  }
+  return q;
+}
+
+GeneratedQuery small_int(std::uint64_t seed, std::uint64_t index) {
+  Random random(seed, index);
+  return {small_integers(random, index), {}};
+}
+
+// Constructs a contact at a dyadic time: the two hulls are drawn through one point there, and the
+// velocities are free. All numbers are small dyadics, so the contact is exact.
+GeneratedQuery constructed(std::uint64_t seed, std::uint64_t index) {
+  Random random(seed, index);
+  Query q = empty_query(index);
+  constexpr int integer_reach = 4, fastest = 8;
+  const double time = random.between(0, 8) / 8.0;
+  auto weights = [&](std::size_t count) {
+    std::array<double, 3> w = {1, 0, 0};
+    for (std::size_t i = 1; i < count; ++i) {
+      const double share = random.between(0, 4) / 4.0;
+      w[i] = w[i - 1] * share;
+      w[i - 1] -= w[i];
+    }
+    return w;
+  };
+  const auto first_group = static_cast<std::size_t>(q.first_group);
+  std::array<Point, 4> at;
+  for (Point& p : at) p = integer_point(random, integer_reach);
+  // Moves the first group as a whole until its weighted point is that of the second group.
+  const auto w1 = weights(first_group), w2 = weights(4 - first_group);
+  for (std::size_t k = 0; k < 3; ++k) {
+    double gap = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      gap += i < first_group ? -w1[i] * at[i][k] : w2[i - first_group] * at[i][k];
+    }
+    for (std::size_t i = 0; i < first_group; ++i) at[i][k] += gap;
+  }
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Point velocity = integer_point(random, fastest);
+    for (std::size_t k = 0; k < 3; ++k) {
+      q.points[i].t0[k] = at[i][k] - time * velocity[k];
+      q.points[i].t1[k] = at[i][k] + (1 - time) * velocity[k];
+    }
+  }
+  return {q, time};
+}
+
+// Changes one to three coordinates of an exact contact or a small-integer query to a neighbouring
+// double. A coordinate 0 is changed by one unit of the last place of 1.
+GeneratedQuery ulp_neighbours(std::uint64_t seed, std::uint64_t index) {
+  Random random(~seed, index);
+  Query q = random.below(2) == 0 ? constructed(seed, index).query : small_integers(random, index);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (int changes = random.between(1, 3); changes > 0; --changes) {
+    double& c = any_coordinate(random, q);
+    const double towards = random.below(2) == 0 ? infinity : -infinity;
+    c = c == 0 ? std::copysign(std::numeric_limits<double>::epsilon(), towards)
+               : std::nextafter(c, towards);
+  }
+  return {q, {}};
+}
+
+GeneratedQuery far_from_origin(std::uint64_t seed, std::uint64_t index) {
+  Random random(~seed, index);
+  GeneratedQuery made = random.below(2) == 0 ? constructed(seed, index)
+                                             : GeneratedQuery{small_integers(random, index), {}};
+  // Up to 2^50 integers stay exact. The eighths and smaller parts of a constructed contact may be
+  // rounded.
+  std::array<double, 3> offset;
+  for (double& c : offset) {
+    c = std::ldexp(random.below(2) == 0 ? 1 : -1, random.between(30, 50)) + random.below(1000);
+  }
+  for (MovingPoint& p : made.query.points) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      p.t0[k] += offset[k];
+      p.t1[k] += offset[k];
+    }
+  }
+  made.contact_at.reset();
+  return made;
+}
+
+GeneratedQuery mixed_scales(std::uint64_t seed, std::uint64_t index) {
+  Random random(seed, index);
+  Query q = small_integers(random, index);
+  const bool by_point = random.below(2) == 0;
+  constexpr int exponent_reach = 30;
+  for (MovingPoint& p : q.points) {
+    const int of_point = random.between(-exponent_reach, exponent_reach);
+    for (Point* end : {&p.t0, &p.t1}) {
+      for (double& c : *end) {
+        c = std::ldexp(c, by_point ? of_point : random.between(-exponent_reach, exponent_reach));
+      }
+    }
+  }
+  return {q, {}};
+}
+
+GeneratedQuery dyadics(std::uint64_t seed, std::uint64_t index) {
+  Random random(seed, index);
+  Query q = empty_query(index);
+  for_each_coordinate(q, [&](double& c) {
+    const int bits = random.below(11);
+    c = std::ldexp(random.between(-(1 << bits), 1 << bits), -bits);
+  });
+  return {q, {}};
+}
+
+// Makes the smallest numbers, alone or among small integers.
+GeneratedQuery denormals(std::uint64_t seed, std::uint64_t index) {
+  Random random(seed, index);
+  Query q = small_integers(random, index);
+  constexpr int subnormal_exponent = -1074;
+  const int kind = random.below(3);
+  if (kind == 0) {
+    for_each_coordinate(q, [](double& c) { c = std::ldexp(c, subnormal_exponent); });
+  } else {
+    for (int changes = kind == 1 ? 1 : random.between(2, 8); changes > 0; --changes) {
+      double& c = any_coordinate(random, q);
+      c = std::ldexp(random.between(-3, 3), subnormal_exponent);
+    }
+  }
+  return {q, {}};
+}
+
+GeneratedQuery exponents(std::uint64_t seed, std::uint64_t index) {
+  Random random(seed, index);
+  Query q = empty_query(index);
+  const bool small = random.below(2) == 0;
+  for_each_coordinate(q, [&](double& c) {
+    const double mantissa = small ? random.between(-2, 2) : unit(random);
+    c = std::ldexp(mantissa, random.between(-1074, 1022));
+  });
+  if (random.below(3) == 0) q.points[3] = q.points[static_cast<std::size_t>(random.below(3))];
+  return {q, {}};
+}
+
+GeneratedQuery generic(std::uint64_t seed, std::uint64_t index) {
+  Random random(seed, index);
+  Query q = empty_query(index);
+  for_each_coordinate(q, [&](double& c) { c = unit(random); });
+  return {q, {}};
+}
+
+constexpr std::array generators = {
+    QueryGenerator{"small-int", "integers within 1..4, planar and collinear too", small_int, 1},
+    QueryGenerator{"constructed", "exact contacts at a known time of eighths", constructed, 5},
+    QueryGenerator{"ulp", "neighbouring doubles of exact contacts", ulp_neighbours, 5},
+    QueryGenerator{"far", "moved by 2^30 to 2^50", far_from_origin, 10},
+    QueryGenerator{"mixed-scales", "small integers times 2^-30 to 2^30", mixed_scales, 20},
+    QueryGenerator{"dyadics", "fractions of up to 10 bits", dyadics, 10},
+    QueryGenerator{"denormals", "5e-324 alone or among small integers", denormals, 200},
+    QueryGenerator{"exponents", "exponents over all doubles", exponents, 1000},
+    QueryGenerator{"generic", "uniform in a cube", generic, 5},
+};
+
+static_assert(generators.size() == query_generator_count);
+
+}  // namespace
+
+std::span<const QueryGenerator> query_generators() { return generators; }
 
 }  // namespace assay::properties

@@ -1,15 +1,40 @@
-// The random queries as families of cases (query_case.h): strata of a campaign of queries.
+// Random elementary queries, and the same as families of cases (query_case.h), which are the strata
+// of a campaign of queries.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 
 #include "properties/generators/families.h"
+#include "properties/queries/query_methods.h"
 
 namespace assay::properties {
 
-// One family for each generator of query_generators.h, "query-small-int" and so on, and
-// "query-extreme". make_case (families.h) makes their cases, each from its id alone.
+// The generators: generic, degenerate, and just beside degenerate.
+//
+// Query `index` of `seed` is made from a hash of both alone, so any query can be made again on any
+// machine. It is a vertex-face query for even indices, an edge-edge query for odd ones.
+
+struct GeneratedQuery {
+  Query query;
+  std::optional<double> contact_at;  // a time of contact, if the construction knows one
+};
+
+struct QueryGenerator {
+  const char* name;
+  const char* about;
+  GeneratedQuery (*make)(std::uint64_t seed, std::uint64_t index);
+  int one_in;  // one for each `one_in` of small-int: the dearer, the fewer
+};
+
+inline constexpr std::size_t query_generator_count = 9;
+// All generators; small-int comes first.
+std::span<const QueryGenerator> query_generators();
+
+// One family for each generator, "query-small-int" and so on, and "query-extreme". make_case
+// (families.h) makes their cases, each from its id alone.
 std::span<const Family> query_families();
 
 // The family of this name, be it of meshes or of queries; null if there is none.

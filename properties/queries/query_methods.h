@@ -4,7 +4,6 @@
 #include <optional>
 #include <span>
 
-#include "detector/contact/four_points.h"
 #include "detector/mesh/step_types.h"
 #include "oracle/query/contact.h"
 

@@ -1,21 +1,19 @@
 #include "properties/worker/case_run.h"
 
+#include <time.h>
+
 #include <algorithm>
 #include <cstring>
+#include <fstream>
 #include <new>
+#include <string>
 
 #include "properties/faults/fault.h"
-#include "properties/words.h"
 #include "properties/worker/case_player.h"
-#include "properties/worker/run_clock.h"
 
 namespace assay::properties {
 
 using detector::StepResult;
-
-const char* name_of(RunEnd end) {
-  return word_of({"completed", "crashed", "hung", "refused", "out of memory", "not run"}, end);
-}
 
 void note_error(CaseRun& run, std::size_t s, const std::string& text) {
   run.errors.resize(std::max(run.errors.size(), s + 1));
@@ -101,6 +99,55 @@ bool same_answers(const CaseRun& a, const CaseRun& b) {
   return a.end == b.end && a.explanation == b.explanation && a.has_answers == b.has_answers &&
          a.errors == b.errors && a.candidates == b.candidates &&
          std::equal(a.steps.begin(), a.steps.end(), b.steps.begin(), b.steps.end(), same_result);
+}
+
+namespace {
+
+double processor_seconds_here() {
+  timespec now = {};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// This does not use getrusage(), because what that tells outlives exec(), and so includes the
+// memory of the process that started this one.
+std::uint64_t peak_bytes_here() {
+  constexpr std::uint64_t bytes_a_kilobyte = 1024;
+  std::ifstream status("/proc/self/status");
+  std::string word;
+  while (status >> word) {
+    std::uint64_t kilobytes = 0;
+    if (word == "VmHWM:" && status >> kilobytes) return bytes_a_kilobyte * kilobytes;
+  }
+  return 0;
+}
+
+}  // namespace
+
+RunClock::RunClock(bool is_on) : is_on_(is_on) { begin(); }
+
+double RunClock::lap() {
+  const double before = last_;
+  last_ = processor_seconds_here();
+  return last_ - before;
+}
+
+void RunClock::begin() {
+  if (is_on_) lap();
+}
+
+void RunClock::created() {
+  if (is_on_) times_.create = lap();
+}
+
+void RunClock::answered() {
+  if (is_on_) times_.steps.push_back(lap());
+}
+
+std::optional<RunTimes> RunClock::take() {
+  if (!is_on_) return std::nullopt;
+  times_.peak_bytes = peak_bytes_here();
+  return std::move(times_);
 }
 
 }  // namespace assay::properties

@@ -10,6 +10,7 @@
 #include "corpus/cases/case_file.h"
 #include "detector/options.h"
 #include "detector/step_result.h"
+#include "properties/words.h"
 
 namespace assay::properties {
 
@@ -40,8 +41,15 @@ enum class RunEnd : std::uint8_t {
   out_of_memory,  // before the first step: undecided
   not_run,        // there is no worker to run it: the harness failed, not the detector
 };
-
-const char* name_of(RunEnd end);
+constexpr auto names_of(RunEnd) {
+  using enum RunEnd;
+  return std::to_array<Named<RunEnd>>({{completed, "completed"},
+                                       {crashed, "crashed"},
+                                       {hung, "hung"},
+                                       {refused, "refused"},
+                                       {out_of_memory, "out of memory"},
+                                       {not_run, "not run"}});
+}
 
 // The candidate pairs of one step; nothing if the detector failed to give them.
 using CandidatePairs = std::optional<std::vector<detector::TrianglePair>>;
@@ -94,5 +102,24 @@ CaseRun out_of_memory();
 
 // Whether two runs of one case agree in everything but times and circumstances.
 bool same_answers(const CaseRun& a, const CaseRun& b);
+
+// Measures what a case takes in the process that runs it, part by part: the processor time of this
+// process with all of its threads, and its memory. Measures nothing if it is off.
+class RunClock {
+ public:
+  // Begins to time the making of the detector.
+  explicit RunClock(bool is_on);
+  void created();
+  void begin();     // a step begins
+  void answered();  // the step that began last has its answer
+  std::optional<RunTimes> take();
+
+ private:
+  double lap();
+
+  bool is_on_;
+  double last_ = 0;
+  RunTimes times_;
+};
 
 }  // namespace assay::properties

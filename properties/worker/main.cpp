@@ -19,10 +19,10 @@
 
 #include "properties/worker/channel.h"
 #include "properties/worker/isolation/keeper.h"
-#include "properties/worker/isolation/memory_limit.h"
+#include "properties/worker/isolation/walls.h"
+#include "properties/worker/messages.h"
 #include "properties/worker/plugin/plugin_host.h"
 #include "properties/worker/plugin/python_word.h"
-#include "properties/worker/wire_fields.h"
 
 namespace {
 
@@ -81,7 +81,7 @@ int serve(Channel channel, const LoadedPlugin* library) {
       hello.description = plugin->description();
     } else {
       hello.serves = false;
-      hello.problem = opened.error();
+      hello.refusal = opened.error().message;
     }
   }
   if (channel.send(encode(hello)) != Transfer::done) return 0;
@@ -134,7 +134,7 @@ int main(int argc, char** argv) {
       if (words.size() == built_in) {
         return limit_memory(*bytes) ? serve(std::move(to_host), nullptr) : exit_usage;
       }
-      const auto mode = isolation_mode_of(words[4]);
+      const auto mode = assay::from_name<IsolationMode>(words[4]);
       const auto threads = number(words[7]), variation = number(words[10]),
                  asks_twice = number(words[11]);
       if (mode && threads && variation && asks_twice) {

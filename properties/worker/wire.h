@@ -2,7 +2,8 @@
 // built from the same sources and run on the same machine, which wire_version checks. So plain
 // data travels as it lies in memory.
 //
-// What a message holds is listed once, in wire_fields.h, for both directions.
+// What a message holds is listed once, in messages.h and beside the types (fields.h), for both
+// directions.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,6 +14,9 @@
 #include <type_traits>
 #include <vector>
 
+#include "detector/mesh/enum_names.h"
+#include "properties/fields.h"
+
 namespace assay::properties {
 
 // Types whose values travel as their bytes. They are listed by name, so that a type that gains a
@@ -21,15 +25,17 @@ template <class T>
 struct TravelsAsBytes : std::bool_constant<std::is_arithmetic_v<T> || std::is_enum_v<T>> {};
 
 // The greatest value of an enum, whose values count from 0; a message with another value is
-// invalid. It is stated for each enum that travels by itself (wire_fields.h).
+// invalid. An enum that lists its values needs no more; for another one that travels by itself it
+// is stated in messages.h.
 template <class T>
-inline constexpr auto last_of = nullptr;
+inline constexpr T last_of = last_value<T>;
 
-class WireWriter {
+class WireWriter : public NamedFields<WireWriter> {
  public:
-  template <class... T>
-  void operator()(T&... items) {
-    (put(items), ...);
+  // Names are for other archives; the two ends of a message are built from the same list.
+  template <class T>
+  void field(const char*, T& item) {
+    put(item);
   }
   std::string take() { return std::move(bytes_); }
 
@@ -81,12 +87,12 @@ class WireWriter {
 
 // Reads what a WireWriter wrote. A message that is too short, or states more than it holds, makes
 // ok() false and leaves the rest untouched: the other end was damaged by the code that it ran.
-class WireReader {
+class WireReader : public NamedFields<WireReader> {
  public:
   explicit WireReader(const std::string& bytes) : next_(bytes.data()), left_(bytes.size()) {}
-  template <class... T>
-  void operator()(T&... items) {
-    (get(items), ...);
+  template <class T>
+  void field(const char*, T& item) {
+    get(item);
   }
   bool ok() const { return ok_; }
   // The whole message was read, and nothing is left.

@@ -11,10 +11,9 @@
 #include "properties/worker/child_process.h"
 #include "properties/worker/isolation/printed_words.h"
 #include "properties/worker/isolation/scratch_folder.h"
+#include "properties/worker/messages.h"
 #include "properties/worker/plugin/judged_library.h"
 #include "properties/worker/plugin/python_word.h"
-#include "properties/worker/reply_rules.h"
-#include "properties/worker/wire_fields.h"
 #include "properties/worker/worker_watch.h"
 
 namespace assay::properties {
@@ -88,9 +87,8 @@ struct WorkerProcess::Parts {
         const bool is_outside = was_killed_from_outside(*end);
         if (is_outside && killed + 1 < attempts) continue;
         if (was_loaded && plugin_library) end_of_loading = RunEnd::crashed;
-        return Problem{ProblemKind::ended_while_loaded,
-                       who() + ": ended while it was loaded: " +
-                           (is_outside ? every_time(*end) : end->text) + last_line_printed()};
+        return Problem{who() + ": ended while it was loaded: " +
+                       (is_outside ? every_time(*end) : end->text) + last_line_printed()};
       }
       if (const auto same = judged ? judged->is_as_it_was() : boost::outcome_v2::success(); !same) {
         live.reset();
@@ -117,7 +115,7 @@ struct WorkerProcess::Parts {
 
   Expected<void> start() {
     auto ends = Channel::connected();
-    if (!ends) return Problem{ProblemKind::cannot_start, "no socket for a worker"};
+    if (!ends) return Problem{"no socket for a worker"};
     std::vector<std::string> arguments = {std::to_string(child_descriptor),
                                           std::to_string(::getpid()), std::to_string(limits.bytes)};
     if (plugin_library) {
@@ -175,15 +173,14 @@ struct WorkerProcess::Parts {
         live->plugin = static_cast<pid_t>(keeper.process);
         if (!keeper.has_copies) judged->note_loaded_in_place();
         if (!covers(isolation, limits.least)) {
-          return Problem{ProblemKind::not_isolated,
-                         fmt::format("{}: not loaded: its isolation would be {}, and was {} when "
-                                     "it was loaded first",
-                                     who(), text_of(isolation), text_of(limits.least))};
+          return Problem{
+              fmt::format("{}: not loaded: its isolation would be {}, and was {} when "
+                          "it was loaded first",
+                          who(), text_of(isolation), text_of(limits.least))};
         }
         limits.least = isolation;
         if (limits.isolation == IsolationMode::required && !isolation.is_whole()) {
           return Problem{
-              ProblemKind::not_isolated,
               fmt::format("{}: not loaded: isolation is required, and this system's is {}", who(),
                           text_of(isolation))};
         }
@@ -196,8 +193,7 @@ struct WorkerProcess::Parts {
     Hello hello;
     if (received == Transfer::timed_out && !watch.has_ended()) {
       if (was_loaded && plugin_library) end_of_loading = RunEnd::hung;
-      return Problem{ProblemKind::hung_while_loaded,
-                     who() + ": hung while it was loaded: " + watch.why()};
+      return Problem{who() + ": hung while it was loaded: " + watch.why()};
     }
     if (received != Transfer::done) {
       const ChildEnd end = live->child.finish(last_breath);
@@ -211,19 +207,19 @@ struct WorkerProcess::Parts {
       return broken_hello("no description");
     }
     if (plugin_library) {
-      const auto rule = hello.serves ? broken_rule(hello.description) : broken_rule(hello.problem);
+      const auto rule = hello.serves ? broken_rule(hello.description) : broken_rule(hello.refusal);
       if (!rule.empty()) return broken_hello(rule);
     }
-    if (!hello.serves) return hello.problem;
+    if (!hello.serves) return Problem{hello.refusal};
     description = std::move(hello.description);
     return std::optional<ChildEnd>();
   }
 
   Problem other_build() const {
-    return {ProblemKind::another_build, program.string() + ": of another build than this program"};
+    return {program.string() + ": of another build than this program"};
   }
   Problem broken_hello(const std::string& rule) const {
-    return {ProblemKind::broken_reply, fmt::format("{}: {}", who(), broken(rule))};
+    return {fmt::format("{}: {}", who(), broken(rule))};
   }
 
   // Sends what is left to do and appends the answers, until a run ends the worker.

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "detector/contact/four_points.h"
+#include "detector/mesh/step_types.h"
 #include "properties/problem.h"
 #include "properties/worker/case_run.h"
 #include "properties/worker/isolation/isolation.h"
@@ -32,10 +32,10 @@ struct WorkerLimits {
   double seconds = 10;
   std::uint64_t bytes = 0;  // address space of a process; 0: no limit
   // How the process of a plug-in is to be isolated. If that is `required` and the system does not
-  // offer all of it, the problem is not_isolated.
+  // offer all of it, it is not loaded.
   IsolationMode isolation = IsolationMode::best;
   // The isolation that a plug-in was reported to have when it was first loaded. It is not loaded
-  // again with less, whatever `isolation` says; the problem is then not_isolated.
+  // again with less, whatever `isolation` says.
   Isolation least = {};
   std::uint64_t threads = 1;  // told to a plug-in that asks how many it may use
   // A folder in which an isolated plug-in reads no file: that of the run.
@@ -61,8 +61,8 @@ class WorkerProcess {
   ~WorkerProcess();  // ends the worker and waits for it
 
   // What the plug-in says of itself. Without a plug-in: the built-in detector, with all claims.
-  // The problems are those of PluginHost::open, and those of the worker: cannot_start,
-  // another_build, ended_while_loaded, hung_while_loaded, broken_reply, not_isolated.
+  // Fails where PluginHost::open fails, and if the worker cannot be started, is of another build,
+  // ends or hangs while it loads the plug-in, sends what no worker sends, or cannot be isolated.
   Expected<PluginDescription> describe();
 
   // How the plug-in's process is isolated. Known once describe() or run() has returned an answer.
@@ -70,7 +70,7 @@ class WorkerProcess {
 
   // Returns one run for each configuration, in order. A crash or a hang is reported for the
   // configuration that had it; the others still run, in a new worker. A reply of a plug-in that
-  // breaks a rule (reply_rules.h) counts as a crash. If no worker can be started, the runs are
+  // breaks a rule (messages.h) counts as a crash. If no worker can be started, the runs are
   // not_run and say why.
   //
   // A run whose worker is killed from outside (child_process.h) is repeated in a new worker. After

@@ -1,6 +1,7 @@
 #include "properties/worlds/tetrahedron_world.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <limits>
@@ -8,9 +9,14 @@
 #include <thread>
 #include <vector>
 
-#include "properties/worlds/tetrahedron_check.h"
+#include "detector/detector.h"
+#include "oracle/instant/winding.h"
+#include "oracle/view/candidates.h"
+#include "oracle/view/view_sign.h"
+#include "properties/judging/agreement.h"
 
 namespace assay::properties {
+
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -112,6 +118,127 @@ TetrahedronWorldResult prove(const TetrahedronWorld& world,
     run.work();
   }
   return run.result();
+}
+
+namespace {
+
+using detector::Detector;
+using detector::Pairs;
+using detector::Positions;
+using detector::Start;
+using detector::ViewPrimitive;
+using detector::ViewSign;
+
+class Check {
+ public:
+  Check(const TetrahedronMotion& motion, TetrahedronWorldResult& counts)
+      : motion_(motion), counts_(counts), x_t0_(4, 3), x_t1_(4, 3) {
+    for (Eigen::Index v = 0; v < 4; ++v) {
+      for (Eigen::Index k = 0; k < 3; ++k) {
+        const auto& vertex = motion.vertices[static_cast<std::size_t>(v)];
+        x_t0_(v, k) = vertex.t0[static_cast<std::size_t>(k)];
+        x_t1_(v, k) = vertex.t1[static_cast<std::size_t>(k)];
+      }
+    }
+    faces_[0].resize(4, 3);
+    faces_[0] << 0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3;
+    faces_[1] = faces_[0].rowwise().reverse();
+    // The oracle judges one orientation only, because contacts do not depend on the orientation of
+    // the faces.
+    judgement_ = oracle::judge_step({x_t0_, x_t1_}, faces_[0], {1, {}});
+    collides_ = judgement_.answer == detector::Answer::collision;
+    // A single tetrahedron without a contact is embedded, so its layers are all (1,0) or all
+    // (0,-1).
+    clean_start_ = !collides_ || judgement_.first.hi > 0;
+  }
+
+  std::optional<TetrahedronFailure> run() {
+    for (std::size_t turned = 0; turned < 2; ++turned) {
+      const auto make = [&](Start start, Pairs pairs) {
+        return std::move(
+            Detector::create(faces_[turned], x_t0_, {detector::Culling::view_point, start, pairs})
+                .value());
+      };
+      Detector verified = make(Start::verified, Pairs::all);
+      Detector trusting = make(Start::clean, Pairs::first);
+      for (const auto& view : motion_.views) {
+        const ViewPrimitive q = {{view.q, view.q}, {view.q, view.q}};
+        const char* wrong = check_detector(verified, Pairs::all, q)
+                                ? "detector, start verified, all pairs"
+                            : clean_start_ && check_detector(trusting, Pairs::first, q)
+                                ? "detector, start clean, first pairs"
+                                : check_laws(turned, q);
+        if (wrong) return failure(turned, view.q, wrong);
+      }
+    }
+    for (const auto& view : motion_.views) {
+      ++counts_.classes;
+      counts_.motions += motion_.stands_for * view.stands_for;
+    }
+    return {};
+  }
+
+ private:
+  // Returns true if the detector does not hold.
+  bool check_detector(Detector& detector, Pairs pairs, const ViewPrimitive& q) const {
+    const auto result = detector.evaluate(x_t0_, x_t1_, {&q, 1});
+    return compare(result, judgement_, claims_of({.pairs = pairs})).outcome != Outcome::holds;
+  }
+
+  // The law that does not hold, or null if all hold.
+  const char* check_laws(std::size_t turned, const ViewPrimitive& q) {
+    const auto signs = oracle::view_signs({x_t0_, x_t1_}, faces_[turned], {&q, 1}, 1);
+    const auto all = [&](ViewSign sign) {
+      return std::all_of(signs.begin(), signs.end(), [=](ViewSign s) { return s == sign; });
+    };
+    counts_.collisions += collides_ ? 1 : 0;
+    const bool positive = all(ViewSign::positive);
+    if (clean_start_) {
+      ++counts_.clean_starts;
+      if (positive || all(ViewSign::negative)) {
+        ++counts_.one_sign;
+        if (collides_) return "L4";
+      }
+      if (collides_) {
+        ++counts_.first_in_k;
+        const oracle::Candidates k(signs, {});
+        if (!oracle::holds_a_first_contact(judgement_.pairs, k)) return "L3";
+      }
+    }
+    if (positive) {
+      const oracle::Instant start(x_t0_);
+      if (oracle::WindingField(start, faces_[turned]).at(q.q0.t0) == 1) {
+        ++counts_.all_positive;
+        if (collides_) return "L5";
+      }
+    }
+    return nullptr;
+  }
+
+  TetrahedronFailure failure(std::size_t turned, const detector::Point& q,
+                             const char* explanation) const {
+    TetrahedronFailure failed{{}, explanation};
+    failed.c.about = std::string("does not hold: ") + explanation;
+    failed.c.source = "small world of tetrahedra";
+    failed.c.triangles = faces_[turned];
+    failed.c.frames = {x_t0_, x_t1_};
+    failed.c.view = corpus::CaseView{{q, q}, {}};
+    return failed;
+  }
+
+  const TetrahedronMotion& motion_;
+  TetrahedronWorldResult& counts_;
+  Positions x_t0_, x_t1_;
+  std::array<detector::Triangles, 2> faces_;
+  oracle::StepJudgement judgement_;
+  bool collides_ = false, clean_start_ = false;
+};
+
+}  // namespace
+
+std::optional<TetrahedronFailure> check_tetrahedron(const TetrahedronMotion& motion,
+                                                    TetrahedronWorldResult& counts) {
+  return Check(motion, counts).run();
 }
 
 }  // namespace assay::properties

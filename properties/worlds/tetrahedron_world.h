@@ -57,4 +57,16 @@ struct TetrahedronWorldResult {
 // Takes 0.1 to 0.5 ms for each class.
 TetrahedronWorldResult prove(const TetrahedronWorld& world, const TetrahedronWorldOptions& options);
 
+// The check of one class of a tetrahedron's motions: detector and laws against the oracle.
+
+struct TetrahedronFailure {
+  corpus::Case c;
+  std::string explanation;
+};
+
+// Checks all view-points of the motion, in both orientations, and adds to the counts. Returns the
+// first failure, or nothing.
+std::optional<TetrahedronFailure> check_tetrahedron(const TetrahedronMotion& motion,
+                                                    TetrahedronWorldResult& counts);
+
 }  // namespace assay::properties

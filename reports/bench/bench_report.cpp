@@ -3,14 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+#include <cstdlib>
 
 #include "properties/words.h"
-#include "reports/bench/detector/compared_output.h"
-#include "reports/bench/peers/peer_output.h"
-#include "reports/bench/speed_error/error_output.h"
-#include "reports/bench/stability/stability_output.h"
-#include "reports/terminal/version.h"
 
 namespace assay::reports {
 
@@ -44,10 +39,26 @@ const char* name_of(RowOutcome outcome) {
 }
 
 std::string text_of(const Wanted& wanted) {
-  const char* sign = wanted.sense == Wanted::Sense::at_most    ? "<="
-                     : wanted.sense == Wanted::Sense::at_least ? ">="
-                                                               : "<";
-  return fmt::format("{} {:g}", sign, wanted.bound);
+  return fmt::format("{} {:g}", properties::word_of({"<=", ">=", "<"}, wanted.sense), wanted.bound);
+}
+
+std::string text_of(const properties::TimesOff& off) {
+  return off.steps == 0 ? "0" : fmt::format("{}: {:.1g}", off.steps, off.worst_share);
+}
+
+std::string table_line(std::span<const int> widths, const std::vector<std::string>& words,
+                       int gap) {
+  std::string line;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const bool is_last = i + 1 == words.size();
+    const auto width = static_cast<std::size_t>(std::abs(widths[i]));
+    const std::string fill(width - std::min(width, words[i].size()), ' ');
+    if (widths[i] >= 0) line += fill;
+    line += words[i];
+    if (widths[i] < 0 && !is_last) line += fill;
+    if (!is_last) line.append(static_cast<std::size_t>(gap), ' ');
+  }
+  return line + "\n";
 }
 
 namespace {
@@ -61,97 +72,121 @@ std::string measured_text(const BenchRow& row) {
   return text;
 }
 
-}  // namespace
-
-std::string text_of(const BenchReport& report) {
+std::string rows_text(const std::vector<BenchRow>& rows) {
+  if (rows.empty()) return "";
   std::size_t widest = 4, measured = 8;
-  for (const auto& row : report.rows) {
+  for (const auto& row : rows) {
     widest = std::max(widest, row.label.size());
     measured = std::max(measured, measured_text(row).size());
   }
-  std::string text;
-  if (report.detector) text = text_of(*report.detector, report.sequences);
-  if (!report.rows.empty())
-    text += fmt::format("{:<{}}  {:<{}}  {:<10}  {}\n", "what", widest, "measured", measured,
-                        "wanted", "outcome");
-  for (const auto& row : report.rows) {
-    text += fmt::format("{:<{}}  {:<{}}  {:<10}  {}{}\n", row.label, widest, measured_text(row),
-                        measured, row.wanted ? text_of(*row.wanted) : "-", name_of(row.outcome()),
-                        row.note.empty() ? "" : "  " + row.note);
+  const int widths[] = {-static_cast<int>(widest), -static_cast<int>(measured), -10, -1};
+  std::string text = table_line(widths, {"what", "measured", "wanted", "outcome"}, 2);
+  for (const auto& row : rows) {
+    const std::string note = row.note.empty() ? "" : "  " + row.note;
+    text += table_line(widths,
+                       {row.label, measured_text(row), row.wanted ? text_of(*row.wanted) : "-",
+                        name_of(row.outcome()) + note},
+                       2);
   }
-  if (!report.variants.empty()) {
-    text += fmt::format("\n{}\n{}\n", families_text(report.families),
-                        text_of(std::span(report.variants)));
-  }
-  if (!report.peers.empty()) {
-    text += text_of(std::span(report.peers), std::span(report.peer_families),
-                    std::span(report.absent_peers));
-    text += unconfirmed_text(report.unsafe_answers);
-  }
+  return text;
+}
+
+}  // namespace
+
+std::string text_of(const BenchReport& report) {
+  std::string text = report.above + rows_text(report.rows) + report.below;
   for (const auto& line : report.wrong_answers) text += "WRONG ANSWER: " + line + "\n";
   return text;
 }
 
-Json to_json(const BenchReport& report) {
-  Json rows = Json::array(), scatter = Json::array();
+void to_json(Json& json, const Estimate& estimate) {
+  json = {{"median", estimate.value},
+          {"interval", {estimate.lo, estimate.hi}},
+          {"samples", estimate.samples}};
+}
+
+Json to_json(const BenchReport& report, const std::string& version) {
+  Json rows = Json::array();
   for (const auto& row : report.rows) {
-    Json measured, wanted;
-    if (row.measured) measured = to_json(*row.measured);
-    if (row.wanted) wanted = text_of(*row.wanted);
-    rows.push_back({{"what", row.label},
-                    {"unit", row.unit},
-                    {"measured", measured},
-                    {"wanted", wanted},
-                    {"outcome", name_of(row.outcome())},
-                    {"note", row.note}});
+    const auto wanted = row.wanted ? std::optional(text_of(*row.wanted)) : std::nullopt;
+    rows.push_back(json_object("what", row.label, "unit", row.unit, "measured", row.measured,
+                               "wanted", wanted, "outcome", name_of(row.outcome()), "note",
+                               row.note));
   }
-  for (const auto& p : report.scatter) {
-    scatter.push_back({{"scene", p.scene},
-                       {"culling", p.culling},
-                       {"view_positive_share", p.share},
-                       {"over", p.over},
-                       {"time_over", p.ratio},
-                       {"interval", {p.lo, p.hi}}});
+  Json json = json_object("schema", "assay-bench/1", "version", version, "suite", report.suite,
+                          "rows", rows);
+  // Every field is there in every suite.
+  for (const std::string name : {"scatter", "heat", "variants", "families", "detector", "sequences",
+                                 "peers", "peer_families", "absent_peers", "unsafe_answers"}) {
+    const auto figures = report.figures.find(name);
+    json[name] = figures != report.figures.end() ? figures->second
+                 : name == "detector"            ? Json()
+                                                 : Json::array();
   }
-  return {{"schema", "assay-bench/1"},
-          {"version", version_text()},
-          {"suite", report.suite},
-          {"rows", rows},
-          {"scatter", scatter},
-          {"heat", to_json(std::span(report.heat))},
-          {"variants", to_json(std::span(report.variants))},
-          {"families", to_json(std::span(report.families))},
-          {"detector", report.detector ? to_json(*report.detector) : Json()},
-          {"sequences", to_json(std::span(report.sequences))},
-          {"peers", to_json(std::span(report.peers))},
-          {"peer_families", to_json(std::span(report.peer_families))},
-          {"absent_peers", to_json(std::span(report.absent_peers))},
-          {"unsafe_answers", to_json(std::span(report.unsafe_answers))},
-          {"wrong_answers", report.wrong_answers}};
+  json["wrong_answers"] = report.wrong_answers;
+  return json;
 }
 
 namespace {
 
-// A field of CSV. It stands in quotes, because the words may hold commas.
 std::string quoted(const std::string& words) {
   std::string text(1, '"');
   for (const char c : words) text.append(c == '"' ? 2 : 1, c);
-  text += '"';
-  return text;
+  return text + '"';
+}
+
+// Words stand in quotes only if they have to.
+std::string csv_field(const Json& value) {
+  if (value.is_boolean()) return value.get<bool>() ? "1" : "0";
+  if (value.is_number_float()) return fmt::format("{}", value.get<double>());
+  if (!value.is_string()) return value.dump();
+  const auto words = value.get<std::string>();
+  return words.find_first_of(",\"\n") == std::string::npos ? words : quoted(words);
+}
+
+using Values = std::map<std::string, std::string>;  // by the name of the column
+
+void add_values(const std::string& name, const Json& value, std::vector<std::string>& columns,
+                Values& values) {
+  if (value.is_object()) {
+    const std::string before = name.empty() ? "" : name + "_";
+    for (const auto& [inner, one] : value.items()) add_values(before + inner, one, columns, values);
+    return;
+  }
+  if (value.is_null() || (value.is_array() && !value.empty() && value.front().is_structured()))
+    return;
+  std::vector<std::string> words;
+  for (const auto& one : value) words.push_back(csv_field(one));
+  values[name] = fmt::format("{}", fmt::join(words, " "));
+  if (std::find(columns.begin(), columns.end(), name) == columns.end()) columns.push_back(name);
 }
 
 }  // namespace
 
+void BenchReport::add_figure(std::string_view field, Json object) {
+  figures[std::string(field)].push_back(std::move(object));
+}
+
+void BenchReport::add_sample(const Json& object) {
+  Values values;
+  add_values("", object, columns, values);
+  std::vector<std::string> line;
+  for (const auto& column : columns) line.push_back(values[column]);
+  samples.emplace_back(columns.size(), fmt::format("{}", fmt::join(line, ",")));
+}
+
 std::string csv_of(const BenchReport& report) {
-  if (!report.steps.empty()) return csv_of(std::span(report.steps));
-  if (!report.heat.empty()) return csv_of(std::span(report.heat));
-  if (!report.peers.empty()) return csv_of(std::span(report.peer_families));
-  if (report.detector) return csv_of(std::span(report.sequences));
-  std::string text = "suite,what,unit,sample,value\n";
+  std::string text;
+  if (!report.samples.empty()) {
+    text = fmt::format("{}\n", fmt::join(report.columns, ","));
+    for (const auto& [columns, line] : report.samples)
+      text += line + std::string(report.columns.size() - columns, ',') + "\n";
+    return text;
+  }
+  text = "suite,what,unit,sample,value\n";
   for (const auto& row : report.rows) {
-    if (!row.measured) continue;
     int sample = 0;
-    for (const double value : row.measured->samples) {
+    for (const double value : row.measured ? row.measured->samples : std::vector<double>()) {
       text += fmt::format("{},{},{},{},{}\n", report.suite, quoted(row.label), quoted(row.unit),
                           ++sample, value);
     }

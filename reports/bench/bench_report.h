@@ -1,18 +1,19 @@
-// The result of a suite of benches: rows, wrong answers, points of a scatter, and what single
-// suites add. It can be written as text and as JSON (schema assay-bench/1, reports/README.md).
+// The result of a suite of benches: rows, wrong answers, and what else a suite tells, in forms that
+// do not depend on the suite. It is written as text, as JSON (schema assay-bench/1,
+// reports/README.md) and as CSV, each in one way.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "reports/bench/detector/compared_sequence.h"
-#include "reports/bench/estimate.h"
-#include "reports/bench/peers/peer_summary.h"
-#include "reports/bench/speed_error/error_summary.h"
-#include "reports/bench/stability/stability_cell.h"
+#include "properties/judging/step_errors.h"
 #include "reports/bench/wanted.h"
+#include "reports/estimate.h"
 
 namespace assay::reports {
 
@@ -29,23 +30,6 @@ struct BenchRow {
   RowOutcome outcome() const;
 };
 
-// A step of the break-even scatter.
-struct ScatterPoint {
-  std::string scene;
-  std::string culling;
-  double share = 0;          // share of V+ among all triangles
-  double ratio = 0;          // time of the step over that of culling `over`
-  double lo = 0, hi = 0;     // interval of the ratio
-  std::string over = "bvh";  // or "normal-cone"
-};
-
-// The time of one thing at one size, in suite growth.
-struct GrowthPoint {
-  std::string label;
-  double triangles = 0;
-  Estimate ms;
-};
-
 struct BenchReport {
   BenchReport() = default;
   explicit BenchReport(std::string name) : suite(std::move(name)) {}
@@ -55,40 +39,66 @@ struct BenchReport {
   // One line for each wrong answer. Any of them fails the run, because times are noisy but answers
   // are not.
   std::vector<std::string> wrong_answers;
-  std::vector<ScatterPoint> scatter;
-  std::vector<StabilityCell> heat;  // filled by suite stability
-  std::vector<GrowthPoint> growth;  // in the order of label, then of triangles
-  // Filled by suite speed-error.
-  std::vector<JudgedStep> steps;
-  std::vector<FamilySummary> families;
-  std::vector<VariantSummary> variants;
-  // Filled by `bench --detector`.
-  std::optional<ComparedDetector> detector;
-  std::vector<ComparedSequence> sequences;
-  // Filled by suite peers.
-  std::vector<PeerRow> peers;
-  std::vector<PeerFamily> peer_families;
-  std::vector<AbsentPeer> absent_peers;
-  std::vector<UnsafeAnswer> unsafe_answers;
+  std::string above, below;  // tables of the suite, above and below the rows
+  // The fields that the suite adds to the JSON, by name: lists of objects, but for `detector`.
+  std::map<std::string, nlohmann::ordered_json, std::less<>> figures;
+  // The suite's own CSV: the names of its columns, and its lines with the number of columns that
+  // each has; the others of a line are empty. No lines: the CSV is of the samples of the rows.
+  std::vector<std::string> columns;
+  std::vector<std::pair<std::size_t, std::string>> samples;
+  std::string picture;  // a script for gnuplot; empty: the suite has none
 
   void add(std::string label, std::string unit, Estimate measured,
            std::optional<Wanted> wanted = std::nullopt, std::string note = {});
   // Adds a row that says that the folder or file `missing` is not there.
   void add_no_data(std::string label, const std::string& missing);
+  // Adds an object to a field of the JSON.
+  void add_figure(std::string_view field, nlohmann::ordered_json object);
+  // Adds a line to `samples`. A field that is an object itself has a column for each of its own
+  // fields ("late_steps"). Numbers of a list are separated by blanks; other lists are left out.
+  void add_sample(const nlohmann::ordered_json& object);
   // Adds a row without a measurement. `why` is its note, such as "left out: ...".
   void add_left_out(std::string label, std::string why);
 };
 
 const char* name_of(RowOutcome outcome);
 std::string text_of(const Wanted& wanted);
-// The report as a table, one line for each row.
+
+// One line of a table of words. Each word but the last fills its column, whose words end at the
+// right, or begin at the left if the width is below 0. `gap` blanks are between columns. REQUIRES
+// as many widths as words.
+std::string table_line(std::span<const int> widths, const std::vector<std::string>& words,
+                       int gap = 1);
+
+// "2: 0.01": in how many steps first times are off, and by which share of a step at worst.
+std::string text_of(const properties::TimesOff& off);
+
+// What stands above the rows; the rows as a table, one line each; what stands below them; the
+// wrong answers.
 std::string text_of(const BenchReport& report);
-nlohmann::ordered_json to_json(const BenchReport& report);
-// The report as CSV, with one line for each raw sample. The lines of some suites are others:
-// - peers: one for each family and detector (peer_output.h);
-// - speed-error: one for each step and variant (error_output.h);
-// - stability: one for each cell (stability_output.h);
-// - `bench --detector`: one for each sequence and round (compared_output.h).
+// `version` is that of the program.
+nlohmann::ordered_json to_json(const BenchReport& report, const std::string& version);
+// One line for each sample.
 std::string csv_of(const BenchReport& report);
+
+// {median, interval, samples}
+void to_json(nlohmann::ordered_json& json, const Estimate& estimate);
+
+template <class T>
+nlohmann::ordered_json json_value(const T& value) {
+  return value;
+}
+template <class T>
+nlohmann::ordered_json json_value(const std::optional<T>& value) {
+  return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
+}
+
+// An object with these fields: a name and its value in turn. What is not there is null.
+template <class T, class... Rest>
+nlohmann::ordered_json json_object(const char* name, const T& value, const Rest&... rest) {
+  nlohmann::ordered_json json = {{name, json_value(value)}};
+  if constexpr (sizeof...(rest) > 0) json.update(json_object(rest...));
+  return json;
+}
 
 }  // namespace assay::reports

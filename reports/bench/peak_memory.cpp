@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-#include "properties/worker/process_copy.h"
+#include "properties/worker/child_process.h"
 
 namespace assay::reports {
 namespace {

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "corpus/queries/query_csv.h"
-#include "detector/search/feature_key.h"
+#include "detector/search/feature_pairs.h"
 #include "detector/search/pair_search.h"
 #include "properties/numbering.h"
 

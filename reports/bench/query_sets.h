@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "corpus/formats/sequence_reader.h"
-#include "detector/contact/four_points.h"
+#include "detector/mesh/step_types.h"
 #include "reports/bench/suites.h"
 
 namespace assay::reports {

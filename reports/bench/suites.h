@@ -2,12 +2,12 @@
 // all of them together fifteen.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <stdexcept>
 #include <string>
 
 #include "reports/bench/bench_report.h"
-#include "reports/terminal/progress.h"
 
 namespace assay::reports {
 
@@ -20,9 +20,17 @@ struct BenchSettings {
   double case_seconds = 60;
   int jobs = 1;
 
-  int triangles(int full) const;  // scaled, at least 320
-  int rounds(int full) const;     // scaled, at least 2
+  // Scaled, at least 320.
+  int triangles(int full) const { return std::max(320, static_cast<int>(full * scale)); }
+  // Scaled, at least 2.
+  int rounds(int full) const { return std::max(2, static_cast<int>(full * std::min(1.0, scale))); }
   std::string file(const std::string& name) const { return data + "/" + name; }
+};
+
+// What a suite tells while it runs: what it turns to, and that it is alive. `tick` is called often.
+struct BenchProgress {
+  std::function<void(const std::string& name)> phase = [](const std::string&) {};
+  std::function<void()> tick = [] {};
 };
 
 // A file of the public data is there but cannot be used. The text is one line.
@@ -30,33 +38,31 @@ struct UnusableData : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+using RunSuite = BenchReport(const BenchSettings& settings, const BenchProgress& progress);
+
 // The elementary test: times by kind of query, answers against labels, in each arithmetic.
-BenchReport elementary_suite(const BenchSettings& settings, Progress& progress);
+RunSuite elementary_suite;
 // The view test against the writing of swept boxes; free steps; how tight the view sets are.
-BenchReport view_suite(const BenchSettings& settings, Progress& progress);
+RunSuite view_suite;
 // Time and memory from a thousand to four million triangles.
-BenchReport growth_suite(const BenchSettings& settings, Progress& progress);
+RunSuite growth_suite;
 // The thesis's claims about costs, the whole step against culling bvh, and the share of V+ at
 // which views break even.
-BenchReport claims_suite(const BenchSettings& settings, Progress& progress);
+RunSuite claims_suite;
 // Where each arithmetic breaks, in the corpus's hard families.
-BenchReport stability_suite(const BenchSettings& settings, Progress& progress);
+RunSuite stability_suite;
 // Every arithmetic, culling and kind of pairs on the same steps: time, and error against the
 // oracle.
-BenchReport speed_error_suite(const BenchSettings& settings, Progress& progress);
-
+RunSuite speed_error_suite;
 // Whole sequences by each culling and by several threads: what the default costs beside the best
 // choice.
-BenchReport sequences_suite(const BenchSettings& settings, Progress& progress);
-
+RunSuite sequences_suite;
 // What several threads gain and take, and what more cores would gain.
-BenchReport threads_suite(const BenchSettings& settings, Progress& progress);
-
+RunSuite threads_suite;
 // Those detectors of others that are there, beside the built-in one: time and error.
-BenchReport peers_suite(const BenchSettings& settings, Progress& progress);
-
+RunSuite peers_suite;
 // What judging costs: the oracle on a real step and on queries, and the steps that a campaign
 // judges in a second.
-BenchReport harness_suite(const BenchSettings& settings, Progress& progress);
+RunSuite harness_suite;
 
 }  // namespace assay::reports

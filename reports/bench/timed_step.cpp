@@ -1,8 +1,8 @@
 #include "reports/bench/timed_step.h"
 
+#include <algorithm>
 #include <bit>
 
-#include "corpus/scenes/scenes.h"
 #include "detector/assembly.h"
 #include "reports/bench/interleave.h"
 #include "reports/bench/suites.h"
@@ -92,9 +92,9 @@ Options bench_options(Culling culling, Arithmetic arithmetic) {
   return {culling, Start::clean, Pairs::all, arithmetic};
 }
 
-Options options_of_sequence(Culling culling, bool starts_clean, std::uint32_t threads) {
+Options options_of_sequence(Culling culling, Start start, std::uint32_t threads) {
   Options options = bench_options(culling);
-  if (!starts_clean) options.start = Start::verified;
+  options.start = start;
   options.threads = threads;
   return options;
 }
@@ -104,8 +104,14 @@ Detector made(Expected<Detector> detector, const std::string& name) {
   return std::move(detector.value());
 }
 
-corpus::Sequence bench_scene(const std::string& name, int triangles, int frames) {
-  return corpus::make_scene(name, {triangles, frames, {}}).value();
+void check_same_pairs(const std::string& name, const StepResult& a, const StepResult& b,
+                      BenchReport& report) {
+  const bool same = a.answer == b.answer && a.first == b.first &&
+                    std::equal(a.pairs.begin(), a.pairs.end(), b.pairs.begin(), b.pairs.end(),
+                               [](const PairContact& one, const PairContact& other) {
+                                 return one.pair == other.pair && one.time == other.time;
+                               });
+  if (!same) report.wrong_answers.push_back(name + ": two cullings find different pairs");
 }
 
 }  // namespace assay::reports

@@ -7,7 +7,9 @@
 
 #include "corpus/formats/sequence_reader.h"
 #include "detector/detector.h"
+#include "detector/options.h"
 #include "detector/step/stages.h"
+#include "detector/step_result.h"
 #include "reports/bench/bench_report.h"
 
 namespace assay::reports {
@@ -49,15 +51,16 @@ class TimedStep {
 detector::Options bench_options(detector::Culling culling,
                                 detector::Arithmetic arithmetic = detector::Arithmetic::exact);
 
-// The same for a sequence played with so many threads. If nobody vouches for its start, it is
-// verified.
-detector::Options options_of_sequence(detector::Culling culling, bool starts_clean,
+// The same for a sequence with this start, played with so many threads.
+detector::Options options_of_sequence(detector::Culling culling, detector::Start start,
                                       std::uint32_t threads);
 
 // The detector. Throws UnusableData, with this name, if the mesh was refused.
 detector::Detector made(detector::Expected<detector::Detector> detector, const std::string& name);
 
-// A scene of corpus/. It cannot fail, because names and sizes are those of the benches.
-corpus::Sequence bench_scene(const std::string& name, int triangles, int frames);
+// Two exact cullings that are asked for all pairs of one step must find the same. A difference in
+// answers, pairs or their times is a wrong answer in the report.
+void check_same_pairs(const std::string& name, const detector::StepResult& a,
+                      const detector::StepResult& b, BenchReport& report);
 
 }  // namespace assay::reports

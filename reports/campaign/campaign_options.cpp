@@ -4,13 +4,13 @@
 
 #include <filesystem>
 
-#include "properties/campaign/query_plan.h"
-#include "properties/campaign/stored/power_proof.h"
+#include "properties/campaign/phases/power_proof.h"
+#include "properties/campaign/plan.h"
 #include "properties/worker/worker_process.h"
-#include "reports/bench/real_sequences.h"
+#include "reports/bench/cases.h"
 #include "reports/campaign/own_cases.h"
 #include "reports/check/detector_choice.h"
-#include "reports/terminal/interruption.h"
+#include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
 
 namespace assay::reports {
@@ -30,10 +30,10 @@ Expected<std::vector<corpus::Case>> public_sequences(const std::string& folder) 
     cases.push_back(std::move(c));
   }
   if (cases.empty())
-    return Refusal(fmt::format("{}: none of the public sequences is there", folder));
+    return Problem{fmt::format("{}: none of the public sequences is there", folder)};
   return cases;
 } catch (const UnusableData& problem) {
-  return Refusal(problem.what());
+  return Problem{problem.what()};
 }
 
 // An isolated plug-in reads nothing in the folder of its run. So the folder must not hold the
@@ -47,10 +47,10 @@ Expected<void> lies_apart(const std::filesystem::path& out, const DetectorWords&
         std::filesystem::current_path(error)}) {
     const auto end = std::mismatch(out.begin(), out.end(), place.begin(), place.end()).first;
     if (end == out.end())
-      return Refusal(
+      return Problem{
           fmt::format("--out {}: it holds {}, and the detector reads nothing in the "
                       "folder of its run; name a folder of the run's own",
-                      out.string(), place.string()));
+                      out.string(), place.string())};
   }
   return outcome::success();
 }
@@ -89,7 +89,7 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
                                    words.out),
                        exit_undecided);
   auto plan = properties::find_plan(words.campaign);
-  if (!plan) return Refusal(plan.error());
+  if (!plan) return plan.error();
   properties::CampaignRequest request;
   request.plan = std::move(plan.value());
   if (words.time_limit) request.plan.seconds = *words.time_limit;
@@ -108,7 +108,7 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
     fmt::print("campaign {} plants no faults: --power is not needed\n", request.plan.name);
   } else if (!words.power.empty()) {
     auto proof = properties::take_power(words.power, words.out, request);
-    if (!proof) return Refusal(proof.error());
+    if (!proof) return proof.error();
     request.power = std::move(proof.value());
   }
   std::error_code error;
@@ -125,9 +125,9 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
     request.repeated = std::move(sequences.value());
   }
   if (!detector.built_in && judged_claims(detector.claims, detector.contract).empty())
-    return Refusal(fmt::format(
+    return Problem{fmt::format(
         "{}: it claims nothing that its contract leaves to be judged; there is nothing to certify",
-        words.detector.library));
+        words.detector.library)};
   const bool with_query = detector.query_claims != properties::Claims();
   if (words.detector.part == DetectorPart::steps)
     request.plan = properties::without_queries(std::move(request.plan));
@@ -136,11 +136,11 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
   } else if (with_query) {
     request.plan = properties::with_queries(std::move(request.plan));
   } else if (asks_queries(request.plan)) {
-    return Refusal(fmt::format("campaign {}: its strata are queries, of a plug-in's query alone",
-                               request.plan.name));
+    return Problem{fmt::format("campaign {}: its strata are queries, of a plug-in's query alone",
+                               request.plan.name)};
   }
   std::filesystem::create_directories(words.out, error);
-  if (error) return Refusal(fmt::format("{}: cannot be made: {}", words.out, error.message()));
+  if (error) return Problem{fmt::format("{}: cannot be made: {}", words.out, error.message())};
   return request;
 }
 

@@ -4,14 +4,12 @@
 #include <fmt/format.h>
 
 #include "properties/campaign/gates/findings.h"
+#include "properties/campaign/ledger/binding.h"
 #include "properties/campaign/phases/phases.h"
-#include "properties/campaign/stored/binding.h"
 #include "reports/campaign/failure_text.h"
-#include "reports/campaign/slow_text.h"
 #include "reports/check/detector_choice.h"
-#include "reports/check/plugin_text.h"
-#include "reports/terminal/exit_code.h"
-#include "reports/terminal/plain_progress.h"
+#include "reports/terminal/complaint.h"
+#include "reports/terminal/progress.h"
 
 namespace assay::reports {
 
@@ -164,7 +162,7 @@ Expected<void> run_on_terminal(const properties::CampaignRequest& request, prope
                                const std::string& out) {
   CampaignTerminal terminal(request, out);
   const auto ran = properties::run_campaign(request, ASSAY_CORPUS_DIR, store, terminal);
-  if (!ran) return Refusal(ran.error());
+  if (!ran) return ran.error();
   return terminal.written();
 }
 

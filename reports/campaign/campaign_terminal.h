@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "properties/campaign/ledger/store.h"
 #include "properties/campaign/request.h"
-#include "properties/campaign/stored/store.h"
 #include "reports/terminal/complaint.h"
 
 namespace assay::reports {

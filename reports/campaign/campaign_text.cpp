@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
-#include "properties/campaign/gates/bounds.h"
+#include "properties/campaign/gates/findings.h"
 #include "properties/campaign/gates/not_judged.h"
-#include "properties/campaign/stored/count_names.h"
+#include "properties/campaign/ledger/tally.h"
 #include "reports/steps/measures_text.h"
-#include "reports/terminal/exit_code.h"
+#include "reports/terminal/complaint.h"
 
 namespace assay::reports {
 namespace {
@@ -45,8 +45,7 @@ std::string strata_text(const RunFindings& findings) {
                                 "undecided", "bound", "wanted", "steps/s/core");
   for (const auto& stratum : findings.run.plan.strata) {
     const auto& all = findings.tally_of(stratum).by_configuration;
-    const bool all_same = std::all_of(all.begin(), all.end(),
-                                      [&](const auto& outcomes) { return outcomes == all[0]; });
+    const bool all_same = configurations_agree(findings, stratum);
     const std::size_t rows = all_same ? std::min<std::size_t>(all.size(), 1) : all.size();
     for (std::size_t c = 0; c < rows; ++c)
       out += stratum_row(findings, stratum, c,
@@ -104,18 +103,17 @@ std::string distribution_text(const properties::Tally& tally) {
   return out;
 }
 
-std::string tags_text(const properties::Counts& counts) {
+std::string tags_text(const properties::TrialCounts& counts) {
   std::string out;
-  for (const auto& [sets, contacts, first] : properties::set_pairs_in(counts)) {
+  for (const auto& [sets, count] : counts.set_pairs) {
     if (out.empty())
       out = fmt::format("{:16} {:>12} {:>14}\n", "sets of a pair", "in contact", "first contact");
-    out += fmt::format("{:16} {:>12} {:>14}\n", sets, contacts, first);
+    out += fmt::format("{:16} {:>12} {:>14}\n", sets, count.contacts, count.first_contacts);
   }
-  const auto tags = properties::tags_in(counts);
-  if (tags.empty()) return out;
+  if (counts.tags.empty()) return out;
   out += "cases by tag:\n";
   std::string line;
-  for (const auto& [tag, count] : tags) {
+  for (const auto& [tag, count] : counts.tags) {
     const std::string word = fmt::format("{} {}", tag, count);
     constexpr std::size_t width = 100;
     if (!line.empty() && line.size() + word.size() + 2 > width) {
@@ -138,8 +136,7 @@ std::string laws_text(const RunFindings& findings) {
                        tally.broken,
                        properties::starved(*law, tally, wanted).empty() ? "" : "  too few");
     std::string under;
-    for (const auto& [culling, premise] :
-         properties::premises_by_culling(findings.tally.counts, *law)) {
+    for (const auto& [culling, premise] : properties::premises_by_culling(tally, *law)) {
       under += fmt::format("{}{} {}", under.empty() ? "" : ", ", culling, premise);
     }
     if (!under.empty()) out += fmt::format("    premise under {}\n", under);

@@ -6,14 +6,13 @@
 #include <set>
 
 #include "corpus/atomic_file.h"
-#include "properties/campaign/stored/run_folder.h"
+#include "properties/campaign/ledger/run_folder.h"
 #include "properties/judging/cause.h"
 #include "properties/reducer/mesh_size.h"
 #include "properties/words.h"
 #include "reports/check/detector_choice.h"
-#include "reports/check/plugin_text.h"
-#include "reports/pictures/scene_maker.h"
-#include "reports/terminal/shell_word.h"
+#include "reports/pictures/case_scene.h"
+#include "reports/terminal/words.h"
 
 namespace assay::reports {
 
@@ -45,6 +44,49 @@ std::string size_of_mesh(const std::string& text) {
   return c ? properties::size_text(properties::size_of(c.value())) : "unreadable";
 }
 
+using properties::SlowCase;
+
+// The path of a mesh within the folder of the run: slow/ID-CONFIGURATION-smallest.json.
+std::filesystem::path slow_file(const SlowCase& slow, bool smallest) {
+  std::string name = slow.id + "-" + slow.configuration;
+  for (char& c : name) {
+    const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                          (c >= '0' && c <= '9') || c == '-' || c == '_';
+    if (!is_plain) c = '-';
+  }
+  return std::filesystem::path("slow") / (name + (smallest ? "-smallest.json" : "-original.json"));
+}
+
+std::string slow_mesh_size(const std::string& text) {
+  const auto c = corpus::parse_case(text, "slow case");
+  return c ? properties::size_text(properties::size_of(c.value())) : "unreadable";
+}
+
+const SlowCase* kept_of(const properties::RunFindings& findings, const std::string& id) {
+  const auto& slow = findings.evidence.slow;
+  const auto found =
+      std::find_if(slow.begin(), slow.end(), [&](const SlowCase& one) { return one.id == id; });
+  return found == slow.end() ? nullptr : &*found;
+}
+
+std::string trial_text(const properties::RunFindings& findings,
+                       const properties::TrialRecord& trial, const std::string& took) {
+  std::string out = fmt::format("{:>12}  {}: {} triangles, {} step{}\n", took, trial.id,
+                                trial.triangles, trial.steps, trial.steps == 1 ? "" : "s");
+  const auto* kept = kept_of(findings, trial.id);
+  if (!kept) {
+    return out + fmt::format("              replay: {} replay {}{}\n", this_program(), trial.id,
+                             detector_words(findings.library, findings.run.detector.threads));
+  }
+  const auto file = slow_file(*kept, !kept->smallest.empty());
+  if (!kept->smallest.empty())
+    out += fmt::format("              shrunk to {}, which takes at least {} s\n",
+                       slow_mesh_size(kept->smallest), 2 * kept->limit);
+  return out + fmt::format("              picture {}\n              replay: {}\n",
+                           picture_file(absolute_path(findings.folder / file)),
+                           pasted(replay_line(findings.folder, file, detector_of(findings))));
+}
+
 }  // namespace
 
 FailureReport write_failures(const properties::KeptFailures& kept, const std::filesystem::path& out,
@@ -62,7 +104,7 @@ FailureReport write_failures(const properties::KeptFailures& kept, const std::fi
   std::filesystem::create_directories(folder, error);
   if (error) {
     report.written =
-        Refusal(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
+        Problem{fmt::format("{}: cannot be made: {}", folder.string(), error.message())};
     return report;
   }
   SceneMaker scenes(detector);
@@ -73,7 +115,7 @@ FailureReport write_failures(const properties::KeptFailures& kept, const std::fi
           std::pair(out / failure_file(failure, true), failure.smallest)}) {
       if (text.empty()) continue;
       if (const auto written = corpus::write_file_atomically(path, text); !written) {
-        report.written = Refusal(written.error());
+        report.written = written.error();
         return report;
       }
     }
@@ -99,6 +141,53 @@ FailureReport write_failures(const properties::KeptFailures& kept, const std::fi
     report.text += printed_text(failure.printed);
   }
   return report;
+}
+
+Expected<void> write_slow_cases(const std::vector<SlowCase>& cases,
+                                const std::filesystem::path& out) {
+  if (cases.empty()) return outcome::success();
+  const auto folder = out / "slow";
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+    return Problem{fmt::format("{}: cannot be made: {}", folder.string(), error.message())};
+  // The scene is made by the oracle alone, because the detector takes too long for this case to be
+  // asked again.
+  SceneMaker scenes(std::nullopt);
+  for (const auto& slow : cases) {
+    for (const bool smallest : {false, true}) {
+      const auto& text = smallest ? slow.smallest : slow.mesh;
+      if (text.empty()) continue;
+      const auto path = out / slow_file(slow, smallest);
+      if (const auto written = corpus::write_file_atomically(path, text); !written)
+        return written.error();
+    }
+    const bool is_shrunk = !slow.smallest.empty();
+    const auto shown = corpus::parse_case(is_shrunk ? slow.smallest : slow.mesh, "slow case");
+    if (!shown) continue;
+    const auto written =
+        scenes.write_picture((out / slow_file(slow, is_shrunk)).string(), shown.value(),
+                             slow.configuration, "slow: " + slow.id);
+    if (!written) return written;
+  }
+  return outcome::success();
+}
+
+std::string slow_trials_text(const properties::RunFindings& findings) {
+  const auto& tally = findings.tally;
+  std::string out;
+  if (!tally.undecided.empty())
+    out += fmt::format("{} without a verdict, at most {} s of processor time a case:\n",
+                       tally.undecided.size() == tally.most_undecided
+                           ? fmt::format("the first {}", tally.undecided.size())
+                           : fmt::format("{}", tally.undecided.size()),
+                       findings.run.plan.case_seconds);
+  for (const auto& trial : tally.undecided) out += trial_text(findings, trial, "no verdict");
+  out += "the slowest of the others:\n";
+  for (const auto& trial : tally.slowest)
+    out += trial_text(findings, trial,
+                      fmt::format("{:.3g} s", 1e-6 * static_cast<double>(trial.slowest_us)));
+  return out;
 }
 
 }  // namespace assay::reports

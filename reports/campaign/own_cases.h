@@ -1,5 +1,5 @@
 // The cases and waivers of a detector's owner: a folder that `run` and `certify` take beside what
-// is shipped.
+// is shipped. The shipped waivers stand in corpus/known.json.
 #pragma once
 
 #include <filesystem>
@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "corpus/problem.h"
 #include "properties/campaign/request.h"
 #include "reports/terminal/complaint.h"
 
@@ -26,5 +27,21 @@ corpus::Expected<std::vector<corpus::Case>> read_cases(
 
 // SHA-256 over the names and bytes of these files.
 std::string digest_of_files(const std::vector<std::filesystem::path>& files);
+
+// A known failure that a certificate may leave aside for a while.
+struct Waiver {
+  std::string signature;  // of a failure, as `assay list failures` prints it
+  std::string reason;
+  std::string link;     // where it is being worked on
+  std::string expires;  // the last day on which it holds, YYYY-MM-DD
+};
+
+// Reads a file of waivers, schema `assay-known/1` (corpus/README.md): {"schema", "waivers":
+// [{signature, reason, link, expires}]}. Every field is stated and none is empty; each signature
+// occurs once.
+corpus::Expected<std::vector<Waiver>> read_waivers(const std::filesystem::path& file);
+
+// `today` is YYYY-MM-DD.
+bool is_expired(const Waiver& waiver, const std::string& today);
 
 }  // namespace assay::reports

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "properties/campaign/gates/read_findings.h"
+#include "properties/campaign/gates/findings.h"
 #include "properties/worker/plugin/judged_library.h"
 #include "properties/worker/worker_process.h"
 #include "reports/check/detector_choice.h"
@@ -22,20 +22,20 @@ Expected<std::string> certified_library(const properties::RunFindings& findings,
   const auto& run = findings.run;
   if (run.detector.built_in) {
     if (!named.empty())
-      return Refusal("--detector: the certificate is of the built-in detector, not of a plug-in");
+      return Problem{"--detector: the certificate is of the built-in detector, not of a plug-in"};
     return std::string();
   }
   const auto library = named.empty() ? findings.library : named;
   if (library.empty())
-    return Refusal("the stores do not say where the plug-in lies: name it by --detector");
+    return Problem{"the stores do not say where the plug-in lies: name it by --detector"};
   judged = properties::JudgedLibrary::of(library, properties::worker_program());
   const auto& digest = judged->digest();
-  if (!digest) return Refusal(digest.error());
+  if (!digest) return digest.error();
   if (digest.value() != run.digests.plugin)
-    return Refusal(
+    return Problem{
         fmt::format("{}: not the library that was certified: its SHA-256 is {}, {} is "
                     "certified",
-                    library, digest.value(), run.digests.plugin.value_or("none")));
+                    library, digest.value(), run.digests.plugin.value_or("none"))};
   return library;
 }
 
@@ -56,7 +56,7 @@ Expected<properties::TrialsAgain> run_certified_again(
     const std::filesystem::path& folder, const AgainRequest& asked,
     const std::function<void(const properties::TrialProgress&)>& progress) {
   const auto findings = properties::read_findings(folder);
-  if (!findings) return Refusal(findings.error());
+  if (!findings) return findings.error();
   const auto& run = findings.value().run;
   std::shared_ptr<const properties::JudgedLibrary> judged;
   const auto library = certified_library(findings.value(), asked.detector.library, judged);
@@ -70,13 +70,13 @@ Expected<properties::TrialsAgain> run_certified_again(
                             part_asked_by(run.plan)};
   if (auto chosen = choose_detector(words, request); !chosen) return chosen.error();
   const auto ours = properties::read_binding(properties::binding_of(request), folder);
-  if (!ours) return Refusal(ours.error());
+  if (!ours) return ours.error();
   const auto difference = difference_of_builds(run, ours.value());
   if (!difference.empty())
-    return Refusal(
-        fmt::format("{}: its trials cannot be run again: {}", folder.string(), difference));
+    return Problem{
+        fmt::format("{}: its trials cannot be run again: {}", folder.string(), difference)};
   auto again = properties::run_again(request, folder, asked.share, asked.seed, progress);
-  if (!again) return Refusal(again.error());
+  if (!again) return again.error();
   return std::move(again.value());
 }
 

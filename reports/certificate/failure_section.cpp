@@ -2,7 +2,7 @@
 
 #include "corpus/cases/case_file.h"
 #include "corpus/digest.h"
-#include "properties/campaign/stored/run_folder.h"
+#include "properties/campaign/ledger/run_folder.h"
 #include "properties/reducer/mesh_size.h"
 #include "reports/campaign/failure_text.h"
 #include "reports/certificate/sections.h"

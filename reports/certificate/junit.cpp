@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "reports/certificate/summary.h"
-#include "reports/terminal/replaced.h"
+#include "reports/terminal/words.h"
 
 namespace assay::reports {
 namespace {
@@ -49,24 +49,19 @@ bool gate_fails(const Json& p, std::string_view name) {
   return false;
 }
 
-// A stratum fails for what makes a gate fail. If the claims do not hold, that is its defects. If
-// the bounds are not met, that is its bound, or its cases without a verdict. A shard by itself is
-// not asked for a bound.
+// A stratum fails for what makes a gate fail: its defects if the claims do not hold, and its bound
+// if the bounds are not met.
 Suite strata_suite(const Json& p) {
   Suite suite{"strata", {}};
   const bool claims_fail = gate_fails(p, "claims"), bounds_fail = gate_fails(p, "bounds");
-  const bool is_alone = p["campaign"]["one_shard_alone"].get<bool>();
   for (const auto& stratum : p["strata"]) {
-    const auto& wanted = stratum["wanted_bound"];
     for (const auto& bound : stratum["bounds"]) {
       const auto count = [&](const char* name) { return bound[name].get<std::uint64_t>(); };
       const auto counts = fmt::format(
           "{} of {} trials hold, {} defects, {} undecided; bound {:.2e}", count("holds"),
           count("n"), count("defects"), count("undecided"), bound["bound"].get<double>());
-      const bool is_short = wanted.is_null() ? count("undecided") + count("errors") > 0
-                                             : !is_alone && bound["bound"] > wanted;
       TestCase test{text(stratum["family"]) + ", " + text(bound["configuration"]), {}, {}};
-      if ((claims_fail && count("defects") > 0) || (bounds_fail && is_short)) {
+      if ((claims_fail && count("defects") > 0) || (bounds_fail && !bound["met"].get<bool>())) {
         test.failure = counts;
       } else if (count("n") == 0) {
         test.skipped = "no trial";

@@ -1,5 +1,5 @@
-#include "properties/campaign/gates/measure_rates.h"
 #include "properties/campaign/gates/not_judged.h"
+#include "properties/campaign/ledger/step_measures.h"
 #include "reports/certificate/sections.h"
 
 namespace assay::reports {
@@ -15,7 +15,10 @@ Json rate_json(const properties::Rate& rate) {
 }
 
 Json times_off_json(const properties::TimesOff& off) {
-  return {{"steps", off.steps}, {"median", off.median}, {"p99", off.p99}, {"worst", off.worst}};
+  return {{"steps", off.steps},
+          {"median", off.quantile(0.5)},
+          {"p99", off.quantile(0.99)},
+          {"worst", off.quantile(1)}};
 }
 
 }  // namespace
@@ -35,15 +38,15 @@ Json judged_up_to_json(const properties::RunFindings& findings) {
 }
 
 Json measures_json(const properties::StepMeasures& m) {
-  return {{"steps", m.steps},
+  return {{"steps", m.errors.answered()},
           {"false_alarms", rate_json(false_alarm_rate(m))},
           {"answered_free", rate_json(miss_rate(m))},
-          {"spurious_pairs", m.spurious_pairs},
+          {"spurious_pairs", m.errors.spurious},
           {"spurious_pairs_a_step", spurious_pairs_a_step(m)},
-          {"collisions", m.collisions},
+          {"collisions", m.errors.collisions()},
           {"without_time", m.without_time},
-          {"late", times_off_json(times_late(m))},
-          {"early", times_off_json(times_early(m))},
+          {"late", times_off_json(m.errors.late)},
+          {"early", times_off_json(m.errors.early)},
           {"candidates",
            {{"steps", m.candidate_steps},
             {"given", m.candidates},

@@ -8,10 +8,13 @@ using Json = nlohmann::ordered_json;
 using properties::RunFindings;
 
 // What the row of a piece of evidence says of it, under the keys of
-// properties/campaign/stored/evidence.cpp.
+// properties/campaign/ledger/evidence.cpp; but not its name and its shard.
 template <class T>
 Json facts_of(const T& evidence) {
-  return Json::parse(to_row(evidence).facts);
+  Json facts = Json::parse(to_row(evidence).fields);
+  facts.erase("name");
+  facts.erase("shard");
+  return facts;
 }
 
 template <class T>

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include "corpus/digest.h"
-#include "corpus/json_text.h"
+#include "corpus/json_fields.h"
+#include "properties/campaign/gates/findings.h"
 #include "properties/campaign/gates/not_judged.h"
-#include "properties/campaign/gates/read_findings.h"
-#include "properties/campaign/stored/run_folder.h"
+#include "properties/campaign/ledger/run_folder.h"
 #include "reports/certificate/sections.h"
-#include "reports/terminal/shell_word.h"
+#include "reports/terminal/words.h"
 
 namespace assay::reports {
 namespace {
@@ -153,14 +153,13 @@ properties::Expected<Json> make_statement(const std::filesystem::path& folder) {
 
 properties::Expected<Json> make_statement(const RunFindings& findings) {
   using properties::Problem;
-  using properties::ProblemKind;
   const auto file = properties::campaign_file(findings.folder);
   const auto digest = corpus::sha256_of_file(file);
-  if (!digest) return Problem{ProblemKind::cannot_read, digest.error().message};
+  if (!digest) return Problem{digest.error().message};
   const auto plan = properties::find_plan(file.string());
-  if (!plan) return Problem{ProblemKind::wrong_plan, plan.error().message};
+  if (!plan) return Problem{plan.error().message};
   if (!is_plan_of(findings, plan.value())) {
-    return Problem{ProblemKind::another_run, "campaign.json is not the campaign of the stores"};
+    return Problem{"campaign.json is not the campaign of the stores"};
   }
   return Json{
       {"_type", statement_type},

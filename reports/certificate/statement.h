@@ -10,8 +10,8 @@
 namespace assay::reports {
 
 inline constexpr const char* statement_type = "https://in-toto.io/Statement/v1";
-inline constexpr const char* predicate_type = "urn:assay:certificate:4";
-inline constexpr const char* certificate_schema = "assay-certificate/4";
+inline constexpr const char* predicate_type = "urn:assay:certificate:5";
+inline constexpr const char* certificate_schema = "assay-certificate/5";
 
 // Findings and gates as JSON, with all text in UTF-8. `plan` has its times, which the stores do
 // not state; `campaign_digest` is the SHA-256 of the campaign's file.
@@ -21,8 +21,8 @@ nlohmann::ordered_json make_predicate(const properties::RunFindings& findings,
                                       const std::string& campaign_digest);
 
 // Makes the statement from the findings and the campaign.json in their folder alone, so that equal
-// files give equal bytes. cannot_read if campaign.json is not there, wrong_plan if it is no plan,
-// another_run if it is not the plan of the stores.
+// files give equal bytes. Fails if campaign.json is not there, is no plan, or is not the plan of
+// the stores.
 properties::Expected<nlohmann::ordered_json> make_statement(
     const properties::RunFindings& findings);
 // The same, after reading the stores in `folder`; also the problems of read_findings.

@@ -1,6 +1,6 @@
-#include "properties/campaign/gates/bounds.h"
+#include "properties/campaign/gates/findings.h"
 #include "properties/campaign/gates/statistics.h"
-#include "properties/campaign/stored/count_names.h"
+#include "properties/campaign/ledger/tally.h"
 #include "reports/certificate/sections.h"
 
 namespace assay::reports {
@@ -19,7 +19,8 @@ Json bounds_json(const RunFindings& findings, const properties::StratumPlan& str
                     {"defects", outcomes.defects},
                     {"undecided", outcomes.undecided},
                     {"errors", outcomes.errors},
-                    {"bound", bound_of(outcomes, findings.run)}});
+                    {"bound", bound_of(outcomes, findings.run)},
+                    {"met", is_met(findings, stratum, c)}});
   }
   return list;
 }
@@ -44,10 +45,11 @@ Json distributions_json(const properties::Tally& tally) {
   return list;
 }
 
-Json set_pairs_json(const properties::Counts& counts) {
+Json set_pairs_json(const properties::TrialCounts& counts) {
   Json list = Json::array();
-  for (const auto& [sets, contacts, first] : properties::set_pairs_in(counts))
-    list.push_back({{"sets", sets}, {"contacts", contacts}, {"first_contacts", first}});
+  for (const auto& [sets, count] : counts.set_pairs)
+    list.push_back(
+        {{"sets", sets}, {"contacts", count.contacts}, {"first_contacts", count.first_contacts}});
   return list;
 }
 
@@ -55,7 +57,7 @@ Json set_pairs_json(const properties::Counts& counts) {
 
 Json cases_json(const RunFindings& findings) {
   Json tags = Json::object();
-  for (const auto& [tag, count] : properties::tags_in(findings.tally.counts)) tags[tag] = count;
+  for (const auto& [tag, count] : findings.tally.counts.tags) tags[tag] = count;
   return {{"distributions", distributions_json(findings.tally)},
           {"set_pairs", set_pairs_json(findings.tally.counts)},
           {"tags", std::move(tags)}};
@@ -96,16 +98,16 @@ Json strata_json(const RunFindings& findings) {
                     {"planned", findings.planned(stratum)},
                     {"trials", tally.trials},
                     {"discards", tally.discards},
-                    {"with_contact", properties::measures_in(tally.measures).contact_trials},
+                    {"with_contact", tally.measures.contact_trials},
                     {"with_defect", tally.with_defect},
                     {"distinct", tally.meshes.size()},
                     {"steps", tally.steps},
                     {"collisions", tally.collisions},
                     {"pairs", tally.pairs},
-                    {"measures", findings.run.detector.built_in
-                                     ? Json(nullptr)
-                                     : measures_json(properties::measures_in(tally.measures))},
+                    {"measures", findings.run.detector.built_in ? Json(nullptr)
+                                                                : measures_json(tally.measures)},
                     {"wanted_bound", wanted > 0 ? Json(wanted) : Json(nullptr)},
+                    {"agree", configurations_agree(findings, stratum)},
                     {"bounds", bounds_json(findings, stratum)}});
   }
   return list;
@@ -118,8 +120,7 @@ Json laws_json(const RunFindings& findings) {
   Json list = Json::array();
   for (const auto& [law, tally] : properties::laws_in(findings.tally.counts)) {
     Json by_culling = Json::array();
-    for (const auto& [culling, premise] :
-         properties::premises_by_culling(findings.tally.counts, *law)) {
+    for (const auto& [culling, premise] : properties::premises_by_culling(tally, *law)) {
       by_culling.push_back({{"culling", culling}, {"premises", premise}});
     }
     list.push_back({{"law", law->name},

@@ -21,4 +21,11 @@ std::string met_text(const nlohmann::ordered_json& failure);
 Expected<void> write_for_ci(const nlohmann::ordered_json& predicate,
                             const std::filesystem::path& out, const std::string& part = "");
 
+// What a predicate is about, because a verdict says no more than what was claimed: "claims
+// free-sound, total; not judged: no-spurious (the contract has a margin), its elementary query;
+// meshes of up to 2048 triangles; contract margin 0.1; isolation full; campaign smoke, seed 1 (the
+// default)". For the built-in detector, whose configurations differ in their claims, the number of
+// configurations stands there instead.
+std::string judged_text(const nlohmann::ordered_json& predicate);
+
 }  // namespace assay::reports

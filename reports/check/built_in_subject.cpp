@@ -54,7 +54,7 @@ class BuiltIn : public Subject {
     return options_.arithmetic != detector::Arithmetic::exact;
   }
 
-  StepResult answer(std::size_t, const CheckedStep& step,
+  StepResult answer(std::size_t, const corpus::SourceStep& step,
                     const detector::StopFunction& stop) override try {
     if (!detector_) return undecided();
     const auto given = properties::given_view(step.view, options_.culling);
@@ -71,10 +71,11 @@ class BuiltIn : public Subject {
 
   properties::StepDiff judge(std::size_t, const StepResult& result,
                              const oracle::StepJudgement& judgement) const override {
-    return properties::compare(result, judgement, options_);
+    return properties::compare(result, judgement, properties::claims_of(options_));
   }
 
-  std::string stage_that_lost(const CheckedStep& step, detector::TrianglePair pair) const override {
+  std::string stage_that_lost(const corpus::SourceStep& step,
+                              detector::TrianglePair pair) const override {
     if (!detector_) return "";
     return properties::stage_that_lost(triangles_, step.x_t0, step.x_t1, pair);
   }
@@ -107,7 +108,7 @@ Expected<std::unique_ptr<Subject>> make_built_in(const BuiltInChoice& choice,
     if (made) {
       detector = std::move(made.value());
     } else if (made.error().error != detector::InputError::stopped) {
-      return Refusal(fmt::format("{}: {}", input.file, made.error().message));
+      return Problem{fmt::format("{}: {}", input.file, made.error().message)};
     }
   } catch (const std::bad_alloc&) {
     limits.memory_failed();

@@ -2,11 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
 #include "properties/judging/agreement.h"
 #include "reports/steps/measures_text.h"
 #include "reports/steps/step_text.h"
-#include "reports/terminal/exit_code.h"
-#include "reports/terminal/joined.h"
+#include "reports/terminal/complaint.h"
+#include "reports/terminal/limits.h"
+#include "reports/terminal/version.h"
+#include "reports/terminal/words.h"
 
 namespace assay::reports {
 
@@ -66,6 +71,50 @@ int CheckOutcome::exit_code(bool fail_on_collision) const {
   if (undecided) return exit_undecided;
   if (fail_on_collision && collision_step) return exit_collision;
   return exit_holds;
+}
+
+using Json = nlohmann::ordered_json;
+
+Json check_report(const std::vector<std::string>& files, const detector::Topology& mesh,
+                  const Subject& subject, const CheckOutcome& outcome, Json steps) {
+  const auto or_null = [](const std::string& text) { return text.empty() ? Json() : Json(text); };
+  const auto tested = subject.to_json();
+  const auto create_ms = subject.create_ms();
+  return {{"schema", "assay-check/1"},
+          {"version", version_text()},
+          {"files", files},
+          {"triangles", mesh.triangles.size()},
+          {"components", mesh.components.size()},
+          {"culling", tested["culling"]},
+          {"arithmetic", tested["arithmetic"]},
+          {"detector", tested["detector"]},
+          {"detector_ended", or_null(outcome.ended)},
+          {"judged", outcome.is_judged},
+          {"outcome", outcome.word()},
+          {"limit_reached", or_null(outcome.limit_reached)},
+          {"peak_memory_bytes", peak_resident_bytes()},
+          {"times_ms", {{"create", create_ms ? Json(*create_ms) : Json()}}},
+          {"steps", std::move(steps)}};
+}
+
+void ClaimsTally::add(const properties::StepDiff& diff, const detector::StepResult& result) {
+  if (!plugin_) return;
+  measures_ += properties::measures_of({&diff, 1}, {&result, 1});
+  measures_.left_out_misses += diff.left_out_missed ? 1 : 0;
+}
+
+void ClaimsTally::tell(CheckOutcome& outcome, std::size_t steps_left_out) const {
+  if (!plugin_) return;
+  outcome.measures = measures_;
+  outcome.measures.steps_left_out = steps_left_out;
+  std::vector<std::string> claims;
+  for (const auto claim : list_of(claims_on_steps(*plugin_))) claims.emplace_back(name_of(claim));
+  outcome.not_judged = properties::not_judged(claims, plugin_->contract, outcome.measures);
+  for (const auto& claim : claims) {
+    const bool is_judged = std::none_of(outcome.not_judged.begin(), outcome.not_judged.end(),
+                                        [&](const auto& one) { return one.claim == claim; });
+    if (is_judged) outcome.held.push_back(claim);
+  }
 }
 
 }  // namespace assay::reports

@@ -1,11 +1,17 @@
-// What a run of `check` comes to: its last line, its word in the report, its exit code.
+// What a run of `check` comes to: its last line, its exit code, its report, and for a plug-in the
+// claims that hold and what it does whatever it claims.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "detector/mesh/step_types.h"
+#include "detector/mesh/topology.h"
 #include "properties/campaign/gates/not_judged.h"
+#include "properties/worker/plugin/plugin_description.h"
+#include "reports/check/subject.h"
 
 namespace assay::reports {
 
@@ -30,6 +36,29 @@ struct CheckOutcome {
   std::string summary() const;
   const char* word() const;
   int exit_code(bool fail_on_collision) const;
+};
+
+// The report of `check`, schema assay-check/1 (documented in reports/README.md). `steps`: an entry
+// for each step that was judged (steps/step_json.h).
+nlohmann::ordered_json check_report(const std::vector<std::string>& files,
+                                    const detector::Topology& mesh, const Subject& subject,
+                                    const CheckOutcome& outcome, nlohmann::ordered_json steps);
+
+// What the steps of a plug-in come to under `check`: its claims, and what it does whatever it
+// claims.
+class ClaimsTally {
+ public:
+  // `plugin` is null for the built-in detector, for which nothing is counted.
+  explicit ClaimsTally(const properties::PluginDescription* plugin) : plugin_(plugin) {}
+
+  void add(const properties::StepDiff& diff, const detector::StepResult& result);
+  // Writes the result into `outcome`. `steps_left_out` is the number of steps of the input that
+  // the contract leaves out.
+  void tell(CheckOutcome& outcome, std::size_t steps_left_out) const;
+
+ private:
+  const properties::PluginDescription* plugin_;
+  properties::StepMeasures measures_;
 };
 
 }  // namespace assay::reports

@@ -3,20 +3,25 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/outcome/try.hpp>
+#include <chrono>
+#include <new>
+#include <optional>
 
 #include "detector/mesh/mesh_checks.h"
 #include "detector/mesh/topology.h"
 #include "detector/step_result.h"
+#include "oracle/mesh/step.h"
+#include "oracle/referee/second_opinion.h"
 #include "properties/judging/case_check.h"
-#include "reports/check/check_report.h"
-#include "reports/check/claims_tally.h"
-#include "reports/check/plugin_text.h"
-#include "reports/check/timed_oracle.h"
-#include "reports/steps/second_opinion_text.h"
+#include "properties/judging/case_options.h"
+#include "reports/check/check_outcome.h"
+#include "reports/check/detector_choice.h"
 #include "reports/steps/step_json.h"
 #include "reports/steps/step_text.h"
+#include "reports/terminal/limits.h"
 #include "reports/terminal/progress.h"
-#include "reports/terminal/shell_word.h"
+#include "reports/terminal/words.h"
 
 namespace assay::reports {
 
@@ -28,9 +33,30 @@ namespace {
 // A week, because nobody waits longer for one mesh.
 constexpr double longest_check_seconds = 7 * 24 * 3600.0;
 
+template <class Answer>
+struct Timed {
+  Answer answer;
+  double milliseconds = 0;  // wall clock
+};
+
+// Returns what `ask` answers, or an empty answer if memory fails.
+template <class Ask>
+auto timed(Limits& limits, const Ask& ask) {
+  const auto begin = std::chrono::steady_clock::now();
+  Timed<decltype(ask())> timed;
+  try {
+    timed.answer = ask();
+  } catch (const std::bad_alloc&) {
+    limits.memory_failed();
+  }
+  timed.milliseconds =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  return timed;
+}
+
 class CheckRun {
  public:
-  CheckRun(const CheckQuestion& question, CheckedSteps& steps, detector::Topology mesh,
+  CheckRun(const CheckQuestion& question, corpus::StepSource& steps, detector::Topology mesh,
            Subject& subject, Limits& limits, const CheckListener& listener)
       : question_(question),
         steps_(steps),
@@ -38,7 +64,6 @@ class CheckRun {
         subject_(subject),
         limits_(limits),
         listener_(listener),
-        oracle_(question.jobs, subject.asked(), limits),
         tally_(subject.description()) {
     outcome_.is_judged = !question.no_oracle;
     outcome_.judged_by_claims = subject.judged_by_claims();
@@ -51,10 +76,10 @@ class CheckRun {
     if (begin()) {
       for (std::size_t s = 0; s < step_count(); ++s) {
         const auto step = read_step(s);
-        if (!step) return Refusal(step.error());
+        if (!step) return step.error();
         auto json = run_step(s, step.value());
         if (question_.wants_report) steps.push_back(std::move(json));
-        if (refused_) return Refusal(*refused_);
+        if (refused_) return Problem{*refused_};
         if (outcome_.unsound) break;
       }
       if (has_facts() && !outcome_.undecided) check_facts();
@@ -129,12 +154,12 @@ class CheckRun {
   }
 
   // The limits are on work, and reading is none.
-  corpus::Expected<CheckedStep> read_step(std::size_t s) {
+  corpus::Expected<corpus::SourceStep> read_step(std::size_t s) {
     const Limits::Pause pause(limits_);
     return steps_.step(s);
   }
 
-  nlohmann::ordered_json run_step(std::size_t s, const CheckedStep& step) {
+  nlohmann::ordered_json run_step(std::size_t s, const corpus::SourceStep& step) {
     Progress progress(fmt::format("step {}/{}", s + 1, step_count()));
     const detector::StopFunction stop = [&] {
       progress.tick();
@@ -165,7 +190,10 @@ class CheckRun {
 
     progress.phase("oracle");
     JudgedByOracle oracle;
-    auto judged = oracle_.judge(step.x_t0, step.x_t1, steps_.triangles(), stop);
+    auto judged = timed(limits_, [&] {
+      return oracle::judge_step({step.x_t0, step.x_t1}, steps_.triangles(),
+                                {question_.jobs, stop, subject_.asked()});
+    });
     oracle.judgement = std::move(judged.answer);
     oracle.milliseconds = judged.milliseconds;
     oracle.truth = truth_of(oracle.judgement, contract(), steps_.triangles());
@@ -174,7 +202,7 @@ class CheckRun {
     progress.finish();
     outcome_.defect |= diff.outcome == Outcome::defect;
     outcome_.undecided |= diff.outcome == Outcome::undecided || diff.outcome == Outcome::error;
-    tally_.add(diff, result, oracle.judgement);
+    tally_.add(diff, result);
     say(step_text(s + 1, result, &oracle, shown_work(s)) + told_error);
     if (diff.outcome == Outcome::defect) print_defect(step, diff);
     auto json = json_of(result, &oracle);
@@ -194,13 +222,15 @@ class CheckRun {
     return step_json(result, oracle);
   }
 
-  nlohmann::ordered_json ask_second_opinion(std::size_t s, const CheckedStep& step,
+  nlohmann::ordered_json ask_second_opinion(std::size_t s, const corpus::SourceStep& step,
                                             const oracle::StepJudgement& judgement,
                                             const detector::StopFunction& stop,
                                             Progress& progress) {
     const double share = *question_.second_opinion;
-    const auto [opinion, milliseconds] =
-        oracle_.second_opinion(step.x_t0, step.x_t1, steps_.triangles(), judgement, share, stop);
+    const auto [opinion, milliseconds] = timed(limits_, [&] {
+      return oracle::second_opinion({step.x_t0, step.x_t1}, steps_.triangles(), judgement,
+                                    {share, question_.jobs, stop, {}});
+    });
     progress.finish();
     say(second_opinion_text(opinion, milliseconds));
     outcome_.undecided |= !opinion.complete;
@@ -222,7 +252,7 @@ class CheckRun {
                        *question_.second_opinion);
   }
 
-  void print_defect(const CheckedStep& step, const properties::StepDiff& diff) const {
+  void print_defect(const corpus::SourceStep& step, const properties::StepDiff& diff) const {
     if (diff.missing.empty()) return;
     const auto& lost = diff.missing.front();
     const std::string stage = subject_.stage_that_lost(step, lost.pair);
@@ -246,12 +276,11 @@ class CheckRun {
   }
 
   const CheckQuestion& question_;
-  CheckedSteps& steps_;
+  corpus::StepSource& steps_;
   detector::Topology mesh_;
   Subject& subject_;
   Limits& limits_;
   const CheckListener& listener_;
-  TimedOracle oracle_;
   std::optional<std::string> refused_;
   ClaimsTally tally_;
   CheckOutcome outcome_;
@@ -259,16 +288,26 @@ class CheckRun {
 
 }  // namespace
 
+corpus::Expected<CheckInput> read_check_input(const std::vector<std::string>& files) {
+  BOOST_OUTCOME_TRY(steps, corpus::read_steps({files.begin(), files.end()}));
+  if (const auto* c = steps->case_file()) {
+    if (const auto options = properties::read_options(*c); !options) {
+      return corpus::problem_in(files[0], options.error().message);
+    }
+  }
+  return CheckInput{files[0], std::move(steps)};
+}
+
 Expected<CheckAnswer> check_mesh(const CheckQuestion& question, CheckInput& input,
                                  const std::filesystem::path& worker,
                                  const CheckListener& listener) {
   const auto vertices = input.steps->first_frame().rows();
   if (const auto bad = detector::check_triangles(input.steps->triangles(), vertices))
-    return Refusal(fmt::format("{}: {}", input.file, bad->message));
+    return Problem{fmt::format("{}: {}", input.file, bad->message)};
   const bool is_plugin = !question.detector.library.empty();
   if (is_plugin) {
     auto whole = input.steps->read_whole();
-    if (!whole) return Refusal(whole.error());
+    if (!whole) return whole.error();
     input.steps = std::move(whole.value());
   }
   Limits limits(question.time_limit, question.memory_limit);

@@ -8,12 +8,15 @@
 #include <string>
 #include <vector>
 
-#include "reports/check/check_input.h"
 #include "reports/check/check_outcome.h"
 #include "reports/check/subject.h"
 #include "reports/terminal/option_words.h"
 
 namespace assay::reports {
+
+// Takes frames of one mesh (two or more), which are read as their steps come, or reads one case
+// file. Fails if its options are not understood. REQUIRES a file.
+corpus::Expected<CheckInput> read_check_input(const std::vector<std::string>& files);
 
 struct CheckQuestion {
   std::vector<std::string> files;  // what the input was read from, for reports and replay lines

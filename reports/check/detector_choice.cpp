@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "properties/campaign/query_plan.h"
+#include "properties/campaign/plan.h"
 #include "properties/printable.h"
 #include "properties/worker/worker_process.h"
+#include "reports/terminal/words.h"
 
 namespace assay::reports {
 
@@ -14,7 +15,8 @@ std::vector<std::string> unjudged_parts(const properties::PluginDescription& plu
                                         const properties::DetectorUnderTest& detector) {
   std::vector<std::string> parts;
   if (plugin.parts.steps && detector.of_queries) parts.emplace_back("whole steps");
-  if (plugin.parts.candidates && (detector.of_queries || !detector.claims.candidates))
+  if (plugin.parts.candidates &&
+      (detector.of_queries || !detector.claims.has(properties::Claim::candidates)))
     parts.emplace_back("broad phase");
   if (plugin.parts.query && detector.query_claims == properties::Claims())
     parts.emplace_back("elementary query");
@@ -39,7 +41,7 @@ Expected<void> choose_detector(const DetectorWords& words, properties::CampaignR
       request.worker, request.plugin,
       {.isolation = request.isolation, .threads = request.threads, .unread = request.folder});
   const auto description = worker.describe();
-  if (!description) return Refusal(description.error());
+  if (!description) return description.error();
   request.isolated = worker.isolation();
   const auto& plugin = description.value();
   request.takes_threads = plugin.parts.takes_threads;
@@ -47,9 +49,9 @@ Expected<void> choose_detector(const DetectorWords& words, properties::CampaignR
   const bool of_queries =
       words.part == DetectorPart::query || (words.part == DetectorPart::by_library && !has_steps);
   if (of_queries && !plugin.parts.query)
-    return Refusal(fmt::format("{}: it holds no elementary query", words.library));
+    return Problem{fmt::format("{}: it holds no elementary query", words.library)};
   if (!of_queries && !has_steps)
-    return Refusal(fmt::format("{}: it holds no steps, but a query alone", words.library));
+    return Problem{fmt::format("{}: it holds no steps, but a query alone", words.library)};
   // The words of the plug-in go into ids, files and pages, so they must be printable.
   const auto name = properties::printable(plugin.name);
   request.detector = {fmt::format("{} {}", name, properties::printable(plugin.version)),
@@ -65,6 +67,24 @@ Expected<void> choose_detector(const DetectorWords& words, properties::CampaignR
   if (is_query_judged) request.detector.query_claims = claims_on_queries(plugin);
   request.detector.unjudged_parts = unjudged_parts(plugin, request.detector);
   return outcome::success();
+}
+
+std::string plugin_text(const std::string& name_and_version, const properties::Claims& claims,
+                        const properties::Contract& contract,
+                        const properties::Isolation& isolation, std::uint64_t threads) {
+  std::vector<const char*> names;
+  for (const auto claim : properties::list_of(claims)) names.push_back(name_of(claim));
+  const std::string words = joined(names, ", ");
+  const std::string left_out = joined(phrases_of(contract), ", ");
+  return fmt::format("plug-in {}\nclaims: {}\ncontract: {}\nisolation: {}\nthreads: {}",
+                     name_and_version, words.empty() ? "nothing" : words,
+                     left_out.empty() ? "leaves nothing out" : left_out, text_of(isolation),
+                     threads);
+}
+
+std::string printed_text(const std::string& printed) {
+  if (printed.empty()) return "";
+  return fmt::format("  it printed:\n    {}\n", replaced(printed, {{'\n', "\n    "}}));
 }
 
 }  // namespace assay::reports

@@ -3,11 +3,11 @@
 #include <nlohmann/json.hpp>
 
 #include "detector/step_result.h"
-#include "properties/campaign/stored/contract_json.h"
+#include "properties/campaign/ledger/binding.h"
 #include "properties/printable.h"
-#include "reports/check/plugin_text.h"
+#include "reports/check/detector_choice.h"
 #include "reports/check/subject.h"
-#include "reports/terminal/joined.h"
+#include "reports/terminal/words.h"
 
 namespace assay::reports {
 namespace {
@@ -64,9 +64,11 @@ class Plugin : public Subject {
   properties::JudgedRun begin() override {
     const std::vector<properties::Configuration> alone = {{description_.name, {}}};
     runs_ = worker_.run(*case_, alone);
-    if (claims_.deterministic) runs_.push_back(std::move(second_.run(*case_, alone).front()));
-    return properties::judge_run(*case_, runs_[0], {}, claims_, description_.contract,
-                                 claims_.deterministic ? &runs_[1] : nullptr);
+    if (claims_.has(properties::Claim::deterministic))
+      runs_.push_back(std::move(second_.run(*case_, alone).front()));
+    return properties::judge_run(
+        *case_, runs_[0], {}, claims_, description_.contract,
+        claims_.has(properties::Claim::deterministic) ? &runs_[1] : nullptr);
   }
 
   const properties::PluginDescription* description() const override { return &description_; }
@@ -75,7 +77,8 @@ class Plugin : public Subject {
 
   std::string printed() const override { return runs_[0].printed; }
 
-  StepResult answer(std::size_t s, const CheckedStep&, const detector::StopFunction&) override {
+  StepResult answer(std::size_t s, const corpus::SourceStep&,
+                    const detector::StopFunction&) override {
     return s < runs_[0].steps.size() ? runs_[0].steps[s] : not_reached();
   }
 
@@ -98,7 +101,7 @@ class Plugin : public Subject {
     return properties::compare(result, judgement, claims_, description_.contract, case_->triangles);
   }
 
-  std::string stage_that_lost(const CheckedStep&, detector::TrianglePair) const override {
+  std::string stage_that_lost(const corpus::SourceStep&, detector::TrianglePair) const override {
     return "";
   }
 
@@ -127,27 +130,27 @@ Expected<std::unique_ptr<Subject>> make_plugin_subject(const std::filesystem::pa
                                                        CheckInput& input) {
   properties::WorkerProcess worker(worker_program, library, limits);
   auto description = worker.describe();
-  if (!description) return Refusal(description.error());
+  if (!description) return description.error();
   const auto& parts = description.value().parts;
   if (!parts.steps && !parts.candidates)
-    return Refusal(
-        fmt::format("{}: it holds no steps, but a query alone: assay check-queries", library));
+    return Problem{
+        fmt::format("{}: it holds no steps, but a query alone: assay check-queries", library)};
   if (judged_claims(claims_on_steps(description.value()), description.value().contract).empty())
-    return Refusal(fmt::format(
+    return Problem{fmt::format(
         "{}: it claims nothing that its contract leaves to be judged; there is nothing to check",
-        library));
+        library)};
   auto seen = properties::contracted(*input.steps->whole(), description.value().contract);
   if (!seen) {
-    return Refusal(fmt::format(
+    return Problem{fmt::format(
         "{}: nothing of it is within the contract of {}: {}", input.file, description.value().name,
-        properties::why_left_out(*input.steps->whole(), description.value().contract)));
+        properties::why_left_out(*input.steps->whole(), description.value().contract))};
   }
   const std::size_t given = input.steps->count();
   auto of_second = limits;
   of_second.variation = 1;
   of_second.least = worker.isolation();
   const auto taken = std::make_shared<const corpus::Case>(std::move(*seen));
-  input.steps = steps_of_case(taken, false);
+  input.steps = corpus::steps_of_case(taken, false);
   return std::unique_ptr<Subject>(std::make_unique<Plugin>(
       std::move(worker), properties::WorkerProcess(worker_program, library, of_second),
       std::move(description.value()), library, limits.threads, taken,

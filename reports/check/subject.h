@@ -5,15 +5,21 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 
+#include "corpus/formats/step_source.h"
 #include "detector/options.h"
 #include "detector/step_result.h"
 #include "properties/judging/judged_run.h"
 #include "properties/worker/worker_process.h"
-#include "reports/check/check_input.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/limits.h"
 
 namespace assay::reports {
+
+// The mesh and the steps that `check` is given.
+struct CheckInput {
+  std::string file;  // the first file
+  std::unique_ptr<corpus::StepSource> steps;
+};
 
 class Subject {
  public:
@@ -42,7 +48,7 @@ class Subject {
   virtual properties::JudgedRun begin() { return {}; }
 
   // The detector's answer to step s, which is `step`. Steps are asked for in order, each once.
-  virtual detector::StepResult answer(std::size_t s, const CheckedStep& step,
+  virtual detector::StepResult answer(std::size_t s, const corpus::SourceStep& step,
                                       const detector::StopFunction& stop) = 0;
   // Why a step ended with an error. `refused` is set if the input is to blame, and not the
   // detector.
@@ -60,7 +66,7 @@ class Subject {
                                      const oracle::StepJudgement& judgement) const = 0;
   // The stage of the detector that lost a missing pair of a step; empty if its stages are not
   // known.
-  virtual std::string stage_that_lost(const CheckedStep& step,
+  virtual std::string stage_that_lost(const corpus::SourceStep& step,
                                       detector::TrianglePair pair) const = 0;
 };
 

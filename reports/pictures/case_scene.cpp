@@ -3,8 +3,12 @@
 #include <algorithm>
 
 #include "detector/mesh/mesh_checks.h"
+#include "properties/judging/case_check.h"
 #include "properties/judging/judged_run.h"
 #include "properties/worker/plugin/query_case.h"
+#include "reports/check/detector_choice.h"
+#include "reports/pictures/mesh_svg.h"
+#include "reports/terminal/text_file.h"
 
 namespace assay::reports {
 
@@ -50,20 +54,23 @@ std::string SceneStep::difference(const detector::TrianglePair& pair,
   if (!exact && contact_of(truth.left_out, pair)) return "left out by the contract";
   if (!diff || !answered) return "not run";
   if (has_pair(diff->missing_candidates, pair)) return "no candidate";
+  using properties::Claim;
   const auto& claims = scene.claims;
   const auto* reported = contact_of(answered->pairs, pair);
-  if (!exact) return claims.no_spurious ? "spurious" : "no contact, not claimed";
+  if (!exact) return claims.has(Claim::no_spurious) ? "spurious" : "no contact, not claimed";
   if (!reported) {
-    const bool are_claimed = scene.reports_pairs && (claims.all_pairs || claims.first_pairs);
+    const bool are_claimed =
+        scene.reports_pairs && (claims.has(Claim::all_pairs) || claims.has(Claim::first_pairs));
     if (are_claimed && has_pair(diff->missing, pair)) return "missing";
-    return diff->answered_free && claims.free_sound ? "answered free" : "not claimed";
+    return diff->answered_free && claims.has(Claim::free_sound) ? "answered free" : "not claimed";
   }
-  if (has_pair(diff->early, pair)) return claims.no_spurious ? "early" : "earlier, not claimed";
+  if (has_pair(diff->early, pair))
+    return claims.has(Claim::no_spurious) ? "early" : "earlier, not claimed";
   const bool is_late =
       has_pair(diff->late, pair) ||
       properties::time_off(reported->time, exact->time, scene.time_tolerance).late > 0;
   if (!is_late) return "agrees";
-  return claims.all_pairs ? "late" : "later, not claimed";
+  return claims.has(Claim::all_pairs) ? "late" : "later, not claimed";
 }
 
 namespace {
@@ -95,7 +102,7 @@ std::optional<CaseScene> make_scene(const corpus::Case& c,
   scene.reports_pairs =
       run.has_answers && detector.contract.reports_pairs && !properties::says_query(scene.c);
   scene.claims = detector.claims_in(configuration);
-  scene.claims.no_spurious &= detector.contract.margin == 0;
+  if (detector.contract.margin > 0) scene.claims.set(properties::Claim::no_spurious, false);
   scene.time_tolerance = detector.contract.time_tolerance;
   const auto script = corpus::steps_of(scene.c);
   for (std::size_t s = 0; s < script.size(); ++s) {
@@ -109,6 +116,55 @@ std::optional<CaseScene> make_scene(const corpus::Case& c,
     scene.surface = detector::make_surface(scene.c.triangles, scene.c.frames[0].rows());
   }
   return scene;
+}
+
+namespace {
+
+constexpr double case_seconds = 10;
+
+}  // namespace
+
+SceneMaker::SceneMaker(const std::optional<DetectorWords>& detector)
+    : detector_(properties::built_in_detector()) {
+  if (!detector) {
+    absent_ = "the store does not name the plug-in's library";
+    return;
+  }
+  properties::CampaignRequest request;
+  request.worker = properties::worker_program();
+  if (auto chosen = choose_detector(*detector, request); !chosen) {
+    absent_ = chosen.error().message;
+    return;
+  }
+  detector_ = request.detector;
+  worker_.emplace(
+      properties::worker_program(), request.plugin,
+      properties::WorkerLimits{case_seconds, 0, request.isolation, {}, request.threads});
+}
+
+std::optional<CaseScene> SceneMaker::scene_of(const corpus::Case& c,
+                                              const std::string& configuration) {
+  properties::Configuration chosen{configuration, {}};
+  if (const auto options = properties::read_options(c); detector_.built_in && options)
+    chosen.options = options.value();
+  auto scene = make_scene(c, detector_, chosen, worker_ ? &*worker_ : nullptr);
+  if (scene && !absent_.empty()) scene->ended = absent_;
+  return scene;
+}
+
+Expected<void> SceneMaker::write_picture(const std::string& case_file, const corpus::Case& c,
+                                         const std::string& configuration,
+                                         const std::string& title) {
+  if (c.triangles.rows() > most_shown_triangles) return outcome::success();
+  const auto scene = scene_of(c, configuration);
+  if (!scene) return outcome::success();
+  return write_text_file(picture_file(case_file), mesh_svg(*scene, title));
+}
+
+std::string picture_file(const std::string& case_file) {
+  constexpr std::string_view json = ".json";
+  const bool is_json = case_file.ends_with(json);
+  return case_file.substr(0, case_file.size() - (is_json ? json.size() : 0)) + ".svg";
 }
 
 }  // namespace assay::reports

@@ -1,15 +1,21 @@
 // A case as it is shown: its steps, what the oracle and the detector found in them, and view sets.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "detector/mesh/step_types.h"
 #include "detector/mesh/surface.h"
+#include "detector/options.h"
 #include "detector/step_result.h"
 #include "oracle/mesh/step.h"
 #include "properties/campaign/trials/trial.h"
 #include "properties/worker/worker_process.h"
+#include "reports/terminal/complaint.h"
+#include "reports/terminal/option_words.h"
 
 namespace assay::reports {
 
@@ -58,5 +64,60 @@ std::optional<CaseScene> make_scene(const corpus::Case& c,
 // The contact of this pair, or null.
 const detector::PairContact* contact_of(const std::vector<detector::PairContact>& contacts,
                                         const std::optional<detector::TrianglePair>& pair);
+
+// View sets under the names that pages and pictures show, and their colours.
+
+// The view set of a triangle over a step. A triangle in doubt (dirty, violated) is in that set
+// whatever its sign is, as in the search for pairs.
+enum class ViewSet : std::uint8_t { none, positive, negative, zero, dirty, violated };
+
+// Names and colours in the order of ViewSet. The colours are mid-tones for light and dark grounds
+// alike, which people who see colours differently can tell apart (Okabe and Ito).
+inline constexpr std::array<const char*, 6> view_set_names = {"none", "V+",    "V-",
+                                                              "V0",   "dirty", "violated"};
+inline constexpr std::array<const char*, 6> view_set_colours = {"#9aa0a6", "#56b4e9", "#e69f00",
+                                                                "#f0e442", "#cc79a7", "#d55e00"};
+
+// The set of a triangle; `none` if the step has no view sets. A triangle that is both touched by a
+// ghost and dirty counts as violated.
+inline ViewSet view_set(const detector::StepResult& result, std::size_t triangle) {
+  if (triangle >= result.signs.size()) return ViewSet::none;
+  const std::uint8_t doubt = triangle < result.doubts.size() ? result.doubts[triangle] : 0;
+  if (doubt & detector::doubt::violated) return ViewSet::violated;
+  if (doubt & detector::doubt::dirty) return ViewSet::dirty;
+  const auto sign = result.signs[triangle];
+  return sign == detector::ViewSign::positive   ? ViewSet::positive
+         : sign == detector::ViewSign::negative ? ViewSet::negative
+                                                : ViewSet::zero;
+}
+
+// Runs a stored case through the detector that failed on it, to show what it does there.
+
+class SceneMaker {
+ public:
+  // `detector` is nothing for a plug-in whose library is not known. If a library is no longer
+  // there, the scenes only lack the detector's part.
+  explicit SceneMaker(const std::optional<DetectorWords>& detector);
+
+  // The scene of a case, in the configuration that the case's options state (a plug-in has one).
+  // Nothing if a coordinate is beyond the detector's contract.
+  std::optional<CaseScene> scene_of(const corpus::Case& c, const std::string& configuration);
+
+  // Writes the picture of a case beside its file, as .svg in place of .json. Writes none for a
+  // mesh that is too large for a picture, or that has no scene.
+  Expected<void> write_picture(const std::string& case_file, const corpus::Case& c,
+                               const std::string& configuration, const std::string& title);
+
+ private:
+  properties::DetectorUnderTest detector_;
+  std::optional<properties::WorkerProcess> worker_;
+  std::string absent_;  // why the plug-in is not run
+};
+
+// "mesh.svg" for "mesh.json", "mesh.x.svg" for "mesh.x".
+std::string picture_file(const std::string& case_file);
+
+// A mesh of more triangles than this is too much for a picture and its reader.
+inline constexpr Eigen::Index most_shown_triangles = 2000;
 
 }  // namespace assay::reports

@@ -2,6 +2,8 @@
 // it.
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
 #include <optional>
 
 #include "detector/mesh/step_types.h"
@@ -17,5 +19,22 @@ std::optional<detector::Point> contact_point(const detector::PairContact& contac
                                              const detector::TrianglesView& triangles,
                                              const detector::PositionsView& x_t0,
                                              const detector::PositionsView& x_t1, double t);
+
+// Closest points of segments and triangles, for pictures. They are computed in plain doubles of
+// any size, and no verdict rests on them.
+
+struct NearestPoints {
+  Eigen::Vector3d a, b;  // one on each
+  double distance() const { return (a - b).stableNorm(); }
+  Eigen::Vector3d middle() const { return 0.5 * (a + b); }
+};
+
+NearestPoints nearest_of_segments(const Eigen::Vector3d& a0, const Eigen::Vector3d& a1,
+                                  const Eigen::Vector3d& b0, const Eigen::Vector3d& b1);
+
+// The closest points of a point and a closed triangle. A triangle without area counts as its
+// longest edge.
+NearestPoints nearest_of_triangle(const Eigen::Vector3d& point,
+                                  const std::array<Eigen::Vector3d, 3>& corners);
 
 }  // namespace assay::reports

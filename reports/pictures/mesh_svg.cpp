@@ -8,8 +8,7 @@
 
 #include "detector/boundary/boundary_handler.h"
 #include "reports/pictures/contact_point.h"
-#include "reports/pictures/view_set.h"
-#include "reports/terminal/replaced.h"
+#include "reports/terminal/words.h"
 
 namespace assay::reports {
 namespace {

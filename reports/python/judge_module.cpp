@@ -1,10 +1,229 @@
 // The module assay._judge holds the oracle, `check` and the readers of frames.
-#include "reports/python/frames_binding.h"
-#include "reports/python/judge_binding.h"
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <array>
+#include <filesystem>
+#include <limits>
+#include <memory>
+
+#include "corpus/formats/sequence_reader.h"
+#include "detector/mesh/mesh_checks.h"
+#include "oracle/mesh/step.h"
+#include "properties/judging/case_options.h"
+#include "reports/check/check_run.h"
+#include "reports/pictures/contact_point.h"
+#include "reports/python/arrays.h"
+#include "reports/python/calls.h"
+
+namespace assay::python {
+namespace {
+
+namespace py = pybind11;
+
+// The oracle takes the same input as the detector, and refuses other input by the same names.
+void demand_good_input(const detector::TrianglesView& triangles,
+                       const detector::PositionsView& x_t0, const detector::PositionsView& x_t1) {
+  if (const auto bad = detector::check_triangles(triangles, x_t0.rows())) raise(*bad);
+  for (const auto* x : {&x_t0, &x_t1})
+    if (const auto bad = detector::check_positions(*x, x_t0.rows())) raise(*bad);
+}
+
+py::dict judge(const py::object& triangles, const py::object& x_t0, const py::object& x_t1,
+               int jobs) {
+  const TrianglesArgument mesh(triangles, "triangles");
+  const PositionsArgument from(x_t0, "x_t0"), to(x_t1, "x_t1");
+  demand_good_input(mesh.view(), from.view(), to.view());
+  const auto judgement = interruptible([&](const auto& stop) {
+    return oracle::judge_step({from.view(), to.view()}, mesh.view(), {jobs, stop});
+  });
+  py::dict fields = arrays_of(judgement.answer, judgement.first, judgement.pairs);
+  fields["feature_candidates"] = judgement.feature_candidates;
+  return fields;
+}
+
+using reports::CheckInput;
+using reports::CheckQuestion;
+
+// Reads an option if its word is given. A word that is not known is a ValueError.
+template <class Parse, class Target>
+void choose(const py::dict& given, const char* name, const Parse& parse, Target& target) {
+  if (!given.contains(name) || given[name].is_none()) return;
+  const auto value = parse(given[name].template cast<std::string>());
+  if (!value) throw py::value_error(py::str("{}: unknown word {!r}").format(name, given[name]));
+  target = *value;
+}
+
+template <class Target>
+void take(const py::dict& given, const char* name, Target& target) {
+  if (given.contains(name) && !given[name].is_none()) target = given[name].cast<Target>();
+}
+
+CheckQuestion question_of(const py::dict& given) {
+  CheckQuestion question;
+  choose(given, "culling", from_name<detector::Culling>, question.built_in.culling);
+  choose(given, "start", from_name<detector::Start>, question.built_in.start);
+  choose(given, "pairs", from_name<detector::Pairs>, question.built_in.pairs);
+  choose(given, "arithmetic", from_name<detector::Arithmetic>, question.built_in.arithmetic);
+  choose(given, "isolation", from_name<properties::IsolationMode>, question.detector.isolation);
+  choose(given, "memory", reports::memory_size, question.memory_limit);
+  take(given, "detector", question.detector.library);
+  take(given, "threads", question.threads);
+  take(given, "jobs", question.jobs);
+  if (given.contains("time") && !given["time"].is_none())
+    question.time_limit = given["time"].cast<double>();
+  take(given, "files", question.files);
+  question.wants_report = true;
+  return question;
+}
+
+CheckInput input_of(const py::object& triangles, const py::list& frames) {
+  corpus::Case c;
+  c.triangles = TrianglesArgument(triangles, "triangles").view();
+  for (const auto& frame : frames) {
+    const PositionsArgument x(py::reinterpret_borrow<py::object>(frame), "a frame");
+    c.frames.emplace_back(x.view());
+    if (const auto bad = detector::check_positions(x.view(), c.frames[0].rows())) raise(*bad);
+  }
+  if (c.frames.size() < 2) throw py::value_error("a step needs two frames or more");
+  if (const auto bad = detector::check_triangles(c.triangles, c.frames[0].rows())) raise(*bad);
+  return {"frames",
+          corpus::steps_of_case(std::make_shared<const corpus::Case>(std::move(c)), false)};
+}
+
+// Returns the report as JSON, what is printed, and the exit code.
+py::tuple checked(CheckInput& input, const CheckQuestion& question, const std::string& worker,
+                  const py::object& listener) {
+  std::string text;
+  const auto tell = [&](const std::string& said) {
+    text += said;
+    if (listener.is_none()) return;
+    const py::gil_scoped_acquire interpreter;
+    listener(said);
+  };
+  const auto answer = interruptible([&](const auto& stop) {
+    return reports::check_mesh(question, input, worker, {tell, stop});
+  });
+  if (!answer) throw py::value_error(answer.error().message);
+  return py::make_tuple(
+      answer.value().report.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace),
+      text, answer.value().outcome.exit_code(false));
+}
+
+py::tuple check_arrays(const py::object& triangles, const py::list& frames, const py::dict& given,
+                       const std::string& worker, const py::object& listener) {
+  const auto question = question_of(given);
+  auto input = input_of(triangles, frames);
+  return checked(input, question, worker, listener);
+}
+
+// Checks a case file, or files of frames.
+py::tuple check_files(const std::vector<std::string>& files, const py::dict& given,
+                      const std::string& worker, const py::object& listener) {
+  auto question = question_of(given);
+  question.files = files;
+  auto input = reports::read_check_input(files);
+  if (!input) throw py::value_error(input.error().message);
+  return checked(input.value(), question, worker, listener);
+}
+
+using IntegerArray = py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>;
+using TimeArray = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+constexpr py::ssize_t numbers_of_a_feature = 6;
+
+// How many vertices a feature of this kind has, or -1 if there is no such kind.
+py::ssize_t vertices_of(std::int32_t kind) {
+  constexpr std::array<py::ssize_t, 4> of_kinds = {4, 4, 5, 0};
+  const auto place = static_cast<std::size_t>(kind);
+  return place < of_kinds.size() ? of_kinds[place] : -1;
+}
+
+// Refuses indices that are out of range, because contacts may come from anywhere.
+void demand_contacts(const IntegerArray& pairs, const TimeArray& times,
+                     const IntegerArray& features, Eigen::Index triangles, Eigen::Index vertices) {
+  const bool are_rows = pairs.ndim() == 2 && pairs.shape(1) == 2 && times.ndim() == 2 &&
+                        times.shape(1) == 2 && features.ndim() == 2 &&
+                        features.shape(1) == numbers_of_a_feature;
+  if (!are_rows || times.shape(0) != pairs.shape(0) || features.shape(0) != pairs.shape(0))
+    throw py::value_error("pairs (k, 2), times (k, 2) and features (k, 6) are wanted");
+  for (py::ssize_t i = 0; i < pairs.size(); ++i) {
+    if (pairs.data()[i] < 0 || pairs.data()[i] >= triangles)
+      throw py::value_error("pairs: no such triangle");
+  }
+  for (py::ssize_t k = 0; k < features.shape(0); ++k) {
+    const auto* feature = features.data(k, 0);
+    // A feature without any vertex comes from a detector that names no features.
+    const bool is_named = feature[1] >= 0;
+    const py::ssize_t needed = is_named ? vertices_of(feature[0]) : 0;
+    bool fits = vertices_of(feature[0]) >= 0;
+    for (py::ssize_t i = 1; i <= needed; ++i) fits &= 0 <= feature[i] && feature[i] < vertices;
+    if (!fits) throw py::value_error("features: no such kind or vertex");
+  }
+}
+
+// Returns an array of float64, k x 3: the place of each contact at its first time, or NaN if there
+// is no such place.
+py::array contact_points(const py::object& triangles, const py::object& x_t0,
+                         const py::object& x_t1, const IntegerArray& pairs, const TimeArray& times,
+                         const IntegerArray& features) {
+  const TrianglesArgument mesh(triangles, "triangles");
+  const PositionsArgument from(x_t0, "x_t0"), to(x_t1, "x_t1");
+  const auto rows = mesh.view();
+  const Eigen::Index vertices = from.view().rows();
+  if (to.view().rows() != vertices) throw py::value_error("x_t0 and x_t1 differ in length");
+  if (rows.size() > 0 && (rows.minCoeff() < 0 || rows.maxCoeff() >= vertices))
+    throw py::value_error("triangles: no such vertex");
+  demand_contacts(pairs, times, features, rows.rows(), vertices);
+  py::array_t<double> points({pairs.shape(0), py::ssize_t{3}});
+  double* out = points.mutable_data();
+  for (py::ssize_t k = 0; k < pairs.shape(0); ++k) {
+    detector::PairContact contact;
+    contact.pair = {pairs.at(k, 0), pairs.at(k, 1)};
+    contact.time = {times.at(k, 0), times.at(k, 1)};
+    contact.feature.kind = static_cast<detector::FeatureKind>(features.at(k, 0));
+    for (std::size_t i = 0; i < contact.feature.vertices.size(); ++i)
+      contact.feature.vertices[i] = features.at(k, static_cast<py::ssize_t>(i) + 1);
+    const auto point =
+        reports::contact_point(contact, rows, from.view(), to.view(), contact.time.lo);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      *out++ = point ? (*point)[axis] : std::numeric_limits<double>::quiet_NaN();
+  }
+  return points;
+}
+
+// Makes an array of the numbers of a matrix. The array owns the matrix.
+template <class Matrix>
+py::array owning_array(Matrix matrix) {
+  auto kept = std::make_unique<Matrix>(std::move(matrix));
+  const auto* data = kept->data();
+  const py::ssize_t rows = kept->rows(), columns = kept->cols();
+  const py::capsule owner(kept.release(), [](void* gone) { delete static_cast<Matrix*>(gone); });
+  return py::array_t<typename Matrix::Scalar>({rows, columns}, data, owner);
+}
+
+// Returns the triangles, and a list of the positions of each frame.
+py::tuple read_sequence(const std::vector<std::string>& files) {
+  const std::vector<std::filesystem::path> paths(files.begin(), files.end());
+  auto sequence = [&] {
+    const py::gil_scoped_release others_may_run;
+    return corpus::read_sequence(paths);
+  }();
+  if (!sequence) throw py::value_error(sequence.error().message);
+  py::list frames;
+  for (auto& frame : sequence.value().frames) frames.append(owning_array(std::move(frame)));
+  return py::make_tuple(owning_array(std::move(sequence.value().triangles)), frames);
+}
+
+}  // namespace
+}  // namespace assay::python
 
 PYBIND11_MODULE(_judge, module) {
-  assay::python::bind_judge(module);
-  assay::python::bind_check(module);
-  assay::python::bind_contact_points(module);
-  assay::python::bind_frames(module);
+  using namespace assay::python;
+  module.def("judge", judge);
+  module.def("check_arrays", check_arrays);
+  module.def("check_files", check_files);
+  module.def("contact_points", contact_points);
+  module.def("read_sequence", read_sequence);
 }

@@ -1,17 +1,23 @@
 // The plug-in that serves `--detector python:MODULE:CLASS`. It runs an interpreter in the process
 // of a plug-in, and the class in it. assay/hosting.py says what the class may have and how its
 // answers are read, and does everything that can be done in Python.
+#include <Python.h>
 #include <dlfcn.h>
 #include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
 
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <optional>
+#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
 
 #include "detector/plugin/assay_detector.hpp"
+#include "properties/claims/claims.h"
 #include "properties/worker/plugin/python_word.h"
-#include "reports/python/interpreter.h"
 
 namespace assay::python {
 namespace {
@@ -23,6 +29,55 @@ using plugin::Mesh;
 using plugin::Pair;
 using plugin::Positions;
 using plugin::Result;
+
+// Modules such as those of NumPy take the symbols of the interpreter from the program. Here the
+// interpreter is a library that was loaded for this plug-in alone, so it is loaded again, which
+// shows its symbols to all.
+void show_interpreter_to_modules() {
+  Dl_info library = {};
+  if (::dladdr(reinterpret_cast<const void*>(&Py_InitializeFromConfig), &library) == 0 ||
+      !::dlopen(library.dli_fname, RTLD_NOW | RTLD_GLOBAL | RTLD_NOLOAD))
+    throw std::runtime_error("the library of Python is not found");
+}
+
+void demand(PyStatus status, PyConfig& config) {
+  if (!PyStatus_Exception(status)) return;
+  const char* why = status.err_msg ? status.err_msg : "no reason given";
+  PyConfig_Clear(&config);
+  throw std::runtime_error(std::string("Python does not start: ").append(why));
+}
+
+void initialize() {
+  // Libraries that multiply matrices in threads reserve much memory for each of them.
+  for (const char* name : {"OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"}) ::setenv(name, "1", 0);
+  PyConfig config;
+  PyConfig_InitPythonConfig(&config);
+  config.parse_argv = 0;
+  config.install_signal_handlers = 0;
+  config.write_bytecode = 0;  // there is no place to write it to
+  config.buffered_stdio = 0;  // text must come out in the step that printed it
+  const char* executable = std::getenv("ASSAY_PYTHON");
+  if (!executable || !*executable) executable = ASSAY_PYTHON_EXECUTABLE;
+  demand(PyConfig_SetBytesString(&config, &config.program_name, executable), config);
+  demand(Py_InitializeFromConfig(&config), config);
+  PyConfig_Clear(&config);
+}
+
+// Starts the interpreter once and does not hold its lock afterwards; it is never ended.
+// ASSAY_PYTHON names its executable, which tells where its modules are; without it, it is the
+// interpreter that the plug-in was built for. `package` is the folder in which the package assay
+// lies. Throws std::runtime_error.
+void start_interpreter(const char* package) {
+  if (Py_IsInitialized()) return;
+  show_interpreter_to_modules();
+  initialize();
+  {
+    auto path = py::module_::import("sys").attr("path").cast<py::list>();
+    path.insert(0, "");  // the current folder, as with `python -m`
+    path.append(package);
+  }
+  PyEval_SaveThread();
+}
 
 // The folder above that of this library. The package `assay` is in it.
 std::string folder_of_package() {
@@ -52,6 +107,54 @@ auto in_python(const Work& work) {
   }
 }
 
+// A member of the contract by its name in Python: a choice of words, or a number.
+struct ContractMember {
+  const char* name;
+  std::variant<std::int32_t plugin::Description::*, double plugin::Description::*> place;
+  std::vector<std::string> words;
+};
+
+// In the order of their numbers.
+template <class Enum>
+std::vector<std::string> words_of() {
+  std::vector<std::string> words;
+  for (std::size_t number = 0; number < all_values<Enum>.size(); ++number)
+    words.emplace_back(name_of(*from_number<Enum>(static_cast<std::int64_t>(number))));
+  return words;
+}
+
+std::vector<ContractMember> contract_members() {
+  using plugin::Description;
+  return {{"adjacency", &Description::adjacency, words_of<properties::Adjacency>()},
+          {"coordinates", &Description::coordinates, words_of<properties::Coordinates>()},
+          {"start", &Description::start, words_of<properties::StartRule>()},
+          {"features", &Description::features, words_of<properties::TestedFeatures>()},
+          {"reports", &Description::reports, {"pairs", "no-pairs"}},
+          {"margin", &Description::margin, {}},
+          {"start_distance", &Description::start_distance, {}},
+          {"least_nonzero", &Description::least_nonzero, {}},
+          {"largest", &Description::largest, {}},
+          {"time_tolerance", &Description::time_tolerance, {}}};
+}
+
+py::tuple claim_words() {
+  py::list words;
+  for (const auto& row : names_of(properties::Claim{})) {
+    if (properties::claims_from_outside.has(row.value)) words.append(row.name);
+  }
+  return words;
+}
+
+py::dict words_of_members() {
+  py::dict members;
+  for (const auto& member : contract_members()) {
+    py::list words;
+    for (const auto& word : member.words) words.append(word);
+    members[member.name] = py::tuple(words);
+  }
+  return members;
+}
+
 // The class, as assay/hosting.py wraps it. It stays as long as the process does.
 const py::object& hosted() {
   static const py::object* const host = [] {
@@ -59,7 +162,7 @@ const py::object& hosted() {
     return in_python([] {
       const char* word = std::getenv(properties::python_detector_variable);
       const auto make = py::module_::import("assay.hosting").attr("Hosted");
-      return new py::object(make(word ? word : ""));
+      return new py::object(make(word ? word : "", claim_words(), words_of_members()));
     });
   }();
   return *host;
@@ -108,27 +211,20 @@ class PythonDetector {
     static std::string name, version;
     return with_class([](const py::object& host) {
       const auto text = [&](const char* member) { return host.attr(member).cast<std::string>(); };
-      const auto number = [&](const char* member) {
-        return host.attr("contract")[member].cast<std::int32_t>();
-      };
-      const auto real = [&](const char* member) {
-        return host.attr("contract")[member].cast<double>();
-      };
       name = text("name"), version = text("version");
       plugin::Description d;
       d.name = name.c_str();
       d.version = version.c_str();
       d.claims = host.attr("claims").cast<std::uint32_t>();
-      d.adjacency = number("adjacency");
-      d.coordinates = number("coordinates");
-      d.start = number("start");
-      d.features = number("features");
-      d.reports = number("reports");
-      d.margin = real("margin");
-      d.start_distance = real("start_distance");
-      d.least_nonzero = real("least_nonzero");
-      d.largest = real("largest");
-      d.time_tolerance = real("time_tolerance");
+      for (const auto& member : contract_members()) {
+        const auto given = host.attr("contract")[member.name];
+        std::visit(
+            [&](const auto place) {
+              using Number = std::remove_reference_t<decltype(d.*place)>;
+              d.*place = given.template cast<Number>();
+            },
+            member.place);
+      }
       return d;
     });
   }

@@ -6,10 +6,10 @@
 #include <chrono>
 #include <cstdio>
 
-#include "properties/queries/self_test_run.h"
+#include "properties/queries/self_check.h"
 #include "reports/queries/query_detector.h"
 #include "reports/steps/step_text.h"
-#include "reports/terminal/shell_word.h"
+#include "reports/terminal/words.h"
 
 namespace assay::reports {
 namespace {

@@ -3,14 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <nlohmann/json.hpp>
 
-#include "properties/campaign/gates/measure_rates.h"
+#include "properties/campaign/ledger/step_measures.h"
 #include "properties/printable.h"
 #include "properties/words.h"
+#include "properties/worker/plugin/query_case.h"
 #include "reports/certificate/sections.h"
 #include "reports/check/detector_choice.h"
-#include "reports/check/plugin_text.h"
 #include "reports/steps/measures_text.h"
 
 namespace assay::reports {
@@ -24,11 +25,15 @@ namespace {
 constexpr std::uint64_t most_crashes = 100;
 constexpr double query_seconds = 10;  // of processor time, for all queries of a message
 
-std::unique_ptr<properties::WorkerProcess> worker_of(const properties::CampaignRequest& request,
-                                                     std::uint32_t variation) {
+properties::WorkerProcess worker_of(const properties::CampaignRequest& request,
+                                    std::uint32_t variation) {
   properties::WorkerLimits limits{query_seconds, 0, request.isolation, {}, request.threads};
   limits.variation = variation;
-  return std::make_unique<properties::WorkerProcess>(request.worker, request.plugin, limits);
+  return properties::WorkerProcess(request.worker, request.plugin, limits);
+}
+
+bool same_frames(const corpus::Case& a, const corpus::Case& b) {
+  return a.frames[0] == b.frames[0] && a.frames[1] == b.frames[1];
 }
 
 }  // namespace
@@ -36,8 +41,7 @@ std::unique_ptr<properties::WorkerProcess> worker_of(const properties::CampaignR
 QueryDetector::QueryDetector(std::unique_ptr<properties::CampaignRequest> request)
     : request_(std::move(request)),
       worker_(worker_of(*request_, 0)),
-      second_(worker_of(*request_, 1)),
-      judge_(std::make_unique<QueryJudge>(request_->detector, *worker_, *second_)) {}
+      second_(worker_of(*request_, 1)) {}
 
 Expected<QueryDetector> QueryDetector::open(const DetectorWords& words) {
   auto request = std::make_unique<properties::CampaignRequest>();
@@ -47,7 +51,7 @@ Expected<QueryDetector> QueryDetector::open(const DetectorWords& words) {
   if (auto chosen = choose_detector(of_queries, *request); !chosen) return chosen.error();
   const auto& detector = request->detector;
   if (judged_claims(detector.claims, detector.contract).empty())
-    return Refusal(fmt::format("{}: it claims nothing of its query", words.library));
+    return Problem{fmt::format("{}: it claims nothing of its query", words.library)};
   return QueryDetector(std::move(request));
 }
 
@@ -62,15 +66,15 @@ Expected<std::vector<JudgedQuery>> QueryDetector::judge(
   std::vector<JudgedQuery> all;
   while (all.size() < queries.size()) {
     const std::size_t count = std::min(at_once, queries.size() - all.size());
-    if (judge_->crashes() > most_crashes) {
+    if (crashes_ > most_crashes) {
       not_asked_ += count;
       all.resize(all.size() + count);
       continue;
     }
-    auto some = judge_->judge(std::span(queries).subspan(all.size(), count));
+    auto some = judge_some(std::span(queries).subspan(all.size(), count));
     for (auto& one : some) {
       const auto& name = names[all.size()];
-      if (one.run.end == properties::RunEnd::not_run) return Refusal(one.run.explanation);
+      if (one.run.end == properties::RunEnd::not_run) return Problem{one.run.explanation};
       if (!one.is_within) {
         ++left_out_;
       } else {
@@ -92,11 +96,11 @@ Expected<std::vector<JudgedQuery>> QueryDetector::judge(
 }
 
 std::string QueryDetector::text() const {
-  std::string out = fmt::format("{}\n{}\n", measures_head(), measures_row(judge_->measures()));
+  std::string out = fmt::format("{}\n{}\n", measures_head(), measures_row(measures_));
   if (left_out_ > 0) out += fmt::format("{} queries are left out by its contract\n", left_out_);
   if (not_asked_ > 0)
-    out += fmt::format("{} queries were not asked: it had crashed {} times\n", not_asked_,
-                       judge_->crashes());
+    out +=
+        fmt::format("{} queries were not asked: it had crashed {} times\n", not_asked_, crashes_);
   constexpr std::size_t most_shown = 20;
   for (std::size_t i = 0; i < std::min(most_shown, shown_.size()); ++i) {
     const auto& one = shown_[i];
@@ -128,7 +132,7 @@ nlohmann::ordered_json QueryDetector::to_json() const {
           {"left_out", left_out_},
           {"undecided", undecided_},
           {"not_asked", not_asked_},
-          {"measures", measures_json(judge_->measures())},
+          {"measures", measures_json(measures_)},
           {"broken", std::move(broken)},
           {"failures", std::move(failures)}};
 }
@@ -136,6 +140,51 @@ nlohmann::ordered_json QueryDetector::to_json() const {
 int QueryDetector::exit_code() const {
   if (defects_ > 0) return exit_defect;
   return undecided_ + not_asked_ > 0 || judged_ == 0 ? exit_undecided : exit_holds;
+}
+
+std::vector<JudgedQuery> QueryDetector::judge_some(std::span<const detector::FourPoints> queries) {
+  const auto& plugin = request_->detector;
+  std::vector<JudgedQuery> judged(queries.size());
+  std::vector<std::size_t> places;
+  std::vector<corpus::Case> cases;
+  std::vector<detector::FourPoints> asked;
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    const auto given = properties::case_of_query(queries[i], "query");
+    auto seen = properties::contracted(given, plugin.contract);
+    if (!seen) continue;
+    judged[i].is_within = true;
+    judged[i].is_rounded = !same_frames(given, *seen);
+    places.push_back(i);
+    asked.push_back(*properties::query_of(*seen));
+    cases.push_back(std::move(*seen));
+  }
+  // This starts the worker before the time is taken. If it does not start, the runs say why.
+  [[maybe_unused]] const auto started = worker_.describe();
+  const auto begin = std::chrono::steady_clock::now();
+  auto runs = worker_.ask(asked);
+  const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - begin;
+  std::vector<properties::CaseRun> again;
+  if (plugin.claims.has(properties::Claim::deterministic)) {
+    std::reverse(asked.begin(), asked.end());
+    again = second_.ask(asked);
+    std::reverse(again.begin(), again.end());
+  }
+  const properties::Configuration configuration{"query", {}};
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    JudgedQuery& one = judged[places[i]];
+    const auto truth = properties::judge_case(cases[i], plugin.contract);
+    auto verdict = properties::judge_trial(cases[i], truth, runs[i], configuration, plugin,
+                                           again.empty() ? nullptr : &again[i]);
+    measures_ += properties::measures_of(verdict.steps, runs[i].steps);
+    one.contact = !truth[0].pairs.empty();
+    one.first = truth[0].first;
+    one.outcome = verdict.outcome;
+    one.failure = std::move(verdict.failure);
+    one.microseconds = took.count() / static_cast<double>(places.size());
+    crashes_ += runs[i].end == properties::RunEnd::crashed ? 1 : 0;
+    one.run = std::move(runs[i]);
+  }
+  return judged;
 }
 
 }  // namespace assay::reports

@@ -1,4 +1,5 @@
-// The elementary query of a plug-in, as `check-queries` and `self-test` judge it.
+// The elementary query of a plug-in, as `check-queries` and `self-test` judge it: many queries at
+// once, by its claims. Nothing is stored.
 #pragma once
 
 #include <cstdint>
@@ -6,15 +7,31 @@
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "detector/mesh/step_types.h"
+#include "properties/campaign/ledger/step_measures.h"
 #include "properties/campaign/request.h"
-#include "reports/queries/query_judge.h"
+#include "properties/campaign/trials/trial.h"
+#include "properties/worker/worker_process.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
 
 namespace assay::reports {
+
+// What came of one query.
+struct JudgedQuery {
+  bool is_within = false;   // the contract takes it; else the rest says nothing
+  bool is_rounded = false;  // by the contract, so that another query is judged
+  bool contact = false;     // the oracle finds a contact, at `first`
+  detector::TimeEnclosure first;
+  properties::CaseRun run;
+  properties::Outcome outcome = properties::Outcome::undecided;
+  std::optional<properties::Failure> failure;
+  double microseconds = 0;  // clock time of its message over the number of queries in it
+};
 
 // A query that broke a claim.
 struct BrokenQuery {
@@ -49,11 +66,14 @@ class QueryDetector {
  private:
   explicit QueryDetector(std::unique_ptr<properties::CampaignRequest> request);
 
-  // Request and workers are on the heap, because the judge still refers to them after this object
-  // was moved.
+  // Asks and judges some queries in one message. If `deterministic` is claimed, the second worker
+  // is asked too, in the other order. Runs that did not take place end with RunEnd::not_run.
+  std::vector<JudgedQuery> judge_some(std::span<const detector::FourPoints> queries);
+
   std::unique_ptr<properties::CampaignRequest> request_;
-  std::unique_ptr<properties::WorkerProcess> worker_, second_;
-  std::unique_ptr<QueryJudge> judge_;
+  properties::WorkerProcess worker_, second_;
+  properties::StepMeasures measures_;  // of all queries that were judged
+  std::uint64_t crashes_ = 0;
   std::uint64_t judged_ = 0, left_out_ = 0, undecided_ = 0, not_asked_ = 0, defects_ = 0;
   std::map<std::string, std::uint64_t> broken_;  // how many queries broke each claim
   std::vector<BrokenQuery> shown_;               // the first of each signature

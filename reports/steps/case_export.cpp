@@ -6,11 +6,11 @@
 
 #include "corpus/atomic_file.h"
 #include "properties/judging/case_options.h"
-#include "properties/judging/contact_parts.h"
+#include "properties/judging/step_truth.h"
 #include "properties/worker/case_player.h"
 #include "properties/worker/plugin/query_case.h"
 #include "reports/steps/owner_export.h"
-#include "reports/terminal/joined.h"
+#include "reports/terminal/words.h"
 
 namespace assay::reports {
 namespace {
@@ -53,9 +53,9 @@ std::string asked_text(const properties::Claims& claims, bool exact,
                        const oracle::StepJudgement& truth) {
   const bool free = truth.pairs.empty();
   std::string out = "    EXPECT_TRUE(is_answered(r));\n";
-  if (free ? claims.no_spurious : claims.free_sound)
+  if (free ? claims.has(properties::Claim::no_spurious) : claims.has(properties::Claim::free_sound))
     out += fmt::format("    EXPECT_EQ(r.answer, Answer::{});\n", free ? "free" : "collision");
-  if (!free && claims.first_time) {
+  if (!free && claims.has(properties::Claim::first_time)) {
     const char* line = exact
                            ? "    EXPECT_EQ(r.first, (TimeEnclosure{{{:a}, {:a}}}));\n"
                            : "    EXPECT_LE(r.first.lo, {:a});\n    EXPECT_GE(r.first.hi, {:a});\n";
@@ -68,11 +68,11 @@ std::string asked_text(const properties::Claims& claims, bool exact,
                                  contact.pair.b, contact.time.lo, contact.time.hi));
     return joined(rows, ", ");
   };
-  if (claims.no_spurious)
+  if (claims.has(properties::Claim::no_spurious))
     out += fmt::format("    EXPECT_TRUE(all_meet(r, {{{}}}));\n", listed(truth.pairs));
-  if (claims.all_pairs) {
+  if (claims.has(properties::Claim::all_pairs)) {
     out += fmt::format("    EXPECT_TRUE(finds_all(r, {{{}}}));\n", listed(truth.pairs));
-  } else if (claims.first_pairs) {
+  } else if (claims.has(properties::Claim::first_pairs)) {
     for (const auto& part : properties::contact_parts(truth.pairs, truth.first))
       out += fmt::format("    EXPECT_TRUE(finds_one(r, {{{}}}));\n", listed(part));
   }
@@ -81,7 +81,6 @@ std::string asked_text(const properties::Claims& claims, bool exact,
 
 constexpr const char* test_head = R"(#include <gtest/gtest.h>
 
-#include <algorithm>
 
 #include "detector/detector.h"
 #include "detector/step_result.h"
@@ -184,10 +183,10 @@ Expected<void> export_case(const std::filesystem::path& folder, const corpus::Ca
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
-    return Refusal(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
+    return Problem{fmt::format("{}: cannot be made: {}", folder.string(), error.message())};
   const auto write = [&](const std::string& name, const std::string& text) -> Expected<void> {
     const auto written = corpus::write_file_atomically(folder / name, text);
-    if (!written) return Refusal(written.error());
+    if (!written) return written.error();
     return outcome::success();
   };
   for (std::size_t f = 0; f < c.frames.size(); ++f) {

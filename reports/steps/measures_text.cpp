@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "properties/campaign/gates/measure_rates.h"
-#include "reports/terminal/joined.h"
+#include "properties/campaign/ledger/step_measures.h"
+#include "reports/terminal/words.h"
 
 namespace assay::reports {
 namespace {
@@ -24,12 +24,13 @@ std::string rate_text(const properties::Rate& rate) {
 // median, the value that 99 of 100 do not exceed, and the worst.
 std::string off_text(const properties::TimesOff& off) {
   if (off.steps == 0) return "none";
-  return fmt::format("{}: {:.2g} {:.2g} {:.2g}", off.steps, off.median, off.p99, off.worst);
+  return fmt::format("{}: {:.2g} {:.2g} {:.2g}", off.steps, off.quantile(0.5), off.quantile(0.99),
+                     off.quantile(1));
 }
 
 std::string off_sentence(const char* word, const properties::TimesOff& off) {
   return fmt::format("{} in {} step{}, by {:.2g} at worst", word, off.steps,
-                     off.steps == 1 ? "" : "s", off.worst);
+                     off.steps == 1 ? "" : "s", off.quantile(1));
 }
 
 constexpr const char* row_format = "{:>32} {:>14} {:>10} {:>24} {:>24} {:>14} {:>26}";
@@ -91,8 +92,8 @@ std::string measures_row(const properties::StepMeasures& m) {
   return fmt::format(
       row_format, rate_text(false_alarm_rate(m)),
       misses.in ? fmt::format("{} of {}", misses.of, misses.in) : "-",
-      m.steps ? fmt::format("{:.3g}/step", spurious_pairs_a_step(m)) : "-", off_text(times_late(m)),
-      off_text(times_early(m)),
+      m.errors.answered() ? fmt::format("{:.3g}/step", spurious_pairs_a_step(m)) : "-",
+      off_text(m.errors.late), off_text(m.errors.early),
       m.redrawn + m.steps_left_out ? fmt::format("{} + {}", m.redrawn, m.steps_left_out) : "-",
       m.candidate_steps ? fmt::format("{} / {}, {:.3g}", m.candidates, m.least_candidates,
                                       candidates_over_least(m))
@@ -101,15 +102,15 @@ std::string measures_row(const properties::StepMeasures& m) {
 
 std::string measures_sentence(const properties::StepMeasures& m) {
   std::vector<std::string> parts;
-  if (m.false_alarms > 0)
+  const auto& e = m.errors;
+  if (e.false_alarms > 0)
+    parts.push_back(fmt::format("{} of {} free steps answered collision", e.false_alarms, e.free));
+  if (e.missed > 0)
     parts.push_back(
-        fmt::format("{} of {} free steps answered collision", m.false_alarms, m.free_steps));
-  if (m.answered_free > 0)
-    parts.push_back(fmt::format("{} of {} steps with a contact answered free", m.answered_free,
-                                m.contact_steps));
-  if (m.spurious_pairs > 0) parts.push_back(fmt::format("{} spurious pairs", m.spurious_pairs));
-  if (m.late_steps() > 0) parts.push_back(off_sentence("late", times_late(m)));
-  if (m.early_steps() > 0) parts.push_back(off_sentence("early", times_early(m)));
+        fmt::format("{} of {} steps with a contact answered free", e.missed, e.contact));
+  if (e.spurious > 0) parts.push_back(fmt::format("{} spurious pairs", e.spurious));
+  if (e.late.steps > 0) parts.push_back(off_sentence("late", e.late));
+  if (e.early.steps > 0) parts.push_back(off_sentence("early", e.early));
   if (m.steps_left_out > 0)
     parts.push_back(fmt::format("{} steps left out by the contract", m.steps_left_out));
   if (m.left_out_misses > 0)
@@ -127,8 +128,8 @@ std::string measures_text(const properties::RunFindings& findings) {
       "stratum", measures_head());
   for (const auto& stratum : findings.run.plan.strata)
     out += fmt::format("{:24} {}\n", stratum.family,
-                       measures_row(properties::measures_in(findings.tally_of(stratum).measures)));
-  const auto all = properties::measures_in(findings.tally.counts);
+                       measures_row(findings.tally_of(stratum).measures));
+  const auto all = findings.tally.counts.measures;
   out += fmt::format("{:24} {}\n", "all", measures_row(all));
   if (all.left_out_misses > 0)
     out += fmt::format("the contract leaves out what would have been a miss in {} steps\n",

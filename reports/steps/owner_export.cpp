@@ -2,14 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
 
-#include "properties/judging/contact_parts.h"
+#include "properties/judging/step_truth.h"
 #include "properties/worker/plugin/query_case.h"
-#include "reports/terminal/joined.h"
+#include "reports/terminal/words.h"
 
 namespace assay::reports {
 namespace {
@@ -118,15 +117,7 @@ static const Pair left_out[] = {{
 // What is claimed of the detector, and asked of it here; the bits are those of
 // detector/plugin/assay_detector.h.
 enum Claim : unsigned {{
-  free_sound = 1,
-  not_late = 2,
-  first_time = 4,
-  first_pairs = 8,
-  all_pairs = 16,
-  no_spurious = 32,
-  deterministic = 64,
-  total = 128,
-  candidates = 256
+{}
 }};
 static const unsigned claims = {};
 static const double time_tolerance = {};
@@ -281,7 +272,6 @@ constexpr const char* reading =
 #include <unistd.h>
 
 #include <csignal>
-#include <cstdint>
 #include <cstdlib>
 
 #include "detector/plugin/assay_detector.h"
@@ -514,11 +504,18 @@ constexpr const char* plugin_main = R"cpp(
 // "free_sound | total", in the words of the exported file.
 std::string claims_text(const properties::DetectorUnderTest& detector) {
   std::vector<std::string> names;
-  for (const auto claim : properties::judged_claims(detector.claims, detector.contract)) {
-    names.emplace_back(name_of(claim));
-    std::replace(names.back().begin(), names.back().end(), '-', '_');
-  }
+  for (const auto claim : list_of(properties::judged_claims(detector.claims, detector.contract)))
+    names.push_back(replaced(name_of(claim), {{'-', "_"}}));
   return names.empty() ? "0" : joined(names, " | ");
+}
+
+// "  free_sound = 1,", and so on: a line for each claim that there is.
+std::string all_claims_text() {
+  std::vector<std::string> lines;
+  for (const auto claim : properties::all_claims())
+    lines.push_back(fmt::format("  {} = {}", replaced(name_of(claim), {{'-', "_"}}),
+                                properties::Claims{claim}.bits()));
+  return joined(lines, ",\n");
 }
 
 }  // namespace
@@ -556,8 +553,8 @@ std::string plain_case_text(const corpus::Case& c, const properties::DetectorUnd
                : fmt::format(fmt::runtime(mesh_text), rows_text(c.triangles), c.triangles.rows(),
                              c.frames[0].rows());
   out += fmt::format(fmt::runtime(lists_text), c.frames[0].rows(), frames, rows.steps,
-                     script.size(), rows.pairs, rows.left_out, claims_text(detector),
-                     detector.contract.time_tolerance);
+                     script.size(), rows.pairs, rows.left_out, all_claims_text(),
+                     claims_text(detector), detector.contract.time_tolerance);
   return out + judging;
 }
 

@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 
 #include "detector/step_result.h"
-#include "reports/steps/view_use_words.h"
 
 namespace assay::reports {
 
@@ -81,7 +80,7 @@ Json step_json(const detector::StepResult& result, const JudgedByOracle* oracle)
   const bool collision = result.answer == detector::Answer::collision;
   Json step = {{"answer", properties::name_of(result.answer)},
                {"first_time", collision ? to_json(result.first) : Json()},
-               {"views", words_of(result.views)},
+               {"views", name_of(result.views)},
                {"view_positive", result.view_positive},
                {"view_negative", result.view_negative},
                {"view_zero", result.view_zero},

@@ -1,10 +1,12 @@
 // What `check` prints of a step.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
 #include "detector/step_result.h"
+#include "oracle/referee/second_opinion.h"
 #include "properties/judging/agreement.h"
 #include "properties/judging/step_truth.h"
 
@@ -36,5 +38,13 @@ std::string step_text(std::size_t number, const detector::StepResult& result,
 
 // "; 12 pairs left out by the contract, the first at t = 0"; empty if none is.
 std::string left_out_text(const properties::StepTruth& truth);
+
+// Of a second opinion: one indented line with the counts; then one line for each contradiction, ten
+// at most.
+std::string second_opinion_text(const oracle::SecondOpinion& opinion, double milliseconds);
+
+// `second_opinion` of a step in assay-check/1.
+nlohmann::ordered_json second_opinion_json(const oracle::SecondOpinion& opinion, double share,
+                                           double milliseconds);
 
 }  // namespace assay::reports

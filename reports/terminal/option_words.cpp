@@ -97,7 +97,7 @@ void add_part(Verb& verb, DetectorPart& part) {
 VerbOption add_detector_alone(Verb& verb, DetectorWords& detector, const std::string& about) {
   auto library = verb.add("--detector", detector.library, about);
   add_choice(verb, "--isolation", detector.isolation, "none, best, required",
-             properties::isolation_mode_of,
+             from_name<properties::IsolationMode>,
              "Of the plug-in's process: best takes what the system offers (default), required "
              "refuses where something is lacking, none lets it print");
   return library;

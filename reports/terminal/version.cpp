@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commit.h"
-#include "oracle/versions.h"
+#include "oracle/libraries.h"
 
 namespace assay::reports {
 

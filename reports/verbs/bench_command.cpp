@@ -4,14 +4,15 @@
 
 #include <nlohmann/json.hpp>
 
-#include "reports/bench/detector/detector_suite.h"
+#include "reports/bench/gnuplot.h"
 #include "reports/bench/suites.h"
-#include "reports/check/plugin_text.h"
-#include "reports/pictures/gnuplot.h"
-#include "reports/pictures/pictures.h"
+#include "reports/bench/workers/detector_suite.h"
+#include "reports/check/detector_choice.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
+#include "reports/terminal/progress.h"
 #include "reports/terminal/text_file.h"
+#include "reports/terminal/version.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {
@@ -30,19 +31,15 @@ struct BenchRequest {
 
 struct Suite {
   std::string_view name;
-  BenchReport (*run)(const BenchSettings&, Progress&);
-  std::string (*picture)(const BenchReport&);  // makes a script for gnuplot; null if there is none
+  RunSuite* run;
+  bool has_picture = false;
 };
-constexpr Suite suites[] = {{"elementary", elementary_suite, nullptr},
-                            {"view", view_suite, nullptr},
-                            {"growth", growth_suite, growth_picture},
-                            {"claims", claims_suite, share_picture},
-                            {"stability", stability_suite, heat_picture},
-                            {"speed-error", speed_error_suite, speed_error_picture},
-                            {"sequences", sequences_suite, nullptr},
-                            {"threads", threads_suite, nullptr},
-                            {"peers", peers_suite, peers_picture},
-                            {"harness", harness_suite, nullptr}};
+constexpr Suite suites[] = {
+    {"elementary", elementary_suite},     {"view", view_suite},
+    {"growth", growth_suite, true},       {"claims", claims_suite, true},
+    {"stability", stability_suite, true}, {"speed-error", speed_error_suite, true},
+    {"sequences", sequences_suite},       {"threads", threads_suite},
+    {"peers", peers_suite, true},         {"harness", harness_suite}};
 
 const Suite* suite_named(std::string_view name) {
   for (const auto& suite : suites) {
@@ -55,7 +52,7 @@ const Suite* suite_named(std::string_view name) {
 // would be known only minutes later.
 std::string no_picture(const BenchRequest& request, const Suite* suite) {
   if (request.svg_file.empty()) return {};
-  if (!suite || !suite->picture) {
+  if (!suite || !suite->has_picture) {
     return (suite ? "suite " + request.suite : std::string("bench --detector")) +
            " has no picture; growth, claims, stability, speed-error and peers have one";
   }
@@ -73,11 +70,11 @@ Expected<BenchedPlugin> plugin_of(const BenchRequest& request) {
   plugin.limits.threads = words.threads;
   properties::WorkerProcess worker(properties::worker_program(), words.library, plugin.limits);
   auto description = worker.describe();
-  if (!description) return Refusal(description.error());
+  if (!description) return description.error();
   plugin.description = std::move(description.value());
   plugin.limits.least = worker.isolation();
   if (!plugin.description.parts.steps)
-    return Refusal(fmt::format("{}: it holds no steps, which are what is timed", words.library));
+    return Problem{fmt::format("{}: it holds no steps, which are what is timed", words.library)};
   return plugin;
 }
 
@@ -89,13 +86,12 @@ Expected<BenchReport> measure(const BenchRequest& request) {
                                .peers = request.peers,
                                .case_seconds = request.case_seconds,
                                .jobs = request.jobs};
-  if (!request.suite.empty()) {
-    Progress progress("bench " + request.suite);
-    return suite_named(request.suite)->run(settings, progress);
-  }
+  Progress line("bench " + (request.suite.empty() ? "--detector" : request.suite));
+  const BenchProgress progress = {[&](const std::string& name) { line.phase(name); },
+                                  [&] { line.tick(); }};
+  if (!request.suite.empty()) return suite_named(request.suite)->run(settings, progress);
   const auto plugin = plugin_of(request);
   if (!plugin) return plugin.error();
-  Progress progress("bench --detector");
   return detector_suite(settings, plugin.value(), progress);
 }
 
@@ -111,9 +107,6 @@ int run_bench(const BenchRequest& request) try {
   if (!measured) return refuse(measured.error());
   const auto& report = measured.value();
   fmt::print("suite {}, data {}\n", report.suite, request.data);
-  if (const auto& own = report.detector)
-    fmt::print("{}\n", plugin_text(own->name + " " + own->version, own->claims, own->contract,
-                                   own->isolation, own->threads));
   fmt::print("{}", text_of(report));
   const auto write = [](const std::string& file, const std::string& text) {
     auto written = write_text_file(file, text);
@@ -121,14 +114,15 @@ int run_bench(const BenchRequest& request) try {
     return written;
   };
   if (!request.json_file.empty()) {
-    const auto text = to_json(report).dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
+    const auto text = to_json(report, version_text())
+                          .dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
     if (auto done = write(request.json_file, text + "\n"); !done) return refuse(done.error());
   }
   if (!request.csv_file.empty()) {
     if (auto done = write(request.csv_file, csv_of(report)); !done) return refuse(done.error());
   }
   if (!request.svg_file.empty()) {
-    const auto drawing = draw(suite->picture(report));
+    const auto drawing = draw(report.picture);
     if (!drawing.problem.empty()) return refuse(drawing.problem);
     if (auto done = write(request.svg_file, drawing.svg); !done) return refuse(done.error());
   }

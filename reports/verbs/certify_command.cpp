@@ -12,36 +12,30 @@
 #include <set>
 
 #include "corpus/digest.h"
-#include "properties/campaign/gates/read_findings.h"
-#include "properties/campaign/phases/corpus_failures.h"
+#include "properties/campaign/gates/findings.h"
+#include "properties/campaign/ledger/binding.h"
+#include "properties/campaign/ledger/run_folder.h"
 #include "properties/campaign/phases/phases.h"
-#include "properties/campaign/stored/binding.h"
-#include "properties/campaign/stored/checks.h"
-#include "properties/campaign/stored/run_folder.h"
 #include "reports/campaign/campaign_options.h"
 #include "reports/campaign/campaign_terminal.h"
 #include "reports/campaign/campaign_text.h"
 #include "reports/campaign/failure_text.h"
 #include "reports/campaign/own_cases.h"
-#include "reports/certificate/corpus_check.h"
-#include "reports/certificate/judged_text.h"
-#include "reports/certificate/other_checks.h"
+#include "reports/certificate/own_checks.h"
 #include "reports/certificate/statement.h"
 #include "reports/certificate/summary.h"
-#include "reports/certificate/waivers.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
-#include "reports/terminal/plain_progress.h"
-#include "reports/terminal/shell_word.h"
+#include "reports/terminal/progress.h"
 #include "reports/terminal/text_file.h"
 #include "reports/terminal/version.h"
+#include "reports/terminal/words.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using properties::DroppedKind;
 using properties::stored_shards;
 
 constexpr const char* known_failures = ASSAY_CORPUS_DIR "/../known.json";
@@ -127,15 +121,15 @@ class Certification {
 
   Expected<void> store_waivers() {
     const auto today = fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)));
-    checks_.drop(DroppedKind::waiver);
+    checks_.drop(properties::StoredWaiver::kind);
     std::set<std::string> signatures;
     for (const auto& file : waiver_files()) {
       const auto waivers = read_waivers(file);
-      if (!waivers) return Refusal(waivers.error());
+      if (!waivers) return waivers.error();
       for (const auto& waiver : waivers.value()) {
         if (!signatures.insert(waiver.signature).second)
-          return Refusal(
-              fmt::format("{}: \"{}\" is waived already", file.string(), waiver.signature));
+          return Problem{
+              fmt::format("{}: \"{}\" is waived already", file.string(), waiver.signature)};
         keep(properties::StoredWaiver{waiver.signature, waiver.reason, waiver.link, waiver.expires,
                                       is_expired(waiver, today)});
       }
@@ -145,7 +139,7 @@ class Certification {
 
   Expected<void> run_corpus() {
     fmt::print("{}", corpus_heading());
-    checks_.drop(DroppedKind::corpus);
+    checks_.drop(properties::CorpusRow::kind);
     const auto on_row = [&](const properties::CorpusRow& row) {
       fmt::print("{}", corpus_row_text(row));
       std::fflush(stdout);
@@ -162,7 +156,7 @@ class Certification {
     std::set<std::string> signatures;
     for (const auto& failure : corpus_failures_) signatures.insert(failure.signature);
     checks_.keep_failures(signatures);
-    if (const auto& problem = checks_.problem()) return Refusal(*problem);
+    if (const auto& problem = checks_.problem()) return *problem;
     return outcome::success();
   }
 
@@ -174,7 +168,7 @@ class Certification {
                                        [&](const std::string& text) { progress.show(text); });
     }
     const auto kept = checks_.failures();
-    if (!kept) return Refusal(kept.error());
+    if (!kept) return kept.error();
     const auto shown = write_failures(kept.value(), out_, words_.detector);
     fmt::print("{}", shown.text);
     return shown.written;
@@ -183,10 +177,10 @@ class Certification {
   Expected<void> open_store() {
     auto store = properties::Store::open(properties::store_file(out_, request_.shard),
                                          properties::binding_of(request_));
-    if (!store) return Refusal(store.error());
+    if (!store) return store.error();
     store_ = std::move(store.value());
     if (const auto kept = properties::keeps_isolation(request_, *store_); !kept)
-      return Refusal(kept.error());
+      return kept.error();
     return outcome::success();
   }
 
@@ -194,17 +188,17 @@ class Certification {
     fmt::print("\n");
     auto done = run_on_terminal(request_, *store_, words_.out);
     const auto sealed = store_->seal();
-    if (done && !sealed) return Refusal(sealed.error());
+    if (done && !sealed) return sealed.error();
     return done;
   }
 
   // Takes the stores that `run` or `merge` wrote, and makes whole files of them.
   Expected<void> take_shards() {
     const auto files = stored_shards(out_);
-    if (!files) return Refusal(files.error());
+    if (!files) return files.error();
     for (const auto& file : files.value()) {
       auto whole = properties::make_whole(file, request_);
-      if (!whole) return Refusal(whole.error());
+      if (!whole) return whole.error();
       shards_[file.filename().string()] = std::move(whole.value());
     }
     return outcome::success();
@@ -232,7 +226,7 @@ class Certification {
   }
 
   void run_self_test() {
-    checks_.drop(DroppedKind::self_test);
+    checks_.drop(properties::SelfTestRow::kind);
     const auto queries = request_.plan.policy.self_test_queries;
     if (queries == 0) return;
     std::uint64_t asked = 0, contradictions = 0;
@@ -247,7 +241,8 @@ class Certification {
   }
 
   void run_speed() {
-    checks_.drop(DroppedKind::times);
+    checks_.drop(properties::SpeedFigure::kind);
+    checks_.drop(properties::Issued::kind);
     fmt::print("\n{:<24} {:>9} {:>19}\n", "speed (a ratio)", "median", "interval");
     measure_speed([&](const properties::SpeedFigure& figure) {
       fmt::print("{:<24} {:>9.4f} {:>19}\n", figure.name, figure.median,
@@ -262,19 +257,18 @@ class Certification {
     keep(properties::Issued{fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))),
                             seconds});
     checks_.seal();
-    if (const auto& problem = checks_.problem()) return refuse(Refusal(*problem));
+    if (const auto& problem = checks_.problem()) return refuse(*problem);
     // The code of a plug-in may have reached the files. So there is a verdict on what was stored,
     // or none.
     const auto findings = properties::read_findings(out_, known_rows());
-    if (!findings) return refuse(Refusal(findings.error()));
+    if (!findings) return refuse(findings.error());
     const auto statement = make_statement(findings.value());
-    if (!statement) return refuse(Refusal(statement.error()));
+    if (!statement) return refuse(statement.error());
     const auto& digests = statement.value()["predicate"]["digests"];
     if (digests["campaign"] != corpus::sha256_of(campaign_text()))
-      return refuse(
-          Refusal(properties::Problem{properties::ProblemKind::not_as_stored,
-                                      fmt::format("{}: was changed while this run was at work",
-                                                  properties::campaign_file(out_).string())}));
+      return refuse(properties::Problem{fmt::format("{}: was changed while this run was at work",
+                                                    properties::campaign_file(out_).string()),
+                                        ProblemKind::not_as_stored});
     const auto certificate = properties::certificate_file(out_).string();
     auto written = write_text_file(certificate, statement_text(statement.value()));
     if (written) written = write_for_ci(statement.value()["predicate"], out_);
@@ -308,7 +302,7 @@ int run_certify(const CampaignWords& words) {
                     "to the run of each",
                     words.out));
   auto checks = properties::Checks::open(words.out, request);
-  if (!checks) return refuse(Refusal(checks.error()));
+  if (!checks) return refuse(checks.error());
   fmt::print("the shipped corpus, campaign {}, self-test and speed; writes {}\n", request.plan.name,
              words.out);
   return Certification(words, request, std::move(checks.value())).run();

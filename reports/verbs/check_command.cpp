@@ -23,7 +23,7 @@ int run_check(const CheckRequest& request) {
   // This is asked before the work, not after it.
   if (auto may = may_write(request.json_file, request.files); !may) return refuse(may.error());
   auto input = read_check_input(request.files);
-  if (!input) return refuse(Refusal(input.error()));
+  if (!input) return refuse(input.error());
   CheckQuestion question = request.question;
   question.files = request.files;
   question.wants_report = !request.json_file.empty();
@@ -52,16 +52,15 @@ void add_options(Verb& verb, CheckRequest& request) {
   add_threads(verb, request.question.threads);
   auto& built_in = request.question.built_in;
   plugin
-      .excludes(add_choice(verb, "--culling", built_in.culling,
-                           "auto, view-auto, view-point, view-line, normal-cone, bvh, none",
-                           properties::culling_named, "How the detector culls (default auto)"))
-      .excludes(add_choice(verb, "--start", built_in.start, "verified, clean, unknown",
-                           properties::start_named,
+      .excludes(add_choice(verb, "--culling", built_in.culling, all_names<detector::Culling>(),
+                           from_name<detector::Culling>, "How the detector culls (default auto)"))
+      .excludes(add_choice(verb, "--start", built_in.start, all_names<detector::Start>(),
+                           from_name<detector::Start>,
                            "What is known of the first frame (default verified)"))
-      .excludes(add_choice(verb, "--pairs", built_in.pairs, "all, first", properties::pairs_named,
-                           "Which pairs are asked for (default all)"))
+      .excludes(add_choice(verb, "--pairs", built_in.pairs, all_names<detector::Pairs>(),
+                           from_name<detector::Pairs>, "Which pairs are asked for (default all)"))
       .excludes(add_choice(verb, "--arithmetic", built_in.arithmetic,
-                           "exact, bounded, double, float", properties::arithmetic_named,
+                           all_names<detector::Arithmetic>(), from_name<detector::Arithmetic>,
                            "What the detector computes in (default exact)"));
   const auto no_oracle = verb.add_flag("--no-oracle", request.question.no_oracle,
                                        "Detector only; prints `not judged`");

@@ -9,9 +9,9 @@
 #include "reports/check/query_score.h"
 #include "reports/queries/query_detector.h"
 #include "reports/terminal/complaint.h"
-#include "reports/terminal/joined.h"
 #include "reports/terminal/option_words.h"
 #include "reports/terminal/text_file.h"
+#include "reports/terminal/words.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {
@@ -91,7 +91,7 @@ int run_check_queries(const CheckQueriesRequest& request) {
     std::optional<std::filesystem::path> truth;
     if (!request.truths.empty()) truth = request.truths[i];
     auto queries = corpus::read_queries(request.files[i], truth);
-    if (!queries) return refuse(Refusal(queries.error()));
+    if (!queries) return refuse(queries.error());
     sets.push_back(std::move(queries.value()));
   }
   if (!request.detector.library.empty()) return check_plugin(request, sets);

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include "corpus/scenes/scenes.h"
-#include "properties/campaign/gates/read_findings.h"
+#include "properties/campaign/gates/findings.h"
 #include "properties/faults/fault.h"
 #include "properties/laws/law.h"
-#include "reports/campaign/slow_text.h"
-#include "reports/check/plugin_text.h"
+#include "reports/campaign/failure_text.h"
+#include "reports/check/detector_choice.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
 #include "reports/verbs/verbs.h"

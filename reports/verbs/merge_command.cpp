@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "properties/campaign/gates/read_findings.h"
-#include "properties/campaign/stored/merge.h"
-#include "properties/campaign/stored/run_folder.h"
+#include "properties/campaign/gates/findings.h"
+#include "properties/campaign/ledger/merge.h"
+#include "properties/campaign/ledger/run_folder.h"
 #include "reports/campaign/campaign_text.h"
 #include "reports/campaign/failure_text.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
-#include "reports/terminal/shell_word.h"
 #include "reports/terminal/text_file.h"
+#include "reports/terminal/words.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {

@@ -10,7 +10,6 @@
 #include "detector/step_result.h"
 #include "properties/campaign/request.h"
 #include "properties/campaign/trials/case_tally.h"
-#include "properties/campaign/trials/clean_starts.h"
 #include "properties/campaign/trials/planned_case.h"
 #include "properties/judging/case_check.h"
 #include "properties/printable.h"
@@ -19,13 +18,12 @@
 #include "properties/worker/plugin/query_case.h"
 #include "properties/worker/worker_process.h"
 #include "reports/check/detector_choice.h"
-#include "reports/check/plugin_text.h"
 #include "reports/steps/case_export.h"
 #include "reports/steps/pair_story.h"
 #include "reports/steps/step_text.h"
 #include "reports/terminal/complaint.h"
-#include "reports/terminal/joined.h"
 #include "reports/terminal/option_words.h"
+#include "reports/terminal/words.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {
@@ -229,7 +227,8 @@ int run_replay(const ReplayRequest& request) {
   }
   // A plug-in that claims to be deterministic is asked again, as in a campaign: in another process,
   // in which each step is evaluated twice.
-  const bool asks_twice = !subject.detector.built_in && subject.detector.claims.deterministic;
+  const bool asks_twice =
+      !subject.detector.built_in && subject.detector.claims.has(properties::Claim::deterministic);
   limits.variation = 1;
   limits.asks_twice = true;
   limits.least = worker.isolation();

@@ -1,15 +1,14 @@
 // `assay report` shows runs as one HTML page that works offline.
 #include <fmt/format.h>
 
-#include "properties/campaign/gates/read_findings.h"
-#include "properties/campaign/stored/run_folder.h"
+#include "properties/campaign/gates/findings.h"
+#include "properties/campaign/ledger/run_folder.h"
 #include "reports/certificate/verify.h"
-#include "reports/page/data/failure_scenes.h"
 #include "reports/page/data/page_file.h"
 #include "reports/page/data/run_json.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
-#include "reports/terminal/plain_progress.h"
+#include "reports/terminal/progress.h"
 #include "reports/terminal/text_file.h"
 #include "reports/terminal/version.h"
 #include "reports/verbs/verbs.h"

@@ -1,20 +1,19 @@
 // `assay run` runs one shard of a campaign, and tells what it comes to.
 #include <fmt/format.h>
 
-#include "properties/campaign/gates/read_findings.h"
-#include "properties/campaign/phases/corpus_failures.h"
+#include "properties/campaign/gates/findings.h"
+#include "properties/campaign/ledger/binding.h"
+#include "properties/campaign/ledger/run_folder.h"
 #include "properties/campaign/phases/phases.h"
-#include "properties/campaign/stored/binding.h"
-#include "properties/campaign/stored/run_folder.h"
 #include "reports/campaign/campaign_options.h"
 #include "reports/campaign/campaign_terminal.h"
 #include "reports/campaign/campaign_text.h"
-#include "reports/certificate/corpus_check.h"
+#include "reports/certificate/own_checks.h"
 #include "reports/certificate/statement.h"
 #include "reports/certificate/summary.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
-#include "reports/terminal/shell_word.h"
+#include "reports/terminal/words.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {
@@ -61,10 +60,10 @@ int conclude(const properties::CampaignRequest& request, const properties::RunFi
   return judgement.exit_code;
 }
 
-int refuse_and_keep(Refusal refusal) {
+int refuse_and_keep(Problem problem) {
   // A store that somebody changed cannot be continued, so the line does not say that it can.
-  if (refusal.code == exit_usage) refusal.line += go_on;
-  return refuse(refusal);
+  if (problem.kind != ProblemKind::not_as_stored) problem.message += go_on;
+  return refuse(problem);
 }
 
 // Runs the cases of the owner, which go with the first shard.
@@ -82,7 +81,7 @@ Expected<void> run_own_cases(const properties::CampaignRequest& request, propert
       [&](const auto& failure) { failures.push_back(failure); });
   fmt::print("\n");
   if (const auto kept = properties::keep_own_cases(store, rows, failures); !kept)
-    return Refusal(kept.error());
+    return kept.error();
   return outcome::success();
 }
 
@@ -95,9 +94,9 @@ int run_campaign(const RunRequest& command) {
   request.shard = command.shard;
   const auto file = properties::store_file(out, request.shard);
   auto store = properties::Store::open(file, properties::binding_of(request));
-  if (!store) return refuse(Refusal(store.error()));
+  if (!store) return refuse(store.error());
   if (const auto kept = properties::keeps_isolation(request, store.value()); !kept)
-    return refuse(Refusal(kept.error()));
+    return refuse(kept.error());
   if (const auto done = run_own_cases(request, store.value()); !done)
     return refuse_and_keep(done.error());
   if (const auto done = run_on_terminal(request, store.value(), out); !done)
@@ -105,7 +104,7 @@ int run_campaign(const RunRequest& command) {
   // The code of a plug-in may have reached the file. So there is a verdict on what was stored, or
   // none.
   const auto findings = properties::read_one_store(file, &store.value().known_rows());
-  if (!findings) return refuse_and_keep(Refusal(findings.error()));
+  if (!findings) return refuse_and_keep(findings.error());
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   return conclude(request, findings.value(), out, took.count());
 }

@@ -1,17 +1,16 @@
 // `assay self-test` checks the oracle and prints a line for each family. Or it asks the query of a
 // plug-in on these families.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <cstdio>
 
-#include "properties/queries/self_test_run.h"
+#include "properties/queries/self_check.h"
 #include "reports/queries/family_run.h"
-#include "reports/terminal/exit_code.h"
+#include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
 #include "reports/terminal/progress.h"
-#include "reports/terminal/shell_word.h"
+#include "reports/terminal/words.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {
@@ -99,27 +98,20 @@ int run_self_test(const SelfTestRequest& request) {
   if (!request.replay.empty()) return replay(request);
   announce(request);
 
-  constexpr double seconds_between_lines = 30;
-  const bool on_terminal = isatty(STDERR_FILENO) == 1;
   const auto begin = Clock::now();
   const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
   properties::SelfTestOptions options{request.seed, request.queries, request.jobs, {}, false};
   if (request.time_limit) {
     options.stop = [&, limit = *request.time_limit] { return elapsed() >= limit; };
   }
-  Progress progress("self-test");
-  double last_line = 0;
+  Progress progress("self-test", std::chrono::seconds(30));
   QueryTally total;
   bool complete = true;
   for (const auto& family : properties::self_test_families()) {
     const std::uint64_t indices = family->indices(request.queries);
     if (indices == 0) continue;
     const auto result = properties::run_family(*family, options, [&](std::uint64_t done) {
-      const auto phase = fmt::format("{} {:.0f} %", family->name(), share_of(done, indices));
-      progress.phase(phase);
-      if (on_terminal || elapsed() - last_line < seconds_between_lines) return;
-      last_line = elapsed();
-      fmt::print(stderr, "self-test: {} {:.0f} s\n", phase, last_line);
+      progress.phase(fmt::format("{} {:.0f} %", family->name(), share_of(done, indices)));
     });
     progress.finish();
     print_row(family->name(), result.tally, result.seconds);

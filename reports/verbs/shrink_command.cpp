@@ -7,13 +7,12 @@
 #include "properties/reducer/mesh_size.h"
 #include "properties/worker/plugin/query_case.h"
 #include "reports/check/detector_choice.h"
-#include "reports/pictures/scene_maker.h"
+#include "reports/pictures/case_scene.h"
 #include "reports/terminal/complaint.h"
-#include "reports/terminal/interruption.h"
 #include "reports/terminal/option_words.h"
-#include "reports/terminal/plain_progress.h"
-#include "reports/terminal/shell_word.h"
+#include "reports/terminal/progress.h"
 #include "reports/terminal/text_file.h"
+#include "reports/terminal/words.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {

@@ -7,12 +7,11 @@
 #include <random>
 
 #include "reports/certificate/again.h"
-#include "reports/certificate/judged_text.h"
-#include "reports/certificate/pooling.h"
+#include "reports/certificate/summary.h"
 #include "reports/certificate/verify.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
-#include "reports/terminal/plain_progress.h"
+#include "reports/terminal/progress.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {

@@ -1,6 +1,4 @@
 // What may be wrong with a file before its content is looked at, and compressed files.
-#include <set>
-
 #include "corpus/file_bytes.h"
 #include "tests/corpus/scratch.h"
 
@@ -12,12 +10,12 @@ class FileProblems : public Scratch {};
 TEST_F(FileProblems, MissingEmptyFolder) {
   const auto missing = read_mesh(folder() / "absent.obj");
   ASSERT_FALSE(missing);
-  EXPECT_EQ(missing.error().kind, FileProblem::cannot_open);
+  EXPECT_TRUE(says(missing.error(), "cannot be read: No such file"));
   EXPECT_NE(missing.error().message.find("absent.obj"), std::string::npos);
-  EXPECT_EQ(mesh_problem("empty.obj", "").kind, FileProblem::empty_file);
+  EXPECT_TRUE(says(mesh_problem("empty.obj", ""), "the file is empty"));
   const auto directory = read_mesh(folder());
   ASSERT_FALSE(directory);
-  EXPECT_EQ(directory.error().kind, FileProblem::is_directory);
+  EXPECT_TRUE(says(directory.error(), "cannot be read: Is a directory"));
 }
 
 TEST_F(FileProblems, NoPermission) {
@@ -33,7 +31,7 @@ TEST_F(FileProblems, NoPermission) {
     ASSERT_EQ(seteuid(0), 0);
   }
   ASSERT_FALSE(mesh);
-  EXPECT_EQ(mesh.error().kind, FileProblem::permission_denied) << mesh.error().message;
+  EXPECT_TRUE(says(mesh.error(), "cannot be read: Permission denied"));
 }
 
 TEST_F(FileProblems, MessagesAreOneLineWhateverThePath) {
@@ -55,15 +53,14 @@ TEST_F(FileProblems, EveryFormatCompressed) {
 TEST_F(FileProblems, DamagedCompression) {
   const std::string good = gzip(obj_tetrahedron);
   for (std::size_t size = 1; size < good.size(); ++size) {
-    EXPECT_EQ(mesh_problem("a.obj.gz", good.substr(0, size)).kind, FileProblem::corrupt_gzip)
-        << size;
+    EXPECT_TRUE(says(mesh_problem("a.obj.gz", good.substr(0, size)), "the gzip stream")) << size;
   }
   std::string wrong_sum = good;
   wrong_sum[wrong_sum.size() - 6] ^= 1;
-  EXPECT_EQ(mesh_problem("b.obj.gz", wrong_sum).kind, FileProblem::corrupt_gzip);
-  EXPECT_EQ(mesh_problem("c.obj.gz", good + "tail").kind, FileProblem::corrupt_gzip);
-  EXPECT_EQ(mesh_problem("d.obj.gz", obj_tetrahedron).kind, FileProblem::corrupt_gzip);
-  EXPECT_EQ(mesh_problem("e.obj.gz", gzip("")).kind, FileProblem::empty_file);
+  EXPECT_TRUE(says(mesh_problem("b.obj.gz", wrong_sum), "the gzip stream is damaged"));
+  EXPECT_TRUE(says(mesh_problem("c.obj.gz", good + "tail"), "the gzip stream is damaged"));
+  EXPECT_TRUE(says(mesh_problem("d.obj.gz", obj_tetrahedron), "has no gzip signature"));
+  EXPECT_TRUE(says(mesh_problem("e.obj.gz", gzip("")), "the file is empty"));
 }
 
 TEST_F(FileProblems, DecompressedSizeIsLimited) {
@@ -73,17 +70,10 @@ TEST_F(FileProblems, DecompressedSizeIsLimited) {
   EXPECT_EQ(fits.value().size(), std::size_t{1} << 20);
   const auto refused = read_bytes(path, (1 << 20) - 1);
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().kind, FileProblem::too_large);
+  EXPECT_TRUE(says(refused.error(), "larger than the 1048575 bytes"));
   const auto plain = read_bytes(write("plain", "12345"), 4);
   ASSERT_FALSE(plain);
-  EXPECT_EQ(plain.error().kind, FileProblem::too_large);
-}
-
-TEST_F(FileProblems, EveryProblemHasItsOwnName) {
-  std::set<std::string_view> names;
-  for (int i = 1; i <= 29; ++i) names.insert(name_of(static_cast<FileProblem>(i)));
-  EXPECT_EQ(names.size(), 29U);
-  EXPECT_EQ(names.count("unnamed"), 0U);
+  EXPECT_TRUE(says(plain.error(), "larger than the 4 bytes"));
 }
 
 }  // namespace

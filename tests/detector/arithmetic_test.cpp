@@ -6,16 +6,15 @@
 #include <cstdio>
 #include <random>
 
-#include "detector/boundary/face_pair.h"
-#include "detector/contact/contact_bounded.h"
+#include "detector/boundary/ghost_sweep.h"
+#include "detector/contact/contact_doubles.h"
 #include "detector/contact/contact_exact.h"
-#include "detector/contact/first_root.h"
-#include "detector/contact/piercing.h"
 #include "detector/detector.h"
 #include "detector/exact/real_root.h"
+#include "detector/geometry/orientation.h"
 #include "detector/geometry/winding.h"
 #include "detector/search/moving_box.h"
-#include "detector/view/view_classifier.h"
+#include "detector/view/view_signs.h"
 #include "tests/detector/points.h"
 
 namespace assay::detector {

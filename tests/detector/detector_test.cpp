@@ -6,7 +6,7 @@
 #include <set>
 
 #include "detector/mesh/mesh_checks.h"
-#include "detector/state/state_fields.h"
+#include "detector/state/step_state.h"
 #include "tests/detector/points.h"
 
 namespace assay::detector {
@@ -35,8 +35,7 @@ TEST(Detector, L3_StepsMayComeInTheSameArrays) {
   Positions x_t0(12, 3);
   x_t0 << octahedron_positions(1), octahedron_positions(1).rowwise() + Eigen::RowVector3d(8, 0, 0);
   Positions x_t1 = x_t0;
-  for (const auto culling : {Culling::bvh, Culling::normal_cone, Culling::view_point,
-                             Culling::view_auto, Culling::automatic}) {
+  for (const auto culling : all_values<Culling>) {
     Positions now = x_t0, next = x_t1;
     Detector detector = make(two, now, culling);
     ASSERT_EQ(detector.step(now, next).answer, Answer::free);
@@ -207,8 +206,7 @@ TEST(Detector, AllCullingsFindTheSamePairs) {
   const auto reference = make(octahedron(), octahedron_positions(2), Culling::none)
                              .evaluate(octahedron_positions(2), pushed());
   ASSERT_EQ(reference.answer, Answer::collision);
-  for (const auto culling : {Culling::view_auto, Culling::view_point, Culling::view_line,
-                             Culling::normal_cone, Culling::bvh}) {
+  for (const auto culling : all_values<Culling>) {
     const auto result = make(octahedron(), octahedron_positions(2), culling)
                             .evaluate(octahedron_positions(2), pushed());
     EXPECT_EQ(result.first, reference.first);

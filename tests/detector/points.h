@@ -5,7 +5,7 @@
 #include <initializer_list>
 #include <vector>
 
-#include "detector/contact/four_points.h"
+#include "detector/mesh/step_types.h"
 #include "detector/mesh/types.h"
 
 namespace assay::tests {

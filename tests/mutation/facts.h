@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "detector/contact/four_points.h"
 #include "detector/mesh/step_types.h"
 
 namespace assay::mutation {

@@ -9,9 +9,7 @@ namespace {
 
 using detector::Arithmetic;
 using detector::Culling;
-using detector::GhostTest;
 using detector::Pairs;
-using detector::Release;
 using detector::Start;
 
 constexpr Pairs first = Pairs::first;
@@ -37,9 +35,6 @@ const Setting all[] = {
     {"none", {.culling = Culling::none}, false, false, false, 40},
     {"point, bounded", {.culling = Culling::view_point, .arithmetic = Arithmetic::bounded}},
     {"bvh, bounded", {.culling = Culling::bvh, .arithmetic = Arithmetic::bounded}},
-    {"point, released by model", {.culling = Culling::view_point, .release = Release::model}},
-    {"point, released by view", {.culling = Culling::view_point, .release = Release::view}},
-    {"point, boxes of ghosts", {.culling = Culling::view_point, .ghost_test = GhostTest::boxes}},
 };
 
 }  // namespace

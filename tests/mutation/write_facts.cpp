@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <map>
 
-#include "properties/campaign/trials/clean_starts.h"
+#include "properties/campaign/trials/planned_case.h"
 #include "properties/generators/families.h"
 #include "properties/laws/facts/carried_state.h"
-#include "properties/queries/query_generators.h"
+#include "properties/queries/query_families.h"
 #include "properties/worlds/small_steps.h"
 #include "tests/mutation/settings.h"
 

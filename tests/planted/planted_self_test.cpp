@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <string_view>
 
-#include "properties/queries/self_test_run.h"
-#include "reports/terminal/exit_code.h"
+#include "properties/queries/self_check.h"
+#include "reports/terminal/complaint.h"
 
 int main(int argc, char** argv) {
   using namespace assay;

@@ -28,7 +28,7 @@
 
 #include "detector/plugin/assay_detector.h"
 #include "properties/worker/channel.h"
-#include "properties/worker/wire_fields.h"
+#include "properties/worker/messages.h"
 
 struct assay_handle {
   int unused;
@@ -177,10 +177,12 @@ const std::map<std::string, Forgery>& forgeries() {
   Hello hello;
   hello.wire_version = wire_version();
   hello.description = {"forger", mode, {}, {}};
-  auto& c = hello.description.claims;
-  c = {true, true, true, true, true, true, true, true};
+  const bool has_candidates = mode.starts_with("forge-candidate-");
+  auto& claims = hello.description.claims;
+  claims = claims_from_outside;
+  claims.set(Claim::candidates, has_candidates);
   hello.description.parts.query = mode.starts_with("forge-query");
-  hello.description.parts.candidates = c.candidates = mode.starts_with("forge-candidate-");
+  hello.description.parts.candidates = has_candidates;
   channel.send(encode(hello));
   std::string message;
   while (channel.receive(message) == Transfer::done) {
@@ -198,12 +200,12 @@ const std::map<std::string, Forgery>& forgeries() {
   _exit(0);
 }
 
-[[noreturn]] void forge_refusal(ProblemKind kind, const std::string& message) {
+[[noreturn]] void forge_refusal(const std::string& message) {
   Channel channel(find_channel());
   Hello hello;
   hello.wire_version = wire_version();
   hello.serves = false;
-  hello.problem = {kind, message};
+  hello.refusal = message;
   channel.send(encode(hello));
   for (;;) pause();
 }
@@ -610,10 +612,8 @@ const assay_detector_api* assay_detector() {
   if (forgery != forgeries().end()) forge(forgery->second, mode);
   if (mode.starts_with("forge-query")) forge({}, mode);
   if (mode == "forge-length") forge_length();
-  if (mode == "forge-refusal") forge_refusal(ProblemKind::not_a_plugin, "a\n\033[2Jcertified");
-  if (mode == "forge-long-refusal")
-    forge_refusal(ProblemKind::not_a_plugin, std::string(longest, 'x'));
-  if (mode == "forge-refusal-kind") forge_refusal(ProblemKind::busy, "it is busy");
+  if (mode == "forge-refusal") forge_refusal("a\n\033[2Jcertified");
+  if (mode == "forge-long-refusal") forge_refusal(std::string(longest, 'x'));
   if (mode == "forge-name") forge_hello("a\nb", 0);
   if (mode == "forge-built-in") forge_hello("Built-in", 0);
   if (mode == "forge-built-in-1") forge_hello("built in 1", 0);

@@ -54,7 +54,6 @@ inline const std::vector<HostileMode>& quick_modes() {
                                                  {"forge-name", {2}},
                                                  {"forge-margin", {2}},
                                                  {"forge-refusal", {2}},
-                                                 {"forge-refusal-kind", {2}},
                                                  {"overwrite"},
                                                  {"truncate"},
                                                  {"unlink"},

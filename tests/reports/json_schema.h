@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
@@ -23,17 +24,29 @@ inline bool is_of_type(const SchemaJson& value, const std::string& type) {
   return type == "null" && value.is_null();
 }
 
-// One line for each place where `value` is not what `schema` says.
-inline void check_schema(const SchemaJson& schema, const SchemaJson& value,
+// One line for each place where `value` is not what `schema` says. References are looked up in
+// `whole`, the schema that this is a part of.
+inline void check_schema(const SchemaJson& whole, const SchemaJson& schema, const SchemaJson& value,
                          const std::string& place, std::vector<std::string>& wrong) {
   static const std::set<std::string> known = {
-      "$schema", "$id",      "title",    "const",    "enum",
-      "type",    "pattern",  "minimum",  "maximum",  "properties",
-      "items",   "minItems", "maxItems", "required", "additionalProperties"};
+      "$schema",    "$id",   "$defs",    "$ref",     "title",    "const",
+      "enum",       "anyOf", "type",     "pattern",  "minimum",  "maximum",
+      "properties", "items", "minItems", "maxItems", "required", "additionalProperties"};
   const auto fail = [&](const std::string& why) { wrong.push_back(place + ": " + why); };
   for (const auto& [key, unused] : schema.items()) {
     if (!known.contains(key)) fail("keyword " + key + " is checked by nobody");
   }
+  if (schema.contains("$ref")) {
+    const auto part = schema["$ref"].get<std::string>().substr(1);  // behind "#"
+    return check_schema(whole, whole.at(SchemaJson::json_pointer(part)), value, place, wrong);
+  }
+  if (schema.contains("anyOf") &&
+      std::none_of(schema["anyOf"].begin(), schema["anyOf"].end(), [&](const SchemaJson& one) {
+        std::vector<std::string> against;
+        check_schema(whole, one, value, place, against);
+        return against.empty();
+      }))
+    fail("none of what it may be: " + value.dump());
   if (schema.contains("const") && value != schema["const"]) fail("another constant");
   if (schema.contains("enum") &&
       std::find(schema["enum"].begin(), schema["enum"].end(), value) == schema["enum"].end())
@@ -58,20 +71,32 @@ inline void check_schema(const SchemaJson& schema, const SchemaJson& value,
     fail("too many");
   if (value.is_array() && schema.contains("items")) {
     for (std::size_t i = 0; i < value.size(); ++i)
-      check_schema(schema["items"], value[i], place + "/" + std::to_string(i), wrong);
+      check_schema(whole, schema["items"], value[i], place + "/" + std::to_string(i), wrong);
   }
   if (!value.is_object()) return;
   for (const auto& key : schema.value("required", SchemaJson::array())) {
     if (!value.contains(key.get<std::string>())) fail("no field " + key.get<std::string>());
   }
   const auto properties = schema.value("properties", SchemaJson::object());
+  const auto others = schema.value("additionalProperties", SchemaJson(true));
   for (const auto& [key, field] : value.items()) {
     if (properties.contains(key)) {
-      check_schema(properties[key], field, place + "/" + key, wrong);
-    } else if (!schema.value("additionalProperties", true)) {
+      check_schema(whole, properties[key], field, place + "/" + key, wrong);
+    } else if (others.is_object()) {
+      check_schema(whole, others, field, place + "/" + key, wrong);
+    } else if (!others.get<bool>()) {
       fail("field " + key + " is not in the schema");
     }
   }
+}
+
+// Holds a certificate to its schema.
+inline void expect_certificate_schema(const SchemaJson& statement) {
+  std::ifstream file(ASSAY_SOURCE_DIR "/reports/certificate/certificate.schema.json");
+  const auto schema = SchemaJson::parse(file);
+  std::vector<std::string> wrong;
+  check_schema(schema, schema, statement, "", wrong);
+  for (const auto& line : wrong) ADD_FAILURE() << line;
 }
 
 }  // namespace assay::tests

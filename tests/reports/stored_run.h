@@ -6,12 +6,11 @@
 #include <algorithm>
 
 #include "corpus/cases/case_file.h"
-#include "properties/campaign/gates/read_findings.h"
-#include "properties/campaign/stored/binding.h"
-#include "properties/campaign/stored/evidence.h"
-#include "properties/campaign/stored/run_folder.h"
-#include "properties/campaign/stored/step_measures.h"
-#include "properties/campaign/stored/store.h"
+#include "properties/campaign/gates/findings.h"
+#include "properties/campaign/ledger/binding.h"
+#include "properties/campaign/ledger/evidence.h"
+#include "properties/campaign/ledger/run_folder.h"
+#include "properties/campaign/ledger/store.h"
 #include "properties/worker/worker_process.h"
 
 namespace assay::tests {
@@ -26,7 +25,7 @@ struct RunToStore {
   properties::CampaignRequest request;
   std::vector<properties::TrialRecord> trials;
   std::vector<properties::StoredFailure> failures;
-  std::vector<properties::Evidence> evidence;
+  std::vector<properties::Row> evidence;
 
   // Of the built-in detector, two families of ten cases, a bound wanted of the first.
   RunToStore() {
@@ -53,8 +52,8 @@ struct RunToStore {
       record.pairs = 3;
       record.oracle_us = 500;
       record.detector_us = 500;
-      record.counts = {{"tag:shape:tetrahedron", 1}, {"block:V+/V-", 3}, {"first:V+/V-", 1}};
-      properties::count_trial(true, true, record.counts);
+      record.counts = {{{"shape:tetrahedron", 1}}, {{"V+/V-", {3, 1}}}, {}, {}};
+      record.counts.measures.contact_trials = record.counts.measures.repeated_trials = 1;
       trials.push_back(record);
     }
     return *this;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "properties/campaign/stored/store.h"
+#include "properties/campaign/ledger/store.h"
 #include "tests/reports/program.h"
 
 namespace assay::tests {
@@ -45,8 +45,7 @@ inline std::vector<std::string> trials_of(const std::string& out,
   if (!store) return lines;
   store.value().for_each_trial([&](const properties::TrialRecord& r) {
     std::ostringstream line;
-    line << r.id << ' ' << r.outcomes << ' ' << r.triangles << ' ' << r.steps << ' ' << r.collisions
-         << ' ' << r.pairs << ' ' << properties::counts_text(r.counts);
+    line << r.id << ' ' << lasting(to_row(r)).fields;
     lines.push_back(line.str());
   });
   std::sort(lines.begin(), lines.end());

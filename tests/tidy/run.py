@@ -46,7 +46,7 @@ def compile_commands(build, rooms):
 
 # Sources that use a name for something else than another source of their folder.
 NOT_JOINED = tuple(f"{ROOT}/{file}" for file in (
-    "detector/view/view_exact.cpp", "oracle/referee/referee.cpp", "oracle/referee/static_check.cpp"))
+    "detector/view/view_signs.cpp", "oracle/referee/referee.cpp", "oracle/referee/static_check.cpp"))
 
 
 def by_folder(commands, folder):

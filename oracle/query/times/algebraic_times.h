@@ -8,7 +8,7 @@
 #include <memory>
 #include <span>
 
-#include "oracle/query/times/exact_times.h"
+#include "oracle/query/times/time_enclosure.h"
 
 namespace assay::oracle {
 

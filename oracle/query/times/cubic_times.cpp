@@ -7,8 +7,7 @@
 #include <cassert>
 #include <utility>
 
-#include "oracle/query/times/quadratic_times.h"
-#include "oracle/query/times/simple_zero.h"
+#include "oracle/query/times/quadratic_time.h"
 #include "oracle/query/times/time_enclosure.h"
 
 namespace assay::oracle {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "oracle/query/times/exact_times.h"
 #include "oracle/query/times/quadratic_time.h"
+#include "oracle/query/times/time_enclosure.h"
 
 namespace assay::oracle {
 

@@ -12,6 +12,7 @@
 // r > t exactly when r - t, a linear polynomial at r, is positive. The zeros of two polynomials
 // are compared by the sign of the one polynomial and of its derivative at the zero of the other:
 // that tells on which side of the two zeros, or between them, a number lies.
+
 #include "oracle/query/times/quadratic_time.h"
 
 #include <algorithm>
@@ -148,5 +149,30 @@ double QuadraticTime::guess() const {
 detector::TimeEnclosure QuadraticTime::enclosure() const {
   return enclose_time(guess(), 0, 1, [this](double t) { return compare(t); });
 }
+
+QuadraticTimes::QuadraticTimes(std::span<const IntegerPolynomial> polynomials) {
+  const IntegerPolynomial from_start = {{0, 1}}, from_end = {{-1, 1}};
+  std::vector<QuadraticTime> zeros;
+  for (const IntegerPolynomial& p : polynomials) {
+    assert(!p.is_zero());
+    if (p.degree() == 0 || surely_no_zero_in_unit(p)) continue;
+    zeros.clear();
+    QuadraticTime::append_zeros(p, zeros);
+    for (QuadraticTime& zero : zeros) {
+      if (zero.sign(from_start) >= 0 && zero.sign(from_end) <= 0) times_.push_back(std::move(zero));
+    }
+  }
+  std::sort(times_.begin(), times_.end(),
+            [](const auto& a, const auto& b) { return a.compare(b) < 0; });
+  times_.erase(std::unique(times_.begin(), times_.end(),
+                           [](const auto& a, const auto& b) { return a.compare(b) == 0; }),
+               times_.end());
+}
+
+int QuadraticTimes::size() const { return static_cast<int>(times_.size()); }
+
+int QuadraticTimes::sign(const IntegerPolynomial& q, int i) const { return times_[i].sign(q); }
+
+detector::TimeEnclosure QuadraticTimes::enclosure(int i) const { return times_[i].enclosure(); }
 
 }  // namespace assay::oracle

@@ -1,10 +1,13 @@
 // A zero of a polynomial of degree 1 or 2, as an exact number whose signs are closed formulas.
 #pragma once
 
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "detector/mesh/step_types.h"
 #include "oracle/query/integer_polynomial.h"
+#include "oracle/query/times/time_enclosure.h"
 
 namespace assay::oracle {
 
@@ -34,6 +37,24 @@ class QuadraticTime {
 
   Integer a_, b_, c_;  // r is a zero of a t^2 + b t + c; a = 0 and b > 0 if it is the only one
   Zero zero_;
+};
+
+// The zeros in the closed step of polynomials of degree 1 and 2, in order.
+
+class QuadraticTimes final : public ExactTimes {
+ public:
+  // Finds the distinct zeros in [0,1] of all the polynomials together, ascending. A constant has
+  // none. REQUIRES that no polynomial is identically zero, and degrees <= 2.
+  explicit QuadraticTimes(std::span<const IntegerPolynomial> polynomials);
+
+  int size() const override;
+  int sign(const IntegerPolynomial& q, int i) const override;
+  detector::TimeEnclosure enclosure(int i) const override;
+  // Gives the times away.
+  std::vector<QuadraticTime> take() { return std::move(times_); }
+
+ private:
+  std::vector<QuadraticTime> times_;
 };
 
 }  // namespace assay::oracle

@@ -1,4 +1,5 @@
-// Finds the canonical enclosure by doubles of a time that can only be compared with doubles.
+// Times of the closed step as exact numbers, whichever way they are held, and the doubles between
+// which they are.
 #pragma once
 
 #include <algorithm>
@@ -6,12 +7,28 @@
 #include <cstdint>
 
 #include "detector/mesh/step_types.h"
+#include "oracle/query/integer_polynomial.h"
 
 namespace assay::oracle {
 
-// The enclosure of a time in [lo,hi]. REQUIRES 0 <= lo <= hi, and that compare(t) is the exact
-// sign of (time - t); it is asked of doubles in [lo,hi] only. A wrong guess costs only work: when
-// it is n units in the last place away, about 2 log2 n comparisons.
+// Distinct times in [0,1], ascending.
+class ExactTimes {
+ public:
+  ExactTimes() = default;
+  virtual ~ExactTimes() = default;
+  ExactTimes(const ExactTimes&) = delete;
+  ExactTimes& operator=(const ExactTimes&) = delete;
+
+  virtual int size() const = 0;
+  // The exact sign of q at the i-th time.
+  virtual int sign(const IntegerPolynomial& q, int i) const = 0;
+  virtual detector::TimeEnclosure enclosure(int i) const = 0;
+};
+
+// The canonical enclosure of a time in [lo,hi] that can only be compared with doubles. REQUIRES 0
+// <= lo <= hi, and that compare(t) is the exact sign of (time - t); it is asked of doubles in
+// [lo,hi] only. A wrong guess costs only work: when it is n units in the last place away, about 2
+// log2 n comparisons.
 template <class Compare>
 detector::TimeEnclosure enclose_time(double guess, double lo, double hi, Compare compare) {
   // Doubles >= 0 are ordered as their bit patterns.
@@ -49,5 +66,10 @@ detector::TimeEnclosure enclose_time(double guess, double lo, double hi, Compare
   }
   return {value(below), value(above)};
 }
+
+// Encloses the zero of f in (s,e) by exact integer signs of f at doubles, without the algebraic
+// kernel. REQUIRES that f is of degree 3 at most, that it has exactly one zero in (s,e), a simple
+// one, and opposite signs at s and e, and that 0 <= s < e <= 1. 1 to 3 us.
+detector::TimeEnclosure simple_zero_time(const IntegerPolynomial& f, double s, double e);
 
 }  // namespace assay::oracle

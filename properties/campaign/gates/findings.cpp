@@ -2,16 +2,20 @@
 
 #include <algorithm>
 
+#include "properties/campaign/gates/statistics.h"
+#include "properties/campaign/plan.h"
 #include "properties/judging/cause.h"
+#include "properties/queries/query_families.h"
 
 namespace assay::properties {
+
 namespace {
 
-template <class Counts>
-std::uint64_t count_planted(const std::vector<FaultProof>& faults, const Counts& counts) {
+template <class IsCounted>
+std::uint64_t count_planted(const std::vector<FaultProof>& faults, const IsCounted& is_counted) {
   return static_cast<std::uint64_t>(
       std::count_if(faults.begin(), faults.end(), [&](const FaultProof& proof) {
-        return proof.status == FaultStatus::planted && counts(proof);
+        return proof.status == FaultStatus::planted && is_counted(proof);
       }));
 }
 
@@ -96,6 +100,38 @@ std::uint64_t RunFindings::found() const {
 std::uint64_t RunFindings::found_at_random() const {
   return count_planted(evidence.faults,
                        [](const FaultProof& proof) { return proof.found_at_random(); });
+}
+
+std::uint64_t number_of_bounds(const BoundRun& run) {
+  const bool alone = asks_queries_alone(run.plan);
+  std::uint64_t on_steps = 0, bounds = 0;
+  for (const auto& configuration : run.detector.configurations)
+    on_steps += configuration.claims.size();
+  for (const auto& stratum : run.plan.strata) {
+    const bool is_of_queries = is_query_family(stratum.family) && !alone;
+    bounds += is_of_queries ? run.detector.query_claims.size() : on_steps;
+  }
+  return bounds;
+}
+
+double risk_of_each(const BoundRun& run) { return risk_of_each(number_of_bounds(run)); }
+
+double bound_of(const StratumTally::Outcomes& outcomes, const BoundRun& run) {
+  const auto n = outcomes.trials();
+  return upper_bound(n - outcomes.holds, n, risk_of_each(run));
+}
+
+bool is_met(const RunFindings& findings, const StratumPlan& stratum, std::size_t configuration) {
+  if (findings.is_left_out(stratum)) return true;
+  const auto outcomes = findings.outcomes_of(stratum, configuration);
+  if (stratum.wanted_bound <= 0) return outcomes.open() == 0;
+  return findings.alone || bound_of(outcomes, findings.run) <= stratum.wanted_bound;
+}
+
+bool configurations_agree(const RunFindings& findings, const StratumPlan& stratum) {
+  const auto& all = findings.tally_of(stratum).by_configuration;
+  return std::all_of(all.begin(), all.end(),
+                     [&](const auto& outcomes) { return outcomes == all.front(); });
 }
 
 }  // namespace assay::properties

@@ -1,4 +1,4 @@
-// All that the stores of a folder say of one campaign. read_findings.h reads it and gates.h judges
+// All that the stores of a folder say of one campaign. read_findings reads it and gates.h judges
 // it; every text, file and page only presents findings and gates.
 #pragma once
 
@@ -8,10 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "properties/campaign/stored/binding.h"
-#include "properties/campaign/stored/evidence.h"
-#include "properties/campaign/stored/step_measures.h"
-#include "properties/campaign/stored/store.h"
+#include "properties/campaign/ledger/binding.h"
+#include "properties/campaign/ledger/evidence.h"
+#include "properties/campaign/ledger/row.h"
+#include "properties/campaign/ledger/store.h"
+#include "properties/campaign/ledger/tally.h"
 
 namespace assay::properties {
 
@@ -66,5 +67,47 @@ struct RunFindings {
   // The others were found by their curated case alone.
   std::uint64_t planted() const, found() const, found_at_random() const;
 };
+
+// Reads the stores of a folder into findings. This is done here and nowhere else.
+
+// The rows that a process knows of the stores of a folder, because it wrote them or found them
+// when it began. The keys are the names of the files, without their folder.
+using KnownRows = std::map<std::string, const RowTally*>;
+
+// Reads one store alone. Fails as Store::read does; the kind is not_as_stored if `known` is given
+// and the store does not hold exactly these rows.
+Expected<RunFindings> read_one_store(const std::filesystem::path& file,
+                                     const RowTally* known = nullptr);
+
+// Reads merged.sqlite if there is one, else every shard-*.sqlite, and checks.sqlite. O(trials).
+//
+// Refuses, besides what Store::read refuses: a folder without a run; two files that do not belong
+// together; a shard that is there twice, or of another number of shards; a merged store beside
+// which a shard holds more; a trial that its shard does not plan. The kind is not_as_stored if
+// `known` is not empty and the folder does not hold exactly these stores, each with exactly its
+// rows.
+Expected<RunFindings> read_findings(const std::filesystem::path& folder,
+                                    const KnownRows& known = {});
+
+// The bounds that the trials of a campaign support, all of them together.
+
+// The number of bounds: strata times the claims of all configurations. A trial that breaks any
+// claim of a configuration counts against that configuration's bound, so one bound holds for all
+// of its claims. Each claim is counted all the same, which only widens the bounds.
+std::uint64_t number_of_bounds(const BoundRun& run);
+
+// The risk of each bound, so that all of them hold together with family_confidence.
+double risk_of_each(const BoundRun& run);
+
+// The bound on the share of cases on which one configuration does not hold.
+double bound_of(const StratumTally::Outcomes& outcomes, const BoundRun& run);
+
+// Whether the gate bounds has nothing to say against a configuration in a stratum: its bound is not
+// above the one that is wanted, or, if none is wanted, every trial has a verdict. Nothing is asked
+// of a family of which the contract takes no case; no bound is asked of one shard by itself.
+bool is_met(const RunFindings& findings, const StratumPlan& stratum, std::size_t configuration);
+
+// Whether all configurations came to the same outcomes in a stratum, so that one row tells them.
+bool configurations_agree(const RunFindings& findings, const StratumPlan& stratum);
 
 }  // namespace assay::properties

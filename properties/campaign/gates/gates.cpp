@@ -1,11 +1,266 @@
 #include "properties/campaign/gates/gates.h"
 
-#include <algorithm>
+#include <fmt/format.h>
 
-#include "properties/campaign/gates/gate_checks.h"
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "corpus/scenes/scenes.h"
+#include "properties/campaign/gates/findings.h"
+#include "properties/campaign/gates/not_judged.h"
+#include "properties/campaign/ledger/tally.h"
+#include "properties/campaign/phases/repetitions.h"
+#include "properties/judging/cause.h"
+#include "properties/words.h"
 
 namespace assay::properties {
+
+// What each gate looks at (gates.h says when it holds) comes first, then who asks for it and what
+// it all comes to.
+
 namespace {
+
+// The lines that speak against a gate and, if there are none, the reason why it could not be
+// judged, if there is one.
+struct GateFindings {
+  std::vector<std::string> against;
+  std::string not_judged;
+};
+
+using Lines = std::vector<std::string>;
+
+// Only a certificate takes waivers into account. Without one no failure is left aside.
+bool is_waived(const RunFindings& f, const Asked& asked, const std::string& signature) {
+  return asked.certificate && f.is_waived(signature);
+}
+
+void check_power(const RunFindings& f, Lines& lines) {
+  for (const auto& canary : f.evidence.canaries) {
+    if (!canary.found_after)
+      lines.push_back(fmt::format("shard {} did not find its canary", canary.shard));
+  }
+  Lines hidden;
+  for (const auto& proof : f.evidence.faults) {
+    if (proof.status == FaultStatus::planted && !proof.found() && !proof.time_over)
+      hidden.push_back(fmt::format("planted fault {} was not found", proof.fault));
+    if (proof.status == FaultStatus::equivalent && proof.found())
+      lines.push_back(fmt::format("{}, registered as equivalent, was found", proof.fault));
+  }
+  const auto planted = static_cast<double>(f.planted());
+  if (planted - static_cast<double>(hidden.size()) < f.run.plan.policy.power * planted)
+    lines.insert(lines.end(), hidden.begin(), hidden.end());
+}
+
+// Checks that every defect of a trial was stored as a failure.
+void check_tallies(const RunFindings& f, Lines& lines) {
+  std::uint64_t defects = 0, met = 0;
+  for (const auto& [family, stratum] : f.tally.strata) {
+    for (const auto& outcomes : stratum.by_configuration) defects += outcomes.defects;
+  }
+  for (const auto& [signature, count] : f.times_met)
+    met += signature.starts_with(law_in_signature) ? 0 : count;
+  if (defects != met)
+    lines.push_back(fmt::format("{} defects in the trials, {} failures are stored", defects, met));
+}
+
+void check_faults(const RunFindings& f, Lines& lines) {
+  const auto& plan = f.run.plan;
+  if (plan.fault_cases == 0) return;
+  const auto& build = f.run.digests;
+  for (const auto& source : f.evidence.power) {
+    if (source.program != build.program || source.worker != build.worker ||
+        source.generator != build.generator)
+      lines.push_back("the planted faults were proved by another build");
+  }
+  if (!f.alone && f.planted() != f.run.planted_faults)
+    lines.push_back(
+        fmt::format("{} of {} planted faults were tried", f.planted(), f.run.planted_faults));
+  for (const auto& proof : f.evidence.faults) {
+    if (!proof.is_whole(plan))
+      lines.push_back(fmt::format("the time was over before {} had all of its cases", proof.fault));
+  }
+}
+
+// Checks that enough contacts were judged. A shard alone may have too few.
+void check_contacts(const RunFindings& f, const Asked& asked, Lines& lines) {
+  if (f.alone) return;
+  for (auto& line : lacks_of_contacts(f, asked.certificate)) lines.push_back(std::move(line));
+}
+
+void check_trials(const RunFindings& f, const Asked& asked, Lines& lines) {
+  for (const auto& stratum : f.run.plan.strata) {
+    const auto& tally = f.tally_of(stratum);
+    const auto planned = f.planned(stratum);
+    if (tally.trials != planned) {
+      lines.push_back(fmt::format("{}: {} of {} trials", stratum.family, tally.trials, planned));
+    } else if (tally.discards > 0 && !f.is_left_out(stratum)) {
+      lines.push_back(
+          fmt::format("{}: for {} of {} trials no case was drawn that the contract takes",
+                      stratum.family, tally.discards, planned));
+    }
+  }
+  if (asked.certificate && f.planned() == 0) lines.push_back("the campaign plans no trial");
+  if (f.planned() > 0 && f.tally.judged() == 0 && f.tally.trials() == f.planned())
+    lines.push_back("the contract takes no case of any family");
+  if (asked.certificate && f.tally.judged() > 0 && f.run.detector.query_claims.empty() &&
+      judged_claims(f).empty())
+    lines.push_back("no claim of the detector was judged");
+  check_contacts(f, asked, lines);
+  // Asked of all shards together: a single one may have run on a machine short of memory.
+  constexpr std::uint64_t most_disturbed = 100;  // at most one trial in this many
+  const auto disturbed = f.tally.disturbed(), trials = f.tally.trials();
+  if (!f.alone && most_disturbed * disturbed > trials)
+    lines.push_back(
+        fmt::format("{} of {} trials were disturbed from outside, 1 % may be", disturbed, trials));
+}
+
+// Checks that a plug-in was given every scene at the plan's size.
+void check_repetitions(const RunFindings& f, Lines& lines) {
+  if (f.alone || !is_repeated(f.run.plan, f.run.detector.built_in)) return;
+  const auto scenes = corpus::scenes();
+  const auto done = std::count_if(scenes.begin(), scenes.end(), [&](const auto& scene) {
+    return std::any_of(f.evidence.repeated.begin(), f.evidence.repeated.end(),
+                       [&](const Repetition& one) { return one.input == scene.name; });
+  });
+  if (static_cast<std::size_t>(done) < scenes.size())
+    lines.push_back(fmt::format("{} of {} scenes were repeated", done, scenes.size()));
+}
+
+GateFindings check_harness(const RunFindings& f, const Asked& asked) {
+  GateFindings found;
+  auto& lines = found.against;
+  for (const auto& problem : f.evidence.problems) {
+    if (!problem.explanation.empty()) lines.push_back(problem.explanation);
+  }
+  check_power(f, lines);
+  if (f.laws_are_judged()) {
+    for (auto& line : starved_laws(f.tally.counts, f.run.plan.law_premises))
+      lines.push_back(std::move(line));
+  }
+  check_tallies(f, lines);
+  std::uint64_t contradictions = 0;
+  for (const auto& row : f.evidence.self_test) contradictions += row.contradictions;
+  if (asked.certificate && contradictions > 0)
+    lines.push_back(fmt::format("the self-test met {} contradictions", contradictions));
+  if (f.evidence.canaries.empty()) found.not_judged = "no canary was met";
+  return found;
+}
+
+GateFindings check_corpus(const RunFindings& f, const Asked& asked) {
+  GateFindings found;
+  for (const auto& row : f.evidence.corpus) {
+    for (const auto& failed : row.failed) {
+      if (!is_waived(f, asked, failed.signature))
+        found.against.push_back(
+            fmt::format("{} ({}): {}", failed.id, row.configuration, failed.explanation));
+    }
+  }
+  for (const auto& waiver : f.evidence.waivers) {
+    if (waiver.expired)
+      found.against.push_back(
+          fmt::format("the waiver of \"{}\" expired on {}", waiver.signature, waiver.expires));
+  }
+  if (f.evidence.corpus.empty()) found.not_judged = "the corpus was not run";
+  return found;
+}
+
+GateFindings check_claims(const RunFindings& f, const Asked& asked) {
+  GateFindings found;
+  // A signature counts if trials met it, even without a stored mesh, and if a failure of a trial
+  // is stored, even if no trial counted it. What only the corpus shows belongs to the gate corpus.
+  std::set<std::string, LeastOddFirst> signatures;
+  for (const auto& [signature, count] : f.times_met) signatures.insert(signature);
+  for (const auto& failure : f.failures) {
+    if (!failure.id.starts_with(corpus_in_id)) signatures.insert(failure.signature);
+  }
+  for (const auto& signature : signatures) {
+    if (is_waived(f, asked, signature)) continue;
+    const auto* shown = f.example_of(signature);
+    const auto met = f.times_met.find(signature);
+    found.against.push_back(fmt::format(
+        "{}, met {}; {}", signature, times_text(met == f.times_met.end() ? 0 : met->second),
+        shown ? shown->id + " (" + shown->configuration + ")" : "no mesh is stored"));
+  }
+  for (const auto& world : f.evidence.worlds) {
+    if (world.counterexample)
+      found.against.push_back(fmt::format("{}: {}", world.world, *world.counterexample));
+  }
+  if (f.tally.judged() == 0) found.not_judged = "no trial was judged";
+  return found;
+}
+
+GateFindings check_complete(const RunFindings& f, const Asked& asked) {
+  GateFindings found;
+  auto& lines = found.against;
+  if (!f.alone) {
+    for (const auto& shard : f.missing)
+      lines.push_back(fmt::format("shard {} is absent", text_of(shard)));
+  }
+  check_trials(f, asked, lines);
+  if (f.evidence.canaries.empty()) lines.push_back("no canary was met");
+  check_faults(f, lines);
+  check_repetitions(f, lines);
+  for (const auto& row : f.evidence.corpus) {
+    for (const auto& open : row.open)
+      lines.push_back(fmt::format("{} ({}): {}", open.id, row.configuration, open.explanation));
+  }
+  if (!asked.certificate) return found;
+  if (f.evidence.corpus.empty()) lines.push_back("the corpus was not run");
+  const auto& self_test = f.evidence.self_test;
+  const bool was_cut = std::any_of(self_test.begin(), self_test.end(),
+                                   [](const auto& row) { return !row.complete; });
+  if (f.run.plan.policy.self_test_queries > 0 && (self_test.empty() || was_cut))
+    lines.push_back("the self-test was not run to its end");
+  return found;
+}
+
+GateFindings check_bounds(const RunFindings& f, const Asked&) {
+  GateFindings found;
+  bool judged = false;
+  for (const auto& stratum : f.run.plan.strata) {
+    const bool is_wanted = stratum.wanted_bound > 0;
+    if ((is_wanted && f.alone) || f.is_left_out(stratum)) continue;
+    judged = true;
+    for (std::size_t c = 0; c < f.run.detector.configurations.size(); ++c) {
+      if (is_met(f, stratum, c)) continue;
+      const auto outcomes = f.outcomes_of(stratum, c);
+      found.against.push_back(
+          fmt::format("{}, {}: ", stratum.family, f.run.detector.configurations[c].name) +
+          (is_wanted ? fmt::format("bound {:.2e}, {:.0e} is wanted", bound_of(outcomes, f.run),
+                                   stratum.wanted_bound)
+                     : fmt::format("{} without a verdict", outcomes.open())));
+    }
+  }
+  if (!judged)
+    found.not_judged =
+        f.alone ? "bounds are wanted of all shards together" : "the campaign has no trials";
+  return found;
+}
+
+// The lines leave out the figures themselves, which stand among the times, so that the lines are
+// the same from run to run.
+GateFindings check_speed(const RunFindings& f, const Asked&) {
+  GateFindings found;
+  const auto& limits = f.run.plan.policy.speed_limits;
+  if (!f.run.detector.built_in) {
+    found.not_judged = "limits are set for the built-in detector alone";
+  } else if (limits.empty()) {
+    found.not_judged = "the campaign sets no limit";
+  } else {
+    for (const auto& [figure, limit] : limits) {
+      const auto& measured = f.evidence.speed;
+      const auto one = std::find_if(measured.begin(), measured.end(),
+                                    [&](const SpeedFigure& m) { return m.name == figure; });
+      if (one == measured.end()) {
+        found.against.push_back(fmt::format("{} was not measured", figure));
+      } else if (one->median > limit) {
+        found.against.push_back(fmt::format("{} is above its limit of {}", figure, limit));
+      }
+    }
+  }
+  return found;
+}
 
 // These are in the order of gate_rules.
 constexpr std::array<GateFindings (*)(const RunFindings&, const Asked&), gate_rules.size()> checks =

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "properties/campaign/query_plan.h"
+#include "properties/campaign/plan.h"
 #include "properties/queries/query_families.h"
 
 namespace assay::properties {
@@ -25,9 +25,9 @@ std::string reason_against(Claim claim, const Contract& contract, const StepMeas
       if (!contract.reports_pairs) return "the detector reports no pairs";
       break;
     case Claim::first_time:
-      if (seldom * m.without_time > m.collisions)
+      if (seldom * m.without_time > m.errors.collisions())
         return fmt::format("its interval is wider than {} in {} of {} collisions",
-                           widest_stated_time, m.without_time, m.collisions);
+                           widest_stated_time, m.without_time, m.errors.collisions());
       break;
     case Claim::candidates:
       return m.least_candidates == 0 ? no_contact : "";
@@ -37,7 +37,7 @@ std::string reason_against(Claim claim, const Contract& contract, const StepMeas
     default:
       break;
   }
-  return m.contact_steps == 0 ? no_contact : "";
+  return m.errors.contact == 0 ? no_contact : "";
 }
 
 }  // namespace
@@ -59,12 +59,12 @@ std::vector<NotJudged> not_judged(const BoundDetector& detector, const StepMeasu
 }
 
 std::vector<NotJudged> not_judged(const RunFindings& findings) {
-  Counts counts;
+  StepMeasures measures;
   const bool of_queries = asks_queries_alone(findings.run.plan);
   for (const auto& [family, stratum] : findings.tally.strata) {
-    if (of_queries || !is_query_family(family)) add(counts, stratum.measures);
+    if (of_queries || !is_query_family(family)) measures += stratum.measures;
   }
-  return not_judged(findings.run.detector, measures_in(counts));
+  return not_judged(findings.run.detector, measures);
 }
 
 std::vector<std::string> judged_claims(const RunFindings& findings) {
@@ -140,13 +140,8 @@ std::vector<std::string> claims_of_any_configuration(const BoundDetector& detect
 // Whether one of these claims speaks of contacts and is not void under the contract.
 bool wants_contacts(const std::vector<std::string>& words, const Contract& contract) {
   Claims claims;
-  claims.free_sound = has(words, Claim::free_sound);
-  claims.not_late = has(words, Claim::not_late);
-  claims.first_time = has(words, Claim::first_time);
-  claims.first_pairs = has(words, Claim::first_pairs);
-  claims.all_pairs = has(words, Claim::all_pairs);
-  claims.candidates = has(words, Claim::candidates);
-  const auto judged = judged_claims(claims, contract);
+  for (const Claim claim : all_claims()) claims.set(claim, has(words, claim));
+  const auto judged = list_of(judged_claims(claims, contract));
   return std::any_of(judged.begin(), judged.end(), speaks_of_contacts);
 }
 
@@ -183,7 +178,7 @@ std::vector<std::string> lacks_of_contacts(const RunFindings& findings, bool for
       if (is_query_family(stratum.family) != of_queries || planned == 0) continue;
       ++all;
       const auto& tally = findings.tally_of(stratum);
-      const auto contacts = measures_in(tally.measures).contact_trials;
+      const auto contacts = tally.measures.contact_trials;
       with_contacts += contacts > 0 ? 1 : 0;
       if (tally.trials < planned || findings.is_left_out(stratum)) continue;
       if (least_share * contacts < planned)

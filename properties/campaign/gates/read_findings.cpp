@@ -1,13 +1,12 @@
-#include "properties/campaign/gates/read_findings.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <tuple>
 
 #include "corpus/digest.h"
-#include "properties/campaign/stored/row_of.h"
-#include "properties/campaign/stored/run_folder.h"
+#include "properties/campaign/gates/findings.h"
+#include "properties/campaign/ledger/row_fields.h"
+#include "properties/campaign/ledger/run_folder.h"
 #include "properties/judging/cause.h"
 
 namespace assay::properties {
@@ -16,15 +15,11 @@ namespace {
 // A configuration is near its limit if it took at least this share of it.
 constexpr double near_share = 1. / 3;
 
-// A digest that is made as a chain: the digest so far and the next row make the next digest. The
-// length of each column stands before the column, so two different rows never give the same text.
+// A digest of what lasts of rows, made as a chain: the digest so far and the hash of the next row
+// make the next digest.
 class RowsDigest {
  public:
-  void add(const std::vector<std::string>& row) {
-    std::string bytes = digest_;
-    for (const auto& column : row) bytes += fmt::format("{}:{}", column.size(), column);
-    digest_ = corpus::sha256_of(bytes);
-  }
+  void add(const Row& row) { digest_ = corpus::sha256_of(digest_ + row_hash(lasting(row))); }
   const std::string& value() const { return digest_; }
 
  private:
@@ -47,7 +42,7 @@ std::optional<Shard> shard_of(const std::string& text) {
   const Shard shard{number_of_text(text.substr(0, slash)), number_of_text(text.substr(slash + 1))};
   constexpr std::uint64_t most_shards = 1'000'000;
   if (shard.index < 1 || shard.index > shard.count || shard.count > most_shards)
-    throw StoreProblem(ProblemKind::damaged_store, fmt::format("no run has a shard {}", text));
+    throw StoreProblem(fmt::format("no run has a shard {}", text));
   return shard;
 }
 
@@ -73,22 +68,18 @@ class Reader {
 
   RunFindings read(const std::vector<std::filesystem::path>& files) {
     for (const auto& file : files) add(file);
-    std::sort(evidence_.begin(), evidence_.end(), [](const Evidence& a, const Evidence& b) {
-      return std::tie(a.kind, a.name, a.shard) < std::tie(b.kind, b.name, b.shard);
+    std::sort(evidence_.begin(), evidence_.end(), [](const Row& a, const Row& b) {
+      return std::tie(a.kind, a.key, a.shard) < std::tie(b.kind, b.key, b.shard);
     });
     // The row of the owner's cases may stand both in a shard and among the checks that certify
     // makes by itself.
-    const auto is_same = [](const Evidence& a, const Evidence& b) {
-      return std::tie(a.kind, a.name, a.shard, a.facts) ==
-             std::tie(b.kind, b.name, b.shard, b.facts);
-    };
-    evidence_.erase(std::unique(evidence_.begin(), evidence_.end(), is_same), evidence_.end());
+    evidence_.erase(std::unique(evidence_.begin(), evidence_.end()), evidence_.end());
     for (const auto& row : evidence_) found_.evidence.take(row);
     if (found_.evidence.power.size() > 1)
-      throw StoreProblem(ProblemKind::contradiction,
-                         fmt::format("{}: its shards took their proofs of planted faults from "
-                                     "different runs",
-                                     found_.folder.string()));
+      throw StoreProblem(
+          fmt::format("{}: its shards took their proofs of planted faults from "
+                      "different runs",
+                      found_.folder.string()));
     if (found_.evidence.paths) found_.library = found_.evidence.paths->detector;
     std::sort(found_.failures.begin(), found_.failures.end(), is_before);
     found_.rows = rows_.value();
@@ -114,8 +105,7 @@ class Reader {
       if (!whole || !shard) continue;  // the reader of the file reports it
       shard.value().for_each_trial([&](const TrialRecord& r) {
         if (whole.value().has_trial(r.id)) return;
-        throw StoreProblem(ProblemKind::stale_merge,
-                           fmt::format("{}: holds {}, which {} does not: merge again",
+        throw StoreProblem(fmt::format("{}: holds {}, which {} does not: merge again",
                                        file.string(), r.id, merged.filename().string()));
       });
     }
@@ -125,9 +115,9 @@ class Reader {
     std::error_code ignored;
     for (const auto& [name, rows] : known_) {
       if (!std::filesystem::exists(found_.folder / name, ignored))
-        throw StoreProblem(ProblemKind::not_as_stored,
-                           fmt::format("{}: was taken away while this run was at work",
-                                       (found_.folder / name).string()));
+        throw StoreProblem(fmt::format("{}: was taken away while this run was at work",
+                                       (found_.folder / name).string()),
+                           ProblemKind::not_as_stored);
     }
   }
 
@@ -136,8 +126,8 @@ class Reader {
     if (known_.empty()) return;
     const auto known = known_.find(file.filename().string());
     if (known == known_.end())
-      throw StoreProblem(ProblemKind::not_as_stored,
-                         fmt::format("{}: was not stored by this run", file.string()));
+      throw StoreProblem(fmt::format("{}: was not stored by this run", file.string()),
+                         ProblemKind::not_as_stored);
     value_or_throw(store.check_against(*known->second));
   }
 
@@ -153,11 +143,10 @@ class Reader {
     }
     const auto difference = difference_of(binding_, store.binding());
     if (!difference.empty())
-      throw StoreProblem(ProblemKind::another_run,
-                         fmt::format("{}: holds stores of different runs: {}",
+      throw StoreProblem(fmt::format("{}: holds stores of different runs: {}",
                                      found_.folder.string(), difference));
     const auto digest = corpus::sha256_of_file(file);
-    if (!digest) throw StoreProblem(ProblemKind::cannot_read, digest.error().message);
+    if (!digest) throw StoreProblem(digest.error().message);
     found_.files.push_back({file.filename().string(), digest.value()});
     if (const auto library = noted_library(store)) found_.library = *library;
     take_rows(store, file, binding.shard);
@@ -171,17 +160,18 @@ class Reader {
           std::any_of(found_.shards.begin(), found_.shards.end(),
                       [&](const Shard& other) { return other.index == shard->index; });
       if (is_there || (!is_first && shard->count != found_.shard_count))
-        throw StoreProblem(ProblemKind::wrong_shards,
-                           fmt::format("{}: shard {} does not stand beside the others: it is there "
-                                       "already, or of another number of shards",
-                                       file.string(), name));
+        throw StoreProblem(
+            fmt::format("{}: shard {} does not stand beside the others: it is there "
+                        "already, or of another number of shards",
+                        file.string(), name));
       found_.shards.push_back(*shard);
       found_.shard_count = shard->count;
     } else if (name == merged_shard) {
       found_.shards.push_back({1, 1});
     }
     const auto& plan = found_.run.plan;
-    store.for_each_trial([&](const TrialRecord& r) {
+    store.for_each(trial_kind, [&](const Row& row) {
+      const TrialRecord r = trial_of(row);
       const auto family =
           std::find_if(plan.strata.begin(), plan.strata.end(),
                        [&](const StratumPlan& stratum) { return stratum.family == r.family; });
@@ -189,37 +179,35 @@ class Reader {
                               r.id == trial_id(plan, found_.run.seed, r.family, r.index);
       const bool is_of_shard = shard ? shard->holds(r.index) : name == merged_shard;
       if (!is_planned || !is_of_shard)
-        throw StoreProblem(ProblemKind::damaged_store,
-                           fmt::format("{}: {} is no trial of this shard", file.string(), r.id));
+        throw StoreProblem(fmt::format("{}: {} is no trial of this shard", file.string(), r.id));
       found_.tally.add(r);
-      rows_.add(lasting_columns(trial_table(), row_of(r)));
+      rows_.add(row);
     });
-    for (const auto& [signature, met] : store.signatures()) {
-      found_.times_met[signature] += met;
-      rows_.add({signature, text_of_number(met)});
-    }
-    for (auto& failure : store.failures()) {
-      rows_.add(lasting_columns(failure_table(), row_of(failure)));
-      found_.failures.push_back(std::move(failure));
-    }
+    store.for_each(met_kind, [&](const Row& row) {
+      ++found_.times_met[met_signature_of(row)];
+      rows_.add(row);
+    });
+    store.for_each(failure_kind, [&](const Row& row) {
+      found_.failures.push_back(failure_of(row));
+      rows_.add(row);
+    });
     for (auto& row : store.evidence()) {
-      if (!may_differ(row)) rows_.add(row_of(row));
+      if (!may_differ(row)) rows_.add(row);
       if (!is_taken_already(row, file)) evidence_.push_back(std::move(row));
     }
   }
 
   // Proofs of planted faults that were taken from another run stand in the store of every shard,
   // and are the same in each. Throws if two of them differ, because then neither can be believed.
-  bool is_taken_already(const Evidence& row, const std::filesystem::path& file) const {
+  bool is_taken_already(const Row& row, const std::filesystem::path& file) const {
     if (row.shard != power_shard) return false;
     const auto known = std::find_if(evidence_.begin(), evidence_.end(), [&](const auto& other) {
-      return other.shard == power_shard && other.kind == row.kind && other.name == row.name;
+      return other.shard == power_shard && other.kind == row.kind && other.key == row.key;
     });
     if (known == evidence_.end()) return false;
-    if (known->facts != row.facts)
-      throw StoreProblem(ProblemKind::contradiction,
-                         fmt::format("{}: evidence {} {} differs from that of another store",
-                                     file.string(), row.kind, row.name));
+    if (known->fields != row.fields)
+      throw StoreProblem(fmt::format("{}: {} {} differs from that of another store", file.string(),
+                                     row.kind, row.key));
     return true;
   }
 
@@ -234,7 +222,7 @@ class Reader {
   const KnownRows known_;
   RunFindings found_;
   std::string binding_;
-  std::vector<Evidence> evidence_;
+  std::vector<Row> evidence_;
   RowsDigest rows_;
 };
 
@@ -244,8 +232,7 @@ Expected<RunFindings> told(const std::filesystem::path& name, const Read& read) 
     return catch_store_problem(read);
   } catch (const std::exception& failure) {
     // This is thrown for a number that cannot be read, in a store that somebody changed.
-    return Problem{ProblemKind::damaged_store,
-                   fmt::format("{}: not what a run stores: {}", name.string(), failure.what())};
+    return Problem{fmt::format("{}: not what a run stores: {}", name.string(), failure.what())};
   }
 }
 

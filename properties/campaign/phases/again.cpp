@@ -8,8 +8,8 @@
 #include <set>
 #include <vector>
 
-#include "properties/campaign/stored/binding.h"
-#include "properties/campaign/stored/run_folder.h"
+#include "properties/campaign/ledger/binding.h"
+#include "properties/campaign/ledger/run_folder.h"
 #include "properties/random.h"
 #include "properties/worker/isolation/scratch_folder.h"
 
@@ -85,8 +85,7 @@ Expected<TrialsAgain> run_again(const CampaignRequest& request, const std::files
     TrialsAgain again;
     for (const auto& file : files) again.stored += value_or_throw(Store::read(file)).trial_count();
     if (again.stored == 0)
-      throw StoreProblem(ProblemKind::no_run,
-                         fmt::format("{}: no trial is stored here", folder.string()));
+      throw StoreProblem(fmt::format("{}: no trial is stored here", folder.string()));
     const auto wanted = std::ceil(share * static_cast<double>(again.stored));
     again.trials = std::clamp<std::uint64_t>(static_cast<std::uint64_t>(wanted), 1, again.stored);
     const auto drawn = draw(files, choose(again.trials, again.stored, seed));
@@ -97,8 +96,7 @@ Expected<TrialsAgain> run_again(const CampaignRequest& request, const std::files
     Store store = value_or_throw(Store::open(scratch.path() / "again", binding_of(request)));
     const auto end = run_trials(request, store, RunDeadline::max(), progress, &ids);
     if (end.problem) throw StoreProblem(*end.problem);
-    if (!end.harness_problem.empty())
-      throw StoreProblem(ProblemKind::cannot_start, end.harness_problem);
+    if (!end.harness_problem.empty()) throw StoreProblem(end.harness_problem);
     std::map<std::string, TrialRecord> now;
     store.for_each_trial([&](const TrialRecord& record) { now[record.id] = record; });
     for (const auto& record : drawn) {

@@ -5,8 +5,8 @@
 #include <functional>
 #include <optional>
 
+#include "properties/campaign/ledger/evidence.h"
 #include "properties/campaign/request.h"
-#include "properties/campaign/stored/evidence.h"
 #include "properties/faults/fault.h"
 #include "properties/reducer/reducer.h"
 
@@ -56,5 +56,12 @@ Judge judge_of_fault(const Fault& fault);
 // `progress` is called with the name of the fault.
 void shrink_faults(std::vector<FaultResult>& results, const ReduceLimits& limits, int jobs,
                    RunDeadline deadline, const std::function<void(const std::string&)>& progress);
+
+// A detector that is known to be wrong goes through all that the detector under test goes through.
+// A run in which it is not found is a run that sees nothing.
+
+// Runs random cases of all families in turn, 400 at most, until the planted fault shows. Throws
+// StoreProblem if there is no worker.
+Canary meet_canary(const CampaignRequest& request);
 
 }  // namespace assay::properties

@@ -3,15 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <set>
 
-#include "properties/campaign/phases/canary.h"
+#include "properties/campaign/ledger/run_folder.h"
+#include "properties/campaign/ledger/store_problem.h"
+#include "properties/campaign/phases/fault_hunt.h"
 #include "properties/campaign/phases/repetitions.h"
 #include "properties/campaign/phases/shrink.h"
-#include "properties/campaign/phases/slow_cases.h"
-#include "properties/campaign/stored/run_folder.h"
 #include "properties/worlds/tetrahedron_world.h"
 
 namespace assay::properties {
+
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -78,7 +81,7 @@ class CampaignRun {
     store_.set(to_row(now));
   }
   static IsolationMode weaker(IsolationMode mode, const std::string& other) {
-    return std::min(mode, isolation_mode_of(other).value_or(IsolationMode::none));
+    return std::min(mode, from_name<IsolationMode>(other).value_or(IsolationMode::none));
   }
 
   RunDeadline after(double share) const { return deadline_after(begin_, request_.plan, share); }
@@ -108,16 +111,17 @@ class CampaignRun {
   }
 
   // The evidence that an earlier call of this run stored.
-  EvidenceFacts stored() const {
-    EvidenceFacts facts;
-    for (const auto& row : store_.evidence()) facts.take(row);
-    return facts;
+  EvidenceFacts stored() const { return facts_in(store_); }
+
+  void drop_proofs() {
+    store_.drop(PowerSource::kind);
+    store_.drop(FaultProof::kind);
   }
 
   // If an earlier call of this run proved planted faults by itself, its proofs are dropped,
   // because proofs that are taken over do not stand beside them.
   void take_power() {
-    if (stored().power.empty()) drop(store_, DroppedKind::fault);
+    if (stored().power.empty()) drop_proofs();
     store_.set(to_row(request_.power->source));
     for (const auto& proof : request_.power->faults) store_.set(to_row(proof));
   }
@@ -126,7 +130,7 @@ class CampaignRun {
     const auto& plan = request_.plan;
     const auto before = stored();
     if (!before.power.empty()) {
-      drop(store_, DroppedKind::fault);
+      drop_proofs();
     } else if (!before.faults.empty() &&
                std::all_of(before.faults.begin(), before.faults.end(),
                            [&](const FaultProof& proof) { return proof.is_whole(plan); })) {
@@ -170,14 +174,12 @@ class CampaignRun {
 Expected<void> keeps_isolation(const CampaignRequest& request, const Store& store) {
   if (!request.plugin || store.trial_count() == 0) return boost::outcome_v2::success();
   return catch_store_problem([&] {
-    EvidenceFacts facts;
-    for (const auto& row : store.evidence()) facts.take(row);
-    for (const auto& before : facts.isolation) {
+    for (const auto& before : facts_in(store).isolation) {
       if (covers(request.isolated, isolation_of(before.got))) continue;
-      throw StoreProblem(ProblemKind::not_isolated,
-                         fmt::format("this run began with isolation {}, and would go on with {}: "
-                                     "ask for no less, or for another --out",
-                                     before.got, text_of(request.isolated)));
+      throw StoreProblem(
+          fmt::format("this run began with isolation {}, and would go on with {}: "
+                      "ask for no less, or for another --out",
+                      before.got, text_of(request.isolated)));
     }
   });
 }
@@ -193,6 +195,61 @@ Expected<void> run_campaign(const CampaignRequest& request, const std::filesyste
 double shrinking_seconds(const CampaignPlan& plan) {
   constexpr double without_limit = 120;
   return plan.seconds == 0 ? without_limit : plan.shrink_share * plan.seconds;
+}
+
+namespace {
+
+// The signatures of the failures in the shards of a folder and in its merged store.
+std::set<std::string> signatures_of_trials(const std::filesystem::path& out) {
+  std::set<std::string> signatures;
+  const auto files = stored_shards(out);
+  if (!files) return signatures;
+  for (const auto& file : files.value()) {
+    const auto failures = read_failures(file);
+    if (!failures) continue;  // it is reported when the stores are read for the certificate
+    for (const auto& failure : failures.value().list) signatures.insert(failure.signature);
+  }
+  return signatures;
+}
+
+// For each signature that is not in `told`: the failure with the smallest mesh, by the length of
+// its text.
+std::map<std::string, const StoredFailure*> smallest_of(const std::vector<StoredFailure>& failures,
+                                                        const std::set<std::string>& told) {
+  std::map<std::string, const StoredFailure*> smallest;
+  for (const auto& failure : failures) {
+    if (told.contains(failure.signature)) continue;
+    const auto*& best = smallest[failure.signature];
+    if (!best || failure.mesh.size() < best->mesh.size()) best = &failure;
+  }
+  return smallest;
+}
+
+}  // namespace
+
+void keep_corpus_failures(const CampaignRequest& request,
+                          const std::vector<StoredFailure>& failures,
+                          const std::filesystem::path& out, Checks& checks,
+                          const std::function<void(const std::string&)>& progress) {
+  checks.update([&](Store& store) {
+    auto told = signatures_of_trials(out);
+    for (const auto& stored : store.failures()) told.insert(stored.signature);
+    for (const auto& [signature, failure] : smallest_of(failures, told)) store.add(*failure);
+    constexpr ReduceLimits shrinking_of_one{60, 1'000'000};
+    shrink_failures(request, store, shrinking_of_one,
+                    deadline_in(std::chrono::steady_clock::now(), shrinking_seconds(request.plan)),
+                    progress);
+  });
+}
+
+Expected<void> keep_own_cases(Store& store, const std::vector<CorpusRow>& rows,
+                              const std::vector<StoredFailure>& failures) {
+  return catch_store_problem([&] {
+    for (const auto& row : rows) store.set(to_row(row));
+    std::set<std::string> told;
+    for (const auto& stored : store.failures()) told.insert(stored.signature);
+    for (const auto& [signature, failure] : smallest_of(failures, told)) store.add(*failure);
+  });
 }
 
 }  // namespace assay::properties

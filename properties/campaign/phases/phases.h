@@ -3,11 +3,14 @@
 // (findings.h) and judged (gates.h).
 #pragma once
 
+#include <functional>
 #include <string>
+#include <vector>
 
+#include "properties/campaign/ledger/evidence.h"
+#include "properties/campaign/ledger/run_folder.h"
 #include "properties/campaign/phases/fault_hunt.h"
 #include "properties/campaign/request.h"
-#include "properties/campaign/stored/evidence.h"
 #include "properties/campaign/trials/trials.h"
 
 namespace assay::properties {
@@ -36,8 +39,8 @@ class CampaignObserver {
   virtual void on_world(const std::string& /*world*/) {}
 };
 
-// Whether the run may go on as it is asked for: not_isolated if the store holds trials of a plug-in
-// that was better isolated than it is now.
+// Whether the run may go on as it is asked for: not if the store holds trials of a plug-in that was
+// better isolated than it is now.
 Expected<void> keeps_isolation(const CampaignRequest& request, const Store& store);
 
 // Does what the store does not hold yet: the trials, the shrinking of what failed, and the planted
@@ -47,13 +50,31 @@ Expected<void> keeps_isolation(const CampaignRequest& request, const Store& stor
 // farther stays. Faults and worlds are shared out among the shards by their place in the list.
 // `corpus` is the folder of the curated cases.
 //
-// What is stored stays, whatever happens. The problems are cannot_write, damaged_store and so on,
-// if the store cannot be read or written any more.
+// What is stored stays, whatever happens. Fails if the store cannot be read or written any more.
 Expected<void> run_campaign(const CampaignRequest& request, const std::filesystem::path& corpus,
                             Store& store, CampaignObserver& observer);
 
 // The seconds of the clock that the shrinking of failures may take: the plan's share of its own
 // limit, or two minutes if it has no limit.
 double shrinking_seconds(const CampaignPlan& plan);
+
+// Keeps what curated cases and scenes show wrong: each with a small mesh that shows it, as for the
+// trials that fail.
+
+// Takes the failures whose signature no trial in the stores of `out` has, and stores in `checks`
+// the smallest mesh of each such signature. Then it shrinks these meshes. That takes at most a
+// minute for each, and for all together the share of the plan's time that is kept for shrinking.
+// REQUIRES failures in the order of the corpus. What an earlier call stored stays. `progress` is
+// called with the signature that is being shrunk.
+void keep_corpus_failures(const CampaignRequest& request,
+                          const std::vector<StoredFailure>& failures,
+                          const std::filesystem::path& out, Checks& checks,
+                          const std::function<void(const std::string&)>& progress);
+
+// Stores what the user's own cases (`--corpus DIR`) showed in a run: the rows, and the smallest
+// mesh of each signature, which is shrunk with the failures of the trials. A store belongs to one
+// set of cases, so a second call finds its rows there and changes nothing.
+Expected<void> keep_own_cases(Store& store, const std::vector<CorpusRow>& rows,
+                              const std::vector<StoredFailure>& failures);
 
 }  // namespace assay::properties

@@ -7,9 +7,9 @@
 #include <numeric>
 #include <utility>
 
-#include "properties/campaign/database/store_problem.h"
-#include "properties/campaign/query_plan.h"
-#include "properties/campaign/stored/evidence.h"
+#include "properties/campaign/ledger/evidence.h"
+#include "properties/campaign/ledger/store_problem.h"
+#include "properties/campaign/plan.h"
 #include "properties/campaign/trials/trials.h"
 #include "properties/judging/judged_run.h"
 #include "properties/numbering.h"
@@ -194,7 +194,7 @@ class Repetitions {
  public:
   Repetitions(const CampaignRequest& request, Store& store)
       : request_(request), store_(store), built_in_(request.worker, std::nullopt, {}) {
-    if (!request.detector.claims.deterministic) {
+    if (!request.detector.claims.has(Claim::deterministic)) {
       threads_ = {request.threads};
     } else if (request.takes_threads) {
       threads_.assign(std::begin(repeated_threads), std::end(repeated_threads));
@@ -236,7 +236,7 @@ class Repetitions {
       workers_.emplace_back(request_.worker, request_.plugin, limits);
     }
     auto run = std::move(workers_[process].run(c, {&configuration(), 1}).front());
-    if (run.end == RunEnd::not_run) throw StoreProblem(ProblemKind::cannot_start, run.explanation);
+    if (run.end == RunEnd::not_run) throw StoreProblem(run.explanation);
     return run;
   }
 
@@ -358,8 +358,7 @@ void repeat_large_meshes(const CampaignRequest& request, Store& store, RunDeadli
                          const std::function<void(const std::string&)>& progress) {
   const auto& detector = request.detector;
   if (!is_repeated(request.plan, detector.built_in)) return;
-  EvidenceFacts stored;
-  for (const auto& row : store.evidence()) stored.take(row);
+  const EvidenceFacts stored = facts_in(store);
   Repetitions repetitions(request, store);
   std::uint64_t place = 0;
   const auto put = [&](const std::string& input, bool is_judged, const auto& make) {

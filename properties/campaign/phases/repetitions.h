@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "corpus/scenes/scenes.h"
+#include "properties/campaign/ledger/store.h"
 #include "properties/campaign/request.h"
-#include "properties/campaign/stored/store.h"
 
 namespace assay::properties {
 

@@ -2,16 +2,21 @@
 
 #include <fmt/format.h>
 
-#include "properties/campaign/stored/count_names.h"
-#include "properties/campaign/stored/store.h"
-#include "properties/campaign/trials/law_checks.h"
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+
+#include "properties/campaign/ledger/store.h"
+#include "properties/campaign/ledger/tally.h"
 #include "properties/campaign/trials/trial.h"
-#include "properties/generators/tag_table.h"
+#include "properties/generators/pair_blocks.h"
 #include "properties/judging/case_options.h"
 #include "properties/laws/facts/case_facts.h"
-#include "properties/laws/law_table.h"
+#include "properties/laws/law.h"
+#include "properties/worker/child_process.h"
 
 namespace assay::properties {
+
 namespace {
 
 bool has_view_sets(const Configuration& configuration) {
@@ -19,7 +24,7 @@ bool has_view_sets(const Configuration& configuration) {
 }
 
 void count_blocks(const CaseRun& run, std::span<const oracle::StepJudgement> truth,
-                  Counts& counts) {
+                  TrialCounts& counts) {
   for (std::size_t s = 0; s < run.steps.size(); ++s) {
     const auto& result = run.steps[s];
     if (result.doubts.empty()) continue;
@@ -28,8 +33,9 @@ void count_blocks(const CaseRun& run, std::span<const oracle::StepJudgement> tru
       const auto b = static_cast<std::size_t>(contact.pair.b);
       const auto block =
           block_of(result.signs[a], result.signs[b], (result.doubts[a] | result.doubts[b]) != 0);
-      ++counts[contact_count(name_of(block))];
-      if (contact.time == truth[s].first) ++counts[first_contact_count(name_of(block))];
+      auto& count = counts.set_pairs[name_of(block)];
+      ++count.contacts;
+      if (contact.time == truth[s].first) ++count.first_contacts;
     }
   }
 }
@@ -96,7 +102,7 @@ std::vector<CaseTally> tally_cases(std::span<const RunCase> cases) {
   std::vector<LawCheck> checks;
   for (std::size_t k = 0; k < cases.size(); ++k) {
     const auto& [made, configurations, runs, truth, with_laws] = cases[k];
-    for (const auto& tag : made.tags) ++tallies[k].counts[tag_count(tag)];
+    for (const auto& tag : made.tags) ++tallies[k].counts.tags[tag];
     bool counted_blocks = false;
     for (std::size_t i = 0; i < runs.size(); ++i) {
       if (runs[i].end != RunEnd::completed || !has_view_sets(configurations[i]) ||
@@ -129,6 +135,50 @@ Judge judge_of_law(const Law& law, const Configuration& configuration) {
     if (tally.broken == 0) return std::nullopt;
     return Finding{fmt::format("{}{}", law_in_signature, law.name), {}, 0};
   };
+}
+
+namespace {
+
+std::string line_of(const LawTally& tally) {
+  const nlohmann::json line = {tally.premise, tally.close, tally.broken, tally.first_broken};
+  return line.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+LawTally tally_of(const std::string& line) {
+  const auto fields = nlohmann::json::parse(line);
+  return {fields[0], fields[1], fields[2], fields[3]};
+}
+
+// The lines that are whole: a copy that is killed may leave a part of one.
+void add_tallies(const std::string& said, std::vector<LawTally>& tallies) {
+  std::istringstream lines(said.substr(0, said.rfind('\n') + 1));
+  for (std::string line; std::getline(lines, line);) tallies.push_back(tally_of(line));
+}
+
+}  // namespace
+
+std::vector<LawTally> check_in_copies(std::size_t count,
+                                      const std::function<std::string(std::size_t)>& case_of,
+                                      const std::function<LawTally(std::size_t)>& check) {
+  constexpr int most_kills = 5;
+  int kills = 0;
+  std::vector<LawTally> tallies;
+  while (tallies.size() < count) {
+    const auto run = in_a_copy([&](const Say& say) {
+      for (std::size_t i = tallies.size(); i < count; ++i) say(line_of(check(i)));
+    });
+    add_tallies(run.said, tallies);
+    if (tallies.size() == count) break;
+    const std::string case_id = case_of(tallies.size());
+    if (was_killed_from_outside(run.end)) {
+      if (++kills == most_kills)
+        throw std::runtime_error(
+            fmt::format("{}: the check of laws was {} {} times", case_id, run.end.text, kills));
+      continue;
+    }
+    tallies.push_back({1, 0, 1, fmt::format("{}: the check ended: {}", case_id, run.end.text)});
+  }
+  return tallies;
 }
 
 }  // namespace assay::properties

@@ -7,12 +7,15 @@
 #include <cstdlib>
 #include <limits>
 
+#include "oracle/instant/layers.h"
+#include "oracle/mesh/loops.h"
 #include "properties/judging/contracted_case.h"
 #include "properties/judging/judged_run.h"
 #include "properties/queries/query_families.h"
 #include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
+
 namespace {
 
 double largest_of(const corpus::Case& c) {
@@ -139,6 +142,38 @@ PlannedCase case_within(const Contract& contract, const Family& family, const st
   }
   if (!last.seen) last.redrawn = most_redrawn + 1;
   return last;
+}
+
+bool starts_clean(const corpus::Case& c) {
+  const detector::Triangles no_ghosts(0, 3);
+  if (!oracle::closes(c.triangles, no_ghosts)) return false;
+  const corpus::CaseStep* committed = nullptr;
+  const auto script = corpus::steps_of(c);
+  for (const auto& step : script) {
+    const auto& start = start_of(c, step);
+    const bool is_new = committed == nullptr || start != end_of(c, *committed);
+    if (is_new) {
+      const auto layers = oracle::layers_at(oracle::Instant(start), c.triangles, no_ghosts);
+      if (!std::all_of(layers.clean.begin(), layers.clean.end(),
+                       [](std::uint8_t is_clean) { return is_clean != 0; })) {
+        return false;
+      }
+    }
+    if (step.commit) committed = &step;
+  }
+  return true;
+}
+
+bool is_vouched_for(const DetectorUnderTest& detector, const corpus::Case& c, std::uint64_t index) {
+  return detector.built_in && index % 2 == 1 && starts_clean(c);
+}
+
+std::vector<Configuration> with_clean_start(std::vector<Configuration> configurations) {
+  for (auto& configuration : configurations) {
+    if (configuration.options.start == detector::Start::verified)
+      configuration.options.start = detector::Start::clean;
+  }
+  return configurations;
 }
 
 }  // namespace assay::properties

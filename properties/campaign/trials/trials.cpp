@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <mutex>
 
-#include "properties/campaign/database/store_problem.h"
-#include "properties/campaign/stored/count_names.h"
-#include "properties/campaign/stored/step_measures.h"
+#include "properties/campaign/ledger/step_measures.h"
+#include "properties/campaign/ledger/store_problem.h"
+#include "properties/campaign/ledger/tally.h"
 #include "properties/campaign/trials/case_tally.h"
-#include "properties/campaign/trials/clean_starts.h"
 #include "properties/campaign/trials/planned_case.h"
 #include "properties/judging/case_check.h"
 #include "properties/queries/query_families.h"
@@ -105,7 +104,7 @@ class Trials {
   static constexpr std::uint64_t repeat_every = 16;
   static constexpr std::size_t repeated_together = 4;
   static constexpr std::uint64_t meshes_kept = 3;  // this many meshes of each signature are stored
-  static constexpr std::size_t counted_together = 32;  // law_checks.h
+  static constexpr std::size_t counted_together = 32;  // check_in_copies
 
   void work() {
     Workers workers{{request_.worker, request_.plugin, request_.worker_limits()},
@@ -131,7 +130,7 @@ class Trials {
       end_.problem = failure.problem();
     } catch (const std::bad_alloc&) {
       const std::lock_guard lock(mutex_);
-      end_.problem = Problem{ProblemKind::out_of_memory, "not enough memory for a trial"};
+      end_.problem = Problem{"not enough memory for a trial"};
     } catch (const std::exception& failure) {
       const std::lock_guard lock(mutex_);
       end_.harness_problem = failure.what();
@@ -200,7 +199,9 @@ class Trials {
     if (!trial.is_within) return;
     for (std::size_t i = 0; i < trial.runs.size(); ++i)
       judge_configuration(trial, i, again ? again + i : nullptr, worker);
-    count_trial(trial.has_contact, again != nullptr, trial.record.counts);
+    auto& measures = trial.record.counts.measures;
+    measures.contact_trials = trial.has_contact ? 1 : 0;
+    measures.repeated_trials = again ? 1 : 0;
     count_steps(trial);
   }
 
@@ -223,8 +224,9 @@ class Trials {
                                    : request_.detector.configurations;
     auto& record = trial.record;
     if (request_.detector.built_in)
-      ++record.counts[tag_count(vouched ? "start:clean" : "start:verified")];
-    count_left_out(drawn.redrawn, drawn.steps_left_out, 0, record.counts);
+      ++record.counts.tags[vouched ? "start:clean" : "start:verified"];
+    record.counts.measures.redrawn = drawn.redrawn;
+    record.counts.measures.steps_left_out = drawn.steps_left_out;
     record.id = id_of(planned);
     record.family = planned.family->name;
     record.index = planned.index;
@@ -237,8 +239,7 @@ class Trials {
                            WorkerProcess& worker) const {
     auto runs = worker.run(trial.seen, configurations);
     for (const auto& one : runs) {
-      if (one.end == RunEnd::not_run)
-        throw StoreProblem(ProblemKind::cannot_start, one.explanation);
+      if (one.end == RunEnd::not_run) throw StoreProblem(one.explanation);
       trial.record.disturbed += one.disturbances;
       trial.record.slowest_us = std::max(trial.record.slowest_us,
                                          static_cast<std::uint64_t>(1e6 * one.processor_seconds));
@@ -254,8 +255,9 @@ class Trials {
     trial.record.outcomes += letter_of(judged.outcome);
     trial.has_contact |= has_judged_contact(judged.steps);
     if (!request_.detector.built_in) {
-      count_measures(judged.steps, trial.runs[i].steps, trial.truth, trial.record.counts);
-      count_left_out(0, 0, judged.left_out_misses, trial.record.counts);
+      auto& measures = trial.record.counts.measures;
+      measures += measures_of(judged.steps, trial.runs[i].steps);
+      measures.left_out_misses += judged.left_out_misses;
     }
     if (!judged.failure) return;
     // A failing case is run again before it is reported. If the two runs differ, that is a failure
@@ -296,7 +298,7 @@ class Trials {
     const auto tallies = tally_cases(cases);
     for (std::size_t i = 0; i < judged.size(); ++i) {
       auto& trial = judged[i];
-      add(trial.record.counts, tallies[i].counts);
+      trial.record.counts += tallies[i].counts;
       for (const auto& broken : tallies[i].broken)
         trial.failures.push_back(broken_law(trial.made.c, broken, trial.configurations));
     }

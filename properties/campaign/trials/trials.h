@@ -5,8 +5,8 @@
 #include <set>
 #include <string>
 
+#include "properties/campaign/ledger/store.h"
 #include "properties/campaign/request.h"
-#include "properties/campaign/stored/store.h"
 
 namespace assay::properties {
 

@@ -1,4 +1,4 @@
-// Unclosed rest shapes: closed ones with holes, sheets, tubes, spirals.
+// Unclosed rest shapes (closed ones with holes, sheets, tubes, spirals), and damaged ones.
 #pragma once
 
 #include "properties/generators/draft.h"
@@ -12,5 +12,11 @@ Draft open_shape(Random& random, int size);
 // A star shape with 1 to 4 small holes whose fans from the loop's mean are positive from the
 // origin, as the triangles are.
 Draft open_star_shape(Random& random, int size);
+
+// A mesh that a detector has to accept although few of its kind are the surface of a body: a closed
+// or unclosed shape with one to three damages: triangles that are missing, turned round
+// or without area, doubled vertices and open seams, 3 to 6 triangles at an edge, vertices that
+// nothing uses, triangles between any vertices. Tagged "broken:...".
+Draft broken_shape(Random& random, int size);
 
 }  // namespace assay::properties

@@ -70,8 +70,6 @@ TriangleFlags may_be_clean(CaseFacts& facts, std::size_t s, const TriangleFlags&
 
 bool has_account(CaseFacts& facts, std::size_t s) {
   if (facts.options().arithmetic != detector::Arithmetic::exact) return false;
-  if (facts.options().release != detector::Release::pieces) return false;
-  if (facts.options().ghost_test != detector::GhostTest::exact) return false;
   if (!facts.is_judged(s) || !facts.is_trusted(s)) return false;
   const auto p = facts.known_from(s);
   return !p || has_account(facts, *p);

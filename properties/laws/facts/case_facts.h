@@ -15,7 +15,7 @@
 #include "oracle/mesh/step.h"
 #include "oracle/view/candidates.h"
 #include "properties/laws/facts/certified_patches.h"
-#include "properties/laws/facts/view_range.h"
+#include "properties/laws/facts/view_values.h"
 #include "properties/numbering.h"
 
 namespace assay::properties {

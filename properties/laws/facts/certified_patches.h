@@ -14,7 +14,7 @@
 
 #include "detector/step/stages.h"
 #include "detector/traditional/traditional.h"
-#include "properties/laws/facts/value_range.h"
+#include "properties/laws/facts/view_values.h"
 
 namespace assay::properties {
 

@@ -7,6 +7,19 @@
 
 namespace assay::properties {
 
+// Runs are rounded to coordinates of few bits, so that translations and midpoints are exact.
+
+// The run with every coordinate of vertices, primitives and apexes rounded to a multiple of one
+// power of two: 2^-30 of the least power of two above them all (or the least denormal, if that is
+// greater).
+PinnedRun on_a_grid(PinnedRun run);
+
+// The exponent of the least power of two above all coordinates.
+int exponent_above(const PinnedRun& run);
+
+// Applies `move` to every vertex, primitive and apex of every frame.
+void move_points(PinnedRun& run, const std::function<detector::Point(detector::Point)>& move);
+
 struct Change {
   PinnedRun run;
   std::vector<std::int32_t> triangle;  // by triangle: its index in the changed run
@@ -17,7 +30,7 @@ struct Change {
 using MakeChange = std::optional<Change> (*)(const CaseFacts&, const PinnedRun&);
 
 // Compares the changed run with the given results. On a grid both sides are run anew, from
-// coordinates that are rounded so that sums and halves are exact (grid.h).
+// coordinates that are rounded so that sums and halves are exact (round_to_grid).
 void check_change(CaseFacts& facts, LawTally& tally, MakeChange make);
 void check_change_on_a_grid(CaseFacts& facts, LawTally& tally, MakeChange make);
 

@@ -2,9 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "properties/laws/law_groups.h"
 #include "properties/laws/metamorphic/change_law.h"
-#include "properties/laws/metamorphic/grid.h"
+#include "properties/laws/step_law.h"
 #include "properties/random.h"
 
 namespace assay::properties {

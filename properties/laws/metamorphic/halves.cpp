@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "properties/laws/metamorphic/grid.h"
+#include "properties/laws/metamorphic/change_law.h"
 #include "properties/laws/step_law.h"
 
 namespace assay::properties {

@@ -4,8 +4,7 @@
 #include <algorithm>
 
 #include "detector/assembly.h"
-#include "detector/state/state_fields.h"
-#include "properties/laws/law_groups.h"
+#include "detector/state/step_state.h"
 #include "properties/laws/metamorphic/halves.h"
 #include "properties/laws/metamorphic/pinned_run.h"
 #include "properties/laws/metamorphic/result_equality.h"

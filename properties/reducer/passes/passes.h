@@ -16,7 +16,7 @@ void drop_later_steps(ReductionSearch& search);  // those after the step that sh
 void drop_steps(ReductionSearch& search);        // halves, then one by one
 void merge_steps(ReductionSearch& search);       // from the start of one step to the end of next
 
-// face_passes.cpp: passes for any mesh. They do not keep a closed mesh closed, except
+// mesh_passes.cpp: passes for any mesh. They do not keep a closed mesh closed, except
 // drop_components.
 void drop_components(ReductionSearch& search);  // halves, then one by one; the exception
 void keep_rings(ReductionSearch& search);       // the reported pair and 0, 1, 2 .. rings around it
@@ -24,7 +24,7 @@ void drop_faces(ReductionSearch& search);       // halves, then one by one, far 
 void drop_unused_vertices(ReductionSearch& search);
 void drop_ghosts(ReductionSearch& search);  // ghosts that the case states
 
-// closed_passes.cpp: passes that keep a closed mesh closed (a cycle stays a cycle).
+// There too: passes that keep a closed mesh closed (a cycle stays a cycle).
 void cone_outside(ReductionSearch& search);   // all vertices outside a ring become one vertex
 void cut_and_close(ReductionSearch& search);  // rings around the pair, their loops closed by fans
 void merge_balls(ReductionSearch& search);    // groups of neighbours become one vertex each
@@ -37,10 +37,10 @@ void remove_and_close(ReductionSearch& search);     // a face or a vertex star, 
 void try_spheres_of_pair(ReductionSearch& search);  // over vertices of the pair: few proposals
 void try_small_spheres(ReductionSearch& search);    // also over vertices around it: thousands
 
-// motion_passes.cpp: vertices that moved are put to rest.
+// step_passes.cpp: vertices that moved are put to rest.
 void freeze_vertices(ReductionSearch& search);  // halves, then one by one, at either end's place
 
-// view_passes.cpp: passes on the view primitive that the case states.
+// There too: passes on the view primitive that the case states.
 void simplify_view(ReductionSearch& search);  // fixed, a point, at the origin
 void drop_view(ReductionSearch& search);      // the detector's own one serves as well
 
@@ -55,7 +55,8 @@ void simplify_together(ReductionSearch& search);  // a few coordinates at once, 
 // are stuck. The same case always gets the same changes.
 void escape(ReductionSearch& search);
 
-// order_pass.cpp: numbers vertices and triangles in the order of their first use. The size stays.
+// number_passes.cpp: numbers vertices and triangles in the order of their first use. The size
+// stays.
 void canonical_order(ReductionSearch& search);
 
 struct Pass {

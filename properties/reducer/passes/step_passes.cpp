@@ -1,4 +1,5 @@
-// Passes that drop steps (passes.h).
+// Passes that drop steps, make the view primitive simpler, and let vertices rest (passes.h).
+
 #include "properties/reducer/case_edits.h"
 #include "properties/reducer/passes/passes.h"
 #include "properties/reducer/rings.h"
@@ -31,6 +32,108 @@ void merge_steps(ReductionSearch& search) {
     steps[s].commit = steps[s + 1].commit;
     steps.erase(steps.begin() + static_cast<std::ptrdiff_t>(s) + 1);
     if (!search.offer(with_steps(search.best(), steps))) ++s;
+  }
+}
+
+namespace {
+
+using corpus::Case;
+using corpus::CaseView;
+using Places = std::vector<detector::Point>;
+
+void offer_view(ReductionSearch& search, const std::optional<CaseView>& view) {
+  Case simpler = search.best();
+  simpler.view = view;
+  search.offer(simpler);
+}
+
+Places fixed(const Places& places, std::size_t frame) {
+  return places.empty() ? places : Places(places.size(), places[frame]);
+}
+
+// Moves everything so that `origin` comes to (0,0,0).
+Case moved(const Case& c, const detector::Point& origin) {
+  Case result = c;
+  const auto move = [&](Places& places) {
+    for (auto& place : places) {
+      for (std::size_t k = 0; k < 3; ++k) place[k] -= origin[k];
+    }
+  };
+  for (auto& frame : result.frames) {
+    frame.rowwise() -= Eigen::RowVector3d(origin[0], origin[1], origin[2]);
+  }
+  move(result.view->q0);
+  move(result.view->q1);
+  if (result.ghosts) {
+    for (auto& apexes : result.ghosts->apexes) move(apexes);
+  }
+  return result;
+}
+
+}  // namespace
+
+void simplify_view(ReductionSearch& search) {
+  if (!search.best().view) return;
+  const auto view = [&] { return *search.best().view; };
+  for (const Places& end : {view().q0, view().q1}) {
+    if (!view().q1.empty()) offer_view(search, CaseView{end, {}});
+  }
+  for (std::size_t f = 0; f < search.best().frames.size(); ++f) {
+    offer_view(search, CaseView{fixed(view().q0, f), fixed(view().q1, f)});
+  }
+  const Places at_origin(search.best().frames.size(), {0, 0, 0});
+  offer_view(search, CaseView{at_origin, view().q1});
+  if (!view().q1.empty()) offer_view(search, CaseView{view().q0, at_origin});
+  search.offer(moved(search.best(), view().q0.front()));
+}
+
+void drop_view(ReductionSearch& search) {
+  if (search.best().view) offer_view(search, std::nullopt);
+}
+
+namespace {
+
+// The vertices that move between any two frames, far ones first.
+std::vector<std::int32_t> moving_vertices(const ReductionSearch& search) {
+  const auto& frames = search.best().frames;
+  std::vector<std::int32_t> moving;
+  for (const auto v : rings_of(search).far_first) {
+    for (const auto& frame : frames) {
+      if (frame.row(v) == frames.front().row(v)) continue;
+      moving.push_back(v);
+      break;
+    }
+  }
+  return moving;
+}
+
+}  // namespace
+
+void freeze_vertices(ReductionSearch& search) {
+  const auto size = [&] { return moving_vertices(search).size(); };
+  // Each vertex is tried at rest throughout, at its place in one frame.
+  for (std::size_t f = 0; f < search.best().frames.size(); ++f) {
+    if (size() == 0) return;
+    try_halves(search, size, [&](std::size_t begin, std::size_t end) {
+      const auto moving = moving_vertices(search);
+      corpus::Case still = search.best();
+      for (std::size_t i = begin; i < end; ++i) {
+        for (auto& frame : still.frames)
+          frame.row(moving[i]) = search.best().frames[f].row(moving[i]);
+      }
+      return search.offer(still);
+    });
+  }
+  // Then it is tried at rest from one frame to the next, at either place.
+  for (std::size_t f = 0; search.best().frames.size() > 2 && f + 1 < search.best().frames.size();
+       ++f) {
+    for (const auto v : moving_vertices(search)) {
+      for (const std::size_t at : {f, f + 1}) {
+        corpus::Case still = search.best();
+        still.frames[2 * f + 1 - at].row(v) = still.frames[at].row(v);
+        if (search.offer(still)) break;
+      }
+    }
   }
 }
 

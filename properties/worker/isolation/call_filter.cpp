@@ -1,5 +1,3 @@
-#include "properties/worker/isolation/call_filter.h"
-
 #include <fcntl.h>
 #include <sched.h>
 #include <seccomp.h>
@@ -11,6 +9,8 @@
 #include <cerrno>
 #include <iterator>
 #include <memory>
+
+#include "properties/worker/isolation/walls.h"
 
 namespace assay::properties {
 namespace {

@@ -1,17 +1,6 @@
 #include "properties/worker/isolation/isolation.h"
 
-#include "properties/words.h"
-
 namespace assay::properties {
-
-namespace {
-constexpr const char* mode_words[] = {"none", "best", "required"};
-}  // namespace
-
-const char* name_of(IsolationMode mode) { return word_of(mode_words, mode); }
-std::optional<IsolationMode> isolation_mode_of(std::string_view word) {
-  return value_of<IsolationMode>(mode_words, word);
-}
 
 bool covers(const Isolation& more, const Isolation& less) {
   return more.files >= less.files && more.processes >= less.processes && more.calls >= less.calls;

@@ -6,10 +6,11 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "properties/words.h"
 
 namespace assay::properties {
 
@@ -18,6 +19,11 @@ enum class IsolationMode : std::uint8_t {
   best,      // all that the system offers; what is lacking is reported
   required,  // all of it, or the plug-in is refused
 };
+constexpr auto names_of(IsolationMode) {
+  using enum IsolationMode;
+  return std::to_array<Named<IsolationMode>>(
+      {{none, "none"}, {best, "best"}, {required, "required"}});
+}
 
 // What holds for the process of a plug-in. Nothing holds if nothing is asked for or no plug-in is
 // run.
@@ -37,10 +43,7 @@ struct Isolation {
 // Whether `more` holds at least what `less` holds.
 bool covers(const Isolation& more, const Isolation& less);
 
-// The words of a mode ("none", "best", "required"), and of an isolation ("full", "none", "partial:
-// lacks files, calls").
-const char* name_of(IsolationMode mode);
-std::optional<IsolationMode> isolation_mode_of(std::string_view word);
+// The words of an isolation: "full", "none", "partial: lacks files, calls".
 std::string text_of(const Isolation& isolation);
 // The isolation that a text of text_of states; for any other text nothing holds.
 Isolation isolation_of(std::string_view text);

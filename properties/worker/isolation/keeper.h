@@ -27,7 +27,7 @@ struct KeptPlugin {
   IsolationMode mode = IsolationMode::best;
   std::string scratch;      // a folder, unless the mode is none
   std::uint64_t bytes = 0;  // address space of a process, and what it may write; 0: no limit
-  std::string unread = {};  // a folder in which it reads no file (file_fence.h); empty: none
+  std::string unread = {};  // a folder in which it reads no file (walls.h); empty: none
   std::vector<ReplacedFile> replaced = {};  // in its own world, if it has one
 };
 

@@ -55,8 +55,7 @@ Expected<ScratchFolder> ScratchFolder::make() {
       if (std::filesystem::exists(name)) return made;
     }
   }
-  return Problem{ProblemKind::cannot_write,
-                 fmt::format("{}: no folder can be made for temporary files: {}", parent.string(),
+  return Problem{fmt::format("{}: no folder can be made for temporary files: {}", parent.string(),
                              error ? error.message() : "others remove it")};
 }
 

@@ -16,7 +16,7 @@ namespace assay::properties {
 // however that may be. Whoever makes a folder clears those of this user that nobody holds any more.
 class ScratchFolder {
  public:
-  // Fails with cannot_write if the system gives none.
+  // Fails if the system gives none.
   static Expected<ScratchFolder> make();
   ScratchFolder(ScratchFolder&& other) noexcept
       : path_(std::exchange(other.path_, {})), lock_(std::exchange(other.lock_, -1)) {}

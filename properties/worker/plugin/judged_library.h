@@ -40,13 +40,13 @@ class JudgedLibrary {
   const std::vector<File>& files() const { return files_; }
 
   // SHA-256 of the library's bytes. If it needs libraries outside of the system's folders
-  // (needed_files.h), or is a detector in Python, SHA-256 of the digests of all of these files.
-  // cannot_open, with the reason, if one of them cannot be read.
+  // (needed_files), or is a detector in Python, SHA-256 of the digests of all of these files.
+  // Fails, with the reason, if one of them cannot be read.
   const corpus::Expected<std::string>& digest() const { return digest_; }
 
   // A worker has loaded the originals, because it has no world of its own.
   void note_loaded_in_place() const { is_loaded_in_place_ = true; }
-  // The problem is another_build if originals were loaded and one of them is not what it was.
+  // Fails if originals were loaded and one of them is not what it was.
   Expected<void> is_as_it_was() const;
 
  private:
@@ -58,5 +58,11 @@ class JudgedLibrary {
   corpus::Expected<std::string> digest_;
   mutable std::atomic<bool> is_loaded_in_place_ = false;
 };
+
+// The libraries that a library names as needed, as its file says; none of its code runs. They are
+// those that are found by its own paths (RPATH, RUNPATH, $ORIGIN) or by LD_LIBRARY_PATH, those that
+// these need in the same way, and so on. Libraries in the system's folders (/lib, /usr/lib, ...)
+// are left out. Nothing for a file that is no library of this machine.
+std::vector<std::filesystem::path> needed_files(const std::filesystem::path& library);
 
 }  // namespace assay::properties

@@ -56,19 +56,12 @@ std::string fault_of_name(std::string_view name) {
 }
 
 Claims claims_on_steps(const PluginDescription& description) {
-  const Claims& all = description.claims;
-  if (description.parts.steps) return all;
-  Claims kept;
-  kept.deterministic = all.deterministic;
-  kept.total = all.total;
-  kept.candidates = all.candidates;
-  return kept;
+  if (description.parts.steps) return description.claims;
+  return description.claims.only({Claim::deterministic, Claim::total, Claim::candidates});
 }
 
 Claims claims_on_queries(const PluginDescription& description) {
-  Claims kept = description.claims;
-  kept.first_pairs = kept.all_pairs = kept.candidates = false;
-  return kept;
+  return description.claims.without({Claim::first_pairs, Claim::all_pairs, Claim::candidates});
 }
 
 }  // namespace assay::properties

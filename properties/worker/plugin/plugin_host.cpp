@@ -9,9 +9,8 @@
 
 #include "detector/step_result.h"
 #include "properties/printable.h"
-#include "properties/worker/plugin/plugin_result.h"
-#include "properties/worker/plugin/plugin_table.h"
-#include "properties/worker/run_clock.h"
+#include "properties/worker/case_run.h"
+#include "properties/worker/plugin/plugin_reading.h"
 
 namespace assay::properties {
 
@@ -31,8 +30,7 @@ class PluginRun {
         reports_pairs_(reports_pairs),
         asks_twice_(asks_twice) {}
 
-  // The candidate pairs of a step, or why there are none: out_of_memory, step_failed or
-  // broken_result.
+  // The candidate pairs of a step, or why there are none.
   Expected<std::vector<detector::TrianglePair>> candidates(const detector::Positions& x_t0,
                                                            const detector::Positions& x_t1) {
     assay_candidates raw = {};
@@ -66,8 +64,7 @@ class PluginRun {
     const auto asked = called("result", api_.result(handle_.get(), &raw));
     if (!asked) return asked.error();
     if (raw.answer == ASSAY_ERROR && !(raw.message && *raw.message)) {
-      if (auto text = text_of_error(api_); !text.empty())
-        return Problem{ProblemKind::step_failed, std::move(text)};
+      if (auto text = text_of_error(api_); !text.empty()) return Problem{std::move(text)};
     }
     return step_result(raw, triangle_count_, reports_pairs_);
   }
@@ -75,8 +72,8 @@ class PluginRun {
   // Says why the call did not do its work, if it did not.
   Expected<void> called(const char* function, std::int32_t code) const {
     if (code == ASSAY_OK) return boost::outcome_v2::success();
-    if (code == ASSAY_OUT_OF_MEMORY) return Problem{ProblemKind::out_of_memory, "out of memory"};
-    return Problem{ProblemKind::step_failed, text_of_code(api_, function, code)};
+    if (code == ASSAY_OUT_OF_MEMORY) return Problem{"out of memory", ProblemKind::out_of_memory};
+    return Problem{text_of_code(api_, function, code)};
   }
 
   const assay_detector_api& api_;
@@ -89,33 +86,30 @@ class PluginRun {
 
 Expected<PluginHost> PluginHost::open(const std::filesystem::path& library, std::uint32_t threads,
                                       const std::string& called) {
-  const auto problem = [&](ProblemKind kind, const std::string& explanation) {
-    return Problem{kind, line_of(called.empty() ? library.c_str() : called.c_str()) + ": " +
-                             line_of(explanation.c_str())};
+  const auto problem = [&](const std::string& explanation) {
+    return Problem{line_of(called.empty() ? library.c_str() : called.c_str()) + ": " +
+                   line_of(explanation.c_str())};
   };
   std::error_code ignored;
-  if (!std::filesystem::exists(library, ignored))
-    return problem(ProblemKind::not_found, "no such file");
+  if (!std::filesystem::exists(library, ignored)) return problem("no such file");
   // Only a regular file is opened, because opening a pipe would wait.
   if (!std::filesystem::is_regular_file(library, ignored))
-    return problem(ProblemKind::not_a_plugin, "not a detector plug-in: not a file");
+    return problem("not a detector plug-in: not a file");
   // An absolute path has a slash in it, so that no search path is asked.
   const auto path = std::filesystem::absolute(library, ignored);
   void* loaded = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!loaded) {
-    return problem(ProblemKind::not_a_plugin,
-                   std::string("not a detector plug-in: ") + ::dlerror());
+    return problem(std::string("not a detector plug-in: ") + ::dlerror());
   }
   const auto entry =
       reinterpret_cast<const assay_detector_api* (*)()>(::dlsym(loaded, "assay_detector"));
   if (!entry) {
-    return problem(ProblemKind::not_a_plugin,
-                   "not a detector plug-in: it exports no assay_detector()");
+    return problem("not a detector plug-in: it exports no assay_detector()");
   }
   auto table = read_table(entry());
-  if (!table) return problem(table.error().kind, table.error().message);
+  if (!table) return problem(table.error().message);
   auto description = read_description(table.value());
-  if (!description) return problem(description.error().kind, description.error().message);
+  if (!description) return problem(description.error().message);
   if (table.value().use_threads) table.value().use_threads(threads);
   return PluginHost(table.value(), std::move(description.value()));
 }

@@ -72,7 +72,7 @@ std::vector<std::string> imported_names(const fs::path& file) {
 }
 
 Problem not_here(std::string_view word, const std::string& reason) {
-  return {ProblemKind::not_found, std::string(word) + ": " + reason};
+  return {std::string(word) + ": " + reason};
 }
 
 constexpr const char* no_word = "not a detector in Python: python:MODULE:CLASS is wanted";

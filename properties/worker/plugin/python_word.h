@@ -32,14 +32,14 @@ inline constexpr const char* python_detector_variable = "ASSAY_PYTHON_DETECTOR";
 std::optional<PythonWord> python_word_of(std::string_view word);
 
 // The library that is loaded for the word: the shipped plug-in, which lies beside the program
-// assay-worker, as it was built or installed. not_found if the word is not well formed, or there
+// assay-worker, as it was built or installed. Fails if the word is not well formed, or there
 // is no such file.
 Expected<std::filesystem::path> python_plugin(std::string_view word,
                                               const std::filesystem::path& worker);
 
 // The file of the module, or of the package of that name, in this folder or in one of PYTHONPATH,
 // comes first. Then come the files of the packages around it, and those that these files import by
-// name from beside them or from the same folder, and so on. not_found if there is no module.
+// name from beside them or from the same folder, and so on. Fails if there is no module.
 Expected<std::vector<std::filesystem::path>> python_module_files(std::string_view word);
 
 }  // namespace assay::properties

@@ -1,10 +1,10 @@
 // An elementary query as a case, so that campaigns, the reducer and `replay` can treat it like any
 // other.
 //
-// The case has four vertices in the order of detector/contact/four_points.h, two triangles (0,1,2)
-// and (1,3,2), one step, and the option `query`. The option is `vertex-face`, for vertex 0 and the
-// face (1,2,3), or `edge-edge`, for the edges 01 and 23. The triangles hold these features, so
-// that a picture shows them; whatever else of the triangles meets is not asked.
+// The case has four vertices in the order of FourPoints, two triangles (0,1,2) and (1,3,2), one
+// step, and the option `query`. The option is `vertex-face`, for vertex 0 and the face (1,2,3), or
+// `edge-edge`, for the edges 01 and 23. The triangles hold these features, so that a picture shows
+// them; whatever else of the triangles meets is not asked.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "corpus/cases/case_file.h"
-#include "detector/contact/four_points.h"
+#include "detector/mesh/step_types.h"
 #include "detector/mesh/types.h"
 #include "properties/worker/case_run.h"
 

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "reports/terminal/replaced.h"
+#include "reports/terminal/words.h"
 
 namespace assay::reports {
 

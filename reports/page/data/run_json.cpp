@@ -2,9 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "detector/step_result.h"
+#include "properties/campaign/ledger/run_folder.h"
+#include "reports/campaign/failure_text.h"
 #include "reports/certificate/statement.h"
+#include "reports/pictures/case_scene.h"
+#include "reports/pictures/contact_point.h"
+#include "reports/pictures/mesh_svg.h"
+#include "reports/steps/step_json.h"
 
 namespace assay::reports {
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -17,6 +28,190 @@ std::string why_text(const properties::Judgement& judgement) {
                      reasons[0],
                      reasons.size() > 1 ? fmt::format("; and {} more", reasons.size() - 1) : "");
 }
+
+Json point_json(const detector::Point& p) { return {p[0], p[1], p[2]}; }
+
+Json moving_json(const detector::MovingPoint& p) { return {point_json(p.t0), point_json(p.t1)}; }
+
+Json frame_json(const detector::Positions& x) {
+  Json list = Json::array();
+  for (Eigen::Index v = 0; v < x.rows(); ++v) list.push_back({x(v, 0), x(v, 1), x(v, 2)});
+  return list;
+}
+
+Json pairs_json(const CaseScene& scene, const SceneStep& step,
+                const std::vector<detector::PairContact>& pairs) {
+  const auto &x_t0 = start_of(scene.c, step.span), &x_t1 = end_of(scene.c, step.span);
+  Json list = Json::array();
+  for (const auto& contact : pairs) {
+    const double t = contact.time.lo + (contact.time.hi - contact.time.lo) / 2;
+    const auto point = contact_point(contact, scene.c.triangles, x_t0, x_t1, t);
+    Json json = to_json(contact);
+    json["point"] = point ? point_json(*point) : Json();
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
+Json answer_json(const CaseScene& scene, const SceneStep& step, detector::Answer answer,
+                 const detector::TimeEnclosure& first,
+                 const std::vector<detector::PairContact>& pairs) {
+  return {{"answer", properties::name_of(answer)},
+          {"first_time", answer == detector::Answer::collision ? to_json(first) : Json()},
+          {"pairs", pairs_json(scene, step, pairs)}};
+}
+
+Json views_json(const CaseScene& scene, const detector::StepResult& seen) {
+  const auto own = static_cast<std::size_t>(scene.c.triangles.rows());
+  Json sets = Json::array(), ghost_sets = Json::array(), ghosts = Json::array(),
+       apexes = Json::array(), primitives = Json::array();
+  for (std::size_t t = 0; t < own; ++t)
+    sets.push_back(view_set_names[static_cast<std::size_t>(view_set(seen, t))]);
+  if (scene.surface && !scene.surface->is_closed()) {
+    const auto& all = scene.surface->all().triangles;
+    for (std::size_t t = own; t < all.size(); ++t) {
+      ghosts.push_back(all[t]);
+      ghost_sets.push_back(view_set_names[static_cast<std::size_t>(view_set(seen, t))]);
+    }
+    for (const auto& apex : seen.apexes) apexes.push_back(moving_json(apex));
+  }
+  for (const auto& primitive : seen.primitives) {
+    primitives.push_back({{"q0", moving_json(primitive.q0)},
+                          {"q1", primitive.is_point() ? Json() : moving_json(primitive.q1)}});
+  }
+  return {{"sets", std::move(sets)},
+          {"ghosts", std::move(ghosts)},
+          {"ghost_sets", std::move(ghost_sets)},
+          {"apexes", std::move(apexes)},
+          {"primitives", std::move(primitives)}};
+}
+
+// One for each pair that is in contact or reported, ascending.
+Json differences_json(const CaseScene& scene, const SceneStep& step) {
+  std::set<detector::TrianglePair> pairs;
+  const auto add = [&](const std::vector<detector::PairContact>& contacts) {
+    for (const auto& contact : contacts) pairs.insert(contact.pair);
+  };
+  add(step.truth.pairs);
+  add(step.truth.left_out);
+  if (step.answered) add(step.answered->pairs);
+  Json list = Json::array();
+  for (const auto& pair : pairs)
+    list.push_back({{"triangles", {pair.a, pair.b}}, {"difference", step.difference(pair, scene)}});
+  return list;
+}
+
+Json candidates_json(const properties::CandidatePairs& candidates) {
+  if (!candidates) return nullptr;
+  Json list = Json::array();
+  for (const auto& [a, b] : *candidates) list.push_back({a, b});
+  return list;
+}
+
+// The scene of a case in `assay-report/2`: what the viewer draws (reports/README.md, `scene`).
+Json scene_json(const CaseScene& scene) {
+  Json triangles = Json::array(), frames = Json::array(), steps = Json::array();
+  for (Eigen::Index t = 0; t < scene.c.triangles.rows(); ++t) {
+    const auto row = scene.c.triangles.row(t);
+    triangles.push_back({row[0], row[1], row[2]});
+  }
+  for (const auto& frame : scene.c.frames) frames.push_back(frame_json(frame));
+  for (const auto& step : scene.steps) {
+    const auto& truth = step.truth;
+    const auto first = truth.first ? truth.first->time : detector::TimeEnclosure{};
+    steps.push_back(
+        {{"from", step.span.from},
+         {"to", step.span.to},
+         {"commit", step.span.commit},
+         {"oracle", answer_json(scene, step, truth.answer(), first, truth.pairs)},
+         {"left_out", pairs_json(scene, step, truth.left_out)},
+         {"differences", differences_json(scene, step)},
+         {"detector", step.answered ? answer_json(scene, step, step.answered->answer,
+                                                  step.answered->first, step.answered->pairs)
+                                    : Json()},
+         {"candidates", candidates_json(step.candidates)},
+         {"views", step.has_views() ? views_json(scene, *step.answered) : Json()}});
+  }
+  const auto pair = scene.shown_pair();
+  return {{"triangles", std::move(triangles)},
+          {"frames", std::move(frames)},
+          {"steps", std::move(steps)},
+          {"reports_pairs", scene.reports_pairs},
+          {"ended", scene.ended.empty() ? Json() : Json(scene.ended)},
+          {"shown",
+           {{"step", scene.shown_step()}, {"pair", pair ? Json({pair->a, pair->b}) : Json()}}}};
+}
+
+// The detector in the form that SceneMaker takes. Nothing if the library of a plug-in is not
+// known.
+std::optional<DetectorWords> detector_at_hand(const properties::RunFindings& findings) {
+  if (!findings.run.detector.built_in && findings.library.empty()) return std::nullopt;
+  return detector_of(findings);
+}
+
+class FailureList {
+ public:
+  explicit FailureList(const properties::RunFindings& run)
+      : run_(run), scenes_(detector_at_hand(run)) {}
+
+  Json all() {
+    Json list = Json::array();
+    for (const auto* kind : run_.kinds()) {
+      list.push_back(shown(*kind));
+      for (const auto& failure : run_.failures) {
+        if (failure.signature == kind->signature && &failure != kind)
+          list.back()["others"].push_back(other(failure));
+      }
+    }
+    return list;
+  }
+
+ private:
+  std::string replay_of(const properties::StoredFailure& failure) const {
+    return replay_line(run_.folder, properties::failure_file(failure, !failure.smallest.empty()),
+                       detector_of(run_));
+  }
+
+  Json other(const properties::StoredFailure& failure) const {
+    return {{"id", failure.id},
+            {"configuration", failure.configuration},
+            {"what", shown_explanation(failure)},
+            {"replay", replay_of(failure)}};
+  }
+
+  Json shown(const properties::StoredFailure& failure) {
+    Json json = {{"stage", nullptr}, {"now", nullptr},       {"scene", nullptr},
+                 {"svg", nullptr},   {"not_shown", nullptr}, {"others", Json::array()}};
+    json["printed"] = failure.printed.empty() ? Json() : Json(failure.printed);
+    const auto mesh = corpus::parse_case(failure.smallest.empty() ? failure.mesh : failure.smallest,
+                                         "stored failure");
+    if (!mesh) {
+      json["not_shown"] = mesh.error().message;
+    } else if (mesh.value().triangles.rows() > most_shown_triangles) {
+      json["not_shown"] = "the mesh is too large to be shown: shrink it first";
+    } else {
+      show(json, mesh.value(), failure);
+    }
+    return json;
+  }
+
+  void show(Json& json, const corpus::Case& c, const properties::StoredFailure& failure) {
+    const auto scene = scenes_.scene_of(c, failure.configuration);
+    if (!scene) {
+      json["not_shown"] = "a coordinate is beyond the detector's contract";
+      return;
+    }
+    if (scene->failure) {
+      json["stage"] = scene->failure->stage.empty() ? Json() : Json(scene->failure->stage);
+      json["now"] = scene->failure->explanation;
+    }
+    json["scene"] = scene_json(*scene);
+    json["svg"] = mesh_svg(*scene, failure.signature);
+  }
+
+  const properties::RunFindings& run_;
+  SceneMaker scenes_;
+};
 
 }  // namespace
 
@@ -33,5 +228,7 @@ Json run_json(const properties::RunFindings& findings, const properties::Judgeme
       {"findings", is_certificate ? statement.at("predicate")
                                   : make_predicate(findings, judgement, findings.run.plan, "")}};
 }
+
+Json failure_scenes(const properties::RunFindings& findings) { return FailureList(findings).all(); }
 
 }  // namespace assay::reports

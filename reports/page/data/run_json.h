@@ -2,8 +2,11 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
+#include "properties/campaign/gates/findings.h"
 #include "properties/campaign/gates/gates.h"
+#include "reports/pictures/case_scene.h"
 
 namespace assay::reports {
 
@@ -14,5 +17,10 @@ nlohmann::ordered_json run_json(const properties::RunFindings& findings,
                                 const properties::Judgement& judgement,
                                 const nlohmann::ordered_json& statement = nullptr,
                                 const std::string& unverified = "");
+
+// `failures` of assay-report/2: one mesh of each signature is run again. For each failure of the
+// predicate, in their order, it is the scene and the picture of its smallest mesh, and the others
+// with its signature.
+nlohmann::ordered_json failure_scenes(const properties::RunFindings& findings);
 
 }  // namespace assay::reports

@@ -1,12 +1,15 @@
 // What the cases were: laws met, sizes, contacts, set pairs.
 import { html, section, table } from "./dom";
 import { barPlot } from "./plots";
-import type { Law, Run, World } from "./report";
+import type { Findings } from "./report";
 import { count } from "./words";
 
-export function laws(run: Run): HTMLElement | null {
-  if (run.laws.length === 0) return null;
-  const close = (l: Law): string => (l.premise ? `${Math.round((100 * l.close) / l.premise)} %` : "\u2013");
+export function laws(f: Findings): HTMLElement | null {
+  type Law = NonNullable<Findings["laws"]>["laws"][number];
+  const wanted = f.laws?.wanted_premises ?? 0;
+  const shown = (f.laws?.laws ?? []).filter((law) => law.premises > 0 || wanted > 0);
+  if (shown.length === 0) return null;
+  const close = (l: Law): string => (l.premises ? `${Math.round((100 * l.close) / l.premises)} %` : "\u2013");
   return section(
     "laws",
     "Laws",
@@ -14,19 +17,20 @@ export function laws(run: Run): HTMLElement | null {
     table(
       "Laws",
       [
-        { head: "law", cell: (l: Law) => l.name },
-        { head: "premise", cell: (l: Law) => count(l.premise) + (l.premise < l.wanted_premise ? " (too few)" : ""), number: true },
+        { head: "law", cell: (l: Law) => l.law },
+        { head: "premise", cell: (l: Law) => count(l.premises) + (l.premises < wanted ? " (too few)" : ""), number: true },
         { head: "close", cell: close, number: true },
         { head: "broken", cell: (l: Law) => count(l.broken), number: true },
       ],
-      run.laws,
+      shown,
     ),
   );
 }
 
 // The exhaustive part: no bound, but all there is on a small grid.
-export function worlds(run: Run): HTMLElement | null {
-  if (run.worlds.length === 0) return null;
+export function worlds(f: Findings): HTMLElement | null {
+  type World = Findings["power"]["worlds"][number];
+  if (f.power.worlds.length === 0) return null;
   return section(
     "worlds",
     "Every motion of a tetrahedron",
@@ -38,32 +42,32 @@ export function worlds(run: Run): HTMLElement | null {
         { head: "motions", cell: (w: World) => (w.motions === null ? "\u2013" : count(w.motions)), number: true },
         { head: "outcome", cell: (w: World) => w.counterexample ?? (w.complete ? "all of it holds" : "the time was over") },
       ],
-      run.worlds,
+      f.power.worlds,
     ),
   );
 }
 
 // [from, to, cases] of all families together, ascending.
-function together(lists: number[][][]): { label: string; value: number }[] {
+function together(lists: [number, number, number][][]): { label: string; value: number }[] {
   const sums = new Map<number, [number, number]>();
   for (const list of lists)
-    for (const [lo, hi, n] of list as [number, number, number][])
+    for (const [lo, hi, n] of list)
       sums.set(lo, [hi, (sums.get(lo)?.[1] ?? 0) + n]);
   return [...sums.entries()]
     .sort((a, b) => a[0] - b[0])
     .map(([lo, [hi, n]]) => ({ label: lo === 0 ? "none" : lo === hi ? `${lo}` : `${lo} to ${hi}`, value: n }));
 }
 
-export function cases(run: Run): HTMLElement {
-  const sets = run.set_pairs;
-  const tags = Object.entries(run.tags).sort((a, b) => a[0].localeCompare(b[0]));
+export function cases(f: Findings): HTMLElement {
+  const { distributions, set_pairs: sets } = f.cases;
+  const tags = Object.entries(f.cases.tags).sort((a, b) => a[0].localeCompare(b[0]));
   return section(
     "cases",
     "The cases",
     html("h3", {}, "Cases by number of triangles"),
-    barPlot("Cases by number of triangles", together(run.distributions.map((d) => d.triangles))),
+    barPlot("Cases by number of triangles", together(distributions.map((d) => d.triangles))),
     html("h3", {}, "Cases by pairs in contact"),
-    barPlot("Cases by number of pairs in contact", together(run.distributions.map((d) => d.pairs))),
+    barPlot("Cases by number of pairs in contact", together(distributions.map((d) => d.pairs))),
     sets.length === 0
       ? null
       : table(

@@ -1,8 +1,10 @@
 // What a certificate adds to a run: its subject, the corpus, speed, waivers, the checks of the oracle.
 import { html, section, table } from "./dom";
 import { replayLine } from "./failure_facts";
-import type { Certificate, CorpusRow, Run, Waiver } from "./report";
+import type { Findings, Run } from "./report";
 import { count, counted } from "./words";
+
+type CorpusRow = NonNullable<Findings["corpus"]>[number];
 
 // Configurations that agree on an input are one row.
 function together(rows: CorpusRow[]): { row: CorpusRow; who: string }[] {
@@ -55,9 +57,10 @@ function corpus(rows: CorpusRow[] | null): HTMLElement {
   );
 }
 
-function speed(c: Certificate): HTMLElement | null {
-  if (c.speed.length === 0) return null;
-  type Figure = Certificate["speed"][number];
+function speed(f: Findings): HTMLElement | null {
+  if (f.times.speed.length === 0) return null;
+  type Figure = Findings["times"]["speed"][number];
+  const limits = f.campaign.plan.policy.speed_limits;
   return section(
     "speed",
     "Speed",
@@ -68,14 +71,15 @@ function speed(c: Certificate): HTMLElement | null {
         { head: "ratio", cell: (f: Figure) => f.what },
         { head: "median", cell: (f: Figure) => f.median.toPrecision(3), number: true },
         { head: "interval", cell: (f: Figure) => `${f.lo.toPrecision(3)} to ${f.hi.toPrecision(3)}`, number: true },
-        { head: "limit", cell: (f: Figure) => (f.limit === null ? "\u2013" : String(f.limit)), number: true },
+        { head: "limit", cell: (f: Figure) => String(limits[f.what] ?? "\u2013"), number: true },
       ],
-      c.speed,
+      f.times.speed,
     ),
   );
 }
 
-function waivers(list: Waiver[]): HTMLElement | null {
+function waivers(list: Findings["waivers"]): HTMLElement | null {
+  type Waiver = Findings["waivers"][number];
   if (list.length === 0) return null;
   return section(
     "waivers",
@@ -95,35 +99,34 @@ function waivers(list: Waiver[]): HTMLElement | null {
   );
 }
 
-function selfTest(c: Certificate): HTMLElement {
-  const t = c.self_test;
+function selfTest(t: Findings["self_test"]): HTMLElement {
   const text = t
     ? `Against other exact methods: ${counted(t.contradictions, "contradiction")} in ${counted(t.queries, "query", "queries")}${t.complete ? "" : ", not all that were planned"}.`
     : "No self-test of the oracle was run.";
   return section("oracle", "The oracle, checked", html("p", {}, text));
 }
 
-function subject(c: Certificate): HTMLElement {
+function subject(subjects: NonNullable<Run["subject"]>, f: Findings): HTMLElement {
+  const { issued, seconds } = f.times;
   const rows = [
-    ...c.subject.flatMap((s) => [
+    ...subjects.flatMap((s) => [
       ["Detector", s.name] as const,
       ...Object.entries(s.digest).map(([kind, digest]) => [kind, digest] as const),
     ]),
-    ...Object.entries(c.digests).flatMap(([kind, digest]) => (digest ? [[`digest of ${kind}`, digest] as const] : [])),
-    ["Issued", c.issued ?? "not stated"] as const,
-    ["Took", c.seconds === null ? "not stated" : `${Math.round(c.seconds)} s`] as const,
+    ...Object.entries(f.digests).flatMap(([kind, digest]) => (digest ? [[`digest of ${kind}`, digest] as const] : [])),
+    ["Issued", issued ?? "not stated"] as const,
+    ["Took", seconds === null ? "not stated" : `${Math.round(seconds)} s`] as const,
   ];
   return section(
     "certificate",
     "Certificate",
-    html("p", {}, "It speaks of exactly these bytes, and of ", c.speaks_of, "."),
+    html("p", {}, "It speaks of exactly these bytes, and of ", f.confidence.speaks_of, "."),
     html("dl", { class: "digests" }, ...rows.flatMap(([name, value]) => [html("dt", {}, name), html("dd", {}, value)])),
     html("h3", {}, "To make and to verify it"),
-    ...c.replay.map(replayLine),
+    ...f.replay.map(replayLine),
   );
 }
 
-export function certificate(run: Run): (HTMLElement | null)[] {
-  const c = run.certificate;
-  return c === null ? [] : [corpus(c.corpus), selfTest(c), speed(c), waivers(c.waivers), subject(c)];
+export function certificate({ subject: of, findings: f }: Run): (HTMLElement | null)[] {
+  return of === null ? [] : [corpus(f.corpus), selfTest(f.self_test), speed(f), waivers(f.waivers), subject(of, f)];
 }

@@ -45,9 +45,9 @@ export function failureFacts(failure: Failure): HTMLElement {
   const law = failure.configuration.split(", law ")[1];
   rows.push([law ? "Law" : "Claim", law ?? failure.signature.split(":")[0] ?? null]);
   rows.push(["Configuration", failure.configuration]);
-  rows.push(["Case", failure.id]);
-  rows.push(["Mesh as met", failure.original ? size(failure.original) : null]);
-  rows.push(["Smallest", failure.smallest ? size(failure.smallest) : "not shrunk"]);
+  rows.push(["Case", failure.case]);
+  rows.push(["Mesh as met", failure.before ? size(failure.before) : null]);
+  rows.push(["Smallest", failure.after ? size(failure.after) : "not shrunk"]);
   rows.push(["Stage that lost it", failure.stage]);
   const scene = failure.scene;
   if (scene && scene.steps.length > 0) {

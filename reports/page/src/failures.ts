@@ -40,7 +40,8 @@ export function failures(run: Run): FailuresView {
   };
 
   // In the order of the findings, so that the first is the one that the verdict names.
-  for (const failure of run.failures) {
+  const all = run.findings.failures.map((told, i): Failure => ({ ...told, ...run.failures[i]! }));
+  for (const failure of all) {
     const button = html(
       "button",
       { type: "button", "aria-pressed": "false", click: () => show(failure, button) },
@@ -52,14 +53,14 @@ export function failures(run: Run): FailuresView {
   const element = section(
     "failures",
     "Failures",
-    run.failures.length === 0
+    all.length === 0
       ? html("p", {}, "None was met.")
       : html(
           "p",
           {},
-          `${counted(run.failures.length, "kind")}, told apart by claim, difference, stage and feature. Each has the smallest mesh that was found for it.`,
+          `${counted(all.length, "kind")}, told apart by claim, difference, stage and feature. Each has the smallest mesh that was found for it.`,
         ),
-    run.failures.length === 0
+    all.length === 0
       ? null
       : html("div", { class: "failures" }, html("div", { class: "list", role: "group", "aria-label": "Failures" }, ...buttons), detail),
   );

@@ -3,27 +3,30 @@ import { html, section, table } from "./dom";
 import { kindOf, verdictWord } from "./overview";
 import { logPlot } from "./plots";
 import type { Run } from "./report";
-import { count, share } from "./words";
+import { open } from "./strata";
+import { count, share, sum } from "./words";
 
-const worst = (run: Run): number => Math.max(0, ...run.strata.map((s) => s.bound));
+const worst = ({ findings: { strata } }: Run): number => Math.max(0, ...strata.flatMap((s) => s.bounds.map((b) => b.bound)));
 
-const sum = (run: Run, of: (s: Run["strata"][number]) => number): number => {
-  const most = new Map<string, number>();
-  for (const s of run.strata) most.set(s.family, Math.max(most.get(s.family) ?? 0, of(s)));
-  return [...most.values()].reduce((a, b) => a + b, 0);
-};
+const trials = ({ findings: { strata } }: Run): number => sum(strata.map((s) => s.trials));
+const withDefect = ({ findings: { strata } }: Run): number => sum(strata.map((s) => s.with_defect));
+// Of each family the configuration that has most of them.
+const undecided = ({ findings: { strata } }: Run): number => sum(strata.map((s) => Math.max(0, ...s.bounds.map(open))));
+
+const nameOf = ({ findings: { campaign } }: Run): string => `${campaign.name}, seed ${campaign.seed}`;
 
 // Which kinds of failure were met in which run: what is new, and what is gone.
 function kinds(runs: Run[]): HTMLElement | null {
-  const all = [...new Set(runs.flatMap((r) => Object.keys(r.signatures)))].sort();
+  const met = runs.map((run) => new Map(run.findings.failures.filter((f) => f.met > 0).map((f) => [f.signature, f.met])));
+  const all = [...new Set(met.flatMap((of) => [...of.keys()]))].sort();
   if (all.length === 0) return null;
   const counts = table(
     "How often each kind of failure was met",
     [
       { head: "kind", cell: (k: string) => k },
-      ...runs.map((run, i) => ({
+      ...met.map((of, i) => ({
         head: `run ${i + 1}`,
-        cell: (k: string) => (run.signatures[k] === undefined ? "\u2013" : count(run.signatures[k])),
+        cell: (k: string) => { const times = of.get(k); return times === undefined ? "\u2013" : count(times); },
         number: true,
       })),
     ],
@@ -47,12 +50,12 @@ export function history(runs: Run[], choose: (index: number) => void): HTMLEleme
           cell: (r: Row) =>
             html("button", { type: "button", class: "plain", click: () => choose(r.index) }, `${r.index + 1}: ${r.run.folder}`),
         },
-        { head: "campaign", cell: (r: Row) => `${r.run.campaign}, seed ${r.run.seed}` },
-        { head: "detector", cell: (r: Row) => r.run.detector.name },
+        { head: "campaign", cell: (r: Row) => nameOf(r.run) },
+        { head: "detector", cell: (r: Row) => r.run.findings.detector.name },
         { head: "verdict", cell: (r: Row) => html("span", { class: `tag ${kindOf(r.run.verdict)}` }, verdictWord(r.run.verdict)) },
-        { head: "trials", cell: (r: Row) => count(r.run.trials.done), number: true },
-        { head: "with a defect", cell: (r: Row) => count(r.run.defect_trials), number: true },
-        { head: "undecided", cell: (r: Row) => count(sum(r.run, (s) => s.undecided)), number: true },
+        { head: "trials", cell: (r: Row) => count(trials(r.run)), number: true },
+        { head: "with a defect", cell: (r: Row) => count(withDefect(r.run)), number: true },
+        { head: "undecided", cell: (r: Row) => count(undecided(r.run)), number: true },
         { head: "worst bound", cell: (r: Row) => share(worst(r.run)), number: true },
       ],
       numbered,
@@ -60,10 +63,10 @@ export function history(runs: Run[], choose: (index: number) => void): HTMLEleme
     logPlot(
       "Worst bound of each run",
       numbered.map(({ run, index }) => ({
-        label: `${index + 1}: ${run.campaign}, seed ${run.seed}`,
+        label: `${index + 1}: ${nameOf(run)}`,
         value: worst(run),
         limit: null,
-        bad: run.defect_trials > 0,
+        bad: withDefect(run) > 0,
         words: share(worst(run)),
       })),
     ),

@@ -1,13 +1,14 @@
 // What the verdict is about: the detector's claims, under which contract, how a plug-in was kept
 // apart, the campaign; and what a plug-in does whatever it claims.
+import type { Rate, TimesOff } from "../made/certificate";
 import { html, section, table } from "./dom";
-import type { JudgedSize, Measures, Rate, Repetition, Run, TimesOff } from "./report";
+import type { Findings, Stratum } from "./report";
 import { count } from "./words";
 
 // Configurations that claim the same are one line.
-function claimsOf(run: Run): string[] {
+function claimsOf(f: Findings): string[] {
   const groups = new Map<string, string[]>();
-  for (const { name, claims } of run.detector.claims) {
+  for (const { name, claims } of f.detector.configurations) {
     const key = claims.length === 0 ? "nothing" : claims.join(", ");
     groups.set(key, [...(groups.get(key) ?? []), name]);
   }
@@ -16,7 +17,7 @@ function claimsOf(run: Run): string[] {
 }
 
 // Large meshes on which the plug-in was run again and again.
-function repeated(list: Repetition[]): string[] {
+function repeated(list: NonNullable<Findings["repeated"]>): string[] {
   const most = Math.max(...list.map((one) => one.triangles));
   const threads = Math.max(...list.flatMap((one) => one.threads), 1);
   const differing = list.filter((one) => one.broken).length;
@@ -30,17 +31,17 @@ function repeated(list: Repetition[]): string[] {
 }
 
 // Sizes with the claims that were tried up to them, the largest first.
-function sizesOf(list: JudgedSize[]): string[] {
+function sizesOf(list: Findings["judged_up_to"]): string[] {
   const sizes = new Map<number, string[]>();
   for (const { claim, triangles } of list) sizes.set(triangles, [...(sizes.get(triangles) ?? []), claim]);
   return [...sizes].sort(([a], [b]) => b - a).map(([triangles, claims]) => `up to ${count(triangles)} triangles: ${claims.join(", ")}`);
 }
 
 // What nobody judged: claims, parts of the library, families.
-const notJudged = (run: Run): string[] => [
-  ...run.not_judged.map(({ claim, reason }) => `${claim}: ${reason}`),
-  ...run.detector.unjudged_parts.map((part) => `the ${part} of this library`),
-  ...run.left_out_families.map((family) => `family ${family}, which the contract leaves out`),
+const notJudged = (f: Findings): string[] => [
+  ...f.not_judged.map(({ claim, reason }) => `${claim}: ${reason}`),
+  ...f.detector.unjudged_parts.map((part) => `the ${part} of this library`),
+  ...f.left_out_families.map((family) => `family ${family}, which the contract leaves out`),
 ];
 
 const isolations: Record<string, string> = {
@@ -48,19 +49,19 @@ const isolations: Record<string, string> = {
   none: "none: its process was kept apart from nothing",
 };
 
-export function judged(run: Run): HTMLElement {
-  const { contract } = run.detector;
+export function judged(f: Findings): HTMLElement {
+  const { contract } = f.detector;
   const rows: [string, string[]][] = [
-    ["Claims", claimsOf(run)],
-    ...(run.detector.query_claims.length === 0 || run.judged_up_to.length === 0
+    ["Claims", claimsOf(f)],
+    ...(f.detector.query_claims.length === 0 || f.judged_up_to.length === 0
       ? []
-      : ([["Claims of its query", [run.detector.query_claims.join(", ")]]] as [string, string[]][])),
-    ...(notJudged(run).length === 0 ? [] : ([["Not judged", notJudged(run)]] as [string, string[]][])),
-    ...(run.judged_up_to.length === 0 ? [] : ([["Tried on meshes", sizesOf(run.judged_up_to)]] as [string, string[]][])),
+      : ([["Claims of its query", [f.detector.query_claims.join(", ")]]] as [string, string[]][])),
+    ...(notJudged(f).length === 0 ? [] : ([["Not judged", notJudged(f)]] as [string, string[]][])),
+    ...(f.judged_up_to.length === 0 ? [] : ([["Tried on meshes", sizesOf(f.judged_up_to)]] as [string, string[]][])),
     ["Contract", [contract.leaves_out.length === 0 ? "leaves nothing out" : contract.leaves_out.join(", ")]],
-    ...(run.isolation === null ? [] : ([["Isolation", [isolations[run.isolation] ?? run.isolation]]] as [string, string[]][])),
-    ...(run.repeated === null ? [] : ([["Larger meshes", repeated(run.repeated)]] as [string, string[]][])),
-    ["Campaign", [`${run.campaign}, seed ${run.seed}${run.is_default_seed ? ", the default one, whose cases everybody knows" : ""}`]],
+    ...(f.isolation === null ? [] : ([["Isolation", [isolations[f.isolation] ?? f.isolation]]] as [string, string[]][])),
+    ...(f.repeated === null ? [] : ([["Larger meshes", repeated(f.repeated)]] as [string, string[]][])),
+    ["Campaign", [`${f.campaign.name}, seed ${f.campaign.seed}${f.campaign.is_default_seed ? ", the default one, whose cases everybody knows" : ""}`]],
   ];
   return section(
     "judged",
@@ -71,7 +72,7 @@ export function judged(run: Run): HTMLElement {
       { class: "judged" },
       ...rows.flatMap(([name, lines]) => [html("dt", {}, name), html("dd", {}, ...lines.map((line) => html("div", {}, line)))]),
     ),
-    ...measures(run),
+    ...measures(f),
   );
 }
 
@@ -82,14 +83,15 @@ const off = ({ steps, median, p99, worst }: TimesOff): string =>
   steps === 0 ? "none" : `${count(steps)}: ${[median, p99, worst].map((x) => x.toPrecision(2)).join(", ")}`;
 
 // Beside the least possible: the pairs in contact.
-const candidatesText = ({ steps, given, least, over_least }: Measures["candidates"]): string =>
+const candidatesText = ({ steps, given, least, over_least }: NonNullable<Stratum["measures"]>["candidates"]): string =>
   steps === 0 ? "\u2013" : `${count(given)} of ${count(least)}` + (least === 0 ? "" : `: ${over_least.toPrecision(3)} times`);
 
 // What a plug-in does, be it claimed or not.
-function measures(run: Run): HTMLElement[] {
-  if (run.measures.length === 0) return [];
-  type Row = Run["measures"][number];
-  const gives = run.measures.some(({ measures }) => measures.candidates.steps > 0);
+function measures(f: Findings): HTMLElement[] {
+  const rows = f.strata.flatMap(({ family, measures }) => (measures === null ? [] : [{ family, measures }]));
+  if (rows.length === 0) return [];
+  type Row = (typeof rows)[number];
+  const gives = rows.some(({ measures }) => measures.candidates.steps > 0);
   return [
     html("p", {}, "Counted whatever is claimed. Intervals have a confidence of 95 %. Late and early: how many steps, and of these the median, 99 of 100 and the worst, in shares of the step."),
     table(
@@ -104,7 +106,7 @@ function measures(run: Run): HTMLElement[] {
         ...(gives ? [{ head: "candidates, of at least", cell: (r: Row) => candidatesText(r.measures.candidates), number: true }] : []),
         { head: "left out: cases, steps", cell: (r: Row) => `${count(r.measures.left_out.cases_redrawn)}, ${count(r.measures.left_out.steps)}`, number: true },
       ],
-      run.measures,
+      rows,
     ),
   ];
 }

@@ -7,8 +7,7 @@ import { faults } from "./faults";
 import { history } from "./history";
 import { judged } from "./judged";
 import { gates, overview, verdictWord } from "./overview";
-import type { Report, Run, StoredReport } from "./report";
-import { runOf } from "./run";
+import type { Report, Run } from "./report";
 import { strata } from "./strata";
 
 declare global {
@@ -21,15 +20,15 @@ declare global {
 function runView(run: Run): { element: HTMLElement; failures: FailuresView } {
   const failed = failures(run);
   const element = html("div", { class: "run" });
-  const parts = [overview(run), gates(run), judged(run), failed.element, strata(run), faults(run), worlds(run), ...certificate(run), laws(run), cases(run)];
+  const parts = [overview(run), gates(run.findings), judged(run.findings), failed.element, strata(run.findings), faults(run.findings), worlds(run.findings), ...certificate(run), laws(run.findings), cases(run.findings)];
   for (const part of parts) if (part) element.append(part);
   return { element, failures: failed };
 }
 
 function read(): Report | null {
   try {
-    const stored = JSON.parse(document.getElementById("assay-report")?.textContent ?? "") as StoredReport;
-    return stored.schema === "assay-report/2" ? { ...stored, runs: stored.runs.map(runOf) } : null;
+    const stored = JSON.parse(document.getElementById("assay-report")?.textContent ?? "") as Report;
+    return stored.schema === "assay-report/2" ? stored : null;
   } catch {
     return null;
   }
@@ -47,7 +46,7 @@ function show(page: HTMLElement, report: Report): void {
     shown = view.failures;
     choice.value = String(index);
     const run = report.runs[index]!;
-    document.title = `${run.detector.name}: ${verdictWord(run.verdict)} \u2013 Assay report`;
+    document.title = `${run.findings.detector.name}: ${verdictWord(run.verdict)} \u2013 Assay report`;
     place.replaceChildren(view.element);
     view.failures.viewer();
   };

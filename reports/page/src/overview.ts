@@ -1,9 +1,9 @@
 // What the run comes to, what its bounds speak of, and the gates in their order.
 import { html, section } from "./dom";
-import type { Gate, Run } from "./report";
-import { count, counted } from "./words";
+import type { Findings, Run } from "./report";
+import { count, counted, sum } from "./words";
 
-const sentences: Record<string, string> = {
+const sentences: Record<Run["verdict"], string> = {
   certified: "Certified",
   defect: "Defect",
   undecided: "Undecided",
@@ -15,18 +15,20 @@ const sentences: Record<string, string> = {
 };
 
 // Good, bad, open: never by colour alone, the word stands beside.
-export const kindOf = (verdict: string): string =>
+export const kindOf = (verdict: Run["verdict"]): string =>
   verdict === "certified" || verdict === "holds"
     ? "good"
     : ["defect", "unsound-harness", "unverified"].includes(verdict)
       ? "bad"
       : "open";
 
-export const verdictWord = (verdict: string): string => sentences[verdict] ?? verdict;
+export const verdictWord = (verdict: Run["verdict"]): string => sentences[verdict] ?? verdict;
 
 export function overview(run: Run): HTMLElement {
-  const shards =
-    run.shards.count === 1 ? "" : `, ${run.shards.present.length} of ${run.shards.count} shards`;
+  const { campaign, detector, strata, times } = run.findings;
+  // "2/8" is the second of eight.
+  const shards = Number(campaign.shards[0]?.split("/")[1] ?? 1);
+  const disturbed = sum(times.strata.map((s) => s.disturbed));
   return html(
     "div",
     { class: `verdict ${kindOf(run.verdict)}` },
@@ -35,23 +37,23 @@ export function overview(run: Run): HTMLElement {
     html(
       "p",
       { class: "note" },
-      `Detector: ${run.detector.name} (${counted(run.detector.configurations.length, "configuration")}); ` +
-        `campaign ${run.campaign}, seed ${run.seed}${shards}; ` +
-        `${count(run.trials.done)} of ${count(run.trials.planned)} trials.` +
-        (run.trials.disturbed === 0
+      `Detector: ${detector.name} (${counted(detector.configurations.length, "configuration")}); ` +
+        `campaign ${campaign.name}, seed ${campaign.seed}${shards === 1 ? "" : `, ${campaign.shards.length} of ${shards} shards`}; ` +
+        `${count(sum(strata.map((s) => s.trials)))} of ${count(sum(strata.map((s) => s.planned)))} trials.` +
+        (disturbed === 0
           ? ""
-          : ` ${counted(run.trials.disturbed, "trial was", "trials were")} disturbed from outside, and ran again.`) +
-        (run.trials.near_the_limit === 0
+          : ` ${counted(disturbed, "trial was", "trials were")} disturbed from outside, and ran again.`) +
+        (times.near_the_limit === 0
           ? ""
-          : ` ${counted(run.trials.near_the_limit, "trial", "trials")} took more than a third of the time that a case may take.`),
+          : ` ${counted(times.near_the_limit, "trial", "trials")} took more than a third of the time that a case may take.`),
     ),
-    run.certificate === null && run.verdict !== "unverified"
+    run.subject === null && run.verdict !== "unverified"
       ? html("p", { class: "note" }, "No certificate stands beside this run: assay certify issues one.")
       : null,
   );
 }
 
-const signs: Record<Gate["state"], string> = { holds: "\u2713", fails: "\u2717", "not judged": "\u2013" };
+const signs: Record<Findings["gates"][number]["state"], string> = { holds: "\u2713", fails: "\u2717", "not judged": "\u2013" };
 
 // Each in a line, those beyond the third behind a click.
 function reasons(lines: string[]): HTMLElement[] {
@@ -62,15 +64,15 @@ function reasons(lines: string[]): HTMLElement[] {
   return [...shown, html("details", {}, html("summary", {}, `${rest.length} more`), ...rest)];
 }
 
-export function gates(run: Run): HTMLElement {
-  const first = run.gates.find((g) => g.state === "fails");
+export function gates({ gates: list }: Findings): HTMLElement {
+  const first = list.find((g) => g.state === "fails");
   return section(
     "gates",
     "Gates",
     html(
       "ol",
       { class: "gates" },
-      ...run.gates.map((gate) =>
+      ...list.map((gate) =>
         html(
           "li",
           { class: gate.state.replace(" ", "-") },
@@ -89,15 +91,15 @@ export function gates(run: Run): HTMLElement {
   );
 }
 
-export function scope(run: Run): HTMLElement {
-  const percent = Math.round(100 * run.bounds.confidence);
+export function scope({ confidence }: Findings): HTMLElement {
+  const percent = Math.round(100 * confidence.family);
   return html(
     "div",
     { class: "scope" },
     html("p", {}, html("strong", {}, "What the bounds speak of: "),
       "the share of cases, of this campaign\u2019s random generator, in which the detector would not hold. " +
       "They say nothing of other meshes, yours included, beyond what those have in common with the generator\u2019s."),
-    html("p", {}, `All ${count(run.bounds.together)} bounds hold together with a confidence of ${percent} % ` +
+    html("p", {}, `All ${count(confidence.bounds)} bounds hold together with a confidence of ${percent} % ` +
       "(exact one-sided Clopper and Pearson, Bonferroni). A trial is a whole case; undecided ones count against the detector."),
   );
 }

@@ -2,53 +2,74 @@
 import { html, section, table } from "./dom";
 import { scope } from "./overview";
 import { logPlot } from "./plots";
-import type { Run, Stratum } from "./report";
+import type { Findings, Stratum } from "./report";
 import { count, counted, share } from "./words";
 
-const who = (s: Stratum): string =>
-  s.configurations.length === 1 ? s.configurations[0]! : `each of ${s.configurations.length}`;
+type Bound = Stratum["bounds"][number];
 
-export function strata(run: Run): HTMLElement {
-  const isAbove = (s: Stratum): boolean => s.wanted !== null && s.bound > s.wanted;
-  const many = run.strata.some((s, i) => run.strata[i - 1]?.family === s.family);
+interface Row {
+  stratum: Stratum;
+  bound: Bound;
+  who: string;
+}
+
+// Without a verdict.
+export const open = ({ undecided, errors }: Bound): number => undecided + errors;
+
+// One row for configurations that agree, else a row for each.
+const rowsOf = (f: Findings): Row[] =>
+  f.strata.flatMap((stratum) => {
+    const rows = stratum.bounds.map((bound) => ({ stratum, bound, who: bound.configuration }));
+    return stratum.agree && rows.length > 1 ? [{ ...rows[0]!, who: `each of ${rows.length}` }] : rows;
+  });
+
+function stepsPerSecond(f: Findings, { family, steps }: Stratum): string {
+  const times = f.times.strata.find((t) => t.family === family);
+  const seconds = times ? 1e-6 * (times.oracle_us + times.detector_us) : 0;
+  return seconds > 0 ? count(Math.round(steps / seconds)) : "\u2013";
+}
+
+export function strata(f: Findings): HTMLElement {
+  const rows = rowsOf(f);
+  const many = rows.length > f.strata.length;
   const plot = logPlot(
     "Upper bound of each stratum, with the bound wanted",
-    run.strata.map((s) => ({
-      label: many ? `${s.family}, ${who(s)}` : s.family,
-      value: s.bound,
-      limit: s.wanted,
-      bad: s.defects > 0 || isAbove(s),
-      words: s.wanted === null ? share(s.bound) : `${share(s.bound)}, wanted at most ${share(s.wanted)}`,
+    rows.map(({ stratum: { family, wanted_bound: wanted }, bound: { bound, defects, met }, who }) => ({
+      label: many ? `${family}, ${who}` : family,
+      value: bound,
+      limit: wanted,
+      bad: defects > 0 || !met,
+      words: wanted === null ? share(bound) : `${share(bound)}, wanted at most ${share(wanted)}`,
     })),
   );
   return section(
     "strata",
     "Strata and bounds",
-    scope(run),
+    scope(f),
     plot,
-    html("p", { class: "note" }, "A disc or a diamond: the bound; a diamond where there is a defect or the bound is above what is wanted; an upright bar: the bound wanted."),
+    html("p", { class: "note" }, "A disc or a diamond: the bound; a diamond where there is a defect or the bound is not met; an upright bar: the bound wanted."),
     table(
       "Trials and bounds by stratum",
       [
-        { head: "stratum", cell: (s: Stratum) => s.family },
-        { head: "configuration", cell: who },
-        { head: "n", cell: (s: Stratum) => (s.n === s.planned ? count(s.n) : `${count(s.n)} of ${count(s.planned)}`), number: true },
-        { head: "holds", cell: (s: Stratum) => count(s.holds), number: true },
-        { head: "defects", cell: (s: Stratum) => count(s.defects), number: true },
-        { head: "undecided", cell: (s: Stratum) => count(s.undecided), number: true },
-        { head: "bound", cell: (s: Stratum) => share(s.bound), number: true },
-        { head: "wanted", cell: (s: Stratum) => (s.wanted === null ? "\u2013" : share(s.wanted)), number: true },
-        { head: "collide", cell: (s: Stratum) => (s.steps ? `${Math.round((100 * s.collisions) / s.steps)} %` : "\u2013"), number: true },
-        { head: "steps/s a core", cell: (s: Stratum) => (s.steps_per_second === null ? "\u2013" : count(Math.round(s.steps_per_second))), number: true },
+        { head: "stratum", cell: (r: Row) => r.stratum.family },
+        { head: "configuration", cell: (r: Row) => r.who },
+        { head: "n", cell: ({ stratum, bound: { n } }: Row) => (n === stratum.planned ? count(n) : `${count(n)} of ${count(stratum.planned)}`), number: true },
+        { head: "holds", cell: (r: Row) => count(r.bound.holds), number: true },
+        { head: "defects", cell: (r: Row) => count(r.bound.defects), number: true },
+        { head: "undecided", cell: (r: Row) => count(open(r.bound)), number: true },
+        { head: "bound", cell: (r: Row) => share(r.bound.bound), number: true },
+        { head: "wanted", cell: ({ stratum: { wanted_bound: wanted } }: Row) => (wanted === null ? "\u2013" : share(wanted)), number: true },
+        { head: "collide", cell: ({ stratum: { steps, collisions } }: Row) => (steps ? `${Math.round((100 * collisions) / steps)} %` : "\u2013"), number: true },
+        { head: "steps/s a core", cell: (r: Row) => stepsPerSecond(f, r.stratum), number: true },
       ],
-      run.strata,
+      rows,
     ),
-    ...configurations(run),
+    ...configurations(f),
   );
 }
 
-function configurations(run: Run): HTMLElement[] {
-  if (run.detector.configurations.length < 2) return [];
-  const names = run.detector.configurations;
+function configurations(f: Findings): HTMLElement[] {
+  if (f.detector.configurations.length < 2) return [];
+  const names = f.detector.configurations.map((c) => c.name);
   return [html("p", { class: "note" }, `The ${counted(names.length, "configuration")}: ${names.join(", ")}.`)];
 }

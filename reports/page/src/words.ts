@@ -1,5 +1,8 @@
 // Numbers and times as people read them.
-import type { Interval, Size } from "./report";
+import type { Size } from "../made/certificate";
+import type { Interval } from "./report";
+
+export const sum = (numbers: number[]): number => numbers.reduce((a, b) => a + b, 0);
 
 export const count = (n: number): string => n.toLocaleString("en-US");
 

@@ -8,7 +8,7 @@
 reports/python/README.md has an example of everything.
 """
 
-from .detector import Detector, State, edge_edge, vertex_face
+from .detector import OPTIONS, Detector, State, edge_edge, vertex_face
 from .errors import AssayError, InputError
 from .frames import Frames, read_frames
 from .judging import CheckedStep, CheckReport, Contact, StepDiff, WrongTime, check, judge

@@ -3,6 +3,8 @@ from typing import Any, Dict, Tuple
 import numpy as np
 import numpy.typing as npt
 
+OPTIONS: Dict[str, Tuple[str, ...]]
+
 class State:
     """What a detector carries from step to step."""
 

@@ -5,6 +5,8 @@ import numpy.typing as npt
 from . import _detector
 from .results import Contacts, StepResult, step_result
 
+OPTIONS = _detector.OPTIONS  # the words of each option
+
 
 class State:
     """What a detector carries from step to step: bytes(state) and pickle keep it."""
@@ -31,9 +33,7 @@ class Detector:
 
     triangles: integers (m, 3), vertices of each, counter-clockwise seen from outside.
     positions: real numbers (n, 3), in your units: the first frame is best.
-    culling: "auto", "view-auto", "view-point", "view-line", "normal-cone", "bvh", "none".
-    start: "verified", "clean", "unknown"; pairs: "all", "first";
-    arithmetic: "exact", "bounded", "double", "float". All as in detector/README.md.
+    culling, start, pairs, arithmetic: words of assay.OPTIONS, explained in detector/README.md.
     threads: how many a step may use; 0: all cores. What comes out does not depend on it.
 
     int32 and float64 in rows of three adjacent numbers are not copied. Other integers and floats are

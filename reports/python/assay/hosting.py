@@ -30,20 +30,8 @@ import traceback
 
 import numpy as np
 
-CLAIMS = (
-    "free-sound", "not-late", "first-time", "first-pairs", "all-pairs", "no-spurious",
-    "deterministic", "total", "candidates",
-)  # fmt: skip
 ANSWERS = ("free", "collision", "undecided")
 KINDS = ("vertex-face", "edge-edge")
-WORDS = {
-    "adjacency": ("all", "not-edge-sharing", "no-shared-vertex"),
-    "coordinates": ("float64", "float32"),
-    "start": ("any", "free", "apart"),
-    "features": ("both", "vertex-face", "edge-edge"),
-    "reports": ("pairs", "no-pairs"),
-}
-LENGTHS = ("margin", "start_distance", "least_nonzero", "largest", "time_tolerance")
 
 
 class Refused(Exception):
@@ -51,22 +39,26 @@ class Refused(Exception):
 
 
 class Hosted:
-    """A class by its word "MODULE:CLASS", described in numbers of the plug-in interface."""
+    """A class by its word "MODULE:CLASS", described in numbers of the plug-in interface.
 
-    def __init__(self, word):
+    `claims` are the words of the claims, in the order of their bits; `members` are those of the
+    contract, each with its words in the order of their numbers, or none if it is a number itself.
+    """
+
+    def __init__(self, word, claims, members):
         module, _, name = word.partition(":")
         self.kind = getattr(importlib.import_module(module), name)
         self.name = str(getattr(self.kind, "name", name))
         self.version = str(getattr(self.kind, "version", "0"))
-        self.claims = sum(1 << _place(claim, CLAIMS, "claims") for claim in set(self.kind.claims))
-        self.contract = dict.fromkeys(WORDS, 0) | dict.fromkeys(LENGTHS, 0.0)
+        self.claims = sum(1 << _place(claim, claims, "claims") for claim in set(self.kind.claims))
+        self.contract = dict.fromkeys(members, 0)
         for member, value in getattr(self.kind, "contract", {}).items():
-            if member in WORDS:
-                self.contract[member] = _place(value, WORDS[member], f"contract: {member}")
-            elif member in LENGTHS:
-                self.contract[member] = float(value)
-            else:
+            if member not in members:
                 raise ValueError(f"contract: {member!r} is none of its members")
+            words = members[member]
+            self.contract[member] = (
+                _place(value, words, f"contract: {member}") if words else float(value)
+            )
 
     def has(self, part):
         return hasattr(self.kind, part)

@@ -1,10 +1,8 @@
 // Cuts and flips: whatever the bytes, a reader answers; it never crashes and never asks for memory
 // that the file's size does not warrant. Worth running under sanitizers.
 #include "corpus/cases/case_file.h"
+#include "corpus/formats/mesh_reader.h"
 #include "corpus/formats/mesh_writer.h"
-#include "corpus/formats/obj_reader.h"
-#include "corpus/formats/off_reader.h"
-#include "corpus/formats/ply_reader.h"
 #include "corpus/queries/query_csv.h"
 #include "tests/corpus/scratch.h"
 
@@ -77,8 +75,11 @@ TEST_F(DamagedFile, Compressed) {
 TEST_F(DamagedFile, CutPlyIsNamedTruncated) {
   const std::string good = bytes_written("good.ply");
   for (std::size_t size = 4; size < good.size(); ++size) {
-    EXPECT_EQ(read_ply(good.substr(0, size), "cut.ply").error().kind, FileProblem::truncated)
-        << size;
+    const Problem problem = read_ply(good.substr(0, size), "cut.ply").error();
+    const auto says_so = [&](std::string_view words) { return bool(says(problem, words)); };
+    EXPECT_TRUE(says_so("no end_header") || says_so("not fit into the rest") ||
+                says_so("the file ends before"))
+        << size << ": " << problem.message;
   }
 }
 

@@ -1,5 +1,3 @@
-#include "corpus/formats/numbers.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,7 +5,7 @@
 #include <string>
 
 #include "corpus/formats/text_lines.h"
-#include "corpus/rational.h"
+#include "corpus/queries/query_csv.h"
 
 namespace assay::corpus {
 namespace {

@@ -9,6 +9,7 @@
 #include "corpus/scenes/box_with_arm.h"
 #include "corpus/scenes/shapes.h"
 #include "corpus/scenes/trigonometry.h"
+#include "tests/problem_words.h"
 
 namespace assay::corpus {
 namespace {
@@ -119,7 +120,7 @@ TEST(Scenes, AUsersMeshIsDeformed) {
     const auto scene = make_scene(info.name, {0, 3, sheet});
     ASSERT_EQ(scene.has_value(), info.takes_mesh);
     if (!scene) {
-      EXPECT_EQ(scene.error().kind, FileProblem::wrong_scene_option);
+      EXPECT_TRUE(says(scene.error(), "it takes no mesh"));
       continue;
     }
     EXPECT_EQ(scene.value().triangles, sheet.triangles);
@@ -142,26 +143,27 @@ TEST(Scenes, DeformationsFollowTheMeshToAnyPlaceAndScale) {
 TEST(Scenes, Problems) {
   const auto unknown = make_scene("nonsense", {});
   ASSERT_FALSE(unknown);
-  EXPECT_EQ(unknown.error().kind, FileProblem::unknown_scene);
-  EXPECT_NE(unknown.error().message.find("arm-in-box"), std::string::npos);
-  const auto wrong = [](const SceneOptions& options) {
+  EXPECT_TRUE(says(unknown.error(), "no scene is named nonsense; there are "));
+  EXPECT_TRUE(says(unknown.error(), "arm-in-box"));
+  const auto expect = [](std::string_view words, const SceneOptions& options) {
     const auto scene = make_scene("bend", options);
-    return !scene && scene.error().kind == FileProblem::wrong_scene_option;
+    ASSERT_FALSE(scene) << words;
+    EXPECT_TRUE(says(scene.error(), words));
   };
-  EXPECT_TRUE(wrong({-1, 0, {}}));
-  EXPECT_TRUE(wrong({2'000'000'000, 0, {}}));
-  EXPECT_TRUE(wrong({0, -1, {}}));
-  EXPECT_TRUE(wrong({0, 1'000'000'000, {}}));
-  EXPECT_TRUE(wrong({0, 0, Mesh{}}));
+  expect("triangles, not -1", {-1, 0, {}});
+  expect("are more than 8 GB", {2'000'000'000, 0, {}});
+  expect("frames, not -1", {0, -1, {}});
+  expect("are more than 8 GB", {0, 1'000'000'000, {}});
+  expect("the mesh has no triangle", {0, 0, Mesh{}});
   Mesh mesh = sheet_shape(2);
   mesh.triangles(0, 0) = 99;
-  EXPECT_TRUE(wrong({0, 0, mesh}));
+  expect("an index out of range", {0, 0, mesh});
   mesh = sheet_shape(2);
   mesh.positions(0, 0) = std::nan("");
-  EXPECT_TRUE(wrong({0, 0, mesh}));
+  expect("an index out of range", {0, 0, mesh});
   mesh = sheet_shape(2);
   mesh.positions *= 1.7e308;
-  EXPECT_TRUE(wrong({0, 3, mesh}));
+  expect("too large to be deformed", {0, 3, mesh});
 }
 
 TEST(Scenes, PassagesEndWhereTheyBegan) {

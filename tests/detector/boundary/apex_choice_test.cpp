@@ -1,11 +1,10 @@
 // What choosing apexes costs, counted in operations: linear in the triangles, whatever their loops.
-#include "detector/boundary/apex_choice.h"
-
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <cmath>
 
+#include "detector/boundary/apex.h"
 #include "detector/detector.h"
 #include "tests/detector/points.h"
 

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "detector/contact/contact_exact.h"
-#include "detector/contact/fixed_piece.h"
+#include "detector/contact/fixed_products.h"
 #include "detector/contact/fixed_root.h"
 #include "detector/exact/real_root.h"
 #include "tests/detector/exact/tarski.h"

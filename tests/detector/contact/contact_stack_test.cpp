@@ -6,7 +6,7 @@
 
 #include "detector/contact/contact_exact.h"
 #include "detector/contact/elementary.h"
-#include "detector/contact/piercing.h"
+#include "detector/geometry/orientation.h"
 #include "tests/detector/points.h"
 #include "tests/detector/small_stack.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "detector/bernstein/bernstein.h"
+#include "detector/exact/bernstein.h"
 #include "detector/exact/integer.h"
 
 namespace assay::detector {

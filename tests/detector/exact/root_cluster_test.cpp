@@ -1,13 +1,12 @@
 // Roots that share a gap between doubles, made from the roots themselves: each must be found, in
 // order, and the work must grow with the logarithm of the bits that separate them.
-#include "detector/exact/root_cluster.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdio>
 
 #include "detector/exact/real_root.h"
+#include "detector/exact/root_isolation.h"
 
 namespace assay::detector {
 namespace {

@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <random>
 
-#include "detector/geometry/crossing_signs.h"
 #include "tests/detector/points.h"
 #include "tests/detector/view/revolved.h"
 

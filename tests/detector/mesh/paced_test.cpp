@@ -7,9 +7,9 @@
 #include <random>
 
 #include "detector/mesh/mesh_checks.h"
-#include "detector/mesh/paced_sort.h"
+#include "detector/mesh/paced_stop.h"
 #include "detector/mesh/surface.h"
-#include "detector/search/feature_boxes.h"
+#include "detector/search/feature_pairs.h"
 #include "detector/search/representatives.h"
 #include "detector/traditional/traditional.h"
 #include "tests/detector/search/search_meshes.h"

@@ -1,12 +1,12 @@
 // The list of contacts against a plain one, and what it takes.
-#include "detector/mesh/pair_contacts.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <map>
 #include <random>
 #include <tuple>
+
+#include "detector/search/feature_contacts.h"
 
 namespace assay::detector {
 namespace {

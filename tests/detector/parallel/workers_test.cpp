@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "detector/parallel/for_all.h"
-#include "detector/parallel/shared_stop.h"
 
 namespace assay::detector {
 namespace {

@@ -1,6 +1,4 @@
 // What diagonals tell apart is strictly ordered along one of them in exact arithmetic.
-#include "detector/search/feature_boxes.h"
-
 #include <gtest/gtest.h>
 
 #include <boost/multiprecision/cpp_int.hpp>
@@ -8,6 +6,7 @@
 #include <random>
 
 #include "detector/detector.h"
+#include "detector/search/feature_pairs.h"
 #include "tests/detector/points.h"
 
 namespace assay::tests {

@@ -5,7 +5,7 @@
 #include <random>
 #include <set>
 
-#include "detector/search/triangle_type.h"
+#include "detector/search/pair_rule.h"
 #include "tests/detector/points.h"
 
 namespace assay::tests {

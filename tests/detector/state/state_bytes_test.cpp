@@ -107,9 +107,7 @@ TEST(StateBytes, AreTheSameStateAgain) {
 }
 
 TEST(StateBytes, OfEveryCullingBeforeAndAfterSteps) {
-  for (const auto culling :
-       {Culling::view_auto, Culling::view_point, Culling::view_line, Culling::normal_cone,
-        Culling::bvh, Culling::none, Culling::automatic}) {
+  for (const auto culling : all_values<Culling>) {
     for (const int steps : {0, 1, 2}) {
       Detector detector = passed(culling, steps);
       const auto bytes = detector.state().bytes();
@@ -122,13 +120,13 @@ TEST(StateBytes, OfEveryCullingBeforeAndAfterSteps) {
   }
 }
 
-// The form is for ever: what an older build of version 1 has saved is read by a newer one.
+// The form is for ever: what an older build of version 2 has saved is read by a newer one.
 TEST(StateBytes, HaveTheFormThatIsStated) {
   StateFields state;
   state.mesh = 0x0123456789abcdef;
   state.culling = Culling::bvh;
   state.apex_rules = {{-.25}};
-  Bytes expected = {'a', 's', 's', 'a', 'y', 'S', 'A', 'V', 1, 0, 0, 0, 0, 0, 0, 0};
+  Bytes expected = {'a', 's', 's', 'a', 'y', 'S', 'A', 'V', 2, 0, 0, 0, 0, 0, 0, 0};
   expected.insert(expected.end(), {66, 0, 0, 0, 0, 0, 0, 0});                         // bytes
   expected.insert(expected.end(), {0xef, 0xcd, 0xab, 0x89, 0x67, 0x45, 0x23, 0x01});  // mesh
   expected.insert(expected.end(), {4, 0});  // bvh, no step committed
@@ -199,11 +197,13 @@ TEST(StateBytes, WrongFieldsUnderARightChecksumAreRefused) {
     seal(changed);
     EXPECT_FALSE(read_state(changed));
   }
-  // A version to come.
-  Bytes later = whole;
-  later[8] = 2;
-  seal(later);
-  EXPECT_EQ(read_state(later).error().error, InputError::other_state_version);
+  // A version of before, and one to come.
+  for (const std::uint8_t version : {1, 3}) {
+    Bytes other = whole;
+    other[8] = version;
+    seal(other);
+    EXPECT_EQ(read_state(other).error().error, InputError::other_state_version);
+  }
 }
 
 // By component there may be a view primitive or none, in any order.

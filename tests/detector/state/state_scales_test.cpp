@@ -11,9 +11,6 @@
 namespace assay::detector {
 namespace {
 
-constexpr Culling all_cullings[] = {Culling::view_auto,   Culling::view_point, Culling::view_line,
-                                    Culling::normal_cone, Culling::bvh,        Culling::none};
-
 struct ScaledMesh {
   const char* name;
   Triangles triangles;
@@ -54,7 +51,7 @@ void expect_taken_back(Detector& detector, const ScaledMesh& mesh, Culling culli
 }
 
 void expect_states_at(const ScaledMesh& mesh, const Positions& x, const Positions& next) {
-  for (const auto culling : all_cullings) {
+  for (const auto culling : all_values<Culling>) {
     auto made = Detector::create(mesh.triangles, x, {culling});
     ASSERT_TRUE(made.has_value());
     expect_taken_back(made.value(), mesh, culling, x, next);

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "detector/detector.h"
-#include "detector/state/state_fields.h"
+#include "detector/state/step_state.h"
 #include "tests/detector/contact/same_contacts.h"
 #include "tests/detector/points.h"
 #include "tests/detector/view/revolved.h"
@@ -95,85 +95,6 @@ TEST(Release, L9_LastingContactsAreCounted) {
   }
   EXPECT_GT(still.counts.release.in_doubt, 0u);
   EXPECT_EQ(still.counts.release.pairs, looked_at);
-}
-
-TEST(Release, TheCoarseFormsReleaseNoMore) {
-  const Positions in = octahedron_positions(2), out = tip_at(1.5);
-  Options model = with_points(), view = model, boxes = model;
-  model.release = Release::model;
-  view.release = Release::view;
-  boxes.ghost_test = GhostTest::boxes;
-  for (const auto& options : {model, view, boxes}) {
-    Detector fine = make(), coarse = make(options);
-    const Positions* from = &in;
-    std::uint64_t near = 0;
-    for (const auto* x : {&in, &out, &out, &in, &in}) {
-      const auto a = fine.step(*from, *x), b = coarse.step(*from, *x);
-      from = x;
-      EXPECT_EQ(a.answer, b.answer);
-      for (std::size_t t = 0; t < a.doubts.size(); ++t) {
-        EXPECT_EQ(a.doubts[t] & ~b.doubts[t], 0) << "triangle " << t;
-      }
-      // What the coarse form would violate is counted beside the exact one.
-      near += a.counts.ghosts.near_triangles;
-      if (options.ghost_test == GhostTest::boxes && !b.doubts.empty()) {
-        EXPECT_EQ(b.violated, b.counts.ghosts.near_triangles);
-        EXPECT_GE(a.counts.ghosts.near_triangles, a.violated);
-      }
-    }
-    EXPECT_GT(near, 0u);
-  }
-}
-
-// By L5 alone nothing is released that is not free: the tip is back, and no longer seen positive.
-TEST(Release, L5_ByViewAloneWhatIsNotFreeStaysInDoubt) {
-  const Positions in = octahedron_positions(2), out = tip_at(1.5), near = tip_at(.5);
-  Options options = with_points();
-  options.release = Release::view;
-  Detector detector = make(options);
-  Detector fine = make();
-  for (Detector* each : {&detector, &fine}) {
-    each->step(in, out);
-    each->step(out, near);
-  }
-  const auto after = detector.step(near, near);
-  EXPECT_GT(fine.step(near, near).counts.release.released, 0u) << "L9 releases more";
-  EXPECT_GT(after.counts.release.in_doubt, 0u);
-  EXPECT_EQ(after.counts.release.released, 0u);
-  EXPECT_EQ(after.dirty, after.counts.release.in_doubt);
-}
-
-// Release::model takes each component by itself: a tip that is still out keeps its own component in
-// doubt and no other one.
-TEST(Release, L9_ByModelAComponentInDoubtHoldsUpNoOther) {
-  constexpr double apart = 20;
-  const auto both = [apart](const Positions& a, const Positions& b) {
-    Positions x(12, 3);
-    x << a, b.rowwise() + Eigen::RowVector3d(apart, 0, 0);
-    return x;
-  };
-  Triangles two(14, 3);
-  two << with_hole(), with_hole().array() + 6;
-  const Positions in = octahedron_positions(2), out = tip_at(1.5), near = tip_at(.5);
-  Options options = with_points();
-  options.release = Release::model;
-  for (const bool first_stays : {true, false}) {
-    const auto x = [&](const Positions& stays, const Positions& returns) {
-      return first_stays ? both(stays, returns) : both(returns, stays);
-    };
-    Detector detector = std::move(Detector::create(two, x(in, in), options).value());
-    Detector alone = make(options);
-    const Positions* from[] = {&in, &in};
-    for (const auto& to : {std::array{&out, &out}, {&out, &in}, {&out, &near}}) {
-      const auto result = detector.step(x(*from[0], *from[1]), x(*to[0], *to[1]));
-      const auto expected = alone.step(*from[1], *to[1]);
-      from[0] = to[0], from[1] = to[1];
-      EXPECT_EQ(result.counts.release.released, expected.counts.release.released) << first_stays;
-      if (to[1] != &near) continue;
-      EXPECT_GT(expected.counts.release.released, 0u);
-      EXPECT_GT(result.dirty, 0u) << "of the one that stays out";
-    }
-  }
 }
 
 // A component with two holes: what stays out of either is in doubt, as it is at a new start.

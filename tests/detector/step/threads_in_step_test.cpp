@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "detector/detector.h"
-#include "detector/state/state_fields.h"
+#include "detector/state/step_state.h"
 #include "tests/detector/contact/same_contacts.h"
 #include "tests/detector/search/search_meshes.h"
 

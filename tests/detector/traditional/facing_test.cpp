@@ -1,10 +1,9 @@
-#include "detector/traditional/facing.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
+#include "detector/traditional/moving_contour.h"
 #include "tests/detector/exact/exact_numbers.h"
 
 namespace assay::detector {

@@ -1,9 +1,8 @@
-#include "detector/traditional/sample_patches.h"
-
 #include <gtest/gtest.h>
 
 #include <set>
 
+#include "detector/traditional/patch_contours.h"
 #include "tests/detector/view/revolved.h"
 
 namespace assay::detector {

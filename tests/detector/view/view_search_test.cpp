@@ -107,7 +107,7 @@ TEST(ViewAnchorKind, IsALineWhereThatAloneSeesAll) {
   EXPECT_EQ(positive_from(chosen), all);
 }
 
-// A step of culling bvh is worth 160 box tests a triangle and more (apex_choice.h), and a detector
+// A step of culling bvh is worth 160 box tests a triangle and more (apex.h), and a detector
 // may take three to be created, of which adjacency and tree are one. On all planes lines alone
 // would take three.
 TEST(ViewAnchorWork, IsLessThanTwoStepsOfBvh) {

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "detector/view/view_exact.h"
 #include "detector/view/view_filter.h"
 #include "tests/detector/points.h"
 #include "tests/detector/small_stack.h"

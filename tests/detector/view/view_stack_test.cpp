@@ -4,7 +4,6 @@
 #include <cmath>
 #include <random>
 
-#include "detector/view/view_exact.h"
 #include "detector/view/view_signs.h"
 #include "tests/detector/points.h"
 #include "tests/detector/small_stack.h"

@@ -1,4 +1,4 @@
-#include "oracle/instant/embedding.h"
+#include "tests/oracle/embedding.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "oracle/instant/embedding.h"
+#include "tests/oracle/embedding.h"
 #include "tests/oracle/small_meshes.h"
 
 namespace assay::oracle {

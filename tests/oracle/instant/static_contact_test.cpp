@@ -1,5 +1,3 @@
-#include "oracle/instant/static_contact.h"
-
 #include <gtest/gtest.h>
 
 #include <cstdio>

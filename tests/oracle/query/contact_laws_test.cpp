@@ -3,12 +3,9 @@
 
 #include <cstdio>
 
-#include "oracle/query/algebraic_answer.h"
-#include "oracle/query/axis_rung.h"
 #include "oracle/query/contact.h"
-#include "oracle/query/interval_rung.h"
-#include "oracle/query/quadratic_rung.h"
-#include "oracle/query/times/simple_zero.h"
+#include "oracle/query/rungs.h"
+#include "oracle/query/times/time_enclosure.h"
 #include "tests/oracle/random_points.h"
 
 namespace assay::oracle {
@@ -27,7 +24,7 @@ constexpr int queries_per_kind = 300;
 struct FeatureQuery {
   FourPoints q;
   ContactAnswer judge(Want want = Want::first_time) const {
-    const auto& x = q.x;
+    const auto& x = q.points;
     return q.first_group == 1 ? vertex_face_contact({x[0], {x[1], x[2], x[3]}}, want)
                               : edge_edge_contact({{x[0], x[1]}, {x[2], x[3]}}, want);
   }
@@ -41,10 +38,10 @@ void for_random_queries(std::uint64_t seed, const Law& law) {
     for (int i = 0; i < queries_per_kind; ++i) {
       FeatureQuery query;
       query.q.first_group = 1 + i % 2;
-      for (MovingPoint& p : query.q.x) {
+      for (MovingPoint& p : query.q.points) {
         p = test::random_point(random, static_cast<Coordinates>(kind));
       }
-      if (random.below(6) == 0) query.q.x[3] = query.q.x[random.below(3)];
+      if (random.below(6) == 0) query.q.points[3] = query.q.points[random.below(3)];
       ++queries;
       contacts += query.judge(Want::yes_no).contact;
       law(query);
@@ -89,7 +86,7 @@ TEST(ContactLaws, WantDoesNotChangeTheAnswer) {
 TEST(ContactLaws, TimeReversalKeepsTheAnswer) {
   for_random_queries(13, [](const FeatureQuery& query) {
     FeatureQuery back = query;
-    for (MovingPoint& p : back.q.x) std::swap(p.t0, p.t1);
+    for (MovingPoint& p : back.q.points) std::swap(p.t0, p.t1);
     const ContactAnswer forward = query.judge(), reversed = back.judge();
     EXPECT_EQ(forward.contact, reversed.contact);
     if (!forward.contact) return;
@@ -107,16 +104,16 @@ TEST(ContactLaws, OrderOfPointsDoesNotMatter) {
       EXPECT_EQ(answer.first, expected.first);
     };
     FeatureQuery other = query;
-    std::swap(other.q.x[2], other.q.x[3]);
+    std::swap(other.q.points[2], other.q.points[3]);
     same(other);
     if (query.q.first_group == 2) {
-      std::swap(other.q.x[0], other.q.x[1]);
+      std::swap(other.q.points[0], other.q.points[1]);
       same(other);
-      std::swap(other.q.x[0], other.q.x[2]);
-      std::swap(other.q.x[1], other.q.x[3]);
+      std::swap(other.q.points[0], other.q.points[2]);
+      std::swap(other.q.points[1], other.q.points[3]);
       same(other);
     } else {
-      std::swap(other.q.x[1], other.q.x[2]);
+      std::swap(other.q.points[1], other.q.points[2]);
       same(other);
     }
   });
@@ -125,7 +122,7 @@ TEST(ContactLaws, OrderOfPointsDoesNotMatter) {
 TEST(ContactLaws, AxesAreAlike) {
   for_random_queries(15, [](const FeatureQuery& query) {
     FeatureQuery other = query;
-    for (MovingPoint& p : other.q.x) {
+    for (MovingPoint& p : other.q.points) {
       p = {{p.t0[1], p.t0[2], -p.t0[0]}, {p.t1[1], p.t1[2], -p.t1[0]}};
     }
     const ContactAnswer expected = query.judge(), answer = other.judge();
@@ -139,7 +136,7 @@ TEST(ContactLaws, PowersOfTwoDoNotChangeTheTime) {
     const ContactAnswer expected = query.judge();
     for (const int exponent : {-900, -60, 7, 900}) {
       FeatureQuery other = query;
-      for (MovingPoint& p : other.q.x) {
+      for (MovingPoint& p : other.q.points) {
         for (int k = 0; k < 3; ++k) {
           p.t0[k] = std::ldexp(p.t0[k], exponent);
           p.t1[k] = std::ldexp(p.t1[k], exponent);
@@ -163,8 +160,8 @@ TEST(ContactLaws, AContactOfAFaceIsAContactOfALargerFace) {
       for (int i = 2; i < 4; ++i) {
         for (int k = 0; k < 3; ++k) {
           // Exact: twice a double is one, and the differences used here are when on a grid.
-          double& x = (larger.q.x[i].*end)[k];
-          const double corner = (query.q.x[1].*end)[k];
+          double& x = (larger.q.points[i].*end)[k];
+          const double corner = (query.q.points[1].*end)[k];
           const double doubled = 2 * (x - corner) + corner;
           if ((doubled - corner) / 2 + corner != x || std::fabs(x) > 4 || x != std::floor(x))
             return;

@@ -5,9 +5,8 @@
 #include <cmath>
 
 #include "oracle/mesh/box_tree.h"
-#include "oracle/query/integer_scale.h"
+#include "oracle/query/integer_polynomial.h"
 #include "oracle/query/times/algebraic_times.h"
-#include "oracle/query/times/simple_zero.h"
 #include "oracle/query/times/time_enclosure.h"
 #include "tests/oracle/random_points.h"
 

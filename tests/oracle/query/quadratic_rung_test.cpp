@@ -1,12 +1,10 @@
 // The rung "quadratic": queries with known times, and random queries beside the algebraic kernel.
-#include "oracle/query/quadratic_rung.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdio>
 
-#include "oracle/query/algebraic_answer.h"
+#include "oracle/query/rungs.h"
 #include "tests/oracle/random_points.h"
 
 namespace assay::oracle {
@@ -139,9 +137,9 @@ MovingPoint mirrored(const MovingPoint& p) {
 FourPoints random_query(Random& random, Coordinates kind, Shape shape) {
   FourPoints q;
   q.first_group = 1 + random.below(2);
-  for (MovingPoint& p : q.x) p = test::random_point(random, kind);
+  for (MovingPoint& p : q.points) p = test::random_point(random, kind);
   auto each_end = [&](const auto& change) {
-    for (MovingPoint& p : q.x) {
+    for (MovingPoint& p : q.points) {
       change(p.t0);
       change(p.t1);
     }
@@ -150,22 +148,23 @@ FourPoints random_query(Random& random, Coordinates kind, Shape shape) {
     case Shape::free:
       break;
     case Shape::mirrored:
-      q.x[2] = mirrored(q.x[0]);
-      if (random.below(2) == 0) q.x[3] = mirrored(q.x[1]);
+      q.points[2] = mirrored(q.points[0]);
+      if (random.below(2) == 0) q.points[3] = mirrored(q.points[1]);
       break;
     case Shape::planar: {
       const double z0 = random.integer(3), z1 = random.integer(3);
-      for (MovingPoint& p : q.x) p.t0[2] = z0, p.t1[2] = z1;
+      for (MovingPoint& p : q.points) p.t0[2] = z0, p.t1[2] = z1;
       break;
     }
     case Shape::sheared_plane:
       each_end([](Point& p) { p[2] = -p[0]; });
       break;
     case Shape::common_motion: {
-      const MovingPoint first = q.x[0];
+      const MovingPoint first = q.points[0];
       for (int i = 1; i < 4; ++i) {
         if (random.below(3) == 0) continue;
-        for (int k = 0; k < 3; ++k) q.x[i].t1[k] = q.x[i].t0[k] + (first.t1[k] - first.t0[k]);
+        for (int k = 0; k < 3; ++k)
+          q.points[i].t1[k] = q.points[i].t0[k] + (first.t1[k] - first.t0[k]);
       }
       break;
     }
@@ -173,7 +172,7 @@ FourPoints random_query(Random& random, Coordinates kind, Shape shape) {
       each_end([](Point& p) { p[1] = p[2] = p[0]; });
       break;
   }
-  if (random.below(6) == 0) q.x[3] = q.x[random.below(3)];
+  if (random.below(6) == 0) q.points[3] = q.points[random.below(3)];
   return q;
 }
 
@@ -201,9 +200,11 @@ TEST(QuadraticRung, RandomContactsOnBorders) {
   int cubics = 0;
   for (int i = 0; i < 200; ++i) {
     FourPoints q;
-    for (MovingPoint& p : q.x) p = test::random_point(random, Coordinates::tiny_grid);
+    for (MovingPoint& p : q.points) p = test::random_point(random, Coordinates::tiny_grid);
     for (int k = 0; k < 3; ++k) {  // x0 = (x1 + x2) / 2 at t = 1/2
-      q.x[0].t1[k] = (q.x[1].t0[k] + q.x[1].t1[k] + q.x[2].t0[k] + q.x[2].t1[k]) / 2 - q.x[0].t0[k];
+      q.points[0].t1[k] =
+          (q.points[1].t0[k] + q.points[1].t1[k] + q.points[2].t0[k] + q.points[2].t1[k]) / 2 -
+          q.points[0].t0[k];
     }
     ContactPolynomials polynomials(q);
     cubics += polynomials.coplanarity().degree() == 3;

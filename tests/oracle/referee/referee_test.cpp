@@ -9,7 +9,6 @@
 
 #include "oracle/query/contact.h"
 #include "oracle/referee/existence.h"
-#include "oracle/referee/separation.h"
 #include "tests/oracle/query/query_kinds.h"
 
 namespace assay::oracle {

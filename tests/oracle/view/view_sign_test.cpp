@@ -5,7 +5,6 @@
 
 #include <cstdio>
 
-#include "oracle/view/exact_view.h"
 #include "tests/oracle/random_points.h"
 #include "tests/oracle/small_meshes.h"
 

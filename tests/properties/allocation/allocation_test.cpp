@@ -8,7 +8,7 @@
 #include <new>
 
 #include "corpus/scenes/scenes.h"
-#include "detector/contact/contact_bounded.h"
+#include "detector/contact/contact_doubles.h"
 #include "detector/contact/contact_filter.h"
 #include "detector/contact/contact_fixed.h"
 #include "detector/detector.h"

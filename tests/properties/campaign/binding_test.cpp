@@ -1,10 +1,10 @@
 // What a run rests on: its binding, its canary, and laws that were met too seldom.
-#include "properties/campaign/stored/binding.h"
+#include "properties/campaign/ledger/binding.h"
 
 #include <gtest/gtest.h>
 
-#include "properties/campaign/phases/canary.h"
-#include "properties/campaign/stored/count_names.h"
+#include "properties/campaign/ledger/tally.h"
+#include "properties/campaign/phases/fault_hunt.h"
 #include "properties/campaign/trials/trials.h"
 #include "properties/laws/law.h"
 #include "tests/properties/campaign/campaign_request.h"
@@ -63,23 +63,23 @@ TEST(Canary, IsRegisteredAndFound) {
 
 TEST(Starved, LawsAreNamed) {
   const std::string name(laws()[0].name);
-  Counts counts;
+  TrialCounts counts;
   for (const auto& law : laws()) {
-    counts["law:" + std::string(law.name) + "/premise"] = 100;
-    counts["law:" + std::string(law.name) + "/close"] = 25;
+    auto& count = counts.laws[std::string(law.name)];
+    count = {100, 25, 0, {}};
     for (const char* culling : {"auto", "view-auto", "view-point", "view-line"})
-      counts["law:" + std::string(law.name) + "/premise/" + culling] = 50;
+      count.by_culling[culling] = 50;
   }
   EXPECT_TRUE(starved_laws(counts, 100).empty());
   EXPECT_EQ(starved_laws(counts, 101).size(), laws().size());
-  counts["law:" + name + "/close"] = 24;
+  counts.laws[name].close = 24;
   ASSERT_EQ(starved_laws(counts, 100).size(), 1u);
   EXPECT_NE(starved_laws(counts, 100)[0].find(name), std::string::npos);
-  counts.erase("law:" + name + "/premise");
+  counts.laws[name].premise = 0;
   EXPECT_NE(starved_laws(counts, 1).at(0).find("held 0 times"), std::string::npos);
   EXPECT_TRUE(starved_laws(counts, 0).empty());
   const auto under = [&](const char* law, const char* culling) -> std::uint64_t& {
-    return counts["law:" + std::string(law) + "/premise/" + culling];
+    return counts.laws[law].by_culling[culling];
   };
   const std::size_t before = starved_laws(counts, 100).size();
   under("L8_CarriedCleanIsClean", "view-line") = 4;  // a tenth of 100 is 10
@@ -93,7 +93,7 @@ TEST(Starved, LawsAreNamed) {
                       "wanted"),
             lines.end());
   EXPECT_EQ(broken_laws(counts), 0u);
-  counts["law:" + name + "/broken"] = 3;
+  counts.laws[name].broken = 3;
   EXPECT_EQ(broken_laws(counts), 1u);
 }
 

@@ -1,8 +1,7 @@
-#include "properties/campaign/trials/clean_starts.h"
-
 #include <gtest/gtest.h>
 
 #include "properties/campaign/phases/shrink.h"
+#include "properties/campaign/trials/planned_case.h"
 #include "properties/generators/families.h"
 #include "properties/judging/case_check.h"
 #include "tests/properties/campaign/campaign_request.h"
@@ -89,8 +88,8 @@ TEST(CleanStarts, OfATrialAreStoredWithItsFailures) {
       if (family.name != r.family) continue;
       vouched[r.id] = is_vouched_for(request.detector, make_case(family, r.id).c, r.index);
     }
-    EXPECT_EQ(r.counts.count("tag:start:clean"), vouched.at(r.id) ? 1u : 0u) << r.id;
-    EXPECT_EQ(r.counts.count("tag:start:verified"), vouched.at(r.id) ? 0u : 1u) << r.id;
+    EXPECT_EQ(r.counts.tags.count("start:clean"), vouched.at(r.id) ? 1u : 0u) << r.id;
+    EXPECT_EQ(r.counts.tags.count("start:verified"), vouched.at(r.id) ? 0u : 1u) << r.id;
   });
   std::map<bool, int> failures;
   for (const auto& failure : store->failures()) {

@@ -1,5 +1,5 @@
 // Every kind of evidence survives its row, and what no run stores is refused.
-#include "properties/campaign/stored/evidence.h"
+#include "properties/campaign/ledger/evidence.h"
 
 #include <gtest/gtest.h>
 
@@ -22,10 +22,10 @@ template <class T>
 void expect_same_row(const T& evidence, const T& back) {
   const auto one = to_row(evidence), other = to_row(back);
   EXPECT_EQ(one.kind, other.kind);
-  EXPECT_EQ(one.name, other.name);
+  EXPECT_EQ(one.key, other.key);
   EXPECT_EQ(one.shard, other.shard);
   EXPECT_EQ(one.progress, other.progress);
-  EXPECT_EQ(one.facts, other.facts);
+  EXPECT_EQ(one.fields, other.fields);
 }
 
 TEST(Evidence, EveryKindSurvivesItsRow) {
@@ -69,11 +69,11 @@ TEST(Evidence, WhatNoRunStoresIsRefused) {
   EXPECT_THROW(facts.take({"tea", "green", "1/1", 1, "{}"}), StoreProblem);
   auto row = to_row(Canary{"x", "1/1", 3});
   for (const char* wrong : {"", "{", "[]", "{}", R"({"found_after": "soon"})"}) {
-    row.facts = wrong;
+    row.fields = wrong;
     EXPECT_THROW(facts.take(row), StoreProblem) << wrong;
   }
   auto proof = to_row(fault_proof("a", FaultStatus::planted, true));
-  proof.facts.replace(proof.facts.find("planted"), 7, "planned");
+  proof.fields.replace(proof.fields.find("planted"), 7, "planned");
   EXPECT_THROW(facts.take(proof), StoreProblem);
 }
 

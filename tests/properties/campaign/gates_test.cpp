@@ -109,8 +109,8 @@ TEST(Gates, AnUnsoundHarnessCertifiesNothing) {
         f.evidence.problems = {{"1/1", "no worker"}};
       },
       [](auto& f) { f.evidence.self_test[0].contradictions = 1; },
-      [](auto& f) { f.tally.counts["law:" + std::string(laws()[0].name) + "/premise"] = 3; },
-      [](auto& f) { f.tally.counts["law:" + std::string(laws()[0].name) + "/close"] = 1; },
+      [](auto& f) { f.tally.counts.laws[std::string(laws()[0].name)].premise = 3; },
+      [](auto& f) { f.tally.counts.laws[std::string(laws()[0].name)].close = 1; },
       // A defect without a failure that was stored, and the other way round.
       [](auto& f) { f.tally.strata["broken"].by_configuration[0].defects = 1; },
       [](auto& f) { f.times_met["free-sound: missing"] = 1; }};
@@ -127,7 +127,7 @@ TEST(Gates, AnUnsoundHarnessCertifiesNothing) {
 
 TEST(Gates, ACheckOfTheHarnessThatLacksTrialsIsNotJudged) {
   const Change starved = [](auto& f) {
-    f.tally.counts["law:" + std::string(laws()[0].name) + "/premise"] = 3;
+    f.tally.counts.laws[std::string(laws()[0].name)].premise = 3;
   };
   const Change short_of_one = [](auto& f) { f.tally.strata["broken"].trials = 19; };
   expect(judged_after({starved, short_of_one}), Gate::complete, "incomplete", 3);
@@ -237,7 +237,7 @@ TEST(Gates, WithoutContactsInsideTheContractNothingIsCertified) {
   const auto contacts = [](std::size_t stratum, std::uint64_t trials) -> Change {
     return [=](auto& f) {
       const auto& family = f.run.plan.strata[stratum].family;
-      f.tally.strata[family].measures["measure:contact-trials"] = trials;
+      f.tally.strata[family].measures.contact_trials = trials;
     };
   };
   const Change plug_in = [](auto& f) { f.run.detector.built_in = false; };
@@ -286,8 +286,8 @@ TEST(Gates, WithoutContactsInsideTheContractNothingIsCertified) {
   const Change only_wide_times = [](auto& f) {
     f.run.detector.configurations[0].claims = {"first-time"};
     for (auto& [family, tally] : f.tally.strata) {
-      tally.measures["measure:collisions"] = 2;
-      tally.measures["measure:without-time"] = 2;
+      tally.measures.errors.steps = tally.measures.errors.contact = 2;
+      tally.measures.without_time = 2;
     }
   };
   const auto unjudged = judged_after({plug_in, only_wide_times});
@@ -319,12 +319,12 @@ TEST(Gates, ContactsOfQueriesDoNotStandForThoseOfSteps) {
   const auto none =
       judged_after({with_queries, [](auto& f) {
                       for (const char* family : {"broken", "closed-generic", "unclosed-generic"})
-                        f.tally.strata[family].measures.clear();
+                        f.tally.strata[family].measures = {};
                     }});
   expect(none, Gate::complete, "incomplete", 3);
   EXPECT_EQ(none.of(Gate::complete).reasons.back(), "free-sound: no step had a contact");
   const auto no_query =
-      judged_after({with_queries, [](auto& f) { f.tally.strata["query-ulp"].measures.clear(); }});
+      judged_after({with_queries, [](auto& f) { f.tally.strata["query-ulp"].measures = {}; }});
   expect(no_query, Gate::complete, "incomplete", 3);
   EXPECT_EQ(no_query.of(Gate::complete).reasons.back(),
             "2 of 3 families of queries have a contact inside the contract, 3 are wanted");

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "properties/campaign/gates/gates.h"
-#include "properties/campaign/stored/count_names.h"
+#include "properties/campaign/ledger/tally.h"
 
 namespace assay::properties::test {
 
@@ -31,9 +31,8 @@ inline StratumTally good_tally(std::uint64_t trials) {
   StratumTally tally;
   tally.trials = trials;
   tally.by_configuration = {{trials, 0, 0, 0}};
-  tally.measures = {{"measure:steps", trials},
-                    {"measure:contact-steps", trials},
-                    {"measure:contact-trials", trials}};
+  tally.measures.errors.steps = tally.measures.errors.contact = trials;
+  tally.measures.contact_trials = trials;
   return tally;
 }
 

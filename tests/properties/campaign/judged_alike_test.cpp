@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "properties/campaign/ledger/tally.h"
 #include "tests/properties/campaign/campaign_request.h"
 #include "tests/properties/small_case.h"
 #include "tests/reports/program.h"

@@ -1,6 +1,4 @@
 // A crash inside a law is a broken law, and nothing else is lost by it.
-#include "properties/campaign/trials/law_checks.h"
-
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -10,6 +8,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "properties/campaign/trials/case_tally.h"
 #include "tests/reports/program.h"
 
 namespace assay::properties {

@@ -9,8 +9,8 @@
 
 #include "corpus/cases/case_file.h"
 #include "detector/mesh/topology.h"
+#include "properties/campaign/ledger/binding.h"
 #include "properties/campaign/phases/repetitions.h"
-#include "properties/campaign/stored/binding.h"
 #include "tests/properties/campaign/campaign_request.h"
 #include "tests/properties/small_case.h"
 #include "tests/reports/program.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-#include "corpus/json_text.h"
+#include "corpus/json_fields.h"
 #include "properties/generators/families.h"
 #include "tests/reports/program.h"
 

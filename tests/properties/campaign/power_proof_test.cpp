@@ -1,11 +1,12 @@
 // What a folder lacks to be the proof of planted faults, by name: a caller may then tell a wrong
 // folder from a run that has to be repeated.
-#include "properties/campaign/stored/power_proof.h"
+#include "properties/campaign/phases/power_proof.h"
 
 #include <gtest/gtest.h>
 
-#include "properties/campaign/stored/binding.h"
-#include "properties/campaign/stored/run_folder.h"
+#include "properties/campaign/ledger/binding.h"
+#include "properties/campaign/ledger/run_folder.h"
+#include "tests/problem_words.h"
 #include "tests/properties/campaign/campaign_request.h"
 #include "tests/properties/campaign/good_findings.h"
 #include "tests/reports/program.h"
@@ -36,10 +37,10 @@ class PowerProofs : public testing::Test {
     }
     return folder;
   }
-  void expect_refused(const std::filesystem::path& folder, ProblemKind kind) const {
+  void expect_refused(const std::filesystem::path& folder, std::string_view words) const {
     const auto proof = take_power(folder, scratch / "out", request);
-    ASSERT_FALSE(proof) << name_of(kind);
-    EXPECT_EQ(name_of(proof.error().kind), name_of(kind)) << proof.error().message;
+    ASSERT_FALSE(proof) << words;
+    EXPECT_TRUE(says(proof.error(), words));
   }
 
   const tests::Scratch scratch;
@@ -54,17 +55,17 @@ TEST_F(PowerProofs, OfARunOfThisBuildAreTaken) {
   EXPECT_EQ(proof.value().source.campaign, request.plan.name);
 }
 
-TEST_F(PowerProofs, WhatIsNoneIsRefusedByItsKind) {
-  expect_refused(scratch / "nowhere", ProblemKind::cannot_read);
+TEST_F(PowerProofs, WhatIsNoneIsRefused) {
+  expect_refused(scratch / "nowhere", "nowhere: No such file");
   std::filesystem::create_directory(scratch / "empty");
-  expect_refused(scratch / "empty", ProblemKind::no_run);
-  expect_refused(scratch / "out/inside", ProblemKind::proof_in_the_way);
-  expect_refused(proof_without(1, binding_of(request)), ProblemKind::weak_proof);
+  expect_refused(scratch / "empty", "no run is stored here");
+  expect_refused(scratch / "out/inside", "a proof must lie outside");
+  expect_refused(proof_without(1, binding_of(request)), ": the run ");
   auto other = request;
   other.worker = "/bin/true";
-  expect_refused(proof_without(0, binding_of(other)), ProblemKind::another_build);
+  expect_refused(proof_without(0, binding_of(other)), "of another build of assay");
   request.plan.fault_cases = 0;
-  expect_refused(scratch / "nowhere", ProblemKind::no_proof_needed);
+  expect_refused(scratch / "nowhere", "no proof of them is needed");
 }
 
 }  // namespace

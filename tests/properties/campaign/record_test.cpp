@@ -4,35 +4,65 @@
 #include <map>
 #include <vector>
 
-#include "properties/campaign/phases/canary.h"
-#include "properties/campaign/stored/count_names.h"
+#include "properties/campaign/ledger/tally.h"
+#include "properties/campaign/phases/fault_hunt.h"
 #include "properties/campaign/trials/case_tally.h"
 #include "properties/campaign/trials/trials.h"
 
 namespace assay::properties {
 namespace {
 
-TEST(Counts, SurviveTheirText) {
-  const Counts counts = {
-      {"law:L3_First/premise", 7}, {"tag:a=b", 1}, {"block:V+ V-", 18446744073709551615u}};
-  EXPECT_EQ(parse_counts(counts_text(counts)), counts);
-  EXPECT_EQ(counts_text({}), "");
-  EXPECT_TRUE(parse_counts("").empty());
-  EXPECT_EQ(counts_text({{"b", 2}, {"a", 1}}), "a=1;b=2");
-  EXPECT_EQ(parse_counts("a=1;a=2"), (Counts{{"a", 3}}));
-  Counts sum = {{"a", 1}, {"b", 2}};
-  add(sum, {{"b", 3}, {"c", 4}});
-  EXPECT_EQ(sum, (Counts{{"a", 1}, {"b", 5}, {"c", 4}}));
+TEST(Counts, AddUpByName) {
+  TrialCounts sum = {
+      {{"a", 1}, {"b", 2}}, {{"V+/V-", {3, 1}}}, {{"L3", {5, 2, 0, {{"auto", 4}}}}}, {}};
+  sum += {{{"b", 3}, {"c", 4}}, {{"V+/V-", {1, 1}}}, {{"L3", {1, 1, 1, {{"bvh", 1}}}}}, {}};
+  EXPECT_EQ(sum, (TrialCounts{{{"a", 1}, {"b", 5}, {"c", 4}},
+                              {{"V+/V-", {4, 2}}},
+                              {{"L3", {6, 3, 1, {{"auto", 4}, {"bvh", 1}}}}},
+                              {}}));
+}
+
+TEST(Records, SurviveTheirRows) {
+  TrialRecord trial{"quick:1:broken:12", "broken", 12, "HD", 1, 2, 3, 4, 5, 6, {},
+                    ~std::uint64_t{0},   1,        8};
+  trial.counts = {{{"shape:x", 1}}, {{"V+/V-", {3, 1}}}, {{"L3", {5, 2, 0, {{"auto", 4}}}}}, {}};
+  trial.counts.measures.redrawn = 3;
+  trial.counts.measures.errors.steps = 4;
+  trial.counts.measures.errors.late = {2, 0.0123, 7, {{0.013, 1}, {0.001, 1}}};
+  const Row row = to_row(trial);
+  EXPECT_EQ(row_name(row), "trial quick:1:broken:12");
+  const TrialRecord back = trial_of(row);
+  EXPECT_EQ(to_row(back), row);
+  EXPECT_EQ(back.family, "broken");
+  EXPECT_EQ(back.index, 12u);
+  EXPECT_EQ(back.counts, trial.counts);
+  EXPECT_EQ(back.mesh, trial.mesh);
+  // What is 0 takes no room.
+  TrialRecord small;
+  small.id = "q:1:broken:0";
+  small.outcomes = "H";
+  EXPECT_EQ(to_row(small).fields, R"({"outcomes":"H"})");
+  const StoredFailure failure{"quick:1:broken:12", "bvh", "s", "what", "mesh", "small", true, "p"};
+  EXPECT_EQ(to_row(failure_of(to_row(failure))), to_row(failure));
+  EXPECT_EQ(met_signature_of(to_row("quick:1:broken:12", {"bvh", "s"})), "s");
+}
+
+TEST(Records, ThatNoRunStoresAreRefused) {
+  for (const std::string fields : {"", "{", "[]", "1", "null", R"({"steps":"many"})"})
+    EXPECT_THROW(trial_of({"trial", "q:1:broken:0", "", 0, fields}), StoreProblem) << fields;
+  for (const std::string key : {"", "q", "q:1:broken:x", "q:1:broken:"})
+    EXPECT_THROW(trial_of({"trial", key, "", 0, "{}"}), StoreProblem) << key;
+  EXPECT_THROW(failure_of({"failure", "k", "", 0, "{}"}), StoreProblem);
 }
 
 TEST(Counts, TallyOfAStratum) {
   Tally tally;
-  tally.add({"p:1:broken:0", "broken", 0, "HDUE", 5, 2, 1, 3, 10, 20, {{"tag:x", 1}}});
-  tally.add({"p:1:broken:1", "broken", 1, "HHDH", 4, 1, 0, 0, 1, 2, {{"tag:x", 1}}});
+  tally.add({"p:1:broken:0", "broken", 0, "HDUE", 5, 2, 1, 3, 10, 20, {{{"x", 1}}, {}, {}, {}}});
+  tally.add({"p:1:broken:1", "broken", 1, "HHDH", 4, 1, 0, 0, 1, 2, {{{"x", 1}}, {}, {}, {}}});
   // A case that the detector's numbers do not hold is a trial of no configuration.
   tally.add({"p:1:broken:2", "broken", 2, "", 0, 0, 0, 0, 0, 0, {}});
   tally.add({"p:1:closed-generic:0", "closed-generic", 0, "H", 200, 1, 1, 1, 0, 0, {}});
-  EXPECT_EQ(tally.counts, (Counts{{"tag:x", 2}}));
+  EXPECT_EQ(tally.counts.tags, (Counts{{"x", 2}}));
   ASSERT_EQ(tally.strata.size(), 2u);
   const auto& broken = tally.strata.at("broken");
   EXPECT_EQ(broken.trials, 3u);

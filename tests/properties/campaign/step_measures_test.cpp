@@ -1,52 +1,51 @@
-#include "properties/campaign/stored/step_measures.h"
+#include "properties/campaign/ledger/step_measures.h"
 
 #include <gtest/gtest.h>
 
-#include "properties/campaign/gates/measure_rates.h"
+#include <nlohmann/json.hpp>
+
 #include "properties/campaign/gates/not_judged.h"
 
 namespace assay::properties {
 namespace {
 
 // A step in which both answer collision, the detector's time off by so much.
-void count_collision(double late, double early, detector::TimeEnclosure stated, Counts& counts) {
+void count_collision(double late, double early, detector::TimeEnclosure stated,
+                     StepMeasures& measures) {
   StepDiff diff;
+  diff.answer = detector::Answer::collision;
+  diff.oracle_complete = true;
   diff.first_contact.emplace();
   diff.first = FirstTimes{stated, {0.5, 0.5}, {late, early}};
   detector::StepResult result;
-  result.answer = detector::Answer::collision;
   result.first = stated;
-  oracle::StepJudgement truth;
-  truth.complete = true;
-  truth.answer = detector::Answer::collision;
-  truth.pairs.emplace_back();
-  count_measures({&diff, 1}, {&result, 1}, {&truth, 1}, counts);
+  measures += measures_of({&diff, 1}, {&result, 1});
 }
 
-void count_free(bool alarm, Counts& counts) {
+void count_free(bool alarm, StepMeasures& measures) {
   StepDiff diff;
+  diff.answer = alarm ? detector::Answer::collision : detector::Answer::free;
+  diff.oracle_complete = diff.nothing_in_contact = true;
   diff.answered_collision = alarm;
-  detector::StepResult result;
-  result.answer = alarm ? detector::Answer::collision : detector::Answer::free;
-  oracle::StepJudgement truth;
-  truth.complete = true;
-  truth.answer = detector::Answer::free;
-  count_measures({&diff, 1}, {&result, 1}, {&truth, 1}, counts);
+  const detector::StepResult result;
+  measures += measures_of({&diff, 1}, {&result, 1});
 }
 
-TEST(StepMeasures, QuantilesOfWhatIsOff) {
-  Counts counts;
-  for (int i = 1; i <= 60; ++i) count_collision(1e-3 * i, 0, {0.5, 0.5}, counts);
-  for (int i = 0; i < 40; ++i) count_collision(0, 0, {0.5, 0.5}, counts);
-  const auto m = measures_in(parse_counts(counts_text(counts)));
-  EXPECT_EQ(m.collisions, 100u);
-  EXPECT_EQ(m.late_steps(), 60u);
-  const auto off = times_late(m);
+TEST(StepMeasures, SurviveTheirJson) {
+  StepMeasures m;
+  for (int i = 1; i <= 60; ++i) count_collision(1e-3 * i, 0, {0.5, 0.5}, m);
+  for (int i = 0; i < 40; ++i) count_collision(0, 0, {0, 1}, m);
+  m.redrawn = 7;
+  const nlohmann::json json = m;
+  EXPECT_EQ(nlohmann::json::parse(json.dump()).get<StepMeasures>(), m);
+  EXPECT_EQ(nlohmann::json(StepMeasures{}).dump(), "{}");
+  EXPECT_EQ(nlohmann::json::object().get<StepMeasures>(), StepMeasures{});
+  EXPECT_EQ(m.errors.collisions(), 100u);
+  EXPECT_EQ(m.without_time, 40u);
   // Of the 60 that are late; the 40 others are none of them.
-  EXPECT_NEAR(off.median, 0.030, 1e-12);
-  EXPECT_NEAR(off.p99, 0.060, 1e-12);
-  EXPECT_NEAR(off.worst, 0.060, 1e-12);
-  EXPECT_EQ(times_early(m).worst, 0);
+  EXPECT_EQ(m.errors.late.steps, 60u);
+  EXPECT_NEAR(m.errors.late.quantile(0.5), 0.030, 1e-12);
+  EXPECT_NEAR(m.errors.late.quantile(0.99), 0.060, 1e-12);
 }
 
 // What claims not-late alone answers a step size, [size, 1]: that is early by what is left to t*.
@@ -59,29 +58,18 @@ TEST(StepMeasures, AStepSizeIsEarly) {
   detector::StepResult result;
   result.answer = detector::Answer::collision;
   result.first = {0.25, 1};
-  const auto diff = compare(result, truth, {.not_late = true}, {}, triangles);
+  const auto diff = compare(result, truth, {Claim::not_late}, {}, triangles);
   EXPECT_EQ(diff.outcome, Outcome::holds);
-  Counts counts;
-  count_measures({&diff, 1}, {&result, 1}, {&truth, 1}, counts);
-  const auto m = measures_in(counts);
-  EXPECT_EQ(m.early_steps(), 1u);
-  EXPECT_EQ(times_early(m).median, 0.5);
-  EXPECT_EQ(m.late_steps(), 0u);
-}
-
-TEST(StepMeasures, AreRoundedUp) {
-  Counts counts;
-  count_collision(1.01e-17, 0, {0.5, 0.5}, counts);
-  EXPECT_EQ(worst_of(measures_in(counts).late), 1.1e-17);
-  Counts exact;
-  count_collision(0.12, 0, {0.5, 0.5}, exact);
-  EXPECT_EQ(worst_of(measures_in(exact).late), 0.12);
+  const auto errors = measures_of({&diff, 1}, {&result, 1}).errors;
+  EXPECT_EQ(errors.early.steps, 1u);
+  EXPECT_EQ(errors.early.quantile(0.5), 0.5);
+  EXPECT_EQ(errors.late.steps, 0u);
 }
 
 TEST(StepMeasures, TheRateOfAlarmsLiesInItsInterval) {
-  Counts counts;
+  StepMeasures counts;
   for (int i = 0; i < 300; ++i) count_free(i % 10 == 0, counts);
-  const auto rate = false_alarm_rate(measures_in(counts));
+  const auto rate = false_alarm_rate(counts);
   EXPECT_EQ(rate.of, 30u);
   EXPECT_EQ(rate.in, 300u);
   // Of 30 in 300, by tables: 6.9 to 14 per cent.
@@ -104,13 +92,13 @@ TEST(NotJudged, NamesWhatTheContractOrTheTimesMakeVoid) {
   detector.built_in = false;
   detector.configurations = {
       {"plug-in", {"free-sound", "first-time", "first-pairs", "no-spurious", "total"}}};
-  Counts counts;
+  StepMeasures counts;
   for (int i = 0; i < 100; ++i) count_collision(0, 0, {0.5, 0.5}, counts);
-  EXPECT_TRUE(not_judged(detector, measures_in(counts)).empty());
+  EXPECT_TRUE(not_judged(detector, counts).empty());
 
-  const auto names = [&](const Counts& of) {
+  const auto names = [&](const StepMeasures& of) {
     std::vector<std::string> list;
-    for (const auto& one : not_judged(detector, measures_in(of))) list.push_back(one.claim);
+    for (const auto& one : not_judged(detector, of)) list.push_back(one.claim);
     return list;
   };
   using Names = std::vector<std::string>;

@@ -6,10 +6,10 @@
 #include <set>
 
 #include "detector/step_result.h"
-#include "oracle/instant/embedding.h"
 #include "oracle/instant/layers.h"
 #include "oracle/mesh/loops.h"
 #include "properties/judging/fault_run.h"
+#include "tests/oracle/embedding.h"
 #include "tests/properties/curated/curated_context.h"
 
 namespace assay::properties::test {

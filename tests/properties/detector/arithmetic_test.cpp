@@ -10,7 +10,7 @@
 #include "detector/contact/elementary.h"
 #include "detector/detector.h"
 #include "properties/judging/case_check.h"
-#include "properties/queries/query_generators.h"
+#include "properties/queries/query_families.h"
 #include "properties/worlds/small_steps.h"
 #include "tests/public_data.h"
 
@@ -119,8 +119,7 @@ TEST(ArithmeticSteps, BoundedKeepsItsClaimsOnSmallSteps) {
     const SmallStep step = make_small_step(seed, i);
     const auto judgement = oracle::judge_step({step.x_t0, step.x_t1}, step.triangles, {1, {}});
     pairs += judgement.pairs.size();
-    for (const auto culling : {Culling::view_auto, Culling::view_point, Culling::view_line,
-                               Culling::normal_cone, Culling::bvh, Culling::none}) {
+    for (const auto culling : all_values<Culling>) {
       for (const auto wanted : {detector::Pairs::all, detector::Pairs::first}) {
         const detector::Options options{culling, detector::Start::verified, wanted,
                                         Arithmetic::bounded};
@@ -129,7 +128,7 @@ TEST(ArithmeticSteps, BoundedKeepsItsClaimsOnSmallSteps) {
         if (i % 2 && culling == Culling::view_point) given.push_back(step.point);
         if (i % 2 && culling == Culling::view_line) given.push_back(step.line);
         const auto result = made.value().step(step.x_t0, step.x_t1, given);
-        const auto diff = compare(result, judgement, options);
+        const auto diff = compare(result, judgement, claims_of(options));
         ASSERT_EQ(diff.outcome, Outcome::holds)
             << name_of(culling) << ", seed " << seed << ", step " << i << ": "
             << diff.missing.size() << " missing, " << diff.late.size() << " late, first time ["

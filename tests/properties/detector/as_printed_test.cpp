@@ -1,11 +1,11 @@
 // The thesis as printed misses, each deviation on its case; and how often, over random cases.
+#include "properties/as_printed.h"
+
 #include <gtest/gtest.h>
 
 #include <cstdio>
 #include <filesystem>
 
-#include "properties/as_printed/deviations.h"
-#include "properties/as_printed/toll.h"
 #include "properties/judging/fault_run.h"
 
 namespace assay::properties {

@@ -10,7 +10,6 @@
 
 #include "corpus/scenes/scenes.h"
 #include "detector/detector.h"
-#include "detector/state/state_fields.h"
 #include "detector/state/step_state.h"
 #include "properties/judging/agreement.h"
 #include "properties/judging/case_check.h"
@@ -89,7 +88,8 @@ class Player {
         }
         if (const auto truth = judged_.find(phase);
             (period * steps_a_period + phase) % judged_every == 0) {
-          EXPECT_EQ(compare(result, truth->second, options).outcome, Outcome::holds) << phase;
+          EXPECT_EQ(compare(result, truth->second, claims_of(options)).outcome, Outcome::holds)
+              << phase;
         }
       }
       if (period == 1) {

@@ -9,15 +9,15 @@
 #include <limits>
 #include <string>
 
-#include "detector/mesh/loops.h"
+#include "detector/mesh/surface.h"
 #include "oracle/instant/layers.h"
 #include "oracle/mesh/loops.h"
 #include "oracle/mesh/step.h"
 #include "oracle/view/touched_by_ghosts.h"
 #include "oracle/view/view_sign.h"
+#include "properties/generators/draft.h"
 #include "properties/generators/families.h"
-#include "properties/generators/points.h"
-#include "properties/generators/tag_table.h"
+#include "tests/properties/generators/tag_table.h"
 
 namespace assay::properties {
 namespace {

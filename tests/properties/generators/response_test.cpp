@@ -8,8 +8,8 @@
 
 #include "oracle/mesh/step.h"
 #include "properties/generators/families.h"
-#include "properties/generators/tag_table.h"
 #include "properties/judging/case_check.h"
+#include "tests/properties/generators/tag_table.h"
 
 namespace assay::properties {
 namespace {

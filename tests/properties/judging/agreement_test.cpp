@@ -35,9 +35,11 @@ PairContact contact(std::int32_t a, std::int32_t b, double time) {
   return {{a, b}, {time, time}, {}};
 }
 
+const Claims first_alone = claims_of({.pairs = detector::Pairs::first});
+
 StepDiff diff_of(std::vector<PairContact> ours, std::vector<PairContact> theirs,
-                 detector::Pairs claimed = detector::Pairs::all) {
-  return compare(result_with(std::move(ours)), judgement_with(std::move(theirs)), claimed);
+                 const Claims& claims = claims_of({})) {
+  return compare(result_with(std::move(ours)), judgement_with(std::move(theirs)), claims);
 }
 
 TEST(Agreement, EqualHolds) {
@@ -67,11 +69,11 @@ TEST(Agreement, EveryDifferenceIsADefect) {
 TEST(Agreement, L6_PairsFirstExcusesLaterPairsAndOtherPairsOfAReportedPlace) {
   // 0-1 and 1-2 meet at t*, one place; 4-5 later.
   const std::vector<PairContact> truth = {contact(0, 1, .5), contact(1, 2, .5), contact(4, 5, .75)};
-  const auto excused = diff_of({contact(0, 1, .5)}, truth, detector::Pairs::first);
+  const auto excused = diff_of({contact(0, 1, .5)}, truth, first_alone);
   EXPECT_EQ(excused.outcome, Outcome::holds);
   EXPECT_EQ(excused.excused.size(), 2u);
   const std::vector<PairContact> two_places = {contact(0, 1, .5), contact(6, 7, .5)};
-  const auto lost_place = diff_of({contact(0, 1, .5)}, two_places, detector::Pairs::first);
+  const auto lost_place = diff_of({contact(0, 1, .5)}, two_places, first_alone);
   EXPECT_EQ(lost_place.outcome, Outcome::defect);
   EXPECT_EQ(lost_place.missing.size(), 1u);
 }
@@ -80,11 +82,10 @@ TEST(Agreement, StoppedOracleIsUndecidedButItsPairsCount) {
   auto judgement = judgement_with({contact(0, 1, .5)});
   judgement.complete = false;
   judgement.answer = Answer::undecided;
-  EXPECT_EQ(
-      compare(result_with({contact(0, 1, .5), contact(2, 3, .5)}), judgement, detector::Pairs::all)
-          .outcome,
-      Outcome::undecided);
-  EXPECT_EQ(compare(result_with({contact(2, 3, .5)}), judgement, detector::Pairs::all).outcome,
+  EXPECT_EQ(compare(result_with({contact(0, 1, .5), contact(2, 3, .5)}), judgement, claims_of({}))
+                .outcome,
+            Outcome::undecided);
+  EXPECT_EQ(compare(result_with({contact(2, 3, .5)}), judgement, claims_of({})).outcome,
             Outcome::defect);
 }
 
@@ -92,10 +93,10 @@ TEST(Agreement, StoppedOracleAndPairsFirst) {
   auto judgement = judgement_with({contact(0, 1, .5), contact(2, 3, .75)});
   judgement.complete = false;
   judgement.answer = Answer::undecided;
-  const auto later = compare(result_with({contact(0, 1, .5)}), judgement, detector::Pairs::first);
+  const auto later = compare(result_with({contact(0, 1, .5)}), judgement, first_alone);
   EXPECT_EQ(later.outcome, Outcome::undecided);
   EXPECT_EQ(later.excused.size(), 1u);
-  EXPECT_EQ(compare(result_with({contact(4, 5, .6)}), judgement, detector::Pairs::first).outcome,
+  EXPECT_EQ(compare(result_with({contact(4, 5, .6)}), judgement, first_alone).outcome,
             Outcome::defect);
 }
 
@@ -103,20 +104,19 @@ TEST(Agreement, StoppedOracleStillShowsATimeThatIsTooLate) {
   auto judgement = judgement_with({contact(0, 1, .5)});
   judgement.complete = false;
   judgement.answer = Answer::undecided;
-  EXPECT_EQ(compare(result_with({contact(0, 1, .6)}), judgement, detector::Pairs::all).outcome,
+  EXPECT_EQ(compare(result_with({contact(0, 1, .6)}), judgement, claims_of({})).outcome,
             Outcome::defect);
-  EXPECT_EQ(compare(result_with({contact(0, 1, .4)}), judgement, detector::Pairs::all).outcome,
+  EXPECT_EQ(compare(result_with({contact(0, 1, .4)}), judgement, claims_of({})).outcome,
             Outcome::undecided);
 }
 
 TEST(Agreement, StoppedDetectorIsUndecidedAndSpuriousPairsCount) {
   auto result = result_with({contact(0, 1, .5)});
   result.answer = Answer::undecided;
-  EXPECT_EQ(
-      compare(result, judgement_with({contact(0, 1, .5), contact(2, 3, .5)}), detector::Pairs::all)
-          .outcome,
-      Outcome::undecided);
-  EXPECT_EQ(compare(result, judgement_with({contact(2, 3, .5)}), detector::Pairs::all).outcome,
+  EXPECT_EQ(compare(result, judgement_with({contact(0, 1, .5), contact(2, 3, .5)}), claims_of({}))
+                .outcome,
+            Outcome::undecided);
+  EXPECT_EQ(compare(result, judgement_with({contact(2, 3, .5)}), claims_of({})).outcome,
             Outcome::defect);
 }
 

@@ -5,8 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <string>
 
+#include "detector/plugin/assay_detector.h"
 #include "detector/step_result.h"
 #include "properties/judging/agreement.h"
 
@@ -55,8 +58,11 @@ oracle::StepJudgement truth(std::vector<PairContact> pairs) {
 
 using List = std::vector<Claim>;
 
+// What a plug-in may claim at most of its steps.
+const Claims claimable = claims_of({}).only(claims_from_outside);
+
 StepDiff judged(const detector::StepResult& result, const oracle::StepJudgement& judgement,
-                Claims claims = claims_of({}), Contract contract = {}) {
+                Claims claims = claimable, Contract contract = {}) {
   return compare(result, judgement, claims, contract, mesh());
 }
 
@@ -68,12 +74,19 @@ TEST(Claims, TheBuiltInClaimsAllButAllPairsWhenItIsAskedForTheFirst) {
   for (const auto claim : all) EXPECT_EQ(first.has(claim), claim != Claim::all_pairs);
 }
 
+TEST(Claims, AreTheBitsOfThePluginInterface) {
+  EXPECT_EQ(Claims{Claim::free_sound}.bits(), ASSAY_CLAIM_FREE_SOUND);
+  EXPECT_EQ(Claims{Claim::all_pairs}.bits(), ASSAY_CLAIM_ALL_PAIRS);
+  EXPECT_EQ(Claims{Claim::total}.bits(), ASSAY_CLAIM_TOTAL);
+  EXPECT_EQ(Claims{Claim::candidates}.bits(), ASSAY_CLAIM_CANDIDATES);
+  EXPECT_EQ(all_claims().back(), Claim::candidates);
+}
+
 TEST(Claims, FollowTheArithmetic) {
   using detector::Arithmetic;
   auto bounded = claims_of({.arithmetic = Arithmetic::bounded});
-  EXPECT_FALSE(bounded.no_spurious);
-  bounded.no_spurious = true;
-  EXPECT_EQ(bounded, claims_of({}));
+  EXPECT_FALSE(bounded.has(Claim::no_spurious) || bounded.has(Claim::times_unique));
+  EXPECT_EQ(bounded.set(Claim::no_spurious).set(Claim::times_unique), claims_of({}));
   for (const auto plain : {Arithmetic::double_precision, Arithmetic::single_precision}) {
     const std::vector<Claim> few = {Claim::deterministic, Claim::total};
     EXPECT_EQ(list_of(claims_of({.arithmetic = plain})), few);
@@ -85,17 +98,17 @@ TEST(Claims, FreeAgainstAContactIsUnsoundAndLosesItsPairs) {
   EXPECT_EQ(diff.outcome, Outcome::defect);
   EXPECT_EQ(diff.broken, (List{Claim::free_sound, Claim::first_pairs, Claim::all_pairs}));
   // A detector that promises nothing about `free` has broken nothing.
-  EXPECT_EQ(judged(answer(Answer::free), truth({pair_at(3, 4, .5)}), {.first_time = true}).outcome,
+  EXPECT_EQ(judged(answer(Answer::free), truth({pair_at(3, 4, .5)}), {Claim::first_time}).outcome,
             Outcome::holds);
 }
 
 TEST(Claims, CollisionAgainstNoneIsSpurious) {
   const auto alarm = collision({0, 0}, {pair_at(3, 4, 0)});
   EXPECT_EQ(judged(alarm, truth({})).broken, List{Claim::no_spurious});
-  const Claims others = {.free_sound = true, .not_late = true, .first_time = true};
+  const Claims others = {Claim::free_sound, Claim::not_late, Claim::first_time};
   EXPECT_EQ(judged(alarm, truth({})).outcome, Outcome::defect);
   EXPECT_EQ(judged(alarm, truth({}), others).outcome, Outcome::holds);
-  const auto with_margin = judged(alarm, truth({}), claims_of({}), {.margin = .1});
+  const auto with_margin = judged(alarm, truth({}), claimable, {.margin = .1});
   EXPECT_EQ(with_margin.outcome, Outcome::holds);
 }
 
@@ -113,16 +126,16 @@ TEST(Claims, ATimeIsAnIntervalThatMustHoldTheOracles) {
   EXPECT_EQ(broken_by(half_up, 1), (List{Claim::not_late, Claim::first_time}));
   // Early is not late.
   const auto early = collision({.25, .25}, {});
-  EXPECT_EQ(judged(early, step, {.not_late = true}).outcome, Outcome::holds);
+  EXPECT_EQ(judged(early, step, {Claim::not_late}).outcome, Outcome::holds);
   const auto late = collision({.75, .75}, {});
-  EXPECT_EQ(judged(late, step, {.not_late = true}).broken, List{Claim::not_late});
+  EXPECT_EQ(judged(late, step, {Claim::not_late}).broken, List{Claim::not_late});
 }
 
 // One meaning for all counts: by the lower end, by more than the tolerance.
 TEST(Claims, ATimeIsLateOrEarlyByItsLowerEnd) {
   const auto off_by = [](double lo, double hi, double tolerance) {
     const auto off = judged(collision({lo, hi}, {pair_at(3, 4, 0, 1)}), truth({pair_at(3, 4, .5)}),
-                            {.first_time = true}, {.time_tolerance = tolerance})
+                            {Claim::first_time}, {.time_tolerance = tolerance})
                          .first->off;
     return std::pair(off.late, off.early);
   };
@@ -153,24 +166,24 @@ TEST(Claims, L6_MissingPairsAreExcusedWhereAllPairsIsNotClaimed) {
   const auto step =
       truth({pair_at(0, 3, .5), pair_at(1, 2, .5), pair_at(2, 4, .75), pair_at(3, 4, .5)});
   const auto both_parts = collision({.5, .5}, {pair_at(1, 2, .5), pair_at(3, 4, .5)});
-  const auto first = judged(both_parts, step, claims_of({.pairs = detector::Pairs::first}));
+  const auto first = judged(both_parts, step, claimable.without({Claim::all_pairs}));
   EXPECT_EQ(first.outcome, Outcome::holds);
   EXPECT_EQ(first.excused.size(), 2u);
   EXPECT_EQ(judged(both_parts, step).broken, List{Claim::all_pairs});
 
   const auto one_part = collision({.5, .5}, {pair_at(3, 4, .5)});
-  const auto lost = judged(one_part, step, claims_of({.pairs = detector::Pairs::first}));
+  const auto lost = judged(one_part, step, claimable.without({Claim::all_pairs}));
   EXPECT_EQ(lost.broken, List{Claim::first_pairs});
   ASSERT_EQ(lost.missing.size(), 1u);
   EXPECT_EQ(lost.missing[0].pair, (detector::TrianglePair{1, 2}));
   // Neither claimed: a detector of times alone.
-  EXPECT_EQ(judged(collision({.5, .5}, {}), step, {.first_time = true}).outcome, Outcome::holds);
+  EXPECT_EQ(judged(collision({.5, .5}, {}), step, {Claim::first_time}).outcome, Outcome::holds);
 }
 
 TEST(Claims, TheContractIsTakenFromTheOraclesSide) {
   // Sharing an edge at 0.25, a vertex at 0.5, nothing at 0.75.
   const auto step = truth({pair_at(0, 1, .25), pair_at(0, 2, .5), pair_at(3, 4, .75)});
-  const Claims all = claims_of({});
+  const Claims all = claimable;
   const Contract no_edges = {.adjacency = Adjacency::not_edge_sharing};
   const Contract no_neighbours = {.adjacency = Adjacency::no_shared_vertex};
 
@@ -194,7 +207,7 @@ TEST(Claims, TheContractIsTakenFromTheOraclesSide) {
 
 TEST(Claims, AnErrorIsNoAnswer) {
   EXPECT_EQ(judged(answer(Answer::error), truth({})).broken, List{Claim::total});
-  EXPECT_EQ(judged(answer(Answer::error), truth({}), {.free_sound = true}).outcome, Outcome::error);
+  EXPECT_EQ(judged(answer(Answer::error), truth({}), {Claim::free_sound}).outcome, Outcome::error);
   EXPECT_EQ(judged(answer(Answer::undecided), truth({pair_at(3, 4, 0)})).outcome,
             Outcome::undecided);
 }
@@ -207,7 +220,7 @@ TEST(Claims, AStoppedOracleRefutesOnlyWithWhatItFound) {
   const auto other = collision({.25, .25}, {pair_at(0, 3, .25), pair_at(3, 4, .5)});
   EXPECT_EQ(judged(other, judgement).outcome, Outcome::undecided);
   const auto late = collision({.75, .75}, {pair_at(0, 3, .75)});
-  EXPECT_EQ(judged(late, judgement, {.not_late = true}).broken, List{Claim::not_late});
+  EXPECT_EQ(judged(late, judgement, {Claim::not_late}).broken, List{Claim::not_late});
 }
 
 TEST(Claims, Float32RoundsToNearest) {

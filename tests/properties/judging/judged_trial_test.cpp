@@ -77,7 +77,7 @@ TEST_F(JudgedTrials, ACrashBreaksTotal) {
     expect_failure(crash, *detector, Claim::total, "total: crashed");
     EXPECT_EQ(judge(crash, *detector).failure->explanation, crash.explanation);
   }
-  plugin.claims.total = false;
+  plugin.claims.set(Claim::total, false);
   EXPECT_EQ(judge(crash, plugin).outcome, Outcome::error);
   EXPECT_FALSE(judge(crash, plugin).failure);
 }
@@ -163,7 +163,7 @@ TEST_F(JudgedTrials, TwoRunsThatDiffer) {
   EXPECT_EQ(judged.outcome, Outcome::defect);
   ASSERT_TRUE(judged.failure);
   EXPECT_EQ(judged.failure->signature(), "deterministic: two runs differ");
-  plugin.claims.deterministic = false;
+  plugin.claims.set(Claim::deterministic, false);
   EXPECT_EQ(judge(right, plugin, &other).outcome, Outcome::holds);
 }
 

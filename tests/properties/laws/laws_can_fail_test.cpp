@@ -9,10 +9,10 @@
 #include <map>
 
 #include "detector/contact/elementary.h"
-#include "detector/contact/four_points.h"
+#include "detector/mesh/step_types.h"
 #include "detector/step/stages.h"
 #include "properties/faults/fault.h"
-#include "properties/laws/facts/exact_view_values.h"
+#include "properties/laws/facts/view_values.h"
 #include "properties/laws/law.h"
 #include "tests/properties/laws/judged_case.h"
 

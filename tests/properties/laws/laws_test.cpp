@@ -2,13 +2,89 @@
 #include <fmt/format.h>
 
 #include <set>
+#include <string>
+#include <vector>
 
 #include "properties/judging/case_check.h"
-#include "properties/laws/law_table.h"
+#include "properties/laws/facts/case_facts.h"
+#include "properties/laws/law.h"
 #include "tests/properties/laws/law_property.h"
 
 namespace assay::properties::test {
 namespace {
+
+// Counts over many cases how often the premise of each law held, how often its values came
+// close, and how often the law was broken.
+//
+// The order in which cases are added and tables are merged does not matter, so shards and threads
+// may have one each.
+class LawTable {
+ public:
+  LawTable();
+
+  // Checks the laws on the case: all that cost little, and each costly one if the case's id is in
+  // that law's share.
+  void add(CaseFacts& facts);
+  void merge(const LawTable& other);
+
+  // In the order of laws().
+  const std::vector<LawTally>& tallies() const { return tallies_; }
+  std::uint64_t broken() const;
+  // The laws that were hardly tried: their premise held less often than `premises` times, or the
+  // share of these times in which they came close is below `least_close`.
+  std::vector<const Law*> starved(std::uint64_t premises, double least_close) const;
+
+  // One line for each law: name, premise, share of close ones, broken; below it what first broke
+  // it.
+  std::string text() const;
+
+ private:
+  std::vector<LawTally> tallies_;
+};
+
+LawTable::LawTable() : tallies_(laws().size()) {}
+
+void LawTable::add(CaseFacts& facts) {
+  for (std::size_t i = 0; i < tallies_.size(); ++i) {
+    const Law& law = laws()[i];
+    if (is_checked_on(law, facts.source().id)) law.check(facts, tallies_[i]);
+  }
+}
+
+void LawTable::merge(const LawTable& other) {
+  for (std::size_t i = 0; i < tallies_.size(); ++i) tallies_[i] += other.tallies_[i];
+}
+
+std::uint64_t LawTable::broken() const {
+  std::uint64_t sum = 0;
+  for (const auto& tally : tallies_) sum += tally.broken;
+  return sum;
+}
+
+std::vector<const Law*> LawTable::starved(std::uint64_t premises, double least_close) const {
+  std::vector<const Law*> list;
+  for (std::size_t i = 0; i < tallies_.size(); ++i) {
+    const auto& [premise, close, broken, first_broken] = tallies_[i];
+    const bool rarely_close =
+        static_cast<double>(close) < least_close * static_cast<double>(premise);
+    if (premise < premises || rarely_close) list.push_back(&laws()[i]);
+  }
+  return list;
+}
+
+std::string LawTable::text() const {
+  std::string out = fmt::format("{:<46} {:>9} {:>7} {:>7}\n", "law", "premise", "close", "broken");
+  for (std::size_t i = 0; i < tallies_.size(); ++i) {
+    const auto& tally = tallies_[i];
+    const double share = tally.premise == 0 ? 0
+                                            : 100 * static_cast<double>(tally.close) /
+                                                  static_cast<double>(tally.premise);
+    out += fmt::format("{:<46} {:>9} {:>5.1f} % {:>7}\n", laws()[i].name, tally.premise, share,
+                       tally.broken);
+    if (tally.broken != 0) out += fmt::format("    {}\n", tally.first_broken);
+  }
+  return out;
+}
 
 // clang-format off
 LAW_TEST(L1_ClampFormIsRegionForm)

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "properties/queries/self_test_run.h"
+#include "properties/queries/self_check.h"
 #include "properties/queries/small_worlds.h"
 
 namespace assay::properties {

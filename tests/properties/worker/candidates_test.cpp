@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <map>
 
-#include "properties/campaign/stored/step_measures.h"
+#include "properties/campaign/ledger/step_measures.h"
 #include "properties/campaign/trials/planned_case.h"
 #include "properties/campaign/trials/trial.h"
 #include "properties/worker/worker_process.h"
@@ -37,7 +37,6 @@ FoundInCandidates found_with(const char* fault, std::uint64_t threads = 1) {
   detector.built_in = false;
   detector.claims = claims_on_steps(description.value());
   detector.configurations = {{"plug-in", {}}};
-  Counts counts;
   for (const auto& family : families()) {
     for (std::uint64_t i = 0; i < 6; ++i) {
       const auto planned = case_within(
@@ -48,13 +47,12 @@ FoundInCandidates found_with(const char* fault, std::uint64_t threads = 1) {
       const auto verdict = judge_trial(*planned.seen, truth, runs[0], detector.configurations[0],
                                        detector, &again[0]);
       ++found.outcomes[verdict.outcome];
-      count_measures(verdict.steps, runs[0].steps, truth, counts);
+      found.measures += measures_of(verdict.steps, runs[0].steps);
       if (!verdict.failure) continue;
       ++found.signatures[verdict.failure->signature()];
       ++found.explanations[verdict.failure->explanation];
     }
   }
-  found.measures = measures_in(counts);
   return found;
 }
 
@@ -65,7 +63,7 @@ TEST(Candidates, OfBoxesOverTheWholeStepHold) {
   EXPECT_GT(found.measures.candidate_steps, 40u);
   EXPECT_GT(found.measures.least_candidates, 100u);
   EXPECT_GT(found.measures.candidates, found.measures.least_candidates);
-  EXPECT_EQ(found.measures.steps, 0u) << "it answers none";
+  EXPECT_EQ(found.measures.errors.answered(), 0u) << "it answers none";
 }
 
 TEST(Candidates, ThatMissAContactAreFoundWithItsCause) {

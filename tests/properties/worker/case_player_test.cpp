@@ -13,9 +13,6 @@ using detector::Detector;
 using detector::StepResult;
 using detector::ViewPrimitive;
 
-constexpr Culling all_cullings[] = {Culling::view_auto,   Culling::view_point, Culling::view_line,
-                                    Culling::normal_cone, Culling::bvh,        Culling::none};
-
 corpus::Case curated(const std::string& name) {
   return corpus::read_case(ASSAY_SOURCE_DIR "/corpus/curated/" + name + ".json").value();
 }
@@ -37,7 +34,7 @@ TEST(CasePlayer, CommitsAndEvaluatesAsScripted) {
   const auto c = curated("F_evaluation_kept");
   ASSERT_EQ(c.script, (std::vector<corpus::CaseStep>{{0, 1, true}, {1, 1, false}, {1, 2, true}}));
   const auto& x = c.frames;
-  for (const auto culling : all_cullings) {
+  for (const auto culling : all_values<Culling>) {
     SCOPED_TRACE(static_cast<int>(culling));
     auto player = player_of(c, {culling});
     auto by_hand = Detector::create(c.triangles, x[0], {culling}).value();
@@ -65,7 +62,7 @@ TEST(CasePlayer, GivesTheStatedViewToACullingThatLooks) {
   const auto line = corpus::view_of_step(c, 0).value();
   ASSERT_FALSE(line.is_point());
   const ViewPrimitive point{line.q0, line.q0};
-  for (const auto culling : all_cullings) {
+  for (const auto culling : all_values<Culling>) {
     SCOPED_TRACE(static_cast<int>(culling));
     const auto given = given_view(line, culling);
     ASSERT_EQ(given.size(), uses_views(culling) ? 1u : 0u);

@@ -16,8 +16,9 @@
 
 #include "detector/detector.h"
 #include "properties/judging/judged_run.h"
-#include "properties/worker/wire_fields.h"
+#include "properties/worker/messages.h"
 #include "properties/worker/worker_process.h"
+#include "tests/problem_words.h"
 #include "tests/properties/small_case.h"
 #include "tests/properties/worker/children.h"
 #include "tests/properties/worker/worker_cases.h"
@@ -182,7 +183,7 @@ TEST(Worker, MemoryEndsInUndecided) {
   const auto runs = worker.run(c, std::vector<Configuration>(2, four[2]));
   for (const auto& run : runs) {
     EXPECT_EQ(run.end, RunEnd::out_of_memory) << run.explanation;
-    const auto verdict = judge_run(c, run, {}, {.total = true}, {});
+    const auto verdict = judge_run(c, run, {}, {Claim::total}, {});
     EXPECT_EQ(verdict.outcome, Outcome::undecided);
     EXPECT_EQ(verdict.explanation, "out of memory");
   }
@@ -192,7 +193,7 @@ TEST(Worker, MemoryEndsInUndecided) {
   const auto step =
       WorkerProcess(ASSAY_WORKER, plugin("no_memory")).run(small_case(31, 0), plugin_alone)[0];
   const auto truth = judge_case(small_case(31, 0));
-  const auto verdict = judge_run(small_case(31, 0), step, truth, {.total = true}, {});
+  const auto verdict = judge_run(small_case(31, 0), step, truth, {Claim::total}, {});
   EXPECT_EQ(verdict.outcome, Outcome::undecided);
   EXPECT_EQ(verdict.explanation, "step 1: out of memory");
 }
@@ -255,16 +256,14 @@ TEST(Worker, DiesWithItsHost) {
 TEST(Worker, WithoutAProgramNothingIsRun) {
   WorkerProcess worker("/nowhere/assay-worker", std::nullopt);
   ASSERT_FALSE(worker.describe());
-  EXPECT_EQ(worker.describe().error().kind, ProblemKind::cannot_start);
-  EXPECT_NE(worker.describe().error().message.find("cannot start /nowhere/assay-worker"),
-            std::string::npos);
+  EXPECT_TRUE(says(worker.describe().error(), "cannot start /nowhere/assay-worker"));
   const auto runs = worker.run(small_case(31, 0), four);
   ASSERT_EQ(runs.size(), 4u);
   for (const auto& run : runs) EXPECT_EQ(run.end, RunEnd::not_run);
   // Another program is no worker.
   const auto other = WorkerProcess("/bin/true", std::nullopt).describe();
   ASSERT_FALSE(other);
-  EXPECT_EQ(other.error().kind, ProblemKind::ended_while_loaded);
+  EXPECT_TRUE(says(other.error(), "ended while it was loaded"));
 }
 
 std::string output_of(const std::string& command) {

@@ -79,12 +79,13 @@ void check(const SmallStep& step, Tally& tally) {
     SCOPED_TRACE(variant.name);
     const auto all = run(step, variant, detector::Pairs::all);
     tally.free_components += all.counts.free_components;
-    const auto diff = compare(all, judgement, detector::Pairs::all);
+    const auto diff = compare(all, judgement, claims_of({}));
     ASSERT_EQ(diff.outcome, Outcome::holds)
         << diff.missing.size() << " missing, " << diff.spurious.size() << " spurious, "
         << diff.late.size() << " late, " << diff.early.size() << " early";
     const auto first = run(step, variant, detector::Pairs::first);
-    ASSERT_EQ(compare(first, judgement, detector::Pairs::first).outcome, Outcome::holds);
+    ASSERT_EQ(compare(first, judgement, claims_of({.pairs = detector::Pairs::first})).outcome,
+              Outcome::holds);
     const bool must_have_views =
         variant.culling == Culling::view_point || variant.culling == Culling::view_line;
     if (must_have_views || !all.signs.empty()) {
@@ -149,7 +150,7 @@ TEST(SmallSteps, L8_StateIsCarriedSoundly) {
           {variant.culling, detector::Start::verified, detector::Pairs::all});
       made.value().step(step.x_t0, step.x_t1);
       const auto result = made.value().step(step.x_t1, x_t2);
-      ASSERT_EQ(compare(result, judgement, detector::Pairs::all).outcome, Outcome::holds)
+      ASSERT_EQ(compare(result, judgement, claims_of({})).outcome, Outcome::holds)
           << variant.name << ", seed " << seed << ", case " << i;
       second_collisions += judgement.pairs.empty() ? 0 : 1;
       dirty += result.dirty;

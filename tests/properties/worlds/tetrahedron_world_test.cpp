@@ -9,7 +9,6 @@
 #include <string_view>
 
 #include "properties/judging/case_check.h"
-#include "properties/worlds/tetrahedron_check.h"
 
 namespace assay::properties {
 namespace {

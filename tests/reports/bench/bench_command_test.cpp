@@ -10,14 +10,14 @@
 #include "corpus/scenes/scenes.h"
 #include "detector/contact/elementary.h"
 #include "detector/step/stages.h"
-#include "reports/bench/claims/break_even.h"
-#include "reports/bench/contact_step.h"
+#include "reports/bench/cases.h"
 #include "reports/bench/interleave.h"
+#include "reports/bench/parts/measuring_arena.h"
+#include "reports/bench/parts/plain_loops.h"
 #include "reports/bench/peak_memory.h"
+#include "reports/bench/pictures.h"
 #include "reports/bench/query_sets.h"
-#include "reports/bench/threads/measuring_arena.h"
 #include "reports/bench/timed_step.h"
-#include "reports/bench/view/swept_boxes.h"
 #include "tests/reports/program.h"
 
 namespace assay::reports {
@@ -98,6 +98,27 @@ TEST(BenchRow, OutcomeIsThatOfTheMedian) {
     EXPECT_STREQ(name_of(report.rows[i].outcome()), wanted[i]);
   }
   EXPECT_NE(text_of(report).find("nowhere is not there"), std::string::npos);
+}
+
+TEST(BenchReport, TablesHaveTheirColumns) {
+  const int widths[] = {-5, 4, -1};
+  EXPECT_EQ(table_line(widths, {"ab", "12", "end"}), "ab      12 end\n");
+  EXPECT_EQ(table_line(widths, {"ab", "12", "end"}, 0), "ab     12end\n");
+}
+
+// A field that is an object has a column for each of its fields, and a line that lacks one has an
+// empty field there.
+TEST(BenchReport, SamplesAreLinesOfFields) {
+  BenchReport report("some");
+  report.add("a, b", "us", median_of({2, 1}));
+  EXPECT_EQ(csv_of(report),
+            "suite,what,unit,sample,value\nsome,\"a, b\",\"us\",1,2\n"
+            "some,\"a, b\",\"us\",2,1\n");
+  report.add_sample(json_object("name", "x, y", "over", std::optional<double>(), "ns",
+                                std::vector<double>{1, 2.5}));
+  report.add_sample(json_object("name", "z", "over", json_object("value", 3, "is_slow", true), "ns",
+                                std::vector<double>{4}));
+  EXPECT_EQ(csv_of(report), "name,ns,over_value,over_is_slow\n\"x, y\",1 2.5,,\nz,4,3,1\n");
 }
 
 TEST(BreakEven, LineAndLastCrossing) {
@@ -193,11 +214,10 @@ TEST(TimedStep, AResultThatChangesIsAWrongAnswer) {
 
 class Suites : public testing::Test {
  protected:
-  BenchReport run(BenchReport (*suite)(const BenchSettings&, Progress&)) {
-    Progress progress("bench");
-    BenchReport report = suite({"/nowhere", 0.01}, progress);
+  BenchReport run(RunSuite& suite) {
+    BenchReport report = suite({"/nowhere", 0.01}, {});
     EXPECT_TRUE(report.wrong_answers.empty()) << text_of(report);
-    const auto json = to_json(report);
+    const auto json = to_json(report, "version");
     EXPECT_EQ(json["schema"], "assay-bench/1");
     EXPECT_EQ(json["rows"].size(), report.rows.size());
     for (const auto& row : report.rows) {
@@ -255,7 +275,7 @@ TEST_F(Suites, Claims) {
     EXPECT_TRUE(has(report, row)) << row;
   }
   // Scenes, steps, cullings, what they are compared with.
-  EXPECT_EQ(report.scatter.size(), corpus::scenes().size() * 20u * 3u * 2u);
+  EXPECT_EQ(report.figures.at("scatter").size(), corpus::scenes().size() * 20u * 3u * 2u);
 }
 
 TEST_F(Suites, Sequences) {

@@ -9,10 +9,9 @@
 #include "corpus/scenes/scenes.h"
 #include "properties/judging/case_check.h"
 #include "properties/judging/contracted_case.h"
-#include "reports/bench/peers/confirmation.h"
-#include "reports/bench/peers/peer_output.h"
-#include "reports/bench/peers/peer_runs.h"
-#include "reports/pictures/pictures.h"
+#include "properties/judging/judged_run.h"
+#include "reports/bench/workers/confirmation.h"
+#include "reports/bench/workers/peers.h"
 #include "tests/reports/program.h"
 
 namespace assay::reports {
@@ -29,7 +28,7 @@ void put_peers(const tests::Scratch& scratch, const std::vector<std::string>& na
 }
 
 // One family of two cases: a step that ends in contact, and one that does not.
-ErrorFamily two_steps(const std::string& kind) {
+CaseFamily two_steps(const std::string& kind) {
   return {"steps", kind, 2, [] {
             std::vector<TimedCase> cases;
             for (const int frames : {2, 12}) {
@@ -51,23 +50,19 @@ struct SmallRun {
   std::vector<std::string> wrong;
   std::vector<UnsafeAnswer> answers;
 
+  std::string text() const { return peers_text(rows, families, peers.absent, answers); }
+
   explicit SmallRun(const std::vector<std::string>& names) {
     const tests::Scratch scratch;
     put_peers(scratch, names);
     peers = find_peers(scratch / "");
     PeerRuns runs(peers.subjects, {.small_seconds = .2, .large_seconds = .2});
-    const auto family = two_steps("generated");
-    std::vector<PeerCase> cases;
-    for (const auto& timed : family.cases()) {
-      for (auto& one : runs.run(family, timed, wrong, answers, [] {}))
-        cases.push_back(std::move(one));
-    }
-    families = peers_by_family(cases, peers.subjects);
+    families = runs.run(two_steps("generated"), wrong, answers, [] {});
     rows = peer_rows(families, peers.subjects);
   }
   const PeerRow& row(const std::string& detector) const {
     const auto found = std::find_if(rows.begin(), rows.end(),
-                                    [&](const auto& one) { return one.detector == detector; });
+                                    [&](const auto& one) { return one.subject.name == detector; });
     if (found == rows.end()) throw std::runtime_error("no row " + detector);
     return *found;
   }
@@ -76,25 +71,25 @@ struct SmallRun {
 TEST(PeersBench, ThoseOfAFolderStandBesideTheBuiltIn) {
   const SmallRun run({"always_free", "always_collision"});
   EXPECT_TRUE(run.wrong.empty());
-  EXPECT_EQ(unconfirmed_text(run.answers), "");
+  EXPECT_EQ(run.text().find("by the oracle alone"), std::string::npos);
   ASSERT_EQ(run.rows.size(), 6u + 2u);
   for (const auto& row : run.rows) {
-    EXPECT_EQ(row.counts.steps, 2u) << row.detector;
-    EXPECT_EQ(row.counts.contact, 1u) << row.detector;
-    ASSERT_TRUE(row.over) << row.detector;
+    EXPECT_EQ(row.counts.errors.steps, 2u) << row.subject.name;
+    EXPECT_EQ(row.counts.errors.contact, 1u) << row.subject.name;
+    ASSERT_TRUE(row.over) << row.subject.name;
     EXPECT_GT(row.over->value, 0);
   }
   const auto& exact = run.rows.front();
-  EXPECT_EQ(exact.detector, "built-in, exact, bvh");
+  EXPECT_EQ(exact.subject.name, "built-in, exact, bvh");
   EXPECT_EQ(exact.over->value, 1);
-  EXPECT_EQ(exact.counts.unsafe + exact.counts.false_alarms, 0u);
+  EXPECT_EQ(exact.counts.errors.unsafe + exact.counts.errors.false_alarms, 0u);
   EXPECT_EQ(exact.answers, "answer, time, pairs");
   std::uint64_t missed = 0, confirmed = 0;
   for (const auto& row : run.rows) {
-    if (row.is_built_in) continue;
-    const bool is_free = row.counts.missed > 0;
-    EXPECT_EQ(row.counts.false_alarms, is_free ? 0u : 1u);
-    missed += row.counts.missed;
+    if (row.subject.is_built_in()) continue;
+    const bool is_free = row.counts.errors.missed > 0;
+    EXPECT_EQ(row.counts.errors.false_alarms, is_free ? 0u : 1u);
+    missed += row.counts.errors.missed;
     confirmed += row.counts.confirmed;
   }
   EXPECT_EQ(missed, 1u);
@@ -112,10 +107,10 @@ TEST(PeersBench, OneThatHangsOrCrashesEndsNothingElse) {
   EXPECT_GE(ended, 2u) << "the hanging one ends early in each case";
   for (const auto& row : run.rows) {
     if (row.ended < 2) continue;
-    EXPECT_EQ(row.counts.undecided, 2u) << row.detector;
-    EXPECT_FALSE(row.over) << row.detector;
+    EXPECT_EQ(row.counts.errors.undecided, 2u) << row.subject.name;
+    EXPECT_FALSE(row.over) << row.subject.name;
   }
-  const auto text = text_of(run.rows, run.families, run.peers.absent);
+  const auto text = run.text();
   EXPECT_NE(text.find("hung"), std::string::npos) << text;
   EXPECT_NE(text.find("absent: plugin_query_alone: it holds no steps"), std::string::npos) << text;
   EXPECT_NE(text.find("absent: fcl_elementary: libfcl-dev was not there"), std::string::npos);
@@ -123,16 +118,15 @@ TEST(PeersBench, OneThatHangsOrCrashesEndsNothingElse) {
 
 TEST(PeersBench, WhatNobodyPromisedStandsInBrackets) {
   SmallRun run({"always_free"});
-  run.rows.back().claims_soundness = false;
-  const auto text = text_of(run.rows, run.families, run.peers.absent);
+  run.rows.back().subject.claims.set(properties::Claim::free_sound, false);
+  const auto text = run.text();
   EXPECT_NE(text.find("(1)"), std::string::npos) << text;
   BenchReport report("peers");
-  report.peers = run.rows;
-  report.peer_families = run.families;
-  const auto picture = peers_picture(report);
+  add_figures(run.rows, run.families, run.peers.absent, run.answers, report);
+  const auto& picture = report.picture;
   EXPECT_NE(picture.find("built-in, exact, auto"), std::string::npos);
   EXPECT_NE(picture.find("constant answer"), std::string::npos);
-  const auto json = to_json(report);
+  const auto json = to_json(report, "version");
   EXPECT_EQ(json["peers"].size(), run.rows.size());
   EXPECT_EQ(json["peers"][0]["time_over_reference"]["median"], 1);
   const auto csv = csv_of(report);
@@ -206,7 +200,7 @@ TEST(PeersBench, EachPeerThatIsPresentMissesItsStoredMesh) {
     std::vector<UnsafeAnswer> answers;
     const auto counts =
         counts_of(subject, *seen, run, properties::judge_case(*seen, subject.contract), answers);
-    EXPECT_EQ(counts.missed, 1u) << subject.name;
+    EXPECT_EQ(counts.errors.missed, 1u) << subject.name;
     EXPECT_EQ(counts.confirmed, 1u) << subject.name;
     EXPECT_GT(run.times->peak_bytes, 100'000u) << subject.name;
   }

@@ -1,5 +1,7 @@
 // Suite speed-error: its statistics on known numbers, its judgements on steps that floats get
 // wrong, its files.
+#include "reports/bench/whole/speed_error.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,11 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "properties/random.h"
-#include "reports/bench/bootstrap.h"
-#include "reports/bench/speed_error/error_families.h"
-#include "reports/bench/speed_error/error_output.h"
-#include "reports/bench/speed_error/error_runs.h"
-#include "reports/bench/timed_step.h"
+#include "reports/bench/cases.h"
+#include "reports/estimate.h"
 
 namespace assay::reports {
 namespace {
@@ -61,18 +60,6 @@ TEST(Bootstrap, ARateIsOfTheSums) {
   EXPECT_EQ(rate.hi, 1);
 }
 
-TEST(FirstTimeError, CountsDoublesBetween) {
-  const double t = 0.375, after = std::nextafter(t, 1);
-  EXPECT_EQ(first_time_error({t, t}, {t, after}).late_ulps, 0);
-  EXPECT_EQ(first_time_error({t, t}, {t, after}).early_ulps, 0);
-  EXPECT_EQ(first_time_error({after, after}, {t, after}).late_ulps, 1);
-  const auto early = first_time_error({t - 0.125, t}, {t, t});
-  EXPECT_EQ(early.early_share, 0.125);
-  EXPECT_EQ(early.early_ulps, 0x1p51);  // a half of the doubles from 1/4 to 1/2
-  EXPECT_EQ(first_time_error({-0.0, 0}, {0, 0}).early_ulps, 0);
-  EXPECT_EQ(first_time_error({1, 1}, {0.5, 0.5}).late_share, 0.5);
-}
-
 TEST(Variants, EveryArithmeticCullingAndKindOfPairs) {
   EXPECT_EQ(all_variants(false).size(), 4u * 6u * 2u);
   EXPECT_EQ(all_variants(true).size(), 4u * 7u * 2u);
@@ -80,39 +67,46 @@ TEST(Variants, EveryArithmeticCullingAndKindOfPairs) {
   EXPECT_EQ(name_of(reference_variant), "exact bvh all");
 }
 
-JudgedStep judged(const std::string& family, Variant variant, double ns) {
-  JudgedStep step;
+// A step that is judged, with these errors beside its contact.
+VariantStep judged(const std::string& family, Variant variant, double ns,
+                   properties::StepErrors errors = {}) {
+  VariantStep step;
   step.family = family;
   step.kind = "scene";
   step.variant = variant;
   step.triangles = 10;
   step.ns = {ns, 2 * ns, 3 * ns};
   step.reference_ns = {100, 200, 300};
-  step.contact = true;
+  step.errors = errors;
+  step.errors.steps = step.errors.contact = 1;
   return step;
 }
 
 TEST(ErrorSummary, TimesErrorsAndParetoLine) {
   const Variant doubles{Arithmetic::double_precision, Culling::bvh, Pairs::all},
       floats{Arithmetic::single_precision, Culling::bvh, Pairs::all};
-  std::vector<JudgedStep> steps;
-  for (const std::string family : {"a", "b"}) {
-    for (int s = 0; s < 2; ++s) {
-      steps.push_back(judged(family, reference_variant, 100));
-      steps.push_back(judged(family, doubles, 50));
-      steps.push_back(judged(family, floats, 60));
-    }
+  properties::StepErrors right, missed, alarm, missing, late, both;
+  missed.missed = missed.unsafe = 1;
+  alarm.false_alarms = alarm.alarming = 1;
+  missing.missing = 2;
+  missing.unsafe = late.unsafe = 1;
+  late.late = {1, 0.25, 3, {{0.25, 1}}};
+  both = missed;
+  both.alarming = 1;
+  both.spurious = 4;
+  std::vector<VariantStep> steps;
+  // Two steps of each family. Doubles: two unsafe steps of the first. Floats: three unsafe ones,
+  // and two alarming ones.
+  const properties::StepErrors of_doubles[] = {missing, late, right, right},
+                               of_floats[] = {alarm, missed, both, missed};
+  for (std::size_t s = 0; s < 4; ++s) {
+    const std::string family = s < 2 ? "a" : "b";
+    steps.push_back(judged(family, reference_variant, 100));
+    steps.push_back(judged(family, doubles, 50, of_doubles[s]));
+    steps.push_back(judged(family, floats, 60, of_floats[s]));
   }
-  steps[1].missing = 2;                                   // doubles: one unsafe step
-  steps[4].first = {.late_ulps = 3, .late_share = 0.25};  // and a late one
-  steps[2].false_alarm = true;                            // floats: an alarming one
-  steps[5].missed = true;                                 // three unsafe ones
-  steps[8].spurious = 4;
-  steps[8].missed = true;
-  steps[11].missed = true;
   const auto families = by_family(steps);
   ASSERT_EQ(families.size(), 6u);
-  EXPECT_EQ(families_text(families), "2 families (2 scene), 4 steps");
   EXPECT_EQ(families[0].variant, reference_variant);
   EXPECT_EQ(families[1].over_reference.value, 0.5);
   EXPECT_EQ(families[1].ns_a_step.value, 100);
@@ -120,9 +114,9 @@ TEST(ErrorSummary, TimesErrorsAndParetoLine) {
   EXPECT_EQ(families[1].errors.unsafe, 2u);
   EXPECT_EQ(families[1].errors.missing, 2u);
   EXPECT_EQ(families[1].errors.late.steps, 1u);
-  EXPECT_EQ(families[1].errors.late.largest_ulps, 3);
+  EXPECT_EQ(families[1].errors.late.worst_ulps, 3);
   EXPECT_EQ(time_over(families, "b", floats, doubles).value, 1.2);
-  const auto variants = by_variant(steps, families);
+  const auto variants = by_variant(families);
   ASSERT_EQ(variants.size(), 3u);
   EXPECT_EQ(variants[1].unsafe.share, 0.5);
   EXPECT_LT(variants[1].unsafe.lo, 0.1);  // two of four say little
@@ -134,11 +128,15 @@ TEST(ErrorSummary, TimesErrorsAndParetoLine) {
   EXPECT_TRUE(variants[1].unsafe.on_pareto_line);
   EXPECT_FALSE(variants[2].unsafe.on_pareto_line);
   EXPECT_FALSE(variants[0].alarming.on_pareto_line);  // doubles are faster, and as right in that
-  const auto csv = csv_of(std::span(steps));
+  BenchReport report("speed-error");
+  add_figures(steps, families, variants, report);
+  EXPECT_NE(report.below.find("2 families (2 scene), 4 steps\n"), std::string::npos);
+  const auto csv = csv_of(report);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 12);
-  EXPECT_NE(csv.find("double,bvh,all,0000000000000000,0,0,0,1,1,0,0,2,0,0,0,0,0,50 100 150\n"),
-            std::string::npos)
+  EXPECT_TRUE(csv.starts_with("family,kind,case,step,triangles,arithmetic,culling,pairs,hash,"))
       << csv;
+  EXPECT_NE(csv.find("double,bvh,all,0000000000000000,0,0,0,1,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",50 100 150\n"), std::string::npos) << csv;
 }
 
 TEST(AroundFirstContact, EndsSoonAfterIt) {
@@ -153,9 +151,9 @@ TEST(AroundFirstContact, EndsSoonAfterIt) {
 // Small cases on which floats are wrong, and doubles a little: the judge must see it.
 TEST(ErrorRuns, FloatsAreWrongAndExactIsNot) {
   std::vector<std::string> missing, wrong;
-  const auto families = error_families({"/nowhere", 0.1}, missing);
+  const auto families = all_families({"/nowhere", 0.1}, missing);
   EXPECT_EQ(missing.size(), 4u);
-  std::vector<JudgedStep> steps;
+  std::vector<VariantStep> steps;
   for (const auto& family : families) {
     if (family.name != "closed-near-degenerate") continue;
     for (const auto& timed : family.cases()) {
@@ -164,32 +162,32 @@ TEST(ErrorRuns, FloatsAreWrongAndExactIsNot) {
     }
   }
   EXPECT_TRUE(wrong.empty()) << wrong.front();
-  const auto count = [&](Arithmetic arithmetic, bool (JudgedStep::*is)() const) {
-    return std::count_if(steps.begin(), steps.end(), [&](const JudgedStep& s) {
-      return s.variant.arithmetic == arithmetic && (s.*is)();
-    });
+  using properties::StepErrors;
+  const auto count = [&](Arithmetic arithmetic, std::uint64_t StepErrors::*member) {
+    std::uint64_t sum = 0;
+    for (const auto& s : steps) sum += s.variant.arithmetic == arithmetic ? s.errors.*member : 0;
+    return sum;
   };
-  EXPECT_EQ(count(Arithmetic::exact, &JudgedStep::unsafe), 0);
-  EXPECT_EQ(count(Arithmetic::exact, &JudgedStep::alarming), 0);
-  EXPECT_EQ(count(Arithmetic::bounded, &JudgedStep::unsafe), 0);
-  EXPECT_GT(count(Arithmetic::single_precision, &JudgedStep::unsafe), 0);
-  EXPECT_GT(count(Arithmetic::single_precision, &JudgedStep::alarming), 0);
-  EXPECT_GT(count(Arithmetic::double_precision, &JudgedStep::unsafe), 0);
+  EXPECT_EQ(count(Arithmetic::exact, &StepErrors::unsafe), 0u);
+  EXPECT_EQ(count(Arithmetic::exact, &StepErrors::alarming), 0u);
+  EXPECT_EQ(count(Arithmetic::bounded, &StepErrors::unsafe), 0u);
+  EXPECT_GT(count(Arithmetic::single_precision, &StepErrors::unsafe), 0u);
+  EXPECT_GT(count(Arithmetic::single_precision, &StepErrors::alarming), 0u);
+  EXPECT_GT(count(Arithmetic::double_precision, &StepErrors::unsafe), 0u);
 }
 
 TEST(SpeedErrorSuite, EveryFamilyAndVariant) {
-  Progress progress("bench");
-  const BenchReport report = speed_error_suite({"/nowhere", 0.01}, progress);
+  const BenchReport report = speed_error_suite({"/nowhere", 0.01}, {});
   EXPECT_TRUE(report.wrong_answers.empty()) << text_of(report);
-  EXPECT_EQ(report.variants.size(), all_variants(true).size());
+  EXPECT_EQ(report.figures.at("variants").size(), all_variants(true).size());
   for (const auto& row : report.rows) {
     EXPECT_TRUE(!row.measured || std::isfinite(row.measured->value)) << row.label;
     if (row.label == "wrong answers, exact") {
       EXPECT_EQ(row.outcome(), RowOutcome::holds);
     }
   }
-  const auto json = to_json(report);
-  EXPECT_EQ(json["families"].size(), report.families.size());
+  const auto json = to_json(report, "version");
+  EXPECT_EQ(json["families"].size(), report.figures.at("families").size());
   EXPECT_EQ(json["families"][0]["time_over_reference"]["samples"].size(), 2u);
   EXPECT_EQ(json["variants"][0]["errors"]["unsafe"], 0);
   EXPECT_NE(text_of(report).find("double     view-auto   all"), std::string::npos);

@@ -1,5 +1,7 @@
 // Suite `stability`: right arithmetic is shown as right, and arithmetic that is wrong on purpose as
 // wrong in the way that it is.
+#include "reports/bench/whole/stability.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,9 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "detector/step/stages.h"
-#include "reports/bench/stability/stability_changes.h"
-#include "reports/bench/stability/stability_family.h"
-#include "reports/bench/stability/stability_suite.h"
+#include "reports/bench/whole/stability_changes.h"
 
 namespace assay::reports {
 namespace {
@@ -26,10 +26,22 @@ const HardFamily& family_named(std::string_view name) {
 
 constexpr double tests_scale = 0.01;
 
-BenchReport report_of(std::string_view family, const StabilitySubject& subject) {
-  Progress progress("bench");
-  return stability_of({&family_named(family), 1}, {&subject, 1}, {"/nowhere", tests_scale},
-                      progress);
+struct Measured {
+  BenchReport report;
+  std::vector<StabilityCell> cells;
+
+  StabilityCell total() const {
+    FamilyStability sum;
+    sum.cells = cells;
+    return sum.total();
+  }
+};
+
+Measured report_of(std::string_view family, const StabilitySubject& subject) {
+  Measured out;
+  out.report = stability_of({&family_named(family), 1}, {&subject, 1}, {"/nowhere", tests_scale},
+                            {}, &out.cells);
+  return out;
 }
 
 // Exact stages, but for one.
@@ -40,12 +52,6 @@ StabilitySubject with_elementary(detector::Arithmetic arithmetic) {
             stages.elementary = std::make_shared<Elementary>();
             return stages;
           }};
-}
-
-StabilityCell total_of(const BenchReport& report) {
-  FamilyStability sum;
-  sum.cells = report.heat;
-  return sum.total();
 }
 
 const BenchRow& row_that_starts(const BenchReport& report, const std::string& start) {
@@ -61,14 +67,15 @@ class ForgetsTheEnd : public detector::ElementaryTest {
 };
 
 TEST(Stability, AMissAtTheEndIsAMiss) {
-  const auto report =
+  const auto done =
       report_of("contact-at-end", with_elementary<ForgetsTheEnd>(detector::Arithmetic::exact));
-  EXPECT_EQ(row_that_starts(report, "contact-at-end, wrong: wrong").outcome(), RowOutcome::fails);
-  EXPECT_FALSE(report.wrong_answers.empty());
+  EXPECT_EQ(row_that_starts(done.report, "contact-at-end, wrong: wrong").outcome(),
+            RowOutcome::fails);
+  EXPECT_FALSE(done.report.wrong_answers.empty());
   // Only what touches at t=1 is lost.
-  for (const auto& cell : report.heat) {
-    EXPECT_EQ(cell.missed, cell.touches ? cell.cases : 0) << cell.strength;
-    EXPECT_EQ(cell.spurious, 0);
+  for (const auto& cell : done.cells) {
+    EXPECT_EQ(cell.errors.missed, cell.touches ? cell.errors.steps : 0) << cell.strength;
+    EXPECT_EQ(cell.errors.alarming, 0u);
   }
 }
 
@@ -81,18 +88,18 @@ class ComesLate : public detector::ElementaryTest {
 };
 
 TEST(Stability, ALateTimeIsLateAndMeasured) {
-  const auto report =
-      report_of("grazing", with_elementary<ComesLate>(detector::Arithmetic::bounded));
-  const auto all = total_of(report);
-  EXPECT_GT(all.late, 0);
-  EXPECT_EQ(all.missed, 0);
+  const auto done = report_of("grazing", with_elementary<ComesLate>(detector::Arithmetic::bounded));
+  const auto all = done.total();
+  EXPECT_GT(all.errors.late.steps, 0u);
+  EXPECT_EQ(all.errors.unsafe, all.errors.late.steps);
+  EXPECT_EQ(all.errors.missed, 0u);
   EXPECT_EQ(all.right, all.cases);
   EXPECT_LT(all.exactly_right, all.cases);
-  ASSERT_FALSE(all.time_errors.empty());
+  EXPECT_GT(all.refuted, 0);
   // All first times are 1/2, where an ulp is 2^-53.
-  for (const double error : all.time_errors) EXPECT_EQ(error, 0x1p-10);
-  for (const double ulps : all.time_errors_ulps) EXPECT_EQ(ulps, 0x1p-10 / 0x1p-53);
-  EXPECT_FALSE(report.wrong_answers.empty());
+  EXPECT_EQ(all.errors.late.worst_share, 0x1p-10);
+  EXPECT_EQ(all.errors.late.worst_ulps, 0x1p-10 / 0x1p-53);
+  EXPECT_FALSE(done.report.wrong_answers.empty());
 }
 
 class SeesTooMuch : public detector::ElementaryTest {
@@ -103,14 +110,14 @@ class SeesTooMuch : public detector::ElementaryTest {
   }
 };
 
-TEST(Stability, FalseAlarmsAreSpurious) {
-  const auto report =
+TEST(Stability, FalseAlarmsAreAlarming) {
+  const auto done =
       report_of("short-steps", with_elementary<SeesTooMuch>(detector::Arithmetic::exact));
-  const auto all = total_of(report);
-  EXPECT_GT(all.spurious, 0);
-  EXPECT_GT(all.early, 0);
-  EXPECT_EQ(all.missed, 0);
-  EXPECT_FALSE(report.wrong_answers.empty());
+  const auto errors = done.total().errors;
+  EXPECT_GT(errors.alarming, 0u);
+  EXPECT_GT(errors.early.steps, 0u);
+  EXPECT_EQ(errors.missed, 0u);
+  EXPECT_FALSE(done.report.wrong_answers.empty());
 }
 
 class CallsZeroPositive : public detector::ViewClassifier {
@@ -135,11 +142,11 @@ TEST(Stability, AWrongViewSignIsWrong) {
                                    return stages;
                                  }};
   for (const auto* family : {"view-touches-zero", "view-on-surface", "view-line-ends"}) {
-    const auto report = report_of(family, subject);
-    const auto all = total_of(report);
+    const auto done = report_of(family, subject);
+    const auto all = done.total();
     EXPECT_GT(all.wrong_signs, 0) << family;
     EXPECT_LT(all.right, all.cases) << family;
-    EXPECT_FALSE(report.wrong_answers.empty()) << family;
+    EXPECT_FALSE(done.report.wrong_answers.empty()) << family;
   }
 }
 
@@ -154,7 +161,8 @@ class DependsOnNumbering : public detector::ElementaryTest {
 
 TEST(Stability, ChangesShowWhatDependsOnThem) {
   const auto report =
-      report_of("near-parallel", with_elementary<DependsOnNumbering>(detector::Arithmetic::exact));
+      report_of("near-parallel", with_elementary<DependsOnNumbering>(detector::Arithmetic::exact))
+          .report;
   const auto survived = [&](const std::string& change) {
     return row_that_starts(report, "answers that survive " + change).measured->value;
   };
@@ -205,8 +213,9 @@ TEST(Stability, BreaksAtTheFirstStrengthThatIsNotAllRight) {
 }
 
 TEST(Stability, ExactIsNeverWrongAndBoundedNeverMisses) {
-  Progress progress("bench");
-  const auto report = stability_suite({"/nowhere", tests_scale}, progress);
+  std::vector<StabilityCell> cells;
+  const auto report = stability_of(corpus::hard_families(), all_arithmetics(),
+                                   {"/nowhere", tests_scale}, {}, &cells);
   EXPECT_TRUE(report.wrong_answers.empty()) << text_of(report);
   int exact_rows = 0, bounded_rows = 0;
   for (const auto& row : report.rows) {
@@ -219,14 +228,14 @@ TEST(Stability, ExactIsNeverWrongAndBoundedNeverMisses) {
   EXPECT_EQ(bounded_rows, 20);
   // The families are hard: the others break.
   std::map<std::string, int> wrong;
-  for (const auto& cell : report.heat) wrong[cell.arithmetic] += cell.cases - cell.right;
+  for (const auto& cell : cells) wrong[cell.arithmetic] += cell.cases - cell.right;
   EXPECT_EQ(wrong["exact"], 0);
   EXPECT_GT(wrong["bounded"], 0);
   EXPECT_GT(wrong["double"], 0);
   EXPECT_GT(wrong["float"], wrong["double"]);
 
-  const auto json = to_json(report);
-  ASSERT_EQ(json["heat"].size(), report.heat.size());
+  const auto json = to_json(report, "version");
+  ASSERT_EQ(json["heat"].size(), cells.size());
   for (const auto& cell : json["heat"]) {
     EXPECT_GT(cell["cases"], 0);
     EXPECT_EQ(cell["share_right"].get<double>(),

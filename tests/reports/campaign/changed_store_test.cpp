@@ -4,7 +4,7 @@
 
 #include <thread>
 
-#include "properties/campaign/database/rows.h"
+#include "properties/campaign/ledger/record.h"
 #include "tests/reports/campaign/started.h"
 #include "tests/reports/run_fixture.h"
 
@@ -22,12 +22,12 @@ class ChangedStore : public RunFixture {
     try {
       const Database database(file, Database::Mode::write);
       std::vector<Row> rows;
-      for_each_row(database, trial_table(), nullptr, "ORDER BY id LIMIT 1", {},
+      for_each_row(database, nullptr, "WHERE kind='trial' ORDER BY key LIMIT 1", {},
                    [&](const Row& row) { rows.push_back(row); });
       if (rows.empty()) return false;
-      constexpr std::size_t outcomes = 3;
-      for (char& letter : rows[0][outcomes]) letter = letter == 'H' ? 'D' : 'H';
-      put_row(database, trial_table(), rows[0]);
+      TrialRecord record = trial_of(rows[0]);
+      for (char& letter : record.outcomes) letter = letter == 'H' ? 'D' : 'H';
+      put_row(database, to_row(record));
       return true;
     } catch (const StoreProblem&) {
       return false;  // not there yet, or busy

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "corpus/cases/case_file.h"
+#include "properties/campaign/gates/findings.h"
 #include "properties/campaign/gates/gates.h"
-#include "properties/campaign/gates/read_findings.h"
 #include "tests/reports/run_fixture.h"
 
 namespace assay::tests {

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "properties/campaign/stored/run_folder.h"
+#include "properties/campaign/ledger/run_folder.h"
 #include "tests/reports/tiny_campaign.h"
 
 namespace assay::tests {
@@ -11,7 +11,7 @@ namespace assay::tests {
 class PowerFixture : public testing::Test {
  protected:
   using Json = nlohmann::ordered_json;
-  using Rows = std::vector<properties::Evidence>;
+  using Rows = std::vector<properties::Row>;
 
   // The curated cases show each of the faults, so that few random ones will do. The tests of a
   // process share it and leave it as it is.
@@ -70,7 +70,7 @@ class PowerFixture : public testing::Test {
     ASSERT_TRUE(store);
     auto binding = Json::parse(store->binding());
     binding["digests"][digest] = std::string(64, '0');
-    store->set_note("binding", binding.dump());
+    store->set({"binding", "", "", 0, binding.dump()});
     EXPECT_TRUE(store->seal());
   }
   // Makes of the first planted fault that a run took over one that was not found: its name.
@@ -79,14 +79,14 @@ class PowerFixture : public testing::Test {
     if (!store) return "";
     for (auto& row : store->evidence()) {
       if (row.kind != "fault" || row.shard != "power") continue;
-      auto facts = Json::parse(row.facts);
+      auto facts = Json::parse(row.fields);
       if (facts["status"] != "planted") continue;
       facts["curated"] = false;
       for (auto& needed : facts["needed"]) needed = nullptr;
-      row.facts = facts.dump();
+      row.fields = facts.dump();
       store->set(row);
       EXPECT_TRUE(store->seal());
-      return row.name;
+      return row.key;
     }
     ADD_FAILURE() << file << " has no fault that was taken over";
     return "";
@@ -97,8 +97,11 @@ class PowerFixture : public testing::Test {
     ASSERT_EQ(sources.size(), 1u);
     auto store = open(file);
     ASSERT_TRUE(store);
-    store->drop_evidence("power");
-    sources[0].name = "other";
+    store->drop("power");
+    auto fields = nlohmann::json::parse(sources[0].fields);
+    sources[0].key = "other";
+    fields["campaign"] = "other";
+    sources[0].fields = fields.dump();
     store->set(sources[0]);
   }
 

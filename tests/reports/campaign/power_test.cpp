@@ -1,7 +1,7 @@
 // `--power DIR`: the proof that planted faults are found, taken from another run of this build.
 #include <gtest/gtest.h>
 
-#include "properties/campaign/gates/read_findings.h"
+#include "properties/campaign/gates/findings.h"
 #include "tests/reports/campaign/power_fixture.h"
 
 namespace assay::tests {
@@ -38,14 +38,14 @@ TEST_F(Power, OfAnotherRunIsCopiedToldAndJudged) {
   ASSERT_EQ(taken.size(), proved.size());
   for (std::size_t i = 0; i < taken.size(); ++i) {
     EXPECT_EQ(taken[i].shard, "power");
-    EXPECT_EQ(taken[i].name, proved[i].name);
-    EXPECT_EQ(taken[i].facts, proved[i].facts);
+    EXPECT_EQ(taken[i].key, proved[i].key);
+    EXPECT_EQ(taken[i].fields, proved[i].fields);
   }
   const auto sources = rows_of(store, "power");
   ASSERT_EQ(sources.size(), 1u);
   const auto findings = properties::read_findings(proof_folder());
   ASSERT_TRUE(findings) << findings.error().message;
-  EXPECT_EQ(Json::parse(sources[0].facts)["rows"], findings.value().rows);
+  EXPECT_EQ(Json::parse(sources[0].fields)["rows"], findings.value().rows);
 
   // The gates look at these rows: merge prints them as run does.
   const auto hidden = hide_a_fault(store);
@@ -57,7 +57,7 @@ TEST_F(Power, OfAnotherRunIsCopiedToldAndJudged) {
   EXPECT_EQ(run(out, with_proof).exit_code, 0);
   const auto again = rows_of(store, "fault");
   ASSERT_EQ(again.size(), taken.size());
-  for (std::size_t i = 0; i < taken.size(); ++i) EXPECT_EQ(again[i].facts, taken[i].facts);
+  for (std::size_t i = 0; i < taken.size(); ++i) EXPECT_EQ(again[i].fields, taken[i].fields);
 }
 
 // With a limit of time, too: what was left over goes on with the same command.
@@ -190,9 +190,9 @@ TEST_F(Power, ShardsDoNotTakeOverDifferentOnes) {
     ASSERT_EQ(run(out, with_proof + " --shard " + shard).exit_code, 0);
   const auto hidden = hide_a_fault(out + "/shard-2-of-2.sqlite");
   expect_refused(run_assay("merge " + out + " --out " + scratch / "merged"),
-                 "evidence fault, " + hidden + ", power differs from that of another store");
+                 "fault " + hidden + ", power differs from that of another store");
   expect_refused(run_assay("report " + out + " --out " + scratch / "page.html"),
-                 "evidence fault " + hidden + " differs from that of another store");
+                 "fault " + hidden + " differs from that of another store");
   // Another source by its name alone.
   ASSERT_EQ(run(out, with_proof + " --shard 2/2").exit_code, 0);
   EXPECT_EQ(run_assay("report " + out + " --out " + scratch / "page.html").exit_code, 0);

@@ -5,8 +5,8 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "properties/campaign/gates/read_findings.h"
-#include "properties/campaign/stored/run_folder.h"
+#include "properties/campaign/gates/findings.h"
+#include "properties/campaign/ledger/run_folder.h"
 #include "reports/campaign/campaign_text.h"
 #include "reports/certificate/junit.h"
 #include "reports/certificate/statement.h"
@@ -81,7 +81,7 @@ class GeneratedFolder {
         record.index = i;
         record.id = trial_id(request_.plan, request_.seed, record.family, record.index);
         record.outcomes = "H";
-        count_trial(true, false, record.counts);
+        record.counts.measures.contact_trials = 1;
         store.add(record);
       }
     }

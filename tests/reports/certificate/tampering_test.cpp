@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "properties/campaign/database/rows.h"
+#include "properties/campaign/ledger/row.h"
 #include "properties/random.h"
 #include "tests/reports/certificate/issued_folder.h"
 
@@ -140,48 +140,72 @@ class Tampering : public testing::Test {
       expect_text_seen(file, text, text);
   }
 
-  // A column of the first row of each table, the hash mended.
+  // A column of the first row of each kind, or one of its fields, the hash mended.
   void forge_rows(const std::string& file) {
     const std::vector<std::string> words = {
         "",     "NaN",      "-1",         "99999999999999999999",
         "1e99", "1/0",      "0/0",        "1/99999999999999999",
         "{}",   "\xff\xfe", deep_lists,   deep_objects(),
         "[[",   "null",     R"({"a":1})", "HHHHHHHHHHHHHHHH"};
-    for (const auto* table : properties::store_tables()) {
-      for (std::size_t c = 0; c < table->columns.size(); ++c) {
-        for (int i = 0; i < 4; ++i) {
-          const auto& word =
-              words[static_cast<std::size_t>(random.below(static_cast<int>(words.size())))];
-          expect_seen(fmt::format("{}: {}.{} is {}", file, table->name, table->columns[c].name,
-                                  word.substr(0, 20)),
-                      [&] { put_word(bad + "/" + file, *table, c, word); });
-        }
+    const auto a_word = [&] {
+      return words[static_cast<std::size_t>(random.below(static_cast<int>(words.size())))];
+    };
+    std::map<std::string, properties::Row> kinds;
+    {
+      const properties::Database database(good + "/" + file, properties::Database::Mode::read);
+      for_each_row(database, nullptr, "", {},
+                   [&](const properties::Row& row) { kinds.emplace(row.kind, row); });
+    }
+    for (const auto& [kind, row] : kinds) {
+      const auto forge = [&](const std::string& what, const std::string& word, const auto& change) {
+        properties::Row forged = row;
+        change(forged, word);
+        if (forged == row) return;
+        expect_seen(fmt::format("{}: {} of {} is {}", file, what, kind, word.substr(0, 20)),
+                    [&] { put_instead(bad + "/" + file, row, forged); });
+      };
+      using Column = std::string properties::Row::*;
+      for (const Column column : {&properties::Row::kind, &properties::Row::key,
+                                  &properties::Row::shard, &properties::Row::fields}) {
+        for (int i = 0; i < 4; ++i)
+          forge("a column", a_word(),
+                [&](properties::Row& to, const std::string& word) { to.*column = word; });
+      }
+      const Json stored = Json::parse(row.fields);
+      for (const auto& [name, value] : stored.items()) {
+        forge(name, a_word(), [&](properties::Row& to, const std::string& word) {
+          // What is JSON stands there as it is, because a copy of it may be too deep; else a text.
+          const auto put = Json::accept(word)
+                               ? word
+                               : Json(word).dump(-1, ' ', false, Json::error_handler_t::replace);
+          Json fields = stored;
+          fields[name] = "@";
+          const auto text = fields.dump();
+          const auto place = text.find(R"("@")");
+          to.fields = text.substr(0, place) + put + text.substr(place + 3);
+        });
       }
     }
   }
-  static void put_word(const std::string& file, const properties::StoreTable& table,
-                       std::size_t column, const std::string& word) {
+  static void put_instead(const std::string& file, const properties::Row& row,
+                          const properties::Row& forged) {
     const properties::Database database(file, properties::Database::Mode::write);
-    std::vector<properties::Row> rows;
-    for_each_row(database, table, nullptr, "LIMIT 1", {},
-                 [&](const properties::Row& row) { rows.push_back(row); });
-    // So that the file differs where the table is empty, too.
-    if (rows.empty()) rows.push_back(properties::Row(table.columns.size(), "1"));
-    if (rows[0][column] == word)
-      rows[0][column] = word + "1";
-    else
-      rows[0][column] = word;
-    put_row(database, table, rows[0]);
+    properties::Statement(database, "DELETE FROM ledger WHERE kind=? AND key=? AND shard=?")
+        .bind(row.kind)
+        .bind(row.key)
+        .bind(row.shard)
+        .next();
+    put_row(database, forged);
   }
   void bind_to(const std::string& file, const std::string& place, const Json& value) {
     expect_seen(fmt::format("{}: binding {} is {}", file, place, value.dump().substr(0, 20)), [&] {
       const properties::Database database(bad + "/" + file, properties::Database::Mode::write);
       std::string text;
-      for_each_row(database, properties::note_table(), nullptr, "WHERE key='binding'", {},
-                   [&](const properties::Row& row) { text = row[1]; });
+      for_each_row(database, nullptr, "WHERE kind='binding'", {},
+                   [&](const properties::Row& row) { text = row.fields; });
       Json binding = Json::parse(text);
       binding[Json::json_pointer(place)] = value;
-      put_row(database, properties::note_table(), {"binding", binding.dump()});
+      put_row(database, {"binding", "", "", 0, binding.dump()});
     });
   }
 };

@@ -1,8 +1,7 @@
 // Waivers of known failures: what the file must hold, and until when.
-#include "reports/certificate/waivers.h"
-
 #include <gtest/gtest.h>
 
+#include "reports/campaign/own_cases.h"
 #include "tests/reports/program.h"
 
 namespace assay::reports {

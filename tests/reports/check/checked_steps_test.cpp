@@ -4,7 +4,7 @@
 
 #include "corpus/formats/sequence_reader.h"
 #include "corpus/scenes/scenes.h"
-#include "reports/check/check_input.h"
+#include "reports/check/check_run.h"
 #include "tests/reports/program.h"
 
 namespace assay::tests {

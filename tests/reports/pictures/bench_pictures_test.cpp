@@ -2,10 +2,12 @@
 // not installed.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdlib>
 
-#include "reports/pictures/gnuplot.h"
-#include "reports/pictures/pictures.h"
+#include "reports/bench/gnuplot.h"
+#include "reports/bench/pictures.h"
+#include "reports/bench/whole/speed_error.h"
 
 namespace assay::reports {
 namespace {
@@ -21,47 +23,45 @@ std::size_t count(const std::string& text, const std::string& word) {
 
 Estimate about(double value) { return {value, 0.9 * value, 1.1 * value, {value}}; }
 
-BenchReport some_report() {
-  BenchReport report;
+std::string errors() {
   VariantSummary exact{reference_variant, about(1), {}, {0, 0, 0.01, true}, {0, 0, 0.01, true}};
-  exact.errors.judged = 321;
-  report.variants.push_back(exact);
-  report.variants.push_back({{Arithmetic::double_precision, Culling::view_auto, {}},
-                             about(0.5),
-                             {},
-                             {0.125, 0.1, 0.15, true},
-                             {0.0625, 0.05, 0.07, true}});
-  report.scatter = {{"bend", "view-point", 0.25, 2, 1.9, 2.1, "bvh"},
-                    {"bend", "view-point", 0.75, 0.5, 0.4, 0.6, "bvh"},
-                    {"bend", "view-line", 0.5, 0.7, 0.6, 0.8, "normal-cone"}};
-  StabilityCell weak;
-  weak.family = "slivers";
-  weak.arithmetic = "double";
-  weak.cases = 3;
-  weak.right = 3;
-  StabilityCell strong = weak;
-  strong.right = 0;
-  strong.missed = 2;
-  report.heat = {weak, strong};
-  report.growth = {{"free step", 1'000, about(0.1)}, {"free step", 100'000, about(12)}};
-  return report;
+  exact.errors.steps = 321;
+  const VariantSummary doubles{{Arithmetic::double_precision, Culling::view_auto, {}},
+                               about(0.5),
+                               {},
+                               {0.125, 0.1, 0.15, true},
+                               {0.0625, 0.05, 0.07, true}};
+  return speed_error_picture(std::array{exact, doubles});
+}
+
+std::string shares() {
+  const ScatterPoint points[] = {{"bend", "view-point", 0.25, 2, 1.9, 2.1, "bvh"},
+                                 {"bend", "view-point", 0.75, 0.5, 0.4, 0.6, "bvh"},
+                                 {"bend", "view-line", 0.5, 0.7, 0.6, 0.8, "normal-cone"}};
+  return share_picture(points);
+}
+
+std::string heat() {
+  const HeatCell cells[] = {{"slivers", "double", 3, 3, 0}, {"slivers", "double", 3, 0, 2}};
+  return heat_picture(cells);
+}
+
+std::string growth() {
+  const GrowthPoint points[] = {{"free step", 1'000, about(0.1)},
+                                {"free step", 100'000, about(12)}};
+  return growth_picture(points);
 }
 
 TEST(PictureScripts, HoldEveryPointWithItsIntervals) {
-  const auto report = some_report();
-  const auto errors = speed_error_picture(report);
-  EXPECT_NE(errors.find("0.5 0.45 0.55 12.5 10 15\n"), std::string::npos) << errors;
-  EXPECT_NE(errors.find("0.5 0.45 0.55 6.25 5 7"), std::string::npos);
-  EXPECT_NE(errors.find("% of 321 steps"), std::string::npos);
-  EXPECT_EQ(count(errors, "Pareto line"), 1u);
-  const auto shares = share_picture(report);
-  EXPECT_NE(shares.find("25 2 1.9 2.1\n75 0.5 0.4 0.6\n"), std::string::npos) << shares;
+  EXPECT_NE(errors().find("0.5 0.45 0.55 12.5 10 15\n"), std::string::npos) << errors();
+  EXPECT_NE(errors().find("0.5 0.45 0.55 6.25 5 7"), std::string::npos);
+  EXPECT_NE(errors().find("% of 321 steps"), std::string::npos);
+  EXPECT_EQ(count(errors(), "Pareto line"), 1u);
+  EXPECT_NE(shares().find("25 2 1.9 2.1\n75 0.5 0.4 0.6\n"), std::string::npos) << shares();
   // The line through log 2 at 25 % and log 1/2 at 75 % crosses 0 at 50 %.
-  EXPECT_NE(shares.find("view-point 50 %, view-line none"), std::string::npos);
-  EXPECT_NE(heat_picture(report).find("0 0 0.5 16777215 \"50 %   2 missed\"\n"), std::string::npos)
-      << heat_picture(report);
-  const auto growth = growth_picture(report);
-  EXPECT_NE(growth.find("1000 0.1 0.09"), std::string::npos) << growth;
+  EXPECT_NE(shares().find("view-point 50 %, view-line none"), std::string::npos);
+  EXPECT_NE(heat().find("0 0 0.5 16777215 \"50 %   2 missed\"\n"), std::string::npos) << heat();
+  EXPECT_NE(growth().find("1000 0.1 0.09"), std::string::npos) << growth();
 }
 
 TEST(PictureScripts, WordsAreQuoted) {
@@ -70,13 +70,12 @@ TEST(PictureScripts, WordsAreQuoted) {
 
 TEST(Gnuplot, DrawsEveryPicture) {
   if (const auto problem = cannot_draw(); !problem.empty()) GTEST_SKIP() << problem;
-  const auto report = some_report();
-  for (const auto picture : {speed_error_picture, share_picture, growth_picture, heat_picture}) {
-    const auto drawing = draw(picture(report));
+  for (const auto picture : {errors, shares, growth, heat}) {
+    const auto drawing = draw(picture());
     EXPECT_EQ(drawing.problem, "");
     EXPECT_NE(drawing.svg.find("</svg>"), std::string::npos);
     EXPECT_EQ(count(drawing.svg, "nan"), 0u);
-    EXPECT_EQ(drawing.svg, draw(picture(report)).svg);  // the same figures, the same bytes
+    EXPECT_EQ(drawing.svg, draw(picture()).svg);  // the same figures, the same bytes
   }
 }
 

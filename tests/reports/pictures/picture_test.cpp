@@ -4,11 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "reports/pictures/case_scene.h"
 #include "reports/pictures/contact_point.h"
 #include "reports/pictures/mesh_svg.h"
-#include "reports/pictures/nearest_points.h"
-#include "reports/pictures/scene_maker.h"
-#include "reports/pictures/view_set.h"
 #include "tests/reports/stored_run.h"
 
 namespace assay::tests {

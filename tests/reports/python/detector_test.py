@@ -54,7 +54,7 @@ def test_a_result_is_no_truth_value(pair):
         bool(result)
 
 
-@pytest.mark.parametrize("culling", ["auto", "view-auto", "view-point", "normal-cone", "bvh", "none"])
+@pytest.mark.parametrize("culling", assay.OPTIONS["culling"])
 def test_every_culling_answers_alike(cloud, culling):
     expected = assay.Detector(cloud.triangles, cloud.x_t0).step(cloud.x_t0, cloud.x_t1)
     assert len(expected.pairs) > 10

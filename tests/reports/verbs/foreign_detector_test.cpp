@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "properties/campaign/gates/read_findings.h"
+#include "properties/campaign/gates/findings.h"
 #include "tests/reports/tiny_campaign.h"
 
 namespace assay::tests {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "corpus/cases/case_file.h"
-#include "properties/campaign/trials/clean_starts.h"
+#include "properties/campaign/trials/planned_case.h"
 #include "properties/generators/families.h"
 #include "tests/reports/tiny_campaign.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "reports/steps/second_opinion_text.h"
+#include "reports/steps/step_text.h"
 #include "tests/reports/program.h"
 
 namespace assay::tests {

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "properties/campaign/database/rows.h"
+#include <functional>
+#include <utility>
+
+#include "properties/campaign/ledger/record.h"
 #include "tests/reports/certificate/issued_folder.h"
 #include "tests/reports/run_fixture.h"
 
@@ -24,17 +27,17 @@ class VerifyAgain : public RunFixture {
   Outcome verify(const std::string& more) const {
     return run_assay("verify " + out + "/certificate.json " + more);
   }
-  // Another word in a column of the trial, its hash mended, the certificate issued anew.
-  void forge(const std::string& id, std::size_t column, std::string word) {
+  // Changes the trial, mends its hash, and issues the certificate anew.
+  void forge(const std::string& id, const std::function<void(TrialRecord&)>& change) {
     {
       const Database database(store_file(out, {}), Database::Mode::write);
       std::vector<Row> rows;
-      for_each_row(database, trial_table(), nullptr, "WHERE id=?", {id},
+      for_each_row(database, nullptr, "WHERE kind='trial' AND key=?", {id},
                    [&](const Row& row) { rows.push_back(row); });
       ASSERT_EQ(rows.size(), 1u) << id;
-      was = rows[0][column];
-      rows[0][column] = std::move(word);
-      put_row(database, trial_table(), rows[0]);
+      TrialRecord record = trial_of(rows[0]);
+      change(record);
+      put_row(database, to_row(record));
     }
     issue(out);
   }
@@ -47,7 +50,6 @@ class VerifyAgain : public RunFixture {
                                         "run again, seed 3; it says nothing\n"))
         << again.out;
   }
-  std::string was;
 };
 
 TEST_F(VerifyAgain, NamesAForgedTrialOfTheBuiltInDetector) {
@@ -55,16 +57,21 @@ TEST_F(VerifyAgain, NamesAForgedTrialOfTheBuiltInDetector) {
   const auto honest = verify("--again 1");
   EXPECT_EQ(honest.exit_code, 0) << honest.out << honest.err;
   const std::string id = "tiny:1:broken:5";
-  const std::pair<std::size_t, std::string> columns[] = {
-      {4, "triangles"}, {5, "steps"}, {6, "collisions"}, {7, "pairs"}};
-  for (const auto& [column, name] : columns) {
-    forge(id, column, "7654");
+  const std::pair<std::uint64_t TrialRecord::*, const char*> numbers[] = {
+      {&TrialRecord::triangles, "triangles"},
+      {&TrialRecord::steps, "steps"},
+      {&TrialRecord::collisions, "collisions"},
+      {&TrialRecord::pairs, "pairs"}};
+  for (const auto& [member, name] : numbers) {
+    const auto number = member;
+    std::uint64_t was = 0;
+    forge(id, [&](TrialRecord& record) { was = std::exchange(record.*number, 7654); });
     EXPECT_LE(verify("").exit_code, 1);
     EXPECT_TRUE(contains(verify("").out, "verified: ")) << "the forgery is whole";
     expect_named(fmt::format("trial {}: {} {} now, 7654 stored\n", id, was, name));
-    forge(id, column, was);
+    forge(id, [&](TrialRecord& record) { record.*number = was; });
   }
-  forge(id, 11, "7654");
+  forge(id, [](TrialRecord& record) { record.mesh = 7654; });
   expect_named(fmt::format("trial {}: its mesh is another one\n", id));
   const auto refused = verify("--again 1 --detector " + plugin("always_free"));
   EXPECT_EQ(refused.exit_code, 2) << refused.out;
@@ -88,9 +95,9 @@ TEST_F(VerifyAgain, NamesAForgedVerdictOnAPlugIn) {
     });
   }
   ASSERT_FALSE(id.empty());
-  forge(id, 3, "H");
+  forge(id, [](TrialRecord& record) { record.outcomes = "H"; });
   expect_named(fmt::format("trial {}: constant answer is D now, H is stored\n", id));
-  forge(id, 3, "D");
+  forge(id, [](TrialRecord& record) { record.outcomes = "D"; });
 
   // The library as it is named, a copy of it, and another one.
   const auto copy = scratch / "copy.so";

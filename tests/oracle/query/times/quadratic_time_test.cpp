@@ -7,7 +7,6 @@
 #include <cstdio>
 
 #include "oracle/query/times/algebraic_times.h"
-#include "oracle/query/times/quadratic_times.h"
 #include "tests/oracle/random_points.h"
 
 namespace assay::oracle {

@@ -1,0 +1,113 @@
+#include "corpus/formats/step_source.h"
+
+#include <boost/outcome/try.hpp>
+#include <utility>
+
+#include "corpus/formats/sequence_reader.h"
+
+namespace assay::corpus {
+namespace {
+
+using detector::Positions;
+
+// That there is no step, because there is one frame only.
+Problem one_frame_only() {
+  return problem_in({}, "one frame only: a step needs two frames or more");
+}
+
+class StepsOfCase : public StepSource {
+ public:
+  StepsOfCase(std::shared_ptr<const Case> c, bool is_case_file)
+      : case_(std::move(c)), script_(steps_of(*case_)), is_case_file_(is_case_file) {}
+
+  std::size_t count() const override { return script_.size(); }
+  std::size_t frames() const override { return case_->frames.size(); }
+  const detector::Triangles& triangles() const override { return case_->triangles; }
+  const Positions& first_frame() const override { return case_->frames.front(); }
+
+  Expected<SourceStep> step(std::size_t s) override {
+    return SourceStep{start_of(*case_, script_[s]), end_of(*case_, script_[s]),
+                      view_of_step(*case_, s), script_[s].commit};
+  }
+
+  std::shared_ptr<const Case> whole() const override { return case_; }
+  const Case* case_file() const override { return is_case_file_ ? case_.get() : nullptr; }
+
+  Expected<std::unique_ptr<StepSource>> read_whole() override {
+    return steps_of_case(case_, is_case_file_);
+  }
+
+ private:
+  std::shared_ptr<const Case> case_;
+  std::vector<CaseStep> script_;
+  bool is_case_file_;
+};
+
+// Consecutive steps share a frame: the end of one is the start of the next.
+class StepsOfFiles : public StepSource {
+ public:
+  StepsOfFiles(SequenceReader reader, Positions first, Positions second)
+      : reader_(std::move(reader)), x_t0_(std::move(first)), x_t1_(std::move(second)) {}
+
+  std::size_t count() const override { return reader_.frames() - 1; }
+  std::size_t frames() const override { return reader_.frames(); }
+  const detector::Triangles& triangles() const override { return reader_.triangles(); }
+  const Positions& first_frame() const override { return x_t0_; }
+
+  Expected<SourceStep> step(std::size_t s) override {
+    if (s > step_) {
+      BOOST_OUTCOME_TRYV(go_on());
+    }
+    return SourceStep{x_t0_, x_t1_};
+  }
+
+  Expected<std::unique_ptr<StepSource>> read_whole() override {
+    Case c;
+    c.triangles = reader_.triangles();
+    c.frames.push_back(std::move(x_t0_));
+    c.frames.push_back(std::move(x_t1_));
+    while (!reader_.at_end()) {
+      BOOST_OUTCOME_TRY(frame, reader_.next());
+      c.frames.push_back(std::move(frame));
+    }
+    return steps_of_case(std::make_shared<const Case>(std::move(c)), false);
+  }
+
+ private:
+  Expected<void> go_on() {
+    x_t0_.swap(x_t1_);
+    x_t1_.resize(0, 3);  // so that there are not three while the next one is read
+    BOOST_OUTCOME_TRY(frame, reader_.next());
+    x_t1_ = std::move(frame);
+    ++step_;
+    return boost::outcome_v2::success();
+  }
+
+  SequenceReader reader_;
+  std::size_t step_ = 0;  // whose frames these are
+  Positions x_t0_, x_t1_;
+};
+
+}  // namespace
+
+std::unique_ptr<StepSource> steps_of_case(std::shared_ptr<const Case> c, bool is_case_file) {
+  return std::make_unique<StepsOfCase>(std::move(c), is_case_file);
+}
+
+Expected<std::unique_ptr<StepSource>> steps_of_files(std::vector<std::filesystem::path> files) {
+  SequenceReader reader(std::move(files));
+  BOOST_OUTCOME_TRY(first, reader.next());
+  if (reader.at_end()) return one_frame_only();
+  BOOST_OUTCOME_TRY(second, reader.next());
+  BOOST_OUTCOME_TRYV(reader.look_ahead());
+  return std::make_unique<StepsOfFiles>(std::move(reader), std::move(first), std::move(second));
+}
+
+Expected<std::unique_ptr<StepSource>> read_steps(const std::vector<std::filesystem::path>& files) {
+  if (files.size() > 1 || files[0].extension() != ".json") return steps_of_files(files);
+  BOOST_OUTCOME_TRY(c, read_case(files[0]));
+  if (c.frames.size() < 2) return one_frame_only();
+  return steps_of_case(std::make_shared<const Case>(std::move(c)), true);
+}
+
+}  // namespace assay::corpus

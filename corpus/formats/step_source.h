@@ -1,0 +1,60 @@
+// The steps of one mesh, one after another, wherever they come from: a case that is at hand as a
+// whole, or files, of which two frames at a time are in memory. Every input of steps is one of
+// these.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "corpus/cases/case_file.h"
+
+namespace assay::corpus {
+
+// Where the vertices are when a step starts and when it ends, and what the input states of it.
+struct SourceStep {
+  const detector::Positions& x_t0;
+  const detector::Positions& x_t1;
+  std::optional<detector::ViewPrimitive> view = {};
+  bool commit = true;
+};
+
+class StepSource {
+ public:
+  virtual ~StepSource() = default;
+
+  virtual std::size_t count() const = 0;
+  // The number of frames, in memory or not.
+  virtual std::size_t frames() const = 0;
+  virtual const detector::Triangles& triangles() const = 0;
+  // The frame that a detector is made from. REQUIRES that no step after the first was asked for.
+  virtual const detector::Positions& first_frame() const = 0;
+
+  // Step s < count(). Its frames may be gone when the next step is asked for. Problems: those of
+  // a file whose frame is read now. REQUIRES that steps are asked for in order, and none after a
+  // problem.
+  virtual Expected<SourceStep> step(std::size_t s) = 0;
+
+  // The case, if it is at hand as a whole; else null.
+  virtual std::shared_ptr<const Case> whole() const { return nullptr; }
+  // The same if it states options and facts; null if it is but triangles and frames.
+  virtual const Case* case_file() const { return nullptr; }
+
+  // The same steps, of a case that is at hand as a whole: reads all frames that are left. REQUIRES
+  // that no step was asked for, and that nothing is asked of these steps any more.
+  virtual Expected<std::unique_ptr<StepSource>> read_whole() = 0;
+};
+
+// `is_case_file`: the options and facts that the case states count.
+std::unique_ptr<StepSource> steps_of_case(std::shared_ptr<const Case> c, bool is_case_file);
+
+// Each file is a frame, and is read once: the first two now, the others when their step is asked
+// for. Those that are not there or of no known format are refused now. REQUIRES a file.
+Expected<std::unique_ptr<StepSource>> steps_of_files(std::vector<std::filesystem::path> files);
+
+// What these files hold: one case file (.json), or frames of one mesh, two or more. REQUIRES a
+// file.
+Expected<std::unique_ptr<StepSource>> read_steps(const std::vector<std::filesystem::path>& files);
+
+}  // namespace assay::corpus

@@ -1,0 +1,244 @@
+#include "detector/contact/contact_doubles.h"
+
+#include <cmath>
+#include <optional>
+
+#include "detector/contact/contact_pieces.h"
+
+namespace assay::detector {
+namespace {
+
+// How far pieces are halved, and how many halvings a query may take. Up to the first piece that
+// stays open the limit is max_depth, because that piece decides the answer. After it the limit is
+// max_depth_after_open: pieces then only serve to find a time at which a contact is certain.
+constexpr int max_depth = 20, max_depth_after_open = 6, max_halvings = 64;
+
+struct BoundedSearch {
+  using Piece = ContactPiece<double>;
+
+  bool may_halve(int depth) {
+    return depth < (result.contact ? max_depth_after_open : max_depth) && halvings++ < max_halvings;
+  }
+
+  bool open(const Piece& piece) {
+    if (!result.contact) result = {true, {piece.lo, 1}, ContactRung::open};
+    return want == Want::yes_no;
+  }
+
+  void contact(const Piece& piece, double f_bound, int) {
+    if (want == Want::first_time) {
+      const TimeEnclosure root = enclose_first_root(piece.f, f_bound, piece.lo, piece.hi);
+      if (!result.contact) result.time.lo = root.lo;
+      result.time.hi = root.hi;
+    }
+    result.contact = true;
+    result.rung = ContactRung::filter;
+  }
+
+  Want want;
+  int halvings = 0;
+  ContactResult result{false, {}, ContactRung::filter};
+};
+
+}  // namespace
+
+ContactResult bounded_contact(const FourPoints& query, Want want) {
+  BoundedSearch search{want};
+  ContactPieces<ProvedBounds, BoundedSearch>(query, search).run();
+  return search.result;
+}
+
+// A root is guessed, and two places are tried, one a little before the guess and one a little
+// after it. If the coefficients up to the first place have one sign, the cubic surely has no root
+// up to there. If the value at the second place has the other sign, the cubic has surely changed
+// its sign by then. If several roots or a double root are near, this may fail; then halvings find
+// the two places.
+//
+// Error bounds, in the notation of bernstein.h; B is the largest |coefficient| that is split.
+//
+//   quantity         | operations                             | error in u                | size
+//   a level at s     | (1 - s) x + s y, s in [0,1]            | as before + at most 3 B   | B
+//   split at s       | three such levels                      | as before + 9 B           | B
+//   halved           | (x + y) / 2 at three levels            | as before + 3 B           | B
+//
+// Of the 3 B of a level, 1 - s costs (1 - s) B, its product with x as much, the product of s and y
+// costs s B, and the sum costs B. The code adds 10 B for a split and 4 B for a halving: 1 B is
+// slack. s itself is exact: a time t in [lo,hi] and lo are multiples of the last place of t, so
+// t - lo is a double, and hi - lo is a power of two.
+
+namespace {
+
+double greatest(const Cubic& f) {
+  return std::max({std::abs(f[0]), std::abs(f[1]), std::abs(f[2]), std::abs(f[3])});
+}
+
+// The coefficients over [0,s].
+Cubic left_of(Cubic f, double s) {
+  Cubic left;
+  for (std::size_t level = 0; level < 4; ++level) {
+    left[level] = f[0];
+    for (std::size_t i = 0; i + 1 + level < 4; ++i) f[i] = (1 - s) * f[i] + s * f[i + 1];
+  }
+  return left;
+}
+
+struct RootPiece {
+  Cubic f;
+  double bound, lo, hi;
+
+  // While this holds every middle is a multiple of 2^-53, and so it is exact.
+  bool may_halve() const { return hi - lo > 0x1p-52; }
+};
+
+std::array<RootPiece, 2> halves(const RootPiece& piece) {
+  const double middle = (piece.lo + piece.hi) / 2;
+  const double bound = piece.bound + 4 * unit_roundoff * greatest(piece.f);
+  std::array<RootPiece, 2> out{RootPiece{{}, bound, piece.lo, middle},
+                               RootPiece{{}, bound, middle, piece.hi}};
+  halve(piece.f, out[0].f, out[1].f);
+  return out;
+}
+
+// A time up to which the piece is surely free of roots, as late as it is found.
+double free_until(RootPiece piece, int sign) {
+  while (piece.may_halve() && sign_beyond(piece.f[0], piece.bound) == sign) {
+    const auto [left, right] = halves(piece);
+    piece = sure_sign(left.f, left.bound) == sign ? right : left;
+  }
+  return piece.lo;
+}
+
+// A time at which the cubic surely has the sign that it has at the piece's end, as early as it is
+// found.
+double changed_at(RootPiece piece, int sign) {
+  while (piece.may_halve()) {
+    const auto [left, right] = halves(piece);
+    piece = sign_beyond(left.f[3], left.bound) == -sign ? left : right;
+  }
+  return piece.hi;
+}
+
+std::optional<TimeEnclosure> around_guess(const RootPiece& piece, int sign) {
+  const Cubic& f = piece.f;
+  const double bound = piece.bound + 10 * unit_roundoff * greatest(f);
+  const double width = piece.hi - piece.lo, s = guess_root(f);
+  const double slope = 3 * std::abs((1 - s) * (1 - s) * (f[1] - f[0]) +
+                                    2 * s * (1 - s) * (f[2] - f[1]) + s * s * (f[3] - f[2]));
+  double reach = 2 * bound / slope + 0x1p-52;
+  constexpr int attempts = 3;
+  for (int i = 0; i < attempts && reach < 1; ++i, reach *= 8) {
+    const double lo = std::max(piece.lo, piece.lo + (s - reach) * width);
+    const double hi = std::min(piece.hi, piece.lo + (s + reach) * width);
+    const bool free_before =
+        lo == piece.lo || sure_sign(left_of(f, (lo - piece.lo) / width), bound) == sign;
+    const bool changed =
+        hi == piece.hi || sign_beyond(left_of(f, (hi - piece.lo) / width)[3], bound) == -sign;
+    if (free_before && changed) return TimeEnclosure{lo, hi};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+TimeEnclosure enclose_first_root(const Cubic& f, double bound, double lo, double hi) {
+  const RootPiece piece{f, bound, lo, hi};
+  const int sign = sign_beyond(f[0], bound);
+  if (const auto found = around_guess(piece, sign)) return *found;
+  return {free_until(piece, sign), changed_at(piece, sign)};
+}
+
+namespace {
+
+constexpr int max_plain_depth = 4;
+
+template <class Number, std::size_t n>
+Number value_at(std::array<Number, n> b, Number s) {
+  for (std::size_t level = n - 1; level > 0; --level) {
+    for (std::size_t i = 0; i < level; ++i) b[i] += s * (b[i + 1] - b[i]);
+  }
+  return b[0];
+}
+
+template <class Number>
+struct PlainSearch {
+  using Piece = ContactPiece<Number>;
+
+  bool may_halve(int depth) const { return depth < max_plain_depth; }
+
+  // Takes the place of integers: it takes the signs at a root as computed. It does not see a root
+  // at which F does not change its sign. If the points are coplanar throughout the piece, it looks
+  // at the piece's two ends only.
+  bool open(const Piece& piece) {
+    const Number first = piece.f.front(), last = piece.f.back();
+    if (first == 0 && touches(piece, 0)) return true;
+    if (first * last < 0 && touches(piece, guess_root(piece.f))) return true;
+    return last == 0 && touches(piece, 1);
+  }
+
+  void contact(const Piece& piece, Number, int) {
+    report(piece, want == Want::first_time ? guess_root(piece.f) : 0);
+  }
+
+  bool touches(const Piece& piece, Number s) {
+    for (const auto& axis : piece.dependencies) {
+      bool positive = false, negative = false;
+      for (const auto& l : axis) {
+        const Number value = value_at(l, s);
+        positive |= value > 0;
+        negative |= value < 0;
+      }
+      if (positive && negative) return false;
+      if (!positive && !negative) continue;
+      report(piece, s);
+      return true;
+    }
+    if (!overlap(piece.lo + s * (piece.hi - piece.lo))) return false;
+    report(piece, s);
+    return true;
+  }
+
+  // For points on one line: whether the two groups overlap along every axis.
+  bool overlap(Number time) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      bool before = true, behind = true;
+      for (int i = 0; i < query.first_group; ++i) {
+        for (int j = query.first_group; j < 4; ++j) {
+          const Number a = place(i, k, time), b = place(j, k, time);
+          before &= a < b;
+          behind &= a > b;
+        }
+      }
+      if (before || behind) return false;
+    }
+    return true;
+  }
+
+  Number place(int i, std::size_t k, Number time) const {
+    const MovingPoint& p = query.points[static_cast<std::size_t>(i)];
+    const auto x_t0 = static_cast<Number>(p.t0[k]), x_t1 = static_cast<Number>(p.t1[k]);
+    return x_t0 + time * (x_t1 - x_t0);
+  }
+
+  void report(const Piece& piece, Number s) {
+    const double time = piece.lo + s * (piece.hi - piece.lo);
+    result = {true, {time, time}, ContactRung::filter};
+  }
+
+  const FourPoints& query;
+  Want want;
+  ContactResult result{false, {}, ContactRung::filter};
+};
+
+}  // namespace
+
+template <class Number>
+ContactResult plain_contact(const FourPoints& query, Want want) {
+  PlainSearch<Number> search{query, want};
+  ContactPieces<NoBounds<Number>, PlainSearch<Number>>(query, search).run();
+  return search.result;
+}
+
+template ContactResult plain_contact<double>(const FourPoints&, Want);
+template ContactResult plain_contact<float>(const FourPoints&, Want);
+
+}  // namespace assay::detector

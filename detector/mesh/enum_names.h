@@ -1,0 +1,94 @@
+// The list of an enum: its values, each with its name, written once beside the enum.
+//
+//   enum class Start : std::uint8_t { verified, clean, unknown };
+//   constexpr auto names_of(Start) {
+//     return std::to_array<Named<Start>>(
+//         {{Start::verified, "verified"}, {Start::clean, "clean"}, {Start::unknown, "unknown"}});
+//   }
+//
+// Loops over the values, checks of numbers and all words for users take what they need from that
+// list. It stands in the order in which users read it; the numbers of its values have no gap.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace assay {
+
+template <class Enum>
+struct Named {
+  Enum value;
+  const char* name;
+};
+
+// Any enum with such a list, in whatever namespace it stands.
+template <class Enum>
+concept Listed = requires {
+  names_of(Enum{}).front().name;
+};
+
+template <Listed Enum>
+inline constexpr auto all_values = [] {
+  constexpr auto list = names_of(Enum{});
+  std::array<Enum, list.size()> values{};
+  std::transform(list.begin(), list.end(), values.begin(),
+                 [](const auto& row) { return row.value; });
+  return values;
+}();
+
+template <Listed Enum>
+inline constexpr Enum first_value = *std::min_element(all_values<Enum>.begin(),
+                                                      all_values<Enum>.end());
+
+template <Listed Enum>
+inline constexpr Enum last_value = [] {
+  constexpr Enum last = *std::max_element(all_values<Enum>.begin(), all_values<Enum>.end());
+  static_assert(static_cast<std::size_t>(last) - static_cast<std::size_t>(first_value<Enum>) + 1 ==
+                all_values<Enum>.size());
+  return last;
+}();
+
+// The value with this number; nothing if there is none.
+template <Listed Enum>
+constexpr std::optional<Enum> from_number(std::int64_t number) {
+  const bool is_value = static_cast<std::int64_t>(first_value<Enum>) <= number &&
+                        number <= static_cast<std::int64_t>(last_value<Enum>);
+  return is_value ? std::optional(static_cast<Enum>(number)) : std::nullopt;
+}
+
+// The name of a value; "unknown" for a number that is no value.
+template <Listed Enum>
+constexpr const char* name_of(Enum value) {
+  for (const auto& row : names_of(value)) {
+    if (row.value == value) return row.name;
+  }
+  return "unknown";
+}
+
+// The value with this name; nothing if there is none.
+template <Listed Enum>
+constexpr std::optional<Enum> from_name(std::string_view name) {
+  for (const auto& row : names_of(Enum{})) {
+    if (row.name == name) return row.value;
+  }
+  return std::nullopt;
+}
+
+// All names, as a user reads them: "verified, clean, unknown".
+template <Listed Enum>
+std::string all_names() {
+  std::string text;
+  for (const auto& row : names_of(Enum{}))
+    text += (text.empty() ? "" : ", ") + std::string(row.name);
+  return text;
+}
+
+// Calls with an enum of a namespace look there and not here.
+namespace detector {
+using assay::name_of;
+}
+
+}  // namespace assay

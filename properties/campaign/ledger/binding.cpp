@@ -1,0 +1,144 @@
+#include "properties/campaign/ledger/binding.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "corpus/digest.h"
+#include "properties/campaign/ledger/row_fields.h"
+#include "properties/campaign/ledger/store.h"
+#include "properties/faults/fault.h"
+#include "properties/json_fields.h"
+#include "properties/queries/query_families.h"
+
+namespace assay::properties {
+
+using Json = nlohmann::json;
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundDetector::Configuration, name, claims)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundDetector, name, built_in, contract, threads, configurations,
+                                   query_claims, unjudged_parts)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundDigests, program, worker, plugin, generator)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundRun, seed, planted_faults, shard, detector, digests)
+
+namespace {
+
+std::vector<std::string> words_of(const Claims& claims) {
+  std::vector<std::string> words;
+  for (const auto claim : list_of(claims)) words.emplace_back(name_of(claim));
+  return words;
+}
+
+BoundDetector bound(const DetectorUnderTest& detector, std::uint64_t threads) {
+  BoundDetector out{detector.name,
+                    detector.built_in,
+                    detector.contract,
+                    threads,
+                    {},
+                    words_of(detector.query_claims),
+                    detector.unjudged_parts};
+  for (const auto& configuration : detector.configurations)
+    out.configurations.push_back({configuration.name, words_of(detector.claims_in(configuration))});
+  return out;
+}
+
+// Gives nothing if the file is not there. Whoever runs the file will find that out.
+std::optional<std::string> digest_of(const std::filesystem::path& file) {
+  const auto digest = corpus::sha256_of_file(file);
+  return digest ? std::optional(digest.value()) : std::nullopt;
+}
+
+std::optional<std::string> plugin_digest(const CampaignRequest& request) {
+  if (!request.plugin) return std::nullopt;
+  const auto digest = JudgedLibrary::of(*request.plugin, request.worker)->digest();
+  return digest ? std::optional(digest.value()) : std::nullopt;
+}
+
+}  // namespace
+
+std::string binding_of(const CampaignRequest& request) {
+  CampaignPlan plan = request.plan;
+  plan.seconds = plan.shrink_share = plan.tetrahedron_seconds = 0;
+  Json json = BoundRun{{},
+                       request.seed,
+                       planted_count(),
+                       text_of(request.shard),
+                       bound(request.detector, request.threads),
+                       {digest_of("/proc/self/exe"), digest_of(request.worker),
+                        plugin_digest(request), generator_digest()}};
+  json["schema"] = store_schema;
+  json["campaign"] = Json::parse(plan_text(plan));
+  if (request.own_cases) json["own_cases"] = request.own_cases->digest;
+  return corpus::json_text(json);
+}
+
+Json json_of(const BoundDetector& detector) { return detector; }
+Json json_of(const BoundDigests& digests) { return digests; }
+
+Expected<BoundRun> read_binding(const std::string& text, const std::filesystem::path& file) try {
+  const auto read = corpus::parse_sorted_json(text, file);
+  if (!read) return Problem{read.error().message};
+  const Json& json = read.value();
+  auto plan = parse_plan(corpus::json_text(json.at("campaign")), file);
+  if (!plan) return Problem{plan.error().message};
+  auto run = json.get<BoundRun>();
+  run.plan = std::move(plan.value());
+  return run;
+} catch (const Json::exception& wrong) {
+  return Problem{fmt::format("{}: not the store of a run: {}", file.string(), wrong.what())};
+}
+
+std::string generator_digest() {
+  constexpr std::uint64_t cases = 16;  // this many cases of each family
+  std::string digests;
+  for (const auto known : {families(), query_families()}) {
+    for (const auto& family : known) {
+      for (std::uint64_t i = 0; i < cases; ++i) {
+        const auto made =
+            make_case(family, fmt::format("generator-digest:1:{}:{}", family.name, i));
+        digests += corpus::sha256_of(corpus::case_text(made.c)) + "\n";
+      }
+    }
+  }
+  return corpus::sha256_of(digests);
+}
+
+std::optional<std::string> with_shard(const std::string& binding, const std::string& shard) {
+  auto read = corpus::parse_sorted_json(binding, "binding");
+  if (!read || !read.value().is_object() || !read.value().contains("shard")) return std::nullopt;
+  read.value()["shard"] = shard;
+  return corpus::json_text(read.value());
+}
+
+std::string difference_of(const std::string& a, const std::string& b) {
+  const auto left = corpus::parse_sorted_json(a, "binding"),
+             right = corpus::parse_sorted_json(b, "binding");
+  const bool are_objects = left && right && left.value().is_object() && right.value().is_object();
+  if (!are_objects) return "one of them says not of what it is";
+  const Json one = left.value().flatten(), other = right.value().flatten();
+  for (const auto& [key, value] : one.items()) {
+    if (key == "/shard") continue;
+    constexpr std::string_view digests = "/digests/";
+    if (key.starts_with(digests) && other.contains(key) && other[key] != value)
+      return fmt::format("another {} (by SHA-256)", key.substr(digests.size()));
+    if (!other.contains(key))
+      return fmt::format("{} {} and none", key.substr(1), corpus::json_text(value));
+    if (other[key] != value)
+      return fmt::format("{} {} and {}", key.substr(1), corpus::json_text(value),
+                         corpus::json_text(other[key]));
+  }
+  for (const auto& [key, value] : other.items()) {
+    if (!one.contains(key))
+      return fmt::format("{} none and {}", key.substr(1), corpus::json_text(value));
+  }
+  return "";
+}
+
+void to_json(Json& json, const Contract& contract) {
+  json = json_of_fields<Json>(contract);
+  json["leaves_out"] = phrases_of(contract);
+}
+
+void from_json(const Json& json, Contract& contract) { read_fields(json, contract); }
+
+}  // namespace assay::properties

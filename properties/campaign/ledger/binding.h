@@ -1,0 +1,73 @@
+// The binding of a store: the text, a JSON object, that says to which run its trials belong.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "properties/campaign/request.h"
+#include "properties/claims/contract.h"
+#include "properties/problem.h"
+
+namespace assay::properties {
+
+// A contract as JSON, in the binding of a store, in certificates and in the reports of `check`:
+// every member by its name, enums by their words, and `leaves_out`: phrases_of(contract).
+void to_json(nlohmann::json& json, const Contract& contract);
+// Throws nlohmann::json::exception if the JSON is no contract. `leaves_out` is not read.
+void from_json(const nlohmann::json& json, Contract& contract);
+
+// Schema `assay-store/6`. The object holds `campaign` (the plan, with its times set to nothing,
+// because a run that ran out of time may go on), `seed`, `shard`, `detector` (name, built_in,
+// contract, threads, configurations with their claims, query_claims, unjudged_parts),
+// `planted_faults` (how many this build has), `digests` (SHA-256 of program, worker and plug-in,
+// null for the built-in detector, and of the generator's first cases), and `own_cases` (SHA-256) if
+// there are some.
+std::string binding_of(const CampaignRequest& request);
+
+// The same, as types.
+struct BoundDetector {
+  struct Configuration {
+    std::string name;
+    std::vector<std::string> claims;
+  };
+  std::string name;
+  bool built_in = true;
+  Contract contract;
+  std::uint64_t threads = 1;  // told to a plug-in that asks how many it may use
+  std::vector<Configuration> configurations;
+  // As in DetectorUnderTest.
+  std::vector<std::string> query_claims{}, unjudged_parts{};
+};
+struct BoundDigests {
+  // Nothing for a program that was gone when the run began, and for the plug-in of the built-in
+  // detector.
+  std::optional<std::string> program, worker, plugin;
+  std::string generator;
+};
+struct BoundRun {
+  CampaignPlan plan;
+  std::uint64_t seed = 0, planted_faults = 0;
+  std::string shard;  // "1/4", merged_shard or checks_shard
+  BoundDetector detector;
+  BoundDigests digests;
+};
+// The JSON of these in a binding and in a certificate.
+nlohmann::json json_of(const BoundDetector& detector);
+nlohmann::json json_of(const BoundDigests& digests);
+
+// Reads a binding. Fails if the text is no binding of this schema; the problem names `file`.
+Expected<BoundRun> read_binding(const std::string& text, const std::filesystem::path& file);
+
+// The same binding for another shard; nothing if the text is no binding.
+std::optional<std::string> with_shard(const std::string& binding, const std::string& shard);
+
+// How two bindings differ, leaving their shards aside: "seed 1 and 2". Empty if they do not.
+std::string difference_of(const std::string& a, const std::string& b);
+
+// SHA-256 over the first cases of every family, which changes if the generator makes other cases.
+// About 10 ms.
+std::string generator_digest();
+
+}  // namespace assay::properties

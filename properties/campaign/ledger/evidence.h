@@ -1,0 +1,273 @@
+// What a run finds out besides its trials: one struct for each kind of evidence, and the functions
+// that turn it into a row of the ledger and back. Each struct states its kind; what it has of
+// key(), `shard` and progress() goes into the row (without a shard: checks_shard).
+//
+// Two runs of one campaign have equal rows, unless the kind `may_differ`: times (SpeedFigure,
+// Issued), Paths, a World, which its limit of time may end early, and a SlowCase.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "properties/campaign/ledger/store.h"
+#include "properties/campaign/plan.h"
+#include "properties/faults/fault.h"
+
+namespace assay::properties {
+
+// Words that stand where the name of a shard ("1/4") is expected: for a file that holds several
+// shards, for what belongs to no shard, and for proofs that were taken over from another run.
+inline constexpr const char* merged_shard = "merged";
+inline constexpr const char* checks_shard = "checks";
+inline constexpr const char* power_shard = "power";
+
+// A planted fault that every run must find. It is tried through a worker process, in the same way
+// as the detector under test.
+struct Canary {
+  static constexpr const char* kind = "canary";
+  std::string fault, shard;
+  std::optional<std::uint64_t> found_after;  // how many cases that took; nothing: it was not found
+  const std::string& key() const { return fault; }
+};
+
+// What kept the harness itself from going on, after `trials` trials had been stored. `explanation`
+// is empty when nothing did.
+struct HarnessProblem {
+  static constexpr const char* kind = "problem";
+  std::string shard, explanation;
+  std::uint64_t trials = 0;
+  // A later row replaces an earlier one. If both stand at the same number of trials, the one that
+  // tells of a problem counts as later, because a problem is over when a further trial is stored
+  // without one.
+  std::uint64_t progress() const { return 2 * trials + (explanation.empty() ? 0 : 1); }
+};
+
+struct MeshCounts {
+  std::uint64_t triangles = 0, vertices = 0, steps = 0;
+};
+struct ShrunkFault {
+  MeshCounts before, after;
+  std::uint64_t calls = 0;  // calls of the reducer's judge
+};
+
+// What it took to find a planted fault.
+struct FaultProof {
+  static constexpr const char* kind = "fault";
+  std::string fault, shard, law;
+  FaultStatus status = FaultStatus::planted;
+  bool curated = false;  // the curated case of the fault shows it
+  // For each seed the number of random cases until the fault showed; nothing if it did not show
+  // within `cases` of them.
+  std::vector<std::optional<std::uint64_t>> needed;
+  std::uint64_t cases = 0;
+  bool time_over = false;            // the hunt was ended by a limit of time
+  std::uint64_t known_vertices = 0;  // of the smallest known mesh that shows it; 0: unknown
+  std::optional<ShrunkFault> shrunk;
+
+  bool found() const;            // by its curated case, or by a random one under any seed
+  bool found_at_random() const;  // by a random case under any seed
+  // Whether the fault was tried on as many cases and seeds as the plan gives to a fault.
+  bool is_whole(const CampaignPlan& plan) const;
+  // The median of `needed`. A seed under which the fault did not show counts as more than any
+  // number; the result is nothing when the median is such a seed.
+  std::optional<std::uint64_t> median() const;
+
+  const std::string& key() const { return fault; }
+  // A hunt that was not ended by the time counts as farther than any that was.
+  std::uint64_t progress() const;
+};
+
+// From which run of the same build the proofs of planted faults were taken.
+struct PowerSource {
+  static constexpr const char* kind = "power";
+  std::string campaign, detector;
+  std::uint64_t seed = 0;
+  std::string program, worker, generator;  // SHA-256
+  std::string rows;                        // digest of that run's rows
+  static constexpr const char* shard = power_shard;
+  const std::string& key() const { return campaign; }
+};
+struct PowerProof {
+  PowerSource source;
+  std::vector<FaultProof> faults;
+};
+
+// How far a world of tetrahedra was proved (tetrahedron_world.h).
+struct World {
+  static constexpr const char* kind = "world";
+  static constexpr bool may_differ = true;
+  std::string world, shard;
+  std::uint64_t classes = 0, motions = 0, all = 0, collisions = 0;
+  bool complete = false;
+  std::optional<std::string> counterexample;  // what does not hold
+  const std::string& key() const { return world; }
+  // A counterexample counts as farther than any number of classes that hold.
+  std::uint64_t progress() const;
+};
+
+// How well the process of a plug-in was isolated in all trials of a shard, or in the corpus (shard
+// "checks"), in the words of isolation.h.
+struct PluginIsolation {
+  static constexpr const char* kind = "isolation";
+  std::string shard, asked, got;
+};
+
+// A trial that reached the limit of a case, or came near it.
+struct SlowCase {
+  static constexpr const char* kind = "slow";
+  static constexpr bool may_differ = true;
+  std::string id, configuration, shard;
+  bool undecided = false;  // it reached the limit of a case
+  double seconds = 0;      // processor time that it took, unless it is undecided
+  double limit = 0;        // the limit of a case, in seconds
+  // Case files as text. `smallest` takes at least twice the limit; it is empty if no such case is
+  // known.
+  std::string mesh, smallest;
+  std::string key() const { return id + ", " + configuration; }
+  // A shrunk mesh counts as farther than none, and of two shrunk meshes the shorter counts as
+  // farther.
+  std::uint64_t progress() const;
+};
+
+// A large mesh that was put to a plug-in, several times where it claims to be deterministic, to try
+// its claims on more than the trials.
+struct Repetition {
+  static constexpr const char* kind = "repeated";
+  // A step that the oracle judged. `contacts`: pairs in contact that the contract does not leave
+  // out.
+  struct Judged {
+    std::uint64_t step = 0, contacts = 0;  // the step's place, from 1
+    bool holds = false;
+  };
+  std::string input, configuration, shard;
+  std::uint64_t triangles = 0, steps = 0;
+  std::uint64_t runs = 0;              // runs that ended by themselves
+  std::vector<std::uint64_t> threads;  // how many it might use, run by run
+  std::string difference;              // how two runs differ, or one ended early
+  bool broken = false;                 // `difference` breaks a claim
+  std::vector<Judged> judged{};
+  std::string key() const { return input + ", " + configuration; }
+};
+
+// What a verb asked of a run.
+struct Asked {
+  static constexpr const char* kind = "asked";
+  std::vector<std::string> gates;  // names of gates.h; no other gate is judged
+  bool certificate = false;        // a certificate is to be issued: every gate is asked for
+};
+
+// What issued a certificate: versions of the program and of its libraries.
+struct Versions {
+  static constexpr const char* kind = "versions";
+  std::string assay;
+  std::optional<std::string> commit;
+  std::string libraries;
+};
+struct Paths {
+  static constexpr const char* kind = "paths";
+  static constexpr bool may_differ = true;
+  std::string out, detector;
+  std::string own_cases{};  // empty: none
+  std::string data{};       // folder of the public sequences; empty: none
+};
+struct InputDigests {
+  static constexpr const char* kind = "inputs";
+  std::string corpus;                  // SHA-256 over names and bytes of all cases, own cases too
+  std::optional<std::string> waivers;  // of corpus/known.json and the owner's waivers
+};
+
+// A known failure that a certificate excuses until the day on which the waiver expires.
+struct StoredWaiver {
+  static constexpr const char* kind = "waiver";
+  std::string signature, reason, link, expires;
+  bool expired = false;  // it had expired when the certificate was issued
+  const std::string& key() const { return signature; }
+};
+
+// The name of the input that the owner's own cases are, and what their ids begin with.
+inline constexpr const char* own_cases_input = "own cases";
+inline constexpr const char* own_cases_in_id = "own/";
+
+// What one input came to in one configuration. An input is a part of the shipped corpus, a scene,
+// or the owner's cases.
+struct CorpusRow {
+  static constexpr const char* kind = "corpus";
+  struct Failed {
+    std::string id, signature, explanation;
+  };
+  // `failed` lists the cases that do not hold, `open` those without an answer, of which nothing is
+  // known.
+  std::string input, configuration;
+  std::uint64_t cases = 0, left_out = 0, steps = 0, collisions = 0, pairs = 0, defects = 0;
+  std::vector<Failed> failed, open;
+  // The largest mesh of which a step was judged, and the largest with a contact that the contract
+  // does not leave out.
+  std::uint64_t triangles = 0, triangles_in_contact = 0;
+  std::string key() const { return input + ", " + configuration; }
+};
+
+// What one family of queries of the self-test came to.
+struct SelfTestRow {
+  static constexpr const char* kind = "self-test";
+  std::string family;
+  std::uint64_t queries = 0, contacts = 0, contradictions = 0, open = 0;
+  bool complete = false;
+  const std::string& key() const { return family; }
+};
+
+// A ratio of the times of two things that were run in turn.
+struct SpeedFigure {
+  static constexpr const char* kind = "speed";
+  static constexpr bool may_differ = true;
+  std::string name;
+  double median = 0, lo = 0, hi = 0;
+  std::vector<double> samples;
+  const std::string& key() const { return name; }
+};
+
+// When a certificate was issued, and how long that took.
+struct Issued {
+  static constexpr const char* kind = "issued";
+  static constexpr bool may_differ = true;
+  std::string at;  // UTC, 2026-01-31T12:00:00Z
+  double seconds = 0;
+};
+
+// All that the evidence rows of some stores say. Each list is in the order of names, then of
+// shards.
+struct EvidenceFacts {
+  std::vector<Canary> canaries;
+  std::vector<HarnessProblem> problems;
+  std::vector<FaultProof> faults;
+  std::vector<PowerSource> power;
+  std::vector<World> worlds;
+  std::optional<Asked> asked;
+  std::optional<Versions> versions;
+  std::optional<Paths> paths;
+  std::vector<PluginIsolation> isolation;
+  std::vector<SlowCase> slow;
+  std::vector<Repetition> repeated;
+  std::optional<InputDigests> inputs;
+  std::vector<StoredWaiver> waivers;
+  std::vector<CorpusRow> corpus;
+  std::vector<SelfTestRow> self_test;
+  std::vector<SpeedFigure> speed;
+  std::optional<Issued> issued;
+
+  // Throws StoreProblem on a row that no run stores.
+  void take(const Row& row);
+};
+EvidenceFacts facts_in(const Store& store);
+
+using AnyEvidence =
+    std::variant<Canary, HarnessProblem, FaultProof, PowerSource, World, Asked, Versions, Paths,
+                 PluginIsolation, SlowCase, Repetition, InputDigests, StoredWaiver, CorpusRow,
+                 SelfTestRow, SpeedFigure, Issued>;
+Row to_row(const AnyEvidence& evidence);
+
+// Whether two runs of one campaign may differ in this row, which is one of evidence.
+bool may_differ(const Row& row);
+
+}  // namespace assay::properties

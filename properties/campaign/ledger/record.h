@@ -1,0 +1,107 @@
+// What a campaign keeps of each trial, and of each failure of a trial; and their rows.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "properties/campaign/ledger/row.h"
+#include "properties/campaign/ledger/step_measures.h"
+#include "properties/judging/agreement.h"
+
+namespace assay::properties {
+
+// How often something with a name was met.
+using Counts = std::map<std::string, std::uint64_t, std::less<>>;
+
+// How often a law was met (LawTally, law.h).
+struct LawCount {
+  std::uint64_t premise = 0, close = 0, broken = 0;
+  // The premise by the word for the culling, for a law that has to be met under several of them.
+  Counts by_culling;
+  LawCount& operator+=(const LawCount& other);
+  friend bool operator==(const LawCount&, const LawCount&) = default;
+};
+
+// Contacts, and those of them that are the first of their step.
+struct SetPairCount {
+  std::uint64_t contacts = 0, first_contacts = 0;
+  SetPairCount& operator+=(const SetPairCount& other);
+  friend bool operator==(const SetPairCount&, const SetPairCount&) = default;
+};
+
+// What is counted of a trial besides its outcomes. The same members add up to what is counted of
+// many.
+struct TrialCounts {
+  Counts tags;  // cases that have the tag
+  // By the view sets of the two triangles in contact, and by the names of laws.
+  std::map<std::string, SetPairCount, std::less<>> set_pairs;
+  std::map<std::string, LawCount, std::less<>> laws;
+  StepMeasures measures;  // most of them only of a plug-in
+  TrialCounts& operator+=(const TrialCounts& other);
+  friend bool operator==(const TrialCounts&, const TrialCounts&) = default;
+};
+
+struct TrialRecord {
+  std::string id;  // campaign:seed:family:index
+  std::string family;
+  std::uint64_t index = 0;
+  std::string outcomes;  // one letter a configuration: H(olds) D(efect) U(ndecided) E(rror)
+  std::uint64_t triangles = 0, steps = 0, collisions = 0, pairs = 0;
+  std::uint64_t oracle_us = 0, detector_us = 0;
+  TrialCounts counts;
+  std::uint64_t mesh = 0;  // hash of the case's triangles and frames: equal cases, equal hashes
+  // How often a worker was killed from outside while it ran this trial, which was then run again.
+  std::uint64_t disturbed = 0;
+  // The most processor time that one configuration took, whether its limit ended it or not.
+  std::uint64_t slowest_us = 0;
+  bool has(Outcome outcome) const;  // some configuration has this outcome
+};
+
+char letter_of(Outcome outcome);
+
+// A defect with its mesh. `mesh` and `smallest` are case files (assay-case/1) as text.
+struct StoredFailure {
+  std::string id;  // id of the trial
+  std::string configuration, signature, explanation;
+  std::string mesh;
+  std::string smallest;      // empty: the mesh was not shrunk
+  bool flaky = false;        // two runs of the case differ, which is a failure by itself
+  std::string printed = {};  // by the plug-in as it failed; may differ between runs
+};
+
+// The signature of a broken law is "law L3_...", and its `configuration` is "view-point, law
+// L3_...", because one case may break both a law and a claim in the same configuration.
+inline constexpr std::string_view law_in_signature = "law ", law_in_configuration = ", law ";
+
+// The id of a failure that the shipped corpus shows is this and the name of its case. No trial's
+// id begins so: the name of a campaign has no '/'.
+inline constexpr std::string_view corpus_in_id = "corpus/";
+
+// The id of a failure that a large mesh shows, on which two runs differ, begins with this.
+inline constexpr std::string_view repeated_in_id = "repeated/";
+
+// `about_text` is what the case file of a failure says of itself: "all-pairs: missing pair,
+// edge-edge; triangles 0 and 1 meet at 0.5". `shown_explanation` reads it back: it returns the part
+// after the signature, from the smallest mesh if there is one.
+std::string about_text(const std::string& signature, const std::string& explanation);
+std::string shown_explanation(const StoredFailure& failure);
+
+// That a trial failed with this signature in this configuration. It is stored for every failure,
+// while the mesh is kept for a few of them only.
+struct MetFailure {
+  std::string configuration, signature;  // as of StoredFailure
+};
+
+// The rows of these, and what a row says; the latter throws StoreProblem if no run stores such a
+// row.
+Row to_row(const TrialRecord& record);
+Row to_row(const StoredFailure& failure);
+Row to_row(const std::string& trial_id, const MetFailure& failure);
+TrialRecord trial_of(const Row& row);
+StoredFailure failure_of(const Row& row);
+std::string met_signature_of(const Row& row);
+
+}  // namespace assay::properties

@@ -1,0 +1,123 @@
+#include "properties/campaign/ledger/step_measures.h"
+
+#include <algorithm>
+
+#include "properties/campaign/ledger/row_fields.h"
+
+namespace assay::properties {
+namespace {
+
+using Json = nlohmann::json;
+
+struct NamedNumber {
+  const char* name;
+  std::uint64_t StepMeasures::*member;
+};
+constexpr NamedNumber numbers[] = {
+    {"free_squared", &StepMeasures::free_squared},
+    {"contact_squared", &StepMeasures::contact_squared},
+    {"without_time", &StepMeasures::without_time},
+    {"candidate_steps", &StepMeasures::candidate_steps},
+    {"candidates", &StepMeasures::candidates},
+    {"least_candidates", &StepMeasures::least_candidates},
+    {"redrawn", &StepMeasures::redrawn},
+    {"steps_left_out", &StepMeasures::steps_left_out},
+    {"left_out_misses", &StepMeasures::left_out_misses},
+    {"contact_trials", &StepMeasures::contact_trials},
+    {"repeated_trials", &StepMeasures::repeated_trials},
+};
+
+// Takes out, level by level, what is the same in `none`.
+Json difference_from(const Json& none, const Json& json) {
+  Json rest = Json::object();
+  for (const auto& [name, value] : json.items()) {
+    if (value != none.at(name))
+      rest[name] = value.is_object() ? difference_from(none.at(name), value) : value;
+  }
+  return rest;
+}
+
+const Json& no_errors() {
+  static const Json none = StepErrors{};
+  return none;
+}
+
+// `squared` is the sum over trials of the squares of their numbers of steps.
+Rate rate_of(std::uint64_t of, std::uint64_t in, std::uint64_t squared) {
+  const auto all = static_cast<double>(in);
+  const double independent = squared ? all * all / static_cast<double>(squared) : 0;
+  return {of, in, share_interval(static_cast<double>(of), all, independent)};
+}
+
+double ratio_of(std::uint64_t of, std::uint64_t in) {
+  return in ? static_cast<double>(of) / static_cast<double>(in) : 0;
+}
+
+}  // namespace
+
+StepMeasures& StepMeasures::operator+=(const StepMeasures& other) {
+  errors += other.errors;
+  for (const auto& [name, member] : numbers) this->*member += other.*member;
+  return *this;
+}
+
+void to_json(Json& json, const StepMeasures& measures) {
+  json = Json::object();
+  for (const auto& [name, member] : numbers) put_unless_empty(json, name, measures.*member);
+  if (measures.errors != StepErrors{})
+    json["errors"] = difference_from(no_errors(), measures.errors);
+}
+
+void from_json(const Json& json, StepMeasures& measures) {
+  for (const auto& [name, member] : numbers) get_if_there(json, name, measures.*member);
+  const auto found = json.find("errors");
+  if (found == json.end()) return;
+  Json whole = no_errors();
+  whole.merge_patch(*found);
+  whole.get_to(measures.errors);
+}
+
+StepMeasures measures_of(std::span<const StepDiff> diffs,
+                         std::span<const detector::StepResult> results) {
+  StepMeasures sum;
+  for (std::size_t s = 0; s < diffs.size(); ++s) {
+    const StepDiff& diff = diffs[s];
+    sum.errors += errors_of(diff);
+    if (!diff.oracle_complete) continue;
+    if (diff.candidates) {
+      ++sum.candidate_steps;
+      sum.candidates += diff.candidates->given;
+      sum.least_candidates += diff.candidates->least;
+    }
+    const auto& first = results[s].first;
+    if (diff.first && first.hi - first.lo > widest_stated_time) ++sum.without_time;
+  }
+  sum.free_squared = sum.errors.free * sum.errors.free;
+  sum.contact_squared = sum.errors.contact * sum.errors.contact;
+  return sum;
+}
+
+bool has_judged_contact(std::span<const StepDiff> diffs) {
+  return std::any_of(diffs.begin(), diffs.end(), [](const StepDiff& diff) {
+    return diff.has_answer ? diff.first_contact.has_value() && !diff.partial
+                           : diff.candidates && diff.candidates->least > 0;
+  });
+}
+
+Rate false_alarm_rate(const StepMeasures& m) {
+  return rate_of(m.errors.false_alarms, m.errors.free, m.free_squared);
+}
+
+Rate miss_rate(const StepMeasures& m) {
+  return rate_of(m.errors.missed, m.errors.contact, m.contact_squared);
+}
+
+double spurious_pairs_a_step(const StepMeasures& m) {
+  return ratio_of(m.errors.spurious, m.errors.answered());
+}
+
+double candidates_over_least(const StepMeasures& m) {
+  return ratio_of(m.candidates, m.least_candidates);
+}
+
+}  // namespace assay::properties

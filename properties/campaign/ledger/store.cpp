@@ -1,0 +1,271 @@
+#include "properties/campaign/ledger/store.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+#include <tuple>
+
+#include "properties/campaign/ledger/binding.h"
+#include "properties/campaign/ledger/row_fields.h"
+
+namespace assay::properties {
+namespace {
+
+// The schema that a binding names, if it is not that of this build.
+std::optional<std::string> other_schema(const std::string& binding) {
+  const auto read = corpus::parse_json(binding, "binding");
+  // If the text is no binding at all, whoever reads the binding reports that.
+  if (!read || !read.value().is_object() || !read.value().contains("schema")) return std::nullopt;
+  const auto& schema = read.value()["schema"];
+  return schema == store_schema ? std::nullopt : std::optional(corpus::json_text(schema));
+}
+
+StoreProblem refused_schema(const std::filesystem::path& file, const std::string& schema) {
+  return StoreProblem(fmt::format("{}: is of schema {}, this assay reads {}: run it again",
+                                  file.string(), schema, store_schema));
+}
+
+FileLock lock_of_store(const std::filesystem::path& file) {
+  return {file.string() + ".lock", FileLock::On::file,
+          fmt::format("{}: another run is writing it", file.string())};
+}
+
+// Reads the binding without a check of its hash, because a store of an older schema has other
+// tables: up to assay-store/5 the binding was a note.
+std::optional<std::string> unchecked_binding(const Database& db) {
+  const auto first = [&](const char* table, const std::string& sql) -> std::optional<std::string> {
+    if (!Statement(db, "SELECT 1 FROM sqlite_master WHERE name=?").bind(table).next())
+      return std::nullopt;
+    Statement query(db, sql);
+    return query.next() ? std::optional(query.text(0)) : std::nullopt;
+  };
+  const auto binding =
+      first("ledger", fmt::format("SELECT fields FROM ledger WHERE kind='{}'", binding_kind));
+  return binding ? binding : first("note", "SELECT value FROM note WHERE key='binding'");
+}
+
+// The end of a key is a number, so that of two keys that differ in it alone the shorter comes
+// first.
+constexpr const char* order_of_keys = "ORDER BY rtrim(key, '0123456789'), length(key), key";
+
+}  // namespace
+
+struct Store::Parts {
+  std::optional<FileLock> lock;  // declared first, so that it outlives the database
+  Database db;
+  std::optional<RowTally> known;  // only of a store that is open for writing
+
+  Parts(const std::filesystem::path& file, Database::Mode mode)
+      : lock(mode == Database::Mode::write ? std::optional(lock_of_store(file)) : std::nullopt),
+        db(file, mode) {}
+
+  // Looks at every row and notes it as known.
+  void get_to_know() {
+    RowTally found;
+    for_each_row(db, nullptr, "", {},
+                 [&](const Row& row) { found.put(row_name(row), row_hash(row)); });
+    known = std::move(found);
+  }
+
+  void for_each(const std::string& more, const std::vector<std::string_view>& bound,
+                const std::function<void(const Row&)>& visit) const {
+    for_each_row(db, known ? &*known : nullptr, more, bound, visit);
+  }
+  std::optional<Row> find(std::string_view kind, std::string_view key,
+                          std::string_view shard = "") const {
+    std::optional<Row> found;
+    for_each("WHERE kind=? AND key=? AND shard=?", {kind, key, shard},
+             [&](const Row& row) { found = row; });
+    return found;
+  }
+
+  // A row that is put counts as known from here on, which is called only after its transaction
+  // went through.
+  void note(const Row& row) {
+    if (known) known->put(row_name(row), row_hash(row));
+  }
+  void put(const Row& row) {
+    put_row(db, row);
+    note(row);
+  }
+
+  void remove(const Row& row) {
+    Statement(db, "DELETE FROM ledger WHERE kind=? AND key=? AND shard=?")
+        .bind(row.kind)
+        .bind(row.key)
+        .bind(row.shard)
+        .next();
+    if (known) known->drop(row_name(row));
+  }
+};
+
+Store::Store(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+Store::Store(Store&&) noexcept = default;
+Store& Store::operator=(Store&&) noexcept = default;
+Store::~Store() = default;
+
+Expected<Store> Store::read(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored))
+    return Problem{fmt::format("{}: no such file", file.string())};
+  return catch_store_problem([&] {
+    auto parts = std::make_unique<Parts>(file, Database::Mode::read);
+    // The transaction shows one state of the file until the store is closed.
+    parts->db.run("BEGIN");
+    const auto binding = unchecked_binding(parts->db);
+    if (!binding) {
+      throw StoreProblem(fmt::format("{}: not the store of a run", file.string()));
+    }
+    if (const auto older = other_schema(*binding)) throw refused_schema(file, *older);
+    parts->db.check_whole();
+    check_tables(parts->db, false);
+    return Store(std::move(parts));
+  });
+}
+
+Expected<Store> Store::open(const std::filesystem::path& file, const std::string& binding) {
+  return catch_store_problem([&] {
+    auto parts = std::make_unique<Parts>(file, Database::Mode::write);
+    // With these settings a killed process loses nothing that add() returned from. Only a power
+    // cut may lose the end.
+    parts->db.run("PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL;");
+    parts->db.check_whole();
+    const auto bound = unchecked_binding(parts->db);
+    if (bound && *bound != binding) {
+      if (const auto older = other_schema(*bound)) throw refused_schema(file, *older);
+      throw StoreProblem(fmt::format("{}: holds another run: {}; give another folder",
+                                     file.string(), difference_of(*bound, binding)));
+    }
+    check_tables(parts->db, true);
+    parts->db.run(table_declaration());
+    parts->get_to_know();
+    if (!bound) parts->put({std::string(binding_kind), "", "", 0, binding});
+    return Store(std::move(parts));
+  });
+}
+
+Expected<KeptFailures> Store::kept_failures() const {
+  return catch_store_problem([&] { return KeptFailures{failures(), signatures()}; });
+}
+
+Expected<KeptFailures> read_failures(const std::filesystem::path& file) {
+  const auto store = Store::read(file);
+  if (!store) return store.error();
+  return store.value().kept_failures();
+}
+
+const RowTally& Store::known_rows() const { return *parts_->known; }
+
+Expected<void> Store::check_against(const RowTally& known) const {
+  return catch_store_problem([&] { check_rows(parts_->db, known); });
+}
+
+std::string Store::binding() const {
+  const auto row = parts_->find(binding_kind, "");
+  return row ? row->fields : "";
+}
+
+void Store::set(const Row& row) {
+  const auto before = parts_->find(row.kind, row.key, row.shard);
+  if (!before || before->progress <= row.progress) parts_->put(row);
+}
+
+void Store::drop(std::string_view kind) {
+  std::vector<Row> rows;
+  for_each(kind, [&](const Row& row) { rows.push_back(row); });
+  for (const auto& row : rows) parts_->remove(row);
+}
+
+void Store::add(const TrialRecord& record, const std::vector<StoredFailure>& kept,
+                const std::vector<MetFailure>& met) {
+  std::vector<Row> rows;
+  for (const auto& failure : kept) rows.push_back(to_row(failure));
+  for (const auto& failure : met) rows.push_back(to_row(record.id, failure));
+  rows.push_back(to_row(record));
+  parts_->db.run("BEGIN IMMEDIATE");
+  try {
+    for (const auto& row : rows) put_row(parts_->db, row);
+    parts_->db.run("COMMIT");
+  } catch (const StoreProblem&) {
+    try {
+      parts_->db.run("ROLLBACK");
+    } catch (const StoreProblem&) {
+      // SQLite has already rolled back by itself.
+    }
+    throw;
+  }
+  for (const auto& row : rows) parts_->note(row);
+}
+
+void Store::keep_failures(const std::set<std::string>& signatures) {
+  for (const auto& failure : failures()) {
+    if (!signatures.contains(failure.signature)) parts_->remove(to_row(failure));
+  }
+}
+
+void Store::set_smallest(const StoredFailure& failure) {
+  const Row row = to_row(failure);
+  if (parts_->find(row.kind, row.key)) parts_->put(row);
+}
+
+void Store::set_note(const std::string& key, const std::string& value) {
+  parts_->put(
+      {std::string(note_kind), key, "", 0, corpus::json_text(nlohmann::json{{"value", value}})});
+}
+
+void Store::for_each(std::string_view kind, const std::function<void(const Row&)>& visit) const {
+  parts_->for_each(fmt::format("WHERE kind=? {}", order_of_keys), {kind}, visit);
+}
+
+void Store::for_each_trial(const std::function<void(const TrialRecord&)>& visit) const {
+  for_each(trial_kind, [&](const Row& row) { visit(trial_of(row)); });
+}
+
+bool Store::has_trial(const std::string& id) const {
+  return Statement(parts_->db, "SELECT 1 FROM ledger WHERE kind=? AND key=?")
+      .bind(trial_kind)
+      .bind(id)
+      .next();
+}
+
+std::uint64_t Store::trial_count() const {
+  Statement query(parts_->db, "SELECT count(*) FROM ledger WHERE kind=?");
+  return query.bind(trial_kind).next() ? query.number(0) : 0;
+}
+
+std::vector<StoredFailure> Store::failures() const {
+  std::vector<StoredFailure> list;
+  for_each(failure_kind, [&](const Row& row) { list.push_back(failure_of(row)); });
+  std::sort(list.begin(), list.end(), [](const StoredFailure& a, const StoredFailure& b) {
+    return std::tie(a.signature, a.id, a.configuration) <
+           std::tie(b.signature, b.id, b.configuration);
+  });
+  return list;
+}
+
+Counts Store::signatures() const {
+  Counts counts;
+  for_each(met_kind, [&](const Row& row) { ++counts[met_signature_of(row)]; });
+  return counts;
+}
+
+std::optional<std::string> Store::note(const std::string& key) const {
+  const auto row = parts_->find(note_kind, key);
+  if (!row) return std::nullopt;
+  return read_fields_of<std::map<std::string, std::string>>(*row)["value"];
+}
+
+std::vector<Row> Store::evidence() const {
+  std::vector<Row> list;
+  parts_->for_each("WHERE kind NOT IN (?,?,?,?,?)",
+                   {binding_kind, note_kind, trial_kind, failure_kind, met_kind},
+                   [&](const Row& row) { list.push_back(row); });
+  return list;
+}
+
+Expected<void> Store::seal() {
+  return catch_store_problem([&] { parts_->db.run("PRAGMA journal_mode=DELETE"); });
+}
+
+}  // namespace assay::properties

@@ -1,0 +1,101 @@
+// The rows of one shard in one SQLite file, which survives a kill at any moment.
+//
+// Every row carries a hash (campaign/ledger/row.h), which is checked whenever the row is read. A
+// store that is open for writing also knows all of its rows: those that it found and those that it
+// wrote. So nobody can change one of them unseen in the meantime, whatever hash he writes beside
+// it.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "properties/campaign/ledger/record.h"
+
+namespace assay::properties {
+
+// The schema of a store, which is part of the text that binds it to a run (binding.h). A store of
+// another schema is refused.
+inline constexpr const char* store_schema = "assay-store/6";
+
+// All failures that a store holds.
+struct KeptFailures {
+  std::vector<StoredFailure> list;  // by signature, then id
+  Counts times_met;                 // how often each signature was met, mesh kept or not
+};
+
+// Functions that return Expected are for all rooms. The others throw StoreProblem and are for
+// campaign/ alone (campaign/ledger/store_problem.h).
+class Store {
+ public:
+  // Opens the file for writing, or makes it. `binding` says what the trials are of (plan, seed,
+  // shard, detector). Costs O(rows), about 2 us each, because every row is checked. Fails if
+  // the file was made for another binding, if another process has it open for writing, if it is no
+  // store of this schema, if it is damaged or a row was changed, and if it cannot be written.
+  static Expected<Store> open(const std::filesystem::path& file, const std::string& binding);
+  // Opens an existing file, whatever run it was made for, without writing to it. All reads see one
+  // state of the file, even while another process adds to it. Fails if there is no such file,
+  // if it is no store of this schema or damaged, and, when its rows are read, if one was changed.
+  static Expected<Store> read(const std::filesystem::path& file);
+  Store(Store&&) noexcept;
+  Store& operator=(Store&&) noexcept;
+  ~Store();
+
+  Expected<KeptFailures> kept_failures() const;
+  // Makes the file stand alone: nothing beside it belongs to it any more, and reading it leaves
+  // its bytes as they are.
+  Expected<void> seal();
+
+  // All rows that were there when the store was opened, and all that it has written since.
+  // REQUIRES a store that was opened for writing.
+  const RowTally& known_rows() const;
+  // Fails, with the kind not_as_stored, if any row differs from `known`, is missing, or is not in
+  // `known`. O(rows).
+  Expected<void> check_against(const RowTally& known) const;
+
+  std::string binding() const;
+
+  // What each function below writes survives a kill of the process once the function has returned.
+  // Not for several threads at once.
+
+  // Replaces the row of the same kind, key and shard, unless that has more progress.
+  void set(const Row& row);
+  // Removes all rows of a kind.
+  void drop(std::string_view kind);
+  // Adds a trial with what it showed, all of it or nothing. `kept` are the failures that are
+  // stored with their mesh, `met` are all failures.
+  void add(const TrialRecord& record, const std::vector<StoredFailure>& kept = {},
+           const std::vector<MetFailure>& met = {});
+  void add(const StoredFailure& failure) { set(to_row(failure)); }
+  // Removes the stored failures whose signature is not in the set.
+  void keep_failures(const std::set<std::string>& signatures);
+  // Replaces the stored failure of this id and configuration; does nothing if there is none.
+  void set_smallest(const StoredFailure& failure);
+  void set_note(const std::string& key, const std::string& value);
+
+  // Visits the rows of a kind in the order of their keys, in which the trials of a family are in
+  // the order of their places.
+  void for_each(std::string_view kind, const std::function<void(const Row&)>& visit) const;
+  void for_each_trial(const std::function<void(const TrialRecord&)>& visit) const;
+  bool has_trial(const std::string& id) const;
+  std::uint64_t trial_count() const;
+  std::vector<StoredFailure> failures() const;  // by signature, then id
+  // How many failures of each signature were met, whether their mesh was kept or not.
+  Counts signatures() const;
+  std::optional<std::string> note(const std::string& key) const;
+  std::vector<Row> evidence() const;  // all other rows, by kind, key, shard
+
+ private:
+  struct Parts;
+  explicit Store(std::unique_ptr<Parts> parts);
+  std::unique_ptr<Parts> parts_;
+};
+
+// The failures of an existing store; the problems are those of Store::read.
+Expected<KeptFailures> read_failures(const std::filesystem::path& file);
+
+}  // namespace assay::properties

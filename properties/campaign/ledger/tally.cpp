@@ -1,0 +1,169 @@
+#include "properties/campaign/ledger/tally.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+
+#include "properties/judging/case_options.h"
+
+namespace assay::properties {
+namespace {
+
+int log2_of(std::uint64_t n) { return n == 0 ? -1 : std::bit_width(n) - 1; }
+
+// Whether a law is to be met under this culling by itself. Laws are met by view sets alone.
+bool is_met_under(detector::Culling culling, MetUnder met_under) {
+  switch (met_under) {
+    case MetUnder::any_culling:
+      return false;
+    case MetUnder::each_culling:
+      return uses_views(culling);
+    case MetUnder::each_that_chooses_views:
+      return chooses_views(culling);
+  }
+  return false;
+}
+
+TrialRecord without_counts(TrialRecord record) {
+  record.counts = {};
+  return record;
+}
+
+std::uint64_t sum_of(const Tally& tally, std::uint64_t StratumTally::*count) {
+  std::uint64_t sum = 0;
+  for (const auto& [family, stratum] : tally.strata) sum += stratum.*count;
+  return sum;
+}
+
+}  // namespace
+
+void StratumTally::add(const TrialRecord& record) {
+  ++trials;
+  steps += record.steps;
+  collisions += record.collisions;
+  pairs += record.pairs;
+  oracle_us += record.oracle_us;
+  detector_us += record.detector_us;
+  with_defect += record.has(Outcome::defect) ? 1 : 0;
+  open += record.has(Outcome::undecided) || record.has(Outcome::error) ? 1 : 0;
+  disturbed += record.disturbed > 0 ? 1 : 0;
+  discards += record.outcomes.empty() ? 1 : 0;
+  meshes.insert(record.mesh);
+  by_configuration.resize(std::max(by_configuration.size(), record.outcomes.size()));
+  for (std::size_t i = 0; i < record.outcomes.size(); ++i) {
+    auto& outcomes = by_configuration[i];
+    switch (record.outcomes[i]) {
+      case 'H':
+        ++outcomes.holds;
+        break;
+      case 'D':
+        ++outcomes.defects;
+        break;
+      case 'U':
+        ++outcomes.undecided;
+        break;
+      default:
+        ++outcomes.errors;
+    }
+  }
+  const auto& shown = record.counts.measures;
+  measures += shown;
+  const auto grow = [&](std::uint64_t& most, bool counts) {
+    if (counts) most = std::max(most, record.triangles);
+  };
+  grow(triangles, record.has(Outcome::holds) || record.has(Outcome::defect));
+  grow(triangles_in_contact, shown.contact_trials > 0);
+  grow(triangles_repeated, shown.repeated_trials > 0);
+  ++sizes[log2_of(record.triangles)];
+  ++contacts[log2_of(record.pairs)];
+}
+
+void Tally::add(const TrialRecord& record) {
+  strata[record.family].add(record);
+  counts += record.counts;
+  disturbances += record.disturbed;
+  note_slow(record);
+  if (record.slowest_us >= near_from_us) near_limit.push_back(without_counts(record));
+}
+
+void Tally::note_slow(const TrialRecord& record) {
+  if (record.has(Outcome::undecided)) {
+    if (undecided.size() < most_undecided) undecided.push_back(without_counts(record));
+    return;
+  }
+  const auto is_slower = [](const TrialRecord& a, const TrialRecord& b) {
+    return a.slowest_us != b.slowest_us ? a.slowest_us > b.slowest_us : a.id < b.id;
+  };
+  if (slowest.size() == most_slowest && !is_slower(record, slowest.back())) return;
+  slowest.insert(std::upper_bound(slowest.begin(), slowest.end(), record, is_slower),
+                 without_counts(record));
+  if (slowest.size() > most_slowest) slowest.pop_back();
+}
+
+std::uint64_t Tally::trials() const { return sum_of(*this, &StratumTally::trials); }
+std::uint64_t Tally::judged() const { return trials() - sum_of(*this, &StratumTally::discards); }
+std::uint64_t Tally::with_defect() const { return sum_of(*this, &StratumTally::with_defect); }
+std::uint64_t Tally::open() const { return sum_of(*this, &StratumTally::open); }
+std::uint64_t Tally::disturbed() const { return sum_of(*this, &StratumTally::disturbed); }
+
+void add_law(TrialCounts& counts, const Law& law, const LawTally& tally, std::string_view culling) {
+  LawCount met{tally.premise, tally.close, tally.broken, {}};
+  if (law.met_under != MetUnder::any_culling) met.by_culling.emplace(culling, tally.premise);
+  counts.laws[std::string(law.name)] += met;
+}
+
+std::vector<std::pair<const Law*, LawCount>> laws_in(const TrialCounts& counts) {
+  std::vector<std::pair<const Law*, LawCount>> list;
+  for (const auto& law : laws()) {
+    const auto found = counts.laws.find(law.name);
+    list.emplace_back(&law, found == counts.laws.end() ? LawCount{} : found->second);
+  }
+  return list;
+}
+
+std::vector<std::pair<std::string, std::uint64_t>> premises_by_culling(const LawCount& count,
+                                                                       const Law& law) {
+  std::vector<std::pair<std::string, std::uint64_t>> list;
+  for (const auto culling : all_values<detector::Culling>) {
+    if (!is_met_under(culling, law.met_under)) continue;
+    const auto found = count.by_culling.find(name_of(culling));
+    list.emplace_back(name_of(culling), found == count.by_culling.end() ? 0 : found->second);
+  }
+  return list;
+}
+
+std::string starved(const Law& law, const LawCount& count, std::uint64_t wanted_premises) {
+  if (wanted_premises == 0) return "";
+  if (count.premise < wanted_premises)
+    return fmt::format("the premise of {} held {} times, {} are wanted", law.name, count.premise,
+                       wanted_premises);
+  if (4 * count.close >= count.premise) return "";
+  return fmt::format("{} was close in {} of {} cases, a quarter is wanted", law.name, count.close,
+                     count.premise);
+}
+
+std::vector<std::string> starved_laws(const TrialCounts& counts, std::uint64_t wanted_premises) {
+  // So much of what is wanted of all cullings together is wanted of each.
+  constexpr std::uint64_t least_of_a_culling = 10;
+  std::vector<std::string> lines;
+  for (const auto& [law, count] : laws_in(counts)) {
+    auto line = starved(*law, count, wanted_premises);
+    if (!line.empty()) lines.push_back(std::move(line));
+    for (const auto& [culling, premise] : premises_by_culling(count, *law)) {
+      if (least_of_a_culling * premise >= wanted_premises) continue;
+      lines.push_back(fmt::format("the premise of {} held {} times under {}, {} are wanted",
+                                  law->name, premise, culling,
+                                  (wanted_premises + least_of_a_culling - 1) / least_of_a_culling));
+    }
+  }
+  return lines;
+}
+
+std::uint64_t broken_laws(const TrialCounts& counts) {
+  const auto laws = laws_in(counts);
+  return static_cast<std::uint64_t>(std::count_if(
+      laws.begin(), laws.end(), [](const auto& law) { return law.second.broken > 0; }));
+}
+
+}  // namespace assay::properties

@@ -1,0 +1,327 @@
+// Wrong view tests.
+//
+// From a point: here f = (p0 - q).N is a cubic in t, and every short cut looks at less than all of
+// it (L2).
+
+#include "detector/exact/bernstein.h"
+#include "detector/geometry/winding.h"
+#include "properties/faults/planting.h"
+#include "properties/faults/view_polynomials.h"
+
+namespace assay::properties {
+
+namespace {
+
+using detector::MovingTriangle;
+using detector::Polynomial;
+using detector::ViewPrimitive;
+using detector::ViewSign;
+
+ViewSign linear_in_time(const ViewPolynomials& view) {
+  return strict_sign(linear_between_ends(view.h0));
+}
+
+ViewSign frozen_normal(const ViewPolynomials& view) {
+  return strict_sign(dot(view.to_corner, at_start(view.normal)));
+}
+
+ViewSign frozen_corner(const ViewPolynomials& view) {
+  return strict_sign(dot(at_start(view.to_corner), view.normal));
+}
+
+ViewSign linear_normal(const ViewPolynomials& view) {
+  return strict_sign(dot(view.to_corner, linear_between_ends(view.normal)));
+}
+
+ViewSign without_cubic_term(const ViewPolynomials& view) {
+  const Polynomial& f = view.h0;
+  if (f.degree() < 3) return strict_sign(f);
+  const Polynomial t = Polynomial::linear(0, 1);
+  return strict_sign(f - Polynomial::constant(f[3]) * t * t * t);
+}
+
+// Says positive if f >= 0 all along. Between two zeros f keeps the sign of its value half way.
+ViewSign touching_zero_is_positive(const ViewPolynomials& view) {
+  const Polynomial& f = view.h0;
+  if (f.is_zero()) return ViewSign::positive;
+  double since = 0;
+  const auto is_negative_at = [&](double t) { return f.sign_at(detector::Dyadic::of(t)) < 0; };
+  for (const auto& root : detector::roots_in_unit_interval(f)) {
+    if (is_negative_at((since + root.enclosure().lo) / 2)) return strict_sign(f);
+    since = root.enclosure().hi;
+  }
+  return is_negative_at((since + 1) / 2) || is_negative_at(0) || is_negative_at(1)
+             ? strict_sign(f)
+             : ViewSign::positive;
+}
+
+ViewSign sign_of_coefficients(const detector::Cubic& f, int depth) {
+  const auto [least, greatest] = std::minmax_element(f.begin(), f.end());
+  if (*least > 0) return ViewSign::positive;
+  if (*greatest < 0) return ViewSign::negative;
+  if (depth == 10) return ViewSign::zero;
+  detector::Cubic left, right;
+  detector::halve(f, left, right);
+  return common_sign(
+      {sign_of_coefficients(left, depth + 1), sign_of_coefficients(right, depth + 1)});
+}
+
+// Computes in doubles without bounds, so a value that is 0, or just below, may come out above 0.
+ViewSign in_plain_doubles(const MovingTriangle& triangle, const ViewPrimitive& primitive) {
+  using detector::difference;
+  const auto normal =
+      cross(difference(triangle[1], triangle[0]), difference(triangle[2], triangle[0]));
+  const auto f = triple_product(difference(triangle[0], primitive.q0), normal);
+  return sign_of_coefficients(f, 0);
+}
+
+template <ViewSign merged>
+ViewSign zero_merged(const MovingTriangle& triangle, const ViewPrimitive& primitive) {
+  const ViewSign right = right_sign(triangle, primitive);
+  return right == ViewSign::zero ? merged : right;
+}
+
+// Says that a triangle without area is positive, as if it could not be seen from behind because it
+// has no normal.
+ViewSign zero_area_is_positive(const MovingTriangle& triangle, const ViewPrimitive& primitive) {
+  const auto vanishes = [](const PolynomialVector& n) {
+    return n[0].is_zero() && n[1].is_zero() && n[2].is_zero();
+  };
+  const auto normal = view_polynomials(triangle, primitive).normal;
+  const PolynomialVector end = {at_end(normal[0]), at_end(normal[1]), at_end(normal[2])};
+  return vanishes(at_start(normal)) || vanishes(end) ? ViewSign::positive
+                                                     : right_sign(triangle, primitive);
+}
+
+// Each triangle takes the one of two views that suits it (L10).
+ViewSign positive_from_either_place(const MovingTriangle& triangle,
+                                    const ViewPrimitive& primitive) {
+  const auto q0 = still(Sample::start, primitive.q0), q1 = still(Sample::end, primitive.q0);
+  const ViewSign first = right_sign(triangle, {q0, q0});
+  return first == ViewSign::positive ? first : right_sign(triangle, {q1, q1});
+}
+
+template <Sample place>
+ViewSign from_frozen_primitive(const MovingTriangle& triangle, const ViewPrimitive& primitive) {
+  return right_sign(triangle, {still(place, primitive.q0), still(place, primitive.q1)});
+}
+
+}  // namespace
+
+std::vector<Fault> view_point_faults() {
+  return {
+      planted<Signs<sampled<Sample::start>>>(
+          "view/at-start-only", "the sign at t=0 is taken for the step's", "L2", "M_start", 4),
+      planted<Signs<sampled<Sample::middle>>>(
+          "view/in-the-middle-only", "the sign at t=1/2 is taken for the step's", "L2", "M_mid", 4),
+      planted<Signs<sampled<Sample::end>>>(
+          "view/at-end-only", "the sign at t=1 is taken for the step's", "L2", "M_end", 4),
+      planted<Signs<sampled<Sample::start, Sample::end>>>(
+          "view/at-ends-only", "equal signs at t=0 and t=1 are taken for the step's", "L2",
+          "A4_endpoints_only", 4),
+      planted<Signs<linear_in_time>>("view/linear-in-time",
+                                     "f runs along the line between its ends", "L2",
+                                     "A4_endpoints_only", 4),
+      planted<Signs<sampled<Sample::start, Sample::middle, Sample::end>>>(
+          "view/three-samples", "equal signs at t=0, 1/2, 1 are taken for the step's", "L2",
+          "A4b_three_samples", 4),
+      planted<Signs<frozen_normal>>("view/frozen-normal", "the normal stays as it is at t=0", "L2",
+                                    "M_frozenN", 4),
+      planted<Signs<frozen_corner>>("view/frozen-corner",
+                                    "p - q stays as it is at t=0, the normal moves", "L2",
+                                    "M_frozenV", 4),
+      planted<Signs<linear_normal>>("view/linear-normal",
+                                    "the normal runs along the line between its ends", "L2",
+                                    "M_linN", 4),
+      planted<Signs<without_cubic_term>>("view/cubic-term-dropped", "f without its t^3", "L2",
+                                         "M_dropcubic", 4),
+      planted<Signs<touching_zero_is_positive>>(
+          "view/touching-zero-is-positive", "f >= 0 is enough for V+: touching zero does not count",
+          "L2", "A3b_nonstrict_touch", 7),
+      planted<Signs<in_plain_doubles>>(
+          "view/plain-doubles",
+          "doubles without error bounds: a value near 0 may be promoted to V+", "L2",
+          "F_rounded_to_positive", 4),
+      planted<Signs<zero_merged<ViewSign::positive>>>("view/zero-is-positive",
+                                                      "V0 is merged into V+", "L3", "M_pZtoP", 4),
+      planted<Signs<zero_merged<ViewSign::negative>>>("view/zero-is-negative",
+                                                      "V0 is merged into V-", "L3", "M_pZtoM", 4),
+      planted<Signs<zero_area_is_positive>>(
+          "view/zero-area-is-positive", "a triangle that has no area at t=0 or t=1 goes into V+",
+          "L12", "A3_nonstrict_end", 7),
+      planted<Signs<positive_from_either_place>>(
+          "view/positive-from-either-place",
+          "positive from the moving point's place at t=0, or from that at "
+          "t=1",
+          "L10", "F_either_place", 4),
+      planted<Signs<from_frozen_primitive<Sample::end>>>(
+          "view/primitive-at-its-end",
+          "seen from the primitive's place at t=1, while the winding number "
+          "is that of its place at t=0",
+          "L5", "F_primitive_at_its_end", 6),
+      unseen<Signs<from_frozen_primitive<Sample::start>>>(
+          FaultStatus::equivalent, "view/primitive-stays",
+          "a moving primitive is taken where it is at t=0, for the whole step", "L3",
+          "any fixed place is one continuous field (L10), and the winding number is taken there; "
+          "where "
+          "the place at t=1 is trusted in the next step, it has winding number 1 or 0 in an "
+          "embedded "
+          "surface, and from winding number 0 not everything is positive"),
+  };
+}
+
+// From a line: every corner needs its own nearest point at every time (L1), and all triangles of a
+// component need one field of view rays (L10).
+
+namespace {
+
+using detector::MovingPoint;
+using detector::MovingTriangle;
+using detector::Polynomial;
+using detector::ViewPrimitive;
+using detector::ViewSign;
+
+ViewSign one_corner(const ViewPolynomials& view) { return sign_of(pieces_of_corner(view, 0)); }
+
+// Uses the region of corner 0 at t=0 for everything: one end of the line, or the foot on its axis.
+ViewSign region_of_first_corner(const ViewPolynomials& view) {
+  const auto pieces = pieces_of_corner(view, 0);
+  if (pieces.g0.sign_at_zero() <= 0) return strict_sign(pieces.h0);
+  if (pieces.g1.sign_at_zero() >= 0) return strict_sign(pieces.h1);
+  return strict_sign(pieces.middle);
+}
+
+// Uses the point of the line that is nearest to corner 0 at t=0 for all corners and the whole
+// step.
+ViewSign frozen_nearest_point(const ViewPolynomials& view) {
+  if (view.g0[0].sign_at_zero() <= 0) return strict_sign(view.h0);
+  if (view.g1[0].sign_at_zero() >= 0) return strict_sign(view.h1);
+  const Polynomial along = at_start(view.g0[0]), length2 = at_start(view.length2);
+  return strict_sign((length2 - along) * view.h0 + along * view.h1);
+}
+
+// Looks at the centroid alone, with its own nearest point. All values are multiplied by 3.
+ViewSign of_centroid(const ViewPolynomials& view) {
+  const Polynomial g0 = view.g0[0] + view.g0[1] + view.g0[2];
+  const Polynomial g1 = view.g1[0] + view.g1[1] + view.g1[2];
+  const Polynomial three = Polynomial::constant(3);
+  return sign_of({view.h0, view.h1, three * view.h0 * view.length2 - g0 * view.d_normal, g0, g1});
+}
+
+ViewSign positive_from_either_end(const ViewPolynomials& view) {
+  const ViewSign first = strict_sign(view.h0);
+  return first == ViewSign::positive ? first : strict_sign(view.h1);
+}
+
+// Looks from the end of the line that is nearer to corner 0 at t=0.
+ViewSign from_nearer_end(const ViewPolynomials& view) {
+  const bool second = (view.g0[0] + view.g1[0]).sign_at_zero() > 0;
+  return strict_sign(second ? view.h1 : view.h0);
+}
+
+ViewPrimitive midpoint(const ViewPrimitive& line) {
+  ViewPrimitive view;
+  for (std::size_t k = 0; k < 3; ++k) {
+    view.q0.t0[k] = 0.5 * (line.q0.t0[k] + line.q1.t0[k]);
+    view.q0.t1[k] = 0.5 * (line.q0.t1[k] + line.q1.t1[k]);
+  }
+  view.q1 = view.q0;
+  return view;
+}
+
+ViewSign from_midpoint(const MovingTriangle& triangle, const ViewPrimitive& primitive) {
+  return right_sign(triangle, midpoint(primitive));
+}
+
+// Asks for the winding number at the midpoint, from which the view is taken. That of an end would
+// say nothing.
+struct FreeFromMidpoint : detector::ReleaseRule {
+  bool is_free(const detector::GivenStep& step, const detector::StepMarks& marks,
+               detector::StepCost&, std::size_t c) const override {
+    const auto& triangles = step.component(c).triangles;
+    for (const auto t : triangles) {
+      if (marks.signs[at(t)] != ViewSign::positive) return false;
+    }
+    return detector::winding_number(step.surface.all(), triangles, step.motion.vertices_t0,
+                                    midpoint(marks.primitives[c]).q0.t0) == 1;
+  }
+};
+
+Fault midpoint_with_its_winding(Fault fault) {
+  fault.stages = [](const detector::Options& options) {
+    auto stages = with<Signs<from_midpoint>>(options);
+    stages.release = std::make_shared<FreeFromMidpoint>();
+    return stages;
+  };
+  return fault;
+}
+
+ViewSign from_first_end(const MovingTriangle& triangle, const ViewPrimitive& primitive) {
+  return right_sign(triangle, {primitive.q0, primitive.q0});
+}
+
+ViewSign with_swapped_ends(const MovingTriangle& triangle, const ViewPrimitive& primitive) {
+  return right_sign(triangle, {primitive.q1, primitive.q0});
+}
+
+// Uses the middle piece everywhere, as if the line were its whole axis.
+ViewSign from_unclamped_axis(const ViewPolynomials& view) {
+  return common_sign({strict_sign(pieces_of_corner(view, 0).middle),
+                      strict_sign(pieces_of_corner(view, 1).middle),
+                      strict_sign(pieces_of_corner(view, 2).middle)});
+}
+
+template <auto sign>
+Fault line(std::string_view name, std::string_view about, std::string_view law,
+           std::string_view curated, int vertices) {
+  return planted<Signs<sign>>(name, about, law, curated, vertices, with_lines);
+}
+
+template <auto sign>
+Fault equivalent(std::string_view name, std::string_view about, std::string_view reason) {
+  return unseen<Signs<sign>>(FaultStatus::equivalent, name, about, "L10", reason, with_lines);
+}
+
+}  // namespace
+
+std::vector<Fault> view_line_faults() {
+  return {
+      line<one_corner>("view-line/one-corner", "corner 0 alone, with its own nearest point", "L1",
+                       "B1_one_vertex_own_nearest", 7),
+      line<region_of_first_corner>(
+          "view-line/region-of-first-corner",
+          "the region that corner 0 is in at t=0, for all and for the step", "L1",
+          "B2_region_of_vertex0_at_start", 7),
+      line<frozen_nearest_point>("view-line/frozen-nearest-point",
+                                 "the point nearest to corner 0 at t=0, for all and for the step",
+                                 "L10", "B3_nearest_point_frozen", 7),
+      line<of_centroid>("view-line/centroid", "the centroid alone, with its own nearest point",
+                        "L1", "M_Lcentroid", 6),
+      line<positive_from_either_end>("view-line/positive-from-either-end",
+                                     "positive from q0 is enough, or from q1", "L10", "M_Leither",
+                                     6),
+      line<from_nearer_end>("view-line/nearer-end", "seen from the end nearer to corner 0 at t=0",
+                            "L10", "F_line_nearer_end", 6),
+      line<sampled<Sample::start>>("view-line/at-start-only",
+                                   "the sign at t=0 is taken for the step's", "L2", "M_Lstartall",
+                                   4),
+      line<sampled<Sample::start, Sample::end>>("view-line/at-ends-only",
+                                                "equal signs at t=0 and t=1 are the step's", "L2",
+                                                "M_Lendsall", 5),
+      line<from_midpoint>("view-line/midpoint-with-winding-of-an-end",
+                          "seen from the line's midpoint, while the winding number is that of q0",
+                          "L5", "F_line_midpoint_winding", 6),
+      equivalent<from_first_end>("view-line/from-first-end", "seen from q0 only",
+                                 "a single continuous field: the view from a point"),
+      midpoint_with_its_winding(equivalent<from_midpoint>(
+          "view-line/from-midpoint", "seen from the midpoint only, with its winding number",
+          "a single continuous field: the view from a point")),
+      equivalent<from_unclamped_axis>("view-line/unclamped-axis",
+                                      "seen from the whole axis, not from the segment",
+                                      "a single continuous field: the view from the axis"),
+      equivalent<with_swapped_ends>("view-line/swapped-ends", "q0 and q1 exchanged",
+                                    "the same field: the segment has no direction"),
+  };
+}
+
+}  // namespace assay::properties

@@ -1,0 +1,315 @@
+#include "properties/queries/self_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <charconv>
+#include <chrono>
+#include <exception>
+#include <iterator>
+#include <mutex>
+#include <string_view>
+#include <thread>
+
+#include "detector/detector.h"
+#include "oracle/mesh/step.h"
+#include "properties/judging/agreement.h"
+#include "properties/queries/rung_cases.h"
+#include "properties/queries/small_worlds.h"
+#include "properties/random.h"
+#include "properties/worlds/small_steps.h"
+
+namespace assay::properties {
+
+namespace {
+
+constexpr std::uint64_t indices_at_once = 64;  // indices that a thread takes at once
+constexpr std::size_t failures_kept = 5;
+
+// The state that the threads of one family share.
+class Run {
+ public:
+  Run(const SelfTestFamily& family, const SelfTestOptions& options,
+      const std::function<void(std::uint64_t)>& progress)
+      : family_(family),
+        options_(options),
+        progress_(progress),
+        end_(family.indices(options.queries)) {}
+
+  void work() {
+    while (!stopped_) {
+      const std::uint64_t begin = next_.fetch_add(indices_at_once);
+      if (begin >= end_) return;
+      FamilyResult found;
+      const std::uint64_t end = std::min(begin + indices_at_once, end_);
+      std::uint64_t index = begin;
+      for (; index < end && !stopped_; ++index) {
+        if (options_.stop && options_.stop()) {
+          stopped_ = true;
+          break;
+        }
+        auto wrong = family_.check(options_.seed, index, found.tally);
+        if (!wrong) continue;
+        found.failures.push_back({index, std::move(*wrong)});
+        stopped_ = stopped_ || options_.stop_at_contradiction;
+      }
+      merge(found, index - begin);
+    }
+  }
+
+  FamilyResult result() {
+    result_.complete = done_ == end_;
+    return std::move(result_);
+  }
+
+ private:
+  void merge(FamilyResult& found, std::uint64_t done) {
+    const std::lock_guard lock(mutex_);
+    result_.tally += found.tally;
+    auto& kept = result_.failures;
+    std::move(found.failures.begin(), found.failures.end(), std::back_inserter(kept));
+    std::sort(kept.begin(), kept.end(),
+              [](const auto& a, const auto& b) { return a.index < b.index; });
+    if (kept.size() > failures_kept) kept.resize(failures_kept);
+    done_ += done;
+    if (progress_) progress_(done_);
+  }
+
+  const SelfTestFamily& family_;
+  const SelfTestOptions& options_;
+  const std::function<void(std::uint64_t)>& progress_;
+  const std::uint64_t end_;
+  std::atomic<std::uint64_t> next_ = 0;
+  std::atomic<bool> stopped_ = false;
+  std::mutex mutex_;
+  FamilyResult result_;
+  std::uint64_t done_ = 0;
+};
+
+std::optional<std::uint64_t> whole_number(std::string_view text) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return {};
+  return value;
+}
+
+}  // namespace
+
+FamilyResult run_family(const SelfTestFamily& family, const SelfTestOptions& options,
+                        const std::function<void(std::uint64_t)>& progress) {
+  const auto begin = std::chrono::steady_clock::now();
+  Run run(family, options, progress);
+  {
+    std::vector<std::jthread> others;
+    for (int i = 1; i < options.jobs; ++i) others.emplace_back([&run] { run.work(); });
+    run.work();
+  }
+  FamilyResult result = run.result();
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return result;
+}
+
+std::optional<SelfTestCase> self_test_case(const std::string& name) {
+  const auto last = name.rfind(':');
+  if (last == std::string::npos || last == 0) return {};
+  const auto middle = name.rfind(':', last - 1);
+  if (middle == std::string::npos) return {};
+  const std::string_view all = name;
+  const auto seed = whole_number(all.substr(middle + 1, last - middle - 1));
+  const auto index = whole_number(all.substr(last + 1));
+  if (!seed || !index) return {};
+  for (const auto& family : self_test_families()) {
+    if (family->name() == all.substr(0, middle)) return SelfTestCase{family.get(), *seed, *index};
+  }
+  return {};
+}
+
+namespace {
+
+std::uint64_t pick(std::uint64_t seed, std::uint64_t index) { return Random(~seed, index).next(); }
+
+class RungFamily final : public SelfTestFamily {
+ public:
+  RungFamily() : SelfTestFamily("rungs", "named queries, each with the rung that must decide it") {}
+  std::uint64_t indices(std::uint64_t) const override { return rung_cases().size(); }
+
+  std::optional<std::string> check(std::uint64_t seed, std::uint64_t index,
+                                   QueryTally& tally) const override {
+    const RungCase& named = rung_cases()[index % rung_cases().size()];
+    if (auto wrong = check_query({named.query, {}}, pick(seed, index), tally)) return wrong;
+    for (const auto want : {detector::Want::yes_no, detector::Want::first_time}) {
+      const auto answer = ask_oracle(named.query, want);
+      if (answer.contact != named.contact ||
+          (named.contact && want == detector::Want::first_time && answer.first != named.first)) {
+        ++tally.contradictions;
+        return fmt::format("`{}`: not the answer or time that is known", named.name);
+      }
+      if (answer.rung == named.rung) continue;
+      ++tally.contradictions;
+      return fmt::format("`{}`: rung {} decided, {} must", named.name, name_of(answer.rung),
+                         name_of(named.rung));
+    }
+    return {};
+  }
+
+  std::optional<Query> query_at(std::uint64_t, std::uint64_t index) const override {
+    return rung_cases()[index % rung_cases().size()].query;
+  }
+
+  std::string text(std::uint64_t, std::uint64_t index) const override {
+    const RungCase& named = rung_cases()[index % rung_cases().size()];
+    return fmt::format("{}\n{}{}", named.name, exact_text(named.query), answers_text(named.query));
+  }
+};
+
+class WorldFamily final : public SelfTestFamily {
+ public:
+  // The world is left out if fewer than `from` queries are asked for.
+  WorldFamily(std::string name, std::string about, const SmallWorld& world, std::uint64_t from)
+      : SelfTestFamily(std::move(name), std::move(about)), world_(world), from_(from) {}
+  std::uint64_t indices(std::uint64_t queries) const override {
+    return queries >= from_ ? world_.places() : 0;
+  }
+
+  std::optional<std::string> check(std::uint64_t seed, std::uint64_t index,
+                                   QueryTally& tally) const override {
+    const auto query = world_.at(index);
+    if (!query) return {};
+    return check_query({*query, {}}, pick(seed, index), tally);
+  }
+
+  std::optional<Query> query_at(std::uint64_t, std::uint64_t index) const override {
+    return world_.at(index);
+  }
+
+  std::string text(std::uint64_t, std::uint64_t index) const override {
+    const auto query = world_.at(index);
+    return query ? exact_text(*query) + answers_text(*query)
+                 : "no query at this place: an equal one stands elsewhere\n";
+  }
+
+ private:
+  SmallWorld world_;
+  std::uint64_t from_;
+};
+
+class RandomFamily final : public SelfTestFamily {
+ public:
+  explicit RandomFamily(const QueryGenerator& generator)
+      : SelfTestFamily(generator.name, generator.about), generator_(generator) {}
+  std::uint64_t indices(std::uint64_t queries) const override {
+    const auto one_in = static_cast<std::uint64_t>(generator_.one_in);
+    return (queries + one_in - 1) / one_in;
+  }
+
+  std::optional<std::string> check(std::uint64_t seed, std::uint64_t index,
+                                   QueryTally& tally) const override {
+    return check_query(generator_.make(seed, index), pick(seed, index), tally);
+  }
+
+  std::optional<Query> query_at(std::uint64_t seed, std::uint64_t index) const override {
+    return generator_.make(seed, index).query;
+  }
+
+  std::string text(std::uint64_t seed, std::uint64_t index) const override {
+    const Query query = generator_.make(seed, index).query;
+    return exact_text(query) + answers_text(query);
+  }
+
+ private:
+  QueryGenerator generator_;
+};
+
+// Whole steps of small meshes. They exercise features, spreading and piercing, which single
+// queries do not. The detector tests every pair.
+class StepFamily final : public SelfTestFamily {
+ public:
+  StepFamily() : SelfTestFamily("steps", "pair sets of small meshes, detector without culling") {}
+  std::uint64_t indices(std::uint64_t queries) const override { return (queries + 19) / 20; }
+
+  std::optional<std::string> check(std::uint64_t seed, std::uint64_t index,
+                                   QueryTally& tally) const override {
+    ++tally.queries;
+    try {
+      const SmallStep step = make_small_step(seed, index);
+      const auto judged = oracle::judge_step({step.x_t0, step.x_t1}, step.triangles, {});
+      tally.contacts += judged.answer == detector::Answer::collision ? 1 : 0;
+      tally.rungs += judged.rungs;
+      const auto found = detect(step);
+      if (compare(found, judged, claims_of({})).outcome == Outcome::holds) return {};
+    } catch (const std::exception& thrown) {
+      ++tally.contradictions;
+      return fmt::format("threw: {}", thrown.what());
+    }
+    ++tally.contradictions;
+    return "pairs or times of the oracle's step and the detector's differ";
+  }
+
+  std::optional<Query> query_at(std::uint64_t, std::uint64_t) const override { return {}; }
+
+  std::string text(std::uint64_t seed, std::uint64_t index) const override {
+    const SmallStep step = make_small_step(seed, index);
+    const auto judged = oracle::judge_step({step.x_t0, step.x_t1}, step.triangles, {});
+    const auto found = detect(step);
+    std::string out = step.family + "\n";
+    for (Eigen::Index v = 0; v < step.x_t0.rows(); ++v) {
+      out += fmt::format("  vertex {}: t=0 ({:a}, {:a}, {:a})  t=1 ({:a}, {:a}, {:a})\n", v,
+                         step.x_t0(v, 0), step.x_t0(v, 1), step.x_t0(v, 2), step.x_t1(v, 0),
+                         step.x_t1(v, 1), step.x_t1(v, 2));
+    }
+    for (Eigen::Index t = 0; t < step.triangles.rows(); ++t) {
+      out += fmt::format("  triangle {}: {} {} {}\n", t, step.triangles(t, 0), step.triangles(t, 1),
+                         step.triangles(t, 2));
+    }
+    return out + pairs_text("oracle", judged.pairs) + pairs_text("detector", found.pairs);
+  }
+
+ private:
+  static detector::StepResult detect(const SmallStep& step) {
+    auto made = detector::Detector::create(
+        step.triangles, step.x_t0,
+        {detector::Culling::none, detector::Start::verified, detector::Pairs::all});
+    return made.value().step(step.x_t0, step.x_t1, {});
+  }
+
+  static std::string pairs_text(const char* who, const std::vector<detector::PairContact>& pairs) {
+    std::string out = fmt::format("{}: {} pairs\n", who, pairs.size());
+    for (const auto& p : pairs) {
+      out += fmt::format("  {} {} at [{:a}, {:a}], {}\n", p.pair.a, p.pair.b, p.time.lo, p.time.hi,
+                         name_of(p.feature.kind));
+    }
+    return out;
+  }
+};
+
+}  // namespace
+
+const std::vector<std::unique_ptr<const SelfTestFamily>>& self_test_families() {
+  static const auto families = [] {
+    std::vector<std::unique_ptr<const SelfTestFamily>> all;
+    const auto world = [&](const char* name, const char* about, int side, int dimensions,
+                           WorldMotion motion, std::uint64_t from) {
+      all.push_back(
+          std::make_unique<WorldFamily>(name, about, SmallWorld(side, dimensions, motion), from));
+    };
+    using enum WorldMotion;
+    all.push_back(std::make_unique<RungFamily>());
+    world("line-3", "all queries on {-1,0,1}", 3, 1, every_point_moves, 0);
+    world("plane-2", "all queries on {0,1}^2", 2, 2, every_point_moves, 0);
+    world("plane-3-one", "all on {-1,0,1}^2, at most one point moves", 3, 2, one_point_moves, 0);
+    all.push_back(std::make_unique<StepFamily>());
+    for (const QueryGenerator& generator : query_generators()) {
+      all.push_back(std::make_unique<RandomFamily>(generator));
+    }
+    world("line-4", "all queries on {0,1,2,3}", 4, 1, every_point_moves, 20'000);
+    world("cube-2", "all queries on {0,1}^3", 2, 3, every_point_moves, 100'000);
+    world("cube-3-one", "all on {-1,0,1}^3, at most one point moves", 3, 3, one_point_moves,
+          300'000);
+    world("plane-3", "all queries on {-1,0,1}^2", 3, 2, every_point_moves, 2'000'000);
+    return all;
+  }();
+  return families;
+}
+
+}  // namespace assay::properties

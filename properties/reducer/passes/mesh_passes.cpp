@@ -1,0 +1,239 @@
+// Passes that drop triangles, whether or not the mesh stays closed (passes.h).
+
+#include <algorithm>
+
+#include "detector/mesh/topology.h"
+#include "properties/reducer/case_edits.h"
+#include "properties/reducer/passes/passes.h"
+#include "properties/reducer/rings.h"
+
+namespace assay::properties {
+
+namespace {
+
+using detector::make_topology;
+
+// The triangles, those farthest from the focus first.
+std::vector<std::int32_t> far_triangles_first(const ReductionSearch& search) {
+  const Rings rings = rings_of(search);
+  const auto triangles = triangles_of(search.best());
+  std::vector<std::int32_t> order(triangles.size());
+  std::vector<int> distance(triangles.size(), 0);
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    order[t] = static_cast<std::int32_t>(t);
+    for (const auto v : triangles[t]) {
+      distance[t] = std::max(distance[t], rings.distance[at(v)]);
+    }
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [&](auto a, auto b) { return distance[at(a)] > distance[at(b)]; });
+  return order;
+}
+
+}  // namespace
+
+void drop_components(ReductionSearch& search) {
+  const auto components = [&] {
+    const auto& c = search.best();
+    return make_topology(c.triangles, c.frames.front().rows()).components;
+  };
+  const auto size = [&] { return components().size(); };
+  if (size() < 2) return;
+  try_halves(search, size, [&](std::size_t begin, std::size_t end) {
+    const auto all = components();
+    if (end - begin == all.size()) return false;
+    std::vector<std::uint8_t> keep(static_cast<std::size_t>(search.best().triangles.rows()), 1);
+    for (std::size_t i = begin; i < end; ++i) {
+      for (const auto t : all[i].triangles) keep[at(t)] = 0;
+    }
+    return search.offer(keep_triangles(search.best(), keep));
+  });
+}
+
+void keep_rings(ReductionSearch& search) {
+  const Rings rings = rings_of(search);
+  const auto triangles = triangles_of(search.best());
+  if (!search.finding().focus.empty()) {
+    std::vector<std::uint8_t> keep(triangles.size(), 0);
+    for (const auto t : search.finding().focus) keep.at(at(t)) = 1;
+    if (search.offer(keep_triangles(search.best(), keep))) return;
+  }
+  for (int ring = 0; ring < rings.farthest; ++ring) {
+    if (search.offer(within(search.best(), rings, ring))) return;
+  }
+}
+
+void drop_faces(ReductionSearch& search) {
+  const auto size = [&] { return static_cast<std::size_t>(search.best().triangles.rows()); };
+  try_halves(search, size, [&](std::size_t begin, std::size_t end) {
+    const auto order = far_triangles_first(search);
+    if (end - begin == order.size()) return false;
+    std::vector<std::uint8_t> keep(order.size(), 1);
+    for (std::size_t i = begin; i < end; ++i) keep[at(order[i])] = 0;
+    return search.offer(keep_triangles(search.best(), keep));
+  });
+}
+
+void drop_unused_vertices(ReductionSearch& search) {
+  search.offer(with_triangles(search.best(), triangles_of(search.best())));
+}
+
+void drop_ghosts(ReductionSearch& search) {
+  if (!search.best().ghosts) return;
+  corpus::Case without = search.best();
+  without.ghosts.reset();
+  search.offer(without);
+}
+
+// Smaller meshes that stay closed where they are closed; passes.h tells what each pass does. All
+// passes but the cuts identify vertices (merge_vertices), under which a cycle stays a cycle.
+
+namespace {
+
+bool offer_merge(ReductionSearch& search, const Numbers& targets) {
+  return search.offer(merge_vertices(search.best(), targets));
+}
+
+// Groups the vertices outside the focus. A group holds a centre, which comes first, and vertices
+// within `radius` edges of it. Each vertex is in one group at most, and groups of a single vertex
+// are left out.
+std::vector<std::vector<std::int32_t>> balls(const Rings& rings, int radius) {
+  std::vector<std::uint8_t> taken(rings.distance.size(), 0);
+  std::vector<std::vector<std::int32_t>> all;
+  for (const auto centre : rings.far_first) {
+    if (taken[at(centre)] != 0 || rings.distance[at(centre)] == 0) {
+      continue;
+    }
+    taken[at(centre)] = 1;
+    std::vector<std::int32_t> ball = {centre};
+    std::size_t begin = 0;
+    for (int r = 0; r < radius; ++r) {
+      for (const std::size_t end = ball.size(); begin < end; ++begin) {
+        for (const auto v : rings.neighbours[at(ball[begin])]) {
+          if (taken[at(v)] != 0 || rings.distance[at(v)] == 0) continue;
+          taken[at(v)] = 1;
+          ball.push_back(v);
+        }
+      }
+    }
+    if (ball.size() > 1) all.push_back(std::move(ball));
+  }
+  return all;
+}
+
+// In loops of up to this length every corner is tried as the place of the fan.
+constexpr std::size_t most_corners = 12;
+
+}  // namespace
+
+void cone_outside(ReductionSearch& search) {
+  for (int ring = 0; ring <= rings_of(search).farthest && !search.ended(); ++ring) {
+    const Rings rings = rings_of(search);
+    std::vector<std::int32_t> outside;
+    for (const auto v : rings.far_first) {
+      if (rings.distance[at(v)] > ring) outside.push_back(v);
+    }
+    // Tried as apexes are the farthest vertex, the nearest, and some between.
+    const std::size_t stride = std::max<std::size_t>(1, outside.size() / 6);
+    for (std::size_t i = 0; i < outside.size(); i += stride) {
+      Numbers targets = in_order(vertex_count(search.best()));
+      for (const auto v : outside) targets[at(v)] = outside[i];
+      if (offer_merge(search, targets)) return;
+    }
+  }
+}
+
+void cut_and_close(ReductionSearch& search) {
+  for (int ring = 0; ring < rings_of(search).farthest && !search.ended(); ++ring) {
+    const auto cut = within(search.best(), rings_of(search), ring);
+    if (cut.triangles.rows() == 0) continue;
+    for (std::size_t corner = 0; corner < most_corners; ++corner) {
+      if (search.offer(close_loops(cut, corner))) return;
+    }
+  }
+}
+
+void merge_balls(ReductionSearch& search) {
+  for (const int radius : {3, 2, 1}) {
+    const auto size = [&] { return balls(rings_of(search), radius).size(); };
+    try_halves(search, size, [&](std::size_t begin, std::size_t end) {
+      const auto all = balls(rings_of(search), radius);
+      Numbers targets = in_order(vertex_count(search.best()));
+      for (std::size_t i = begin; i < end; ++i) {
+        for (const auto v : all[i]) targets[at(v)] = all[i].front();
+      }
+      return offer_merge(search, targets);
+    });
+  }
+}
+
+void collapse_to_parents(ReductionSearch& search) {
+  const auto size = [&] { return vertex_count(search.best()); };
+  try_halves(search, size, [&](std::size_t begin, std::size_t end) {
+    const Rings rings = rings_of(search);
+    Numbers targets = in_order(size());
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto v = at(rings.far_first[i]);
+      targets[v] = rings.parent[v];
+    }
+    return offer_merge(search, targets);
+  });
+}
+
+void collapse_edges(ReductionSearch& search) {
+  // Vertices that share no edge may be merged too. If there are few vertices, this is cheap to
+  // try.
+  constexpr std::size_t few = 16;
+  for (std::size_t i = 0; i < vertex_count(search.best()) && !search.ended();) {
+    const Rings rings = rings_of(search);
+    const auto u = rings.far_first[i];
+    const auto n = vertex_count(search.best());
+    const Numbers near = n <= few ? in_order(n) : rings.neighbours[at(u)];
+    const bool smaller = std::any_of(near.begin(), near.end(), [&](std::int32_t v) {
+      if (v == u) return false;
+      Numbers targets = in_order(n);
+      targets[at(u)] = v;
+      return offer_merge(search, targets);
+    });
+    if (!smaller) ++i;
+  }
+}
+
+void merge_twice(ReductionSearch& search) {
+  constexpr std::size_t few = 10;
+  const auto n = static_cast<std::int32_t>(vertex_count(search.best()));
+  if (vertex_count(search.best()) > few) return;
+  for (std::int32_t a = 0; a < n; ++a) {
+    for (std::int32_t b = a + 1; b < n; ++b) {
+      for (std::int32_t to_a = 0; to_a < n; ++to_a) {
+        for (std::int32_t to_b = 0; to_b < n; ++to_b) {
+          if (to_a == a || to_b == b || (to_a == b && to_b == a)) continue;
+          Numbers targets = in_order(vertex_count(search.best()));
+          targets[at(a)] = to_a;
+          targets[at(b)] = to_b;
+          if (offer_merge(search, targets)) return;
+        }
+      }
+    }
+  }
+}
+
+void remove_and_close(ReductionSearch& search) {
+  // Removes the star of a vertex, and closes the hole by a fan from a vertex of its rim.
+  for (std::size_t i = 0; i < vertex_count(search.best()) && !search.ended();) {
+    const auto v = rings_of(search).far_first[i];
+    const auto triangles = triangles_of(search.best());
+    std::vector<std::uint8_t> keep(triangles.size(), 1);
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      if (std::count(triangles[t].begin(), triangles[t].end(), v) > 0) keep[t] = 0;
+    }
+    const auto open = keep_triangles(search.best(), keep);
+    bool smaller = false;
+    for (std::size_t corner = 0; open.triangles.rows() > 0 && corner < most_corners; ++corner) {
+      if ((smaller = search.offer(close_loops(open, corner)))) break;
+    }
+    if (!smaller) ++i;
+  }
+}
+
+}  // namespace assay::properties

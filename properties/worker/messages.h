@@ -1,0 +1,284 @@
+// What travels between the host and its worker, field by field, and the rules that a worker's
+// replies must keep to be believed. A new field of a result or an option does not compile here
+// until it is named: in the binding and in the call below it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "corpus/cases/case_file.h"
+#include "detector/mesh/problem.h"
+#include "detector/mesh/step_types.h"
+#include "detector/step_result.h"
+#include "properties/problem.h"
+#include "properties/worker/case_run.h"
+#include "properties/worker/isolation/keeper.h"
+#include "properties/worker/plugin/plugin_description.h"
+#include "properties/worker/plugin/query_case.h"
+#include "properties/worker/wire.h"
+
+namespace assay::properties {
+
+template <>
+struct TravelsAsBytes<detector::Point> : std::true_type {};
+template <>
+struct TravelsAsBytes<detector::MovingPoint> : std::true_type {};
+template <>
+struct TravelsAsBytes<detector::FourPoints> : std::true_type {};
+template <>
+struct TravelsAsBytes<detector::TimeEnclosure> : std::true_type {};
+template <>
+struct TravelsAsBytes<detector::TrianglePair> : std::true_type {};
+template <>
+struct TravelsAsBytes<detector::PairContact> : std::true_type {};
+template <>
+struct TravelsAsBytes<detector::ViewPrimitive> : std::true_type {};
+template <>
+struct TravelsAsBytes<detector::StepCounts> : std::true_type {};
+template <>
+struct TravelsAsBytes<detector::StepTimes> : std::true_type {};
+template <>
+struct TravelsAsBytes<corpus::CaseStep> : std::true_type {};
+
+template <class Wire>
+void fields(Wire& wire, detector::Options& options) {
+  auto& [culling, start, pairs, arithmetic, threads] = options;
+  wire("culling", culling, "start", start, "pairs", pairs, "arithmetic", arithmetic, "threads",
+       threads);
+}
+
+template <class Wire>
+void fields(Wire& wire, detector::Problem& problem) {
+  auto& [error, message] = problem;
+  wire("error", error, "message", message);
+}
+
+template <class Wire>
+void fields(Wire& wire, detector::StepResult& result) {
+  auto& [answer, problem, first, pairs, positive, negative, zero, against_all, violated, dirty,
+         views, doubts, signs, primitives, apexes, counts, times] = result;
+  wire("answer", answer, "problem", problem, "first", first, "pairs", pairs, "positive", positive,
+       "negative", negative, "zero", zero, "against_all", against_all, "violated", violated,
+       "dirty", dirty, "views", views, "doubts", doubts, "signs", signs, "primitives", primitives,
+       "apexes", apexes, "counts", counts, "times", times);
+}
+
+template <class Wire>
+void fields(Wire& wire, RunTimes& times) {
+  auto& [create, steps, peak_bytes] = times;
+  wire("create", create, "steps", steps, "peak_bytes", peak_bytes);
+}
+
+template <class Wire>
+void fields(Wire& wire, CaseRun& run) {
+  // The last three are the host's to say.
+  auto& [end, explanation, steps, candidates, errors, has_answers, times, disturbances,
+         processor_seconds, printed] = run;
+  wire("end", end, "explanation", explanation, "steps", steps, "candidates", candidates, "errors",
+       errors, "has_answers", has_answers, "times", times);
+}
+
+template <class Wire>
+void fields(Wire& wire, Configuration& configuration) {
+  auto& [name, options, fault, is_timed] = configuration;
+  wire("name", name, "options", options, "fault", fault, "is_timed", is_timed);
+}
+
+template <class Wire>
+void fields(Wire& wire, corpus::CaseView& view) {
+  wire("q0", view.q0, "q1", view.q1);
+}
+
+// Only what a detector may know travels, and never the expected facts.
+template <class Wire>
+void fields(Wire& wire, corpus::Case& c) {
+  wire("id", c.id, "triangles", c.triangles, "frames", c.frames, "script", c.script, "view",
+       c.view);
+}
+
+template <class Wire>
+void fields(Wire& wire, Claims& claims) {
+  std::uint32_t bits = claims.bits();
+  wire("bits", bits);
+  claims = Claims::of_bits(bits);
+}
+
+template <class Wire>
+void fields(Wire& wire, Isolation& isolation) {
+  auto& [files, processes, calls] = isolation;
+  wire("files", files, "processes", processes, "calls", calls);
+}
+
+template <class Wire>
+void fields(Wire& wire, KeeperHello& hello) {
+  wire("wire_version", hello.wire_version, "isolation", hello.isolation, "process", hello.process,
+       "has_copies", hello.has_copies);
+}
+
+template <class Wire>
+void fields(Wire& wire, PluginDescription& description) {
+  auto& [name, version, claims, contract, parts] = description;
+  auto& [steps, query, candidates, takes_threads] = parts;
+  wire("name", name, "version", version, "claims", claims, "contract", contract, "steps", steps,
+       "query", query, "candidates", candidates, "takes_threads", takes_threads);
+}
+
+// The worker's first message: who it is, or why it cannot serve.
+struct Hello {
+  std::uint64_t wire_version = 0;
+  PluginDescription description;
+  bool serves = true;
+  std::string refusal;  // why it does not
+};
+
+template <class Wire>
+void fields(Wire& wire, Hello& hello) {
+  wire("wire_version", hello.wire_version, "description", hello.description, "serves", hello.serves,
+       "refusal", hello.refusal);
+}
+
+// What a request asks for.
+enum class RequestKind : std::uint8_t { run, queries };
+template <>
+inline constexpr RequestKind last_of<RequestKind> = RequestKind::queries;
+
+// One case and how to run it; a RunReply comes back for each configuration, in order.
+struct RunRequest {
+  std::uint64_t number = 0;  // drawn for this request
+  corpus::Case c;
+  std::vector<Configuration> configurations;
+};
+
+template <class Wire>
+void fields(Wire& wire, RunRequest& request) {
+  wire("number", request.number, "c", request.c, "configurations", request.configurations);
+}
+
+struct RunReply {
+  std::uint64_t number = 0;  // of the request
+  std::uint64_t place = 0;   // of the configuration in it
+  CaseRun run;
+};
+
+template <class Wire>
+void fields(Wire& wire, RunReply& reply) {
+  wire("number", reply.number, "place", reply.place, "run", reply.run);
+}
+
+// Elementary queries of a plug-in; one QueryReply comes back for all.
+struct QueryRequest {
+  std::uint64_t number = 0;  // drawn for this request
+  std::vector<detector::FourPoints> queries;
+};
+
+template <class Wire>
+void fields(Wire& wire, QueryRequest& request) {
+  wire("number", request.number, "queries", request.queries);
+}
+
+template <class Wire>
+void fields(Wire& wire, QueryAnswer& answer) {
+  auto& [answered, first, explanation] = answer;
+  wire("answered", answered, "first", first, "explanation", explanation);
+}
+
+struct QueryReply {
+  std::uint64_t number = 0;          // of the request
+  std::vector<QueryAnswer> answers;  // one for each query
+};
+
+template <class Wire>
+void fields(Wire& wire, QueryReply& reply) {
+  wire("number", reply.number, "answers", reply.answers);
+}
+
+// What a worker receives: one of the two.
+struct Request {
+  RequestKind kind = RequestKind::run;
+  RunRequest run;
+  QueryRequest query;
+};
+
+template <class Wire>
+void fields(Wire& wire, Request& request) {
+  wire("kind", request.kind);
+  if (request.kind == RequestKind::run) {
+    wire("run", request.run);
+  } else {
+    wire("query", request.query);
+  }
+}
+
+template <class... T>
+std::string encode(const T&... messages) {
+  WireWriter writer;
+  // A writer does not change the messages; the lists above are not const because readers use them
+  // too.
+  (writer.field("", const_cast<T&>(messages)), ...);
+  return writer.take();
+}
+
+template <class T>
+bool decode(const std::string& bytes, T& message) {
+  WireReader reader(bytes);
+  reader.field("", message);
+  return reader.complete();
+}
+
+// Differs if the two ends were built from sources with other plain data.
+constexpr std::uint64_t wire_version() {
+  std::uint64_t hash = 1;
+  for (const std::size_t size :
+       {sizeof(detector::Options), sizeof(detector::StepResult), sizeof(detector::PairContact),
+        sizeof(detector::StepCounts), sizeof(detector::StepTimes), sizeof(Claims), sizeof(Contract),
+        sizeof(corpus::Case), sizeof(detector::FourPoints), sizeof(QueryAnswer)}) {
+    hash = hash * 1099511628211u + size;
+  }
+  return hash;
+}
+
+// The rules. A plug-in shares its process with the code that replies, so it can send
+// whatever it likes. So no part of a reply is believed before it has been checked. A reply that
+// breaks a rule counts as a crash of the plug-in.
+
+// Bytes of the longest line of text in a reply.
+inline constexpr std::size_t longest_reply_text = 4096;
+
+// The most bytes that a reply to this case may have: that of a reply with every pair of triangles
+// in contact in each step.
+std::uint64_t longest_reply(const corpus::Case& c);
+// The most bytes that the first message of a worker may have.
+inline constexpr std::uint64_t longest_hello = 4 * longest_reply_text;
+
+// Which rule is broken by a run of a plug-in on this case; empty: none. The rules:
+// - A run that completed has a result for each step. One that was refused, or ran out of memory,
+//   has no results. No run claims an end that only the host can see (crashed, hung, not run).
+// - Every text is one printable line.
+// - A result states pairs only if its answer is neither `free` nor an error. Each is a pair of two
+//   triangles of the mesh; pairs ascend, each once.
+// - Intervals lie in [0, 1].
+// - A result states nothing that plug-ins are not asked for, such as views.
+// - If the description claims candidates, there is a list of such pairs for each step, and else
+//   none.
+// - There are answers if and only if the plug-in has the part of steps.
+// - Times, if there are any, are finite and not negative, one for each step.
+std::string broken_rule(const corpus::Case& c, const CaseRun& run,
+                        const PluginDescription& description);
+
+// The same for answers to so many queries: there is one answer for each, with a known answer, an
+// interval in [0, 1] and at most one printable line.
+std::string broken_rule(std::size_t queries, const std::vector<QueryAnswer>& answers);
+// The most bytes that these answers may have.
+std::uint64_t longest_query_reply(std::size_t queries);
+
+// The same for a description: a name and a version in one printable line each that may be such
+// (fault_of_name), a margin that is a length, at least one part that can be judged, and a claim on
+// candidates if and only if it has them.
+std::string broken_rule(const PluginDescription& description);
+
+// The same for the reason why a plug-in cannot be loaded: a message of PluginHost::open, in one
+// printable line.
+std::string broken_rule(const std::string& refusal);
+
+}  // namespace assay::properties

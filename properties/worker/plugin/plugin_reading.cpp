@@ -1,0 +1,250 @@
+#include "properties/worker/plugin/plugin_reading.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+
+#include "detector/mesh/step_types.h"
+#include "detector/step_result.h"
+#include "properties/claims/contract.h"
+#include "properties/printable.h"
+
+namespace assay::properties {
+
+namespace {
+
+constexpr std::uint32_t first_version = 1;
+
+// The members that every version has: the table up to destroy, the description up to margin.
+constexpr std::size_t first_table_bytes = offsetof(assay_detector_api, use_threads);
+constexpr std::size_t first_description_bytes = offsetof(assay_description, start);
+
+Problem broken(std::string explanation) { return {std::move(explanation)}; }
+
+std::string gap_in(const assay_detector_api& table) {
+  if (!table.describe) return "a function is missing in its table: describe";
+  const bool any = table.evaluate || table.commit || table.result;
+  const bool all = table.evaluate && table.commit && table.result;
+  if (any != all) return "a function is missing in its table: evaluate, commit and result are one";
+  if (!all && !table.query && !table.candidates) return "its table holds nothing to judge";
+  const bool needs_handle = all || table.candidates;
+  if (needs_handle && !(table.create && table.destroy))
+    return "a function is missing in its table: create or destroy";
+  return "";
+}
+
+std::string nothing_described(const assay_detector_api& table) {
+  const std::string text = text_of_error(table);
+  return "describe() returns nothing" + (text.empty() ? text : ": " + text);
+}
+
+// False if the number is no value of the enum.
+template <class Enum>
+bool read_number(std::int32_t raw, Enum& value) {
+  const auto named = from_number<Enum>(raw);
+  value = named.value_or(value);
+  return named.has_value();
+}
+
+// Says what in the description makes no sense; empty if all of it does.
+std::string read_contract(const assay_description& raw, Contract& contract) {
+  const auto unknown = [](const char* field, std::int32_t value) {
+    return std::string("unknown ") + field + " " + std::to_string(value);
+  };
+  if (!read_number(raw.adjacency, contract.adjacency)) return unknown("adjacency", raw.adjacency);
+  if (!read_number(raw.coordinates, contract.coordinates))
+    return unknown("coordinates", raw.coordinates);
+  if (!read_number(raw.start, contract.start)) return unknown("start", raw.start);
+  if (!read_number(raw.features, contract.features)) return unknown("features", raw.features);
+  if (raw.reports < 0 || raw.reports > ASSAY_REPORTS_NO_PAIRS)
+    return unknown("reports", raw.reports);
+  contract.margin = raw.margin;
+  contract.start_distance = raw.start_distance;
+  contract.least_nonzero = raw.least_nonzero;
+  contract.largest = raw.largest;
+  contract.time_tolerance = raw.time_tolerance;
+  contract.reports_pairs = raw.reports == ASSAY_REPORTS_PAIRS;
+  return fault_of(contract);
+}
+
+}  // namespace
+
+std::string line_of(const char* text) {
+  constexpr std::size_t longest = 1000;
+  if (!text) return "";
+  std::string line(text, ::strnlen(text, longest));
+  std::replace_if(
+      line.begin(), line.end(), [](char c) { return 0 < c && c < ' '; }, ' ');
+  return printable(line);
+}
+
+std::string text_of_error(const assay_detector_api& table) {
+  return line_of(table.error_text ? table.error_text() : nullptr);
+}
+
+std::string text_of_code(const assay_detector_api& table, const char* function, std::int32_t code) {
+  const std::string text = text_of_error(table);
+  return std::string(function) + " returned " + std::to_string(code) +
+         (text.empty() ? "" : ": " + text);
+}
+
+Expected<assay_detector_api> read_table(const assay_detector_api* api) {
+  if (!api) return Problem{"not a detector plug-in: assay_detector() returns nothing"};
+  const std::uint32_t version = api->abi_version;
+  if (version < first_version || version > ASSAY_DETECTOR_ABI_VERSION) {
+    return Problem{"built for ABI version " + std::to_string(version) + ", this program takes " +
+                   std::to_string(first_version) + " to " +
+                   std::to_string(ASSAY_DETECTOR_ABI_VERSION)};
+  }
+  assay_detector_api table = {};
+  std::memcpy(&table, api, version == first_version ? first_table_bytes : sizeof table);
+  if (auto gap = gap_in(table); !gap.empty()) return broken(std::move(gap));
+  return table;
+}
+
+Expected<PluginDescription> read_description(const assay_detector_api& table) {
+  const assay_description* given = table.describe();
+  if (!given) return broken(nothing_described(table));
+  assay_description raw = {};
+  std::memcpy(&raw, given,
+              table.abi_version == first_version ? first_description_bytes : sizeof raw);
+  Claims known = claims_from_outside;
+  if (table.abi_version == first_version) known.set(Claim::candidates, false);
+  if (raw.claims & ~known.bits()) return broken("unknown bits in its claims");
+
+  PluginDescription description;
+  if (auto fault = read_contract(raw, description.contract); !fault.empty())
+    return broken(std::move(fault));
+  description.name = line_of(raw.name);
+  description.version = line_of(raw.version);
+  if (description.name.empty()) return broken("it has no name");
+  for (const auto& text : {description.name, description.version}) {
+    if (const auto fault = fault_of_name(text); !fault.empty()) return broken("it has " + fault);
+  }
+  description.claims = Claims::of_bits(raw.claims);
+  description.parts = {table.evaluate != nullptr, table.query != nullptr,
+                       table.candidates != nullptr, table.use_threads != nullptr};
+  if (description.claims.has(Claim::candidates) && !description.parts.candidates)
+    return broken("it claims candidates, and has no such function");
+  if (description.parts.candidates && !description.claims.has(Claim::candidates))
+    return broken("it has a function for candidates, and does not claim candidates");
+  if (description.parts.query && description.claims.empty())
+    return broken("it has a query function, and claims nothing");
+  return description;
+}
+
+using detector::Answer;
+using detector::PairContact;
+using detector::TimeEnclosure;
+
+namespace {
+
+bool is_interval(const TimeEnclosure& time) {
+  return 0 <= time.lo && time.lo <= time.hi && time.hi <= 1;  // false for a NaN
+}
+
+// Returns false if the numbers are no pair of triangles of this mesh.
+bool read_pair(const std::int32_t* raw, std::int32_t triangle_count, detector::TrianglePair& pair) {
+  pair = {std::min(raw[0], raw[1]), std::max(raw[0], raw[1])};
+  return 0 <= pair.a && pair.a < pair.b && pair.b < triangle_count;
+}
+
+std::string numbers_of(const detector::TimeEnclosure& time) {
+  return "[" + number_text(time.lo) + ", " + number_text(time.hi) + "]";
+}
+
+// Says which rule is broken; empty if none is.
+std::string read_pairs(const assay_result& raw, std::int32_t triangle_count,
+                       std::vector<PairContact>& pairs) {
+  if (raw.pair_count > 0 && !raw.pairs) return "pairs are counted but not given";
+  for (std::uint64_t i = 0; i < raw.pair_count; ++i) {
+    PairContact contact;
+    if (!read_pair(raw.pairs + 2 * i, triangle_count, contact.pair)) {
+      return "pair " + std::to_string(i) + " names no two triangles";
+    }
+    contact.time = {0, 1};
+    if (raw.pair_times) contact.time = {raw.pair_times[2 * i], raw.pair_times[2 * i + 1]};
+    if (!is_interval(contact.time)) {
+      return "the time of pair " + std::to_string(i) + ", " + numbers_of(contact.time) +
+             ", is no interval in [0, 1]";
+    }
+    pairs.push_back(contact);
+  }
+  std::sort(pairs.begin(), pairs.end(), [](const PairContact& a, const PairContact& b) {
+    return a.pair != b.pair ? a.pair < b.pair : a.time < b.time;
+  });
+  const auto same_pair = [](const PairContact& a, const PairContact& b) {
+    return a.pair == b.pair;
+  };
+  pairs.erase(std::unique(pairs.begin(), pairs.end(), same_pair), pairs.end());
+  return "";
+}
+
+// REQUIRES that the plug-in does not call it an error. Says which rule is broken; empty if none
+// is.
+std::string read_result(const assay_result& raw, std::int32_t triangle_count,
+                        detector::StepResult& result) {
+  switch (raw.answer) {
+    case ASSAY_FREE:
+      result.answer = Answer::free;
+      return raw.pair_count == 0 ? "" : "answers free and gives pairs";
+    case ASSAY_UNDECIDED:
+      result.answer = Answer::undecided;
+      return read_pairs(raw, triangle_count, result.pairs);
+    case ASSAY_COLLISION:
+      result.answer = Answer::collision;
+      result.first = {raw.first_lo, raw.first_hi};
+      if (!is_interval(result.first)) {
+        return "its first time, " + numbers_of(result.first) + ", is no interval in [0, 1]";
+      }
+      return read_pairs(raw, triangle_count, result.pairs);
+    default:
+      return "answer " + std::to_string(raw.answer) + " is none";
+  }
+}
+
+}  // namespace
+
+Expected<detector::StepResult> step_result(const assay_result& raw, std::int32_t triangle_count,
+                                           bool reports_pairs) {
+  if (raw.answer == ASSAY_ERROR) {
+    return Problem{raw.message && *raw.message ? raw.message : "an error without a message"};
+  }
+  if (!reports_pairs && raw.pair_count > 0) {
+    return Problem{"gives pairs, and says that it reports none"};
+  }
+  detector::StepResult result;
+  std::string broken = read_result(raw, triangle_count, result);
+  if (!broken.empty()) return Problem{std::move(broken)};
+  return result;
+}
+
+QueryAnswer query_answer(std::int32_t code, const assay_query_result& raw) {
+  if (code == ASSAY_OUT_OF_MEMORY) return {Answer::undecided, {}, "out of memory"};
+  if (code != ASSAY_OK) return {Answer::error, {}, "query returned " + std::to_string(code)};
+  assay_result alike = {};
+  alike.answer = raw.answer;
+  alike.first_lo = raw.first_lo;
+  alike.first_hi = raw.first_hi;
+  const auto result = step_result(alike, 0);
+  if (!result) return {Answer::error, {}, result.error().message};
+  return {result.value().answer, result.value().first, ""};
+}
+
+Expected<std::vector<detector::TrianglePair>> candidate_pairs(const assay_candidates& raw,
+                                                              std::int32_t triangle_count) {
+  const auto broken = [](std::string explanation) { return Problem{std::move(explanation)}; };
+  if (raw.pair_count > 0 && !raw.pairs) return broken("candidates are counted but not given");
+  std::vector<detector::TrianglePair> pairs;
+  for (std::uint64_t i = 0; i < raw.pair_count; ++i) {
+    detector::TrianglePair pair;
+    if (!read_pair(raw.pairs + 2 * i, triangle_count, pair))
+      return broken("candidate " + std::to_string(i) + " names no two triangles");
+    pairs.push_back(pair);
+  }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
+}
+
+}  // namespace assay::properties

@@ -1,0 +1,49 @@
+// Reads what a plug-in gives, and believes none of it: its table of functions, in any version that
+// this host takes; what it says of itself; and its results.
+#pragma once
+
+#include <vector>
+
+#include "detector/options.h"
+#include "detector/plugin/assay_detector.h"
+#include "detector/step_result.h"
+#include "properties/problem.h"
+#include "properties/worker/plugin/plugin_description.h"
+#include "properties/worker/plugin/query_case.h"
+
+namespace assay::properties {
+
+// The text as one printable line, no longer than a reply may hold; empty for none.
+std::string line_of(const char* text);
+
+// What the plug-in says about the call that failed last, in one line; empty for nothing.
+std::string text_of_error(const assay_detector_api& table);
+// "evaluate returned 3: TEXT".
+std::string text_of_code(const assay_detector_api& table, const char* function, std::int32_t code);
+
+// The table as one of this host's version; functions that an older version does not have are NULL.
+// Refuses NULL, another version of the interface, and a table with a gap; the problem does not name
+// the library.
+Expected<assay_detector_api> read_table(const assay_detector_api* api);
+
+// The plug-in's description. Refuses one that makes no sense; the problem does not name the
+// library.
+Expected<PluginDescription> read_description(const assay_detector_api& table);
+
+// The result of a step. Its pairs are a < b, ascending, each once with its least time ([0, 1] if
+// none is stated). Fails if it breaks the header's rules, and, with the plug-in's own words, if it
+// says that the step has no answer. If `reports_pairs` is false, because the contract says that the
+// plug-in reports none, pairs break the rules.
+Expected<detector::StepResult> step_result(const assay_result& raw, std::int32_t triangle_count,
+                                           bool reports_pairs = true);
+
+// The answer of a query function that returned `code`, as a step has it: an error in words if
+// there is no answer, undecided if memory failed.
+QueryAnswer query_answer(std::int32_t code, const assay_query_result& raw);
+
+// The candidate pairs a < b, ascending, each once. Fails if an index is none of a
+// triangle.
+Expected<std::vector<detector::TrianglePair>> candidate_pairs(const assay_candidates& raw,
+                                                              std::int32_t triangle_count);
+
+}  // namespace assay::properties

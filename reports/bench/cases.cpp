@@ -1,0 +1,233 @@
+#include "reports/bench/cases.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "corpus/hard/hard_families.h"
+#include "corpus/scenes/scenes.h"
+#include "properties/campaign/trials/planned_case.h"
+#include "properties/generators/families.h"
+#include "reports/bench/timed_step.h"
+
+namespace assay::reports {
+namespace {
+
+using namespace detector;
+
+double mean_edge_length(const Triangles& triangles, const Positions& x) {
+  double sum = 0;
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      sum += (x.row(triangles(t, k)) - x.row(triangles(t, (k + 1) % 3))).norm();
+    }
+  }
+  return sum / (3 * static_cast<double>(triangles.rows()));
+}
+
+template <class T>
+T used(corpus::Expected<T> read) {
+  if (!read) throw UnusableData(read.error().message);
+  return std::move(read.value());
+}
+
+}  // namespace
+
+corpus::Sequence bench_scene(const std::string& name, int triangles, int frames) {
+  return corpus::make_scene(name, {triangles, frames, {}}).value();
+}
+
+std::optional<corpus::Sequence> step_at_first_contact(const std::string& name, int triangles) {
+  constexpr int frames = 41;
+  const auto scene = bench_scene(name, triangles, frames);
+  Options options = bench_options(Culling::view_point);
+  options.pairs = Pairs::first;
+  auto detector = made(Detector::create(scene.triangles, scene.frames[0], options), name);
+  for (std::size_t f = 0; f + 1 < scene.frames.size(); ++f) {
+    const Positions &x0 = scene.frames[f], &x1 = scene.frames[f + 1];
+    const StepResult result = detector.evaluate(x0, x1);
+    if (result.answer != Answer::collision) continue;
+    const double fastest = (x1 - x0).rowwise().norm().maxCoeff();
+    const double half = 0.5 * mean_edge_length(scene.triangles, x0) / fastest;
+    const double begin = std::max(0.0, result.first.lo - half), end = result.first.hi + half;
+    const Positions a = x0 + begin * (x1 - x0), b = x0 + end * (x1 - x0);
+    return corpus::Sequence{scene.triangles, {a, b}};
+  }
+  return std::nullopt;
+}
+
+corpus::Sequence around_first_contact(const corpus::Sequence& sequence) {
+  constexpr std::size_t before = 3, after = 2;
+  auto detector = made(Detector::create(sequence.triangles, sequence.frames[0],
+                                        {Culling::bvh, Start::verified, Pairs::first}),
+                       "scene");
+  const std::size_t steps = sequence.frames.size() - 1;
+  std::size_t first = 0;
+  while (first < steps &&
+         detector.evaluate(sequence.frames[first], sequence.frames[first + 1]).answer !=
+             Answer::collision) {
+    ++first;
+  }
+  const std::size_t begin = first > before && first < steps ? first - before : 0;
+  const std::size_t end = std::min(steps, begin + before + after);
+  return {sequence.triangles,
+          {sequence.frames.begin() + static_cast<std::ptrdiff_t>(begin),
+           sequence.frames.begin() + static_cast<std::ptrdiff_t>(end) + 1}};
+}
+
+namespace {
+
+struct PublicFiles {
+  const char *name, *pattern;  // of the files of its frames
+  int first, last;
+  bool starts_clean;
+};
+constexpr PublicFiles public_files[] = {
+    {"rod-twist", "scalable-ccd/rod-twist/frames/{}.ply", 3036, 3037, true},
+    {"thick-cloth", "ipc-toolkit/thick-cloth/t{}.ply", 0, 1, false},
+    {"kick", "codim-ipc-kick/shell{}.obj.gz", 56, 62, false}};
+
+bool is_there(const std::filesystem::path& file) {
+  std::error_code ignored;
+  return std::filesystem::exists(file, ignored);
+}
+
+}  // namespace
+
+std::optional<RealSequence> real_sequence(const BenchSettings& settings, const std::string& name,
+                                          std::vector<std::string>& missing) {
+  const auto& data = *std::find_if(std::begin(public_files), std::end(public_files),
+                                   [&](const auto& one) { return one.name == name; });
+  std::vector<std::filesystem::path> files;
+  for (int f = data.first; f <= data.last; ++f) {
+    files.emplace_back(settings.file(fmt::format(fmt::runtime(data.pattern), f)));
+    if (is_there(files.back())) continue;
+    missing.push_back(files.back().string());
+    return std::nullopt;
+  }
+  return RealSequence{name, used(corpus::read_sequence(files)), data.starts_clean};
+}
+
+std::vector<RealSequence> real_sequences(const BenchSettings& settings,
+                                         std::vector<std::string>& missing) {
+  std::vector<RealSequence> list;
+  for (const auto& data : public_files) {
+    if (auto real = real_sequence(settings, data.name, missing)) list.push_back(std::move(*real));
+  }
+  if (auto bent = bent_bunny(settings)) {
+    list.push_back({"bunny-bent", std::move(*bent), true});
+  } else {
+    missing.push_back(bunny_file(settings));
+  }
+  return list;
+}
+
+std::string bunny_file(const BenchSettings& settings) {
+  return settings.file("ipc-toolkit/bunny.ply");
+}
+
+std::optional<corpus::Mesh> bunny_at_rest(const BenchSettings& settings) {
+  const std::string file = bunny_file(settings);
+  if (!is_there(file)) return std::nullopt;
+  return used(corpus::read_mesh(file));
+}
+
+std::optional<corpus::Sequence> bent_bunny(const BenchSettings& settings) {
+  auto mesh = bunny_at_rest(settings);
+  if (!mesh) return std::nullopt;
+  constexpr int frames = 6;
+  return used(corpus::make_scene("bend", {0, frames, std::move(mesh)}));
+}
+
+std::optional<corpus::Sequence> rod_twist_step(const BenchSettings& settings) {
+  std::vector<std::string> unused;
+  auto rods = real_sequence(settings, "rod-twist", unused);
+  return rods ? std::optional(std::move(rods->frames)) : std::nullopt;
+}
+
+TimedCase timed_case(const std::string& id, corpus::Sequence sequence, Start start) {
+  TimedCase out;
+  out.c.id = id;
+  out.c.triangles = std::move(sequence.triangles);
+  out.c.frames = std::move(sequence.frames);
+  out.start = start;
+  return out;
+}
+
+std::vector<CaseFamily> scene_families(const BenchSettings& settings) {
+  std::vector<CaseFamily> list;
+  for (const auto& info : corpus::scenes()) {
+    const std::string name(info.name);
+    list.push_back({name, "scene", settings.rounds(5), [name, info, settings] {
+                      const Start start = info.closed ? Start::clean : Start::verified;
+                      const auto scene = bench_scene(name, settings.triangles(info.default_size),
+                                                     info.default_frames);
+                      return std::vector{timed_case(name, around_first_contact(scene), start)};
+                    }});
+  }
+  return list;
+}
+
+std::vector<CaseFamily> real_families(const BenchSettings& settings,
+                                      std::vector<std::string>& missing) {
+  std::vector<CaseFamily> list;
+  for (auto& real : real_sequences(settings, missing)) {
+    const std::vector cases = {timed_case(real.name, std::move(real.frames), real.start())};
+    list.push_back({real.name, "real", settings.rounds(3), [cases] { return cases; }});
+  }
+  return list;
+}
+
+namespace {
+
+TimedCase with_known_start(corpus::Case c) {
+  const bool clean = properties::starts_clean(c);
+  return {std::move(c), clean ? Start::clean : Start::verified};
+}
+
+CaseFamily generated_family(const properties::Family& family, const BenchSettings& settings) {
+  return {std::string(family.name), "generated", settings.rounds(5), [&family, settings] {
+            std::vector<TimedCase> cases;
+            const int count = settings.rounds(60);
+            for (int i = 0; i < count; ++i) {
+              const auto id = fmt::format("bench:1:{}:{}", family.name, i);
+              cases.push_back(with_known_start(properties::make_case(family, id).c));
+            }
+            return cases;
+          }};
+}
+
+// Takes four strengths from the weakest to the strongest, and a case of each kind. Crowds of more
+// than some hundred triangles, in which each meets each, are left out, because one such step takes
+// seconds.
+CaseFamily hard_family(const corpus::HardFamily& family, const BenchSettings& settings) {
+  return {std::string(family.name), "hard", settings.rounds(5), [&family, settings] {
+            constexpr Eigen::Index most_triangles = 600;
+            std::vector<TimedCase> cases;
+            const int strengths = settings.rounds(4);
+            for (int s = 0; s < strengths; ++s) {
+              const int strength = family.strongest * s / (strengths - 1);
+              for (int kind = 0; kind < family.kinds; ++kind) {
+                auto c = corpus::hard_case(family, strength, kind);
+                if (c.triangles.rows() <= most_triangles)
+                  cases.push_back(with_known_start(std::move(c)));
+              }
+            }
+            return cases;
+          }};
+}
+
+}  // namespace
+
+std::vector<CaseFamily> all_families(const BenchSettings& settings,
+                                     std::vector<std::string>& missing) {
+  auto list = scene_families(settings);
+  for (const auto& family : properties::families())
+    list.push_back(generated_family(family, settings));
+  for (const auto& family : corpus::hard_families()) list.push_back(hard_family(family, settings));
+  for (auto& real : real_families(settings, missing)) list.push_back(std::move(real));
+  return list;
+}
+
+}  // namespace assay::reports

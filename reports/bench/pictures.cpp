@@ -1,0 +1,309 @@
+#include "reports/bench/pictures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+
+#include "properties/campaign/gates/statistics.h"
+
+namespace assay::reports {
+namespace {
+
+// Points, and how gnuplot shows them: "using 1:2 with lines ...".
+struct Series {
+  std::string data, how;
+};
+
+struct Panel {
+  std::string settings;
+  std::vector<Series> series;
+  std::string first = {};                // what is plotted before the series
+  std::vector<std::string> legend = {};  // entries of the key
+};
+
+// A script: terminal, size in pixels, fonts and a quiet grid; the data; settings of all panels; one
+// panel, or several on one sheet.
+std::string plot(int width, int height, const std::string& settings,
+                 const std::vector<Panel>& panels) {
+  std::string data, plots;
+  for (std::size_t p = 0; p < panels.size(); ++p) {
+    auto parts = panels[p].legend;
+    for (std::size_t s = panels[p].series.size(); s-- > 0;) {
+      const auto& [lines, how] = panels[p].series[s];
+      parts.insert(parts.begin(), fmt::format("$panel{}_{} {}", p, s, how));
+    }
+    for (std::size_t s = 0; s < panels[p].series.size(); ++s)
+      data += fmt::format("$panel{}_{} << EOD\n{}EOD\n", p, s, panels[p].series[s].data);
+    if (!panels[p].first.empty()) parts.insert(parts.begin(), panels[p].first);
+    plots += fmt::format("{}plot {}\n", panels[p].settings, fmt::join(parts, ", \\\n "));
+  }
+  const bool are_several = panels.size() > 1;
+  return fmt::format(
+      "set terminal svg size {},{} font 'Helvetica,13' background '#ffffff' linewidth 1\n"
+      "set encoding utf8\n"
+      "set border 3 linecolor '#555555'\n"
+      "set tics nomirror textcolor '#222222'\n"
+      "set grid linecolor '#dddddd' linewidth 0.5\n"
+      "set errorbars 0\n"
+      "{}{}{}{}{}",
+      width, height, data, settings, are_several ? "set multiplot\n" : "", plots,
+      are_several ? "unset multiplot\n" : "");
+}
+
+// Where a panel stands on the sheet, from left to right.
+std::string between(double left, double right) {
+  return fmt::format("set lmargin at screen {}\nset rmargin at screen {}\n", left, right);
+}
+
+}  // namespace
+
+std::string quoted_for_gnuplot(const std::string& words) {
+  std::string text(1, '"');
+  for (const char c : words) {
+    if (c == '"' || c == '\\') text += '\\';
+    text += c;
+  }
+  return text + '"';
+}
+
+namespace {
+
+// Colours and point types (numbers of gnuplot) of lines, in their order.
+struct Look {
+  const char* colour;
+  int point_type;
+};
+constexpr Look growth_looks[] = {{colour::blue, 7}, {colour::green, 5}, {colour::vermilion, 9}};
+
+}  // namespace
+
+std::string growth_picture(std::span<const GrowthPoint> points) {
+  Panel panel;
+  for (std::size_t begin = 0, l = 0; begin < points.size(); ++l) {
+    std::size_t end = begin;
+    while (end < points.size() && points[end].label == points[begin].label) ++end;
+    const auto& last = points[end - 1];
+    const double at_last = last.triangles * std::log(last.triangles);
+    std::string line, guide;  // the guide is n log n through the last point
+    for (const auto& p : points.subspan(begin, end - begin)) {
+      const double ms = last.ms.value * p.triangles * std::log(p.triangles) / at_last;
+      guide += fmt::format("{} {}\n", p.triangles, ms);
+      line += fmt::format("{} {} {} {}\n", p.triangles, p.ms.value, p.ms.lo, p.ms.hi);
+    }
+    const auto& look = growth_looks[l % std::size(growth_looks)];
+    panel.series.push_back(
+        {guide, fmt::format("using 1:2 with lines linecolor '{}' linewidth 0.8 dashtype 2 notitle",
+                            look.colour)});
+    panel.series.push_back(
+        {line, fmt::format("using 1:2:3:4 with yerrorlines pointtype {} pointsize 0.8 linecolor "
+                           "'{}' linewidth 1.2 title {} noenhanced",
+                           look.point_type, look.colour, quoted_for_gnuplot(last.label))});
+    begin = end;
+  }
+  return plot(760, 520,
+              "set logscale xy\nset format x '10^{%L}'\nset format y '10^{%L}'\n"
+              "set title 'Time against triangles; dashed: n log n through the last point'\n"
+              "set xlabel 'triangles'\nset ylabel 'processor time, ms'\nset key top left\n",
+              {panel});
+}
+
+BreakEven break_even(std::span<const ScatterPoint> points) {
+  std::vector<double> shares, logs;
+  BreakEven out;
+  for (const auto& p : points) {
+    if (p.ratio > 1) out.last_crossing = std::max(out.last_crossing, p.share);
+    if (p.share >= 1) continue;
+    shares.push_back(p.share);
+    logs.push_back(std::log(p.ratio));
+  }
+  if (shares.size() < 2) return out;
+  const Line line = fit_line(shares, logs);
+  if (line.slope != 0) {
+    const double share = -line.intercept / line.slope;
+    if (share >= 0 && share <= 1) out.by_fit = share;
+  }
+  return out;
+}
+
+namespace {
+
+// A culling in the picture of shares.
+struct CullingLook {
+  const char* culling;
+  Look look;
+};
+constexpr CullingLook culling_looks[] = {{"view-point", {colour::blue, 9}},
+                                         {"view-line", {colour::vermilion, 11}},
+                                         {"view-auto", {colour::green, 6}}};
+
+Panel share_panel(std::span<const ScatterPoint> points, const std::string& over,
+                  const std::string& title) {
+  Panel panel;
+  panel.first = "1 with lines linecolor '#000000' dashtype 2 notitle";
+  std::string crossings;  // where the fitted lines cross 1, in words below the title
+  for (const auto& [culling, look] : culling_looks) {
+    const bool is_automatic = std::string(culling) == "view-auto";
+    std::vector<ScatterPoint> chosen;
+    std::string data;
+    for (const auto& p : points) {
+      // A step of view-auto that fell back to bvh has no view sets, so it has no share.
+      if (p.culling != culling || p.over != over || (is_automatic && !(p.share > 0))) continue;
+      chosen.push_back(p);
+      data += fmt::format("{} {} {} {}\n", 100 * p.share, p.ratio, p.lo, p.hi);
+    }
+    panel.series.push_back(
+        {data, fmt::format("using 1:2:3:4 with yerrorbars pointtype {} pointsize 0.6 linecolor "
+                           "'{}' linewidth 0.6 title '{}'",
+                           look.point_type, look.colour, culling)});
+    if (is_automatic) continue;
+    const auto found = break_even(chosen);
+    crossings += fmt::format("{}{} {}", crossings.empty() ? "" : ", ", culling,
+                             found.by_fit ? fmt::format("{:.0f} %", 100 * *found.by_fit) : "none");
+  }
+  panel.settings = fmt::format("set title \"{}\\nfitted break-even: {}\"\n", title, crossings);
+  return panel;
+}
+
+}  // namespace
+
+std::string share_picture(std::span<const ScatterPoint> points) {
+  // The range is the same for both panels: twice as far as any ratio.
+  double least = 0.3, most = 3;
+  for (const auto& p : points) {
+    least = std::min(least, p.lo);
+    most = std::max(most, p.hi);
+  }
+  auto left = share_panel(points, "bvh", "Over bvh: below the line views are faster");
+  auto right = share_panel(points, "normal-cone", "Over the traditional scheme (normal-cone)");
+  left.settings += between(0.085, 0.5) + "set ylabel 'time of a step, times'\n";
+  right.settings += between(0.57, 0.98) + "unset ylabel\nset key off\n";
+  return plot(
+      1000, 500,
+      fmt::format("set yrange [{:.4g}:{:.4g}]\nset logscale y\nset xrange [-2:102]\nset xtics 20\n"
+                  "set ytics (0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1, 3, 10, 30, 100, 300)\n"
+                  "set xlabel 'share of V+ among the triangles, %'\nset key bottom left\n"
+                  "set bmargin at screen 0.13\nset tmargin at screen 0.86\n",
+                  least / 2, most * 2),
+      {left, right});
+}
+
+namespace {
+
+std::size_t place_of(std::vector<std::string>& names, const std::string& name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  names.push_back(name);
+  return names.size() - 1;
+}
+
+std::string tics(const char* axis, const std::vector<std::string>& names) {
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    words.push_back(fmt::format("{} {}", quoted_for_gnuplot(names[i]), i));
+  return fmt::format("set {}tics ({}) noenhanced scale 0\n", axis, fmt::join(words, ", "));
+}
+
+std::string words_of(const HeatCell& total) {
+  const double share = static_cast<double>(total.right) / total.cases;
+  // 100 % is said only if every case is right.
+  const double percent = total.right == total.cases ? 100 : std::min(99.9, 100 * share);
+  std::string words = fmt::format("{:.3g} %", percent);
+  if (total.missed > 0) words += fmt::format("   {} missed", total.missed);
+  return words;
+}
+
+}  // namespace
+
+std::string heat_picture(std::span<const HeatCell> cells) {
+  // The colours run from dark (never right) to light (always right), so that they can be told
+  // apart by lightness alone. Below this share the words must be light.
+  constexpr const char* palette =
+      "set palette defined (0 '#2d1160', 0.5 '#b5367a', 0.8 '#fb8761', 1 '#fcfdda')\n";
+  constexpr double dark_below = 0.7;
+  constexpr int row_height = 26, around = 130;  // in pixels
+  std::vector<std::string> rows, columns;
+  std::map<std::pair<std::size_t, std::size_t>, HeatCell> totals;
+  for (const auto& cell : cells) {
+    const auto row = place_of(rows, cell.row), column = place_of(columns, cell.column);
+    auto& total = totals[{row, column}];
+    total.cases += cell.cases;
+    total.right += cell.right;
+    total.missed += cell.missed;
+  }
+  Panel panel;
+  std::string data;
+  for (const auto& [place, total] : totals) {
+    if (total.cases == 0) continue;
+    const double share = static_cast<double>(total.right) / total.cases;
+    data +=
+        fmt::format("{} {} {} {} {}\n", place.second, place.first, share,
+                    share < dark_below ? 0xffffff : 0x222222, quoted_for_gnuplot(words_of(total)));
+  }
+  panel.series = {{data, "using 1:2:3 with image pixels"},
+                  {data, "using 1:2:5:4 with labels textcolor rgb variable noenhanced"}};
+  const auto height = row_height * static_cast<int>(std::max<std::size_t>(rows.size(), 1));
+  return plot(860, around + height,
+              palette + tics("x", columns) + tics("y", rows) +
+                  fmt::format("set title 'Cases right, of all strengths of a family'\nunset grid\n"
+                              "set border 0\nset key off\n"
+                              "set xrange [-0.5:{}]\nset yrange [{}:-0.5]\nset cbrange [0:1]\n"
+                              "set cblabel 'share of cases right'\nset xlabel 'arithmetic'\n"
+                              "set ylabel 'hard family'\n",
+                              static_cast<double>(columns.size()) - 0.5,
+                              static_cast<double>(rows.size()) - 0.5),
+              {panel});
+}
+
+ShareOfSteps share_of(std::size_t part, std::size_t all) {
+  constexpr double risk_of_a_side = 0.025;
+  ShareOfSteps out;
+  if (all > 0) out.share = static_cast<double>(part) / static_cast<double>(all);
+  out.hi = properties::upper_bound(part, all, risk_of_a_side);
+  out.lo = 1 - properties::upper_bound(all - part, all, risk_of_a_side);
+  return out;
+}
+
+namespace {
+
+Panel error_panel(std::span<const ErrorPoint> points, const ErrorPicture& picture,
+                  ShareOfSteps ErrorPoint::*error) {
+  // A line holds x and its interval, then y in % and its interval.
+  const auto text_of = [error](const ErrorPoint& p) {
+    const auto& e = p.*error;
+    return fmt::format("{} {} {} {} {} {}\n", p.time.value, p.time.lo, p.time.hi, 100 * e.share,
+                       100 * e.lo, 100 * e.hi);
+  };
+  Panel panel;
+  if (picture.has_pareto_line) {
+    std::vector<ErrorPoint> line;
+    std::copy_if(points.begin(), points.end(), std::back_inserter(line),
+                 [&](const auto& point) { return (point.*error).on_pareto_line; });
+    std::sort(line.begin(), line.end(),
+              [](const auto& a, const auto& b) { return a.time.value < b.time.value; });
+    std::string data;
+    for (const auto& point : line) data += text_of(point);
+    panel.series.push_back({data,
+                            "using 1:4 with steps linecolor '#000000' linewidth 1.5 dashtype 2 "
+                            "notitle"});
+  }
+  for (const auto& point : points)
+    panel.series.push_back(
+        {text_of(point), "using 1:4:2:3:5:6 with xyerrorbars " + point.look + " notitle"});
+  return panel;
+}
+
+}  // namespace
+
+std::string error_picture(std::span<const ErrorPoint> points, const ErrorPicture& picture) {
+  auto left = error_panel(points, picture, &ErrorPoint::unsafe),
+       right = error_panel(points, picture, &ErrorPoint::false_alarm);
+  left.settings = "set key off\n" + picture.left;
+  right.settings = "unset ylabel\n" + picture.right;
+  for (const auto& entry : picture.legend) right.legend.push_back("keyentry with " + entry);
+  return plot(1080, picture.height, "set logscale x\n" + picture.settings, {left, right});
+}
+
+}  // namespace assay::reports

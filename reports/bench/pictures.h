@@ -1,0 +1,97 @@
+// Figures of suites in general forms, and their pictures as scripts for gnuplot.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "reports/estimate.h"
+
+namespace assay::reports {
+
+// Colours that people who see colours differently can tell apart (Okabe and Ito, "Color Universal
+// Design", 2008).
+namespace colour {
+inline constexpr const char *blue = "#0072B2", *orange = "#E69F00", *green = "#009E73",
+                            *vermilion = "#D55E00", *purple = "#CC79A7", *sky = "#56B4E9",
+                            *grey = "#777777";
+}
+
+// The words between double quotes. If `noenhanced` follows, gnuplot takes them as they are.
+std::string quoted_for_gnuplot(const std::string& words);
+
+// The time of one thing at one size.
+struct GrowthPoint {
+  std::string label;
+  double triangles = 0;
+  Estimate ms;
+};
+
+// Times against triangles, both logarithmic, beside n log n. REQUIRES points in the order of label,
+// then of triangles.
+std::string growth_picture(std::span<const GrowthPoint> points);
+
+// A step of the break-even scatter.
+struct ScatterPoint {
+  std::string scene;
+  std::string culling;
+  double share = 0;          // share of V+ among all triangles
+  double ratio = 0;          // time of the step over that of culling `over`
+  double lo = 0, hi = 0;     // interval of the ratio
+  std::string over = "bvh";  // or "normal-cone"
+};
+
+// From which share of V+ on a step with views costs no more than one with culling bvh.
+struct BreakEven {
+  // The share at which the line fitted to log(ratio) over the share crosses 1. It is fitted to the
+  // steps that search; those with a share of 1 touch no tree and are left out. Nothing if it does
+  // not cross within [0, 1].
+  std::optional<double> by_fit;
+  // The last crossing: the largest share of a point with a ratio above 1, so that every step with
+  // a larger share was faster than bvh. 0 if all were.
+  double last_crossing = 0;
+};
+BreakEven break_even(std::span<const ScatterPoint> points);
+
+// The time of a step with views over that of bvh, and over that of normal-cone, against the share
+// of triangles that are seen positive (V+).
+std::string share_picture(std::span<const ScatterPoint> points);
+
+// How often one thing was right in one way of doing it.
+struct HeatCell {
+  std::string row, column;
+  int cases = 0, right = 0, missed = 0;
+};
+
+// A heat map of hard families by arithmetics: the share of cases that are answered right. Cells of
+// the same row and column are added up.
+std::string heat_picture(std::span<const HeatCell> cells);
+
+// A share of steps, with its interval of Clopper and Pearson, 95 %.
+struct ShareOfSteps {
+  double share = 0, lo = 0, hi = 0;
+  bool on_pareto_line = false;  // nothing else is as fast and better
+};
+ShareOfSteps share_of(std::size_t part, std::size_t all);
+
+// One detector in a picture of speed against error.
+struct ErrorPoint {
+  std::string look;                  // in words of gnuplot: point type and size, line width, colour
+  Estimate time;                     // over that of the built-in detector, exact, bvh
+  ShareOfSteps unsafe, false_alarm;  // of two kinds of errors, each in a panel of its own
+};
+
+// What differs between two such pictures, in words of gnuplot unless said otherwise.
+struct ErrorPicture {
+  int height = 460;                 // in pixels
+  std::string settings;             // of both panels
+  std::string left, right;          // settings of each panel: its place, title and labels
+  std::vector<std::string> legend;  // entries of the key, which stands in the right panel
+  bool has_pareto_line = false;     // through the points on the Pareto line of each error
+};
+
+// Across: the time of a step. Up: the share of steps with an error. Both have intervals.
+std::string error_picture(std::span<const ErrorPoint> points, const ErrorPicture& picture);
+
+}  // namespace assay::reports

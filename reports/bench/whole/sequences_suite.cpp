@@ -1,0 +1,143 @@
+// Suite `sequences` times whole sequences with each culling, and with several threads.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "reports/bench/cases.h"
+#include "reports/bench/sweep.h"
+#include "reports/bench/timed_step.h"
+
+namespace assay::reports {
+namespace {
+
+using namespace detector;
+
+struct TimedScene {
+  const char* name;
+  int triangles = 10'000;
+};
+// The contacts of the two smaller ones grow with the square of the triangles. With as many
+// triangles as the others have, each of their steps takes seconds.
+constexpr TimedScene scenes_timed[] = {{"breathing-sphere"},
+                                       {"two-spheres"},
+                                       {"dented-sphere"},
+                                       {"bend"},
+                                       {"twist"},
+                                       {"open-tube"},
+                                       {"pinching-torus"},
+                                       {"folding-sheet"},
+                                       {"crumpling-sphere"},
+                                       {"arm-in-box"},
+                                       {"ball-in-tube"},
+                                       {"inverted-sleeve", 1'000},
+                                       {"crossing-fans"},
+                                       {"winding-spiral", 2'000}};
+
+// The single cullings, auto, then those of all cores.
+std::vector<Options> subjects_of(Start start, std::uint32_t cores) {
+  std::vector<Options> subjects;
+  for (const auto culling : {Culling::bvh, Culling::normal_cone, Culling::view_point,
+                             Culling::view_line, Culling::automatic})
+    subjects.push_back(options_of_sequence(culling, start, 1));
+  for (const auto culling : {Culling::bvh, Culling::automatic})
+    subjects.push_back(options_of_sequence(culling, start, cores));
+  return subjects;
+}
+
+struct Played {
+  std::string name;
+  std::vector<Options> subjects;
+  std::vector<SweptRun> runs;  // by subject
+
+  static constexpr std::size_t singles = 4, automatic = 4, bvh_of_all = 5, automatic_of_all = 6;
+  std::size_t best_single() const {
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < singles; ++i) {
+      if (median_of(runs[i].sums()).value < median_of(runs[best].sums()).value) best = i;
+    }
+    return best;
+  }
+  std::size_t steps() const { return runs[0].results.size(); }
+};
+
+// Adds the times of all cullings over that of bvh, for users who want to choose by themselves.
+void add_table_rows(const Played& played, BenchReport& report) {
+  for (std::size_t i = 0; i < played.runs.size(); ++i) {
+    const auto& subject = played.subjects[i];
+    const auto sums = played.runs[i].sums();
+    report.add(
+        fmt::format("{}, {}, {} thread{}: sum over bvh's", played.name, name_of(subject.culling),
+                    subject.threads, subject.threads == 1 ? "" : "s"),
+        "times", ratio_in_common(sums, played.runs[0].sums()), {},
+        fmt::format("{:.2f} ms a step",
+                    1e-6 * median_of(sums).value / static_cast<double>(played.steps())));
+  }
+}
+
+void judge_automatic(const Played& played, BenchReport& report) {
+  const auto& automatic = played.runs[Played::automatic];
+  const auto& best = played.runs[played.best_single()];
+  const std::string name = played.name + ", auto over the best single culling";
+  const std::string note = name_of(played.subjects[played.best_single()].culling);
+  report.add(name + ", sum", "times", ratio_in_common(automatic.sums(), best.sums()),
+             wanted::auto_over_best_culling, note);
+  std::vector<double> ratios;
+  double worst = 0;
+  std::size_t worst_step = 0;
+  for (std::size_t s = 0; s < played.steps(); ++s) {
+    const double ratio = ratio_in_common(automatic.of_step(s), best.of_step(s)).value;
+    ratios.push_back(ratio);
+    constexpr double long_enough_ns = 1e6;
+    if (ratio > worst && median_of(automatic.of_step(s)).value >= long_enough_ns) {
+      worst = ratio;
+      worst_step = s;
+    }
+  }
+  report.add(name + ", median step", "times", median_of(ratios), wanted::auto_over_best_culling,
+             note);
+  if (worst > 0) {
+    report.add(name + ", worst step of 1 ms", "times", exactly(worst),
+               wanted::auto_step_over_best_culling, fmt::format("step {}", worst_step + 1));
+  }
+  report.add(played.name + ", auto over bvh, first step", "times",
+             ratio_in_common(automatic.of_step(0), played.runs[0].of_step(0)),
+             wanted::first_step_over_bvh);
+}
+
+void judge_threads(const Played& played, std::uint32_t cores, BenchReport& report) {
+  const bool is_asked = cores == 2 && (played.name == "rod-twist" || played.name == "kick");
+  for (const auto& [alone, all] : {std::pair(std::size_t{0}, Played::bvh_of_all),
+                                   std::pair(Played::automatic, Played::automatic_of_all)}) {
+    report.add(fmt::format("{}, {}: one thread over {}", played.name,
+                           name_of(played.subjects[alone].culling), cores),
+               "times", ratio_in_common(played.runs[alone].sums(), played.runs[all].sums()),
+               wanted_if(is_asked, wanted::two_threads_gain));
+  }
+}
+
+}  // namespace
+
+BenchReport sequences_suite(const BenchSettings& settings, const BenchProgress& progress) {
+  BenchReport report("sequences");
+  const std::uint32_t cores = std::max(1u, std::thread::hardware_concurrency());
+  constexpr int frames = 9, full_rounds = 15;
+  const auto play = [&](const std::string& name, const corpus::Sequence& sequence, Start start) {
+    progress.phase(name);
+    Played played{name, subjects_of(start, cores), {}};
+    played.runs = sweep_runs(name, sequence, played.subjects, settings.rounds(full_rounds),
+                             wall_ns_of, report);
+    add_table_rows(played, report);
+    judge_automatic(played, report);
+    if (cores > 1) judge_threads(played, cores, report);
+  };
+  for (const auto& [scene, triangles] : scenes_timed)
+    play(scene, bench_scene(scene, settings.triangles(triangles), frames), Start::clean);
+  std::vector<std::string> missing;
+  for (const auto& real : real_sequences(settings, missing))
+    play(real.name, real.frames, real.start());
+  for (const auto& file : missing) report.add_no_data("a public sequence", file);
+  return report;
+}
+
+}  // namespace assay::reports

@@ -1,0 +1,193 @@
+#include "reports/bench/workers/peers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "properties/judging/contracted_case.h"
+#include "properties/judging/judged_run.h"
+#include "reports/bench/sweep.h"
+#include "reports/bench/workers/confirmation.h"
+
+namespace assay::reports {
+namespace {
+
+constexpr double longest_repeated_step = 5;  // s
+
+bool same_steps(const corpus::Case& a, const corpus::Case& b) {
+  return a.frames == b.frames && corpus::steps_of(a) == corpus::steps_of(b);
+}
+
+}  // namespace
+
+PeerCounts& PeerCounts::operator+=(const PeerCounts& other) {
+  errors += other.errors;
+  left_out += other.left_out;
+  confirmed += other.confirmed;
+  timed_collisions += other.timed_collisions;
+  return *this;
+}
+
+PeerCounts counts_of(const PeerSubject& subject, const corpus::Case& seen,
+                     const properties::CaseRun& run,
+                     const std::vector<oracle::StepJudgement>& truth,
+                     std::vector<UnsafeAnswer>& unsafe) {
+  PeerCounts counts;
+  const auto verdict = judge_run(seen, run, truth, subject.asked(), subject.contract);
+  // A run that broke off has no steps.
+  if (verdict.steps.empty()) counts.errors.steps = counts.errors.undecided = truth.size();
+  for (std::size_t s = 0; s < verdict.steps.size(); ++s) {
+    const auto& diff = verdict.steps[s];
+    const auto& result = run.steps[s];
+    const auto errors = errors_of(diff);
+    counts.errors += errors;
+    const bool is_timed = result.first.lo > 0 || result.first.hi < 1;
+    counts.timed_collisions += result.answer == detector::Answer::collision && is_timed ? 1 : 0;
+    if (errors.unsafe == 0) continue;
+    const bool confirmed = is_confirmed(seen, s, diff, result, subject.contract);
+    counts.confirmed += confirmed ? 1 : 0;
+    const char* defect = diff.answered_free ? "missed" : diff.late_first ? "late" : "pairs missing";
+    unsafe.push_back({subject.name, seen.id, s, defect, confirmed});
+  }
+  return counts;
+}
+
+std::optional<Estimate> PeerFamily::over() const {
+  return cases_timed > 0 ? std::optional(bootstrap_ratio(ms, reference_ms)) : std::nullopt;
+}
+
+std::optional<double> PeerFamily::create_over() const {
+  return reference_create_ms > 0 ? std::optional(create_ms / reference_create_ms) : std::nullopt;
+}
+
+std::vector<PeerRow> peer_rows(std::span<const PeerFamily> families,
+                               const std::vector<PeerSubject>& subjects) {
+  std::vector<PeerRow> rows;
+  for (const auto& subject : subjects) {
+    PeerRow row;
+    row.subject = subject;
+    std::vector<double> over, create_over;
+    for (const auto& family : families) {
+      if (family.detector != subject.name) continue;
+      row.counts += family.counts;
+      row.slow += family.slow;
+      row.ended += family.ended;
+      if (const auto time = family.over()) over.push_back(time->value);
+      if (const auto create = family.create_over()) create_over.push_back(*create);
+    }
+    row.families = over.size();
+    row.answers = row.counts.timed_collisions > 0 ? "answer, time" : "answer";
+    if (subject.contract.reports_pairs) row.answers += ", pairs";
+    if (!over.empty()) row.over = bootstrap_median(std::move(over));
+    if (!create_over.empty()) row.create_over = median_of(std::move(create_over)).value;
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+// Subjects that are asked the same question: the same steps, and the same features in them.
+struct PeerRuns::Group {
+  corpus::Case c;
+  properties::Contract contract;  // that of the first subject
+  std::vector<std::size_t> subjects;
+  std::uint64_t left_out = 0;
+};
+
+PeerRuns::PeerRuns(const std::vector<PeerSubject>& subjects, const PeerLimits& limits)
+    : subjects_(subjects), limits_(limits) {
+  for (const auto& subject : subjects) {
+    small_.push_back(subject.make_worker(limits.small_seconds));
+    large_.push_back(subject.make_worker(limits.large_seconds));
+  }
+}
+
+std::vector<PeerRuns::Group> PeerRuns::groups_of(const corpus::Case& c) const {
+  std::vector<Group> groups;
+  const auto planned = corpus::steps_of(c).size();
+  for (std::size_t i = 0; i < subjects_.size(); ++i) {
+    const auto& contract = subjects_[i].contract;
+    auto seen = properties::contracted(c, contract);
+    if (!seen) continue;
+    const auto same = std::find_if(groups.begin(), groups.end(), [&](const Group& group) {
+      return asked_features(group.contract) == asked_features(contract) &&
+             same_steps(group.c, *seen);
+    });
+    if (same != groups.end()) {
+      same->subjects.push_back(i);
+      continue;
+    }
+    const auto left_out = planned - corpus::steps_of(*seen).size();
+    groups.push_back({std::move(*seen), contract, {i}, left_out});
+  }
+  return groups;
+}
+
+std::vector<PeerFamily> PeerRuns::run(const CaseFamily& family, std::vector<std::string>& wrong,
+                                      std::vector<UnsafeAnswer>& unsafe,
+                                      const std::function<void()>& tick) {
+  std::vector<PeerFamily> out;
+  for (const auto& subject : subjects_) out.push_back({subject.name, family.name, family.kind});
+  for (const auto& timed : family.cases()) {
+    const auto groups = groups_of(timed.c);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      ++out[i].cases;
+      const bool is_taken = std::any_of(groups.begin(), groups.end(), [&](const Group& group) {
+        return std::count(group.subjects.begin(), group.subjects.end(), i) > 0;
+      });
+      if (!is_taken) out[i].counts.left_out += corpus::steps_of(timed.c).size();
+    }
+    for (const auto& group : groups) run_group(family, timed, group, out, wrong, unsafe, tick);
+  }
+  return out;
+}
+
+void PeerRuns::run_group(const CaseFamily& family, const TimedCase& timed, const Group& group,
+                         std::vector<PeerFamily>& out, std::vector<std::string>& wrong,
+                         std::vector<UnsafeAnswer>& unsafe, const std::function<void()>& tick) {
+  // A gap in the sequence makes a new start, and nobody says that it is clean.
+  const auto start = group.left_out == 0 ? timed.start : detector::Start::verified;
+  const bool has_reference = group.subjects.front() == 0;
+  std::vector<std::size_t> places = group.subjects;
+  if (!has_reference) places.insert(places.begin(), 0);
+  std::vector<WorkerSubject> subjects;
+  for (const std::size_t i : places) {
+    auto options = subjects_[i].options;
+    options.start = start;
+    auto& worker = (family.is_large() ? large_ : small_)[i];
+    subjects.push_back({&worker, {subjects_[i].name, options, {}, true}});
+  }
+  const auto runs = sweep_workers(group.c, subjects, family.rounds, tick, longest_repeated_step);
+  tick();
+  const auto truth = properties::judge_case(group.c, group.contract, limits_.jobs);
+  const double steps = static_cast<double>(truth.size());
+  const auto add_times = [&](const WorkerRuns& of, std::vector<double>& ms, double& create_ms) {
+    ms.resize(of.ms_a_step.size());
+    for (std::size_t r = 0; r < ms.size(); ++r) ms[r] += steps * of.ms_a_step[r];
+    create_ms += of.create_ms.back();
+  };
+  for (std::size_t k = has_reference ? 0 : 1; k < places.size(); ++k) {
+    const auto& subject = subjects_[places[k]];
+    auto& one = out[places[k]];
+    one.slow += runs[k].is_once ? 1 : 0;
+    one.ended += runs[k].ended.empty() ? 0 : 1;
+    if (one.first_end.empty() && !runs[k].ended.empty())
+      one.first_end = timed.c.id + ": " + runs[k].ended;
+    one.counts += counts_of(subject, group.c, *runs[k].first, truth, unsafe);
+    one.counts.left_out += group.left_out;
+    if (runs[k].ended.empty() && runs[0].ended.empty()) {
+      ++one.cases_timed;
+      add_times(runs[k], one.ms, one.create_ms);
+      add_times(runs[0], one.reference_ms, one.reference_create_ms);
+    }
+    if (!subject.is_built_in()) continue;
+    const auto own = judge_run(group.c, *runs[k].first, truth, subject.claims, subject.contract);
+    if (own.outcome != properties::Outcome::holds)
+      wrong.push_back(fmt::format("{}, case {}, {}: {}", family.name, timed.c.id, subject.name,
+                                  name_of(own.outcome)));
+    if (runs[k].has_differing_runs)
+      wrong.push_back(fmt::format("{}, case {}, {}: two evaluations differ", family.name,
+                                  timed.c.id, subject.name));
+  }
+}
+
+}  // namespace assay::reports

@@ -1,0 +1,307 @@
+#include "reports/certificate/own_checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "corpus/digest.h"
+#include "corpus/queries/query_csv.h"
+#include "corpus/scenes/scenes.h"
+#include "properties/campaign/ledger/step_measures.h"
+#include "properties/campaign/plan.h"
+#include "properties/judging/case_check.h"
+#include "properties/queries/rung_cases.h"
+#include "properties/queries/self_check.h"
+#include "properties/worker/plugin/query_case.h"
+#include "properties/worker/worker_process.h"
+#include "reports/bench/cases.h"
+#include "reports/bench/interleave.h"
+#include "reports/bench/timed_step.h"
+#include "reports/campaign/own_cases.h"
+
+namespace assay::reports {
+
+namespace {
+
+using detector::Culling;
+using properties::CorpusRow;
+using properties::Outcome;
+
+void count_triangles(CorpusRow& row, const corpus::Case& c, bool has_contact) {
+  const auto triangles = static_cast<std::uint64_t>(c.triangles.rows());
+  row.triangles = std::max(row.triangles, triangles);
+  if (has_contact) row.triangles_in_contact = std::max(row.triangles_in_contact, triangles);
+}
+
+void count(CorpusRow& row, const oracle::StepJudgement& step) {
+  ++row.steps;
+  row.collisions += step.pairs.empty() ? 0 : 1;
+  row.pairs += step.pairs.size();
+}
+
+CorpusRow row_of(const std::string& input, const std::string& configuration) {
+  CorpusRow row;
+  row.input = input;
+  row.configuration = configuration;
+  return row;
+}
+
+// Compares the built-in detector with the expected facts of the cases, in one culling.
+CorpusRow check_facts(const std::vector<corpus::Case>& cases, Culling culling, int jobs) {
+  CorpusRow row = row_of("curated cases", properties::name_of(culling));
+  for (const auto& c : cases) {
+    const auto report = properties::check_case(c, culling, jobs);
+    ++row.cases;
+    bool has_contact = false;
+    for (const auto& step : report.steps) {
+      count(row, step.judgement);
+      has_contact |= !step.judgement.pairs.empty();
+    }
+    count_triangles(row, c, has_contact);
+    row.defects += report.outcome == Outcome::holds ? 0 : 1;
+    for (const auto& line : report.failed)
+      row.failed.push_back(
+          {c.id, fmt::format("corpus: {} with {}", c.id, row.configuration), line});
+  }
+  return row;
+}
+
+// The limits for the corpus. Its scenes are larger than the cases of a campaign, so their limit is
+// six times that of a case, but at most a minute.
+properties::WorkerLimits limits_of(const properties::CampaignRequest& request) {
+  constexpr double times = 6, most_seconds = 60;
+  auto limits = request.worker_limits();
+  limits.seconds = std::min(most_seconds, times * limits.seconds);
+  return limits;
+}
+
+// A detector that hangs in this many cases of the corpus is not asked for the others, because each
+// may take long, and nothing is certified any more.
+constexpr int most_hung_cases = 3;
+
+// Runs cases through the worker, and makes a row for each configuration.
+class JudgedRows {
+ public:
+  // `hung` counts the cases of the corpus in which the detector hung. It goes on from those before
+  // these rows.
+  JudgedRows(const properties::CampaignRequest& request, const std::string& input,
+             const OnCorpusFailure& on_failure, int& hung, const std::string& before_id = "")
+      : request_(request),
+        on_failure_(on_failure),
+        before_id_(before_id),
+        worker_(request.worker, request.plugin, limits_of(request)),
+        hung_(hung) {
+    for (const auto& configuration : request.detector.configurations)
+      rows_.push_back(row_of(input, configuration.name));
+  }
+
+  void add(const corpus::Case& c) {
+    const auto seen = properties::contracted(c, request_.detector.contract);
+    for (auto& row : rows_) ++(seen ? row.cases : row.left_out);
+    if (!seen) return;  // the case is beyond the contract
+    if (hung_ >= most_hung_cases) {
+      for (auto& row : rows_)
+        row.open.push_back(
+            {before_id_ + c.id, "", fmt::format("not run: it hung in {} cases before", hung_)});
+      return;
+    }
+    const auto& configurations = request_.detector.configurations;
+    const auto runs = worker_.run(*seen, configurations);
+    // A run without a step is judged without the truth, which takes most of the time by far.
+    const bool is_answered =
+        std::any_of(runs.begin(), runs.end(), [](const auto& run) { return !run.steps.empty(); });
+    std::vector<oracle::StepJudgement> truth;
+    if (is_answered)
+      truth = properties::judge_case(*seen, request_.detector.contract, request_.jobs);
+    hung_ += std::any_of(runs.begin(), runs.end(),
+                         [](const auto& run) { return run.end == properties::RunEnd::hung; });
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      for (const auto& step : truth) count(rows_[i], step);
+      const auto verdict =
+          properties::judge_trial(*seen, truth, runs[i], configurations[i], request_.detector);
+      if (!verdict.steps.empty())
+        count_triangles(rows_[i], *seen, properties::has_judged_contact(verdict.steps));
+      if (verdict.outcome == Outcome::holds) continue;
+      const auto& failure = verdict.failure;
+      rows_[i].defects += failure ? 1 : 0;
+      if (!failure) {
+        rows_[i].open.push_back({before_id_ + c.id, "", "no verdict: " + runs[i].explanation});
+      } else {
+        rows_[i].failed.push_back({before_id_ + c.id, failure->signature(), failure->explanation});
+        on_failure_({std::string(properties::corpus_in_id) + before_id_ + c.id,
+                     configurations[i].name,
+                     failure->signature(),
+                     failure->explanation,
+                     corpus::case_text(*seen),
+                     {},
+                     false,
+                     runs[i].printed});
+      }
+    }
+  }
+  const std::vector<CorpusRow>& rows() const { return rows_; }
+
+ private:
+  const properties::CampaignRequest& request_;
+  const OnCorpusFailure& on_failure_;
+  const std::string before_id_;
+  properties::WorkerProcess worker_;
+  int& hung_;
+  std::vector<CorpusRow> rows_;
+};
+
+corpus::Expected<std::vector<corpus::Case>> curated(const std::filesystem::path& folder) {
+  const auto files = corpus::case_files(folder);
+  if (!files) return files.error();
+  return read_cases(files.value());
+}
+
+// Makes a scene small enough to be judged in a few seconds, in as many frames as the scene needs.
+corpus::Expected<corpus::Case> case_of_scene(const corpus::SceneInfo& scene) {
+  corpus::SceneOptions options;
+  options.size = 600;
+  options.frames = std::max(6, scene.least_frames);
+  auto made = corpus::make_scene(scene.name, options);
+  if (!made) return made.error();
+  corpus::Case c;
+  c.id = scene.name;
+  c.about = "a scene";
+  c.source = "assay scene";
+  c.triangles = std::move(made.value().triangles);
+  c.frames = std::move(made.value().frames);
+  return c;
+}
+
+// Checks the named queries of the self-test, and those of the corpus.
+Expected<void> check_queries(const properties::CampaignRequest& request,
+                             const std::filesystem::path& corpus, const OnCorpusRow& on_row,
+                             const OnCorpusFailure& on_failure) {
+  int hung = 0;
+  JudgedRows named(request, "named queries", on_failure, hung);
+  std::uint64_t place = 0;
+  for (const auto& one : properties::rung_cases())
+    named.add(properties::case_of_query(one.query, fmt::format("named-query-{}", place++)));
+  for (const auto& row : named.rows()) on_row(row);
+  const auto file = corpus / ".." / "queries" / "example_vf.csv";
+  const auto queries = corpus::read_queries(file);
+  if (!queries) return queries.error();
+  JudgedRows labelled(request, file.filename().string(), on_failure, hung);
+  place = 0;
+  for (const auto& one : queries.value()) {
+    const auto query =
+        std::visit([](const auto& q) { return detector::four_points(q); }, one.query);
+    labelled.add(properties::case_of_query(query, fmt::format("example-vf-{}", place++)));
+  }
+  for (const auto& row : labelled.rows()) on_row(row);
+  return outcome::success();
+}
+
+using detector::Arithmetic;
+using detector::Options;
+using properties::SpeedFigure;
+
+constexpr int rounds = 9;
+
+// The time of the first options over that of the second, measured in turn.
+SpeedFigure figure_of(std::string_view name, const corpus::Sequence& step, const Options& measured,
+                      const Options& beside) {
+  BenchReport unused;
+  TimedStep one("", step.triangles, step.frames, measured, unused);
+  TimedStep other("", step.triangles, step.frames, beside, unused);
+  const auto samples =
+      interleave(rounds, {[&] { return one.time(); }, [&] { return other.time(); }});
+  const Estimate ratio = ratio_of(samples[0], samples[1]);
+  return {std::string(name), ratio.value, ratio.lo, ratio.hi, ratio.samples};
+}
+
+}  // namespace
+
+Expected<void> check_corpus(const properties::CampaignRequest& request,
+                            const std::filesystem::path& corpus, const OnCorpusRow& on_row,
+                            const OnCorpusFailure& on_failure) {
+  if (request.detector.of_queries) return check_queries(request, corpus, on_row, on_failure);
+  const auto cases = curated(corpus);
+  if (!cases) return cases.error();
+  int hung = 0;
+  if (request.detector.built_in) {
+    for (const auto culling : all_values<Culling>) {
+      if (culling != Culling::none) on_row(check_facts(cases.value(), culling, request.jobs));
+    }
+  } else {
+    JudgedRows judged(request, "curated cases", on_failure, hung);
+    for (const auto& c : cases.value()) {
+      // Input that has to be refused is not valid, so the detector claims nothing of it.
+      if (c.expected.answer != detector::Answer::error) judged.add(c);
+    }
+    for (const auto& row : judged.rows()) on_row(row);
+  }
+  for (const auto& scene : corpus::scenes()) {
+    const auto c = case_of_scene(scene);
+    if (!c) return c.error();
+    JudgedRows judged(request, std::string(scene.name), on_failure, hung);
+    judged.add(c.value());
+    for (const auto& row : judged.rows()) on_row(row);
+  }
+  if (request.detector.query_claims == properties::Claims()) return outcome::success();
+  return check_queries(request, corpus, on_row, on_failure);
+}
+
+void check_own_cases(const properties::CampaignRequest& request, const OnCorpusRow& on_row,
+                     const OnCorpusFailure& on_failure) {
+  if (!request.own_cases) return;
+  int hung = 0;
+  JudgedRows judged(request, properties::own_cases_input, on_failure, hung,
+                    properties::own_cases_in_id);
+  for (const auto& c : request.own_cases->cases) {
+    if (c.expected.answer != detector::Answer::error) judged.add(c);
+  }
+  for (const auto& row : judged.rows()) on_row(row);
+}
+
+std::string corpus_heading() {
+  return fmt::format("{:<18} {:<18} {:>6} {:>6} {:>11} {:>7} {:>8}\n", "input", "configuration",
+                     "cases", "steps", "collisions", "pairs", "defects");
+}
+
+std::string corpus_row_text(const CorpusRow& row) {
+  std::string text =
+      fmt::format("{:<18} {:<18} {:>6} {:>6} {:>11} {:>7} {:>8}\n", row.input, row.configuration,
+                  row.cases, row.steps, row.collisions, row.pairs, row.defects);
+  for (const auto& open : row.open) text += fmt::format("  {}: {}\n", open.id, open.explanation);
+  for (const auto& failed : row.failed)
+    text += fmt::format("  {}: {}\n", failed.id, failed.explanation);
+  return text;
+}
+
+std::string corpus_digest(const std::filesystem::path& corpus) {
+  const auto files = corpus::case_files(corpus);
+  return digest_of_files(files ? files.value() : std::vector<std::filesystem::path>());
+}
+
+void check_oracle(std::uint64_t queries, int jobs, const OnSelfTestRow& on_family) {
+  properties::SelfTestOptions options;
+  options.queries = queries;
+  options.jobs = jobs;
+  for (const auto& family : properties::self_test_families()) {
+    if (family->indices(queries) == 0) continue;
+    const auto result = properties::run_family(*family, options, [](std::uint64_t) {});
+    const auto& tally = result.tally;
+    on_family({family->name(), tally.queries, tally.contacts, tally.contradictions, tally.open,
+               result.complete});
+  }
+}
+
+void measure_speed(const OnSpeedFigure& on_figure) {
+  constexpr int free_triangles = 20'480, search_triangles = 4'000, frames = 3;
+  const auto exact = bench_options(Culling::automatic), bvh = bench_options(Culling::bvh);
+  const auto sphere = bench_scene("breathing-sphere", free_triangles, frames);
+  on_figure(figure_of(properties::speed_figures[0], sphere, exact, bvh));
+  // This scene is most like rod-twist, for whose step the limit is stated.
+  const auto twist = bench_scene("twist", search_triangles, frames);
+  on_figure(figure_of(properties::speed_figures[2], twist, exact,
+                      bench_options(Culling::automatic, Arithmetic::double_precision)));
+  const auto contact = step_at_first_contact("pinching-torus", search_triangles);
+  if (contact) on_figure(figure_of(properties::speed_figures[1], *contact, exact, bvh));
+}
+
+}  // namespace assay::reports

@@ -1,0 +1,52 @@
+// What `certify` checks by itself, as evidence of a certificate: the corpus, the oracle, the speed.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "properties/campaign/ledger/evidence.h"
+#include "properties/campaign/request.h"
+#include "reports/terminal/complaint.h"
+
+namespace assay::reports {
+
+// Is called for each row as soon as it is known. A row sums up all cases of one kind, such as the
+// curated ones, in one configuration of the detector.
+using OnCorpusRow = std::function<void(const properties::CorpusRow&)>;
+
+// Is called for each case in which a configuration contradicts the oracle. The failure has the form
+// in which a trial's failure is stored. A curated case of which only an expected fact fails is told
+// of in its row alone.
+using OnCorpusFailure = std::function<void(const properties::StoredFailure&)>;
+
+// Runs the curated cases of the folder `corpus`, and the scenes, which are built into the program.
+// In curated cases the built-in detector is held to the expected facts, with every culling, and a
+// plug-in to the oracle under its claims. In scenes both are held to the oracle, whose judgement of
+// a case serves all configurations. Fails if the corpus cannot be read.
+Expected<void> check_corpus(const properties::CampaignRequest& request,
+                            const std::filesystem::path& corpus, const OnCorpusRow& on_row,
+                            const OnCorpusFailure& on_failure);
+
+// Runs the cases that the user added to the campaign (`--corpus DIR`), in a worker. Every detector
+// is held to the oracle in them. Their ids begin with own_cases_in_id.
+void check_own_cases(const properties::CampaignRequest& request, const OnCorpusRow& on_row,
+                     const OnCorpusFailure& on_failure);
+
+// The text of a row on the terminal, with one line for each case that fails, and the heading above
+// the rows.
+std::string corpus_heading();
+std::string corpus_row_text(const properties::CorpusRow& row);
+
+// SHA-256 over names and bytes of the case files.
+std::string corpus_digest(const std::filesystem::path& corpus);
+
+// Is called for each family of `assay self-test` as soon as it is known.
+using OnSelfTestRow = std::function<void(const properties::SelfTestRow&)>;
+void check_oracle(std::uint64_t queries, int jobs, const OnSelfTestRow& on_family);
+
+// Is called for each of properties::speed_figures: a ratio of processor times of interleaved steps
+// of the built-in detector. 10 s in all.
+using OnSpeedFigure = std::function<void(const properties::SpeedFigure&)>;
+void measure_speed(const OnSpeedFigure& on_figure);
+
+}  // namespace assay::reports

@@ -1,0 +1,75 @@
+#include "reports/terminal/words.h"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <sstream>
+
+#include "properties/worker/plugin/python_word.h"
+
+namespace assay::reports {
+
+std::string shell_word(const std::string& word) {
+  constexpr const char* plain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./:,+=@%";
+  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+  std::string quoted = "'";
+  for (const char c : word) {
+    if (c == '\'') {
+      quoted += "'\\''";
+    } else {
+      quoted += c;
+    }
+  }
+  return quoted + "'";
+}
+
+std::string this_program(bool from_anywhere) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const auto own = fs::read_symlink("/proc/self/exe", error);
+  // Python calls what stands in a library of its own.
+  if (error || own.filename() != "assay") return "assay";
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const auto found = fs::path(folder.empty() ? "." : folder) / "assay";
+    if (access(found.c_str(), X_OK) != 0 || fs::is_directory(found, error)) continue;
+    if (fs::equivalent(found, own, error)) return "assay";
+    break;
+  }
+  const auto here = own.lexically_relative(fs::current_path(error));
+  const bool is_below = !error && !here.empty() && *here.begin() != "..";
+  if (!is_below || from_anywhere) return shell_word(own.string());
+  // A name alone would be looked for on the PATH.
+  return shell_word((here.has_parent_path() ? here : "." / here).string());
+}
+
+std::string absolute_path(const std::filesystem::path& path) {
+  if (path.empty() || properties::names_python(path.string())) return path.string();
+  std::error_code error;
+  const auto found = std::filesystem::absolute(path, error);
+  return error ? path.string() : found.lexically_normal().string();
+}
+
+std::string detector_words(const std::string& library, std::uint64_t threads) {
+  if (library.empty()) return "";
+  const std::string words = " --detector " + shell_word(library);
+  return threads == 1 ? words : words + " --threads " + std::to_string(threads);
+}
+
+std::string replaced(std::string_view text, const std::map<char, std::string_view>& characters) {
+  std::string out;
+  out.reserve(text.size());
+  for (const char c : text) {
+    const auto found = characters.find(c);
+    if (found == characters.end()) {
+      out += c;
+    } else {
+      out += found->second;
+    }
+  }
+  return out;
+}
+
+}  // namespace assay::reports

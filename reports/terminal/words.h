@@ -1,0 +1,41 @@
+// Words as text: with characters replaced, joined to one line, or as a command that can be pasted.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+
+namespace assay::reports {
+
+// Writes characters that have a meaning in a format in the way in which that format wants them: the
+// text in which each character that is a key of `characters` is replaced by its value.
+std::string replaced(std::string_view text, const std::map<char, std::string_view>& characters);
+
+// The items of a list as one line of text, with `between` between them.
+template <class List>
+std::string joined(const List& list, const char* between) {
+  std::string text;
+  for (const auto& item : list) text += fmt::format("{}{}", text.empty() ? "" : between, item);
+  return text;
+}
+
+// The word itself, or the word in quotes if a shell would read it as something else.
+std::string shell_word(const std::string& word);
+
+// How to call this program: "assay" if that is what a shell finds on the PATH, else its path: from
+// this folder if it lies below, "build/release/assay"; `from_anywhere` always its whole path.
+// The line that a certificate or a page holds begins with "assay" on every machine.
+std::string this_program(bool from_anywhere = false);
+
+// The path of the same file that can be used from any folder; empty for none. The word of a
+// detector in Python stays as it is.
+std::string absolute_path(const std::filesystem::path& path);
+
+// " --detector LIB.so", with " --threads N" if N is not 1; empty for the built-in detector.
+std::string detector_words(const std::string& library, std::uint64_t threads = 1);
+
+}  // namespace assay::reports
