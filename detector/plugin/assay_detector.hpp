@@ -50,22 +50,10 @@ static_assert(ASSAY_DETECTOR_ABI_VERSION == 2, "this header is of another versio
 namespace assay {
 namespace plugin {
 
-// The members mean the same as in assay_description. The defaults claim nothing, and their
-// contract leaves nothing out. The texts must live as long as the library: literals do.
-struct Description {
-  const char* name = "";
-  const char* version = "";
-  std::uint32_t claims = 0;
-  std::int32_t adjacency = ASSAY_ADJACENCY_ALL;
-  std::int32_t coordinates = ASSAY_COORDINATES_FLOAT64;
-  double margin = 0;
-  std::int32_t start = ASSAY_START_ANY;
-  double start_distance = 0;
-  double least_nonzero = 0;
-  double largest = 0;
-  std::int32_t features = ASSAY_FEATURES_BOTH;
-  double time_tolerance = 0;
-  std::int32_t reports = ASSAY_REPORTS_PAIRS;
+// An assay_description whose defaults claim nothing, and whose contract leaves nothing out. The
+// texts must live as long as the library: literals do.
+struct Description : assay_description {
+  Description() : assay_description() { name = version = ""; }
 };
 
 // A view of rows of three numbers each. The numbers are the host's and valid during the call only.

@@ -103,22 +103,7 @@ struct Handle {
 template <class D>
 const assay_description* describe() noexcept {
   static assay_description c = {};
-  static const std::int32_t code = guarded(last_line<D>(), [] {
-    const Description d = D::describe();
-    c.name = d.name;
-    c.version = d.version;
-    c.claims = d.claims;
-    c.adjacency = d.adjacency;
-    c.coordinates = d.coordinates;
-    c.margin = d.margin;
-    c.start = d.start;
-    c.start_distance = d.start_distance;
-    c.least_nonzero = d.least_nonzero;
-    c.largest = d.largest;
-    c.features = d.features;
-    c.time_tolerance = d.time_tolerance;
-    c.reports = d.reports;
-  });
+  static const std::int32_t code = guarded(last_line<D>(), [] { c = D::describe(); });
   return code == ASSAY_OK ? &c : nullptr;
 }
 

@@ -77,7 +77,7 @@ std::vector<std::uint8_t> touched_at(const Instant& instant,
 
 namespace {
 
-// The four points of a query at one time, with the notation and the rule of four_points.h.
+// The four points of a query at one time, with the notation and the rule of contact_events.h.
 struct Rest {
   std::array<const IntegerPoint*, 4> x;
   int first_group;

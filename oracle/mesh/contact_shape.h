@@ -8,7 +8,7 @@
 namespace assay::oracle {
 
 // A contact has the first of these shapes that holds. F is the cubic whose zeros are the times at
-// which the four points lie in a plane (four_points.h).
+// which the four points lie in a plane (contact_events.h).
 enum class ContactShape : std::uint8_t {
   parallel_edges,       // the two edges are parallel, or one is a point, throughout the step
   coplanar_throughout,  // F is zero throughout

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "oracle/query/contact_events.h"
-#include "oracle/query/four_points.h"
 
 namespace assay::oracle {
 

@@ -7,10 +7,13 @@
 #include <optional>
 #include <vector>
 
-#include "oracle/query/four_points.h"
+#include "detector/mesh/step_types.h"
 
 namespace assay::oracle {
 namespace {
+
+using detector::four_points;
+using detector::FourPoints;
 
 using Rational = mpq_class;
 // Coefficients of powers of s in [0,1], which runs over the times from lo to hi.

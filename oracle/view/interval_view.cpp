@@ -1,8 +1,7 @@
-#include "oracle/view/interval_view.h"
-
 #include <CGAL/Interval_nt.h>
 
 #include "oracle/query/interval_sign.h"
+#include "oracle/view/view_sign.h"
 
 namespace assay::oracle {
 

@@ -9,7 +9,6 @@
 #include "oracle/processor_state.h"
 #include "oracle/query/integer_polynomial.h"
 #include "oracle/query/times/algebraic_times.h"
-#include "oracle/view/interval_view.h"
 
 namespace assay::oracle {
 

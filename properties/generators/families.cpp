@@ -10,8 +10,7 @@
 #include "properties/generators/motions.h"
 #include "properties/generators/primitives.h"
 #include "properties/generators/response.h"
-#include "properties/generators/shapes/closed_shapes.h"
-#include "properties/generators/shapes/open_shapes.h"
+#include "properties/generators/shapes/shapes.h"
 
 namespace assay::properties {
 

@@ -1,11 +1,10 @@
-#include "properties/generators/shapes/closed_shapes.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
 
 #include "corpus/scenes/trigonometry.h"
+#include "properties/generators/shapes/shapes.h"
 
 namespace assay::properties {
 

@@ -1,9 +1,7 @@
-#include "properties/generators/shapes/open_shapes.h"
-
 #include <algorithm>
 
 #include "corpus/scenes/trigonometry.h"
-#include "properties/generators/shapes/closed_shapes.h"
+#include "properties/generators/shapes/shapes.h"
 
 namespace assay::properties {
 
