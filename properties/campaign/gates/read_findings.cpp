@@ -74,7 +74,11 @@ class Reader {
     // The row of the owner's cases may stand both in a shard and among the checks that certify
     // makes by itself.
     evidence_.erase(std::unique(evidence_.begin(), evidence_.end()), evidence_.end());
-    for (const auto& row : evidence_) found_.evidence.take(row);
+    try {
+      for (const auto& row : evidence_) found_.evidence.take(row);
+    } catch (const StoreProblem& odd) {  // it names the row alone
+      throw StoreProblem(fmt::format("{}: {}", found_.folder.string(), odd.what()));
+    }
     if (found_.evidence.power.size() > 1)
       throw StoreProblem(
           fmt::format("{}: its shards took their proofs of planted faults from "

@@ -92,15 +92,16 @@ class PowerFixture : public testing::Test {
     return "";
   }
   // Makes the campaign that a run took its proof from another one.
-  static void rename_source(const std::string& file) {
+  static void rename_source(const std::string& file, const std::string& key,
+                            const std::string& campaign) {
     auto sources = rows_of(file, "power");
     ASSERT_EQ(sources.size(), 1u);
     auto store = open(file);
     ASSERT_TRUE(store);
     store->drop("power");
     auto fields = nlohmann::json::parse(sources[0].fields);
-    sources[0].key = "other";
-    fields["campaign"] = "other";
+    sources[0].key = key;
+    fields["campaign"] = campaign;
     sources[0].fields = fields.dump();
     store->set(sources[0]);
   }

@@ -196,9 +196,13 @@ TEST_F(Power, ShardsDoNotTakeOverDifferentOnes) {
   // Another source by its name alone.
   ASSERT_EQ(run(out, with_proof + " --shard 2/2").exit_code, 0);
   EXPECT_EQ(run_assay("report " + out + " --out " + scratch / "page.html").exit_code, 0);
-  rename_source(out + "/shard-2-of-2.sqlite");
+  rename_source(out + "/shard-2-of-2.sqlite", "other", "other");
   expect_refused(run_assay("report " + out + " --out " + scratch / "page.html"),
                  "took their proofs of planted faults from different runs");
+  // The key of a row says another name than the row itself.
+  rename_source(out + "/shard-2-of-2.sqlite", "third", "other");
+  expect_refused(run_assay("report " + out + " --out " + scratch / "page.html"),
+                 out + ": power third, power is not as a run writes it");
 }
 
 // Its own share of the faults beside a proof of them all: one is planted twice, and that is told.
