@@ -16,8 +16,12 @@
 //   abort-outside                            aborts when a query out of the contract is put to it
 //   free-above=N, undecided-above=N          how the steps of larger meshes are answered
 //   up-to=N, from-pairs=N                    ... but not of meshes above N, or with fewer pairs
+//   free-after-commits=N                     free once a handle has committed more steps
+//   free-once=FILE                           free as soon as there is such a file
 //   free-again                               free when a step is evaluated a second time
 //   free-threaded                            free when it may use several threads
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -157,11 +161,13 @@ std::int32_t query(std::int32_t kind, const double* x_t0, const double* x_t1,
 std::uint64_t triangle_count = 0;
 std::uint32_t threads = 1;
 std::size_t evaluations = 0;  // since the last commit
+double commits = 0;           // since the handle was made
 
 std::int32_t create(const std::int32_t* triangles, std::uint64_t m, const double* x,
                     std::uint64_t n, assay_handle** handle, const char** message) {
   triangle_count = m;
   evaluations = 0;
+  commits = 0;
   return assay_builtin_detector()->create(triangles, m, x, n, handle, message);
 }
 
@@ -174,6 +180,7 @@ std::int32_t evaluate(assay_handle* handle, const double* x_t0, const double* x_
 
 std::int32_t commit(assay_handle* handle) {
   evaluations = 0;
+  ++commits;
   return assay_builtin_detector()->commit(handle);
 }
 
@@ -183,6 +190,8 @@ bool is_above(const char* word) {
 
 bool answers_free(const assay_result& right) {
   if (has("free-again") && evaluations > 1) return true;
+  if (has("free-after-commits") && commits > number_of("free-after-commits")) return true;
+  if (has("free-once") && ::access(value_of("free-once"), F_OK) == 0) return true;
   if (has("free-threaded") && threads > 1) return true;
   return is_above("free-above") && !is_above("up-to") &&
          static_cast<double>(right.pair_count) >= number_of("from-pairs");

@@ -115,16 +115,28 @@ void check_trials(const RunFindings& f, const Asked& asked, Lines& lines) {
         fmt::format("{} of {} trials were disturbed from outside, 1 % may be", disturbed, trials));
 }
 
-// Checks that a plug-in was given every scene at the plan's size.
+// Checks that a plug-in was given every scene at the plan's size, and the long sequences.
 void check_repetitions(const RunFindings& f, Lines& lines) {
   if (f.alone || !is_repeated(f.run.plan, f.run.detector.built_in)) return;
-  const auto scenes = corpus::scenes();
-  const auto done = std::count_if(scenes.begin(), scenes.end(), [&](const auto& scene) {
+  std::vector<std::string> wanted;
+  for (const auto& scene : corpus::scenes()) wanted.emplace_back(scene.name);
+  for (int i = 0; i < long_sequences; ++i) wanted.push_back(name_of_long_sequence(i));
+  const auto done = std::count_if(wanted.begin(), wanted.end(), [&](const std::string& name) {
     return std::any_of(f.evidence.repeated.begin(), f.evidence.repeated.end(),
-                       [&](const Repetition& one) { return one.input == scene.name; });
+                       [&](const Repetition& one) { return one.input == name; });
   });
-  if (static_cast<std::size_t>(done) < scenes.size())
-    lines.push_back(fmt::format("{} of {} scenes were repeated", done, scenes.size()));
+  if (static_cast<std::size_t>(done) < wanted.size())
+    lines.push_back(fmt::format("{} of {} scenes were repeated", done, wanted.size()));
+}
+
+// Checks that a process of a plug-in was asked again at the end.
+void check_asked_again(const RunFindings& f, Lines& lines) {
+  if (f.run.detector.built_in || f.planned() == 0) return;
+  const auto done = f.evidence.asked_again.size();
+  const std::size_t wanted = f.alone ? 1 : f.shard_count;
+  if (done < wanted)
+    lines.push_back(
+        fmt::format("{} of {} shards asked the detector again at the end", done, wanted));
 }
 
 GateFindings check_harness(const RunFindings& f, const Asked& asked) {
@@ -201,6 +213,7 @@ GateFindings check_complete(const RunFindings& f, const Asked& asked) {
   if (f.evidence.canaries.empty()) lines.push_back("no canary was met");
   check_faults(f, lines);
   check_repetitions(f, lines);
+  check_asked_again(f, lines);
   for (const auto& row : f.evidence.corpus) {
     for (const auto& open : row.open)
       lines.push_back(fmt::format("{} ({}): {}", open.id, row.configuration, open.explanation));

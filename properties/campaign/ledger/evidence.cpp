@@ -41,6 +41,7 @@ ASSAY_FIELDS_WITH_KEYS(Repetition, field("input", x.input), field("configuration
                        field("steps", x.steps), field("runs", x.runs), field("threads", x.threads),
                        field("what", x.difference), field("broken", x.broken),
                        field("judged", x.judged))
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(AskedAgain, shard, cases, steps, wrong, open)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Asked, gates, certificate)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Versions, assay, commit, libraries)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Paths, out, detector, own_cases, data)
@@ -164,7 +165,7 @@ Row to_row(const AnyEvidence& evidence) {
 void EvidenceFacts::take(const Row& row) {
   const auto is_taken = [&](auto&... lists) { return (takes(lists, row) || ...); };
   if (!is_taken(canaries, problems, faults, power, worlds, asked, versions, paths, isolation, slow,
-                repeated, inputs, waivers, corpus, self_test, speed, issued))
+                repeated, asked_again, inputs, waivers, corpus, self_test, speed, issued))
     throw StoreProblem(fmt::format("no run stores {}", row_name(row)));
 }
 

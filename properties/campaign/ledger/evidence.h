@@ -151,6 +151,15 @@ struct Repetition {
   std::string key() const { return input + ", " + configuration; }
 };
 
+// What one process of a plug-in answered at the end of a campaign, to what it had been asked before
+// (phases/lasting_worker.h). `wrong`: cases in which its new answer breaks a claim; `open`: those
+// in which it has none any more.
+struct AskedAgain {
+  static constexpr const char* kind = "asked again";
+  std::string shard;
+  std::uint64_t cases = 0, steps = 0, wrong = 0, open = 0;
+};
+
 // What a verb asked of a run.
 struct Asked {
   static constexpr const char* kind = "asked";
@@ -249,6 +258,7 @@ struct EvidenceFacts {
   std::vector<PluginIsolation> isolation;
   std::vector<SlowCase> slow;
   std::vector<Repetition> repeated;
+  std::vector<AskedAgain> asked_again;
   std::optional<InputDigests> inputs;
   std::vector<StoredWaiver> waivers;
   std::vector<CorpusRow> corpus;
@@ -263,8 +273,8 @@ EvidenceFacts facts_in(const Store& store);
 
 using AnyEvidence =
     std::variant<Canary, HarnessProblem, FaultProof, PowerSource, World, Asked, Versions, Paths,
-                 PluginIsolation, SlowCase, Repetition, InputDigests, StoredWaiver, CorpusRow,
-                 SelfTestRow, SpeedFigure, Issued>;
+                 PluginIsolation, SlowCase, Repetition, AskedAgain, InputDigests, StoredWaiver,
+                 CorpusRow, SelfTestRow, SpeedFigure, Issued>;
 Row to_row(const AnyEvidence& evidence);
 
 // Whether two runs of one campaign may differ in this row, which is one of evidence.

@@ -83,6 +83,9 @@ inline constexpr std::string_view corpus_in_id = "corpus/";
 // The id of a failure that a large mesh shows, on which two runs differ, begins with this.
 inline constexpr std::string_view repeated_in_id = "repeated/";
 
+// And that of a failure that shows when a lasting process is asked again (phases/lasting_worker.h).
+inline constexpr std::string_view asked_again_in_id = "asked-again/";
+
 // `about_text` is what the case file of a failure says of itself: "all-pairs: missing pair,
 // edge-edge; triangles 0 and 1 meet at 0.5". `shown_explanation` reads it back: it returns the part
 // after the signature, from the smallest mesh if there is one.

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -20,6 +21,10 @@ namespace {
 
 constexpr int most_hung_repetitions = 3;
 constexpr std::size_t most_differing = 2;  // steps of a sequence
+constexpr int most_kept = 4;               // steps of a sequence, of each signature
+// The lasting worker is asked again for so many sequences of small meshes.
+constexpr int most_remembered = 8;
+constexpr Eigen::Index largest_small_mesh = 600;
 
 // Gives the vertices other numbers, the triangles another order, and each of them another first
 // corner.
@@ -67,11 +72,15 @@ void put_side_by_side(corpus::Case& c, int copies) {
 
 // A map of space that keeps what is outside outside. It bends nothing, so what meets still does,
 // but for what rounding decides.
+Eigen::Matrix3d drawn_entries(Random& random, double most) {
+  Eigen::Matrix3d entries;
+  for (double& entry : entries.reshaped()) entry = most * random.signed_unit();
+  return entries;
+}
+
 Eigen::Matrix3d drawn_map(Random& random) {
   constexpr double most = 0.25;
-  Eigen::Matrix3d map = Eigen::Matrix3d::Identity();
-  for (double& entry : map.reshaped()) entry += most * random.signed_unit();
-  return map;
+  return Eigen::Matrix3d::Identity() + drawn_entries(random, most);
 }
 
 std::string name_of_form(const corpus::SceneInfo& scene, int form) {
@@ -104,6 +113,39 @@ corpus::Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triang
   renumber(c, random);
   const auto map = drawn_map(random);
   for (auto& frame : c.frames) frame = (frame * map).eval();
+  return c;
+}
+
+std::string name_of_long_sequence(int number) { return fmt::format("long-{}", number + 1); }
+
+corpus::Case long_sequence(std::uint64_t seed, int number) {
+  // Scenes that pierce themselves, and still do so under another map. Smaller spheres do not.
+  constexpr std::string_view meeting[] = {"dented-sphere", "bend", "folding-sheet",
+                                          "crumpling-sphere"};
+  constexpr int least_size = 60, most_size = 100;
+  // There and back takes at most 18 steps, so the mesh meets itself in every 18 steps.
+  constexpr int least_way = 5, most_way = 9;
+  // With drawn_map, a row's own entry is at least 1 - 0.25 - 0.08, and the two others together at
+  // most 2 (0.25 + 0.08): the map never turns the mesh inside out.
+  constexpr double most_drift = 0.08;
+  corpus::Case c;
+  c.id = name_of_long_sequence(number);
+  Random random(fmt::format("{}{}:{}", repeated_in_id, seed, c.id));
+  const auto name = meeting[random.below(static_cast<int>(std::size(meeting)))];
+  corpus::SceneOptions options;
+  options.size = random.between(least_size, most_size);
+  const int way = random.between(least_way, most_way);
+  options.frames = way + 1;
+  const int steps = random.between(fewest_long_steps, most_long_steps);
+  auto made = corpus::make_scene(name, options).value();
+  c.triangles = std::move(made.triangles);
+  const auto map = drawn_map(random);
+  const auto drift = drawn_entries(random, most_drift);
+  for (int f = 0; f <= steps; ++f) {
+    const auto place = static_cast<std::size_t>(way - std::abs(way - f % (2 * way)));
+    c.frames.emplace_back(made.frames[place] * (map + drift * f / steps));
+  }
+  renumber(c, random);
   return c;
 }
 
@@ -190,21 +232,25 @@ std::optional<std::size_t> differing_step(const CaseRun& a, const CaseRun& b) {
   return std::nullopt;
 }
 
+std::vector<std::size_t> first_places(std::size_t count) {
+  std::vector<std::size_t> places(count);
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  return places;
+}
+
+// Which steps of a sequence the oracle judges.
+enum class JudgedSteps { none, some, all };
+
 class Repetitions {
  public:
-  Repetitions(const CampaignRequest& request, Store& store)
-      : request_(request), store_(store), built_in_(request.worker, std::nullopt, {}) {
-    if (!request.detector.claims.has(Claim::deterministic)) {
-      threads_ = {request.threads};
-    } else if (request.takes_threads) {
-      threads_.assign(std::begin(repeated_threads), std::end(repeated_threads));
-    } else {
-      threads_ = {request.threads, request.threads, request.threads};
-    }
-  }
+  Repetitions(const CampaignRequest& request, Store& store, LastingWorker& lasting)
+      : request_(request),
+        store_(store),
+        threads_(threads_of_runs(request)),
+        built_in_(request.worker, std::nullopt, {}),
+        lasting_(lasting) {}
 
-  // `is_judged`: the oracle judges some of its steps.
-  void put(const corpus::Case& c, bool is_judged) {
+  void put(const corpus::Case& c, JudgedSteps judged) {
     Repetition row;
     row.input = c.id;
     row.configuration = configuration().name;
@@ -217,7 +263,7 @@ class Repetitions {
       row.difference = fmt::format("not run: it hung on {} of them before", hung_);
     } else {
       row.steps = corpus::steps_of(*seen).size();
-      run_all(*seen, is_judged, row);
+      run_all(*seen, judged, row);
     }
     store_.set(to_row(row));
   }
@@ -226,21 +272,22 @@ class Repetitions {
   const Configuration& configuration() const { return request_.detector.configurations.front(); }
 
   // Each run, by its place in threads_, has a process of its own, which it keeps from mesh to mesh.
-  // The last one is a second run in the process of the run before it. REQUIRES that the runs before
+  // That of the first run is the lasting one. The last one is a second run in the process of the run before it. REQUIRES that the runs before
   // it took place.
   CaseRun run_once(const corpus::Case& c, std::size_t place) {
     const std::size_t process = place > 1 && place + 1 == threads_.size() ? place - 1 : place;
-    if (process == workers_.size()) {
+    if (process == workers_.size() + 1) {
       auto limits = request_.worker_limits(static_cast<std::uint32_t>(process));
       limits.threads = threads_[process];
       workers_.emplace_back(request_.worker, request_.plugin, limits);
     }
-    auto run = std::move(workers_[process].run(c, {&configuration(), 1}).front());
+    auto& worker = process == 0 ? lasting_.process() : workers_[process - 1];
+    auto run = std::move(worker.run(c, {&configuration(), 1}).front());
     if (run.end == RunEnd::not_run) throw StoreProblem(run.explanation);
     return run;
   }
 
-  void run_all(const corpus::Case& c, bool is_judged, Repetition& row) {
+  void run_all(const corpus::Case& c, JudgedSteps steps, Repetition& row) {
     const auto& claims = request_.detector.claims;
     std::optional<CaseRun> first;
     for (std::size_t place = 0; place < threads_.size(); ++place) {
@@ -260,29 +307,42 @@ class Repetitions {
       }
       if (first) continue;
       first = std::move(run);
-      if (is_judged) judge_steps(c, *first, row);
+      if (steps == JudgedSteps::some) judge_steps(c, chosen_steps(c, *first), *first, row);
+      if (steps == JudgedSteps::all) judge_steps(c, first_places(first->steps.size()), *first, row);
     }
+    if (steps == JudgedSteps::none || c.triangles.rows() > largest_small_mesh) return;
+    if (remembered_++ < most_remembered) lasting_.remember(c, *first);
   }
 
-  void judge_steps(const corpus::Case& c, const CaseRun& run, Repetition& row) {
+  std::vector<std::size_t> chosen_steps(const corpus::Case& c, const CaseRun& run) {
     const Configuration chooser{"auto", {}};
     const auto answered = std::move(built_in_.run(c, {&chooser, 1}).front());
-    const auto& contract = request_.detector.contract;
     auto places = differing_steps(c, request_.detector, run, answered);
-    const auto plain = plain_steps(c, contract, answered);
+    const auto plain = plain_steps(c, request_.detector.contract, answered);
     places.insert(places.end(), plain.begin(), plain.end());
     std::sort(places.begin(), places.end());
     places.erase(std::unique(places.begin(), places.end()), places.end());
+    return places;
+  }
+
+  void judge_steps(const corpus::Case& c, const std::vector<std::size_t>& places,
+                   const CaseRun& run, Repetition& row) {
+    const auto& contract = request_.detector.contract;
+    const bool is_small = c.triangles.rows() <= largest_small_mesh;
+    std::map<std::string, int> kept;
     for (const auto s : places) {
       const auto alone = with_steps(c, {s});
-      const auto truth = judge_case(alone, contract, request_.jobs);
+      const auto truth = judge_case(alone, contract, is_small ? 1 : request_.jobs);
       const auto judged =
           judge_trial(alone, truth, step_alone(run, s), configuration(), request_.detector);
       // Without a verdict nothing is known of this size.
       if (judged.outcome != Outcome::holds && judged.outcome != Outcome::defect) continue;
       row.judged.push_back(
           {s + 1, counted_contacts(truth[0], alone), judged.outcome == Outcome::holds});
-      if (judged.failure) keep(c, s, run, *judged.failure);
+      if (!judged.failure) continue;
+      auto failure = *judged.failure;
+      failure.cause = "large mesh";
+      if (kept[failure.signature()]++ < most_kept) keep(c, s, run, failure);
     }
   }
 
@@ -298,15 +358,11 @@ class Repetitions {
   // Stores a step that breaks a claim: alone, or with the steps before it if the detector answers
   // otherwise without them.
   void keep(const corpus::Case& c, std::size_t s, const CaseRun& run, Failure failure) {
-    failure.cause = "large mesh";
     failure.explanation = fmt::format("{}, {} triangles, step {}: {}", c.id, c.triangles.rows(),
                                       s + 1, failure.explanation);
     auto shown = with_steps(c, {s});
-    if (!same_answers(step_alone(run, s), run_once(shown, 0))) {
-      std::vector<std::size_t> places(s + 1);
-      std::iota(places.begin(), places.end(), std::size_t{0});
-      shown = with_steps(c, places);
-    }
+    if (!same_answers(step_alone(run, s), run_once(shown, 0)))
+      shown = with_steps(c, first_places(s + 1));
     store_.add({fmt::format("{}{}, step {}", repeated_in_id, c.id, s + 1), configuration().name,
                 failure.signature(), failure.explanation,
                 corpus::case_text(failing_case(shown, configuration(), request_.detector, failure)),
@@ -344,39 +400,50 @@ class Repetitions {
   Store& store_;
   std::vector<std::uint64_t> threads_;
   WorkerProcess built_in_;
-  std::vector<WorkerProcess> workers_;  // by the place of the run
-  int hung_ = 0;
+  LastingWorker& lasting_;
+  std::vector<WorkerProcess> workers_;  // by the place of the run, from the second
+  int hung_ = 0, remembered_ = 0;
 };
 
 }  // namespace
+
+std::vector<std::uint64_t> threads_of_runs(const CampaignRequest& request) {
+  if (!request.detector.claims.has(Claim::deterministic)) return {request.threads};
+  if (request.takes_threads) return {std::begin(repeated_threads), std::end(repeated_threads)};
+  return {request.threads, request.threads, request.threads};
+}
 
 bool is_repeated(const CampaignPlan& plan, bool built_in) {
   return plan.policy.repeated_triangles > 0 && !built_in && !asks_queries_alone(plan);
 }
 
-void repeat_large_meshes(const CampaignRequest& request, Store& store, RunDeadline deadline,
+void repeat_large_meshes(const CampaignRequest& request, Store& store, LastingWorker& lasting,
+                         RunDeadline deadline,
                          const std::function<void(const std::string&)>& progress) {
   const auto& detector = request.detector;
   if (!is_repeated(request.plan, detector.built_in)) return;
   const EvidenceFacts stored = facts_in(store);
-  Repetitions repetitions(request, store);
+  Repetitions repetitions(request, store, lasting);
   std::uint64_t place = 0;
-  const auto put = [&](const std::string& input, bool is_judged, const auto& make) {
+  const auto put = [&](const std::string& input, JudgedSteps judged, const auto& make) {
     const bool is_stored =
         std::any_of(stored.repeated.begin(), stored.repeated.end(),
                     [&](const Repetition& known) { return known.input == input; });
     if (!request.shard.holds(place++) || is_stored) return;
     if (std::chrono::steady_clock::now() >= deadline) return;
     if (progress) progress(input);
-    repetitions.put(make(), is_judged);
+    repetitions.put(make(), judged);
   };
+  for (int number = 0; number < long_sequences; ++number)
+    put(name_of_long_sequence(number), JudgedSteps::all,
+        [&] { return long_sequence(request.seed, number); });
   for (int form = 0; form < forms_of_a_scene; ++form) {
     for (const auto& scene : corpus::scenes())
-      put(name_of_form(scene, form), true, [&] {
+      put(name_of_form(scene, form), JudgedSteps::some, [&] {
         return repeated_scene(scene, request.plan.policy.repeated_triangles, request.seed, form);
       });
   }
-  for (const auto& c : request.repeated) put(c.id, false, [&] { return c; });
+  for (const auto& c : request.repeated) put(c.id, JudgedSteps::none, [&] { return c; });
 }
 
 }  // namespace assay::properties

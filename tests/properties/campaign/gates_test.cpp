@@ -233,6 +233,17 @@ TEST(Gates, ADefectGoesBeforeWhatIsMissing) {
 }
 
 // What a contract leaves in has to be enough for a verdict.
+TEST(Gates, EveryShardAsksAPlugInAgainAtTheEnd) {
+  const Change plug_in = [](auto& f) { f.run.detector.built_in = false; };
+  const Change not_asked = [](auto& f) { f.evidence.asked_again.clear(); };
+  expect_certified({plug_in});
+  expect_certified({not_asked});
+  const auto judged = judged_after({plug_in, not_asked});
+  expect(judged, Gate::complete, "incomplete", 3);
+  EXPECT_EQ(judged.of(Gate::complete).reasons,
+            std::vector<std::string>{"0 of 1 shards asked the detector again at the end"});
+}
+
 TEST(Gates, WithoutContactsInsideTheContractNothingIsCertified) {
   const auto contacts = [](std::size_t stratum, std::uint64_t trials) -> Change {
     return [=](auto& f) {

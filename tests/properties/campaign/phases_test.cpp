@@ -2,15 +2,18 @@
 // seed.
 #include "properties/campaign/phases/phases.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <numeric>
 #include <set>
 
 #include "corpus/cases/case_file.h"
 #include "detector/mesh/topology.h"
 #include "properties/campaign/ledger/binding.h"
 #include "properties/campaign/phases/repetitions.h"
+#include "properties/judging/judged_run.h"
 #include "tests/properties/campaign/campaign_request.h"
 #include "tests/properties/small_case.h"
 #include "tests/reports/program.h"
@@ -77,8 +80,9 @@ TEST_F(Phases, TrialsHaveTheTimeWhileSomeAreMissing) {
 TEST_F(Phases, OnceTheTrialsAreDoneEverythingElseIs) {
   const auto noted = run(always_free(2, 60));
   EXPECT_TRUE(noted.trials.complete);
-  EXPECT_EQ(noted.phases, (std::vector<std::string>{"trials", "repetitions", "shrinking",
-                                                    "slow cases", "faults", "tetrahedron"}));
+  EXPECT_EQ(noted.phases,
+            (std::vector<std::string>{"trials", "repetitions", "shrinking", "slow cases", "faults",
+                                      "tetrahedron", "asked again"}));
 }
 
 // The six-fold volume that the mesh encloses; positive if its triangles are seen from outside.
@@ -130,6 +134,40 @@ TEST(LargeMeshes, AreKnownToNobodyBeforeTheSeed) {
     EXPECT_LE(*sizes.begin(), 400);
     EXPECT_GT(most_components, 3u);
   }
+}
+
+// An error that a detector makes after a hundred commits of one handle is to show.
+TEST(LargeMeshes, LongSequencesMeetThemselvesUpToTheirLastSteps) {
+  constexpr std::uint64_t seeds = 12;
+  constexpr std::size_t late = 100;
+  std::set<std::size_t> lengths;
+  std::set<Eigen::Index> sizes;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    for (int number = 0; number < long_sequences; ++number) {
+      const auto c = long_sequence(seed, number), same = long_sequence(seed, number);
+      SCOPED_TRACE(fmt::format("seed {}, {}, {} triangles", seed, c.id, c.triangles.rows()));
+      EXPECT_EQ(c.triangles, same.triangles);
+      EXPECT_EQ(c.frames, same.frames);
+      EXPECT_LE(c.triangles.rows(), 130);
+      sizes.insert(c.triangles.rows());
+      const std::size_t steps = corpus::steps_of(c).size();
+      lengths.insert(steps);
+      ASSERT_GE(steps, std::size_t{fewest_long_steps});
+      ASSERT_LE(steps, std::size_t{most_long_steps});
+      std::vector<std::size_t> last(steps - late);
+      std::iota(last.begin(), last.end(), late);
+      std::size_t colliding = 0, from_a_free_start = 0;
+      for (const auto& step : judge_case(with_steps(c, last))) {
+        if (step.pairs.empty()) continue;
+        ++colliding;
+        from_a_free_start += step.first.hi > 0 ? 1 : 0;
+      }
+      EXPECT_GT(colliding, 0u);
+      EXPECT_GT(from_a_free_start, 0u);
+    }
+  }
+  EXPECT_GT(lengths.size(), 10u);
+  EXPECT_GT(sizes.size(), 3u);
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ TEST_F(Repetitions, AnAnswerThatDependsOnThreadsOnLargeMeshesIsFound) {
       << made.out;
   const auto stated = predicate();
   EXPECT_EQ(stated["failed_gate"], "claims");
-  ASSERT_EQ(stated["repeated"].size(), 3 * corpus::scenes().size());
+  ASSERT_EQ(stated["repeated"].size(), 3 * corpus::scenes().size() + 2);
   std::size_t broken = 0;
   for (const auto& row : stated["repeated"]) {
     if (!row["broken"].get<bool>()) continue;
@@ -93,6 +93,22 @@ TEST_F(Repetitions, ADetectorThatIsWrongWhereManyPairsMeetIsFound) {
                           "ASSAY_QUERY='free-above=1900 from-pairs=2600' ");
   EXPECT_EQ(made.exit_code, 1) << made.out << made.err;
   EXPECT_TRUE(contains(made.out, "DEFECT free-sound: answered free, ")) << made.out;
+}
+
+// No other case has so many steps.
+TEST_F(Repetitions, ADetectorThatIsWrongAfterManyCommitsIsFound) {
+  for (const std::string claims : {"", " claims=129"}) {
+    std::filesystem::remove_all(out);
+    const auto made = judge("run", "steps_and_query", 400, "--part steps",
+                            "ASSAY_QUERY='free-after-commits=100" + claims + "' ");
+    EXPECT_EQ(made.exit_code, 1) << made.out << made.err;
+    EXPECT_TRUE(contains(made.out, "DEFECT free-sound: answered free, ")) << made.out;
+    EXPECT_TRUE(contains(made.out, ", large mesh")) << made.out;
+    const auto lines = replay_lines(made.out);
+    ASSERT_FALSE(lines.empty());
+    const auto again = run_assay(lines[0], "ASSAY_QUERY=free-after-commits=100 ");
+    EXPECT_EQ(again.exit_code, 1) << again.out << again.err;
+  }
 }
 
 TEST_F(Repetitions, TheSecondRunOfATrialAsksAgainAndWithOtherThreads) {
@@ -204,8 +220,8 @@ TEST_F(Repetitions, PublicSequencesAreRepeatedWhereTheyAreNamed) {
   const auto made = judge("certify", "threads_matter", 400, std::string("--data ") + data);
   EXPECT_EQ(made.exit_code, 1) << made.out << made.err;
   const auto stated = predicate();
-  // Three forms of each scene, and four public sequences as they are.
-  EXPECT_EQ(stated["repeated"].size(), 3 * corpus::scenes().size() + 4);
+  // Three forms of each scene, two long sequences, and four public sequences as they are.
+  EXPECT_EQ(stated["repeated"].size(), 3 * corpus::scenes().size() + 6);
   EXPECT_TRUE(contains(stated["replay"][0], " --data "));
   for (const auto& row : stated["repeated"])
     EXPECT_EQ(row["broken"],
