@@ -115,12 +115,12 @@ void check_trials(const RunFindings& f, const Asked& asked, Lines& lines) {
         fmt::format("{} of {} trials were disturbed from outside, 1 % may be", disturbed, trials));
 }
 
-// Checks that a plug-in was given every scene at the plan's size, and the long sequences.
+// Checks that a plug-in was given every scene at the plan's size, and the long sequence.
 void check_repetitions(const RunFindings& f, Lines& lines) {
   if (f.alone || !is_repeated(f.run.plan, f.run.detector.built_in)) return;
   std::vector<std::string> wanted;
   for (const auto& scene : corpus::scenes()) wanted.emplace_back(scene.name);
-  for (int i = 0; i < long_sequences; ++i) wanted.push_back(name_of_long_sequence(i));
+  wanted.emplace_back(name_of_long_sequence);
   const auto done = std::count_if(wanted.begin(), wanted.end(), [&](const std::string& name) {
     return std::any_of(f.evidence.repeated.begin(), f.evidence.repeated.end(),
                        [&](const Repetition& one) { return one.input == name; });

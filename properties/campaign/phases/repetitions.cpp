@@ -116,9 +116,7 @@ corpus::Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triang
   return c;
 }
 
-std::string name_of_long_sequence(int number) { return fmt::format("long-{}", number + 1); }
-
-corpus::Case long_sequence(std::uint64_t seed, int number) {
+corpus::Case long_sequence(std::uint64_t seed) {
   // Scenes that pierce themselves, and still do so under another map. Smaller spheres do not.
   constexpr std::string_view meeting[] = {"dented-sphere", "bend", "folding-sheet",
                                           "crumpling-sphere"};
@@ -129,7 +127,7 @@ corpus::Case long_sequence(std::uint64_t seed, int number) {
   // most 2 (0.25 + 0.08): the map never turns the mesh inside out.
   constexpr double most_drift = 0.08;
   corpus::Case c;
-  c.id = name_of_long_sequence(number);
+  c.id = name_of_long_sequence;
   Random random(fmt::format("{}{}:{}", repeated_in_id, seed, c.id));
   const auto name = meeting[random.below(static_cast<int>(std::size(meeting)))];
   corpus::SceneOptions options;
@@ -272,8 +270,8 @@ class Repetitions {
   const Configuration& configuration() const { return request_.detector.configurations.front(); }
 
   // Each run, by its place in threads_, has a process of its own, which it keeps from mesh to mesh.
-  // That of the first run is the lasting one. The last one is a second run in the process of the run before it. REQUIRES that the runs before
-  // it took place.
+  // That of the first run is the lasting one. The last run is a second one in the process of the
+  // run before it. REQUIRES that the runs before it took place.
   CaseRun run_once(const corpus::Case& c, std::size_t place) {
     const std::size_t process = place > 1 && place + 1 == threads_.size() ? place - 1 : place;
     if (process == workers_.size() + 1) {
@@ -434,9 +432,7 @@ void repeat_large_meshes(const CampaignRequest& request, Store& store, LastingWo
     if (progress) progress(input);
     repetitions.put(make(), judged);
   };
-  for (int number = 0; number < long_sequences; ++number)
-    put(name_of_long_sequence(number), JudgedSteps::all,
-        [&] { return long_sequence(request.seed, number); });
+  put(name_of_long_sequence, JudgedSteps::all, [&] { return long_sequence(request.seed); });
   for (int form = 0; form < forms_of_a_scene; ++form) {
     for (const auto& scene : corpus::scenes())
       put(name_of_form(scene, form), JudgedSteps::some, [&] {

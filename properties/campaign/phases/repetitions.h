@@ -39,13 +39,12 @@ corpus::Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triang
 // scene in which the mesh meets itself, of some tens of triangles, played there and back until all
 // steps are done: it meets itself again and again, up to the last steps. All of it goes through a
 // linear map near the identity that drifts slowly, so no step is like another. The seed draws the
-// scene, the size, the number of steps and the rest, as for repeated_scene. `number` is that of one
-// of long_sequences, from 0.
-inline constexpr int long_sequences = 2, fewest_long_steps = 120, most_long_steps = 200;
-corpus::Case long_sequence(std::uint64_t seed, int number);
-std::string name_of_long_sequence(int number);  // "long-1", by which it is stored
+// scene, the size, the number of steps and the rest, as for repeated_scene.
+inline constexpr int fewest_long_steps = 120, most_long_steps = 200;
+inline constexpr const char* name_of_long_sequence = "long-sequence";  // by which it is stored
+corpus::Case long_sequence(std::uint64_t seed);
 
-// Puts every scene of the corpus, as the seed draws it, the long sequences, and the request's other
+// Puts every scene of the corpus, as the seed draws it, the long sequence, and the request's other
 // sequences to the plug-in: with each of repeated_threads if it asks how many it may use, else
 // three times; once if it does not claim to be deterministic. Each run has a process of its own but
 // for the last, which is a second run in the process of the run before it; the process of the first
@@ -60,7 +59,7 @@ std::string name_of_long_sequence(int number);  // "long-1", by which it is stor
 // also judges up to two steps in which a claim is broken if the built-in detector is right. The
 // built-in detector chooses the steps, and decides nothing else. Where a claim is broken, that is a
 // failure of the run, whose mesh is the step alone, or, where it fails only after the steps before
-// it, the scene up to this step. Of a long sequence the oracle judges every step, and the first
+// it, the scene up to this step. Of the long sequence the oracle judges every step, and the first
 // four steps of each signature are kept.
 //
 // Throws StoreProblem; so it is for campaign/ alone.
