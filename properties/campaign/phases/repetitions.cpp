@@ -23,7 +23,7 @@ constexpr int most_hung_repetitions = 3;
 constexpr std::size_t most_differing = 2;  // steps of a sequence
 constexpr int most_kept = 4;               // steps of a sequence, of each signature
 // The lasting worker is asked again for so many sequences of small meshes.
-constexpr int most_remembered = 8;
+constexpr int most_remembered = 4;
 constexpr Eigen::Index largest_small_mesh = 600;
 
 // Gives the vertices other numbers, the triangles another order, and each of them another first
