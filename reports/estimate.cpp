@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "properties/random.h"
 
@@ -30,10 +31,18 @@ Estimate median_of(std::vector<double> samples) {
 
 Estimate exactly(double value) { return {value, value, value, {value}}; }
 
+namespace {
+
+std::vector<double> ratios(std::span<const double> a, std::span<const double> b) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < a.size(); ++i) out.push_back(a[i] / b[i]);
+  return out;
+}
+
+}  // namespace
+
 Estimate ratio_of(std::span<const double> a, std::span<const double> b) {
-  std::vector<double> ratios;
-  for (std::size_t i = 0; i < a.size(); ++i) ratios.push_back(a[i] / b[i]);
-  return median_of(std::move(ratios));
+  return median_of(ratios(a, b));
 }
 
 Estimate scaled(Estimate estimate, double factor) {
@@ -85,54 +94,52 @@ double median_in_place(std::vector<double>& values) {
   return (*std::max_element(values.begin(), middle) + *middle) / 2;
 }
 
-constexpr int draws = 2'000;
-// This share of the draws lies below the interval, and as much above it.
-constexpr double share_below = 0.025;
-
-properties::Random generator() { return properties::Random("percentile bootstrap"); }
+// Draws items with replacement 2,000 times, from generators that are seeded alike. `figure_of` gets
+// the indices that were drawn. The result is the interval that holds the middle 95 % of its values.
+template <class FigureOf>
+Estimate over_draws(std::size_t items, const FigureOf& figure_of) {
+  constexpr int draws = 2'000;
+  constexpr double share_below = 0.025;  // of the draws lies below the interval, and as much above
+  properties::Random random("percentile bootstrap");
+  std::vector<std::size_t> drawn(items);
+  std::vector<double> figures;
+  for (int d = 0; d < draws; ++d) {
+    for (auto& i : drawn) i = static_cast<std::size_t>(random.below(static_cast<int>(items)));
+    figures.push_back(figure_of(drawn));
+  }
+  return {0, quantile(figures, share_below), quantile(figures, 1 - share_below), {}};
+}
 
 }  // namespace
 
 Estimate bootstrap_median(std::vector<double> samples) {
-  properties::Random random = generator();
-  std::vector<double> drawn(samples.size()), medians;
-  const int n = static_cast<int>(samples.size());
-  for (int d = 0; d < draws; ++d) {
-    for (double& x : drawn) x = samples[static_cast<std::size_t>(random.below(n))];
-    medians.push_back(median_in_place(drawn));
-  }
-  drawn = samples;
-  const double lo = quantile(medians, share_below), hi = quantile(medians, 1 - share_below);
-  return {median_in_place(drawn), lo, hi, std::move(samples)};
+  std::vector<double> values = samples;
+  auto out = over_draws(samples.size(), [&](const std::vector<std::size_t>& drawn) {
+    for (std::size_t i = 0; i < drawn.size(); ++i) values[i] = samples[drawn[i]];
+    return median_in_place(values);
+  });
+  values = samples;
+  out.value = median_in_place(values);
+  out.samples = std::move(samples);
+  return out;
 }
 
 Estimate bootstrap_ratio(std::span<const double> a, std::span<const double> b) {
-  std::vector<double> ratios;
-  for (std::size_t i = 0; i < a.size(); ++i) ratios.push_back(a[i] / b[i]);
-  return bootstrap_median(std::move(ratios));
+  return bootstrap_median(ratios(a, b));
 }
 
 Estimate bootstrap_ratio_of_sums(std::span<const double> a, std::span<const double> b) {
-  properties::Random random = generator();
-  const int n = static_cast<int>(a.size());
-  std::vector<double> drawn, samples;
-  double all_a = 0, all_b = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    samples.push_back(a[i] / b[i]);
-    all_a += a[i];
-    all_b += b[i];
-  }
-  for (int d = 0; d < draws; ++d) {
+  const auto sums = [&](const std::vector<std::size_t>& items) {
     double sum_a = 0, sum_b = 0;
-    for (int k = 0; k < n; ++k) {
-      const auto i = static_cast<std::size_t>(random.below(n));
-      sum_a += a[i];
-      sum_b += b[i];
-    }
-    drawn.push_back(sum_a / sum_b);
-  }
-  return {all_a / all_b, quantile(drawn, share_below), quantile(drawn, 1 - share_below),
-          std::move(samples)};
+    for (const auto i : items) sum_a += a[i], sum_b += b[i];
+    return sum_a / sum_b;
+  };
+  auto out = over_draws(a.size(), sums);
+  std::vector<std::size_t> all(a.size());
+  std::iota(all.begin(), all.end(), 0);
+  out.value = sums(all);
+  out.samples = ratios(a, b);
+  return out;
 }
 
 }  // namespace assay::reports

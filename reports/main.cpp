@@ -14,7 +14,7 @@
 #include "oracle/libraries.h"
 #include "properties/words.h"
 #include "reports/terminal/complaint.h"
-#include "reports/terminal/version.h"
+#include "reports/terminal/words.h"
 #include "reports/verbs/verbs.h"
 
 namespace {

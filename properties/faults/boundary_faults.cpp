@@ -83,33 +83,25 @@ struct AlwaysCentroid : BoundaryHandler {
 
 std::vector<Fault> boundary_faults() {
   return {
-      planted<TakenAsClosed<always>>("boundary/open-taken-as-closed",
-                                     "holes are not looked for: every mesh is taken as closed",
-                                     "L11", "D1_open_allplus", 12),
-      planted<TakenAsClosed<edges_used_evenly>>(
-          "boundary/orientation-not-checked",
-          "a mesh with an even number of triangles at each edge is taken as closed, however they "
-          "are oriented",
-          "L12", "A5_one_face_flipped", 5),
-      planted<TakenAsClosed<no_edge_used_once>>(
-          "boundary/fin-taken-as-closed",
-          "a mesh without an edge of one triangle alone is taken as closed: three at an edge are "
-          "no cycle",
-          "L12", "F_fin", 5),
-      planted<ApexStaysBehind>("boundary/apex-stays-behind",
-                               "an apex stays where it is at t=0 and jumps between two steps",
-                               "L11", "F_apex_moves", 8),
-      planted<ApexAhead>("boundary/apex-ahead",
-                         "an apex is where it is at t=1 and jumps between two steps", "L11",
-                         "F_apex_in_step", 8),
-      planted<ApexChosenAnew>("boundary/apex-chosen-anew",
-                              "the rule of an apex is chosen anew at each step", "L11",
-                              "F_apex_rule_kept", 13),
-      unseen<AlwaysCentroid>(FaultStatus::equivalent, "boundary/always-centroid",
-                             "every apex is the centroid of its loop", "L11",
-                             "the proof of L3 asks for an apex that moves continuously and not "
-                             "where: the choice costs "
-                             "time only"),
+      {wrong<TakenAsClosed<always>>, "boundary/open-taken-as-closed", "L11", "D1_open_allplus", 12,
+       "holes are not looked for: every mesh is taken as closed"},
+      {wrong<TakenAsClosed<edges_used_evenly>>, "boundary/orientation-not-checked", "L12",
+       "A5_one_face_flipped", 5,
+       "a mesh with an even number of triangles at each edge is taken as closed, however they are "
+       "oriented"},
+      {wrong<TakenAsClosed<no_edge_used_once>>, "boundary/fin-taken-as-closed", "L12", "F_fin", 5,
+       "a mesh without an edge of one triangle alone is taken as closed: three at an edge are no "
+       "cycle"},
+      {wrong<ApexStaysBehind>, "boundary/apex-stays-behind", "L11", "F_apex_moves", 8,
+       "an apex stays where it is at t=0 and jumps between two steps"},
+      {wrong<ApexAhead>, "boundary/apex-ahead", "L11", "F_apex_in_step", 8,
+       "an apex is where it is at t=1 and jumps between two steps"},
+      {wrong<ApexChosenAnew>, "boundary/apex-chosen-anew", "L11", "F_apex_rule_kept", 13,
+       "the rule of an apex is chosen anew at each step"},
+      {wrong<AlwaysCentroid>, "boundary/always-centroid", "L11", "", 0,
+       "every apex is the centroid of its loop", with_points, FaultStatus::equivalent,
+       "the proof of L3 asks for an apex that moves continuously and not where: the choice costs "
+       "time only"},
   };
 }
 
@@ -117,11 +109,9 @@ std::vector<Fault> boundary_faults() {
 
 namespace {
 
-using detector::BoundaryHandler;
 using detector::FourPoints;
 using detector::GhostCounts;
 using detector::GhostSweep;
-using detector::MovingPoint;
 using detector::StopFunction;
 
 using Flags = std::vector<std::uint8_t>;
@@ -265,31 +255,26 @@ struct PiercedGhostsIgnored : BoundaryHandler {
 
 std::vector<Fault> ghost_faults() {
   return {
-      planted<NothingSwept>("boundary/no-ghost-sweep", "no ghost touches anything", "L11",
-                            "F_ghosts_swept", 12),
-      planted<OverlapAtEnds>("boundary/overlap-at-ends", "ghosts are tested at t=0 and t=1 only",
-                             "L11", "F_ghosts_between_ends", 12),
-      planted<GhostsNotMoved>("boundary/ghosts-not-moved", "ghosts stay where they are at t=0",
-                              "L11", "F_ghosts_move", 13),
-      planted<FirstLoopOnly>("boundary/first-loop-only", "ghosts of the first loop only are swept",
-                             "L11", "F_second_loop", 6),
-      planted<FlatGhostsSkipped>("boundary/flat-ghosts-skipped",
-                                 "a ghost without area at t=0 or t=1 is not swept", "L11",
-                                 "F_flat_ghost", 8),
-      planted<SweptVertexFaceOnly>("boundary/swept-vertex-face-only",
-                                   "ghosts are swept without edge-edge tests", "L11",
-                                   "F_ghost_edges", 5),
-      planted<PiercedGhostsIgnored>("boundary/pierced-ghosts-ignored",
-                                    "what pierces a ghost at a new start is not looked for", "L11",
-                                    "F_pierced_ghost", 8),
-      planted<LoopNeighboursSkipped<1>>(
-          "boundary/loop-neighbours-skipped",
-          "triangles that share a vertex with a ghost are not tested against it", "L11",
-          "F_loop_neighbours", 5),
-      planted<LoopNeighboursSkipped<2>>(
-          "boundary/loop-edge-neighbours-skipped",
-          "triangles that share an edge with a ghost are not tested against it", "L11",
-          "F_loop_edge_neighbours", 8),
+      {wrong<NothingSwept>, "boundary/no-ghost-sweep", "L11", "F_ghosts_swept", 12,
+       "no ghost touches anything"},
+      {wrong<OverlapAtEnds>, "boundary/overlap-at-ends", "L11", "F_ghosts_between_ends", 12,
+       "ghosts are tested at t=0 and t=1 only"},
+      {wrong<GhostsNotMoved>, "boundary/ghosts-not-moved", "L11", "F_ghosts_move", 13,
+       "ghosts stay where they are at t=0"},
+      {wrong<FirstLoopOnly>, "boundary/first-loop-only", "L11", "F_second_loop", 6,
+       "ghosts of the first loop only are swept"},
+      {wrong<FlatGhostsSkipped>, "boundary/flat-ghosts-skipped", "L11", "F_flat_ghost", 8,
+       "a ghost without area at t=0 or t=1 is not swept"},
+      {wrong<SweptVertexFaceOnly>, "boundary/swept-vertex-face-only", "L11", "F_ghost_edges", 5,
+       "ghosts are swept without edge-edge tests"},
+      {wrong<PiercedGhostsIgnored>, "boundary/pierced-ghosts-ignored", "L11", "F_pierced_ghost", 8,
+       "what pierces a ghost at a new start is not looked for"},
+      {wrong<LoopNeighboursSkipped<1>>, "boundary/loop-neighbours-skipped", "L11",
+       "F_loop_neighbours", 5,
+       "triangles that share a vertex with a ghost are not tested against it"},
+      {wrong<LoopNeighboursSkipped<2>>, "boundary/loop-edge-neighbours-skipped", "L11",
+       "F_loop_edge_neighbours", 8,
+       "triangles that share an edge with a ghost are not tested against it"},
   };
 }
 

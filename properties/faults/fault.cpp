@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "properties/faults/planting.h"
-#include "properties/words.h"
 
 namespace assay::properties {
 
@@ -33,10 +32,6 @@ std::size_t planted_count() {
   return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [](const Fault& fault) {
     return fault.status == FaultStatus::planted;
   }));
-}
-
-const char* name_of(FaultStatus status) {
-  return word_of({"planted", "open", "equivalent"}, status);
 }
 
 }  // namespace assay::properties

@@ -10,29 +10,41 @@
 
 #include "detector/options.h"
 #include "detector/step/stages.h"
+#include "properties/words.h"
 
 namespace assay::properties {
 
-enum class FaultStatus {
+enum class FaultStatus : std::uint8_t {
   planted,
   open,        // no case is known that shows it, and no proof that there is none
   equivalent,  // never shows: an invariant makes it as sound as the stage that it replaces
 };
 
-struct Fault {
-  std::string_view name;  // module/fault
-  std::string_view about;
-  std::string_view law;  // claim or law that must find it: "L2", "all-pairs (L7)"
-  FaultStatus status = FaultStatus::planted;
-  std::string_view reason;    // for open and equivalent faults: why they are so
-  detector::Options options;  // options of the detector that it is planted in
-  std::string_view curated;   // id of the curated case that shows it; "": none
+constexpr auto names_of(FaultStatus) {
+  using enum FaultStatus;
+  return std::to_array<Named<FaultStatus>>(
+      {{planted, "planted"}, {open, "open"}, {equivalent, "equivalent"}});
+}
+
+struct PlantedStage {
+  std::string_view stage;  // name of the stage that is replaced
+  detector::Stages (*stages)(const detector::Options&) = nullptr;
+};
+
+struct Fault : PlantedStage {
+  std::string_view name{};     // module/fault
+  std::string_view law{};      // claim or law that must find it: "L2", "all-pairs (L7)"
+  std::string_view curated{};  // id of the curated case that shows it; "": none
   // The number of vertices of the smallest mesh known that shows the fault, in the list that the
   // reducer is measured by; 0: none is known. That list is frozen. If its mesh has stated ghosts,
   // their apexes are counted, and the curated case of the fault may by now be smaller.
   int smallest_vertices = 0;
-  std::string_view stage;  // name of the stage that it replaces
-  detector::Stages (*stages)(const detector::Options&) = nullptr;
+  std::string_view about{};  // what is wrong, in a line
+  // Options of the detector that it is planted in; those of view points with all pairs, if a row
+  // of the registry states none.
+  detector::Options options{detector::Culling::view_point};
+  FaultStatus status = FaultStatus::planted;
+  std::string_view reason{};  // for open and equivalent faults: why they are so
   // The fault shows only in a disturbed run (fault_run.h).
   bool is_disturbed = false;
 };
@@ -45,7 +57,5 @@ const Fault* find_fault(std::string_view name);
 
 // How many of them have the status planted, and so have to be found.
 std::size_t planted_count();
-
-const char* name_of(FaultStatus status);
 
 }  // namespace assay::properties

@@ -184,30 +184,22 @@ Fault disturbed(Fault fault) {
 
 std::vector<Fault> search_faults() {
   return {
-      planted<ClearedForOthersToo>("marking/cleared-for-others-too",
-                                   "a flag that one leaf loses is cleared on all nodes above", "L3",
-                                   "F_cleared_for_others", 4),
-      planted<MarkedUntilAnyFlag>(
-          "marking/marked-until-any-flag",
-          "marking ends at a node that has some flag other than P, not at one that has this flag",
-          "L3", "F_marked_until_any_flag", 6),
-      planted<GatheredFromFirstChild>("marking/gathered-from-first-child",
-                                      "clearing gives a node the flags of its first child", "L3",
-                                      "F_gathered_from_first_child", 4),
-      planted<SkippedForOneSet>(
-          "search/skipped-for-one-set",
-          "a node is left for its only child in one partial tree, whatever the others hold", "L3",
-          "F_skipped_for_one_set", 5),
-      planted<FittedOnce>("search/fitted-once", "the tree is fitted to the first step and kept",
-                          "free-sound", "F_fitted_once", 6),
-      disturbed(planted<GoesOnAfterStop>(
-          "search/goes-on-after-stop",
-          "a step that was stopped leaves its place in the search behind, for the next one",
-          "deterministic", "F_after_stop", 7)),
-      disturbed(planted<CountedTogether>("search/counted-together",
-                                         "all detectors of the process count their box tests in "
-                                         "one place",
-                                         "deterministic", "F_counted_together", 4)),
+      {wrong<ClearedForOthersToo>, "marking/cleared-for-others-too", "L3", "F_cleared_for_others",
+       4, "a flag that one leaf loses is cleared on all nodes above"},
+      {wrong<MarkedUntilAnyFlag>, "marking/marked-until-any-flag", "L3", "F_marked_until_any_flag",
+       6, "marking ends at a node that has some flag other than P, not at one that has this flag"},
+      {wrong<GatheredFromFirstChild>, "marking/gathered-from-first-child", "L3",
+       "F_gathered_from_first_child", 4, "clearing gives a node the flags of its first child"},
+      {wrong<SkippedForOneSet>, "search/skipped-for-one-set", "L3", "F_skipped_for_one_set", 5,
+       "a node is left for its only child in one partial tree, whatever the others hold"},
+      {wrong<FittedOnce>, "search/fitted-once", "free-sound", "F_fitted_once", 6,
+       "the tree is fitted to the first step and kept"},
+      disturbed(Fault{
+          wrong<GoesOnAfterStop>, "search/goes-on-after-stop", "deterministic", "F_after_stop", 7,
+          "a step that was stopped leaves its place in the search behind, for the next one"}),
+      disturbed(Fault{wrong<CountedTogether>, "search/counted-together", "deterministic",
+                      "F_counted_together", 4,
+                      "all detectors of the process count their box tests in one place"}),
   };
 }
 
@@ -222,7 +214,6 @@ using detector::DirectedEdge;
 using detector::DirectionSet;
 using detector::MovingContour;
 using detector::NormalConeSearch;
-using detector::Topology;
 using Triangle = std::array<detector::MovingPoint, 3>;
 
 Triangle at_rest(Triangle triangle, bool at_end) {
@@ -303,39 +294,40 @@ struct PatchesOneByOne : NormalConeSearch {
   }
 };
 
-template <class Search>
-Fault cone(std::string_view name, std::string_view about, std::string_view curated, int vertices) {
-  return planted<Search>(name, about, "all-pairs (L13)", curated, vertices, with_cones);
-}
-
 }  // namespace
 
 std::vector<Fault> cone_faults() {
   return {
-      cone<NormalsAtEnd>("cone/normals-at-end", "a normal cone is that of the normals at t=1",
-                         "F_cone_normals_at_end", 4),
-      cone<NormalsAtBothEnds>("cone/normals-at-both-ends",
-                              "a normal cone is that of the normals at t=0 and t=1",
-                              "F_cone_normals_at_both_ends", 4),
-      cone<EdgeOnFaced>("cone/edge-on-faced", "N.d >= 0 is taken for N.d > 0", "F_cone_edge_on", 4),
-      cone<NoContourTest>("cone/no-contour-test",
-                          "a patch with a normal cone is held to be free without a contour test",
-                          "F_cone_no_contour_test", 5),
-      cone<ContourAtEnd>("cone/contour-at-end", "the contour is tested at t=1 only",
-                         "F_cone_contour_at_end", 5),
-      cone<JoinedAtVertex>("cone/joined-at-a-vertex", "patches that share a vertex only are merged",
-                           "F_cone_joined_at_vertex", 4),
-      cone<PatchesOneByOne>("cone/patches-one-by-one",
-                            "two patches that are each free and face one way are free together",
-                            "F_cone_patches_one_by_one", 5),
-      planted<PatchesOneByOne>("auto/patches-one-by-one",
-                               "what culling auto leaves out are patches that are each free", "L14",
-                               "F_auto_patches_one_by_one", 71,
-                               {detector::Culling::automatic, detector::Start::verified}),
-      planted<NormalsAtEnd>("auto/normals-at-end",
-                            "what culling auto leaves out faces one direction at t=1 alone", "L14",
-                            "F_auto_normals_at_end", 49,
-                            {detector::Culling::automatic, detector::Start::verified}),
+      {wrong<NormalsAtEnd>, "cone/normals-at-end", "all-pairs (L13)", "F_cone_normals_at_end", 4,
+       "a normal cone is that of the normals at t=1", with_cones},
+      {wrong<NormalsAtBothEnds>, "cone/normals-at-both-ends", "all-pairs (L13)",
+       "F_cone_normals_at_both_ends", 4, "a normal cone is that of the normals at t=0 and t=1",
+       with_cones},
+      {wrong<EdgeOnFaced>, "cone/edge-on-faced", "all-pairs (L13)", "F_cone_edge_on", 4,
+       "N.d >= 0 is taken for N.d > 0", with_cones},
+      {wrong<NoContourTest>, "cone/no-contour-test", "all-pairs (L13)", "F_cone_no_contour_test", 5,
+       "a patch with a normal cone is held to be free without a contour test", with_cones},
+      {wrong<ContourAtEnd>, "cone/contour-at-end", "all-pairs (L13)", "F_cone_contour_at_end", 5,
+       "the contour is tested at t=1 only", with_cones},
+      {wrong<JoinedAtVertex>, "cone/joined-at-a-vertex", "all-pairs (L13)",
+       "F_cone_joined_at_vertex", 4, "patches that share a vertex only are merged", with_cones},
+      {wrong<PatchesOneByOne>, "cone/patches-one-by-one", "all-pairs (L13)",
+       "F_cone_patches_one_by_one", 5,
+       "two patches that are each free and face one way are free together", with_cones},
+      {wrong<PatchesOneByOne>,
+       "auto/patches-one-by-one",
+       "L14",
+       "F_auto_patches_one_by_one",
+       71,
+       "what culling auto leaves out are patches that are each free",
+       {detector::Culling::automatic}},
+      {wrong<NormalsAtEnd>,
+       "auto/normals-at-end",
+       "L14",
+       "F_auto_normals_at_end",
+       49,
+       "what culling auto leaves out faces one direction at t=1 alone",
+       {detector::Culling::automatic}},
   };
 }
 

@@ -145,32 +145,26 @@ struct GhostSignsNotAsked : ReleaseRule {
 std::vector<Fault> start_faults() {
   using enum StartLayers;
   return {
-      planted<StartNotChecked>("state/start-not-checked", "every start is taken for clean", "L9",
-                               "C5_start_intersecting", 6),
-      planted<StartHalfChecked<false, true, by_piece>>("state/start-contacts-not-checked",
-                                                       "contacts at a new start are not looked for",
-                                                       "L9", "C5_start_intersecting", 6),
-      planted<StartHalfChecked<true, false, by_piece>>(
-          "state/start-ghosts-not-checked", "released without the ghost test at a new start", "L9",
-          "F_late_start", 22),
-      planted<StartHalfChecked<true, true, not_looked_at>>(
-          "state/start-layers-not-checked", "whatever touches nothing at a new start is clean",
-          "L9", "L9_shared_edge_two_layers", 22),
-      planted<StartHalfChecked<true, true, of_component>>(
-          "state/released-when-connected",
-          "the layer of one untouched triangle serves the whole component", "L9",
-          "L9_shared_edge_two_layers", 6),
-      planted<WindingNotChecked>("state/winding-not-checked",
-                                 "all positive is enough: the winding number is not asked for",
-                                 "L5", "A1_winding2_allpositive", 8),
-      planted<GhostSignsNotAsked>("state/ghost-signs-not-asked",
-                                  "all positive without the ghosts is enough", "L5",
-                                  "D1_open_allplus", 12),
-      unseen<LowestLayerIsCommon>(
-          FaultStatus::equivalent, "state/lowest-layer-is-common",
-          "the common layer is that of the lowest untouched triangle, not that of most", "L9",
-          "the proof of L3 needs one common layer and does not ask which: the choice costs pairs "
-          "only"),
+      {wrong<StartNotChecked>, "state/start-not-checked", "L9", "C5_start_intersecting", 6,
+       "every start is taken for clean"},
+      {wrong<StartHalfChecked<false, true, by_piece>>, "state/start-contacts-not-checked", "L9",
+       "C5_start_intersecting", 6, "contacts at a new start are not looked for"},
+      {wrong<StartHalfChecked<true, false, by_piece>>, "state/start-ghosts-not-checked", "L9",
+       "F_late_start", 22, "released without the ghost test at a new start"},
+      {wrong<StartHalfChecked<true, true, not_looked_at>>, "state/start-layers-not-checked", "L9",
+       "L9_shared_edge_two_layers", 22, "whatever touches nothing at a new start is clean"},
+      {wrong<StartHalfChecked<true, true, of_component>>, "state/released-when-connected", "L9",
+       "L9_shared_edge_two_layers", 6,
+       "the layer of one untouched triangle serves the whole component"},
+      {wrong<WindingNotChecked>, "state/winding-not-checked", "L5", "A1_winding2_allpositive", 8,
+       "all positive is enough: the winding number is not asked for"},
+      {wrong<GhostSignsNotAsked>, "state/ghost-signs-not-asked", "L5", "D1_open_allplus", 12,
+       "all positive without the ghosts is enough"},
+      {wrong<LowestLayerIsCommon>, "state/lowest-layer-is-common", "L9", "", 0,
+       "the common layer is that of the lowest untouched triangle, not that of most", with_points,
+       FaultStatus::equivalent,
+       "the proof of L3 needs one common layer and does not ask which: the choice costs pairs "
+       "only"},
   };
 }
 

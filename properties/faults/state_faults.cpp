@@ -130,8 +130,7 @@ class EvaluationKept : public ReleaseRule {
   mutable detector::Positions free_from_;
 };
 
-constexpr detector::Options auto_views = {detector::Culling::view_auto, detector::Start::verified,
-                                          detector::Pairs::all};
+constexpr detector::Options auto_views{detector::Culling::view_auto};
 constexpr detector::Options first_pairs = {detector::Culling::view_point, detector::Start::verified,
                                            detector::Pairs::first};
 
@@ -139,41 +138,30 @@ constexpr detector::Options first_pairs = {detector::Culling::view_point, detect
 
 std::vector<Fault> state_faults() {
   return {
-      planted<DirtyNotCarried>("state/dirty-not-carried",
-                               "doubt of a step's start does not outlive the step", "L8",
-                               "F_doubt_carried", 6),
-      planted<ViolatedNotCarried>("state/violated-not-carried",
-                                  "what a ghost touched is clean in the next step", "L8",
-                                  "D8_release_arm_sequence", 22),
-      planted<ReleasedOnNoContact>("state/released-on-no-contact",
-                                   "a step without contact releases everything", "L8",
-                                   "D8_release_arm_sequence", 22),
-      planted<ContactsNotCarried>("state/contacts-not-carried",
-                                  "what was in contact is clean in the next step", "L8",
-                                  "F_contacts_carried", 5),
-      planted<OneSideDirty>("state/one-side-dirty",
-                            "of a pair in contact only the lower triangle gets dirty", "L8",
-                            "F_contacts_carried", 5),
-      planted<FirstPairsAreAll>("state/first-pairs-are-all",
-                                "after a collision found by K alone the rest is taken for clean",
-                                "L8", "F_first_pairs_only", 6, first_pairs),
-      planted<LostByContactAlone>(
-          "state/lost-by-contact-alone",
-          "after a free step without views an open component is believed as clean as before", "L8",
-          "F_views_dropped", 47, auto_views),
-      planted<CarriedPastGhosts>("state/carried-past-ghosts",
-                                 "what was clean is clean after a step that swept no ghosts", "L15",
-                                 "F_views_dropped", 47, auto_views),
-      planted<OnlyMetAgainstGhosts>(
-          "state/only-met-against-ghosts",
-          "only triangles of the pairs that were found are tested against ghosts at the next start",
-          "L15", "F_views_dropped", 47, auto_views),
-      planted<KeptElsewhere>("state/kept-elsewhere",
-                             "the state is kept although the step starts at other positions", "L8",
-                             "F_start_elsewhere", 6),
-      planted<EvaluationKept>("state/evaluation-kept",
-                              "a free evaluation that was not committed releases what is dirty",
-                              "L8", "F_evaluation_kept", 6),
+      {wrong<DirtyNotCarried>, "state/dirty-not-carried", "L8", "F_doubt_carried", 6,
+       "doubt of a step's start does not outlive the step"},
+      {wrong<ViolatedNotCarried>, "state/violated-not-carried", "L8", "D8_release_arm_sequence", 22,
+       "what a ghost touched is clean in the next step"},
+      {wrong<ReleasedOnNoContact>, "state/released-on-no-contact", "L8", "D8_release_arm_sequence",
+       22, "a step without contact releases everything"},
+      {wrong<ContactsNotCarried>, "state/contacts-not-carried", "L8", "F_contacts_carried", 5,
+       "what was in contact is clean in the next step"},
+      {wrong<OneSideDirty>, "state/one-side-dirty", "L8", "F_contacts_carried", 5,
+       "of a pair in contact only the lower triangle gets dirty"},
+      {wrong<FirstPairsAreAll>, "state/first-pairs-are-all", "L8", "F_first_pairs_only", 6,
+       "after a collision found by K alone the rest is taken for clean", first_pairs},
+      {wrong<LostByContactAlone>, "state/lost-by-contact-alone", "L8", "F_views_dropped", 47,
+       "after a free step without views an open component is believed as clean as before",
+       auto_views},
+      {wrong<CarriedPastGhosts>, "state/carried-past-ghosts", "L15", "F_views_dropped", 47,
+       "what was clean is clean after a step that swept no ghosts", auto_views},
+      {wrong<OnlyMetAgainstGhosts>, "state/only-met-against-ghosts", "L15", "F_views_dropped", 47,
+       "only triangles of the pairs that were found are tested against ghosts at the next start",
+       auto_views},
+      {wrong<KeptElsewhere>, "state/kept-elsewhere", "L8", "F_start_elsewhere", 6,
+       "the state is kept although the step starts at other positions"},
+      {wrong<EvaluationKept>, "state/evaluation-kept", "L8", "F_evaluation_kept", 6,
+       "a free evaluation that was not committed releases what is dirty"},
   };
 }
 
@@ -181,11 +169,6 @@ std::vector<Fault> state_faults() {
 // (L9).
 
 namespace {
-
-using detector::GivenStep;
-using detector::ReleaseRule;
-using detector::StepCost;
-using detector::StepMarks;
 
 using Flags = std::vector<std::uint8_t>;
 using Components = std::vector<std::int32_t>;
@@ -300,30 +283,24 @@ std::vector<Fault> release_faults() {
   using G = Ghosts;
   using L = ReleasedLayers;
   return {
-      planted<ReleaseHalfChecked<C::tested, G::ignored, L::of_pieces>>(
-          "release/blind-to-ghosts", "released without looking at the ghosts", "L9",
-          "D8_release_arm_sequence", 22),
-      planted<ReleaseHalfChecked<C::ignored, G::tested, L::of_pieces>>(
-          "release/blind-to-contacts", "released although still in contact with the mesh", "L9",
-          "F_contacts_carried", 5),
-      planted<ReleaseHalfChecked<C::tested, G::tested, L::by_connection>>(
-          "release/released-when-connected",
-          "a clean neighbour is enough, also at an edge of four triangles", "L9",
-          "F_released_by_connection", 6),
-      planted<ReleaseHalfChecked<C::tested, G::tested, L::across_touched>>(
-          "release/linked-across-touched", "pieces go on through triangles that touch something",
-          "L9", "D8_release_arm_sequence", 22),
-      planted<ReleaseHalfChecked<C::tested, G::tested, L::not_looked_at>>(
-          "release/layers-not-checked", "what touches nothing is released, whatever its layer",
-          "L9", "D8_release_arm_sequence", 22),
-      planted<ReleasedWhileTouched>(
-          "release/released-while-touched",
-          "what still touches something is released beside a clean neighbour", "L9",
-          "F_released_while_touched", 5),
-      planted<WitnessesByPlace>(
-          "release/witnesses-by-place",
-          "the common layer is named by triangles whose place another component has clean", "L9",
-          "F_witness_of_another", 11),
+      {wrong<ReleaseHalfChecked<C::tested, G::ignored, L::of_pieces>>, "release/blind-to-ghosts",
+       "L9", "D8_release_arm_sequence", 22, "released without looking at the ghosts"},
+      {wrong<ReleaseHalfChecked<C::ignored, G::tested, L::of_pieces>>, "release/blind-to-contacts",
+       "L9", "F_contacts_carried", 5, "released although still in contact with the mesh"},
+      {wrong<ReleaseHalfChecked<C::tested, G::tested, L::by_connection>>,
+       "release/released-when-connected", "L9", "F_released_by_connection", 6,
+       "a clean neighbour is enough, also at an edge of four triangles"},
+      {wrong<ReleaseHalfChecked<C::tested, G::tested, L::across_touched>>,
+       "release/linked-across-touched", "L9", "D8_release_arm_sequence", 22,
+       "pieces go on through triangles that touch something"},
+      {wrong<ReleaseHalfChecked<C::tested, G::tested, L::not_looked_at>>,
+       "release/layers-not-checked", "L9", "D8_release_arm_sequence", 22,
+       "what touches nothing is released, whatever its layer"},
+      {wrong<ReleasedWhileTouched>, "release/released-while-touched", "L9",
+       "F_released_while_touched", 5,
+       "what still touches something is released beside a clean neighbour"},
+      {wrong<WitnessesByPlace>, "release/witnesses-by-place", "L9", "F_witness_of_another", 11,
+       "the common layer is named by triangles whose place another component has clean"},
   };
 }
 

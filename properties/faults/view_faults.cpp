@@ -110,63 +110,48 @@ ViewSign from_frozen_primitive(const MovingTriangle& triangle, const ViewPrimiti
 
 std::vector<Fault> view_point_faults() {
   return {
-      planted<Signs<sampled<Sample::start>>>(
-          "view/at-start-only", "the sign at t=0 is taken for the step's", "L2", "M_start", 4),
-      planted<Signs<sampled<Sample::middle>>>(
-          "view/in-the-middle-only", "the sign at t=1/2 is taken for the step's", "L2", "M_mid", 4),
-      planted<Signs<sampled<Sample::end>>>(
-          "view/at-end-only", "the sign at t=1 is taken for the step's", "L2", "M_end", 4),
-      planted<Signs<sampled<Sample::start, Sample::end>>>(
-          "view/at-ends-only", "equal signs at t=0 and t=1 are taken for the step's", "L2",
-          "A4_endpoints_only", 4),
-      planted<Signs<linear_in_time>>("view/linear-in-time",
-                                     "f runs along the line between its ends", "L2",
-                                     "A4_endpoints_only", 4),
-      planted<Signs<sampled<Sample::start, Sample::middle, Sample::end>>>(
-          "view/three-samples", "equal signs at t=0, 1/2, 1 are taken for the step's", "L2",
-          "A4b_three_samples", 4),
-      planted<Signs<frozen_normal>>("view/frozen-normal", "the normal stays as it is at t=0", "L2",
-                                    "M_frozenN", 4),
-      planted<Signs<frozen_corner>>("view/frozen-corner",
-                                    "p - q stays as it is at t=0, the normal moves", "L2",
-                                    "M_frozenV", 4),
-      planted<Signs<linear_normal>>("view/linear-normal",
-                                    "the normal runs along the line between its ends", "L2",
-                                    "M_linN", 4),
-      planted<Signs<without_cubic_term>>("view/cubic-term-dropped", "f without its t^3", "L2",
-                                         "M_dropcubic", 4),
-      planted<Signs<touching_zero_is_positive>>(
-          "view/touching-zero-is-positive", "f >= 0 is enough for V+: touching zero does not count",
-          "L2", "A3b_nonstrict_touch", 7),
-      planted<Signs<in_plain_doubles>>(
-          "view/plain-doubles",
-          "doubles without error bounds: a value near 0 may be promoted to V+", "L2",
-          "F_rounded_to_positive", 4),
-      planted<Signs<zero_merged<ViewSign::positive>>>("view/zero-is-positive",
-                                                      "V0 is merged into V+", "L3", "M_pZtoP", 4),
-      planted<Signs<zero_merged<ViewSign::negative>>>("view/zero-is-negative",
-                                                      "V0 is merged into V-", "L3", "M_pZtoM", 4),
-      planted<Signs<zero_area_is_positive>>(
-          "view/zero-area-is-positive", "a triangle that has no area at t=0 or t=1 goes into V+",
-          "L12", "A3_nonstrict_end", 7),
-      planted<Signs<positive_from_either_place>>(
-          "view/positive-from-either-place",
-          "positive from the moving point's place at t=0, or from that at "
-          "t=1",
-          "L10", "F_either_place", 4),
-      planted<Signs<from_frozen_primitive<Sample::end>>>(
-          "view/primitive-at-its-end",
-          "seen from the primitive's place at t=1, while the winding number "
-          "is that of its place at t=0",
-          "L5", "F_primitive_at_its_end", 6),
-      unseen<Signs<from_frozen_primitive<Sample::start>>>(
-          FaultStatus::equivalent, "view/primitive-stays",
-          "a moving primitive is taken where it is at t=0, for the whole step", "L3",
-          "any fixed place is one continuous field (L10), and the winding number is taken there; "
-          "where "
-          "the place at t=1 is trusted in the next step, it has winding number 1 or 0 in an "
-          "embedded "
-          "surface, and from winding number 0 not everything is positive"),
+      {wrong<Signs<sampled<Sample::start>>>, "view/at-start-only", "L2", "M_start", 4,
+       "the sign at t=0 is taken for the step's"},
+      {wrong<Signs<sampled<Sample::middle>>>, "view/in-the-middle-only", "L2", "M_mid", 4,
+       "the sign at t=1/2 is taken for the step's"},
+      {wrong<Signs<sampled<Sample::end>>>, "view/at-end-only", "L2", "M_end", 4,
+       "the sign at t=1 is taken for the step's"},
+      {wrong<Signs<sampled<Sample::start, Sample::end>>>, "view/at-ends-only", "L2",
+       "A4_endpoints_only", 4, "equal signs at t=0 and t=1 are taken for the step's"},
+      {wrong<Signs<linear_in_time>>, "view/linear-in-time", "L2", "A4_endpoints_only", 4,
+       "f runs along the line between its ends"},
+      {wrong<Signs<sampled<Sample::start, Sample::middle, Sample::end>>>, "view/three-samples",
+       "L2", "A4b_three_samples", 4, "equal signs at t=0, 1/2, 1 are taken for the step's"},
+      {wrong<Signs<frozen_normal>>, "view/frozen-normal", "L2", "M_frozenN", 4,
+       "the normal stays as it is at t=0"},
+      {wrong<Signs<frozen_corner>>, "view/frozen-corner", "L2", "M_frozenV", 4,
+       "p - q stays as it is at t=0, the normal moves"},
+      {wrong<Signs<linear_normal>>, "view/linear-normal", "L2", "M_linN", 4,
+       "the normal runs along the line between its ends"},
+      {wrong<Signs<without_cubic_term>>, "view/cubic-term-dropped", "L2", "M_dropcubic", 4,
+       "f without its t^3"},
+      {wrong<Signs<touching_zero_is_positive>>, "view/touching-zero-is-positive", "L2",
+       "A3b_nonstrict_touch", 7, "f >= 0 is enough for V+: touching zero does not count"},
+      {wrong<Signs<in_plain_doubles>>, "view/plain-doubles", "L2", "F_rounded_to_positive", 4,
+       "doubles without error bounds: a value near 0 may be promoted to V+"},
+      {wrong<Signs<zero_merged<ViewSign::positive>>>, "view/zero-is-positive", "L3", "M_pZtoP", 4,
+       "V0 is merged into V+"},
+      {wrong<Signs<zero_merged<ViewSign::negative>>>, "view/zero-is-negative", "L3", "M_pZtoM", 4,
+       "V0 is merged into V-"},
+      {wrong<Signs<zero_area_is_positive>>, "view/zero-area-is-positive", "L12", "A3_nonstrict_end",
+       7, "a triangle that has no area at t=0 or t=1 goes into V+"},
+      {wrong<Signs<positive_from_either_place>>, "view/positive-from-either-place", "L10",
+       "F_either_place", 4, "positive from the moving point's place at t=0, or from that at t=1"},
+      {wrong<Signs<from_frozen_primitive<Sample::end>>>, "view/primitive-at-its-end", "L5",
+       "F_primitive_at_its_end", 6,
+       "seen from the primitive's place at t=1, while the winding number is that of its place at "
+       "t=0"},
+      {wrong<Signs<from_frozen_primitive<Sample::start>>>, "view/primitive-stays", "L3", "", 0,
+       "a moving primitive is taken where it is at t=0, for the whole step", with_points,
+       FaultStatus::equivalent,
+       "any fixed place is one continuous field (L10), and the winding number is taken there; "
+       "where the place at t=1 is trusted in the next step, it has winding number 1 or 0 in an "
+       "embedded surface, and from winding number 0 not everything is positive"},
   };
 }
 
@@ -176,10 +161,6 @@ std::vector<Fault> view_point_faults() {
 namespace {
 
 using detector::MovingPoint;
-using detector::MovingTriangle;
-using detector::Polynomial;
-using detector::ViewPrimitive;
-using detector::ViewSign;
 
 ViewSign one_corner(const ViewPolynomials& view) { return sign_of(pieces_of_corner(view, 0)); }
 
@@ -271,56 +252,43 @@ ViewSign from_unclamped_axis(const ViewPolynomials& view) {
                       strict_sign(pieces_of_corner(view, 2).middle)});
 }
 
-template <auto sign>
-Fault line(std::string_view name, std::string_view about, std::string_view law,
-           std::string_view curated, int vertices) {
-  return planted<Signs<sign>>(name, about, law, curated, vertices, with_lines);
-}
-
-template <auto sign>
-Fault equivalent(std::string_view name, std::string_view about, std::string_view reason) {
-  return unseen<Signs<sign>>(FaultStatus::equivalent, name, about, "L10", reason, with_lines);
-}
-
 }  // namespace
 
 std::vector<Fault> view_line_faults() {
   return {
-      line<one_corner>("view-line/one-corner", "corner 0 alone, with its own nearest point", "L1",
-                       "B1_one_vertex_own_nearest", 7),
-      line<region_of_first_corner>(
-          "view-line/region-of-first-corner",
-          "the region that corner 0 is in at t=0, for all and for the step", "L1",
-          "B2_region_of_vertex0_at_start", 7),
-      line<frozen_nearest_point>("view-line/frozen-nearest-point",
-                                 "the point nearest to corner 0 at t=0, for all and for the step",
-                                 "L10", "B3_nearest_point_frozen", 7),
-      line<of_centroid>("view-line/centroid", "the centroid alone, with its own nearest point",
-                        "L1", "M_Lcentroid", 6),
-      line<positive_from_either_end>("view-line/positive-from-either-end",
-                                     "positive from q0 is enough, or from q1", "L10", "M_Leither",
-                                     6),
-      line<from_nearer_end>("view-line/nearer-end", "seen from the end nearer to corner 0 at t=0",
-                            "L10", "F_line_nearer_end", 6),
-      line<sampled<Sample::start>>("view-line/at-start-only",
-                                   "the sign at t=0 is taken for the step's", "L2", "M_Lstartall",
-                                   4),
-      line<sampled<Sample::start, Sample::end>>("view-line/at-ends-only",
-                                                "equal signs at t=0 and t=1 are the step's", "L2",
-                                                "M_Lendsall", 5),
-      line<from_midpoint>("view-line/midpoint-with-winding-of-an-end",
-                          "seen from the line's midpoint, while the winding number is that of q0",
-                          "L5", "F_line_midpoint_winding", 6),
-      equivalent<from_first_end>("view-line/from-first-end", "seen from q0 only",
-                                 "a single continuous field: the view from a point"),
-      midpoint_with_its_winding(equivalent<from_midpoint>(
-          "view-line/from-midpoint", "seen from the midpoint only, with its winding number",
-          "a single continuous field: the view from a point")),
-      equivalent<from_unclamped_axis>("view-line/unclamped-axis",
-                                      "seen from the whole axis, not from the segment",
-                                      "a single continuous field: the view from the axis"),
-      equivalent<with_swapped_ends>("view-line/swapped-ends", "q0 and q1 exchanged",
-                                    "the same field: the segment has no direction"),
+      {wrong<Signs<one_corner>>, "view-line/one-corner", "L1", "B1_one_vertex_own_nearest", 7,
+       "corner 0 alone, with its own nearest point", with_lines},
+      {wrong<Signs<region_of_first_corner>>, "view-line/region-of-first-corner", "L1",
+       "B2_region_of_vertex0_at_start", 7,
+       "the region that corner 0 is in at t=0, for all and for the step", with_lines},
+      {wrong<Signs<frozen_nearest_point>>, "view-line/frozen-nearest-point", "L10",
+       "B3_nearest_point_frozen", 7,
+       "the point nearest to corner 0 at t=0, for all and for the step", with_lines},
+      {wrong<Signs<of_centroid>>, "view-line/centroid", "L1", "M_Lcentroid", 6,
+       "the centroid alone, with its own nearest point", with_lines},
+      {wrong<Signs<positive_from_either_end>>, "view-line/positive-from-either-end", "L10",
+       "M_Leither", 6, "positive from q0 is enough, or from q1", with_lines},
+      {wrong<Signs<from_nearer_end>>, "view-line/nearer-end", "L10", "F_line_nearer_end", 6,
+       "seen from the end nearer to corner 0 at t=0", with_lines},
+      {wrong<Signs<sampled<Sample::start>>>, "view-line/at-start-only", "L2", "M_Lstartall", 4,
+       "the sign at t=0 is taken for the step's", with_lines},
+      {wrong<Signs<sampled<Sample::start, Sample::end>>>, "view-line/at-ends-only", "L2",
+       "M_Lendsall", 5, "equal signs at t=0 and t=1 are the step's", with_lines},
+      {wrong<Signs<from_midpoint>>, "view-line/midpoint-with-winding-of-an-end", "L5",
+       "F_line_midpoint_winding", 6,
+       "seen from the line's midpoint, while the winding number is that of q0", with_lines},
+      {wrong<Signs<from_first_end>>, "view-line/from-first-end", "L10", "", 0, "seen from q0 only",
+       with_lines, FaultStatus::equivalent, "a single continuous field: the view from a point"},
+      midpoint_with_its_winding(Fault{wrong<Signs<from_midpoint>>, "view-line/from-midpoint", "L10",
+                                      "", 0, "seen from the midpoint only, with its winding number",
+                                      with_lines, FaultStatus::equivalent,
+                                      "a single continuous field: the view from a point"}),
+      {wrong<Signs<from_unclamped_axis>>, "view-line/unclamped-axis", "L10", "", 0,
+       "seen from the whole axis, not from the segment", with_lines, FaultStatus::equivalent,
+       "a single continuous field: the view from the axis"},
+      {wrong<Signs<with_swapped_ends>>, "view-line/swapped-ends", "L10", "", 0,
+       "q0 and q1 exchanged", with_lines, FaultStatus::equivalent,
+       "the same field: the segment has no direction"},
   };
 }
 

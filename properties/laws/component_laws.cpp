@@ -11,12 +11,6 @@
 
 namespace assay::properties {
 
-// L10: a component by itself behaves as it does among others.
-
-// Checks one component, chosen by the case's id, if there are two or more and all pairs are asked
-// for (a collision of which only the first contacts are known makes all components dirty, L8).
-void check_component_alone(CaseFacts& facts, LawTally& tally);
-
 namespace {
 
 using detector::PairContact;
@@ -99,27 +93,6 @@ Observation components_are_clean_by_themselves(CaseFacts& facts, std::size_t s) 
   return holds();
 }
 
-constexpr Law component_law_table[] = {
-    {"L10_PairsOfTwoComponentsNeedNoSigns", "L10",
-     "Triangles of two components that meet are found, with their first time, also where both are "
-     "clean and of one strict sign.",
-     "pair set, view signs", each_step<pairs_of_two_components_need_no_signs>},
-    {"L10_ComponentsAreCleanByThemselves", "L10",
-     "At a new start with components in each other's boxes (nested, or interpenetrating) dirty is "
-     "what would be if each were alone: layers count the own component.",
-     "layers of each component alone", each_step<components_are_clean_by_themselves>},
-    {"L10_EachComponentAsIfAlone", "L10",
-     "A component run by itself, from its own primitive and apexes, has the same signs, doubts and "
-     "contacts of its own as among the others.",
-     "nothing", check_component_alone},
-};
-
-}  // namespace
-
-std::span<const Law> component_laws() { return component_law_table; }
-
-namespace {
-
 // Takes out one component. Vertices keep their numbers, but no triangle uses those of other
 // components.
 PinnedRun taken_out(const CaseFacts& facts, const PinnedRun& run, std::size_t component) {
@@ -168,8 +141,9 @@ std::string difference_alone(const CaseFacts& facts, const detector::StepResult&
   return next == alone.pairs.end() ? "" : "more contacts alone";
 }
 
-}  // namespace
-
+// A component by itself behaves as it does among others. One component is checked, chosen by the
+// case's id, if there are two or more and all pairs are asked for (a collision of which only the
+// first contacts are known makes all components dirty, L8).
 void check_component_alone(CaseFacts& facts, LawTally& tally) {
   const auto components = facts.surface().mesh.components.size();
   if (components < 2 || facts.options().pairs != detector::Pairs::all) return;
@@ -185,5 +159,24 @@ void check_component_alone(CaseFacts& facts, LawTally& tally) {
     note(facts, s, difference_alone(facts, facts.result(s), results[s], component), tally);
   }
 }
+
+constexpr Law component_law_table[] = {
+    {"L10_PairsOfTwoComponentsNeedNoSigns", "L10",
+     "Triangles of two components that meet are found, with their first time, also where both are "
+     "clean and of one strict sign.",
+     "pair set, view signs", each_step<pairs_of_two_components_need_no_signs>},
+    {"L10_ComponentsAreCleanByThemselves", "L10",
+     "At a new start with components in each other's boxes (nested, or interpenetrating) dirty is "
+     "what would be if each were alone: layers count the own component.",
+     "layers of each component alone", each_step<components_are_clean_by_themselves>},
+    {"L10_EachComponentAsIfAlone", "L10",
+     "A component run by itself, from its own primitive and apexes, has the same signs, doubts and "
+     "contacts of its own as among the others.",
+     "nothing", check_component_alone},
+};
+
+}  // namespace
+
+std::span<const Law> component_laws() { return component_law_table; }
 
 }  // namespace assay::properties

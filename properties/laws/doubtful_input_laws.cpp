@@ -19,29 +19,78 @@
 
 namespace assay::properties {
 
-// What L12 calls doubtful: input that is no surface of a body, and is answered all the same.
-
-// Some edge has three or more triangles, or is used twice in one direction.
-bool has_broken_edges(const CaseFacts& facts);
-
-// Two vertices of triangles are at one place at the start of the step.
-bool has_coincident_vertices(const CaseFacts& facts, std::size_t s);
-
-// The triangle is a segment or a point at one end of the step or at both. Decided exactly.
-bool has_zero_area(const CaseFacts& facts, std::size_t s, std::int32_t triangle);
-
-// Untouched triangles of one component lie on different layers: nested shells, parts turned inside
-// out.
-bool has_several_layers(CaseFacts& facts, std::size_t s);
-
-// L12: input that must be refused by name.
-
-// Repeats the case's own run, with every kind of bad call before each step.
-void check_bad_input(CaseFacts& facts, LawTally& tally);
-
 namespace {
 
 using detector::Answer;
+using detector::Detector;
+using detector::InputError;
+using detector::Positions;
+using detector::Triangles;
+
+// What L12 calls doubtful: input that is no surface of a body, and is answered all the same.
+
+// Some edge has three or more triangles, or is used twice in one direction.
+bool has_broken_edges(const CaseFacts& facts) {
+  const auto& mesh = facts.surface().mesh;
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    const auto around = mesh.edge_triangles.row(static_cast<std::int32_t>(e));
+    if (around.size() > 2) return true;
+    if (around.size() < 2) continue;
+    const auto runs_upward = [&](std::int32_t t) {
+      const auto& v = mesh.triangles[at(t)];
+      const auto i =
+          static_cast<std::size_t>(std::find(v.begin(), v.end(), mesh.edges[e][0]) - v.begin());
+      return v[(i + 1) % 3] == mesh.edges[e][1];
+    };
+    if (runs_upward(around[0]) == runs_upward(around[1])) return true;
+  }
+  return false;
+}
+
+// Two vertices of triangles are at one place at the start of the step.
+bool has_coincident_vertices(const CaseFacts& facts, std::size_t s) {
+  std::vector<detector::Point> places;
+  for (const auto& component : facts.surface().mesh.components) {
+    for (const auto v : component.vertices) places.push_back(detector::point_of(facts.x_t0(s), v));
+  }
+  std::sort(places.begin(), places.end());
+  return std::adjacent_find(places.begin(), places.end()) != places.end();
+}
+
+// Whether the area vector, computed in doubles, is farther from 0 than its rounding errors. Each
+// of two products has an error of 3 units of 2^-53 (two differences and one product), and their
+// difference has 2 more. The bound is twice that, to cover errors of second order. The answer is
+// false if the vector is nearer to 0, or if a product overflowed or vanished.
+bool surely_has_area(const detector::Positions& x, const std::array<std::int32_t, 3>& v) {
+  constexpr double error = 16 * 0x1p-53;
+  const Eigen::RowVector3d a = x.row(v[1]) - x.row(v[0]), b = x.row(v[2]) - x.row(v[0]);
+  const double product = a.cwiseAbs().maxCoeff() * b.cwiseAbs().maxCoeff();
+  return product > 0x1p-900 && a.cross(b).cwiseAbs().maxCoeff() > error * product;
+}
+
+// The triangle is a segment or a point at one end of the step or at both. Decided exactly.
+bool has_zero_area(const CaseFacts& facts, std::size_t s, std::int32_t triangle) {
+  const auto& v = facts.surface().mesh.triangles[at(triangle)];
+  for (const auto* x : {&facts.x_t0(s), &facts.x_t1(s)}) {
+    if (surely_has_area(*x, v)) continue;
+    const auto corner = [&](std::size_t i) { return detector::SteppedMesh{*x, *x}.path(v[i]); };
+    if (ExactView({corner(0), corner(1), corner(2)}, {}, 0).has_zero_area()) return true;
+  }
+  return false;
+}
+
+// Untouched triangles of one component lie on different layers: nested shells, parts turned inside
+// out.
+bool has_several_layers(CaseFacts& facts, std::size_t s) {
+  const auto& layers = facts.layers_at_start(s);
+  std::map<std::int32_t, oracle::Layer> of_component;
+  for (std::size_t t = 0; t < layers.layer.size(); ++t) {
+    if (!layers.layer[t]) continue;
+    const auto entry = of_component.try_emplace(layers.component[t], *layers.layer[t]).first;
+    if (entry->second != *layers.layer[t]) return true;
+  }
+  return false;
+}
 
 bool any_zero_area(CaseFacts& facts, std::size_t s) {
   const auto count = static_cast<std::int32_t>(facts.surface().mesh.triangles.size());
@@ -84,39 +133,6 @@ Observation zero_area_stays_in_v0(CaseFacts& facts, std::size_t s) {
   }
   return premise_held ? holds() : not_met();
 }
-
-constexpr Law doubtful_input_law_table[] = {
-    {"L12_NeverFreeOnAGuess_BrokenEdges", "L12",
-     "A mesh with edges of three or more triangles, or used twice in one direction, is answered "
-     "free only when it is.",
-     "pair set", each_step<broken_edges>},
-    {"L12_NeverFreeOnAGuess_Collapsed", "L12",
-     "A mesh with triangles of no area or vertices at one place is answered free only when it is.",
-     "pair set", each_step<collapsed>},
-    {"L12_NeverFreeOnAGuess_SeveralLayers", "L12",
-     "A mesh with untouched triangles of one component on several layers is answered free only "
-     "when it is.",
-     "pair set, layers", each_step<several_layers>},
-    {"L12_ZeroAreaStaysInV0", "L12",
-     "A triangle that is a segment or a point at an end of the step has no sign.", "nothing",
-     each_step<zero_area_stays_in_v0>},
-    {"L12_BadInputIsNamedAndChangesNothing", "L12",
-     "An index out of range or repeated, three vertices used twice, a frame of another size, a "
-     "coordinate that is not finite, a wrong number of primitives and a commit of nothing are each "
-     "refused by name, and the next valid step is answered as if they had not been.",
-     "nothing", check_bad_input, one_case_in_16},
-};
-
-}  // namespace
-
-std::span<const Law> doubtful_input_laws() { return doubtful_input_law_table; }
-
-namespace {
-
-using detector::Detector;
-using detector::InputError;
-using detector::Positions;
-using detector::Triangles;
 
 // Empty if the mesh is refused for that reason.
 std::string create_wrong(const CaseFacts& facts, const Triangles& triangles, const Positions& x,
@@ -181,8 +197,8 @@ std::string step_wrongly(Detector& detector, const CaseFacts& facts, std::size_t
   return {};
 }
 
-}  // namespace
-
+// Input that must be refused by name: repeats the case's own run, with every kind of bad call
+// before each step.
 void check_bad_input(CaseFacts& facts, LawTally& tally) {
   const auto run = pinned_run(facts);
   auto player = run ? PinnedPlayer::make(*run, facts.options(), facts.stages_of()) : std::nullopt;
@@ -201,66 +217,30 @@ void check_bad_input(CaseFacts& facts, LawTally& tally) {
   }
 }
 
-bool has_broken_edges(const CaseFacts& facts) {
-  const auto& mesh = facts.surface().mesh;
-  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
-    const auto around = mesh.edge_triangles.row(static_cast<std::int32_t>(e));
-    if (around.size() > 2) return true;
-    if (around.size() < 2) continue;
-    const auto runs_upward = [&](std::int32_t t) {
-      const auto& v = mesh.triangles[at(t)];
-      const auto i =
-          static_cast<std::size_t>(std::find(v.begin(), v.end(), mesh.edges[e][0]) - v.begin());
-      return v[(i + 1) % 3] == mesh.edges[e][1];
-    };
-    if (runs_upward(around[0]) == runs_upward(around[1])) return true;
-  }
-  return false;
-}
-
-bool has_coincident_vertices(const CaseFacts& facts, std::size_t s) {
-  std::vector<detector::Point> places;
-  for (const auto& component : facts.surface().mesh.components) {
-    for (const auto v : component.vertices) places.push_back(detector::point_of(facts.x_t0(s), v));
-  }
-  std::sort(places.begin(), places.end());
-  return std::adjacent_find(places.begin(), places.end()) != places.end();
-}
-
-namespace {
-
-// Whether the area vector, computed in doubles, is farther from 0 than its rounding errors. Each
-// of two products has an error of 3 units of 2^-53 (two differences and one product), and their
-// difference has 2 more. The bound is twice that, to cover errors of second order. The answer is
-// false if the vector is nearer to 0, or if a product overflowed or vanished.
-bool surely_has_area(const detector::Positions& x, const std::array<std::int32_t, 3>& v) {
-  constexpr double error = 16 * 0x1p-53;
-  const Eigen::RowVector3d a = x.row(v[1]) - x.row(v[0]), b = x.row(v[2]) - x.row(v[0]);
-  const double product = a.cwiseAbs().maxCoeff() * b.cwiseAbs().maxCoeff();
-  return product > 0x1p-900 && a.cross(b).cwiseAbs().maxCoeff() > error * product;
-}
+constexpr Law doubtful_input_law_table[] = {
+    {"L12_NeverFreeOnAGuess_BrokenEdges", "L12",
+     "A mesh with edges of three or more triangles, or used twice in one direction, is answered "
+     "free only when it is.",
+     "pair set", each_step<broken_edges>},
+    {"L12_NeverFreeOnAGuess_Collapsed", "L12",
+     "A mesh with triangles of no area or vertices at one place is answered free only when it is.",
+     "pair set", each_step<collapsed>},
+    {"L12_NeverFreeOnAGuess_SeveralLayers", "L12",
+     "A mesh with untouched triangles of one component on several layers is answered free only "
+     "when it is.",
+     "pair set, layers", each_step<several_layers>},
+    {"L12_ZeroAreaStaysInV0", "L12",
+     "A triangle that is a segment or a point at an end of the step has no sign.", "nothing",
+     each_step<zero_area_stays_in_v0>},
+    {"L12_BadInputIsNamedAndChangesNothing", "L12",
+     "An index out of range or repeated, three vertices used twice, a frame of another size, a "
+     "coordinate that is not finite, a wrong number of primitives and a commit of nothing are each "
+     "refused by name, and the next valid step is answered as if they had not been.",
+     "nothing", check_bad_input, one_case_in_16},
+};
 
 }  // namespace
 
-bool has_zero_area(const CaseFacts& facts, std::size_t s, std::int32_t triangle) {
-  const auto& v = facts.surface().mesh.triangles[at(triangle)];
-  for (const auto* x : {&facts.x_t0(s), &facts.x_t1(s)}) {
-    if (surely_has_area(*x, v)) continue;
-    const auto corner = [&](std::size_t i) { return detector::SteppedMesh{*x, *x}.path(v[i]); };
-    if (ExactView({corner(0), corner(1), corner(2)}, {}, 0).has_zero_area()) return true;
-  }
-  return false;
-}
-
-bool has_several_layers(CaseFacts& facts, std::size_t s) {
-  const auto& layers = facts.layers_at_start(s);
-  std::map<std::int32_t, oracle::Layer> of_component;
-  for (std::size_t t = 0; t < layers.layer.size(); ++t) {
-    if (!layers.layer[t]) continue;
-    const auto entry = of_component.try_emplace(layers.component[t], *layers.layer[t]).first;
-    if (entry->second != *layers.layer[t]) return true;
-  }
-  return false;
-}
+std::span<const Law> doubtful_input_laws() { return doubtful_input_law_table; }
 
 }  // namespace assay::properties

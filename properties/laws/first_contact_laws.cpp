@@ -89,7 +89,6 @@ std::span<const Law> first_contact_laws() { return first_contact_law_table; }
 namespace {
 
 using detector::Answer;
-using detector::PairContact;
 
 Observation closure_is_the_pair_set(CaseFacts& facts, std::size_t s) {
   if (!facts.is_judged(s) || !facts.is_trusted(s)) return not_met();

@@ -68,8 +68,6 @@ std::span<const Law> one_sign_laws() { return one_sign_law_table; }
 
 namespace {
 
-using detector::ViewSign;
-
 bool is_cycle(const CaseFacts& facts, std::size_t component) {
   return facts.surface().mesh.components[component].is_cycle;
 }

@@ -116,8 +116,6 @@ std::span<const Law> view_value_laws() { return view_value_law_table; }
 
 namespace {
 
-using detector::ViewSign;
-
 // Compares the signs of the triangles from `begin` to `end` of the surface. It looks only at
 // components whose primitive is a point, or only at those whose primitive is not.
 Observation compare_signs(CaseFacts& facts, std::size_t s, std::size_t begin, std::size_t end,

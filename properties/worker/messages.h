@@ -1,6 +1,6 @@
 // What travels between the host and its worker, field by field, and the rules that a worker's
-// replies must keep to be believed. A new field of a result or an option does not compile here
-// until it is named: in the binding and in the call below it.
+// replies must keep to be believed. A new field of a result or an option does not compile
+// until it is named here.
 #pragma once
 
 #include <cstdint>
@@ -20,55 +20,11 @@
 
 namespace assay::properties {
 
-template <>
-struct TravelsAsBytes<detector::Point> : std::true_type {};
-template <>
-struct TravelsAsBytes<detector::MovingPoint> : std::true_type {};
-template <>
-struct TravelsAsBytes<detector::FourPoints> : std::true_type {};
-template <>
-struct TravelsAsBytes<detector::TimeEnclosure> : std::true_type {};
-template <>
-struct TravelsAsBytes<detector::TrianglePair> : std::true_type {};
-template <>
-struct TravelsAsBytes<detector::PairContact> : std::true_type {};
-template <>
-struct TravelsAsBytes<detector::ViewPrimitive> : std::true_type {};
-template <>
-struct TravelsAsBytes<detector::StepCounts> : std::true_type {};
-template <>
-struct TravelsAsBytes<detector::StepTimes> : std::true_type {};
-template <>
-struct TravelsAsBytes<corpus::CaseStep> : std::true_type {};
-
-template <class Wire>
-void fields(Wire& wire, detector::Options& options) {
-  auto& [culling, start, pairs, arithmetic, threads] = options;
-  wire("culling", culling, "start", start, "pairs", pairs, "arithmetic", arithmetic, "threads",
-       threads);
-}
-
-template <class Wire>
-void fields(Wire& wire, detector::Problem& problem) {
-  auto& [error, message] = problem;
-  wire("error", error, "message", message);
-}
-
-template <class Wire>
-void fields(Wire& wire, detector::StepResult& result) {
-  auto& [answer, problem, first, pairs, positive, negative, zero, against_all, violated, dirty,
-         views, doubts, signs, primitives, apexes, counts, times] = result;
-  wire("answer", answer, "problem", problem, "first", first, "pairs", pairs, "positive", positive,
-       "negative", negative, "zero", zero, "against_all", against_all, "violated", violated,
-       "dirty", dirty, "views", views, "doubts", doubts, "signs", signs, "primitives", primitives,
-       "apexes", apexes, "counts", counts, "times", times);
-}
-
-template <class Wire>
-void fields(Wire& wire, RunTimes& times) {
-  auto& [create, steps, peak_bytes] = times;
-  wire("create", create, "steps", steps, "peak_bytes", peak_bytes);
-}
+ASSAY_FIELDS(detector::Options, culling, start, pairs, arithmetic, threads)
+ASSAY_FIELDS(detector::Problem, error, message)
+ASSAY_FIELDS(detector::StepResult, answer, problem, first, pairs, positive, negative, zero,
+             against_all, violated, dirty, views, doubts, signs, primitives, apexes, counts, times)
+ASSAY_FIELDS(RunTimes, create, steps, peak_bytes)
 
 template <class Wire>
 void fields(Wire& wire, CaseRun& run) {
@@ -79,16 +35,8 @@ void fields(Wire& wire, CaseRun& run) {
        errors, "has_answers", has_answers, "times", times);
 }
 
-template <class Wire>
-void fields(Wire& wire, Configuration& configuration) {
-  auto& [name, options, fault, is_timed] = configuration;
-  wire("name", name, "options", options, "fault", fault, "is_timed", is_timed);
-}
-
-template <class Wire>
-void fields(Wire& wire, corpus::CaseView& view) {
-  wire("q0", view.q0, "q1", view.q1);
-}
+ASSAY_FIELDS(Configuration, name, options, fault, is_timed)
+ASSAY_FIELDS(corpus::CaseView, q0, q1)
 
 // Only what a detector may know travels, and never the expected facts.
 template <class Wire>
@@ -104,25 +52,10 @@ void fields(Wire& wire, Claims& claims) {
   claims = Claims::of_bits(bits);
 }
 
-template <class Wire>
-void fields(Wire& wire, Isolation& isolation) {
-  auto& [files, processes, calls] = isolation;
-  wire("files", files, "processes", processes, "calls", calls);
-}
-
-template <class Wire>
-void fields(Wire& wire, KeeperHello& hello) {
-  wire("wire_version", hello.wire_version, "isolation", hello.isolation, "process", hello.process,
-       "has_copies", hello.has_copies);
-}
-
-template <class Wire>
-void fields(Wire& wire, PluginDescription& description) {
-  auto& [name, version, claims, contract, parts] = description;
-  auto& [steps, query, candidates, takes_threads] = parts;
-  wire("name", name, "version", version, "claims", claims, "contract", contract, "steps", steps,
-       "query", query, "candidates", candidates, "takes_threads", takes_threads);
-}
+ASSAY_FIELDS(Isolation, files, processes, calls)
+ASSAY_FIELDS(KeeperHello, wire_version, isolation, process, has_copies)
+ASSAY_FIELDS(PluginParts, steps, query, candidates, takes_threads)
+ASSAY_FIELDS(PluginDescription, name, version, claims, contract, parts)
 
 // The worker's first message: who it is, or why it cannot serve.
 struct Hello {
@@ -131,12 +64,7 @@ struct Hello {
   bool serves = true;
   std::string refusal;  // why it does not
 };
-
-template <class Wire>
-void fields(Wire& wire, Hello& hello) {
-  wire("wire_version", hello.wire_version, "description", hello.description, "serves", hello.serves,
-       "refusal", hello.refusal);
-}
+ASSAY_FIELDS(Hello, wire_version, description, serves, refusal)
 
 // What a request asks for.
 enum class RequestKind : std::uint8_t { run, queries };
@@ -149,49 +77,28 @@ struct RunRequest {
   corpus::Case c;
   std::vector<Configuration> configurations;
 };
-
-template <class Wire>
-void fields(Wire& wire, RunRequest& request) {
-  wire("number", request.number, "c", request.c, "configurations", request.configurations);
-}
+ASSAY_FIELDS(RunRequest, number, c, configurations)
 
 struct RunReply {
   std::uint64_t number = 0;  // of the request
   std::uint64_t place = 0;   // of the configuration in it
   CaseRun run;
 };
-
-template <class Wire>
-void fields(Wire& wire, RunReply& reply) {
-  wire("number", reply.number, "place", reply.place, "run", reply.run);
-}
+ASSAY_FIELDS(RunReply, number, place, run)
 
 // Elementary queries of a plug-in; one QueryReply comes back for all.
 struct QueryRequest {
   std::uint64_t number = 0;  // drawn for this request
   std::vector<detector::FourPoints> queries;
 };
-
-template <class Wire>
-void fields(Wire& wire, QueryRequest& request) {
-  wire("number", request.number, "queries", request.queries);
-}
-
-template <class Wire>
-void fields(Wire& wire, QueryAnswer& answer) {
-  auto& [answered, first, explanation] = answer;
-  wire("answered", answered, "first", first, "explanation", explanation);
-}
+ASSAY_FIELDS(QueryRequest, number, queries)
+ASSAY_FIELDS(QueryAnswer, answered, first, explanation)
 
 struct QueryReply {
   std::uint64_t number = 0;          // of the request
   std::vector<QueryAnswer> answers;  // one for each query
 };
-
-template <class Wire>
-void fields(Wire& wire, QueryReply& reply) {
-  wire("number", reply.number, "answers", reply.answers);
-}
+ASSAY_FIELDS(QueryReply, number, answers)
 
 // What a worker receives: one of the two.
 struct Request {

@@ -11,18 +11,29 @@
 #include <cstring>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
+#include "corpus/cases/case_file.h"
 #include "detector/mesh/enum_names.h"
+#include "detector/mesh/step_types.h"
+#include "detector/step_result.h"
 #include "properties/fields.h"
 
 namespace assay::properties {
 
+template <class T, class... Other>
+inline constexpr bool is_one_of = (std::is_same_v<T, Other> || ...);
+
 // Types whose values travel as their bytes. They are listed by name, so that a type that gains a
 // pointer does not slip through.
 template <class T>
-struct TravelsAsBytes : std::bool_constant<std::is_arithmetic_v<T> || std::is_enum_v<T>> {};
+inline constexpr bool travels_as_bytes =
+    std::is_arithmetic_v<T> || std::is_enum_v<T> ||
+    is_one_of<T, detector::Point, detector::MovingPoint, detector::FourPoints,
+              detector::TimeEnclosure, detector::TrianglePair, detector::PairContact,
+              detector::ViewPrimitive, detector::StepCounts, detector::StepTimes, corpus::CaseStep>;
 
 // The greatest value of an enum, whose values count from 0; a message with another value is
 // invalid. An enum that lists its values needs no more; for another one that travels by itself it
@@ -34,15 +45,19 @@ class WireWriter : public NamedFields<WireWriter> {
  public:
   // Names are for other archives; the two ends of a message are built from the same list.
   template <class T>
-  void field(const char*, T& item) {
+  void field(std::string_view, T& item) {
     put(item);
+  }
+  template <class... T>
+  void list(std::string_view, T&... items) {
+    (put(items), ...);
   }
   std::string take() { return std::move(bytes_); }
 
  private:
   template <class T>
   void put(T& item) {
-    if constexpr (TravelsAsBytes<std::remove_const_t<T>>::value) {
+    if constexpr (travels_as_bytes<std::remove_const_t<T>>) {
       put_bytes(&item, sizeof item);
     } else {
       fields(*this, item);
@@ -51,7 +66,7 @@ class WireWriter : public NamedFields<WireWriter> {
   void put(std::string& text) { put_array(text.data(), text.size()); }
   template <class T>
   void put(std::vector<T>& items) {
-    if constexpr (TravelsAsBytes<T>::value) {
+    if constexpr (travels_as_bytes<T>) {
       put_array(items.data(), items.size());
     } else {
       put_size(items.size());
@@ -91,8 +106,12 @@ class WireReader : public NamedFields<WireReader> {
  public:
   explicit WireReader(const std::string& bytes) : next_(bytes.data()), left_(bytes.size()) {}
   template <class T>
-  void field(const char*, T& item) {
+  void field(std::string_view, T& item) {
     get(item);
+  }
+  template <class... T>
+  void list(std::string_view, T&... items) {
+    (get(items), ...);
   }
   bool ok() const { return ok_; }
   // The whole message was read, and nothing is left.
@@ -105,7 +124,7 @@ class WireReader : public NamedFields<WireReader> {
       get_up_to(item, std::uint8_t{1});
     } else if constexpr (std::is_enum_v<T>) {
       get_up_to(item, static_cast<std::underlying_type_t<T>>(last_of<T>));
-    } else if constexpr (TravelsAsBytes<T>::value) {
+    } else if constexpr (travels_as_bytes<T>) {
       get_bytes(&item, sizeof item);
     } else {
       fields(*this, item);
@@ -125,7 +144,7 @@ class WireReader : public NamedFields<WireReader> {
   }
   template <class T>
   void get(std::vector<T>& items) {
-    if constexpr (TravelsAsBytes<T>::value) {
+    if constexpr (travels_as_bytes<T>) {
       items.resize(get_count(sizeof(T)));
       get_bytes(items.data(), items.size() * sizeof(T));
     } else {

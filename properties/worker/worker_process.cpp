@@ -229,28 +229,18 @@ struct WorkerProcess::Parts {
     const std::uint64_t number = draw_number();
     const std::string request = encode(RequestKind::run, number, c, rest);
     WorkerWatch watch(live->child, limits.seconds, live->plugin);
-    const Patience patience = [&] { return watch.patience(); };
-    Transfer transfer = live->channel.send(request, patience);
-    std::string message;
+    const Transfer transfer = live->channel.send(request, [&] { return watch.patience(); });
     for (std::size_t i = 0; i < rest.size(); ++i) {
-      if (transfer == Transfer::done) {
-        transfer = live->channel.receive(message, patience, longest_reply(c));
-      }
       RunReply reply;
-      if (transfer == Transfer::done || transfer == Transfer::too_long) {
-        auto rule = broken_rule_of(transfer, message, c, {number, i, {}}, reply);
+      const auto heard = hear(watch, transfer, longest_reply(c), "this case", reply, runs, [&] {
+        if (reply.number != number || reply.place != i) return std::string("to another request");
+        auto rule = plugin_library ? broken_rule(c, reply.run, description) : "";
         if (rule.empty() && reply.run.end == RunEnd::completed &&
             reply.run.times.has_value() != rest[i].is_timed)
           rule = "times that nobody asked for, or none";
-        if (!rule.empty()) {
-          end_rule_breaker(watch, rule, runs);
-          return;
-        }
-      }
-      if (transfer != Transfer::done) {
-        end_silent_worker(watch, transfer == Transfer::timed_out && !watch.has_ended(), runs);
-        return;
-      }
+        return rule;
+      });
+      if (heard != Heard::reply) return;
       CaseRun run = std::move(reply.run);
       run.processor_seconds = watch.next_case();
       run.printed = live->take_printed();
@@ -272,28 +262,18 @@ struct WorkerProcess::Parts {
     const std::vector<detector::FourPoints> copy(queries.begin(), queries.end());
     const std::string request = encode(RequestKind::queries, number, copy);
     WorkerWatch watch(live->child, limits.seconds, live->plugin);
-    const Patience patience = [&] { return watch.patience(); };
-    Transfer transfer = live->channel.send(request, patience);
-    std::string message;
-    if (transfer == Transfer::done)
-      transfer = live->channel.receive(message, patience, longest_query_reply(queries.size()));
+    const Transfer transfer = live->channel.send(request, [&] { return watch.patience(); });
     QueryReply reply;
-    if (transfer == Transfer::done || transfer == Transfer::too_long) {
-      const auto rule = broken_rule_of(transfer, message, queries.size(), number, reply);
-      if (!rule.empty()) {
-        end_rule_breaker(watch, rule, runs);
-        if (queries.size() == 1) return Asked::answered;
-        runs.pop_back();
-        return Asked::in_halves;
-      }
-    }
-    if (transfer != Transfer::done) {
-      const bool is_hung = transfer == Transfer::timed_out && !watch.has_ended();
-      const std::size_t before = runs.size();
-      end_silent_worker(watch, is_hung, runs);
+    const std::size_t before = runs.size();
+    const auto heard = hear(
+        watch, transfer, longest_query_reply(queries.size()), "these queries", reply, runs, [&] {
+          return reply.number != number ? "to another request"
+                                        : broken_rule(queries.size(), reply.answers);
+        });
+    if (heard != Heard::reply) {
       if (queries.size() == 1) return Asked::answered;
       runs.resize(before);
-      return is_hung ? Asked::one_by_one : Asked::in_halves;
+      return heard == Heard::nothing_in_time ? Asked::one_by_one : Asked::in_halves;
     }
     const double seconds = watch.next_case() / static_cast<double>(queries.size());
     const std::string printed = live->take_printed();
@@ -306,48 +286,51 @@ struct WorkerProcess::Parts {
     return Asked::answered;
   }
 
-  std::string broken_rule_of(Transfer transfer, const std::string& message, std::size_t queries,
-                             std::uint64_t number, QueryReply& reply) const {
-    if (transfer == Transfer::too_long) return "longer than any reply to these queries";
-    if (!decode(message, reply)) return "bytes that are none";
-    if (reply.number != number) return "to another request";
-    return broken_rule(queries, reply.answers);
-  }
-
-  // The message should be the reply with this number and place. Says which rule it breaks. Empty
-  // if it breaks none; then `reply` is what it says.
-  std::string broken_rule_of(Transfer transfer, const std::string& message, const corpus::Case& c,
-                             const RunReply& expected, RunReply& reply) const {
-    if (transfer == Transfer::too_long) return "longer than any reply to this case";
-    if (!decode(message, reply)) return "bytes that are none";
-    if (reply.number != expected.number || reply.place != expected.place) {
-      return "to another request";
+  // Hears the reply to a request that was sent like that. `rule_of` says which rule a decoded reply
+  // breaks. If there is no reply by the rules, the worker is ended, and the run that was under way
+  // is appended, unless it is to be repeated.
+  enum class Heard { reply, nothing_in_time, no_reply };
+  template <class Reply, class RuleOf>
+  Heard hear(WorkerWatch& watch, Transfer transfer, std::uint64_t longest, const char* asked,
+             Reply& reply, std::vector<CaseRun>& runs, const RuleOf& rule_of) {
+    std::string message;
+    if (transfer == Transfer::done)
+      transfer = live->channel.receive(
+          message, [&] { return watch.patience(); }, longest);
+    if (transfer != Transfer::done && transfer != Transfer::too_long) {
+      const bool is_hung = transfer == Transfer::timed_out && !watch.has_ended();
+      end_silent_worker(watch, is_hung, runs);
+      return is_hung ? Heard::nothing_in_time : Heard::no_reply;
     }
-    return plugin_library ? broken_rule(c, reply.run, description) : "";
-  }
-
-  // The plug-in sent something that is no reply, so it is ended and counts as one that crashed.
-  void end_rule_breaker(WorkerWatch& watch, const std::string& rule, std::vector<CaseRun>& runs) {
+    const std::string rule = transfer == Transfer::too_long
+                                 ? fmt::format("longer than any reply to {}", asked)
+                             : decode(message, reply) ? rule_of()
+                                                      : "bytes that are none";
+    if (rule.empty()) return Heard::reply;
+    // The plug-in sent something that is no reply, so it counts as one that crashed.
     CaseRun run;
     run.end = RunEnd::crashed;
     run.explanation = broken(rule);
-    run.processor_seconds = watch.next_case();
-    live->child.finish(std::chrono::milliseconds(0));
-    run.printed = live->take_printed();
-    live.reset();
+    end_worker(watch, std::chrono::milliseconds(0), run);
     keep(std::move(run), runs);
+    return Heard::no_reply;
   }
 
-  // The worker fell silent, so it is ended. The run of the configuration that was under way is
-  // appended, unless it is to be repeated.
+  ChildEnd end_worker(WorkerWatch& watch, std::chrono::milliseconds patience, CaseRun& run) {
+    run.processor_seconds = watch.next_case();
+    ChildEnd end = live->child.finish(patience);
+    run.printed = live->take_printed();
+    live.reset();
+    return end;
+  }
+
+  // The worker fell silent.
   void end_silent_worker(WorkerWatch& watch, bool is_hung, std::vector<CaseRun>& runs) {
     CaseRun run;
     run.end = is_hung ? RunEnd::hung : RunEnd::crashed;
     const std::string why_hung = watch.why();
-    run.processor_seconds = watch.next_case();
-    const ChildEnd end = live->child.finish(is_hung ? std::chrono::milliseconds(0) : last_breath);
-    run.printed = live->take_printed();
-    live.reset();
+    const ChildEnd end =
+        end_worker(watch, is_hung ? std::chrono::milliseconds(0) : last_breath, run);
     if (is_hung) {
       run.explanation = why_hung;
     } else if (end.by_host) {

@@ -9,7 +9,7 @@
 #include "corpus/scenes/scenes.h"
 #include "properties/campaign/trials/planned_case.h"
 #include "properties/generators/families.h"
-#include "reports/bench/timed_step.h"
+#include "reports/bench/sweep.h"
 
 namespace assay::reports {
 namespace {

@@ -52,7 +52,7 @@ std::optional<corpus::Mesh> bunny_at_rest(const BenchSettings& settings);
 // The bunny as it is bent into a ring in five steps.
 std::optional<corpus::Sequence> bent_bunny(const BenchSettings& settings);
 
-// The step of rod-twist alone, of which wanted.h asks most; nothing if it is not there.
+// The step of rod-twist alone, of which bench_report.h asks most; nothing if it is not there.
 std::optional<corpus::Sequence> rod_twist_step(const BenchSettings& settings);
 
 // A case, and what is known of its start.

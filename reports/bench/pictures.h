@@ -1,4 +1,5 @@
-// Figures of suites in general forms, and their pictures as scripts for gnuplot.
+// Figures of suites in general forms, their pictures as scripts for gnuplot, and the program that
+// draws them as SVG.
 #pragma once
 
 #include <optional>
@@ -93,5 +94,17 @@ struct ErrorPicture {
 
 // Across: the time of a step. Up: the share of steps with an error. Both have intervals.
 std::string error_picture(std::span<const ErrorPoint> points, const ErrorPicture& picture);
+
+// The result of a script: the picture, or one line for the user.
+struct Drawing {
+  std::string svg, problem;  // exactly one of them is empty
+};
+
+// Runs `gnuplot` of the PATH with the script on its standard input; the script names the terminal
+// (svg) and no output. Some tens of milliseconds.
+Drawing draw(const std::string& script);
+
+// Why nothing can be drawn here, as one line for the user; empty if it can.
+std::string cannot_draw();
 
 }  // namespace assay::reports

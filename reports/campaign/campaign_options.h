@@ -8,7 +8,6 @@
 #include "properties/campaign/request.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
-#include "reports/terminal/verb.h"
 
 namespace assay::reports {
 

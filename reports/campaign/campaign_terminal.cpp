@@ -72,13 +72,13 @@ class CampaignTerminal : public properties::CampaignObserver {
 
   void on_failures_shrunk(const properties::KeptFailures& kept) override {
     progress_.reset();
-    const auto failures =
-        write_failures(kept, out_,
-                       {request_.plugin ? request_.plugin->string() : "", request_.isolation,
-                        request_.threads, part_asked_by(request_.plan)});
-    fmt::print("{}", failures.text);
+    std::string text;
+    written_ = write_failures(kept, out_,
+                              {request_.plugin ? request_.plugin->string() : "", request_.isolation,
+                               request_.threads, part_asked_by(request_.plan)},
+                              text);
+    fmt::print("{}", text);
     std::fflush(stdout);
-    written_ = failures.written;
   }
 
   void on_slow_cases(const std::vector<properties::SlowCase>& cases) override {
@@ -169,8 +169,7 @@ class CampaignTerminal : public properties::CampaignObserver {
 Expected<void> run_on_terminal(const properties::CampaignRequest& request, properties::Store& store,
                                const std::string& out) {
   CampaignTerminal terminal(request, out);
-  const auto ran = properties::run_campaign(request, ASSAY_CORPUS_DIR, store, terminal);
-  if (!ran) return ran.error();
+  BOOST_OUTCOME_TRY(properties::run_campaign(request, ASSAY_CORPUS_DIR, store, terminal));
   return terminal.written();
 }
 

@@ -40,7 +40,7 @@ DetectorWords detector_of(const properties::RunFindings& findings) {
 namespace {
 
 std::string size_of_mesh(const std::string& text) {
-  const auto c = corpus::parse_case(text, "stored failure");
+  const auto c = corpus::parse_case(text, "stored case");
   return c ? properties::size_text(properties::size_of(c.value())) : "unreadable";
 }
 
@@ -55,11 +55,6 @@ std::filesystem::path slow_file(const SlowCase& slow, bool smallest) {
     if (!is_plain) c = '-';
   }
   return std::filesystem::path("slow") / (name + (smallest ? "-smallest.json" : "-original.json"));
-}
-
-std::string slow_mesh_size(const std::string& text) {
-  const auto c = corpus::parse_case(text, "slow case");
-  return c ? properties::size_text(properties::size_of(c.value())) : "unreadable";
 }
 
 const SlowCase* kept_of(const properties::RunFindings& findings, const std::string& id) {
@@ -81,94 +76,84 @@ std::string trial_text(const properties::RunFindings& findings,
   const auto file = slow_file(*kept, !kept->smallest.empty());
   if (!kept->smallest.empty())
     out += fmt::format("              shrunk to {}, which takes at least {} s\n",
-                       slow_mesh_size(kept->smallest), 2 * kept->limit);
+                       size_of_mesh(kept->smallest), 2 * kept->limit);
   return out + fmt::format("              picture {}\n              replay: {}\n",
                            picture_file(absolute_path(findings.folder / file)),
                            pasted(replay_line(findings.folder, file, detector_of(findings))));
 }
 
+// Writes what is kept of a case: its mesh and its smallest one, as far as they are there. `file_of`
+// names their files.
+template <class Kept, class FileOf>
+Expected<void> write_meshes(const Kept& kept, const FileOf& file_of) {
+  for (const bool smallest : {false, true}) {
+    const auto& text = smallest ? kept.smallest : kept.mesh;
+    if (text.empty()) continue;
+    std::error_code error;
+    const auto folder = file_of(smallest).parent_path();
+    std::filesystem::create_directories(folder, error);
+    if (error)
+      return Problem{fmt::format("{}: cannot be made: {}", folder.string(), error.message())};
+    BOOST_OUTCOME_TRY(corpus::write_file_atomically(file_of(smallest), text));
+  }
+  return outcome::success();
+}
+
+// Draws the smallest of its meshes that is there.
+template <class Kept, class FileOf>
+Expected<void> write_picture(SceneMaker& scenes, const Kept& kept, const FileOf& file_of,
+                             const std::string& title) {
+  const bool is_shrunk = !kept.smallest.empty();
+  const auto shown = corpus::parse_case(is_shrunk ? kept.smallest : kept.mesh, "stored case");
+  if (!shown) return outcome::success();
+  return scenes.write_picture(file_of(is_shrunk).string(), shown.value(), kept.configuration,
+                              title);
+}
+
 }  // namespace
 
-FailureReport write_failures(const properties::KeptFailures& kept, const std::filesystem::path& out,
-                             const DetectorWords& detector) {
-  FailureReport report;
+Expected<void> write_failures(const properties::KeptFailures& kept,
+                              const std::filesystem::path& out, const DetectorWords& detector,
+                              std::string& text) {
   auto failures = kept.list;
-  if (failures.empty()) return report;
+  if (failures.empty()) return outcome::success();
   std::stable_sort(failures.begin(), failures.end(), [](const auto& a, const auto& b) {
     return properties::LeastOddFirst()(a.signature, b.signature);
   });
   std::stable_partition(failures.begin(), failures.end(),
                         [](const auto& failure) { return !failure.smallest.empty(); });
-  const auto folder = (out / failure_file(failures[0], false)).parent_path();
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) {
-    report.written =
-        Problem{fmt::format("{}: cannot be made: {}", folder.string(), error.message())};
-    return report;
-  }
   SceneMaker scenes(detector);
   std::set<std::string> told;
   for (const auto& failure : failures) {
-    for (const auto& [path, text] :
-         {std::pair(out / failure_file(failure, false), failure.mesh),
-          std::pair(out / failure_file(failure, true), failure.smallest)}) {
-      if (text.empty()) continue;
-      if (const auto written = corpus::write_file_atomically(path, text); !written) {
-        report.written = written.error();
-        return report;
-      }
-    }
+    const auto file_of = [&](bool smallest) { return out / failure_file(failure, smallest); };
+    BOOST_OUTCOME_TRY(write_meshes(failure, file_of));
     if (!told.insert(failure.signature).second) continue;
+    BOOST_OUTCOME_TRY(write_picture(scenes, failure, file_of, failure.signature));
     const bool is_shrunk = !failure.smallest.empty();
-    const auto shown_file = failure_file(failure, is_shrunk);
-    const auto shown =
-        corpus::parse_case(is_shrunk ? failure.smallest : failure.mesh, "stored failure");
-    if (shown) {
-      report.written = scenes.write_picture((out / shown_file).string(), shown.value(),
-                                            failure.configuration, failure.signature);
-      if (!report.written) return report;
-    }
     const auto count = kept.times_met.find(failure.signature);
-    report.text += fmt::format(
-        "\nDEFECT {} ({}), met {}\n  {}\n  case {}: {}{}\n{}  picture {}\n  replay: {}\n",
+    text += fmt::format(
+        "\nDEFECT {} ({}), met {}\n  {}\n  case {}: {}{}\n{}  picture {}\n  replay: {}\n{}",
         failure.signature, failure.configuration,
         properties::times_text(count == kept.times_met.end() ? 1 : count->second),
         shown_explanation(failure), failure.id, size_of_mesh(failure.mesh),
         is_shrunk ? " -> " + size_of_mesh(failure.smallest) : "",
         failure.flaky ? "  two runs of it differ: a replay may hold\n" : "",
-        picture_file((out / shown_file).string()), pasted(replay_line(out, shown_file, detector)));
-    report.text += printed_text(failure.printed);
+        picture_file(file_of(is_shrunk).string()),
+        pasted(replay_line(out, failure_file(failure, is_shrunk), detector)),
+        printed_text(failure.printed));
   }
-  return report;
+  return outcome::success();
 }
 
 Expected<void> write_slow_cases(const std::vector<SlowCase>& cases,
                                 const std::filesystem::path& out) {
-  if (cases.empty()) return outcome::success();
-  const auto folder = out / "slow";
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error)
-    return Problem{fmt::format("{}: cannot be made: {}", folder.string(), error.message())};
   // The scene is made by the oracle alone, because the detector takes too long for this case to be
   // asked again.
   SceneMaker scenes(std::nullopt);
   for (const auto& slow : cases) {
-    for (const bool smallest : {false, true}) {
-      const auto& text = smallest ? slow.smallest : slow.mesh;
-      if (text.empty()) continue;
-      const auto path = out / slow_file(slow, smallest);
-      if (const auto written = corpus::write_file_atomically(path, text); !written)
-        return written.error();
-    }
-    const bool is_shrunk = !slow.smallest.empty();
-    const auto shown = corpus::parse_case(is_shrunk ? slow.smallest : slow.mesh, "slow case");
-    if (!shown) continue;
-    const auto written =
-        scenes.write_picture((out / slow_file(slow, is_shrunk)).string(), shown.value(),
-                             slow.configuration, "slow: " + slow.id);
-    if (!written) return written;
+    const auto file_of = [&](bool smallest) { return out / slow_file(slow, smallest); };
+    BOOST_OUTCOME_TRY(write_meshes(slow, file_of));
+    BOOST_OUTCOME_TRY(write_picture(scenes, slow, file_of, "slow: " + slow.id));
   }
   return outcome::success();
 }

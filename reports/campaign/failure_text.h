@@ -23,17 +23,13 @@ std::string pasted(const std::string& line);
 // The detector of a run, as a replay line names it.
 DetectorWords detector_of(const properties::RunFindings& findings);
 
-struct FailureReport {
-  std::string text;  // a paragraph for each signature; empty without failures
-  Expected<void> written = outcome::success();
-};
-
 // Writes OUT/failures/CASE-CONFIGURATION-original.json and -smallest.json for each stored failure,
 // under the same names in every run and shard, and a picture (.svg) of the smallest mesh of each
-// signature. The text has one paragraph for each signature: claim, how often it was met, both
+// signature. `text` gets one paragraph for each signature: claim, how often it was met, both
 // sizes, triangles, feature, and the line that replays it. `detector` is the one that failed.
-FailureReport write_failures(const properties::KeptFailures& kept, const std::filesystem::path& out,
-                             const DetectorWords& detector);
+Expected<void> write_failures(const properties::KeptFailures& kept,
+                              const std::filesystem::path& out, const DetectorWords& detector,
+                              std::string& text);
 
 // Writes two files for each case that was kept, OUT/slow/ID-CONFIGURATION-original.json and
 // -smallest.json, and a picture of the smaller one.

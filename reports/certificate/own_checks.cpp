@@ -16,7 +16,7 @@
 #include "properties/worker/worker_process.h"
 #include "reports/bench/cases.h"
 #include "reports/bench/interleave.h"
-#include "reports/bench/timed_step.h"
+#include "reports/bench/sweep.h"
 #include "reports/campaign/own_cases.h"
 
 namespace assay::reports {
@@ -139,7 +139,9 @@ class JudgedRows {
       }
     }
   }
-  const std::vector<CorpusRow>& rows() const { return rows_; }
+  void tell(const OnCorpusRow& on_row) const {
+    for (const auto& row : rows_) on_row(row);
+  }
 
  private:
   const properties::CampaignRequest& request_;
@@ -151,9 +153,8 @@ class JudgedRows {
 };
 
 corpus::Expected<std::vector<corpus::Case>> curated(const std::filesystem::path& folder) {
-  const auto files = corpus::case_files(folder);
-  if (!files) return files.error();
-  return read_cases(files.value());
+  BOOST_OUTCOME_TRY(files, corpus::case_files(folder));
+  return read_cases(files);
 }
 
 // Makes a scene small enough to be judged in a few seconds, in as many frames as the scene needs.
@@ -161,14 +162,13 @@ corpus::Expected<corpus::Case> case_of_scene(const corpus::SceneInfo& scene) {
   corpus::SceneOptions options;
   options.size = 600;
   options.frames = std::max(6, scene.least_frames);
-  auto made = corpus::make_scene(scene.name, options);
-  if (!made) return made.error();
+  BOOST_OUTCOME_TRY(made, corpus::make_scene(scene.name, options));
   corpus::Case c;
   c.id = scene.name;
   c.about = "a scene";
   c.source = "assay scene";
-  c.triangles = std::move(made.value().triangles);
-  c.frames = std::move(made.value().frames);
+  c.triangles = std::move(made.triangles);
+  c.frames = std::move(made.frames);
   return c;
 }
 
@@ -181,18 +181,17 @@ Expected<void> check_queries(const properties::CampaignRequest& request,
   std::uint64_t place = 0;
   for (const auto& one : properties::rung_cases())
     named.add(properties::case_of_query(one.query, fmt::format("named-query-{}", place++)));
-  for (const auto& row : named.rows()) on_row(row);
+  named.tell(on_row);
   const auto file = corpus / ".." / "queries" / "example_vf.csv";
-  const auto queries = corpus::read_queries(file);
-  if (!queries) return queries.error();
+  BOOST_OUTCOME_TRY(queries, corpus::read_queries(file));
   JudgedRows labelled(request, file.filename().string(), on_failure, hung);
   place = 0;
-  for (const auto& one : queries.value()) {
+  for (const auto& one : queries) {
     const auto query =
         std::visit([](const auto& q) { return detector::four_points(q); }, one.query);
     labelled.add(properties::case_of_query(query, fmt::format("example-vf-{}", place++)));
   }
-  for (const auto& row : labelled.rows()) on_row(row);
+  labelled.tell(on_row);
   return outcome::success();
 }
 
@@ -233,14 +232,13 @@ Expected<void> check_corpus(const properties::CampaignRequest& request,
       // Input that has to be refused is not valid, so the detector claims nothing of it.
       if (c.expected.answer != detector::Answer::error) judged.add(c);
     }
-    for (const auto& row : judged.rows()) on_row(row);
+    judged.tell(on_row);
   }
   for (const auto& scene : corpus::scenes()) {
-    const auto c = case_of_scene(scene);
-    if (!c) return c.error();
+    BOOST_OUTCOME_TRY(c, case_of_scene(scene));
     JudgedRows judged(request, std::string(scene.name), on_failure, hung);
-    judged.add(c.value());
-    for (const auto& row : judged.rows()) on_row(row);
+    judged.add(c);
+    judged.tell(on_row);
   }
   if (request.detector.query_claims == properties::Claims()) return outcome::success();
   return check_queries(request, corpus, on_row, on_failure);
@@ -255,7 +253,7 @@ void check_own_cases(const properties::CampaignRequest& request, const OnCorpusR
   for (const auto& c : request.own_cases->cases) {
     if (c.expected.answer != detector::Answer::error) judged.add(c);
   }
-  for (const auto& row : judged.rows()) on_row(row);
+  judged.tell(on_row);
 }
 
 std::string corpus_heading() {

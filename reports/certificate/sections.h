@@ -43,7 +43,7 @@ nlohmann::ordered_json not_judged_json(const properties::RunFindings& findings);
 nlohmann::ordered_json judged_up_to_json(const properties::RunFindings& findings);
 
 // What the steps of a plug-in came to, whatever it claims: those of one stratum, or of all strata
-// (measures_json.cpp).
+// (strata_section.cpp).
 nlohmann::ordered_json measures_json(const properties::StepMeasures& measures);
 
 // One object for each large mesh that was put to a plug-in again and again; null if none was.

@@ -8,14 +8,12 @@
 
 #include "properties/campaign/plan.h"
 #include "properties/words.h"
-#include "reports/certificate/junit.h"
 #include "reports/steps/measures_text.h"
 #include "reports/terminal/option_words.h"
 #include "reports/terminal/text_file.h"
 #include "reports/terminal/words.h"
 
 namespace assay::reports {
-
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -172,6 +170,183 @@ std::string judged_text(const Json& p) {
       p["campaign"]["name"].get<std::string>(), p["campaign"]["seed"].get<std::uint64_t>(),
       p["campaign"]["is_default_seed"].get<bool>() ? " (the default)" : "",
       case_limits_text(p["campaign"]["plan"]));
+}
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string text(const Json& word) { return word.get<std::string>(); }
+
+enum class TestState : std::uint8_t { holds, failed, skipped };
+
+struct TestCase {
+  std::string name;
+  TestState state;
+  std::string why;  // of a test that holds, nobody asks
+};
+
+struct Suite {
+  std::string name;
+  std::vector<TestCase> cases;
+};
+
+Suite gates_suite(const Json& p) {
+  Suite suite{"gates", {}};
+  for (const auto& gate : p["gates"]) {
+    std::string reasons;
+    for (const auto& reason : gate["reasons"]) reasons += text(reason) + "\n";
+    const bool is_judged = gate["state"] != "not judged";
+    suite.cases.push_back({text(gate["gate"]),
+                           gate["state"] == "fails" ? TestState::failed
+                           : is_judged              ? TestState::holds
+                                                    : TestState::skipped,
+                           is_judged ? reasons : "not judged: " + reasons});
+  }
+  return suite;
+}
+
+bool gate_fails(const Json& p, std::string_view name) {
+  return std::any_of(p["gates"].begin(), p["gates"].end(), [&](const Json& gate) {
+    return gate["gate"] == name && gate["state"] == "fails";
+  });
+}
+
+// A stratum fails for what makes a gate fail: its defects if the claims do not hold, and its bound
+// if the bounds are not met.
+Suite strata_suite(const Json& p) {
+  Suite suite{"strata", {}};
+  const bool claims_fail = gate_fails(p, "claims"), bounds_fail = gate_fails(p, "bounds");
+  for (const auto& stratum : p["strata"]) {
+    for (const auto& bound : stratum["bounds"]) {
+      const auto count = [&](const char* name) { return bound[name].get<std::uint64_t>(); };
+      const bool is_failed =
+          (claims_fail && count("defects") > 0) || (bounds_fail && !bound["met"].get<bool>());
+      const auto counts = fmt::format(
+          "{} of {} trials hold, {} defects, {} undecided; bound {:.2e}", count("holds"),
+          count("n"), count("defects"), count("undecided"), bound["bound"].get<double>());
+      suite.cases.push_back({text(stratum["family"]) + ", " + text(bound["configuration"]),
+                             is_failed         ? TestState::failed
+                             : count("n") == 0 ? TestState::skipped
+                                               : TestState::holds,
+                             is_failed ? counts : "no trial"});
+    }
+  }
+  return suite;
+}
+
+Suite laws_suite(const Json& p) {
+  Suite suite{"laws", {}};
+  if (p["laws"].is_null()) return suite;
+  for (const auto& law : p["laws"]["laws"]) {
+    const auto broken = law["broken"].get<std::uint64_t>();
+    suite.cases.push_back(
+        {text(law["law"]),
+         broken > 0             ? TestState::failed
+         : law["premises"] == 0 ? TestState::skipped
+                                : TestState::holds,
+         broken > 0 ? fmt::format("broken in {} steps", broken) : "its premise never held"});
+  }
+  return suite;
+}
+
+// Planted faults have to be found, and equivalent ones must not be. The policy of the plan may ask
+// for less than all of them, so a fault that is not found fails only if the gate fails.
+TestCase test_of_fault(const Json& fault, bool harness_fails) {
+  const auto name = text(fault["fault"]);
+  const bool found = fault["found"].get<bool>();
+  if (fault["status"] == "planted" && !found)
+    return {
+        name,
+        harness_fails && !fault["time_over"].get<bool>() ? TestState::failed : TestState::skipped,
+        fmt::format("not found within {} cases", fault["cases"].get<std::uint64_t>())};
+  if (fault["status"] == "equivalent" && found)
+    return {name, TestState::failed, "found, but registered as equivalent"};
+  if (fault["status"] == "open" && !found)
+    return {name, TestState::skipped, "open: no case is known that shows it"};
+  return {name, TestState::holds, ""};
+}
+
+Suite faults_suite(const Json& p) {
+  Suite suite{"faults", {}};
+  for (const auto& fault : p["power"]["faults"])
+    suite.cases.push_back(test_of_fault(fault, gate_fails(p, "harness")));
+  return suite;
+}
+
+Suite corpus_suite(const Json& p) {
+  Suite suite{"corpus", {}};
+  for (const auto& row : p["corpus"]) {
+    std::string lines, waived;
+    for (const auto& line : row["failed"])
+      (line["waived"].get<bool>() ? waived : lines) +=
+          fmt::format("{}: {}\n", text(line["id"]), text(line["what"]));
+    suite.cases.push_back({text(row["input"]) + ", " + text(row["configuration"]),
+                           !lines.empty()    ? TestState::failed
+                           : !waived.empty() ? TestState::skipped
+                                             : TestState::holds,
+                           lines.empty() ? "waived: " + waived : lines});
+  }
+  return suite;
+}
+
+Suite failures_suite(const Json& p) {
+  Suite suite{"failures", {}};
+  for (const auto& failure : p["failures"]) {
+    const auto line =
+        fmt::format("{} ({}), {}; {}\n", text(failure["what"]), text(failure["configuration"]),
+                    met_text(failure), text(failure["case"]));
+    const bool is_waived = failure["waived"].get<bool>();
+    suite.cases.push_back(
+        {text(failure["signature"]), is_waived ? TestState::skipped : TestState::failed,
+         is_waived ? "waived: " + line : line + "replay: " + text(failure["replay"])});
+  }
+  return suite;
+}
+
+std::string xml_of(const Suite& suite) {
+  std::size_t failures = 0, others = 0;
+  std::string cases;
+  for (const auto& test : suite.cases) {
+    const auto head = fmt::format("    <testcase classname=\"assay.{}\" name=\"{}\"", suite.name,
+                                  xml_escaped(test.name));
+    if (test.state == TestState::holds) {
+      cases += head + "/>\n";
+      continue;
+    }
+    (test.state == TestState::failed ? failures : others) += 1;
+    const char* element = test.state == TestState::failed ? "failure" : "skipped";
+    cases += fmt::format("{}>\n      <{} message=\"{}\">{}</{}>\n    </testcase>\n", head, element,
+                         xml_escaped(test.why.substr(0, test.why.find('\n'))),
+                         xml_escaped(test.why), element);
+  }
+  return fmt::format(
+      "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n{}  </testsuite>\n",
+      suite.name, suite.cases.size(), failures, others, cases);
+}
+
+}  // namespace
+
+std::string xml_escaped(const std::string& text) {
+  static const std::map<char, std::string_view> written = [] {
+    std::map<char, std::string_view> all = {
+        {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
+    for (char control = 0; control < ' '; ++control) {
+      if (control != '\n' && control != '\t') all[control] = "?";
+    }
+    return all;
+  }();
+  return replaced(text, written);
+}
+
+std::string junit_text(const Json& predicate) {
+  std::string out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"assay\">\n";
+  for (const auto make :
+       {gates_suite, strata_suite, laws_suite, faults_suite, corpus_suite, failures_suite}) {
+    const Suite suite = make(predicate);
+    if (!suite.cases.empty()) out += xml_of(suite);
+  }
+  return out + "</testsuites>\n";
 }
 
 }  // namespace assay::reports

@@ -1,4 +1,4 @@
-// What a run or a certificate came to, as Markdown for the summary of a CI job.
+// What a run or a certificate came to, for CI systems: as Markdown and as JUnit XML.
 #pragma once
 
 #include <filesystem>
@@ -27,5 +27,14 @@ Expected<void> write_for_ci(const nlohmann::ordered_json& predicate,
 // default)". For the built-in detector, whose configurations differ in their claims, the number of
 // configurations stands there instead.
 std::string judged_text(const nlohmann::ordered_json& predicate);
+
+// As JUnit XML. The suites are gates (those of the predicate), strata (family, configuration),
+// laws, faults, corpus, and failures (one for each signature, with its replay line). A test fails
+// if its line of the certificate says so. Equal predicates give equal bytes; `times` is not looked
+// at.
+std::string junit_text(const nlohmann::ordered_json& predicate);
+
+// The text escaped for XML, with characters that XML 1.0 does not take replaced.
+std::string xml_escaped(const std::string& text);
 
 }  // namespace assay::reports

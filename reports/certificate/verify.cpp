@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -10,14 +11,16 @@
 #include "corpus/digest.h"
 #include "corpus/file_bytes.h"
 #include "corpus/json_fields.h"
+#include "properties/campaign/gates/findings.h"
 #include "properties/campaign/gates/statistics.h"
 #include "properties/campaign/ledger/run_folder.h"
-#include "reports/certificate/junit.h"
+#include "properties/worker/plugin/judged_library.h"
+#include "properties/worker/worker_process.h"
 #include "reports/certificate/statement.h"
 #include "reports/certificate/summary.h"
+#include "reports/check/detector_choice.h"
 
 namespace assay::reports {
-
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -29,15 +32,9 @@ bool is_leaf(const Json& json) { return !json.is_structured() || json.empty(); }
 
 void compare_leaves(const Json* stated, const Json* computed, const std::string& place,
                     Lines& lines) {
-  if (computed == nullptr) {
-    lines.push_back(
-        fmt::format("{}: {} is stated, nothing of it is stored", place, json_text(*stated)));
-  } else if (stated == nullptr) {
-    lines.push_back(fmt::format("{}: is not stated, {} is computed", place, json_text(*computed)));
-  } else {
-    lines.push_back(fmt::format("{}: {} is stated, {} is computed", place, json_text(*stated),
-                                json_text(*computed)));
-  }
+  lines.push_back(
+      fmt::format("{}: {}, {}", place, stated ? json_text(*stated) + " is stated" : "is not stated",
+                  computed ? json_text(*computed) + " is computed" : "nothing of it is stored"));
 }
 
 // Reports each leaf that only one side has, or that differs. A side that has nothing at this place
@@ -93,38 +90,21 @@ std::optional<std::string> other_schema(const Json& statement) {
   return is_version ? std::optional(text) : std::nullopt;
 }
 
-// Reads the certificate into the result. Returns false if the result says already why it does not
-// verify.
-bool read_certificate(const std::filesystem::path& certificate, Verification& result) {
-  auto& lines = result.differences;
+// The statement. Fails if it is seen already that it does not verify.
+Expected<Json> read_certificate(const std::filesystem::path& certificate) {
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(certificate, ignored)) {
-    lines.push_back(fmt::format("{}: no such file", certificate.string()));
-    return false;
-  }
-  const auto bytes = corpus::read_bytes(certificate);
-  if (!bytes) {
-    lines.push_back(bytes.error().message);
-    return false;
-  }
-  auto stated = corpus::parse_json(bytes.value(), certificate);
-  if (!stated) {
-    lines.push_back(stated.error().message);
-    return false;
-  }
-  if (!stated.value().is_object()) {
-    lines.push_back(fmt::format("{}: is no JSON object", certificate.string()));
-    return false;
-  }
-  result.statement = std::move(stated.value());
-  if (const auto older = other_schema(result.statement)) {
-    lines.push_back(
+  if (!std::filesystem::is_regular_file(certificate, ignored))
+    return Problem{fmt::format("{}: no such file", certificate.string())};
+  BOOST_OUTCOME_TRY(bytes, corpus::read_bytes(certificate));
+  BOOST_OUTCOME_TRY(stated, corpus::parse_json(bytes, certificate));
+  if (!stated.is_object())
+    return Problem{fmt::format("{}: is no JSON object", certificate.string())};
+  if (const auto older = other_schema(stated))
+    return Problem{
         fmt::format("{}: of schema {}, this assay verifies {}: verify it with the assay "
                     "that issued it",
-                    certificate.string(), *older, certificate_schema));
-    return false;
-  }
-  return true;
+                    certificate.string(), *older, certificate_schema)};
+  return std::move(stated);
 }
 
 std::filesystem::path folder_of(const std::filesystem::path& certificate) {
@@ -177,8 +157,7 @@ std::filesystem::path certificate_in(const std::filesystem::path& file_or_folder
 }
 
 std::string sent_alone(const std::filesystem::path& certificate) {
-  Verification read;
-  if (!read_certificate(certificate, read)) return "";
+  if (!read_certificate(certificate)) return "";
   std::error_code ignored;
   const auto folder = folder_of(certificate);
   const bool has_stores = properties::stored_shards(folder).has_value() ||
@@ -190,17 +169,12 @@ std::string sent_alone(const std::filesystem::path& certificate) {
                           certificate.string());
 }
 
-Verification verify_certificate(const std::filesystem::path& certificate) {
-  Verification result;
-  if (read_certificate(certificate, result))
-    compare(certificate, make_statement(folder_of(certificate)), result);
-  return result;
-}
-
 Verification verify_certificate(const std::filesystem::path& certificate,
-                                const properties::Expected<Json>& computed) {
-  Verification result;
-  if (read_certificate(certificate, result)) compare(certificate, computed, result);
+                                const properties::Expected<Json>* computed) {
+  auto read = read_certificate(certificate);
+  if (!read) return {{read.error().message}, nullptr};
+  Verification result{{}, std::move(read.value())};
+  compare(certificate, computed ? *computed : make_statement(folder_of(certificate)), result);
   return result;
 }
 
@@ -240,6 +214,72 @@ properties::Expected<Json> pool(const std::vector<Json>& predicates) {
     }
   }
   return list;
+}
+
+namespace {
+
+using properties::BoundRun;
+
+// Finds the library of the plug-in and checks that it is the certified one, before any of its code
+// runs. `judged` keeps it as it is.
+Expected<std::string> certified_library(const properties::RunFindings& findings,
+                                        const std::string& named,
+                                        std::shared_ptr<const properties::JudgedLibrary>& judged) {
+  const auto& run = findings.run;
+  if (run.detector.built_in) {
+    if (!named.empty())
+      return Problem{"--detector: the certificate is of the built-in detector, not of a plug-in"};
+    return std::string();
+  }
+  const auto library = named.empty() ? findings.library : named;
+  if (library.empty())
+    return Problem{"the stores do not say where the plug-in lies: name it by --detector"};
+  judged = properties::JudgedLibrary::of(library, properties::worker_program());
+  BOOST_OUTCOME_TRY(digest, judged->digest());
+  if (digest != run.digests.plugin)
+    return Problem{
+        fmt::format("{}: not the library that was certified: its SHA-256 is {}, {} is "
+                    "certified",
+                    library, digest, run.digests.plugin.value_or("none"))};
+  return library;
+}
+
+// Says what in this build keeps it from making the trials again. Empty if nothing does.
+std::string difference_of_builds(const BoundRun& certified, const BoundRun& ours) {
+  if (certified.digests.generator != ours.digests.generator)
+    return "the generator of this assay makes other cases than that of the certificate";
+  if (certified.detector.built_in && certified.digests.worker != ours.digests.worker)
+    return "the built-in detector of this assay is not that of the certificate";
+  if (json_of(certified.detector) != json_of(ours.detector))
+    return "the detector has other claims, another contract or other configurations now";
+  return "";
+}
+
+}  // namespace
+
+Expected<properties::TrialsAgain> run_certified_again(
+    const std::filesystem::path& folder, const AgainRequest& asked,
+    const std::function<void(const properties::TrialProgress&)>& progress) {
+  BOOST_OUTCOME_TRY(findings, properties::read_findings(folder));
+  const auto& run = findings.run;
+  std::shared_ptr<const properties::JudgedLibrary> judged;
+  BOOST_OUTCOME_TRY(library, certified_library(findings, asked.detector.library, judged));
+  properties::CampaignRequest request;
+  request.plan = run.plan;
+  request.seed = run.seed;
+  request.jobs = asked.jobs;
+  request.worker = properties::worker_program();
+  const DetectorWords words{library, asked.detector.isolation, run.detector.threads,
+                            part_asked_by(run.plan)};
+  BOOST_OUTCOME_TRY(choose_detector(words, request));
+  BOOST_OUTCOME_TRY(ours, properties::read_binding(properties::binding_of(request), folder));
+  const auto difference = difference_of_builds(run, ours);
+  if (!difference.empty())
+    return Problem{
+        fmt::format("{}: its trials cannot be run again: {}", folder.string(), difference)};
+  BOOST_OUTCOME_TRY(again,
+                    properties::run_again(request, folder, asked.share, asked.seed, progress));
+  return std::move(again);
 }
 
 }  // namespace assay::reports

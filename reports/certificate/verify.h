@@ -1,14 +1,19 @@
 // Verifies certificates: whether each is what follows from the files beside it, and what several
-// say together.
+// say together; and makes and judges a share of their trials once more.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "properties/campaign/phases/again.h"
 #include "properties/problem.h"
 #include "reports/certificate/statement.h"
+#include "reports/terminal/complaint.h"
+#include "reports/terminal/option_words.h"
 
 namespace assay::reports {
 
@@ -20,11 +25,11 @@ struct Verification {
 // Computes counts, bounds, digests, gates and verdict again from campaign.json and the stores
 // beside the certificate, and compares every field and byte. It also checks the failing meshes
 // that the certificate names, junit.xml and summary.md.
-Verification verify_certificate(const std::filesystem::path& certificate);
-// The same, with the result of make_statement(folder) for its folder, which has been computed
-// before.
-Verification verify_certificate(const std::filesystem::path& certificate,
-                                const properties::Expected<nlohmann::ordered_json>& computed);
+// `computed`, if given, is the result of make_statement(folder) for its folder, which has been
+// computed before.
+Verification verify_certificate(
+    const std::filesystem::path& certificate,
+    const properties::Expected<nlohmann::ordered_json>* computed = nullptr);
 
 // The file itself, or certificate.json in a folder.
 std::filesystem::path certificate_in(const std::filesystem::path& file_or_folder);
@@ -46,5 +51,25 @@ std::string sent_alone(const std::filesystem::path& certificate);
 // seed.
 properties::Expected<nlohmann::ordered_json> pool(
     const std::vector<nlohmann::ordered_json>& predicates);
+
+// What is asked of `assay verify --again`.
+struct AgainRequest {
+  double share = 0;  // share of the trials, above 0, at most 1
+  std::uint64_t seed = 0;
+  // If no library is named, it is taken from where it was when the trials were run.
+  DetectorWords detector;
+  int jobs = 1;
+};
+
+// REQUIRES that the certificate in `folder` verifies. Whoever forges a certificate can forge the
+// stores with it. The trials cannot be forged, because their cases follow from campaign, seed and
+// number.
+//
+// Fails if the trials cannot be made again: with another generator than theirs, with another
+// worker than the one that held the built-in detector, without a library, or with one of other
+// bytes than the certified one.
+Expected<properties::TrialsAgain> run_certified_again(
+    const std::filesystem::path& folder, const AgainRequest& request,
+    const std::function<void(const properties::TrialProgress&)>& progress);
 
 }  // namespace assay::reports

@@ -10,7 +10,6 @@
 #include "reports/steps/step_text.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/limits.h"
-#include "reports/terminal/version.h"
 #include "reports/terminal/words.h"
 
 namespace assay::reports {

@@ -56,7 +56,7 @@ class Plugin : public Subject {
               {"disturbances", worker_.disturbances() + second_.disturbances()},
               {"isolation", text_of(worker_.isolation())},
               {"printed", runs_[0].printed},
-              {"contract", nlohmann::json(description_.contract)}}}};
+              {"contract", properties::json_of(description_.contract)}}}};
   }
 
   // Runs all steps at once, because the worker carries the state of the detector from one to the

@@ -11,7 +11,7 @@
 #include "properties/queries/query_methods.h"
 #include "properties/words.h"
 #include "reports/estimate.h"
-#include "reports/terminal/version.h"
+#include "reports/terminal/words.h"
 
 namespace assay::reports {
 

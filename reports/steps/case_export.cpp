@@ -2,177 +2,220 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
 
 #include "corpus/atomic_file.h"
 #include "properties/judging/case_options.h"
 #include "properties/judging/step_truth.h"
 #include "properties/worker/case_player.h"
 #include "properties/worker/plugin/query_case.h"
-#include "reports/steps/owner_export.h"
+#include "reports/steps/exported_programs.h"
 #include "reports/terminal/words.h"
 
 namespace assay::reports {
 namespace {
 
-std::string obj_text(const detector::Positions& x, const detector::Triangles& triangles) {
+// One line for each row of three numbers.
+template <class Matrix>
+std::string rows_text(const char* format, const Matrix& matrix, int add = 0) {
   std::string out;
-  for (Eigen::Index v = 0; v < x.rows(); ++v) {
-    out += fmt::format("v {} {} {}\n", x(v, 0), x(v, 1), x(v, 2));
-  }
-  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
-    out +=
-        fmt::format("f {} {} {}\n", triangles(t, 0) + 1, triangles(t, 1) + 1, triangles(t, 2) + 1);
-  }
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+    out += fmt::format(fmt::runtime(format), matrix(i, 0) + add, matrix(i, 1) + add,
+                       matrix(i, 2) + add);
   return out;
 }
 
-// Writes doubles for C++ bit by bit, as hexadecimal literals.
-std::string matrix_text(const detector::Positions& x) {
-  std::string out;
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    out += fmt::format("{}{:a}", i == 0 ? "" : i % 3 == 0 ? ",\n      " : ", ", x.data()[i]);
+constexpr const char* row_of_array = "    {{{}, {}, {}}},\n";
+
+// The exact value of a double in [0, 1] as a fraction, such as "3/8", in lowest terms.
+std::string fraction_of(double share) {
+  if (share == 0) return "0";
+  int exponent = 0;
+  constexpr int mantissa_bits = 53;
+  auto numerator =
+      static_cast<std::uint64_t>(std::ldexp(std::frexp(share, &exponent), mantissa_bits));
+  int halvings = mantissa_bits - exponent;
+  for (; numerator % 2 == 0 && halvings > 0; numerator /= 2) --halvings;
+  constexpr int most_written_out = 63;
+  if (halvings == 0) return fmt::format("{}", numerator);
+  return halvings <= most_written_out
+             ? fmt::format("{}/{}", numerator, std::uint64_t{1} << halvings)
+             : fmt::format("{}/2^{}", numerator, halvings);
+}
+
+// The rows of the three lists in which a step stands.
+struct StepRows {
+  std::string steps, pairs, left_out;
+  std::size_t pair_count = 0, left_out_count = 0;
+};
+
+std::string pair_row(const detector::PairContact& contact, int part) {
+  return fmt::format("    {{{}, {}, {}, {}, {}}},\n", contact.pair.a, contact.pair.b,
+                     contact.time.lo, contact.time.hi, part);
+}
+
+void add_step(const corpus::CaseStep& step, const properties::StepTruth& truth, bool is_query,
+              StepRows& rows) {
+  const auto time = truth.first ? truth.first->time : detector::TimeEnclosure{};
+  // The two triangles of a query only hold the features that are asked for.
+  const std::size_t pairs = is_query ? 0 : truth.pairs.size();
+  rows.steps += fmt::format("    {{{}, {}, {}, {}, {}, {}, \"{}\", \"{}\", {}, {}, {}, {}}},\n",
+                            step.from, step.to, step.commit, truth.first.has_value(), time.lo,
+                            time.hi, fraction_of(time.lo), fraction_of(time.hi), rows.pair_count,
+                            pairs, rows.left_out_count, truth.left_out.size());
+  std::map<detector::TrianglePair, int> part_of;
+  int part = 0;
+  for (const auto& contacts : properties::contact_parts(truth.pairs, time)) {
+    for (const auto& contact : contacts) part_of[contact.pair] = part;
+    ++part;
   }
-  return out;
+  for (std::size_t i = 0; i < pairs; ++i) {
+    const auto found = part_of.find(truth.pairs[i].pair);
+    rows.pairs += pair_row(truth.pairs[i], found == part_of.end() ? -1 : found->second);
+  }
+  for (const auto& contact : truth.left_out) rows.left_out += pair_row(contact, -1);
+  rows.pair_count += pairs;
+  rows.left_out_count += truth.left_out.size();
+}
+
+constexpr const char* head = R"(#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+)";
+
+constexpr const char* mesh_text =
+    R"(// The mesh: vertex indices of each triangle, counter-clockwise seen from outside.
+static const int triangles[][3] = {{
+{}}};
+static const int triangle_count = {}, vertex_count = {};
+
+// Where the vertices are; within a step they move along straight lines.
+)";
+
+constexpr const char* query_text =
+    R"(// The step of four points: a vertex and the three corners of a face, or the two ends of one edge
+// and the two of another. The question is whether these two features meet.
+static const bool is_vertex_face = {};
+static const int triangle_count = 2;
+
+// Where the points are; within the step they move along straight lines.
+)";
+
+constexpr const char* lists_text = R"(static const double frames[][{}][3] = {{
+{}}};
+
+// From frame `from` to frame `to`; with `commit` the detector's state goes on. The first contact
+// time t* is `lo` where lo and hi are one number, else strictly between the two, which are adjacent
+// doubles. What meets stands in `pairs` from `first_pair` on.
+struct Step {{
+  int from, to;
+  bool commit, collision;
+  double lo, hi;
+  const char *lo_as_fraction, *hi_as_fraction;
+  int first_pair, pair_count, first_left_out, left_out_count;
+}};
+static const Step steps[] = {{
+{}}};
+static const int step_count = {};
+
+// Two triangles and the interval of their first time. The pairs that meet at t* are the edges of a
+// graph of triangles. `part` is the number of its connected part, and -1 of a pair that meets
+// later.
+struct Pair {{
+  int a, b;
+  double lo, hi;
+  int part;
+}};
+static const Pair pairs[] = {{
+{}    {{-1, -1, 0, 0, -1}},  // the end
+}};
+// Contacts that the contract leaves out: the detector may report them or not.
+static const Pair left_out[] = {{
+{}    {{-1, -1, 0, 0, -1}},  // the end
+}};
+
+// What is claimed of the detector, and asked of it here; the bits are those of
+// detector/plugin/assay_detector.h.
+enum Claim : unsigned {{
+{}
+}};
+static const unsigned claims = {};
+static const double time_tolerance = {};
+)";
+
+// "free_sound | total", in the words of the exported file.
+std::string claims_text(const properties::DetectorUnderTest& detector) {
+  std::vector<std::string> names;
+  const auto claims = detector.claims_in(detector.configurations.front());
+  for (const auto claim : list_of(properties::judged_claims(claims, detector.contract)))
+    names.push_back(replaced(name_of(claim), {{'-', "_"}}));
+  return names.empty() ? "0" : joined(names, " | ");
+}
+
+// "  free_sound = 1,", and so on: a line for each claim that there is.
+std::string all_claims_text() {
+  std::vector<std::string> lines;
+  for (const auto claim : properties::all_claims())
+    lines.push_back(fmt::format("  {} = {}", replaced(name_of(claim), {{'-', "_"}}),
+                                properties::Claims{claim}.bits()));
+  return joined(lines, ",\n");
+}
+
+// The arrays of the case and what its answers are asked for, with a function to fill in.
+std::string case_text(const corpus::Case& c, const properties::DetectorUnderTest& detector,
+                      const std::vector<oracle::StepJudgement>& judgements) {
+  const auto query = properties::query_of(c);
+  StepRows rows;
+  const auto script = corpus::steps_of(c);
+  for (std::size_t s = 0; s < script.size(); ++s)
+    add_step(script[s], truth_of(c, judgements[s], detector.contract), query.has_value(), rows);
+  std::string frames;
+  for (const auto& frame : c.frames)
+    frames += fmt::format("  {{\n{}  }},\n", rows_text(row_of_array, frame));
+  const auto phrases = phrases_of(detector.contract);
+  std::string out =
+      fmt::format("// Case {}, with the exact answer to each step.\n// Contract: {}.\n", c.id,
+                  phrases.empty() ? "leaves nothing out" : joined(phrases, ", "));
+  out += head;
+  out += query ? fmt::format(fmt::runtime(query_text), query->first_group == 1)
+               : fmt::format(fmt::runtime(mesh_text), rows_text(row_of_array, c.triangles),
+                             c.triangles.rows(), c.frames[0].rows());
+  out += fmt::format(fmt::runtime(lists_text), c.frames[0].rows(), frames, rows.steps,
+                     script.size(), rows.pairs, rows.left_out, all_claims_text(),
+                     claims_text(detector), detector.contract.time_tolerance);
+  return out + judging_program;
 }
 
 std::string point_text(const detector::Point& p) {
   return fmt::format("{{{:a}, {:a}, {:a}}}", p[0], p[1], p[2]);
 }
 
-std::string view_text(const corpus::Case& c, std::size_t step, const detector::Options& options) {
-  const auto given = properties::given_view(corpus::view_of_step(c, step), options.culling);
-  if (given.empty()) return "{}";
-  const auto& [q0, q1] = given.front();
-  return fmt::format("{{{{{{{}, {}}}, {{{}, {}}}}}}}", point_text(q0.t0), point_text(q0.t1),
-                     point_text(q1.t0), point_text(q1.t1));
-}
-
-// The lines that ask of `r`, the result of a step, what is claimed.
-std::string asked_text(const properties::Claims& claims, bool exact,
-                       const oracle::StepJudgement& truth) {
-  const bool free = truth.pairs.empty();
-  std::string out = "    EXPECT_TRUE(is_answered(r));\n";
-  if (free ? claims.has(properties::Claim::no_spurious) : claims.has(properties::Claim::free_sound))
-    out += fmt::format("    EXPECT_EQ(r.answer, Answer::{});\n", free ? "free" : "collision");
-  if (!free && claims.has(properties::Claim::first_time)) {
-    const char* line = exact
-                           ? "    EXPECT_EQ(r.first, (TimeEnclosure{{{:a}, {:a}}}));\n"
-                           : "    EXPECT_LE(r.first.lo, {:a});\n    EXPECT_GE(r.first.hi, {:a});\n";
-    out += fmt::format(fmt::runtime(line), truth.first.lo, truth.first.hi);
+// The options of the built-in detector, the view that each step is given, and the test.
+std::string test_text(const corpus::Case& c, const detector::Options& options) {
+  std::string views;
+  for (std::size_t s = 0; s < corpus::steps_of(c).size(); ++s) {
+    std::string given;
+    for (const auto& [q0, q1] : properties::given_view(corpus::view_of_step(c, s), options.culling))
+      given = fmt::format("{{{{{}, {}}}, {{{}, {}}}}}", point_text(q0.t0), point_text(q0.t1),
+                          point_text(q1.t0), point_text(q1.t1));
+    views += fmt::format("  {{{}}},\n", given);
   }
-  const auto listed = [](const std::vector<detector::PairContact>& contacts) {
-    std::vector<std::string> rows;
-    for (const auto& contact : contacts)
-      rows.push_back(fmt::format("{{{{{}, {}}}, {{{:a}, {:a}}}, {{}}}}", contact.pair.a,
-                                 contact.pair.b, contact.time.lo, contact.time.hi));
-    return joined(rows, ", ");
+  const auto chosen = [](const char* type, const char* name) {
+    return fmt::format("  *assay::from_name<builtin::{}>(\"{}\"),\n", type, name);
   };
-  if (claims.has(properties::Claim::no_spurious))
-    out += fmt::format("    EXPECT_TRUE(all_meet(r, {{{}}}));\n", listed(truth.pairs));
-  if (claims.has(properties::Claim::all_pairs)) {
-    out += fmt::format("    EXPECT_TRUE(finds_all(r, {{{}}}));\n", listed(truth.pairs));
-  } else if (claims.has(properties::Claim::first_pairs)) {
-    for (const auto& part : properties::contact_parts(truth.pairs, truth.first))
-      out += fmt::format("    EXPECT_TRUE(finds_one(r, {{{}}}));\n", listed(part));
-  }
-  return out;
-}
-
-constexpr const char* test_head = R"(#include <gtest/gtest.h>
-
-
-#include "detector/detector.h"
-#include "detector/step_result.h"
-
-using namespace assay::detector;
-
-namespace {
-
-using Contacts = std::vector<PairContact>;
-
-[[maybe_unused]] bool is_answered(const StepResult& r) {
-  return r.answer == Answer::free || r.answer == Answer::collision;
-}
-
-// Whether the contact is reported, not after its time.
-[[maybe_unused]] bool finds(const StepResult& r, const PairContact& exact) {
-  return std::any_of(r.pairs.begin(), r.pairs.end(), [&](const PairContact& found) {
-    return found.pair == exact.pair && found.time.lo <= exact.time.lo;
-  });
-}
-[[maybe_unused]] bool finds_all(const StepResult& r, const Contacts& exact) {
-  return std::all_of(exact.begin(), exact.end(), [&](const auto& one) { return finds(r, one); });
-}
-[[maybe_unused]] bool finds_one(const StepResult& r, const Contacts& exact) {
-  return std::any_of(exact.begin(), exact.end(), [&](const auto& one) { return finds(r, one); });
-}
-
-// Whether every reported contact is one, and none is reported before its time.
-[[maybe_unused]] bool all_meet(const StepResult& r, const Contacts& exact) {
-  return std::all_of(r.pairs.begin(), r.pairs.end(), [&](const PairContact& found) {
-    return std::any_of(exact.begin(), exact.end(), [&](const PairContact& one) {
-      return found.pair == one.pair && found.time.hi >= one.time.hi;
-    });
-  });
-}
-
-[[maybe_unused]] bool same(const StepResult& x, const StepResult& y) {
-  return x.answer == y.answer && x.first == y.first &&
-         std::equal(x.pairs.begin(), x.pairs.end(), y.pairs.begin(), y.pairs.end(),
-                    [](const auto& a, const auto& b) { return a.pair == b.pair && a.time == b.time; });
-}
-
-}  // namespace
-
-)";
-
-std::string test_text(const corpus::Case& c, const detector::Options& options,
-                      const std::vector<oracle::StepJudgement>& truth) {
-  std::string culling = properties::name_of(options.culling);
-  std::replace(culling.begin(), culling.end(), '-', '_');
-  // `auto` is a keyword
-  if (options.culling == detector::Culling::automatic) culling = "automatic";
-  const char* const arithmetics[] = {"exact", "bounded", "double_precision", "single_precision"};
-  const bool exact = options.arithmetic == detector::Arithmetic::exact;
-  std::string out = fmt::format(
-      "// Case {}: asks what this configuration claims.\n{}TEST(AssayCase, Holds) {{\n"
-      "  Triangles triangles({}, 3);\n  triangles << ",
-      c.id, test_head, c.triangles.rows());
-  for (Eigen::Index i = 0; i < c.triangles.size(); ++i) {
-    out += fmt::format("{}{}",
-                       i == 0       ? ""
-                       : i % 3 == 0 ? ",\n      "
-                                    : ", ",
-                       c.triangles.data()[i]);
-  }
-  out += fmt::format(";\n  std::vector<Positions> x({}, Positions({}, 3));\n", c.frames.size(),
-                     c.frames[0].rows());
-  for (std::size_t f = 0; f < c.frames.size(); ++f) {
-    out += fmt::format("  x[{}] << {};\n", f, matrix_text(c.frames[f]));
-  }
-  out += fmt::format(
-      "  const Options options{{Culling::{}, Start::{}, Pairs::{}, Arithmetic::{}}};\n"
-      "  auto made = Detector::create(triangles, x[0], options);\n",
-      culling, properties::name_of(options.start), properties::name_of(options.pairs),
-      arithmetics[static_cast<int>(options.arithmetic)]);
-  if (c.expected.answer == detector::Answer::error) return out + "  EXPECT_FALSE(made);\n}\n";
-  out +=
-      "  auto again = Detector::create(triangles, x[0], options);\n"
-      "  ASSERT_TRUE(made);\n  ASSERT_TRUE(again);\n"
-      "  using Views = std::vector<ViewPrimitive>;\n";
-  const auto script = corpus::steps_of(c);
-  for (std::size_t s = 0; s < script.size(); ++s) {
-    const std::string call =
-        fmt::format("{}(x[{}], x[{}], views)", script[s].commit ? "step" : "evaluate",
-                    script[s].from, script[s].to);
-    out += fmt::format(
-        "  {{\n    const Views views = {};\n    const StepResult r = made.value().{};\n"
-        "    EXPECT_TRUE(same(r, again.value().{}));\n{}  }}\n",
-        view_text(c, s, options), call, call,
-        asked_text(properties::claims_of(options), exact, truth[s]));
-  }
-  return out + "}\n";
+  return fmt::format(
+      "{}static const builtin::Options options = {{\n{}{}{}{}}};\n"
+      "static const Views views[] = {{\n{}}};\n"
+      "static const bool is_refused = {}, has_unique_times = {};\n{}",
+      test_head, chosen("Culling", name_of(options.culling)),
+      chosen("Start", name_of(options.start)), chosen("Pairs", name_of(options.pairs)),
+      chosen("Arithmetic", name_of(options.arithmetic)), views,
+      c.expected.answer == detector::Answer::error,
+      properties::claims_of(options).has(properties::Claim::times_unique), test_program);
 }
 
 }  // namespace
@@ -184,21 +227,22 @@ Expected<void> export_case(const std::filesystem::path& folder, const corpus::Ca
   std::filesystem::create_directories(folder, error);
   if (error)
     return Problem{fmt::format("{}: cannot be made: {}", folder.string(), error.message())};
-  const auto write = [&](const std::string& name, const std::string& text) -> Expected<void> {
-    const auto written = corpus::write_file_atomically(folder / name, text);
-    if (!written) return written.error();
-    return outcome::success();
-  };
-  for (std::size_t f = 0; f < c.frames.size(); ++f) {
-    const auto name = fmt::format("frame_{:04}.obj", f);
-    if (auto written = write(name, obj_text(c.frames[f], c.triangles)); !written) return written;
+  std::map<std::string, std::string> files = {{"case.json", corpus::case_text(c)},
+                                              {"case.cpp", case_text(c, detector, truth)}};
+  const auto faces = rows_text("f {} {} {}\n", c.triangles, 1);
+  for (std::size_t f = 0; f < c.frames.size(); ++f)
+    files[fmt::format("frame_{:04}.obj", f)] = rows_text("v {} {} {}\n", c.frames[f]) + faces;
+  if (detector.built_in) {
+    files["case_test.cpp"] = test_text(c, detector.configurations.front().options);
+  } else {
+    files["case_plugin.cpp"] = std::string(reading_program) +
+                               (properties::says_query(c) ? query_program : mesh_program) +
+                               plugin_program;
   }
-  if (auto written = write("case.json", corpus::case_text(c)); !written) return written;
-  if (detector.built_in)
-    return write("case_test.cpp", test_text(c, detector.configurations.front().options, truth));
-  if (auto written = write("case.cpp", plain_case_text(c, detector, truth)); !written)
-    return written;
-  return write("case_plugin.cpp", plugin_case_text(properties::says_query(c)));
+  for (const auto& [name, text] : files) {
+    BOOST_OUTCOME_TRY(corpus::write_file_atomically(folder / name, text));
+  }
+  return outcome::success();
 }
 
 }  // namespace assay::reports

@@ -1,4 +1,5 @@
-// Writes a case for other programs: its frames as OBJ, and a GoogleTest that holds it.
+// Writes a case for other programs: its frames as OBJ, and C++ that holds it and asks of a detector
+// what is claimed of it.
 #pragma once
 
 #include <filesystem>
@@ -10,11 +11,22 @@
 
 namespace assay::reports {
 
-// Writes FOLDER/frame_0000.obj ... (with the shortest decimals that read back to the same doubles)
-// and FOLDER/case.json. For the built-in detector also FOLDER/case_test.cpp, which asks of it what
-// its first configuration claims, by what the oracle found, and needs GoogleTest and the library
-// assay::detector. For a plug-in also FOLDER/case.cpp and FOLDER/case_plugin.cpp (owner_export.h).
-// Fails if a file cannot be written.
+// Writes FOLDER/frame_0000.obj ... (with the shortest decimals that read back to the same doubles),
+// FOLDER/case.json, FOLDER/case.cpp, and a second C++ file that puts FOLDER/case.cpp to the
+// detector.
+//
+// FOLDER/case.cpp needs neither Assay nor a test framework. It holds mesh and frames, or the four
+// points of a query (properties/worker/plugin/query_case.h); for each step what the oracle finds
+// that counts under the contract, with its time as decimals and as fractions, and the contacts that
+// the contract leaves out; the claims; a function that is left to be filled in, and a main() that
+// asks for each claim. Its exit codes are 0: no claim is broken, 1: one is, 2: not filled in.
+//
+// For a plug-in the second file is FOLDER/case_plugin.cpp, whose program takes a library as its
+// word and asks its assay_detector(); it ends with 1 too where the library crashes or exits, if
+// `total` is claimed. For the built-in detector it is FOLDER/case_test.cpp, a GoogleTest of the
+// first configuration, which needs the library assay::detector.
+//
+// REQUIRES judgements of a contracted case. Fails if a file cannot be written.
 Expected<void> export_case(const std::filesystem::path& folder, const corpus::Case& c,
                            const properties::DetectorUnderTest& detector,
                            const std::vector<oracle::StepJudgement>& truth);

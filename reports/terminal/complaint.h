@@ -1,6 +1,7 @@
 // How a verb ends: its exit code, and the one line on stderr that says why it cannot go on.
 #pragma once
 
+#include <boost/outcome/try.hpp>
 #include <string>
 
 #include "corpus/problem.h"

@@ -1,11 +1,61 @@
 #include "reports/terminal/option_words.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <thread>
 
 namespace assay::reports {
+
+VerbOption VerbOption::required() {
+  option_->required();
+  return *this;
+}
+
+VerbOption VerbOption::with(const Check& check) {
+  option_->check(CLI::Validator(check.complaint, check.words));
+  return *this;
+}
+
+VerbOption VerbOption::in_range(std::uint64_t least, std::uint64_t most) {
+  option_->check(CLI::Range(least, most));
+  return *this;
+}
+
+VerbOption VerbOption::shows_default() {
+  option_->capture_default_str();
+  return *this;
+}
+
+VerbOption VerbOption::excludes(VerbOption other) {
+  option_->excludes(other.option_);
+  return *this;
+}
+
+Verb::Verb(CLI::App& app, const std::string& name, const std::string& about)
+    : app_(app.add_subcommand(name, about)) {}
+
+template <class Target>
+VerbOption Verb::add(const std::string& name, Target& target, const std::string& about) {
+  return VerbOption(app_->add_option(name, target, about));
+}
+template VerbOption Verb::add(const std::string&, std::string&, const std::string&);
+template VerbOption Verb::add(const std::string&, std::vector<std::string>&, const std::string&);
+template VerbOption Verb::add(const std::string&, int&, const std::string&);
+template VerbOption Verb::add(const std::string&, std::uint64_t&, const std::string&);
+template VerbOption Verb::add(const std::string&, double&, const std::string&);
+template VerbOption Verb::add(const std::string&, std::optional<double>&, const std::string&);
+
+VerbOption Verb::add_flag(const std::string& name, bool& target, const std::string& about) {
+  return VerbOption(app_->add_flag(name, target, about));
+}
+VerbOption Verb::add_word(const std::string& name,
+                          std::function<void(const std::string& word)> take,
+                          const std::string& about) {
+  return VerbOption(app_->add_option_function<std::string>(name, std::move(take), about));
+}
+
 namespace {
 
 // Reads a decimal number with nothing before or behind it.
@@ -46,7 +96,7 @@ Check positive() {
   return {"NUMBER > 0", [](const std::string& word) {
             const auto number = number_of(word);
             return number && *number > 0 && std::isfinite(*number)
-                       ? std::string()
+                       ? ""
                        : fmt::format("'{}' is not a number above 0", word);
           }};
 }
@@ -56,7 +106,7 @@ Check positive() {
 Check whole_number() {
   return {"NUMBER >= 0", [](const std::string& word) {
             return whole_number_of<std::uint64_t>(word)
-                       ? std::string()
+                       ? ""
                        : fmt::format("'{}' is not a whole number of 64 bits", word);
           }};
 }
@@ -65,7 +115,7 @@ Check share() {
   return {"0 < SHARE <= 1", [](const std::string& word) {
             const auto number = number_of(word);
             return number && *number > 0 && *number <= 1
-                       ? std::string()
+                       ? ""
                        : fmt::format("'{}' is not a number above 0, at most 1", word);
           }};
 }

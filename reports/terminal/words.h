@@ -1,4 +1,5 @@
-// Words as text: with characters replaced, joined to one line, or as a command that can be pasted.
+// Words as text: with characters replaced, joined to one line, or as a command that can be pasted;
+// and which program this is.
 #pragma once
 
 #include <fmt/format.h>
@@ -37,5 +38,13 @@ std::string absolute_path(const std::filesystem::path& path);
 
 // " --detector LIB.so", with " --threads N" if N is not 1; empty for the built-in detector.
 std::string detector_words(const std::string& library, std::uint64_t threads = 1);
+
+// The commit: 40 hexadecimal digits, followed by "-dirty" if tracked files were changed. Empty if
+// the program was built outside of a git repository.
+std::string commit_text();
+
+// "assay 0.2.0 (CGAL 5.5.1, GMP ..., ...)": this program and the libraries that its answers rest
+// on.
+std::string version_text();
 
 }  // namespace assay::reports

@@ -8,8 +8,6 @@
 #include "properties/words.h"
 #include "reports/check/query_score.h"
 #include "reports/queries/query_detector.h"
-#include "reports/terminal/complaint.h"
-#include "reports/terminal/option_words.h"
 #include "reports/terminal/text_file.h"
 #include "reports/terminal/words.h"
 #include "reports/verbs/verbs.h"
@@ -44,10 +42,9 @@ Expected<void> ask_plugin(QueryDetector& detector, const std::string& file, cons
         std::visit([](const auto& q) { return detector::four_points(q); }, set[i].query));
     names.push_back(fmt::format("{} query {}", file, i));
   }
-  const auto judged = detector.judge(queries, names);
-  if (!judged) return judged.error();
+  BOOST_OUTCOME_TRY(judged, detector.judge(queries, names));
   for (std::size_t i = 0; i < set.size(); ++i) {
-    const auto& one = judged.value()[i];
+    const auto& one = judged[i];
     if (!one.is_within || one.run.steps.empty()) continue;
     const auto answer = one.run.steps[0].answer;
     if (answer != detector::Answer::free && answer != detector::Answer::collision) continue;
@@ -59,40 +56,35 @@ Expected<void> ask_plugin(QueryDetector& detector, const std::string& file, cons
   return outcome::success();
 }
 
-int check_plugin(const CheckQueriesRequest& request, const std::vector<QuerySet>& sets) {
-  auto opened = QueryDetector::open(request.detector);
-  if (!opened) return refuse(opened.error());
-  auto& detector = opened.value();
+Expected<int> check_plugin(const CheckQueriesRequest& request, const std::vector<QuerySet>& sets) {
+  BOOST_OUTCOME_TRY(detector, QueryDetector::open(request.detector));
   fmt::print("{}\n", detector.title());
   std::fflush(stdout);
   QueryScore score(detector.request().detector.name);
   for (std::size_t i = 0; i < sets.size(); ++i) {
-    if (const auto asked = ask_plugin(detector, request.files[i], sets[i], score); !asked)
-      return refuse(asked.error());
+    BOOST_OUTCOME_TRY(ask_plugin(detector, request.files[i], sets[i], score));
   }
   score.print();
   fmt::print("{}", detector.text());
   auto report = score.to_json(request.files);
   report["detector"] = detector.to_json();
-  if (const auto written = write_report(request.json_file, report); !written)
-    return refuse(written.error());
+  BOOST_OUTCOME_TRY(write_report(request.json_file, report));
   return detector.exit_code();
 }
 
-int run_check_queries(const CheckQueriesRequest& request) {
+Expected<int> run_check_queries(const CheckQueriesRequest& request) {
   if (!request.truths.empty() && request.truths.size() != request.files.size()) {
-    return refuse(
+    return Problem{
         fmt::format("{} truth files for {} query files: give one for each, in the same order",
-                    request.truths.size(), request.files.size()));
+                    request.truths.size(), request.files.size())};
   }
-  if (auto may = may_write(request.json_file, request.files); !may) return refuse(may.error());
+  BOOST_OUTCOME_TRY(may_write(request.json_file, request.files));
   std::vector<QuerySet> sets;
   for (std::size_t i = 0; i < request.files.size(); ++i) {
     std::optional<std::filesystem::path> truth;
     if (!request.truths.empty()) truth = request.truths[i];
-    auto queries = corpus::read_queries(request.files[i], truth);
-    if (!queries) return refuse(queries.error());
-    sets.push_back(std::move(queries.value()));
+    BOOST_OUTCOME_TRY(queries, corpus::read_queries(request.files[i], truth));
+    sets.push_back(std::move(queries));
   }
   if (!request.detector.library.empty()) return check_plugin(request, sets);
   QueryScore score(request.method);
@@ -100,8 +92,7 @@ int run_check_queries(const CheckQueriesRequest& request) {
   score.print();
   auto report = score.to_json(request.files);
   report["detector"] = nullptr;
-  if (const auto written = write_report(request.json_file, report); !written)
-    return refuse(written.error());
+  BOOST_OUTCOME_TRY(write_report(request.json_file, report));
   if (score.is_unsound()) return exit_unsound;
   return score.is_wrong() ? exit_defect : exit_holds;
 }

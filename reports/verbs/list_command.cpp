@@ -2,14 +2,15 @@
 // of a run.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "corpus/scenes/scenes.h"
 #include "properties/campaign/gates/findings.h"
 #include "properties/faults/fault.h"
 #include "properties/laws/law.h"
 #include "reports/campaign/failure_text.h"
 #include "reports/check/detector_choice.h"
-#include "reports/terminal/complaint.h"
-#include "reports/terminal/option_words.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {
@@ -20,7 +21,7 @@ struct ListRequest {
   std::string folder;           // the folder of a run, for the last two
 };
 
-int list_scenes() {
+Expected<int> list_scenes(const std::string&) {
   fmt::print("{:<20} {:>9} {:>7}  {:<6} {:<6} {}\n", "scene", "triangles", "frames", "closed",
              "--mesh", "what it is");
   for (const auto& scene : corpus::scenes()) {
@@ -31,14 +32,14 @@ int list_scenes() {
   return exit_holds;
 }
 
-int list_laws() {
+Expected<int> list_laws(const std::string&) {
   for (const auto& law : properties::laws()) {
     fmt::print("{:4} {}\n     {}\n", law.number, law.name, law.statement);
   }
   return exit_holds;
 }
 
-int list_faults() {
+Expected<int> list_faults(const std::string&) {
   fmt::print("{:44} {:11} {:20} {:>9}  {}\n", "fault", "status", "found by", "vertices", "what");
   for (const auto& fault : properties::faults()) {
     fmt::print("{:44} {:11} {:20} {:>9}  {}{}\n", fault.name, properties::name_of(fault.status),
@@ -49,7 +50,7 @@ int list_faults() {
   return exit_holds;
 }
 
-int list_campaigns() {
+Expected<int> list_campaigns(const std::string&) {
   fmt::print("{:10} {:>9} {:>9}  {}\n", "campaign", "cases", "seconds", "what it is");
   for (const auto& plan : properties::named_plans()) {
     std::uint64_t cases = 0;
@@ -60,13 +61,12 @@ int list_campaigns() {
   return exit_holds;
 }
 
-int list_failures(const std::string& folder) {
-  const auto findings = properties::read_findings(folder);
-  if (!findings) return refuse(findings.error().message);
+Expected<int> list_failures(const std::string& folder) {
+  BOOST_OUTCOME_TRY(findings, properties::read_findings(folder));
   std::string told;
-  for (const auto& failure : findings.value().failures) {
+  for (const auto& failure : findings.failures) {
     if (failure.signature != told)
-      fmt::print("{:>8} times  {}\n", findings.value().met_count(failure), failure.signature);
+      fmt::print("{:>8} times  {}\n", findings.met_count(failure), failure.signature);
     told = failure.signature;
     fmt::print("    {} ({}): {}\n{}", failure.id, failure.configuration, failure.explanation,
                printed_text(failure.printed));
@@ -75,36 +75,39 @@ int list_failures(const std::string& folder) {
   return exit_holds;
 }
 
-int list_slow(const std::string& folder) {
-  const auto findings = properties::read_findings(folder);
-  if (!findings) return refuse(findings.error().message);
-  fmt::print("{}", slow_trials_text(findings.value()));
+Expected<int> list_slow(const std::string& folder) {
+  BOOST_OUTCOME_TRY(findings, properties::read_findings(folder));
+  fmt::print("{}", slow_trials_text(findings));
   return exit_holds;
 }
 
-int run_list(const ListRequest& request) {
-  const auto& [list, folder] = request;
-  if (list == "slow")
-    return folder.empty() ? refuse("list slow needs the folder of a run") : list_slow(folder);
-  if (list == "failures") {
-    return folder.empty() ? refuse("list failures needs the folder of a run")
-                          : list_failures(folder);
-  }
-  if (!folder.empty()) return refuse(fmt::format("list {} takes no folder", list));
-  if (list == "laws") return list_laws();
-  if (list == "faults") return list_faults();
-  if (list == "campaigns") return list_campaigns();
-  return list_scenes();
+struct List {
+  const char* name;
+  bool is_of_a_run;  // and needs its folder
+  Expected<int> (*print)(const std::string& folder);
+};
+constexpr List lists[] = {{"scenes", false, list_scenes},    {"laws", false, list_laws},
+                          {"faults", false, list_faults},    {"campaigns", false, list_campaigns},
+                          {"failures", true, list_failures}, {"slow", true, list_slow}};
+
+const List* list_named(const std::string& name) {
+  const auto* found = std::find_if(std::begin(lists), std::end(lists),
+                                   [&](const List& list) { return list.name == name; });
+  return found == std::end(lists) ? nullptr : found;
 }
 
-bool is_list(const std::string& word) {
-  return word == "scenes" || word == "laws" || word == "faults" || word == "campaigns" ||
-         word == "failures" || word == "slow";
+Expected<int> run_list(const ListRequest& request) {
+  const auto& list = *list_named(request.list);
+  if (list.is_of_a_run && request.folder.empty())
+    return Problem{fmt::format("list {} needs the folder of a run", list.name)};
+  if (!list.is_of_a_run && !request.folder.empty())
+    return Problem{fmt::format("list {} takes no folder", list.name)};
+  return list.print(request.folder);
 }
 
 void add_options(Verb& verb, ListRequest& request) {
   verb.add("what", request.list, "scenes, laws, faults, campaigns, failures, slow")
-      .with(one_of("scenes, laws, faults, campaigns, failures, slow", is_list));
+      .with(one_of("scenes, laws, faults, campaigns, failures, slow", list_named));
   verb.add("folder", request.folder, "Of a run, for failures and slow");
 }
 

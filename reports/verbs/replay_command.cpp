@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <string_view>
 
@@ -21,8 +20,6 @@
 #include "reports/steps/case_export.h"
 #include "reports/steps/pair_story.h"
 #include "reports/steps/step_text.h"
-#include "reports/terminal/complaint.h"
-#include "reports/terminal/option_words.h"
 #include "reports/terminal/words.h"
 #include "reports/verbs/verbs.h"
 
@@ -38,10 +35,6 @@ struct ReplayRequest {
 
 using properties::Outcome;
 
-bool is_number(std::string_view word) {
-  return !word.empty() && word.find_first_not_of("0123456789") == std::string_view::npos;
-}
-
 struct TrialName {
   const properties::Family* family;
   std::uint64_t index;
@@ -56,16 +49,14 @@ std::optional<TrialName> trial_of(std::string_view id) {
     parts.push_back(id.substr(begin, end - begin));
     begin = end + 1;
   }
-  if (parts.size() != 4 || parts[0].empty() || !is_number(parts[3]) ||
-      !is_number(parts[1].substr(0, parts[1].find('.')))) {
+  if (parts.size() != 4 || parts[0].empty()) return std::nullopt;
+  const auto index = whole_number_of<std::uint64_t>(std::string(parts[3]));
+  const std::string seed(parts[1].substr(0, parts[1].find('.')));
+  if (!index || seed.empty() || seed.find_first_not_of("0123456789") != std::string::npos)
     return std::nullopt;
-  }
-  std::uint64_t index = 0;
-  const auto* end = parts[3].data() + parts[3].size();
-  if (std::from_chars(parts[3].data(), end, index).ec != std::errc()) return std::nullopt;
   const auto* found = properties::find_family(parts[2]);
   if (!found) return std::nullopt;
-  return TrialName{found, index};
+  return TrialName{found, *index};
 }
 
 struct ReplayedCase {
@@ -81,9 +72,8 @@ corpus::Expected<ReplayedCase> case_of(const std::string& id_or_file) {
       return ReplayedCase{corpus::Case{}, trial};
     }
   }
-  auto read = corpus::read_case(id_or_file);
-  if (!read) return read.error();
-  return ReplayedCase{std::move(read.value()), std::nullopt};
+  BOOST_OUTCOME_TRY(read, corpus::read_case(id_or_file));
+  return ReplayedCase{std::move(read), std::nullopt};
 }
 
 // A case that states options runs in the configuration of these. One that does not runs in every
@@ -175,18 +165,18 @@ std::string misspelt(const std::string& id) {
                : "";
 }
 
-int run_replay(const ReplayRequest& request) {
+Expected<int> run_replay(const ReplayRequest& request) {
   auto made = case_of(request.id_or_file);
   if (!made) {
-    return refuse(made.error().message +
-                  (request.id_or_file.find(':') == std::string::npos
-                       ? ""
-                       : " (an id is CAMPAIGN:SEED:FAMILY:INDEX, with a family of this build)"));
+    return Problem{made.error().message +
+                   (request.id_or_file.find(':') == std::string::npos
+                        ? ""
+                        : " (an id is CAMPAIGN:SEED:FAMILY:INDEX, with a family of this build)")};
   }
   corpus::Case& c = made.value().c;
   const auto& trial = made.value().trial;
   if (trial) {
-    if (const auto line = misspelt(request.id_or_file); !line.empty()) return refuse(line);
+    if (const auto line = misspelt(request.id_or_file); !line.empty()) return Problem{line};
   }
   properties::CampaignRequest subject;
   subject.worker = properties::worker_program();
@@ -194,36 +184,36 @@ int run_replay(const ReplayRequest& request) {
   const bool is_query =
       trial ? properties::is_query_family(trial->family->name) : properties::says_query(c);
   if (is_query && words.library.empty())
-    return refuse("this is a query of a plug-in: name its library by --detector");
+    return Problem{"this is a query of a plug-in: name its library by --detector"};
   words.part = is_query ? DetectorPart::query : DetectorPart::steps;
-  if (auto chosen = choose_detector(words, subject); !chosen) return refuse(chosen.error());
+  BOOST_OUTCOME_TRY(choose_detector(words, subject));
   const auto& contract = subject.detector.contract;
   if (trial) c = properties::case_within(contract, *trial->family, request.id_or_file).made.c;
   if (auto problem = choose_configurations(c, subject.detector)) {
-    return refuse(fmt::format("{}: {}", request.id_or_file, *problem));
+    return Problem{fmt::format("{}: {}", request.id_or_file, *problem)};
   }
   const bool vouched = trial && properties::is_vouched_for(subject.detector, c, trial->index);
   if (vouched) {
     subject.detector.configurations = properties::with_clean_start(subject.detector.configurations);
   }
   if (request.why && !subject.detector.built_in) {
-    return refuse("--why is of the built-in detector: a plug-in does not show its stages");
+    return Problem{"--why is of the built-in detector: a plug-in does not show its stages"};
   }
   if (request.why && (request.why->a < 0 || request.why->b >= c.triangles.rows())) {
-    return refuse(fmt::format("--why {},{}: the mesh has {} triangles", request.why->a,
-                              request.why->b, c.triangles.rows()));
+    return Problem{fmt::format("--why {},{}: the mesh has {} triangles", request.why->a,
+                               request.why->b, c.triangles.rows())};
   }
   const auto seen = properties::contracted(c, subject.detector.contract);
   if (!seen) {
-    return refuse(fmt::format("{}: nothing of it is within the detector's contract: {}",
-                              request.id_or_file, properties::why_left_out(c, contract)));
+    return Problem{fmt::format("{}: nothing of it is within the detector's contract: {}",
+                               request.id_or_file, properties::why_left_out(c, contract))};
   }
   const auto truth = properties::judge_case(*seen, contract);
   properties::WorkerLimits limits{.isolation = subject.isolation, .threads = subject.threads};
   properties::WorkerProcess worker(subject.worker, subject.plugin, limits);
   const auto runs = worker.run(*seen, subject.detector.configurations);
   for (const auto& run : runs) {
-    if (run.end == properties::RunEnd::not_run) return refuse(run.explanation);
+    if (run.end == properties::RunEnd::not_run) return Problem{run.explanation};
   }
   // A plug-in that claims to be deterministic is asked again, as in a campaign: in another process,
   // in which each step is evaluated twice.
@@ -236,8 +226,7 @@ int run_replay(const ReplayRequest& request) {
   const auto again = asks_twice ? second.run(*seen, subject.detector.configurations)
                                 : std::vector<properties::CaseRun>{};
   if (!request.export_folder.empty()) {
-    const auto written = export_case(request.export_folder, *seen, subject.detector, truth);
-    if (!written) return refuse(written.error());
+    BOOST_OUTCOME_TRY(export_case(request.export_folder, *seen, subject.detector, truth));
   }
   fmt::print("{}: {}{}\n", properties::printable(c.id),
              properties::size_text(properties::size_of(c)),
@@ -279,8 +268,8 @@ std::optional<detector::TrianglePair> parse_pair(const std::string& word) {
 void add_options(Verb& verb, ReplayRequest& request) {
   verb.add("case", request.id_or_file, "Its id, CAMPAIGN:SEED:FAMILY:INDEX, or a file").required();
   verb.add("--export", request.export_folder,
-           "Write frames as OBJ and a test in C++ into this folder: a GoogleTest, of a plug-in "
-           "plain C++");
+           "Write frames as OBJ and a test in C++ into this folder: plain arrays beside a "
+           "GoogleTest, or of a plug-in beside a program that loads it");
   add_choice(verb, "--why", request.why, "A,B: two triangles", parse_pair,
              "A,B: why this pair of triangles was or was not tested");
   add_detector(verb, request.detector);

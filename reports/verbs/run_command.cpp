@@ -11,8 +11,6 @@
 #include "reports/certificate/own_checks.h"
 #include "reports/certificate/statement.h"
 #include "reports/certificate/summary.h"
-#include "reports/terminal/complaint.h"
-#include "reports/terminal/option_words.h"
 #include "reports/terminal/words.h"
 #include "reports/verbs/verbs.h"
 
@@ -36,8 +34,9 @@ Expected<void> write_files(const properties::CampaignRequest& request,
   return write_for_ci(make_predicate(findings, judgement, request.plan, ""), findings.folder, part);
 }
 
-int conclude(const properties::CampaignRequest& request, const properties::RunFindings& findings,
-             const std::string& out, double seconds) {
+Expected<int> conclude(const properties::CampaignRequest& request,
+                       const properties::RunFindings& findings, const std::string& out,
+                       double seconds) {
   const auto judgement = judge(findings, properties::asked_of_a_run(findings));
   fmt::print("{}\n{}\n{}, in {:.0f} s\n", findings_text(findings), gates_text(judgement),
              verdict_text(findings, judgement), seconds);
@@ -55,15 +54,8 @@ int conclude(const properties::CampaignRequest& request, const properties::RunFi
   // This line is for whoever waits for all shards, because the exit code may also be that of a
   // defect.
   fmt::print("shard {}: {}\n", text_of(request.shard), is_complete ? "complete" : "not complete");
-  if (const auto written = write_files(request, findings, judgement); !written)
-    return refuse(written.error());
+  BOOST_OUTCOME_TRY(write_files(request, findings, judgement));
   return judgement.exit_code;
-}
-
-int refuse_and_keep(Problem problem) {
-  // A store that somebody changed cannot be continued, so the line does not say that it can.
-  if (problem.kind != ProblemKind::not_as_stored) problem.message += go_on;
-  return refuse(problem);
 }
 
 // Runs the cases of the owner, which go with the first shard.
@@ -80,31 +72,34 @@ Expected<void> run_own_cases(const properties::CampaignRequest& request, propert
       },
       [&](const auto& failure) { failures.push_back(failure); });
   fmt::print("\n");
-  if (const auto kept = properties::keep_own_cases(store, rows, failures); !kept)
-    return kept.error();
-  return outcome::success();
+  return properties::keep_own_cases(store, rows, failures);
 }
 
-int run_campaign(const RunRequest& command) {
+// Runs what is left of the shard, and reads the whole of it. The code of a plug-in may have reached
+// the file. So there is a verdict on what was stored, or none.
+Expected<properties::RunFindings> run_shard(const properties::CampaignRequest& request,
+                                            properties::Store& store, const std::string& out) {
+  BOOST_OUTCOME_TRY(run_own_cases(request, store));
+  BOOST_OUTCOME_TRY(run_on_terminal(request, store, out));
+  return properties::read_one_store(properties::store_file(out, request.shard),
+                                    &store.known_rows());
+}
+
+Expected<int> run_campaign(const RunRequest& command) {
   const auto begin = std::chrono::steady_clock::now();
   const auto& out = command.words.out;
-  auto asked = ask_for_campaign(command.words);
-  if (!asked) return refuse(asked.error());
-  auto& request = asked.value();
+  BOOST_OUTCOME_TRY(request, ask_for_campaign(command.words));
   request.shard = command.shard;
-  const auto file = properties::store_file(out, request.shard);
-  auto store = properties::Store::open(file, properties::binding_of(request));
-  if (!store) return refuse(store.error());
-  if (const auto kept = properties::keeps_isolation(request, store.value()); !kept)
-    return refuse(kept.error());
-  if (const auto done = run_own_cases(request, store.value()); !done)
-    return refuse_and_keep(done.error());
-  if (const auto done = run_on_terminal(request, store.value(), out); !done)
-    return refuse_and_keep(done.error());
-  // The code of a plug-in may have reached the file. So there is a verdict on what was stored, or
-  // none.
-  const auto findings = properties::read_one_store(file, &store.value().known_rows());
-  if (!findings) return refuse_and_keep(findings.error());
+  BOOST_OUTCOME_TRY(store, properties::Store::open(properties::store_file(out, request.shard),
+                                                   properties::binding_of(request)));
+  BOOST_OUTCOME_TRY(properties::keeps_isolation(request, store));
+  const auto findings = run_shard(request, store, out);
+  if (!findings) {
+    auto problem = findings.error();
+    // A store that somebody changed cannot be continued, so the line does not say that it can.
+    if (problem.kind != ProblemKind::not_as_stored) problem.message += go_on;
+    return problem;
+  }
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   return conclude(request, findings.value(), out, took.count());
 }

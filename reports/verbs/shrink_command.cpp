@@ -8,8 +8,6 @@
 #include "properties/worker/plugin/query_case.h"
 #include "reports/check/detector_choice.h"
 #include "reports/pictures/case_scene.h"
-#include "reports/terminal/complaint.h"
-#include "reports/terminal/option_words.h"
 #include "reports/terminal/progress.h"
 #include "reports/terminal/text_file.h"
 #include "reports/terminal/words.h"
@@ -55,23 +53,22 @@ std::optional<Failing> find_failure(const corpus::Case& c,
   return std::nullopt;
 }
 
-int run_shrink(const ShrinkRequest& request) {
+Expected<int> run_shrink(const ShrinkRequest& request) {
   end_when_interrupted("interrupted: the smallest so far is in " + request.out, exit_undecided);
-  if (auto may = may_write(request.out, {request.file}); !may) return refuse(may.error());
-  auto read = corpus::read_case(request.file);
-  if (!read) return refuse(read.error().message);
-  const corpus::Case& c = read.value();
+  BOOST_OUTCOME_TRY(may_write(request.out, {request.file}));
+  BOOST_OUTCOME_TRY(read, corpus::read_case(request.file));
+  const corpus::Case& c = read;
   auto words = request.detector;
   const bool is_query = properties::says_query(c);
   if (is_query && words.library.empty())
-    return refuse(
-        fmt::format("{}: a query of a plug-in: name its library by --detector", request.file));
+    return Problem{
+        fmt::format("{}: a query of a plug-in: name its library by --detector", request.file)};
   words.part = is_query ? DetectorPart::query : DetectorPart::steps;
   properties::CampaignRequest subject;
   subject.worker = properties::worker_program();
-  if (auto chosen = choose_detector(words, subject); !chosen) return refuse(chosen.error());
+  BOOST_OUTCOME_TRY(choose_detector(words, subject));
   const auto options = properties::read_options(is_query ? corpus::Case() : c);
-  if (!options) return refuse(fmt::format("{}: {}", request.file, options.error().message));
+  if (!options) return Problem{fmt::format("{}: {}", request.file, options.error().message)};
   if (subject.detector.built_in && !c.options.empty()) {
     subject.detector.configurations = {{"the case's own", options.value()}};
   }
@@ -107,7 +104,7 @@ int run_shrink(const ShrinkRequest& request) {
     written = scenes.write_picture(request.out, reduction.smallest, failing->configuration.name,
                                    failing->signature);
   }
-  if (!written) return refuse(written.error());
+  if (!written) return written.error();
   fmt::print("{}; {} runs, {:.1f} s{}\npicture {}\nreplay: {} replay {}{}\n",
              properties::size_text(properties::size_of(c), properties::size_of(reduction.smallest)),
              reduction.calls, reduction.seconds, reduction.fixed_point ? "" : "; the time was over",

@@ -1,12 +1,9 @@
 // Reads the public data sets whose folder ASSAY_DATA names; skipped where it is absent.
 #include "tests/public_data.h"
 
-#include <gtest/gtest.h>
-
-#include <filesystem>
-
 #include "corpus/formats/sequence_reader.h"
 #include "corpus/queries/query_csv.h"
+#include "tests/test.h"
 
 namespace assay::corpus {
 namespace {

@@ -1,16 +1,8 @@
 // Files that a test makes and leaves no trace of.
 #pragma once
 
-#include <gtest/gtest.h>
 #include <unistd.h>
 #include <zlib.h>
-
-#include <cstdint>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <string>
-#include <string_view>
 
 #include "corpus/formats/mesh_reader.h"
 #include "corpus/problem.h"

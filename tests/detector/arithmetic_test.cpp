@@ -1,11 +1,5 @@
 // What the arithmetics without integers promise, stage by stage, against exact arithmetic: bounded
 // is silent rather than wrong, double and float are wrong where they are known to be.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdio>
-#include <random>
-
 #include "detector/boundary/ghost_sweep.h"
 #include "detector/contact/contact_doubles.h"
 #include "detector/contact/contact_exact.h"
@@ -20,9 +14,7 @@
 namespace assay::detector {
 namespace {
 
-using tests::octahedron;
-using tests::octahedron_positions;
-using tests::still;
+using tests::octahedron, tests::octahedron_positions, tests::still;
 
 class Draw {
  public:

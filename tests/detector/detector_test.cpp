@@ -1,10 +1,5 @@
 #include "detector/detector.h"
 
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <set>
-
 #include "detector/mesh/mesh_checks.h"
 #include "detector/state/step_state.h"
 #include "tests/detector/points.h"
@@ -12,8 +7,7 @@
 namespace assay::detector {
 namespace {
 
-using tests::octahedron;
-using tests::octahedron_positions;
+using tests::octahedron, tests::octahedron_positions;
 
 Detector make(const Triangles& t, const Positions& x, Culling culling = Culling::view_point,
               Start start = Start::verified, Pairs pairs = Pairs::all) {

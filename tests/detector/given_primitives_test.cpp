@@ -1,18 +1,12 @@
 // View primitives that the caller gives: points and lines, fixed and moving, one for all components
 // or one for each. The answer is the same from anywhere (L3, L10).
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "detector/detector.h"
 #include "tests/detector/points.h"
 
 namespace assay::detector {
 namespace {
 
-using tests::octahedron;
-using tests::octahedron_positions;
+using tests::octahedron, tests::octahedron_positions;
 
 constexpr ViewPrimitive fixed_point = {{{.25, 0, 0}, {.25, 0, 0}}, {{.25, 0, 0}, {.25, 0, 0}}};
 constexpr ViewPrimitive moving_point = {{{.25, 0, 0}, {-.5, .25, 0}}, {{.25, 0, 0}, {-.5, .25, 0}}};

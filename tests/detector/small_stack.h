@@ -2,14 +2,12 @@
 // detector is called from threads that its user made, and no depth of calls may depend on numbers.
 #pragma once
 
-#include <gtest/gtest.h>
 #include <pthread.h>
 #include <sys/mman.h>
 
-#include <algorithm>
 #include <cstddef>
-#include <cstdio>
-#include <functional>
+
+#include "tests/test.h"
 
 namespace assay::tests {
 

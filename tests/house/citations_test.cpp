@@ -6,10 +6,8 @@
 // tests/house/house_test.cpp), and a test may do so in the room that it tests. A pattern
 // ("house/*_test.cpp") has to fit some file.
 #include <fnmatch.h>
-#include <gtest/gtest.h>
 
 #include <cctype>
-#include <string_view>
 
 #include "tests/house/tree.h"
 

@@ -1,16 +1,9 @@
 // Comments keep the lines that their authors gave them. A formatter that folds long comment lines
 // turns tables of error bounds and listings of code into nonsense, so it must not touch comments,
 // and no comment may look as if one had folded it.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <regex>
-#include <set>
-#include <sstream>
-#include <string>
-#include <vector>
+
+#include "tests/test.h"
 
 namespace assay::tests {
 namespace {

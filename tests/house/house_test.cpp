@@ -1,14 +1,8 @@
 // The house keeps its own rules: arrows between rooms, no arithmetic shared by oracle and detector,
 // CGAL out of all headers and only its LGPL part, the fixed top level.
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <fstream>
-#include <map>
 #include <regex>
-#include <set>
-#include <string>
-#include <vector>
+
+#include "tests/test.h"
 
 namespace assay::tests {
 namespace {

@@ -1,12 +1,6 @@
 // No room is crowded, nothing but a test is named like one, no test is left out of the build, the
 // tree is built in any folder, tests of public data say so, and constants are named in one style.
-#include <gtest/gtest.h>
-
-#include <map>
 #include <regex>
-#include <set>
-#include <sstream>
-#include <string>
 
 #include "tests/house/tree.h"
 

@@ -3,11 +3,6 @@
 // The tables whose first column is `place` name, relative to the room, inner rooms ("query/") and
 // files at the room's root (sources by their stem, such as "digest" in corpus/README.md; other
 // files by their full name). A row that begins with "... " names files of the inner room above it.
-#include <gtest/gtest.h>
-
-#include <map>
-#include <sstream>
-
 #include "tests/house/tree.h"
 
 namespace assay::tests {

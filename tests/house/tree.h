@@ -1,13 +1,7 @@
 // The project's files, as the tests of the house read them. Paths are relative to the top.
 #pragma once
 
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <set>
-#include <string>
-#include <vector>
+#include "tests/test.h"
 
 namespace assay::tests {
 

@@ -10,10 +10,7 @@
 namespace assay::mutation {
 namespace {
 
-using detector::Answer;
-using detector::Arithmetic;
-using detector::StepResult;
-using detector::Want;
+using detector::Answer, detector::Arithmetic, detector::StepResult, detector::Want;
 
 const char* wrong_query(const QueryFact& fact) {
   const auto timed = detector::test_contact(fact.query, Want::first_time);

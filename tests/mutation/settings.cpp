@@ -7,10 +7,7 @@
 namespace assay::mutation {
 namespace {
 
-using detector::Arithmetic;
-using detector::Culling;
-using detector::Pairs;
-using detector::Start;
+using detector::Arithmetic, detector::Culling, detector::Pairs, detector::Start;
 
 constexpr Pairs first = Pairs::first;
 constexpr Start verified = Start::verified;

@@ -1,10 +1,8 @@
 // Own integer-only random numbers: the standard distributions differ between libraries.
 #pragma once
 
-#include <cmath>
-#include <cstdint>
-
 #include "detector/mesh/step_types.h"
+#include "tests/test.h"
 
 namespace assay::oracle::test {
 

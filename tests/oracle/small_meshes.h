@@ -1,35 +1,14 @@
 // Meshes of a few triangles, written as lists.
 #pragma once
 
-#include <initializer_list>
-#include <vector>
-
-#include "detector/mesh/step_types.h"
+#include "tests/meshes.h"
+#include "tests/test.h"
 
 namespace assay::oracle::test {
 
 using Rows = std::initializer_list<detector::Point>;
-using Corners = std::initializer_list<std::array<std::int32_t, 3>>;
-
-inline detector::Positions positions(Rows rows) {
-  detector::Positions x(static_cast<Eigen::Index>(rows.size()), 3);
-  Eigen::Index i = 0;
-  for (const auto& row : rows) {
-    for (int k = 0; k < 3; ++k) x(i, k) = row[k];
-    ++i;
-  }
-  return x;
-}
-
-inline detector::Triangles triangles(Corners rows) {
-  detector::Triangles f(static_cast<Eigen::Index>(rows.size()), 3);
-  Eigen::Index i = 0;
-  for (const auto& row : rows) {
-    for (int k = 0; k < 3; ++k) f(i, k) = row[k];
-    ++i;
-  }
-  return f;
-}
+using Corners = std::initializer_list<tests::Corners>;
+using tests::positions, tests::triangles;
 
 // Outward, of the vertices 0 to 3.
 inline const detector::Triangles tetrahedron_triangles =
@@ -52,28 +31,14 @@ inline Step collapsing_octahedron() {
   return {
       positions({{4, 0, 0}, {-3, 0, 0}, {1, 4, 1}, {0, -4, -1}, {0, -1, 3}, {0, 0, -2}}),
       positions({{4, 0, 0}, {3, -1, -3}, {-5, 1, -9}, {-3, -2, 3}, {-6, -11, -1}, {-10, -6, -8}}),
-      triangles({{0, 2, 4},
-                 {2, 1, 4},
-                 {1, 3, 4},
-                 {3, 0, 4},
-                 {2, 0, 5},
-                 {1, 2, 5},
-                 {3, 1, 5},
-                 {0, 3, 5}})};
+      tests::octahedron()};
 }
 
 // An octahedron that intersects itself at the start, where an edge pierces three faces.
 inline Step intersecting_octahedron() {
   return {positions({{1, -2, 0}, {-2, 1, 1}, {-2, 5, -2}, {2, -2, -1}, {0, 0, 1}, {-1, 0, -4}}),
           positions({{1, -2, 0}, {-2, 1, 1}, {0, 6, -2}, {2, -2, -1}, {0, 0, 1}, {-1, 0, -4}}),
-          triangles({{0, 2, 4},
-                     {2, 1, 4},
-                     {1, 3, 4},
-                     {3, 0, 4},
-                     {2, 0, 5},
-                     {1, 2, 5},
-                     {3, 1, 5},
-                     {0, 3, 5}})};
+          tests::octahedron()};
 }
 
 // Seven vertices seen from a segment: one triangle has no sign, though each of its vertices alone
@@ -82,23 +47,8 @@ inline Step seven_vertices_about_a_line() {
   return {
       positions(
           {{4, 0, 2}, {2, 7, 2}, {-5, 5, -2}, {-2, -5, -2}, {-1, -6, -2}, {2, 1, 6}, {-2, 2, -6}}),
-      positions({{6, -3, -1},
-                 {2, 7, 2},
-                 {-5, 5, -2},
-                 {-2, -5, -2},
-                 {1, -10, -5},
-                 {2, 1, 6},
-                 {-6, -1, -3}}),
-      triangles({{0, 1, 5},
-                 {1, 0, 6},
-                 {1, 2, 5},
-                 {1, 6, 2},
-                 {2, 3, 5},
-                 {3, 2, 6},
-                 {3, 4, 5},
-                 {4, 3, 6},
-                 {4, 0, 5},
-                 {0, 4, 6}})};
+      tests::positions_of("6 -3 -1, 2 7 2, -5 5 -2, -2 -5 -2, 1 -10 -5, 2 1 6, -6 -1 -3"),
+      tests::triangles_of("0 1 5, 1 0 6, 1 2 5, 1 6 2, 2 3 5, 3 2 6, 3 4 5, 4 3 6, 4 0 5, 0 4 6")};
 }
 
 }  // namespace assay::oracle::test

@@ -1,11 +1,6 @@
 // Every way of the oracle to an answer, in a thread with a small stack, over the numbers that need
 // most of it: threads of some systems have half a megabyte, and no depth of calls may depend on how
 // many bits tell two times apart.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-
 #include "oracle/query/contact.h"
 #include "oracle/referee/referee.h"
 #include "oracle/view/view_sign.h"
@@ -15,11 +10,8 @@
 namespace assay::oracle {
 namespace {
 
-using detector::EdgeEdge;
-using detector::MovingPoint;
-using detector::VertexFace;
-using detector::ViewSign;
-using detector::Want;
+using detector::EdgeEdge, detector::MovingPoint, detector::VertexFace, detector::ViewSign,
+    detector::Want;
 
 using FourMoving = std::array<MovingPoint, 4>;
 

@@ -1,15 +1,9 @@
 // Planted faults of the detector: each is found by its curated case, which the right detector
 // passes; the equivalent ones are never found.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdio>
-#include <cstdlib>
-#include <map>
-#include <set>
-
 #include "properties/judging/fault_run.h"
 #include "properties/worlds/small_steps.h"
+#include "tests/curated_cases.h"
+#include "tests/test.h"
 
 namespace assay::properties {
 
@@ -18,17 +12,8 @@ void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.name; }
 
 namespace {
 
-std::vector<corpus::Case> all_curated() {
-  const auto files = corpus::case_files(std::filesystem::path(ASSAY_SOURCE_DIR) / "corpus/curated");
-  std::vector<corpus::Case> cases;
-  if (files) {
-    for (const auto& file : files.value()) cases.push_back(corpus::read_case(file).value());
-  }
-  return cases;
-}
-
 const corpus::Case* curated(std::string_view id) {
-  static const std::vector<corpus::Case> cases = all_curated();
+  static const std::vector<corpus::Case> cases = tests::curated_cases();
   const auto found =
       std::find_if(cases.begin(), cases.end(), [&](const auto& c) { return c.id == id; });
   return found == cases.end() ? nullptr : &*found;
@@ -108,7 +93,7 @@ TEST(PlantedFaults, OnlyTheNamedStageIsReplaced) {
 class NeverShows : public testing::TestWithParam<Fault> {};
 
 TEST_P(NeverShows, OnCuratedCases) {
-  for (const auto& c : all_curated()) {
+  for (const auto& c : tests::curated_cases()) {
     EXPECT_FALSE(first_defect(c, GetParam(), judge_case(c))) << c.id;
   }
 }

@@ -2,14 +2,12 @@
 // claims made: what many a detector is. It rounds, it takes no care of motion in a plane, and the
 // library switches denormal numbers off for the thread that loads it.
 #include <algorithm>
-#include <array>
-#include <cstdint>
-#include <vector>
 
-#include "detector/plugin/assay_detector.h"
+#include "detector/plugin/assay_detector.hpp"
 
 namespace {
 
+using namespace assay::plugin;
 using Vector = std::array<double, 3>;
 
 Vector operator-(const Vector& a, const Vector& b) {
@@ -75,21 +73,43 @@ bool first_time(const Four& paths, Inside inside, double& time) {
   return false;
 }
 
-}  // namespace
+struct FastMath {
+  static Description describe() {
+    Description d;
+    d.name = "brute force, fast math";
+    d.version = "1";
+    d.claims = (ASSAY_CLAIM_TOTAL << 1) - 1;
+    return d;
+  }
+  explicit FastMath(const Mesh& mesh) {
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const auto* corners = mesh.triangles[t];
+      triangles.push_back({corners[0], corners[1], corners[2]});
+    }
+  }
 
-struct assay_handle {
+  Result evaluate(Positions start, Positions end) {
+    x_t0 = start.data();
+    x_t1 = end.data();
+    Result result = Result::collision(2, 2);
+    for (std::size_t a = 0; a < triangles.size(); ++a) {
+      for (std::size_t b = a + 1; b < triangles.size(); ++b) {
+        const double t = first_contact(a, b);
+        if (t > 1) continue;
+        result.add(static_cast<std::int32_t>(a), static_cast<std::int32_t>(b), t, t);
+        if (t < result.first[0]) result.first = {{t, t}};
+      }
+    }
+    return result.pairs.empty() ? Result::free() : result;
+  }
+
+ private:
   std::vector<std::array<std::int32_t, 3>> triangles;
-  const double *x_t0, *x_t1;
-  std::vector<std::int32_t> pairs;
-  std::vector<double> times;
+  const double *x_t0 = nullptr, *x_t1 = nullptr;
 
   Path path(std::int32_t v) const {
-    Path p;
-    for (std::size_t k = 0; k < 3; ++k) {
-      p.from[k] = x_t0[3 * v + static_cast<int>(k)];
-      p.to[k] = x_t1[3 * v + static_cast<int>(k)];
-    }
-    return p;
+    const double *p = x_t0 + 3 * v, *q = x_t1 + 3 * v;
+    return {{p[0], p[1], p[2]}, {q[0], q[1], q[2]}};
   }
 
   // 2 when the triangles do not meet.
@@ -116,72 +136,6 @@ struct assay_handle {
   }
 };
 
-namespace {
-
-const assay_description* describe() {
-  static const assay_description description = [] {
-    assay_description d = {};
-    d.name = "brute force, fast math";
-    d.version = "1";
-    d.claims = (ASSAY_CLAIM_TOTAL << 1) - 1;
-    return d;
-  }();
-  return &description;
-}
-
-std::int32_t create(const std::int32_t* triangles, std::uint64_t m, const double*, std::uint64_t,
-                    assay_handle** handle, const char**) {
-  *handle = new assay_handle{};
-  for (std::uint64_t t = 0; t < m; ++t) {
-    (*handle)->triangles.push_back({triangles[3 * t], triangles[3 * t + 1], triangles[3 * t + 2]});
-  }
-  return ASSAY_OK;
-}
-
-std::int32_t evaluate(assay_handle* h, const double* x_t0, const double* x_t1) {
-  h->x_t0 = x_t0;
-  h->x_t1 = x_t1;
-  h->pairs.clear();
-  h->times.clear();
-  for (std::size_t a = 0; a < h->triangles.size(); ++a) {
-    for (std::size_t b = a + 1; b < h->triangles.size(); ++b) {
-      const double t = h->first_contact(a, b);
-      if (t > 1) continue;
-      h->pairs.insert(h->pairs.end(), {static_cast<std::int32_t>(a), static_cast<std::int32_t>(b)});
-      h->times.insert(h->times.end(), {t, t});
-    }
-  }
-  return ASSAY_OK;
-}
-
-std::int32_t commit(assay_handle*) { return ASSAY_OK; }
-
-std::int32_t result(assay_handle* h, assay_result* out) {
-  out->answer = h->pairs.empty() ? ASSAY_FREE : ASSAY_COLLISION;
-  if (!h->times.empty()) {
-    out->first_lo = out->first_hi = *std::min_element(h->times.begin(), h->times.end());
-  }
-  out->pair_count = h->pairs.size() / 2;
-  out->pairs = h->pairs.data();
-  out->pair_times = h->times.data();
-  return ASSAY_OK;
-}
-
-void destroy(assay_handle* h) { delete h; }
-
 }  // namespace
 
-const assay_detector_api* assay_detector() {
-  static const assay_detector_api api = [] {
-    assay_detector_api table = {};
-    table.abi_version = ASSAY_DETECTOR_ABI_VERSION;
-    table.describe = describe;
-    table.create = create;
-    table.evaluate = evaluate;
-    table.commit = commit;
-    table.result = result;
-    table.destroy = destroy;
-    return table;
-  }();
-  return &api;
-}
+ASSAY_EXPORT_DETECTOR(FastMath);

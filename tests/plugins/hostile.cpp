@@ -26,13 +26,9 @@
 #include <string>
 #include <vector>
 
-#include "detector/plugin/assay_detector.h"
+#include "detector/plugin/assay_detector.hpp"
 #include "properties/worker/channel.h"
 #include "properties/worker/messages.h"
-
-struct assay_handle {
-  int unused;
-};
 
 namespace {
 
@@ -44,10 +40,27 @@ std::string variable(const char* name) {
   return value ? value : "";
 }
 
+constexpr int most_descriptors = 1024;
+
+// What a deed found out: it ends by a signal if so, and else by itself.
+[[noreturn]] void tell(bool is_so) {
+  if (is_so) raise(SIGUSR1);
+  _exit(3);
+}
+
+pid_t start_a_sleeper() {
+  const pid_t child = fork();
+  if (child != 0) return child;
+  pause();
+  _exit(0);
+}
+
+pid_t bystander() { return static_cast<pid_t>(std::atoi(variable("ASSAY_BYSTANDER").c_str())); }
+
 // ---- Forging: it takes the place of the code that replies, and knows the format by heart.
 
 int find_channel() {
-  for (int d = 3; d < 1024; ++d) {
+  for (int d = 3; d < most_descriptors; ++d) {
     struct stat seen;
     if (fstat(d, &seen) == 0 && S_ISSOCK(seen.st_mode)) return d;
   }
@@ -200,26 +213,20 @@ const std::map<std::string, Forgery>& forgeries() {
   _exit(0);
 }
 
-[[noreturn]] void forge_refusal(const std::string& message) {
-  Channel channel(find_channel());
-  Hello hello;
-  hello.wire_version = wire_version();
-  hello.serves = false;
-  hello.refusal = message;
-  channel.send(encode(hello));
-  for (;;) pause();
-}
-
 [[noreturn]] void forge_length() {
   const std::uint64_t length = std::uint64_t{1} << 60;
   if (send(find_channel(), &length, sizeof length, MSG_NOSIGNAL) < 0) _exit(1);
   for (;;) pause();
 }
 
-[[noreturn]] void forge_hello(const std::string& name, double margin) {
+// A description, or, with `refusal`, what the library says instead of one.
+[[noreturn]] void forge_hello(const std::string& name, double margin = 0,
+                              const std::string& refusal = "") {
   Channel channel(find_channel());
   Hello hello;
   hello.wire_version = wire_version();
+  hello.serves = refusal.empty();
+  hello.refusal = refusal;
   hello.description.name = name;
   hello.description.contract.margin = margin;
   channel.send(encode(hello));
@@ -238,7 +245,7 @@ void daemon_that(const std::function<void()>& action) {
   if (fork() != 0) return;
   setsid();
   if (fork() != 0) _exit(0);
-  for (int d = 3; d < 1024; ++d) close(d);
+  for (int d = 3; d < most_descriptors; ++d) close(d);
   for (int i = 0; i < 300; ++i) {
     action();
     usleep(10'000);
@@ -247,8 +254,6 @@ void daemon_that(const std::function<void()>& action) {
 }
 
 // ---- Calls that would change something outside. What succeeds is printed.
-
-pid_t bystander();
 
 struct HostCall {
   const char* name;
@@ -338,7 +343,7 @@ std::vector<HostCall> host_calls(const std::string& victim) {
   };
 }
 
-// Ends by itself if all was refused, and else by a signal.
+// Tells whether anything was not refused.
 [[noreturn]] void change_host(const std::string& victim) {
   bool is_refused = true;
   for (const auto& call : host_calls(victim)) {
@@ -347,8 +352,7 @@ std::vector<HostCall> host_calls(const std::string& victim) {
     is_refused = false;
   }
   std::fflush(stdout);
-  if (!is_refused) raise(SIGUSR1);
-  _exit(3);
+  tell(!is_refused);
 }
 
 // Whether less than all of `bytes` bytes fit into a file: ended by itself, or by a signal.
@@ -359,187 +363,139 @@ std::vector<HostCall> host_calls(const std::string& victim) {
   for (ssize_t got = 1; done < bytes && got > 0;
        done += got > 0 ? static_cast<std::size_t>(got) : 0)
     got = write(d, piece.data(), piece.size());
-  if (d < 0 || done >= bytes) raise(SIGUSR1);
-  _exit(3);
+  tell(d < 0 || done >= bytes);
 }
-
-pid_t bystander() { return static_cast<pid_t>(std::atoi(variable("ASSAY_BYSTANDER").c_str())); }
 
 const std::map<std::string, std::function<void()>>& deeds() {
   static const std::string victim = variable("ASSAY_VICTIM");
-  static const std::map<std::string, std::function<void()>> all = {
-    {"overwrite", [] { overwrite(victim); }},
-    {"truncate", [] { (void)!truncate(victim.c_str(), 0); }},
-    {"unlink", [] { unlink(victim.c_str()); }},
-    {"rename", [] { rename(victim.c_str(), (victim + ".gone").c_str()); }},
-    {"link", [] { (void)!link(victim.c_str(), (victim + ".too").c_str()); }},
-    {"make-beside",
-     [] {
-       overwrite(victim + ".new");
-       close(creat((victim + ".new").c_str(), 0666));
-     }},
-    {"write-own-program", [] { overwrite("/proc/self/exe"); }},
-    {"daemon", [] { daemon_that([] { overwrite(victim); }); }},
-    {"kill-bystander", [] { kill(bystander(), SIGKILL); }},
-    {"kill-parents",
-     [] {
-       for (pid_t p : {getppid(), bystander()})
-         if (p > 1) kill(p, SIGKILL);
-     }},
-    {"stop-bystander", [] { kill(bystander(), SIGSTOP); }},
-    {"queue-bystander", [] { sigqueue(bystander(), SIGKILL, {}); }},
-    {"trace-bystander", [] { ptrace(PTRACE_ATTACH, bystander(), nullptr, nullptr); }},
-    {"write-bystander",
-     [] {
-       static int word = 0;
-       iovec from = {&word, sizeof word}, to = {reinterpret_cast<void*>(0x400000), sizeof word};
-       process_vm_writev(bystander(), &from, 1, &to, 1, 0);
-     }},
-    {"memory-of-bystander", [] { overwrite("/proc/" + std::to_string(bystander()) + "/mem"); }},
-    {"memory-of-parent", [] { overwrite("/proc/" + std::to_string(getppid()) + "/mem"); }},
-    {"descriptors",
-     [] {
-       for (int d = 3; d < 1024; ++d) (void)!write(d, "garbage!garbage!garbage!", 24);
-     }},
-    {"close-descriptors",
-     [] {
-       for (int d = 3; d < 1024; ++d) close(d);
-     }},
-    {"descriptors-of-parent",
-     [] {
-       for (int d = 3; d < 16; ++d) {
-         overwrite("/proc/" + std::to_string(getppid()) + "/fd/" + std::to_string(d));
-       }
-     }},
-    {"many-processes",
-     [] {
-       for (int i = 0; i < 2000; ++i)
-         if (fork() == 0) {
-           pause();
-           _exit(0);
-         }
-     }},
-    // Whether the system lets it: ended by a signal, or by itself.
-    {"more-processes-than-allowed",
-     [] {
-       constexpr int allowed = 512;
-       for (int i = 0; i < allowed; ++i) {
-         const pid_t child = fork();
-         if (child < 0) _exit(3);
-         if (child == 0) {
-           pause();
-           _exit(0);
-         }
-       }
-       raise(SIGUSR1);
-     }},
-    // Whether there is a descriptor beside the standard ones and the channel: ended by a signal,
-    // or by itself.
-    {"descriptors-beside-the-channel",
-     [] {
-       int open = 0;
-       for (int d = STDERR_FILENO + 1; d < 1024; ++d) open += fcntl(d, F_GETFD) >= 0 ? 1 : 0;
-       if (open != 1) raise(SIGUSR1);
-       _exit(3);
-     }},
-    // Whether its session, and with it the terminal, is that of its host.
-    {"session-of-the-host",
-     [] {
-       if (getsid(0) != getpid()) raise(SIGUSR1);
-       _exit(3);
-     }},
-    {"root-again",
-     [] {
-       if (setreuid(0, 0) == 0 || setresuid(0, 0, 0) == 0) raise(SIGUSR1);
-       _exit(3);
-     }},
-    {"socket",
-     [] {
-       sockaddr_un name = {AF_UNIX, "/run/systemd/private"};
-       const int d = socket(AF_UNIX, SOCK_STREAM, 0);
-       if (d >= 0) (void)!connect(d, reinterpret_cast<sockaddr*>(&name), sizeof name);
-     }},
-    {"terminal",
-     [] {
-       overwrite("/dev/tty");
-       (void)!write(1, "\033[2Jcertified\n", 14);
-       (void)!write(2, "certified\n", 10);
-     }},
-    {"new-user",
-     [] {
-       (void)!setuid(0);
-       (void)!setgid(0);
-     }},
-    {"stop-itself", [] { raise(SIGSTOP); }},
-    {"wait-for-a-child",
-     [] {
-       if (vfork() == 0)
-         for (;;) pause();
-     }},
-    {"change-host", [] { change_host(victim); }},
-    {"fill-scratch", [] { fill(variable("TMPDIR") + "/much", std::size_t{3} << 28); }},
-    {"fill-shared-memory", [] { fill("/dev/shm/much", std::size_t{3} << 28); }},
-    // A call of x32, which the filter cannot know by its number.
-    {"foreign-call",
-     [] {
-       constexpr long of_x32 = 0x40000000;
-       syscall(of_x32 | SYS_chmod, victim.c_str(), 0777);
-       _exit(3);
-     }},
+  static std::map<std::string, std::function<void()>> all;
+  if (!all.empty()) return all;
+  all["overwrite"] = [] { overwrite(victim); };
+  all["truncate"] = [] { (void)!truncate(victim.c_str(), 0); };
+  all["unlink"] = [] { unlink(victim.c_str()); };
+  all["rename"] = [] { rename(victim.c_str(), (victim + ".gone").c_str()); };
+  all["link"] = [] { (void)!link(victim.c_str(), (victim + ".too").c_str()); };
+  all["make-beside"] = [] {
+    overwrite(victim + ".new");
+    close(creat((victim + ".new").c_str(), 0666));
+  };
+  all["write-own-program"] = [] { overwrite("/proc/self/exe"); };
+  all["daemon"] = [] { daemon_that([] { overwrite(victim); }); };
+  all["kill-bystander"] = [] { kill(bystander(), SIGKILL); };
+  all["kill-parents"] = [] {
+    for (pid_t p : {getppid(), bystander()})
+      if (p > 1) kill(p, SIGKILL);
+  };
+  all["stop-bystander"] = [] { kill(bystander(), SIGSTOP); };
+  all["queue-bystander"] = [] { sigqueue(bystander(), SIGKILL, {}); };
+  all["trace-bystander"] = [] { ptrace(PTRACE_ATTACH, bystander(), nullptr, nullptr); };
+  all["write-bystander"] = [] {
+    static int word = 0;
+    iovec from = {&word, sizeof word}, to = {reinterpret_cast<void*>(0x400000), sizeof word};
+    process_vm_writev(bystander(), &from, 1, &to, 1, 0);
+  };
+  all["memory-of-bystander"] = [] { overwrite("/proc/" + std::to_string(bystander()) + "/mem"); };
+  all["memory-of-parent"] = [] { overwrite("/proc/" + std::to_string(getppid()) + "/mem"); };
+  all["descriptors"] = [] {
+    for (int d = 3; d < most_descriptors; ++d) (void)!write(d, "garbage!garbage!garbage!", 24);
+  };
+  all["close-descriptors"] = [] {
+    for (int d = 3; d < most_descriptors; ++d) close(d);
+  };
+  all["descriptors-of-parent"] = [] {
+    for (int d = 3; d < 16; ++d) {
+      overwrite("/proc/" + std::to_string(getppid()) + "/fd/" + std::to_string(d));
+    }
+  };
+  all["many-processes"] = [] {
+    for (int i = 0; i < 2000; ++i) start_a_sleeper();
+  };
+  // Whether the system lets it.
+  all["more-processes-than-allowed"] = [] {
+    constexpr int allowed = 512;
+    for (int i = 0; i < allowed; ++i)
+      if (start_a_sleeper() < 0) tell(false);
+    tell(true);
+  };
+  // Whether there is a descriptor beside the standard ones and the channel.
+  all["descriptors-beside-the-channel"] = [] {
+    int open = 0;
+    for (int d = STDERR_FILENO + 1; d < most_descriptors; ++d)
+      open += fcntl(d, F_GETFD) >= 0 ? 1 : 0;
+    tell(open != 1);
+  };
+  // Whether its session, and with it the terminal, is that of its host.
+  all["session-of-the-host"] = [] { tell(getsid(0) != getpid()); };
+  all["root-again"] = [] { tell(setreuid(0, 0) == 0 || setresuid(0, 0, 0) == 0); };
+  all["socket"] = [] {
+    sockaddr_un name = {AF_UNIX, "/run/systemd/private"};
+    const int d = socket(AF_UNIX, SOCK_STREAM, 0);
+    if (d >= 0) (void)!connect(d, reinterpret_cast<sockaddr*>(&name), sizeof name);
+  };
+  all["terminal"] = [] {
+    overwrite("/dev/tty");
+    (void)!write(1, "\033[2Jcertified\n", 14);
+    (void)!write(2, "certified\n", 10);
+  };
+  all["new-user"] = [] {
+    (void)!setuid(0);
+    (void)!setgid(0);
+  };
+  all["stop-itself"] = [] { raise(SIGSTOP); };
+  all["wait-for-a-child"] = [] {
+    if (vfork() == 0)
+      for (;;) pause();
+  };
+  all["change-host"] = [] { change_host(victim); };
+  all["fill-scratch"] = [] { fill(variable("TMPDIR") + "/much", std::size_t{3} << 28); };
+  all["fill-shared-memory"] = [] { fill("/dev/shm/much", std::size_t{3} << 28); };
+  // A call of x32, which the filter cannot know by its number.
+  all["foreign-call"] = [] {
+    constexpr long of_x32 = 0x40000000;
+    syscall(of_x32 | SYS_chmod, victim.c_str(), 0777);
+    _exit(3);
+  };
 #if defined(__x86_64__)
-    // A call of i386: chmod, by the number that it has there.
-    {"older-call",
-     [] {
-       long low = -1;
-       void* room = mmap(nullptr, 4096, PROT_READ | PROT_WRITE,
-                         MAP_PRIVATE | MAP_ANONYMOUS | MAP_32BIT, -1, 0);
-       std::strncpy(static_cast<char*>(room), victim.c_str(), 4095);
-       asm volatile("int $0x80" : "=a"(low) : "a"(15L), "b"(room), "c"(0777L) : "memory");
-       _exit(3);
-     }},
+  // A call of i386: chmod, by the number that it has there.
+  all["older-call"] = [] {
+    long low = -1;
+    void* room =
+        mmap(nullptr, 4096, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_32BIT, -1, 0);
+    std::strncpy(static_cast<char*>(room), victim.c_str(), 4095);
+    asm volatile("int $0x80" : "=a"(low) : "a"(15L), "b"(room), "c"(0777L) : "memory");
+    _exit(3);
+  };
 #endif
-    // What the victim holds: ended by a signal, or by itself if it may not be read.
-    {"read",
-     [] {
-       const int d = open(victim.c_str(), O_RDONLY);
-       if (d >= 0) raise(SIGUSR1);
-       _exit(3);
-     }},
-    {"kill-itself", [] { raise(SIGKILL); }},
-    {"deep-stack",
-     [] {
-       const std::function<int(int)> down = [&](int n) {
-         volatile char room[4096] = {};
-         return room[0] + down(n + 1);
-       };
-       down(0);
-     }},
-    {"spin",
-     [] {
-       for (volatile bool forever = true; forever;) {
-       }
-     }},
-    {"all-memory-thrown",
-     [] {
-       std::vector<std::vector<char>> all;
-       for (;;) all.emplace_back(std::size_t{1} << 24, 'x');
-     }},
-    // Whether there is a limit: ended by itself, or by a signal.
-    {"limit-of-memory",
-     [] {
-       rlimit limit = {};
-       getrlimit(RLIMIT_AS, &limit);
-       if (limit.rlim_max == RLIM_INFINITY) raise(SIGUSR1);
-       _exit(3);
-     }},
-    {"all-memory",
-     [] {
-       for (;;) {
-         void* p = malloc(1 << 26);
-         if (!p) _exit(3);
-         memset(p, 1, 1 << 26);
-       }
-     }},
+  // What the victim holds.
+  all["read"] = [] { tell(open(victim.c_str(), O_RDONLY) >= 0); };
+  all["kill-itself"] = [] { raise(SIGKILL); };
+  all["deep-stack"] = [] {
+    const std::function<int(int)> down = [&](int n) {
+      volatile char room[4096] = {};
+      return room[0] + down(n + 1);
+    };
+    down(0);
+  };
+  all["spin"] = [] {
+    for (volatile bool forever = true; forever;) {
+    }
+  };
+  all["all-memory-thrown"] = [] {
+    std::vector<std::vector<char>> all;
+    for (;;) all.emplace_back(std::size_t{1} << 24, 'x');
+  };
+  // Whether there is no limit.
+  all["limit-of-memory"] = [] {
+    rlimit limit = {};
+    getrlimit(RLIMIT_AS, &limit);
+    tell(limit.rlim_max == RLIM_INFINITY);
+  };
+  all["all-memory"] = [] {
+    for (;;) {
+      void* p = malloc(1 << 26);
+      if (!p) _exit(3);
+      memset(p, 1, 1 << 26);
+    }
   };
   return all;
 }
@@ -558,17 +514,6 @@ void meddle() {
   if (deed != deeds().end()) deed->second();
 }
 
-const assay_description* describe() {
-  at("describe");
-  static const assay_description description = [] {
-    assay_description d = {};
-    d.name = "hostile";
-    d.version = "1";
-    d.claims = (ASSAY_CLAIM_TOTAL << 1) - 1;
-    return d;
-  }();
-  return &description;
-}
 // Scenes are larger. To judge its answers on these takes the oracle longer than all the rest, so
 // most modes end there when their deed is done.
 constexpr std::uint64_t triangles_of_a_case = 200;
@@ -578,29 +523,39 @@ void spare_the_oracle(std::uint64_t triangles) {
   if (triangles > triangles_of_a_case && mode != "forge-lies" && mode != "overwrite") _exit(0);
 }
 
-std::int32_t create(const std::int32_t*, std::uint64_t triangles, const double*, std::uint64_t,
-                    assay_handle** handle, const char**) {
+struct Hostile {
+  static assay::plugin::Description describe() {
+    at("describe");
+    assay::plugin::Description d;
+    d.name = "hostile";
+    d.version = "1";
+    d.claims = (ASSAY_CLAIM_TOTAL << 1) - 1;
+    return d;
+  }
+  explicit Hostile(const assay::plugin::Mesh&) {}
+  ~Hostile() { at("destroy"); }
+  assay::plugin::Result evaluate(assay::plugin::Positions, assay::plugin::Positions) {
+    at("evaluate");
+    return {};
+  }
+  void commit() { at("commit"); }
+};
+
+const assay_detector_api& honest() { return *assay::plugin::detail::table<Hostile>(); }
+
+// These two are not the header's, which would catch what they throw, and calls nothing for a
+// result.
+std::int32_t create(const std::int32_t* triangles, std::uint64_t m, const double* x,
+                    std::uint64_t n, assay_handle** handle, const char** message) {
   at("create");
   meddle();
-  spare_the_oracle(triangles);
-  static assay_handle one;
-  *handle = &one;
-  return ASSAY_OK;
+  spare_the_oracle(m);
+  return honest().create(triangles, m, x, n, handle, message);
 }
-std::int32_t evaluate(assay_handle*, const double*, const double*) {
-  at("evaluate");
-  return ASSAY_OK;
-}
-std::int32_t commit(assay_handle*) {
-  at("commit");
-  return ASSAY_OK;
-}
-std::int32_t result(assay_handle*, assay_result* result) {
+std::int32_t result(assay_handle* handle, assay_result* result) {
   at("result");
-  result->answer = ASSAY_FREE;
-  return ASSAY_OK;
+  return honest().result(handle, result);
 }
-void destroy(assay_handle*) { at("destroy"); }
 
 }  // namespace
 
@@ -612,24 +567,19 @@ const assay_detector_api* assay_detector() {
   if (forgery != forgeries().end()) forge(forgery->second, mode);
   if (mode.starts_with("forge-query")) forge({}, mode);
   if (mode == "forge-length") forge_length();
-  if (mode == "forge-refusal") forge_refusal("a\n\033[2Jcertified");
-  if (mode == "forge-long-refusal") forge_refusal(std::string(longest, 'x'));
-  if (mode == "forge-name") forge_hello("a\nb", 0);
-  if (mode == "forge-built-in") forge_hello("Built-in", 0);
-  if (mode == "forge-built-in-1") forge_hello("built in 1", 0);
-  if (mode == "forge-turned-name") forge_hello("fine \u202e", 0);
-  if (mode == "forge-space") forge_hello(" ", 0);
-  if (mode == "forge-long-name") forge_hello(std::string(101, 'x'), 0);
+  if (mode == "forge-refusal") forge_hello("", 0, "a\n\033[2Jcertified");
+  if (mode == "forge-long-refusal") forge_hello("", 0, std::string(longest, 'x'));
+  if (mode == "forge-name") forge_hello("a\nb");
+  if (mode == "forge-built-in") forge_hello("Built-in");
+  if (mode == "forge-built-in-1") forge_hello("built in 1");
+  if (mode == "forge-turned-name") forge_hello("fine \u202e");
+  if (mode == "forge-space") forge_hello(" ");
+  if (mode == "forge-long-name") forge_hello(std::string(101, 'x'));
   if (mode == "forge-margin") forge_hello("x", std::numeric_limits<double>::infinity());
   static const assay_detector_api api = [] {
-    assay_detector_api table = {};
-    table.abi_version = ASSAY_DETECTOR_ABI_VERSION;
-    table.describe = describe;
+    assay_detector_api table = honest();
     table.create = create;
-    table.evaluate = evaluate;
-    table.commit = commit;
     table.result = result;
-    table.destroy = destroy;
     return table;
   }();
   return &api;

@@ -3,6 +3,7 @@
 #include "detector/assembly.h"
 #include "detector/plugin/builtin_handle.h"
 #include "properties/faults/fault.h"
+#include "tests/plugins/changed_builtin.h"
 
 using namespace assay;
 
@@ -41,11 +42,8 @@ std::int32_t create(const std::int32_t* triangles, std::uint64_t triangle_count,
 }  // namespace
 
 const assay_detector_api* assay_detector() {
-  static const assay_detector_api api = [] {
-    assay_detector_api table = *assay_builtin_detector();
+  return tests::changed_builtin([](assay_detector_api& table) {
     table.describe = describe;
     table.create = create;
-    return table;
-  }();
-  return &api;
+  });
 }

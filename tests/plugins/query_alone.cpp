@@ -2,8 +2,7 @@
 // beside the built-in detector of whole steps. Its contract and faults are words of the environment
 // variable ASSAY_QUERY, such as "features=vertex-face miss=edge-edge":
 //
-//   features=vertex-face, features=edge-edge, float32, range=LO:HI, start=free, start=apart:D,
-//   tolerance=T, margin=D, claims=BITS       its description
+//   (those of told.h)                        its description
 //   miss=vertex-face, miss=edge-edge         answers free
 //   miss-at-start, miss-inside               answers free when the first contact is at 0, above 0
 //   miss-coplanar                            answers free where F is zero throughout
@@ -24,46 +23,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <cstring>
 #include <limits>
-#include <sstream>
-#include <string>
-#include <vector>
 
 #include "detector/contact/contact_exact.h"
 #include "detector/contact/elementary.h"
-#include "detector/plugin/assay_builtin_detector.h"
+#include "tests/plugins/changed_builtin.h"
+#include "tests/plugins/told.h"
 
 namespace {
 
 using namespace assay::detector;
 
-// The word's value, or nothing; "" for a word without one.
-const char* value_of(const char* name) {
-  static const std::vector<std::string> words = [] {
-    const char* given = std::getenv("ASSAY_QUERY");
-    std::istringstream in(given ? given : "");
-    std::vector<std::string> list;
-    for (std::string word; in >> word;) list.push_back(word);
-    return list;
-  }();
-  const std::size_t length = std::strlen(name);
-  for (const auto& word : words) {
-    if (word == name) return "";
-    if (word.starts_with(name) && word[length] == '=') return word.c_str() + length + 1;
-  }
-  return nullptr;
-}
-bool has(const char* name) { return value_of(name) != nullptr; }
-bool is(const char* name, const char* value) {
-  const char* found = value_of(name);
-  return found && std::strcmp(found, value) == 0;
-}
-double number_of(const char* name) {
-  const char* text = value_of(name);
-  return text ? std::strtod(text, nullptr) : 0;
-}
+const assay::tests::Told told("ASSAY_QUERY");
 
 constexpr std::uint32_t query_claims = ASSAY_CLAIM_FREE_SOUND | ASSAY_CLAIM_NOT_LATE |
                                        ASSAY_CLAIM_FIRST_TIME | ASSAY_CLAIM_NO_SPURIOUS |
@@ -76,27 +47,7 @@ constexpr std::uint32_t claims_made = query_claims;
 #endif
 
 const assay_description* describe() {
-  static const assay_description description = [] {
-    assay_description d = {};
-    d.name = "query alone";
-    d.version = "1";
-    d.claims = has("claims") ? static_cast<std::uint32_t>(number_of("claims")) : claims_made;
-    if (has("float32")) d.coordinates = ASSAY_COORDINATES_FLOAT32;
-    if (is("features", "vertex-face")) d.features = ASSAY_FEATURES_VERTEX_FACE;
-    if (is("features", "edge-edge")) d.features = ASSAY_FEATURES_EDGE_EDGE;
-    if (is("start", "free")) d.start = ASSAY_START_FREE;
-    if (const char* start = value_of("start"); start && std::strncmp(start, "apart:", 6) == 0) {
-      d.start = ASSAY_START_APART;
-      d.start_distance = std::strtod(start + 6, nullptr);
-    }
-    if (const char* range = value_of("range")) {
-      d.least_nonzero = std::strtod(range, nullptr);
-      d.largest = std::strtod(std::strchr(range, ':') + 1, nullptr);
-    }
-    d.time_tolerance = number_of("tolerance");
-    d.margin = number_of("margin");
-    return d;
-  }();
+  static const auto description = told.description("query alone", claims_made);
   return &description;
 }
 
@@ -117,9 +68,9 @@ bool is_outside(std::int32_t kind, const FourPoints& q, bool at_start) {
 }
 
 bool misses(std::int32_t kind, const FourPoints& q, bool at_start) {
-  if (is("miss", kind == ASSAY_QUERY_VERTEX_FACE ? "vertex-face" : "edge-edge")) return true;
-  if (has("miss-coplanar") && coplanar_throughout(q)) return true;
-  return has(at_start ? "miss-at-start" : "miss-inside");
+  if (told.is("miss", kind == ASSAY_QUERY_VERTEX_FACE ? "vertex-face" : "edge-edge")) return true;
+  if (told.has("miss-coplanar") && coplanar_throughout(q)) return true;
+  return told.has(at_start ? "miss-at-start" : "miss-inside");
 }
 
 std::int32_t query(std::int32_t kind, const double* x_t0, const double* x_t1,
@@ -134,26 +85,26 @@ std::int32_t query(std::int32_t kind, const double* x_t0, const double* x_t1,
   }
   const auto found = test_contact(q, Want::first_time);
   const bool at_start = found.contact && found.time.hi == 0;
-  if (has("abort-outside") && is_outside(kind, q, at_start)) std::abort();
-  if (has("abort-at-start") && at_start) std::abort();
-  const double shift = number_of("late") - number_of("early");
+  if (told.has("abort-outside") && is_outside(kind, q, at_start)) std::abort();
+  if (told.has("abort-at-start") && at_start) std::abort();
+  const double shift = told.number_of("late") - told.number_of("early");
   if (found.contact && !misses(kind, q, at_start)) {
     out->answer = ASSAY_COLLISION;
     out->first_lo = std::clamp(found.time.lo + shift, 0., 1.);
     out->first_hi = std::clamp(found.time.hi + shift, 0., 1.);
-    if (has("undecided")) out->answer = ASSAY_UNDECIDED;
-    if (has("error")) out->answer = ASSAY_ERROR;
-    if (has("no-interval")) out->first_lo = 2;
-    if (has("nan")) out->first_lo = std::numeric_limits<double>::quiet_NaN();
-    if (has("no-answer")) out->answer = 17;
-    if (has("refuse")) return ASSAY_REFUSED;
-    if (has("no-memory")) return ASSAY_OUT_OF_MEMORY;
-  } else if (has("alarm")) {
+    if (told.has("undecided")) out->answer = ASSAY_UNDECIDED;
+    if (told.has("error")) out->answer = ASSAY_ERROR;
+    if (told.has("no-interval")) out->first_lo = 2;
+    if (told.has("nan")) out->first_lo = std::numeric_limits<double>::quiet_NaN();
+    if (told.has("no-answer")) out->answer = 17;
+    if (told.has("refuse")) return ASSAY_REFUSED;
+    if (told.has("no-memory")) return ASSAY_OUT_OF_MEMORY;
+  } else if (told.has("alarm")) {
     out->answer = ASSAY_COLLISION;
     out->first_hi = 1;
   }
   static int calls = 0;  // on purpose: what is asked twice is answered in two ways
-  if (has("changing") && ++calls % 3 == 0 && out->answer == ASSAY_COLLISION) out->first_lo = 0;
+  if (told.has("changing") && ++calls % 3 == 0 && out->answer == ASSAY_COLLISION) out->first_lo = 0;
   return ASSAY_OK;
 }
 
@@ -185,16 +136,16 @@ std::int32_t commit(assay_handle* handle) {
 }
 
 bool is_above(const char* word) {
-  return has(word) && static_cast<double>(triangle_count) > number_of(word);
+  return told.has(word) && static_cast<double>(triangle_count) > told.number_of(word);
 }
 
 bool answers_free(const assay_result& right) {
-  if (has("free-again") && evaluations > 1) return true;
-  if (has("free-after-commits") && commits > number_of("free-after-commits")) return true;
-  if (has("free-once") && ::access(value_of("free-once"), F_OK) == 0) return true;
-  if (has("free-threaded") && threads > 1) return true;
+  if (told.has("free-again") && evaluations > 1) return true;
+  if (told.has("free-after-commits") && commits > told.number_of("free-after-commits")) return true;
+  if (told.has("free-once") && ::access(told.value_of("free-once"), F_OK) == 0) return true;
+  if (told.has("free-threaded") && threads > 1) return true;
   return is_above("free-above") && !is_above("up-to") &&
-         static_cast<double>(right.pair_count) >= number_of("from-pairs");
+         static_cast<double>(right.pair_count) >= told.number_of("from-pairs");
 }
 
 std::int32_t result(assay_handle* handle, assay_result* out) {
@@ -212,20 +163,18 @@ std::int32_t result(assay_handle* handle, assay_result* out) {
 }  // namespace
 
 const assay_detector_api* assay_detector() {
-  static const assay_detector_api api = [] {
-    assay_detector_api table = {};
-    table.abi_version = ASSAY_DETECTOR_ABI_VERSION;
+  return assay::tests::changed_builtin([](assay_detector_api& table) {
 #ifdef WITH_STEPS
-    table = *assay_builtin_detector();
     table.create = create;
     table.result = result;
     table.evaluate = evaluate;
     table.commit = commit;
     table.use_threads = use_threads;
+#else
+    table = {};
+    table.abi_version = ASSAY_DETECTOR_ABI_VERSION;
 #endif
     table.describe = describe;
     table.query = query;
-    return table;
-  }();
-  return &api;
+  });
 }

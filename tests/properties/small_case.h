@@ -1,10 +1,9 @@
 // A random small step as a case, and the plug-ins of the tests.
 #pragma once
 
-#include <string>
-
 #include "corpus/cases/case_file.h"
 #include "properties/worlds/small_steps.h"
+#include "tests/test.h"
 
 namespace assay::properties::test {
 

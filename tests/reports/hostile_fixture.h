@@ -5,10 +5,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cstdlib>
-#include <map>
-#include <nlohmann/json.hpp>
-
 #include "tests/reports/tiny_campaign.h"
 
 namespace assay::tests {
@@ -17,83 +13,45 @@ namespace assay::tests {
 // is caught, 2 where it cannot even be loaded, 3 where it hangs. How long starting hundreds of
 // processes takes decides whether that one hangs.
 struct HostileMode {
-  const char* name;
-  std::vector<int> exit_codes = {1};
+  std::string name;
+  std::vector<int> exit_codes;
 };
+
+inline std::vector<HostileMode> modes_of(const std::string& names, const std::vector<int>& codes) {
+  std::vector<HostileMode> modes;
+  for (const auto& name : words(names)) modes.push_back({name, codes});
+  return modes;
+}
 
 // Those that end at once.
 inline const std::vector<HostileMode>& quick_modes() {
-  static const std::vector<HostileMode> modes = {{"forge-no-steps"},
-                                                 {"forge-more-steps"},
-                                                 {"forge-not-run"},
-                                                 {"forge-hung"},
-                                                 {"forge-crashed"},
-                                                 {"forge-refused-with-steps"},
-                                                 {"forge-end"},
-                                                 {"forge-answer"},
-                                                 {"forge-number"},
-                                                 {"forge-place"},
-                                                 {"forge-text"},
-                                                 {"forge-control"},
-                                                 {"forge-bytes"},
-                                                 {"forge-long-text"},
-                                                 {"forge-no-interval"},
-                                                 {"forge-pair-beyond"},
-                                                 {"forge-pair-of-one"},
-                                                 {"forge-pair-twice"},
-                                                 {"forge-pair-time"},
-                                                 {"forge-free-with-pairs"},
-                                                 {"forge-views"},
-                                                 {"forge-counts"},
-                                                 {"forge-bool"},
-                                                 {"forge-count-of-steps"},
-                                                 {"forge-garbage"},
-                                                 {"forge-nothing"},
-                                                 {"forge-lies"},
-                                                 {"forge-length", {2}},
-                                                 {"forge-name", {2}},
-                                                 {"forge-margin", {2}},
-                                                 {"forge-refusal", {2}},
-                                                 {"overwrite"},
-                                                 {"truncate"},
-                                                 {"unlink"},
-                                                 {"rename"},
-                                                 {"link"},
-                                                 {"make-beside"},
-                                                 {"write-own-program"},
-                                                 {"daemon"},
-                                                 {"kill-bystander"},
-                                                 {"kill-parents"},
-                                                 {"stop-bystander"},
-                                                 {"queue-bystander"},
-                                                 {"trace-bystander"},
-                                                 {"write-bystander"},
-                                                 {"memory-of-bystander"},
-                                                 {"memory-of-parent"},
-                                                 {"descriptors"},
-                                                 {"close-descriptors"},
-                                                 {"descriptors-of-parent"},
-                                                 {"many-processes", {1, 3}},
-                                                 {"socket"},
-                                                 {"terminal"},
-                                                 {"new-user"},
-                                                 {"kill-itself"},
-                                                 {"deep-stack"},
-                                                 {"exit-at-load", {2}},
-                                                 {"exit-at-describe", {2}},
-                                                 {"exit-at-create"},
-                                                 {"exit-at-evaluate"},
-                                                 {"exit-at-commit"},
-                                                 {"exit-at-result"},
-                                                 {"exit-at-destroy"}};
+  static const std::vector<HostileMode> modes = [] {
+    auto all = modes_of(
+        "forge-no-steps forge-more-steps forge-not-run forge-hung forge-crashed forge- "
+        "refused-with-steps forge-end forge-answer forge-number forge-place forge-text forge- "
+        "control forge-bytes forge-long-text forge-no-interval forge-pair-beyond forge-pair- "
+        "of-one forge-pair-twice forge-pair-time forge-free-with-pairs forge-views forge- "
+        "counts forge-bool forge-count-of-steps forge-garbage forge-nothing forge-lies "
+        "overwrite truncate unlink rename link make-beside write-own-program daemon kill- "
+        "bystander kill-parents stop-bystander queue-bystander trace-bystander write- "
+        "bystander memory-of-bystander memory-of-parent descriptors close-descriptors "
+        "descriptors-of-parent socket terminal new-user kill-itself deep-stack exit-at-create "
+        "exit-at-evaluate exit-at-commit exit-at-result exit-at-destroy",
+        {1});
+    for (const auto& mode : modes_of(
+             "forge-length forge-name forge-margin forge-refusal exit-at-load exit-at-describe",
+             {2}))
+      all.push_back(mode);
+    all.push_back({"many-processes", {1, 3}});
+    return all;
+  }();
   return modes;
 }
 
 // Those that hang until a limit ends them.
 inline const std::vector<HostileMode>& hanging_modes() {
-  static const std::vector<HostileMode> modes = {
-      {"spin", {3}},           {"hang-at-create", {3}}, {"hang-at-evaluate", {3}},
-      {"hang-at-commit", {3}}, {"hang-at-result", {3}}, {"hang-at-destroy", {3}}};
+  static const auto modes = modes_of(
+      "spin hang-at-create hang-at-evaluate hang-at-commit hang-at-result hang-at-destroy", {3});
   return modes;
 }
 
@@ -179,6 +137,19 @@ class HostilePlugin : public testing::Test {
         nlohmann::json::parse(read_text(certificate))["predicate"]["verdict"].get<std::string>();
     EXPECT_EQ(verdict, ended.exit_code == 1 ? "defect" : "incomplete") << mode.name;
     EXPECT_EQ(run_assay("verify " + certificate).exit_code, ended.exit_code) << mode.name;
+  }
+
+  // Each mode through a verb.
+  void expect_none_holds(const std::string& verb, std::vector<HostileMode> modes) {
+    for (const auto* more : {&quick_modes(), &hanging_modes()})
+      modes.insert(modes.end(), more->begin(), more->end());
+    for (const auto& mode : modes) {
+      const auto ended = judge(verb, mode.name);
+      expect_no_verdict_bought(verb, mode, ended);
+      std::printf("%s %-26s exit code %d\n", verb.c_str(), mode.name.c_str(), ended.exit_code);
+      std::fflush(stdout);
+    }
+    EXPECT_GE(modes.size(), 40u);
   }
 
   const Scratch scratch;

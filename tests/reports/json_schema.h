@@ -1,14 +1,10 @@
 // The part of JSON Schema (2020-12) that this project's schema files use.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <regex>
-#include <set>
-#include <string>
+
+#include "tests/test.h"
 
 namespace assay::tests {
 

@@ -1,8 +1,6 @@
 // A folder, a tiny campaign, and `assay run` of it.
 #pragma once
 
-#include <string>
-
 #include "tests/reports/tiny_campaign.h"
 
 namespace assay::tests {

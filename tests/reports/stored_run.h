@@ -1,10 +1,6 @@
 // A run's folder as a killed `assay run` leaves it, made without running one.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "corpus/cases/case_file.h"
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/ledger/binding.h"
@@ -12,14 +8,10 @@
 #include "properties/campaign/ledger/run_folder.h"
 #include "properties/campaign/ledger/store.h"
 #include "properties/worker/worker_process.h"
+#include "tests/curated_cases.h"
+#include "tests/test.h"
 
 namespace assay::tests {
-
-inline corpus::Case curated_case(const std::string& name) {
-  auto c = corpus::read_case(std::string(ASSAY_SOURCE_DIR) + "/corpus/curated/" + name + ".json");
-  EXPECT_TRUE(c) << name;
-  return c.value();
-}
 
 struct RunToStore {
   properties::CampaignRequest request;

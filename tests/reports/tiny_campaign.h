@@ -1,12 +1,6 @@
 // Small campaigns through the program, and what is left of them.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <string>
-#include <vector>
-
 #include "properties/campaign/ledger/store.h"
 #include "tests/reports/program.h"
 

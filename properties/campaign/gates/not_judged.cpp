@@ -40,13 +40,21 @@ std::string reason_against(Claim claim, const Contract& contract, const StepMeas
   return m.errors.contact == 0 ? no_contact : "";
 }
 
+bool has(const std::vector<std::string>& words, Claim claim) {
+  return std::find(words.begin(), words.end(), name_of(claim)) != words.end();
+}
+
+bool is_among(const std::vector<NotJudged>& left, std::string_view claim) {
+  return std::any_of(left.begin(), left.end(), [&](const auto& one) { return one.claim == claim; });
+}
+
 }  // namespace
 
 std::vector<NotJudged> not_judged(const std::vector<std::string>& claims, const Contract& contract,
                                   const StepMeasures& measures) {
   std::vector<NotJudged> list;
   for (const Claim claim : all_claims()) {
-    if (std::find(claims.begin(), claims.end(), name_of(claim)) == claims.end()) continue;
+    if (!has(claims, claim)) continue;
     auto reason = reason_against(claim, contract, measures);
     if (!reason.empty()) list.push_back({name_of(claim), std::move(reason)});
   }
@@ -72,9 +80,7 @@ std::vector<std::string> judged_claims(const RunFindings& findings) {
   if (findings.run.detector.configurations.empty()) return judged;
   const auto left = not_judged(findings);
   for (const auto& claim : findings.run.detector.configurations[0].claims) {
-    const bool is_left = std::any_of(left.begin(), left.end(),
-                                     [&](const NotJudged& one) { return one.claim == claim; });
-    if (!is_left) judged.push_back(claim);
+    if (!is_among(left, claim)) judged.push_back(claim);
   }
   return judged;
 }
@@ -123,10 +129,6 @@ bool speaks_of_contacts(Claim claim) {
   return claim != Claim::no_spurious && claim != Claim::deterministic && claim != Claim::total;
 }
 
-bool has(const std::vector<std::string>& words, Claim claim) {
-  return std::find(words.begin(), words.end(), name_of(claim)) != words.end();
-}
-
 std::vector<std::string> claims_of_any_configuration(const BoundDetector& detector) {
   std::vector<std::string> words;
   for (const Claim claim : all_claims()) {
@@ -154,10 +156,7 @@ std::vector<JudgedSize> judged_sizes(const RunFindings& findings) {
   const auto left = not_judged(findings);
   const auto words = claims_of_any_configuration(findings.run.detector);
   for (const Claim claim : all_claims()) {
-    const bool is_left = std::any_of(left.begin(), left.end(), [&](const NotJudged& one) {
-      return one.claim == name_of(claim);
-    });
-    if (is_left || !has(words, claim)) continue;
+    if (is_among(left, name_of(claim)) || !has(words, claim)) continue;
     sizes.push_back({name_of(claim), claim == Claim::deterministic ? largest.repeated
                                      : speaks_of_contacts(claim)   ? largest.in_contact
                                                                    : largest.judged});

@@ -15,11 +15,16 @@ namespace assay::properties {
 
 using Json = nlohmann::json;
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundDetector::Configuration, name, claims)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundDetector, name, built_in, contract, threads, configurations,
-                                   query_claims, unjudged_parts)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundDigests, program, worker, plugin, generator)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundRun, seed, planted_faults, shard, detector, digests)
+ASSAY_FIELDS(BoundDetector::Configuration, name, claims)
+ASSAY_FIELDS(BoundDetector, name, built_in, contract, threads, configurations, query_claims,
+             unjudged_parts)
+ASSAY_FIELDS(BoundDigests, program, worker, plugin, generator)
+
+template <class Archive>
+void fields(Archive& archive, BoundRun& run) {
+  archive("seed", run.seed, "planted_faults", run.planted_faults, "shard", run.shard, "detector",
+          run.detector, "digests", run.digests);
+}
 
 namespace {
 
@@ -59,21 +64,32 @@ std::optional<std::string> plugin_digest(const CampaignRequest& request) {
 std::string binding_of(const CampaignRequest& request) {
   CampaignPlan plan = request.plan;
   plan.seconds = plan.shrink_share = plan.tetrahedron_seconds = 0;
-  Json json = BoundRun{{},
-                       request.seed,
-                       planted_count(),
-                       text_of(request.shard),
-                       bound(request.detector, request.threads),
-                       {digest_of("/proc/self/exe"), digest_of(request.worker),
-                        plugin_digest(request), generator_digest()}};
+  const BoundRun run{{},
+                     request.seed,
+                     planted_count(),
+                     text_of(request.shard),
+                     bound(request.detector, request.threads),
+                     {digest_of("/proc/self/exe"), digest_of(request.worker),
+                      plugin_digest(request), generator_digest()}};
+  Json json = json_of_fields<Json>(run);
+  json["detector"] = json_of(run.detector);
   json["schema"] = store_schema;
   json["campaign"] = Json::parse(plan_text(plan));
   if (request.own_cases) json["own_cases"] = request.own_cases->digest;
   return corpus::json_text(json);
 }
 
-Json json_of(const BoundDetector& detector) { return detector; }
-Json json_of(const BoundDigests& digests) { return digests; }
+Json json_of(const Contract& contract) {
+  Json json = json_of_fields<Json>(contract);
+  json["leaves_out"] = phrases_of(contract);
+  return json;
+}
+Json json_of(const BoundDetector& detector) {
+  Json json = json_of_fields<Json>(detector);
+  json["contract"] = json_of(detector.contract);
+  return json;
+}
+Json json_of(const BoundDigests& digests) { return json_of_fields<Json>(digests); }
 
 Expected<BoundRun> read_binding(const std::string& text, const std::filesystem::path& file) try {
   const auto read = corpus::parse_sorted_json(text, file);
@@ -81,8 +97,9 @@ Expected<BoundRun> read_binding(const std::string& text, const std::filesystem::
   const Json& json = read.value();
   auto plan = parse_plan(corpus::json_text(json.at("campaign")), file);
   if (!plan) return Problem{plan.error().message};
-  auto run = json.get<BoundRun>();
+  BoundRun run;
   run.plan = std::move(plan.value());
+  read_fields(json, run);
   return run;
 } catch (const Json::exception& wrong) {
   return Problem{fmt::format("{}: not the store of a run: {}", file.string(), wrong.what())};
@@ -133,12 +150,5 @@ std::string difference_of(const std::string& a, const std::string& b) {
   }
   return "";
 }
-
-void to_json(Json& json, const Contract& contract) {
-  json = json_of_fields<Json>(contract);
-  json["leaves_out"] = phrases_of(contract);
-}
-
-void from_json(const Json& json, Contract& contract) { read_fields(json, contract); }
 
 }  // namespace assay::properties

@@ -14,9 +14,7 @@ namespace assay::properties {
 
 // A contract as JSON, in the binding of a store, in certificates and in the reports of `check`:
 // every member by its name, enums by their words, and `leaves_out`: phrases_of(contract).
-void to_json(nlohmann::json& json, const Contract& contract);
-// Throws nlohmann::json::exception if the JSON is no contract. `leaves_out` is not read.
-void from_json(const nlohmann::json& json, Contract& contract);
+nlohmann::json json_of(const Contract& contract);
 
 // Schema `assay-store/6`. The object holds `campaign` (the plan, with its times set to nothing,
 // because a run that ran out of time may go on), `seed`, `shard`, `detector` (name, built_in,

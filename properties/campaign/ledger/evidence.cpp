@@ -9,61 +9,32 @@
 
 namespace assay::properties {
 
-// The fields of a row are the members of its struct, by their names. The exception is the key
-// "what", under which rows store a line of text.
-#define ASSAY_FIELDS_WITH_KEYS(Type, ...)                                                \
-  void to_json(nlohmann::json& j, const Type& x) {                                       \
-    const auto field = [&](const char* key, const auto& member) { j[key] = member; };    \
-    __VA_ARGS__;                                                                         \
-  }                                                                                      \
-  void from_json(const nlohmann::json& j, Type& x) {                                     \
-    const auto field = [&](const char* key, auto& member) { j.at(key).get_to(member); }; \
-    __VA_ARGS__;                                                                         \
-  }
-
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Canary, fault, shard, found_after)
-ASSAY_FIELDS_WITH_KEYS(HarnessProblem, field("shard", x.shard), field("what", x.explanation),
-                       field("trials", x.trials))
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MeshCounts, triangles, vertices, steps)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ShrunkFault, before, after, calls)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FaultProof, fault, shard, law, status, curated, needed, cases,
-                                   time_over, known_vertices, shrunk)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PowerSource, campaign, detector, seed, program, worker,
-                                   generator, rows)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(World, world, shard, classes, motions, all, collisions, complete,
-                                   counterexample)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PluginIsolation, shard, asked, got)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SlowCase, id, configuration, shard, undecided, seconds, limit,
-                                   mesh, smallest)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Repetition::Judged, step, contacts, holds)
-ASSAY_FIELDS_WITH_KEYS(Repetition, field("input", x.input), field("configuration", x.configuration),
-                       field("shard", x.shard), field("triangles", x.triangles),
-                       field("steps", x.steps), field("runs", x.runs), field("threads", x.threads),
-                       field("what", x.difference), field("broken", x.broken),
-                       field("judged", x.judged))
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(AskedAgain, shard, cases, steps, wrong, open)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Asked, gates, certificate)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Versions, assay, commit, libraries)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Paths, out, detector, own_cases, data)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(InputDigests, corpus, waivers)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StoredWaiver, signature, reason, link, expires, expired)
-ASSAY_FIELDS_WITH_KEYS(CorpusRow::Failed, field("id", x.id), field("signature", x.signature),
-                       field("what", x.explanation))
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CorpusRow, input, configuration, cases, left_out, steps,
-                                   collisions, pairs, defects, failed, open, triangles,
-                                   triangles_in_contact)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SelfTestRow, family, queries, contacts, contradictions, open,
-                                   complete)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SpeedFigure, name, median, lo, hi, samples)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Issued, at, seconds)
-
-void to_json(nlohmann::json& j, FaultStatus status) { j = name_of(status); }
-void from_json(const nlohmann::json& j, FaultStatus& status) {
-  for (const auto one : {FaultStatus::planted, FaultStatus::open, FaultStatus::equivalent}) {
-    if (j == name_of(one)) return void(status = one);
-  }
-  throw StoreProblem(fmt::format("no status of a fault: {}", corpus::json_text(j)));
-}
+// The fields of a row are the members of its struct. A line of text is called `what` in all rows.
+ASSAY_FIELDS(Canary, fault, shard, found_after)
+ASSAY_FIELDS(HarnessProblem, shard, what, trials)
+ASSAY_FIELDS(MeshCounts, triangles, vertices, steps)
+ASSAY_FIELDS(ShrunkFault, before, after, calls)
+ASSAY_FIELDS(FaultProof, fault, shard, law, status, curated, needed, cases, time_over,
+             known_vertices, shrunk)
+ASSAY_FIELDS(PowerSource, campaign, detector, seed, program, worker, generator, rows)
+ASSAY_FIELDS(World, world, shard, classes, motions, all, collisions, complete, counterexample)
+ASSAY_FIELDS(PluginIsolation, shard, asked, got)
+ASSAY_FIELDS(SlowCase, id, configuration, shard, undecided, seconds, limit, mesh, smallest)
+ASSAY_FIELDS(Repetition::Judged, step, contacts, holds)
+ASSAY_FIELDS(Repetition, input, configuration, shard, triangles, steps, runs, threads, what, broken,
+             judged)
+ASSAY_FIELDS(AskedAgain, shard, cases, steps, wrong, open)
+ASSAY_FIELDS(Asked, gates, certificate)
+ASSAY_FIELDS(Versions, assay, commit, libraries)
+ASSAY_FIELDS(Paths, out, detector, own_cases, data)
+ASSAY_FIELDS(InputDigests, corpus, waivers)
+ASSAY_FIELDS(StoredWaiver, signature, reason, link, expires, expired)
+ASSAY_FIELDS(CorpusRow::Failed, id, signature, what)
+ASSAY_FIELDS(CorpusRow, input, configuration, cases, left_out, steps, collisions, pairs, defects,
+             failed, open, triangles, triangles_in_contact)
+ASSAY_FIELDS(SelfTestRow, family, queries, contacts, contradictions, open, complete)
+ASSAY_FIELDS(SpeedFigure, name, median, lo, hi, samples)
+ASSAY_FIELDS(Issued, at, seconds)
 
 namespace {
 
@@ -78,14 +49,12 @@ constexpr bool has_shard = requires(T& x, const Row& row) {
 template <class T>
 T told(const Row& row) {
   T x;
-  if constexpr (has_shard<T>) {
-    Row with_shard = row;
-    auto fields = fields_of(row);
-    if (fields.is_object()) fields.emplace("shard", row.shard);
-    with_shard.fields = corpus::json_text(fields);
-    x = read_fields_of<T>(with_shard);
-  } else {
-    x = read_fields_of<T>(row);
+  auto fields = fields_of(row);
+  if constexpr (has_shard<T>) fields.emplace("shard", row.shard);
+  try {
+    read_fields(fields, x);
+  } catch (const nlohmann::json::exception& wrong) {
+    throw_not_stored(row, wrong);
   }
   if (to_row(x) != row)
     throw StoreProblem(fmt::format("{} is not as a run writes it", row_name(row)));
@@ -151,7 +120,7 @@ std::uint64_t SlowCase::progress() const {
 Row to_row(const AnyEvidence& evidence) {
   return std::visit(
       []<class T>(const T& x) {
-        nlohmann::json fields = x;
+        auto fields = json_of_fields<nlohmann::json>(x);
         if constexpr (has_shard<T>) fields.erase("shard");
         Row row{T::kind, "", checks_shard, 1, corpus::json_text(fields)};
         if constexpr (requires { x.key(); }) row.key = x.key();

@@ -7,8 +7,20 @@
 
 namespace assay::properties {
 
-ASSAY_SPARSE_FIELDS(LawCount, premise, close, broken, by_culling)
-ASSAY_SPARSE_FIELDS(SetPairCount, contacts, first_contacts)
+ASSAY_FIELDS(LawCount, premise, close, broken, by_culling)
+ASSAY_FIELDS(SetPairCount, contacts, first_contacts)
+ASSAY_FIELDS(StoredFailure, id, configuration, signature, explanation, mesh, smallest, flaky,
+             printed)
+
+// What the row of a trial keeps. Its key says the rest.
+template <class Archive>
+void fields(Archive& archive, TrialRecord& x) {
+  archive("outcomes", x.outcomes, "triangles", x.triangles, "steps", x.steps, "collisions",
+          x.collisions, "pairs", x.pairs, "oracle_us", x.oracle_us, "detector_us", x.detector_us);
+  archive("slowest_us", x.slowest_us, "disturbed", x.disturbed, "mesh", x.mesh, "tags",
+          x.counts.tags, "set_pairs", x.counts.set_pairs, "laws", x.counts.laws, "measures",
+          x.counts.measures);
+}
 
 namespace {
 
@@ -17,26 +29,6 @@ using Json = nlohmann::json;
 template <class Sums>
 void add(Sums& sums, const Sums& more) {
   for (const auto& [name, count] : more) sums[name] += count;
-}
-
-// Calls `field` with each member of a trial that its row keeps, by its name. The key of the row
-// says the rest.
-template <class Record, class Field>
-void for_each_field(Record& x, const Field& field) {
-  field("outcomes", x.outcomes);
-  field("triangles", x.triangles);
-  field("steps", x.steps);
-  field("collisions", x.collisions);
-  field("pairs", x.pairs);
-  field("oracle_us", x.oracle_us);
-  field("detector_us", x.detector_us);
-  field("slowest_us", x.slowest_us);
-  field("disturbed", x.disturbed);
-  field("mesh", x.mesh);
-  field("tags", x.counts.tags);
-  field("set_pairs", x.counts.set_pairs);
-  field("laws", x.counts.laws);
-  field("measures", x.counts.measures);
 }
 
 }  // namespace
@@ -84,46 +76,38 @@ std::string shown_explanation(const StoredFailure& failure) {
   return tells ? smallest.value().about.substr(head.size()) : failure.explanation;
 }
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StoredFailure, id, configuration, signature, explanation, mesh,
-                                   smallest, flaky, printed)
-
 Row to_row(const TrialRecord& record) {
-  Json fields = Json::object();
-  for_each_field(record, [&](const char* name, const auto& member) {
-    put_unless_empty(fields, name, member);
-  });
+  const auto fields = json_of_fields<Json, Zeros::left_out>(record);
   return {std::string(trial_kind), record.id, "", 0, corpus::json_text(fields)};
 }
 
-TrialRecord trial_of(const Row& row) try {
-  const Json fields = fields_of(row);
+TrialRecord trial_of(const Row& row) {
   TrialRecord record;
   record.id = row.key;
   // campaign:seed:family:index
   const auto last = row.key.rfind(':'), before = row.key.rfind(':', last - 1);
   record.family = row.key.substr(before + 1, last - before - 1);
   record.index = number_of_text(row.key.substr(last + 1));
-  for_each_field(record,
-                 [&](const char* name, auto& member) { get_if_there(fields, name, member); });
+  read_fields_of<Zeros::left_out>(row, record);
   return record;
-} catch (const Json::exception& wrong) {
-  throw_not_stored(row, wrong);
 }
 
 Row to_row(const StoredFailure& failure) {
   return {std::string(failure_kind), failure.id + ", " + failure.configuration, "", 0,
-          corpus::json_text(Json(failure))};
+          corpus::json_text(json_of_fields<Json>(failure))};
 }
 
-StoredFailure failure_of(const Row& row) { return read_fields_of<StoredFailure>(row); }
+StoredFailure failure_of(const Row& row) {
+  StoredFailure failure;
+  read_fields_of(row, failure);
+  return failure;
+}
 
 Row to_row(const std::string& trial_id, const MetFailure& failure) {
   return {std::string(met_kind), trial_id + ", " + failure.configuration, "", 0,
           corpus::json_text(Json{{"signature", failure.signature}})};
 }
 
-std::string met_signature_of(const Row& row) {
-  return read_fields_of<std::map<std::string, std::string>>(row)["signature"];
-}
+std::string met_signature_of(const Row& row) { return text_in(row, "signature"); }
 
 }  // namespace assay::properties

@@ -4,23 +4,10 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "corpus/json_fields.h"
 #include "properties/campaign/ledger/row.h"
-
-// What may be absent is null in JSON. (nlohmann-json has this from version 3.12 on.)
-template <class T>
-struct nlohmann::adl_serializer<std::optional<T>> {
-  template <class Json>
-  static void to_json(Json& j, const std::optional<T>& value) {
-    j = value ? Json(*value) : Json(nullptr);
-  }
-  template <class Json>
-  static void from_json(const Json& j, std::optional<T>& value) {
-    value = j.is_null() ? std::nullopt : std::optional(j.template get<T>());
-  }
-};
+#include "properties/json_fields.h"
 
 namespace assay::properties {
 
@@ -38,9 +25,17 @@ inline nlohmann::json fields_of(const Row& row) {
   return std::move(read.value());
 }
 
-template <class T>
-T read_fields_of(const Row& row) try {
-  return fields_of(row).get<T>();
+// Sets what the fields name (json_fields.h); the rest of x stays.
+template <Zeros zeros = Zeros::stay, class T>
+void read_fields_of(const Row& row, T& x) try {
+  read_fields<nlohmann::json, zeros>(fields_of(row), x);
+} catch (const nlohmann::json::exception& wrong) {
+  throw_not_stored(row, wrong);
+}
+
+// The one text that such a row holds, under this name.
+inline std::string text_in(const Row& row, const char* name) try {
+  return fields_of(row).at(name).get<std::string>();
 } catch (const nlohmann::json::exception& wrong) {
   throw_not_stored(row, wrong);
 }
@@ -48,28 +43,4 @@ T read_fields_of(const Row& row) try {
 // The number that the text is. Throws StoreProblem if it is none.
 std::uint64_t number_of_text(const std::string& text);
 
-// Fields that are 0 or empty are left out when a row is written, and may be missing when it is
-// read: most numbers of a trial are 0.
-template <class T>
-void put_unless_empty(nlohmann::json& json, const char* name, const T& value) {
-  if (value != T{}) json[name] = value;
-}
-template <class T>
-void get_if_there(const nlohmann::json& json, const char* name, T& value) {
-  if (const auto found = json.find(name); found != json.end()) found->get_to(value);
-}
-
 }  // namespace assay::properties
-
-#define ASSAY_PUT_FIELD(name) put_unless_empty(json, #name, x.name);
-#define ASSAY_GET_FIELD(name) get_if_there(json, #name, x.name);
-// Defines to_json and from_json of a type by its members, of which those that are 0 or empty are
-// left out.
-#define ASSAY_SPARSE_FIELDS(Type, ...)                                      \
-  void to_json(nlohmann::json& json, const Type& x) {                       \
-    json = nlohmann::json::object();                                        \
-    NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(ASSAY_PUT_FIELD, __VA_ARGS__)) \
-  }                                                                         \
-  void from_json(const nlohmann::json& json, Type& x) {                     \
-    NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(ASSAY_GET_FIELD, __VA_ARGS__)) \
-  }

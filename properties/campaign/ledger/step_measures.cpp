@@ -1,8 +1,7 @@
 #include "properties/campaign/ledger/step_measures.h"
 
 #include <algorithm>
-
-#include "properties/campaign/ledger/row_fields.h"
+#include <nlohmann/json.hpp>
 
 namespace assay::properties {
 namespace {
@@ -63,13 +62,15 @@ StepMeasures& StepMeasures::operator+=(const StepMeasures& other) {
 
 void to_json(Json& json, const StepMeasures& measures) {
   json = Json::object();
-  for (const auto& [name, member] : numbers) put_unless_empty(json, name, measures.*member);
+  for (const auto& [name, member] : numbers) {
+    if (measures.*member != 0) json[name] = measures.*member;
+  }
   if (measures.errors != StepErrors{})
     json["errors"] = difference_from(no_errors(), measures.errors);
 }
 
 void from_json(const Json& json, StepMeasures& measures) {
-  for (const auto& [name, member] : numbers) get_if_there(json, name, measures.*member);
+  for (const auto& [name, member] : numbers) measures.*member = json.value(name, std::uint64_t{0});
   const auto found = json.find("errors");
   if (found == json.end()) return;
   Json whole = no_errors();

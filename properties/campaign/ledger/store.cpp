@@ -252,8 +252,7 @@ Counts Store::signatures() const {
 
 std::optional<std::string> Store::note(const std::string& key) const {
   const auto row = parts_->find(note_kind, key);
-  if (!row) return std::nullopt;
-  return read_fields_of<std::map<std::string, std::string>>(*row)["value"];
+  return row ? std::optional(text_in(*row, "value")) : std::nullopt;
 }
 
 std::vector<Row> Store::evidence() const {

@@ -227,17 +227,18 @@ std::set<std::string> signatures_of_trials(const std::filesystem::path& out) {
   return signatures;
 }
 
-// For each signature that is not in `told`: the failure with the smallest mesh, by the length of
-// its text.
-std::map<std::string, const StoredFailure*> smallest_of(const std::vector<StoredFailure>& failures,
-                                                        const std::set<std::string>& told) {
+// Stores, for each signature that is neither in `told` nor in the store, the failure with the
+// smallest mesh, by the length of its text.
+void add_smallest(const std::vector<StoredFailure>& failures, std::set<std::string> told,
+                  Store& store) {
+  for (const auto& stored : store.failures()) told.insert(stored.signature);
   std::map<std::string, const StoredFailure*> smallest;
   for (const auto& failure : failures) {
     if (told.contains(failure.signature)) continue;
     const auto*& best = smallest[failure.signature];
     if (!best || failure.mesh.size() < best->mesh.size()) best = &failure;
   }
-  return smallest;
+  for (const auto& [signature, failure] : smallest) store.add(*failure);
 }
 
 }  // namespace
@@ -247,10 +248,7 @@ void keep_corpus_failures(const CampaignRequest& request,
                           const std::filesystem::path& out, Checks& checks,
                           const std::function<void(const std::string&)>& progress) {
   checks.update([&](Store& store) {
-    auto told = signatures_of_trials(out);
-    for (const auto& stored : store.failures()) told.insert(stored.signature);
-    for (const auto& [signature, failure] : smallest_of(failures, told)) store.add(*failure);
-    constexpr ReduceLimits shrinking_of_one{60, 1'000'000};
+    add_smallest(failures, signatures_of_trials(out), store);
     shrink_failures(request, store, shrinking_of_one,
                     deadline_in(std::chrono::steady_clock::now(), shrinking_seconds(request.plan)),
                     progress);
@@ -261,9 +259,7 @@ Expected<void> keep_own_cases(Store& store, const std::vector<CorpusRow>& rows,
                               const std::vector<StoredFailure>& failures) {
   return catch_store_problem([&] {
     for (const auto& row : rows) store.set(to_row(row));
-    std::set<std::string> told;
-    for (const auto& stored : store.failures()) told.insert(stored.signature);
-    for (const auto& [signature, failure] : smallest_of(failures, told)) store.add(*failure);
+    add_smallest(failures, {}, store);
   });
 }
 

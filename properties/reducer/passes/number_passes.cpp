@@ -111,8 +111,6 @@ void simplify_together(ReductionSearch& search) {
 
 namespace {
 
-using corpus::Case;
-
 // Numbers the vertices in the order in which the triangles name them.
 Case with_vertices_by_use(const Case& c) {
   std::vector<std::int32_t> number(static_cast<std::size_t>(c.frames.front().rows()), -1);

@@ -117,7 +117,6 @@ Expected<void> JudgedLibrary::is_as_it_was() const {
 
 namespace {
 
-namespace fs = std::filesystem;
 using Strings = std::vector<std::string>;
 
 // The bytes of a file that may be none of the kind, so every place in it is checked.

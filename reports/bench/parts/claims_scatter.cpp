@@ -9,7 +9,6 @@
 #include "reports/bench/parts/claims_parts.h"
 #include "reports/bench/pictures.h"
 #include "reports/bench/sweep.h"
-#include "reports/bench/timed_step.h"
 
 namespace assay::reports {
 namespace {

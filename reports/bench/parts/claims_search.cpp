@@ -8,7 +8,7 @@
 #include "reports/bench/cases.h"
 #include "reports/bench/interleave.h"
 #include "reports/bench/parts/claims_parts.h"
-#include "reports/bench/timed_step.h"
+#include "reports/bench/sweep.h"
 
 namespace assay::reports {
 namespace {

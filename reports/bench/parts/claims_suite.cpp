@@ -7,7 +7,6 @@
 #include "reports/bench/cases.h"
 #include "reports/bench/parts/claims_parts.h"
 #include "reports/bench/sweep.h"
-#include "reports/bench/timed_step.h"
 
 namespace assay::reports {
 namespace {
@@ -77,7 +76,7 @@ void measure_as_printed(const BenchSettings& settings, BenchReport& report) {
 }
 
 // Times the whole step: view cullings over bvh, and exact over double. What is wanted of rod-twist
-// (wanted.h) is asked of it alone.
+// (bench_report.h) is asked of it alone.
 void time_whole_step(const corpus::Case& step, int rounds, BenchReport& report) {
   const auto& name = step.id;
   const auto only_rods = [&](Wanted bound) { return wanted_if(name == "rod-twist", bound); };

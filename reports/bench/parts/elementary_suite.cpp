@@ -11,7 +11,7 @@
 #include "reports/bench/cases.h"
 #include "reports/bench/interleave.h"
 #include "reports/bench/query_sets.h"
-#include "reports/bench/timed_step.h"
+#include "reports/bench/sweep.h"
 
 namespace assay::reports {
 namespace {

@@ -7,9 +7,8 @@
 
 #include "reports/bench/cases.h"
 #include "reports/bench/interleave.h"
-#include "reports/bench/peak_memory.h"
 #include "reports/bench/pictures.h"
-#include "reports/bench/timed_step.h"
+#include "reports/bench/sweep.h"
 
 namespace assay::reports {
 namespace {
@@ -62,7 +61,7 @@ struct Memory {
   std::optional<double> of_free, of_contact;
 };
 
-// REQUIRES a process that has not freed much yet (peak_memory.h). Steps are made in its children.
+// REQUIRES a process that has not freed much yet (interleave.h). Steps are made in its children.
 Memory memory_of(int wanted_triangles) {
   std::optional<corpus::Sequence> step;
   const auto work = [&] {

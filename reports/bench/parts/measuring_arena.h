@@ -1,4 +1,5 @@
-// What more cores would make of a step, measured on one.
+// What the parts of a step are measured with: an arena that says what more cores would make of it,
+// and yardsticks.
 //
 // The arena below has many lanes and one thread. It does the pieces of each loop one after the
 // other and takes the time of each. A piece is given to the lane that would be the first to be
@@ -9,9 +10,13 @@
 // loops by the number of lanes. What threads cost is left out: waking them, and sharing caches.
 #pragma once
 
+#include <array>
 #include <memory>
+#include <vector>
 
+#include "detector/mesh/topology.h"
 #include "detector/parallel/thread_arena.h"
+#include "detector/parallel/workers.h"
 
 namespace assay::reports {
 
@@ -25,5 +30,21 @@ struct MeasuredLoops {
 // Adds to `measured`, which must outlive the arena.
 std::unique_ptr<detector::ThreadArena> make_measuring_arena(std::size_t lanes,
                                                             MeasuredLoops& measured);
+
+// The yardsticks of the view test and of a free step: plain loops over the same arrays. Any method
+// with bounding volumes writes boxes first, and any view test reads all corners.
+
+// The box of a triangle swept over a step: least x, y, z, largest x, y, z.
+using SweptBox = std::array<double, 6>;
+
+// Writes the boxes by an indexed loop, six doubles for each triangle. REQUIRES that `boxes` has one
+// entry for each triangle already.
+void write_swept_boxes(const detector::Topology& mesh, const detector::PositionsView& x_t0,
+                       const detector::PositionsView& x_t1, std::vector<SweptBox>& boxes);
+
+// Does nothing but read the three corners of every triangle at t=0 and at t=1. The workers share
+// the triangles out. The sum is of no use, but without it the compiler would leave the reading out.
+double read_plainly(const detector::Topology& mesh, const detector::PositionsView& x_t0,
+                    const detector::PositionsView& x_t1, const detector::Workers& workers);
 
 }  // namespace assay::reports

@@ -7,9 +7,7 @@
 #include "reports/bench/cases.h"
 #include "reports/bench/interleave.h"
 #include "reports/bench/parts/measuring_arena.h"
-#include "reports/bench/parts/plain_loops.h"
-#include "reports/bench/peak_memory.h"
-#include "reports/bench/timed_step.h"
+#include "reports/bench/sweep.h"
 
 namespace assay::reports {
 namespace {

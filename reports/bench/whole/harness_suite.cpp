@@ -8,7 +8,6 @@
 #include "properties/worker/case_run.h"
 #include "reports/bench/cases.h"
 #include "reports/bench/interleave.h"
-#include "reports/bench/peak_memory.h"
 #include "reports/bench/query_sets.h"
 #include "reports/estimate.h"
 

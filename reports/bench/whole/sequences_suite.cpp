@@ -6,7 +6,6 @@
 
 #include "reports/bench/cases.h"
 #include "reports/bench/sweep.h"
-#include "reports/bench/timed_step.h"
 
 namespace assay::reports {
 namespace {

@@ -7,7 +7,6 @@
 
 #include "oracle/mesh/step.h"
 #include "reports/bench/sweep.h"
-#include "reports/bench/timed_step.h"
 
 namespace assay::reports {
 

@@ -5,7 +5,7 @@
 #include "oracle/view/view_sign.h"
 #include "properties/judging/case_options.h"
 #include "properties/worker/case_player.h"
-#include "reports/bench/timed_step.h"
+#include "reports/bench/sweep.h"
 #include "reports/bench/whole/stability_changes.h"
 
 namespace assay::reports {

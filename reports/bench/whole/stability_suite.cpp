@@ -109,78 +109,51 @@ void add_rung_rows(const std::string& label, const FamilyStability& found, Bench
   }
 }
 
-using Survivals = std::vector<std::vector<Survival>>;  // [subject][change]
+// Each family, with what was found in it by each subject.
+using AllFound = std::vector<std::pair<std::string, std::vector<FamilyStability>>>;
 
-void add_up(const std::vector<FamilyStability>& found, Survivals& all) {
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    for (std::size_t k = 0; k < found[i].survivals.size(); ++k) {
-      all[i][k].changed += found[i].survivals[k].changed;
-      all[i][k].same += found[i].survivals[k].same;
-    }
-  }
-}
-
-void add_survival_rows(std::span<const StabilitySubject> subjects, const Survivals& all,
+void add_survival_rows(std::span<const StabilitySubject> subjects, const AllFound& all,
                        BenchReport& report) {
   for (std::size_t k = 0; k < case_changes().size(); ++k) {
     for (std::size_t i = 0; i < subjects.size(); ++i) {
-      const auto& [changed, same] = all[i][k];
+      Survival sum;
+      for (const auto& [name, found] : all) {
+        sum.changed += found[i].survivals[k].changed;
+        sum.same += found[i].survivals[k].same;
+      }
       const bool must = subjects[i].arithmetic == Arithmetic::exact;
       const std::string label =
           fmt::format("answers that survive {}, {}", case_changes()[k].name, subjects[i].name);
-      report.add(
-          label, "%", exactly(percent(same, changed)), wanted_if(must, at_least(100)),
-          fmt::format("{} of {} changed steps{}", same, changed, must ? ", times included" : ""));
-      if (must && same < changed) report.wrong_answers.push_back(label + ": not all");
+      report.add(label, "%", exactly(percent(sum.same, sum.changed)),
+                 wanted_if(must, at_least(100)),
+                 fmt::format("{} of {} changed steps{}", sum.same, sum.changed,
+                             must ? ", times included" : ""));
+      if (must && sum.same < sum.changed) report.wrong_answers.push_back(label + ": not all");
     }
   }
 }
 
-// Collects what is said of all families together.
-class AllFamilies {
- public:
-  explicit AllFamilies(std::span<const StabilitySubject> subjects)
-      : subjects_(subjects),
-        survivals_(subjects.size(), std::vector<Survival>(case_changes().size())),
-        never_wrong_(subjects.size()) {}
-
-  void add(const corpus::HardFamily& family, std::vector<FamilyStability> found) {
-    add_up(found, survivals_);
-    for (std::size_t i = 0; i < subjects_.size(); ++i) {
-      if (found[i].breaks_at()) continue;
-      ++never_wrong_[i].families;
-      never_wrong_[i].names.append(never_wrong_[i].names.empty() ? "" : ", ").append(family.name);
+// What is said of all families together.
+void add_common_rows(std::span<const StabilitySubject> subjects, const AllFound& all,
+                     BenchReport& report) {
+  for (std::size_t i = 0; i < subjects.size(); ++i) {
+    std::vector<std::string> never_wrong;
+    for (const auto& [name, found] : all) {
+      if (!found[i].breaks_at()) never_wrong.push_back(name);
     }
-    found_.emplace_back(family.name, std::move(found));
+    report.add("families in which " + subjects[i].name + " is never wrong", "",
+               exactly(static_cast<double>(never_wrong.size())), {},
+               fmt::format("of {}: {}", all.size(), fmt::join(never_wrong, ", ")));
   }
-
-  void add_rows(BenchReport& report) const {
-    for (std::size_t i = 0; i < subjects_.size(); ++i) {
-      report.add("families in which " + subjects_[i].name + " is never wrong", "",
-                 exactly(never_wrong_[i].families), {},
-                 fmt::format("of {}: {}", found_.size(), never_wrong_[i].names));
-    }
-    add_survival_rows(subjects_, survivals_, report);
-    for (const auto& [name, found] : found_) {
-      for (std::size_t i = 0; i < subjects_.size(); ++i) {
-        const auto arithmetic = subjects_[i].arithmetic;
-        if (arithmetic == Arithmetic::exact || arithmetic == Arithmetic::bounded) {
-          add_rung_rows(name + ", " + subjects_[i].name, found[i], report);
-        }
-      }
+  add_survival_rows(subjects, all, report);
+  for (const auto& [name, found] : all) {
+    for (std::size_t i = 0; i < subjects.size(); ++i) {
+      const auto arithmetic = subjects[i].arithmetic;
+      if (arithmetic == Arithmetic::exact || arithmetic == Arithmetic::bounded)
+        add_rung_rows(name + ", " + subjects[i].name, found[i], report);
     }
   }
-
- private:
-  std::span<const StabilitySubject> subjects_;
-  Survivals survivals_;
-  struct NeverWrong {
-    int families = 0;
-    std::string names;
-  };
-  std::vector<NeverWrong> never_wrong_;  // by subject
-  std::vector<std::pair<std::string, std::vector<FamilyStability>>> found_;
-};
+}
 
 StabilityPlan plan_for(const corpus::HardFamily& family, const BenchSettings& settings) {
   constexpr int steps_when_small = 4;
@@ -199,7 +172,7 @@ BenchReport stability_of(std::span<const corpus::HardFamily> families,
                          std::span<const StabilitySubject> subjects, const BenchSettings& settings,
                          const BenchProgress& progress, std::vector<StabilityCell>* cells) {
   BenchReport report("stability");
-  AllFamilies all(subjects);
+  AllFound all;
   std::vector<HeatCell> heat;
   for (const auto& family : families) {
     progress.phase(std::string(family.name));
@@ -218,9 +191,9 @@ BenchReport stability_of(std::span<const corpus::HardFamily> families,
       }
     }
     add_family_rows(family, subjects, found, report);
-    all.add(family, std::move(found));
+    all.emplace_back(family.name, std::move(found));
   }
-  all.add_rows(report);
+  add_common_rows(subjects, all, report);
   report.picture = heat_picture(heat);
   return report;
 }

@@ -196,7 +196,7 @@ BenchReport detector_suite(const BenchSettings& settings, const BenchedPlugin& p
   report.figures["detector"] =
       json_object("name", about.name, "version", about.version, "library", plugin.library, "claims",
                   claim_names, "isolation", text_of(workers.isolation()), "threads",
-                  plugin.limits.threads, "contract", nlohmann::json(about.contract));
+                  plugin.limits.threads, "contract", properties::json_of(about.contract));
   if (sequences) *sequences = std::move(done);
   return report;
 }

@@ -9,14 +9,46 @@
 #include <string>
 #include <vector>
 
+#include "detector/options.h"
 #include "oracle/mesh/step.h"
+#include "properties/claims/claims.h"
 #include "properties/judging/step_errors.h"
 #include "properties/worker/worker_process.h"
 #include "reports/bench/cases.h"
-#include "reports/bench/workers/peer_subject.h"
 #include "reports/estimate.h"
 
 namespace assay::reports {
+
+// Who takes part in the suite.
+struct PeerSubject {
+  std::string name, version;
+  std::string library;        // empty: the built-in detector
+  detector::Options options;  // of the built-in detector
+  properties::Claims claims;  // what it claims itself
+  properties::Contract contract;
+
+  bool is_built_in() const { return library.empty(); }
+  // A worker that runs it, not yet started.
+  properties::WorkerProcess make_worker(double seconds) const;
+  // The claims by which its errors are counted. Every form of the built-in detector is asked for
+  // what exact arithmetic claims, so that the errors of all forms are seen; a peer is asked for
+  // what it claims.
+  properties::Claims asked() const;
+};
+
+// A peer that is known but cannot be run here.
+struct AbsentPeer {
+  std::string name, why;
+};
+
+struct Peers {
+  std::vector<PeerSubject> subjects;  // the first is the built-in detector, exact, bvh
+  std::vector<AbsentPeer> absent;
+};
+
+// The peers in the folder: each library NAME.so, by name. A library that cannot be loaded, or has
+// no steps, is absent. So is a known peer whose library is not there; `why` says what it needs.
+Peers find_peers(const std::string& folder);
 
 struct PeerCounts {
   properties::StepErrors errors;       // of the steps that the contract takes

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 #include <set>
+#include <stdexcept>
 
 #include "detector/step_result.h"
 #include "properties/campaign/ledger/run_folder.h"
@@ -13,9 +14,9 @@
 #include "reports/pictures/contact_point.h"
 #include "reports/pictures/mesh_svg.h"
 #include "reports/steps/step_json.h"
+#include "reports/terminal/words.h"
 
 namespace assay::reports {
-
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -149,69 +150,31 @@ std::optional<DetectorWords> detector_at_hand(const properties::RunFindings& fin
   return detector_of(findings);
 }
 
-class FailureList {
- public:
-  explicit FailureList(const properties::RunFindings& run)
-      : run_(run), scenes_(detector_at_hand(run)) {}
+Json other_json(const properties::RunFindings& run, const properties::StoredFailure& failure) {
+  const auto file = properties::failure_file(failure, !failure.smallest.empty());
+  return {{"id", failure.id},
+          {"configuration", failure.configuration},
+          {"what", shown_explanation(failure)},
+          {"replay", replay_line(run.folder, file, detector_of(run))}};
+}
 
-  Json all() {
-    Json list = Json::array();
-    for (const auto* kind : run_.kinds()) {
-      list.push_back(shown(*kind));
-      for (const auto& failure : run_.failures) {
-        if (failure.signature == kind->signature && &failure != kind)
-          list.back()["others"].push_back(other(failure));
-      }
-    }
-    return list;
+// Why the mesh of a failure is not shown; empty if it was.
+std::string show(Json& json, SceneMaker& scenes, const properties::StoredFailure& failure) {
+  const auto mesh = corpus::parse_case(failure.smallest.empty() ? failure.mesh : failure.smallest,
+                                       "stored failure");
+  if (!mesh) return mesh.error().message;
+  if (mesh.value().triangles.rows() > most_shown_triangles)
+    return "the mesh is too large to be shown: shrink it first";
+  const auto scene = scenes.scene_of(mesh.value(), failure.configuration);
+  if (!scene) return "a coordinate is beyond the detector's contract";
+  if (scene->failure) {
+    json["stage"] = scene->failure->stage.empty() ? Json() : Json(scene->failure->stage);
+    json["now"] = scene->failure->explanation;
   }
-
- private:
-  std::string replay_of(const properties::StoredFailure& failure) const {
-    return replay_line(run_.folder, properties::failure_file(failure, !failure.smallest.empty()),
-                       detector_of(run_));
-  }
-
-  Json other(const properties::StoredFailure& failure) const {
-    return {{"id", failure.id},
-            {"configuration", failure.configuration},
-            {"what", shown_explanation(failure)},
-            {"replay", replay_of(failure)}};
-  }
-
-  Json shown(const properties::StoredFailure& failure) {
-    Json json = {{"stage", nullptr}, {"now", nullptr},       {"scene", nullptr},
-                 {"svg", nullptr},   {"not_shown", nullptr}, {"others", Json::array()}};
-    json["printed"] = failure.printed.empty() ? Json() : Json(failure.printed);
-    const auto mesh = corpus::parse_case(failure.smallest.empty() ? failure.mesh : failure.smallest,
-                                         "stored failure");
-    if (!mesh) {
-      json["not_shown"] = mesh.error().message;
-    } else if (mesh.value().triangles.rows() > most_shown_triangles) {
-      json["not_shown"] = "the mesh is too large to be shown: shrink it first";
-    } else {
-      show(json, mesh.value(), failure);
-    }
-    return json;
-  }
-
-  void show(Json& json, const corpus::Case& c, const properties::StoredFailure& failure) {
-    const auto scene = scenes_.scene_of(c, failure.configuration);
-    if (!scene) {
-      json["not_shown"] = "a coordinate is beyond the detector's contract";
-      return;
-    }
-    if (scene->failure) {
-      json["stage"] = scene->failure->stage.empty() ? Json() : Json(scene->failure->stage);
-      json["now"] = scene->failure->explanation;
-    }
-    json["scene"] = scene_json(*scene);
-    json["svg"] = mesh_svg(*scene, failure.signature);
-  }
-
-  const properties::RunFindings& run_;
-  SceneMaker scenes_;
-};
+  json["scene"] = scene_json(*scene);
+  json["svg"] = mesh_svg(*scene, failure.signature);
+  return "";
+}
 
 }  // namespace
 
@@ -229,6 +192,42 @@ Json run_json(const properties::RunFindings& findings, const properties::Judgeme
                                   : make_predicate(findings, judgement, findings.run.plan, "")}};
 }
 
-Json failure_scenes(const properties::RunFindings& findings) { return FailureList(findings).all(); }
+Json failure_scenes(const properties::RunFindings& findings) {
+  SceneMaker scenes(detector_at_hand(findings));
+  Json list = Json::array();
+  for (const auto* kind : findings.kinds()) {
+    Json json = {{"stage", nullptr}, {"now", nullptr},       {"scene", nullptr},
+                 {"svg", nullptr},   {"not_shown", nullptr}, {"others", Json::array()}};
+    json["printed"] = kind->printed.empty() ? Json() : Json(kind->printed);
+    const auto not_shown = show(json, scenes, *kind);
+    if (!not_shown.empty()) json["not_shown"] = not_shown;
+    for (const auto& failure : findings.failures) {
+      if (failure.signature == kind->signature && &failure != kind)
+        json["others"].push_back(other_json(findings, failure));
+    }
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
+std::string script_safe(const nlohmann::ordered_json& data) {
+  const std::string text =
+      data.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
+  // In JSON these characters stand within strings only, and there \u means the same.
+  static const std::map<char, std::string_view> written = {
+      {'<', "\\u003c"}, {'>', "\\u003e"}, {'&', "\\u0026"}};
+  return replaced(text, written);
+}
+
+std::string page_text(std::string_view page, const nlohmann::ordered_json& data) {
+  constexpr std::string_view mark = "ASSAY_REPORT_DATA";
+  const auto at = page.find(mark);
+  if (at == std::string_view::npos || page.find(mark, at + 1) != std::string_view::npos)
+    throw std::logic_error("the template of the page must hold its mark once");
+  std::string out(page.substr(0, at));
+  out += script_safe(data);
+  out += page.substr(at + mark.size());
+  return out;
+}
 
 }  // namespace assay::reports

@@ -1,8 +1,5 @@
 #include "corpus/cases/case_file.h"
 
-#include <cmath>
-#include <limits>
-
 #include "tests/corpus/scratch.h"
 
 namespace assay::corpus {

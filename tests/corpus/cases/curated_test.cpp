@@ -1,9 +1,5 @@
 // The curated cases are well-formed and consistent. Whether their facts are true is judged where
 // the oracle is at hand.
-#include <cmath>
-#include <map>
-#include <set>
-
 #include "corpus/cases/case_file.h"
 #include "corpus/file_bytes.h"
 #include "tests/corpus/scratch.h"

@@ -1,8 +1,4 @@
 // Sequences of frames, and the writer: what is written reads back bit by bit.
-#include <cmath>
-#include <limits>
-#include <optional>
-
 #include "corpus/formats/mesh_writer.h"
 #include "corpus/formats/sequence_reader.h"
 #include "tests/corpus/scratch.h"

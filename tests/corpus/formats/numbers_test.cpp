@@ -1,11 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <string>
-
 #include "corpus/formats/text_lines.h"
 #include "corpus/queries/query_csv.h"
+#include "tests/test.h"
 
 namespace assay::corpus {
 namespace {

@@ -1,14 +1,8 @@
 // The hard families by themselves: strengths turn their knob, cases are the same every time.
 #include "corpus/hard/hard_families.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <map>
-#include <set>
-
 #include "corpus/hard/grid_mesh.h"
+#include "tests/test.h"
 
 namespace assay::corpus {
 namespace {

@@ -1,11 +1,5 @@
 #include "corpus/scenes/scenes.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <map>
-#include <string>
-
 #include "corpus/scenes/box_with_arm.h"
 #include "corpus/scenes/shapes.h"
 #include "corpus/scenes/trigonometry.h"

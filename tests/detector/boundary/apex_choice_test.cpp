@@ -1,9 +1,4 @@
 // What choosing apexes costs, counted in operations: linear in the triangles, whatever their loops.
-#include <gtest/gtest.h>
-
-#include <chrono>
-#include <cmath>
-
 #include "detector/boundary/apex.h"
 #include "detector/detector.h"
 #include "tests/detector/points.h"

@@ -1,8 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <limits>
-
 #include "detector/boundary/apex.h"
 #include "detector/boundary/boundary_handler.h"
 #include "detector/boundary/ghost_sweep.h"
@@ -13,8 +8,7 @@
 namespace assay::detector {
 namespace {
 
-using tests::octahedron;
-using tests::octahedron_positions;
+using tests::octahedron, tests::octahedron_positions;
 
 // The octahedron without the triangles given.
 Triangles without(std::vector<Eigen::Index> holes) {

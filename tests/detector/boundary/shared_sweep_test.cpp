@@ -1,11 +1,9 @@
 // A sweep in parts, by one thread or by several, against one sweep of the whole mesh.
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "detector/boundary/boundary_handler.h"
 #include "detector/boundary/ghost_sweep.h"
 #include "detector/parallel/workers.h"
+#include "tests/meshes.h"
+#include "tests/test.h"
 
 namespace assay::detector {
 namespace {
@@ -17,18 +15,9 @@ class SharedSweep : public testing::Test {
   static constexpr int hole_begin = 20, hole_end = 28;
 
   SharedSweep() {
-    std::vector<std::array<int, 3>> rows;
-    for (int i = 0; i + 1 < side; ++i) {
-      for (int j = 0; j + 1 < side; ++j) {
-        if (i >= hole_begin && i < hole_end && j >= hole_begin && j < hole_end) continue;
-        const int v = i * side + j;
-        rows.push_back({v, v + side, v + 1});
-        rows.push_back({v + 1, v + side, v + side + 1});
-      }
-    }
-    triangles_.resize(static_cast<Eigen::Index>(rows.size()), 3);
-    for (std::size_t t = 0; t < rows.size(); ++t)
-      triangles_.row(static_cast<Eigen::Index>(t)) << rows[t][0], rows[t][1], rows[t][2];
+    triangles_ = tests::sheet_triangles(side, [](int i, int j) {
+      return i >= hole_begin && i < hole_end && j >= hole_begin && j < hole_end;
+    });
     start_.resize(side * side, 3);
     end_.resize(side * side, 3);
     for (int v = 0; v < side * side; ++v) {

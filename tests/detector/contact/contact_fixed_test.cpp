@@ -2,17 +2,12 @@
 // leave open; the widths at their bounds; signs at roots against Tarski queries.
 #include "detector/contact/contact_fixed.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdio>
-#include <random>
-
 #include "detector/contact/contact_exact.h"
 #include "detector/contact/fixed_products.h"
 #include "detector/contact/fixed_root.h"
 #include "detector/exact/real_root.h"
 #include "tests/detector/exact/tarski.h"
+#include "tests/test.h"
 
 namespace assay::detector {
 namespace {

@@ -1,9 +1,4 @@
 // The elementary test in a thread with a small stack, over the queries that need most of it.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-
 #include "detector/contact/contact_exact.h"
 #include "detector/contact/elementary.h"
 #include "detector/geometry/orientation.h"

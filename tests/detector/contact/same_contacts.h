@@ -1,10 +1,9 @@
 // Two results of one step in which the same pairs are in contact at the same times.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include "detector/options.h"
 #include "detector/step_result.h"
+#include "tests/test.h"
 
 namespace assay::tests {
 

@@ -1,12 +1,9 @@
 // Random polynomials with known roots. A failure prints the least case and how to reproduce it.
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 
 #include "detector/exact/real_root.h"
 #include "tests/detector/exact/tarski.h"
+#include "tests/test.h"
 
 namespace assay::detector {
 namespace {

@@ -1,8 +1,6 @@
 #include "detector/exact/real_root.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/test.h"
 
 namespace assay::detector {
 namespace {

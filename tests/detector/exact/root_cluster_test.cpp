@@ -1,12 +1,8 @@
 // Roots that share a gap between doubles, made from the roots themselves: each must be found, in
 // order, and the work must grow with the logarithm of the bits that separate them.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdio>
-
 #include "detector/exact/real_root.h"
 #include "detector/exact/root_isolation.h"
+#include "tests/test.h"
 
 namespace assay::detector {
 namespace {

@@ -1,19 +1,12 @@
 #include "detector/geometry/winding.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdio>
-#include <random>
-
 #include "tests/detector/points.h"
 #include "tests/detector/view/revolved.h"
 
 namespace assay::detector {
 namespace {
 
-using tests::octahedron;
-using tests::octahedron_positions;
+using tests::octahedron, tests::octahedron_positions;
 using Windings = std::vector<std::optional<int>>;
 
 TEST(Winding, InsideOutsideAndInward) {

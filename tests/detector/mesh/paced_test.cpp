@@ -1,11 +1,5 @@
 // What is made of a mesh, in preprocessing or at the start of a step, asks the stop function after
 // every so much work, and ends where that says so. Counted is the work, not the time.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <functional>
-#include <random>
-
 #include "detector/mesh/mesh_checks.h"
 #include "detector/mesh/paced_stop.h"
 #include "detector/mesh/surface.h"

@@ -1,12 +1,6 @@
 // The list of contacts against a plain one, and what it takes.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <map>
-#include <random>
-#include <tuple>
-
 #include "detector/search/feature_contacts.h"
+#include "tests/test.h"
 
 namespace assay::detector {
 namespace {

@@ -1,14 +1,9 @@
 #include "detector/parallel/workers.h"
 
-#include <gtest/gtest.h>
-
-#include <atomic>
 #include <mutex>
-#include <set>
-#include <stdexcept>
-#include <vector>
 
 #include "detector/parallel/for_all.h"
+#include "tests/test.h"
 
 namespace assay::detector {
 namespace {

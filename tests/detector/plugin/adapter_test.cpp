@@ -1,20 +1,14 @@
 // The C++ adapter of the plug-in interface (detector/plugin/assay_detector.hpp): which functions a
 // class gives, what becomes of exceptions, and how long results live.
-#include <gtest/gtest.h>
-
 #include <Eigen/Core>
-#include <cstring>
-#include <set>
 
 #include "detector/plugin/assay_detector.hpp"
+#include "tests/test.h"
 
 namespace assay::tests {
 namespace {
 
-using plugin::Mesh;
-using plugin::Pair;
-using plugin::Positions;
-using plugin::Result;
+using plugin::Mesh, plugin::Pair, plugin::Positions, plugin::Result;
 
 // One step is what the first coordinate of x_t0 says.
 enum Wish : int {

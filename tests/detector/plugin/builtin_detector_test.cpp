@@ -1,17 +1,11 @@
 // The built-in detector in C: options, named errors, sets, view primitives, stop.
-#include <gtest/gtest.h>
-
-#include <map>
-#include <string>
-
 #include "detector/detector.h"
 #include "tests/detector/plugin/builtin_fixture.h"
 
 namespace assay::detector {
 namespace {
 
-using tests::BuiltinDetector;
-using tests::table;
+using tests::BuiltinDetector, tests::table;
 
 // ASSAY_CULLING_VIEW_AUTO for view-auto, and so on: the numbers of the C interface are those of the
 // lists in C++.

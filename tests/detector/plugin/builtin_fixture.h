@@ -1,12 +1,6 @@
 // Handles of the built-in detector in C, with what each call has to say of itself.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <cstring>
-#include <memory>
-#include <vector>
-
 #include "detector/options.h"
 #include "detector/plugin/assay_builtin_detector.h"
 #include "tests/detector/points.h"

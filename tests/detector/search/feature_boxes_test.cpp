@@ -1,9 +1,5 @@
 // What diagonals tell apart is strictly ordered along one of them in exact arithmetic.
-#include <gtest/gtest.h>
-
 #include <boost/multiprecision/cpp_int.hpp>
-#include <limits>
-#include <random>
 
 #include "detector/detector.h"
 #include "detector/search/feature_pairs.h"

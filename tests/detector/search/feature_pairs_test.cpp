@@ -1,8 +1,6 @@
 // Feature pairs at representatives: those of all candidates, each once, closure rounds included.
 #include "detector/search/feature_pairs.h"
 
-#include <gtest/gtest.h>
-
 #include "detector/search/candidate_search.h"
 #include "tests/detector/search/search_meshes.h"
 

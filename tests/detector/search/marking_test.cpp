@@ -2,8 +2,6 @@
 // alone.
 #include "detector/search/marking.h"
 
-#include <gtest/gtest.h>
-
 #include "detector/search/pair_search.h"
 #include "detector/search/representatives.h"
 #include "tests/detector/search/search_meshes.h"

@@ -1,12 +1,6 @@
 // Boxes in floats: what they tell apart is apart, in doubles and at all times.
 #include "detector/search/moving_box.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <random>
-
 #include "detector/mesh/paced_stop.h"
 #include "detector/parallel/workers.h"
 #include "detector/search/bounding_volume_tree.h"

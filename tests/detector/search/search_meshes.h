@@ -1,10 +1,6 @@
 // Random meshes, motions and types for the tests of the search.
 #pragma once
 
-#include <algorithm>
-#include <random>
-#include <set>
-
 #include "detector/search/pair_rule.h"
 #include "tests/detector/points.h"
 
@@ -31,7 +27,7 @@ class SearchMeshes {
   // a whole and trembles.
   MovingMesh sheets(int count, int size, bool coarse) {
     const auto side = size + 1;
-    std::vector<std::array<std::int32_t, 3>> rows;
+    std::vector<Corners> rows;
     MovingMesh mesh;
     mesh.x_t0.resize(count * side * side, 3);
     mesh.x_t1.resize(count * side * side, 3);
@@ -54,11 +50,7 @@ class SearchMeshes {
       if (s > 0 && below(2) == 0) rows.back()[2] = 0;
     }
     std::shuffle(rows.begin(), rows.end(), engine_);
-    detector::Triangles list(static_cast<Eigen::Index>(rows.size()), 3);
-    for (std::size_t t = 0; t < rows.size(); ++t) {
-      list.row(static_cast<Eigen::Index>(t)) << rows[t][0], rows[t][1], rows[t][2];
-    }
-    mesh.topology = detector::make_topology(list, mesh.x_t0.rows());
+    mesh.topology = detector::make_topology(triangles(rows), mesh.x_t0.rows());
     return mesh;
   }
 

@@ -1,11 +1,8 @@
 // A saved state as bytes: the same state again, and whatever is not one is refused by name.
 #include "detector/state/state_bytes.h"
 
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <unistd.h>
-
-#include <algorithm>
 
 #include "detector/detector.h"
 #include "tests/detector/points.h"

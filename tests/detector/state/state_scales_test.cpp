@@ -1,10 +1,5 @@
 // A saved state is always taken back by the detector that saved it, whatever numbers it has seen:
 // all scales, with extents of a few denormals and coordinates at the end of the doubles.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-
 #include "detector/detector.h"
 #include "tests/detector/points.h"
 

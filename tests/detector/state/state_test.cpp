@@ -1,7 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "detector/detector.h"
 #include "detector/state/layers.h"
 #include "detector/step/release_rule.h"
@@ -11,8 +7,7 @@
 namespace assay::detector {
 namespace {
 
-using tests::octahedron;
-using tests::octahedron_positions;
+using tests::octahedron, tests::octahedron_positions;
 
 // Positions are copied and compared in pieces, of which 100,000 rows make several.
 TEST(StepState, HoldsAtThePositionsThatItKeptAndAtNoOthers) {

@@ -2,10 +2,6 @@
 // alone.
 #include "detector/step/cost_model.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "detector/detector.h"
 #include "tests/detector/contact/same_contacts.h"
 #include "tests/detector/points.h"
@@ -14,16 +10,9 @@
 namespace assay::detector {
 namespace {
 
-using tests::expect_same_contacts;
-using tests::octahedron;
-using tests::octahedron_positions;
-using tests::pushed_octahedron;
-using tests::revolved;
-using tests::sides;
-using tests::sphere;
-using tests::sphere_rings;
-using tests::tube_rings;
-using tests::wavy_tube;
+using tests::expect_same_contacts, tests::octahedron, tests::octahedron_positions,
+    tests::pushed_octahedron, tests::revolved, tests::sides, tests::sphere, tests::sphere_rings,
+    tests::tube_rings, tests::wavy_tube;
 
 Detector make(const Triangles& t, const Positions& x, Culling culling = Culling::view_auto,
               Start start = Start::clean) {
@@ -85,18 +74,7 @@ TEST(CostModel, L10_EveryComponentIsSeenFromWhatSuitsIt) {
   EXPECT_TRUE(result.primitives[1].is_point());
 }
 
-constexpr int sheet_side = 49;
-Triangles sheet_triangles() {  // 4,608
-  Triangles t(2 * (sheet_side - 1) * (sheet_side - 1), 3);
-  for (int i = 0, k = 0; i + 1 < sheet_side; ++i) {
-    for (int j = 0; j + 1 < sheet_side; ++j) {
-      const int v = i * sheet_side + j;
-      t.row(k++) << v, v + sheet_side, v + 1;
-      t.row(k++) << v + 1, v + sheet_side, v + sheet_side + 1;
-    }
-  }
-  return t;
-}
+constexpr int sheet_side = 49;  // 4,608 triangles
 // Its last rows rise, so that those triangles alone have a sign where it is seen along the others.
 Positions sheet_positions(int rising_rows) {
   Positions x(sheet_side * sheet_side, 3);
@@ -117,7 +95,7 @@ Triangles turned(const Triangles& t) {
 // A sheet seen along itself: integers would decide that the flat triangles have no sign, which
 // costs more than what the signs of the others can save.
 TEST(CostModel, ALargeSheetIsGlancedAtAndNoMore) {
-  const Triangles t = sheet_triangles();
+  const Triangles t = tests::sheet_triangles(sheet_side);
   const MovingPoint corner = {{0, 0, 0}, {0, 0, 0}};
   const ViewPrimitive along = {corner, corner};
   for (const int rising : {0, 24, 36}) {
@@ -138,7 +116,7 @@ TEST(CostModel, ALargeSheetIsGlancedAtAndNoMore) {
 // Most of the sheet passes the point from which it is seen, so it has no sign; a quarter keeps its
 // sign. Views would save a sixteenth of the pairs, whichever the sign is.
 TEST(CostModel, ALargeSheetWithAFewSignsIsGlancedAtAndNoMore) {
-  const Triangles t = sheet_triangles();
+  const Triangles t = tests::sheet_triangles(sheet_side);
   const MovingPoint below = {{0, 0, 0}, {0, 0, 0}};
   const ViewPrimitive view = {below, below};
   Positions x = sheet_positions(0), moved = x;

@@ -1,7 +1,5 @@
 // When the cost model has a look at views at all: the sample of a large component, what is hoped
 // for, and how long a rest is.
-#include <gtest/gtest.h>
-
 #include "detector/step/cost_model.h"
 #include "tests/detector/points.h"
 
@@ -29,24 +27,13 @@ struct LayeredSheet {
         .col(2)
         .setConstant(-1);
   }
-  static Triangles triangles() {
-    Triangles t(2 * (layered_side - 1) * (layered_side - 1), 3);
-    for (int i = 0, k = 0; i + 1 < layered_side; ++i) {
-      for (int j = 0; j + 1 < layered_side; ++j) {
-        const int v = i * layered_side + j;
-        t.row(k++) << v, v + layered_side, v + 1;
-        t.row(k++) << v + 1, v + layered_side, v + layered_side + 1;
-      }
-    }
-    return t;
-  }
   Positions x_t0, x_t1;
 };
 
 // Whether a look is worth it where culling bvh has so many pairs. With the sheet lie `small` more
 // triangles, each a component of its own: too small for a sample.
 bool is_looked_at(const LayeredSheet& sheet, std::uint64_t pairs, int small = 0) {
-  const Triangles of_sheet = LayeredSheet::triangles();
+  const Triangles of_sheet = tests::sheet_triangles(layered_side);
   Triangles t(of_sheet.rows() + small, 3);
   Positions x_t0(sheet.x_t0.rows() + 3 * small, 3), x_t1;
   t.topRows(of_sheet.rows()) = of_sheet;

@@ -24,23 +24,24 @@ class Trace {
   Notes notes_;
 };
 
-class NotedClassifier : public ViewClassifier {
- public:
-  explicit NotedClassifier(Trace& trace) : trace_(trace) {}
+template <class Stage>
+struct Noted : Stage {
+  explicit Noted(Trace& trace) : trace_(trace) {}
+  Trace& trace_;
+};
+
+struct NotedClassifier : Noted<ViewClassifier> {
+  using Noted::Noted;
   bool classify(const Topology& surface, const Component& component, const SteppedMesh& motion,
                 const ViewPrimitive& primitive, std::vector<ViewSign>& signs, ViewCounts& counts,
                 PacedStop& pace) const override {
     trace_.note("view test");
     return ViewClassifier::classify(surface, component, motion, primitive, signs, counts, pace);
   }
-
- private:
-  Trace& trace_;
 };
 
-class NotedBoundary : public BoundaryHandler {
- public:
-  explicit NotedBoundary(Trace& trace) : trace_(trace) {}
+struct NotedBoundary : Noted<BoundaryHandler> {
+  using Noted::Noted;
   std::vector<MovingPoint> place_apexes(const Surface& surface, const std::vector<ApexRule>& rules,
                                         const SteppedMesh& motion) const override {
     trace_.note("apexes");
@@ -52,15 +53,12 @@ class NotedBoundary : public BoundaryHandler {
     trace_.note("ghosts");
     return BoundaryHandler::sweep(sweep, ghosts, stop, touched, counts);
   }
-
- private:
-  Trace& trace_;
 };
 
 template <class Rule>
-class NotedRule : public Rule {
- public:
-  explicit NotedRule(Trace& trace) : trace_(trace) {}
+struct NotedRule : Noted<Rule> {
+  using Noted<Rule>::Noted;
+  using Noted<Rule>::trace_;
   PairTables candidates() const override {
     trace_.note("K");  // asked once more by the closure: what has been tested
     return Rule::candidates();
@@ -73,16 +71,10 @@ class NotedRule : public Rule {
     trace_.note("join");
     return Rule::joins_closure(contact, t);
   }
-
- private:
-  Trace& trace_;
 };
 
-class NotedMarking : public Marking {
- public:
-  explicit NotedMarking(Trace& trace) : trace_(trace) {}
-
- protected:
+struct NotedMarking : Noted<Marking> {
+  using Noted::Noted;
   void mark(std::int32_t leaf, std::uint8_t flags, const BoundingVolumeTree& tree, Marks& marks,
             MarkingCounts& counts) const override {
     trace_.note("mark");
@@ -93,14 +85,10 @@ class NotedMarking : public Marking {
     trace_.note("clear");
     Marking::clear(leaf, flags, tree, marks, counts);
   }
-
- private:
-  Trace& trace_;
 };
 
-class NotedSearch : public TreeSearch {
- public:
-  explicit NotedSearch(Trace& trace) : trace_(trace) {}
+struct NotedSearch : Noted<TreeSearch> {
+  using Noted::Noted;
   bool fit(BoundingVolumeTree& tree, const Topology& mesh, const SteppedMesh& motion,
            PacedStop& pace) const override {
     trace_.note("fit");
@@ -110,14 +98,10 @@ class NotedSearch : public TreeSearch {
     trace_.note("search");
     return TreeSearch::search(input, counts, sink);
   }
-
- private:
-  Trace& trace_;
 };
 
-class NotedTest : public ElementaryTest {
- public:
-  explicit NotedTest(Trace& trace) : trace_(trace) {}
+struct NotedTest : Noted<ElementaryTest> {
+  using Noted::Noted;
   ContactResult test(const FourPoints& query, Want want) const override {
     trace_.note("test");
     return ElementaryTest::test(query, want);
@@ -126,14 +110,10 @@ class NotedTest : public ElementaryTest {
     trace_.note("test");
     return ElementaryTest::pierces(e0, e1, face);
   }
-
- private:
-  Trace& trace_;
 };
 
-class NotedRelease : public ReleaseRule {
- public:
-  explicit NotedRelease(Trace& trace) : trace_(trace) {}
+struct NotedRelease : Noted<ReleaseRule> {
+  using Noted::Noted;
   bool still_holds(const StepState& state, const PositionsView& x_t0,
                    const PacedStop& pace) const override {
     trace_.note("known?");
@@ -164,9 +144,6 @@ class NotedRelease : public ReleaseRule {
     trace_.note("settle");
     ReleaseRule::settle(step, marks, pairs, complete, state);
   }
-
- private:
-  Trace& trace_;
 };
 
 inline Stages noted_stages(const Options& options, Trace& trace) {

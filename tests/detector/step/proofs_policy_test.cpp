@@ -1,8 +1,4 @@
 // Culling auto proves patches apart (L14) where counts say that it pays, and nowhere else.
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "detector/detector.h"
 #include "detector/step/cost_model.h"
 #include "detector/traditional/traditional.h"
@@ -13,9 +9,7 @@
 namespace assay::detector {
 namespace {
 
-using tests::revolved;
-using tests::sphere;
-using tests::sphere_rings;
+using tests::revolved, tests::sphere, tests::sphere_rings;
 
 // Squares of unit size, in two triangles each.
 struct Sheet {

@@ -1,8 +1,4 @@
 // A passage through a hole and back, a caller's response, a state that is saved and restored.
-#include <gtest/gtest.h>
-
-#include <set>
-
 #include "detector/detector.h"
 #include "detector/state/step_state.h"
 #include "tests/detector/contact/same_contacts.h"
@@ -12,11 +8,8 @@
 namespace assay::detector {
 namespace {
 
-using tests::octahedron;
-using tests::octahedron_positions;
-using tests::revolved;
-using tests::sides;
-using tests::sphere_rings;
+using tests::octahedron, tests::octahedron_positions, tests::revolved, tests::sides,
+    tests::sphere_rings;
 
 // The octahedron without its triangle at +x +y +z.
 Triangles with_hole() { return octahedron().bottomRows(7); }

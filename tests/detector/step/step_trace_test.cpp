@@ -1,9 +1,5 @@
 // The order in which a step calls its stages: that of the pseudo-code in detector/step/step.cpp.
 // What a step need not do must not be called at all.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "detector/assembly.h"
 #include "detector/detector.h"
 #include "tests/detector/points.h"
@@ -12,9 +8,7 @@
 namespace assay::detector {
 namespace {
 
-using tests::octahedron;
-using tests::octahedron_positions;
-using tests::pushed_octahedron;
+using tests::octahedron, tests::octahedron_positions, tests::pushed_octahedron;
 
 using namespace tests_of_steps;
 

@@ -1,7 +1,5 @@
 // Creating and stepping on a mesh that takes a while asks the stop function as work is done; what a
 // stop leaves behind does not change what is answered afterwards.
-#include <gtest/gtest.h>
-
 #include "detector/detector.h"
 #include "detector/mesh/paced_stop.h"
 #include "tests/detector/contact/same_contacts.h"

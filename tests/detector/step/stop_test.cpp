@@ -1,6 +1,4 @@
 // A step that is stopped, at each asking in turn: undecided, and as if it had not been.
-#include <gtest/gtest.h>
-
 #include "detector/detector.h"
 #include "tests/detector/contact/same_contacts.h"
 #include "tests/detector/points.h"
@@ -8,8 +6,7 @@
 namespace assay::detector {
 namespace {
 
-using tests::octahedron;
-using tests::octahedron_positions;
+using tests::octahedron, tests::octahedron_positions;
 
 // The tip at -z elsewhere.
 Positions tip_at(Point p) {

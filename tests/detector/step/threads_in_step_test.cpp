@@ -1,9 +1,5 @@
 // A step of several threads gives what a step of one thread gives, on a mesh that every loop shares
 // out. This is what ThreadSanitizer looks at; meshes of every kind are in tests/properties.
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "detector/detector.h"
 #include "detector/state/step_state.h"
 #include "tests/detector/contact/same_contacts.h"

@@ -1,14 +1,11 @@
 // The decisions of view-auto, one by one, from the counts that they rest on.
-#include <gtest/gtest.h>
-
 #include "detector/step/cost_model.h"
 #include "tests/detector/points.h"
 
 namespace assay::detector {
 namespace {
 
-using tests::octahedron;
-using tests::octahedron_positions;
+using tests::octahedron, tests::octahedron_positions;
 
 // Two octahedra without their first triangles, all seen positive: views save every pair.
 struct TwoOpen {

@@ -1,10 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <numbers>
 
 #include "detector/traditional/moving_contour.h"
 #include "tests/detector/exact/exact_numbers.h"
+#include "tests/test.h"
 
 namespace assay::detector {
 namespace {

@@ -1,19 +1,11 @@
 #include "detector/traditional/moving_contour.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <random>
-
 #include "tests/detector/traditional/patch_meshes.h"
 
 namespace assay::detector {
 namespace {
 
-using tests::flat;
-using tests::Sheet;
-using tests::sheet;
-using tests::triangles;
+using tests::flat, tests::Sheet, tests::sheet, tests::triangles;
 
 std::vector<std::int32_t> contour_of(const Triangles& rows, Eigen::Index vertices) {
   const Topology mesh = make_topology(rows, vertices);

@@ -1,16 +1,13 @@
 // Sheets, ramps and spheres for the tests of the traditional scheme.
 #pragma once
 
-#include <cmath>
 #include <numbers>
-#include <vector>
 
 #include "tests/detector/points.h"
 
 namespace assay::tests {
 
-using detector::Positions;
-using detector::Triangles;
+using detector::Positions, detector::Triangles;
 
 // A sheet of n x m squares, its points placed by `place(u, v)` with u, v in [0,1].
 struct Sheet {
@@ -57,7 +54,7 @@ inline Sheet sphere(std::int32_t n, double radius) {
   const std::int32_t around = 2 * n, last = 1 + (n - 1) * around;
   Sheet out;
   out.x.resize(last + 1, 3);
-  std::vector<std::array<std::int32_t, 3>> rows;
+  std::vector<Corners> rows;
   const auto vertex = [&](std::int32_t i, std::int32_t j) {
     return i == 0 ? 0 : i == n ? last : 1 + (i - 1) * around + j % around;
   };
@@ -71,9 +68,7 @@ inline Sheet sphere(std::int32_t n, double radius) {
       if (i > 0 && i < n) rows.push_back({vertex(i, j), vertex(i, j + 1), vertex(i - 1, j + 1)});
     }
   }
-  out.rows.resize(static_cast<Eigen::Index>(rows.size()), 3);
-  for (std::size_t t = 0; t < rows.size(); ++t)
-    out.rows.row(static_cast<Eigen::Index>(t)) << rows[t][0], rows[t][1], rows[t][2];
+  out.rows = triangles(rows);
   return out;
 }
 

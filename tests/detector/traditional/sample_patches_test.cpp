@@ -1,9 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <set>
-
 #include "detector/traditional/patch_contours.h"
 #include "tests/detector/view/revolved.h"
+#include "tests/test.h"
 
 namespace assay::detector {
 namespace {

@@ -1,10 +1,6 @@
 // The traditional scheme against culling bvh, and what it saves.
 #include "detector/traditional/traditional.h"
 
-#include <gtest/gtest.h>
-
-#include <set>
-
 #include "detector/detector.h"
 #include "tests/detector/contact/same_contacts.h"
 #include "tests/detector/search/search_meshes.h"
@@ -13,12 +9,8 @@
 namespace assay::detector {
 namespace {
 
-using tests::bent;
-using tests::expect_same_contacts;
-using tests::ramp;
-using tests::Sheet;
-using tests::sheet;
-using tests::sphere;
+using tests::bent, tests::expect_same_contacts, tests::ramp, tests::Sheet, tests::sheet,
+    tests::sphere;
 
 using PairSet = std::set<std::pair<std::int32_t, std::int32_t>>;
 

@@ -1,12 +1,5 @@
 #include "detector/view/affine_weights.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <numeric>
-#include <random>
-
 #include "tests/detector/points.h"
 
 namespace assay::detector {

@@ -9,8 +9,7 @@
 
 namespace assay::tests {
 
-using detector::Positions;
-using detector::Triangles;
+using detector::Positions, detector::Triangles;
 
 // A closed surface of revolution: rings of eight vertices, then the two poles.
 inline constexpr std::int32_t sides = 8;

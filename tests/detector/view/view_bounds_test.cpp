@@ -2,22 +2,17 @@
 // the scales of the component's box. Prints the largest error beside what is allowed.
 #include "detector/view/view_bounds.h"
 
-#include <gtest/gtest.h>
-
-#include <cstdio>
-
 #include "tests/detector/exact/exact_numbers.h"
 #include "tests/detector/view/triangle_batches.h"
 
 #define ASSAY_LANES 2
 #include "detector/view/view_lanes_kernel.h"
+#include "tests/test.h"
 
 namespace assay::detector {
 namespace {
 
-using tests::BatchFamily;
-using tests::BatchMaker;
-using tests::TriangleBatch;
+using tests::BatchFamily, tests::BatchMaker, tests::TriangleBatch;
 
 constexpr std::array families = {BatchFamily::generic, BatchFamily::small_motion,
                                  BatchFamily::near_degenerate, BatchFamily::far,

@@ -1,20 +1,14 @@
 // Lanes against one triangle after the other, and each instruction set against the others.
 #include "detector/view/view_lanes.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdio>
-
 #include "detector/view/view_signs.h"
 #include "tests/detector/view/triangle_batches.h"
+#include "tests/test.h"
 
 namespace assay::detector {
 namespace {
 
-using tests::BatchFamily;
-using tests::BatchMaker;
-using tests::TriangleBatch;
+using tests::BatchFamily, tests::BatchMaker, tests::TriangleBatch;
 
 constexpr std::array<InstructionSet, 3> all_sets = {InstructionSet::baseline, InstructionSet::avx2,
                                                     InstructionSet::avx512};

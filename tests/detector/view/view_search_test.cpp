@@ -1,10 +1,6 @@
 // The places and lines that a search for a view primitive tries.
 #include "detector/view/view_search.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "detector/view/view_anchor.h"
 #include "detector/view/view_signs.h"
 #include "tests/detector/points.h"

@@ -1,7 +1,5 @@
 #include "detector/view/view_signs.h"
 
-#include <gtest/gtest.h>
-
 #include "detector/view/view_filter.h"
 #include "tests/detector/points.h"
 #include "tests/detector/small_stack.h"

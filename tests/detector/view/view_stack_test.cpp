@@ -1,9 +1,4 @@
 // The view test in a thread with a small stack, over the triangles that need most of it.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-
 #include "detector/view/view_signs.h"
 #include "tests/detector/points.h"
 #include "tests/detector/small_stack.h"

@@ -1,9 +1,5 @@
 #include "oracle/instant/layers.h"
 
-#include <gtest/gtest.h>
-
-#include <cstdio>
-
 #include "oracle/instant/instant_contacts.h"
 #include "oracle/mesh/loops.h"
 #include "tests/oracle/random_points.h"
@@ -12,11 +8,8 @@
 namespace assay::oracle {
 namespace {
 
-using detector::Positions;
-using detector::Triangles;
-using test::positions;
-using test::tetrahedron_triangles;
-using test::triangles;
+using detector::Positions, detector::Triangles, test::positions, test::tetrahedron_triangles,
+    test::triangles;
 using Flags = std::vector<std::uint8_t>;
 
 const Triangles no_triangles(0, 3);

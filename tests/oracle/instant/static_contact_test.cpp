@@ -1,7 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <cstdio>
-
 #include "oracle/instant/instant_contacts.h"
 #include "oracle/mesh/step.h"
 #include "oracle/query/contact.h"

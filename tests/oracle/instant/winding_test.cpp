@@ -1,7 +1,5 @@
 #include "oracle/instant/winding.h"
 
-#include <gtest/gtest.h>
-
 #include "oracle/mesh/loops.h"
 #include "tests/oracle/random_points.h"
 #include "tests/oracle/small_meshes.h"
@@ -9,11 +7,8 @@
 namespace assay::oracle {
 namespace {
 
-using detector::Positions;
-using detector::Triangles;
-using test::positions;
-using test::tetrahedron_triangles;
-using test::triangles;
+using detector::Positions, detector::Triangles, test::positions, test::tetrahedron_triangles,
+    test::triangles;
 
 Positions tetrahedron() { return positions({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}}); }
 

@@ -1,16 +1,12 @@
 #include "oracle/mesh/contact_shape.h"
 
-#include <gtest/gtest.h>
-
 #include "oracle/query/contact.h"
+#include "tests/test.h"
 
 namespace assay::oracle {
 namespace {
 
-using detector::EdgeEdge;
-using detector::MovingPoint;
-using detector::Point;
-using detector::VertexFace;
+using detector::EdgeEdge, detector::MovingPoint, detector::Point, detector::VertexFace;
 
 MovingPoint resting(const Point& p) { return {p, p}; }
 

@@ -1,15 +1,12 @@
 #include "oracle/mesh/loops.h"
 
-#include <gtest/gtest.h>
-
 #include "tests/oracle/random_points.h"
 #include "tests/oracle/small_meshes.h"
 
 namespace assay::oracle {
 namespace {
 
-using detector::Triangles;
-using test::triangles;
+using detector::Triangles, test::triangles;
 using Edges = std::vector<DirectedEdge>;
 using Loops = std::vector<Loop>;
 

@@ -1,27 +1,13 @@
 #include "oracle/mesh/step.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdio>
-#include <map>
-#include <stdexcept>
-#include <tuple>
-
 #include "tests/oracle/random_points.h"
 #include "tests/oracle/small_meshes.h"
 
 namespace assay::oracle {
 namespace {
 
-using detector::Answer;
-using detector::FeatureKind;
-using detector::PairContact;
-using detector::TimeEnclosure;
-using detector::TrianglePair;
-using test::positions;
-using test::Step;
-using test::triangles;
+using detector::Answer, detector::FeatureKind, detector::PairContact, detector::TimeEnclosure,
+    detector::TrianglePair, test::positions, test::Step, test::triangles;
 
 StepJudgement judge(const Step& step, int jobs = 1) {
   return judge_step({step.x_t0, step.x_t1}, step.f, {jobs, {}});
@@ -170,23 +156,10 @@ TEST(JudgeStep, IntersectingOctahedron) {
 
 TEST(JudgeStep, TrianglesOnAnEdgeOfThree) {
   // Three triangles at one edge; a vertex of a fourth crosses one of them at the common edge.
-  const Step step = {positions({{0, -2, 0},
-                                {0, 2, 0},
-                                {3, 0, 0},
-                                {-3, 0, 0},
-                                {0, 0, 3},
-                                {-1, 0, -1},
-                                {-2, 0, -5},
-                                {2, 0, -5}}),
-                     positions({{0, -2, 0},
-                                {0, 2, 0},
-                                {3, 0, 0},
-                                {-3, 0, 0},
-                                {0, 0, 3},
-                                {1, 0, 1},
-                                {-2, 0, -5},
-                                {2, 0, -5}}),
-                     triangles({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}, {5, 6, 7}})};
+  const Step step = {
+      tests::positions_of("0 -2 0, 0 2 0, 3 0 0, -3 0 0, 0 0 3, -1 0 -1, -2 0 -5, 2 0 -5"),
+      tests::positions_of("0 -2 0, 0 2 0, 3 0 0, -3 0 0, 0 0 3, 1 0 1, -2 0 -5, 2 0 -5"),
+      triangles({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}, {5, 6, 7}})};
   expect_pairs(judge(step), {{{0, 3}, 0.5}, {{1, 3}, 0.5}, {{2, 3}, 0.5}});
 }
 

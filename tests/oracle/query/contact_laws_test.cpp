@@ -1,8 +1,4 @@
 // Laws of contacts on random queries of every kind of coordinates; fixed seeds.
-#include <gtest/gtest.h>
-
-#include <cstdio>
-
 #include "oracle/query/contact.h"
 #include "oracle/query/rungs.h"
 #include "oracle/query/times/time_enclosure.h"
@@ -11,13 +7,8 @@
 namespace assay::oracle {
 namespace {
 
-using detector::EdgeEdge;
-using detector::MovingPoint;
-using detector::TimeEnclosure;
-using detector::VertexFace;
-using detector::Want;
-using test::Coordinates;
-using test::Random;
+using detector::EdgeEdge, detector::MovingPoint, detector::TimeEnclosure, detector::VertexFace,
+    detector::Want, test::Coordinates, test::Random;
 
 constexpr int queries_per_kind = 300;
 

@@ -1,19 +1,13 @@
 // Named queries: which answer, which first time, and which rung decides.
 #include "oracle/query/contact.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/test.h"
 
 namespace assay::oracle {
 namespace {
 
-using detector::EdgeEdge;
-using detector::MovingPoint;
-using detector::Point;
-using detector::TimeEnclosure;
-using detector::VertexFace;
-using detector::Want;
+using detector::EdgeEdge, detector::MovingPoint, detector::Point, detector::TimeEnclosure,
+    detector::VertexFace, detector::Want;
 
 MovingPoint rest(const Point& p) { return {p, p}; }
 

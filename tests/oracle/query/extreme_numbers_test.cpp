@@ -1,9 +1,5 @@
 // Every finite double is a valid coordinate: denormals, the largest, and all mixed.
-#include <gtest/gtest.h>
-
 #include <cfenv>
-#include <cstdio>
-#include <limits>
 
 #include "oracle/processor_state.h"
 #include "oracle/query/contact.h"
@@ -16,10 +12,7 @@
 namespace assay::oracle {
 namespace {
 
-using detector::MovingPoint;
-using detector::VertexFace;
-using detector::Want;
-using test::Random;
+using detector::MovingPoint, detector::VertexFace, detector::Want, test::Random;
 
 constexpr double least_double = std::numeric_limits<double>::denorm_min();
 constexpr double greatest_double = std::numeric_limits<double>::max();

@@ -1,9 +1,4 @@
 // The parts that queries are made of: enclosures, integer polynomials, algebraic times, box cull.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "oracle/mesh/box_tree.h"
 #include "oracle/query/integer_polynomial.h"
 #include "oracle/query/times/algebraic_times.h"

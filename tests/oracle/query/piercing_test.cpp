@@ -1,8 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdio>
-
 #include "oracle/query/contact.h"
 #include "tests/oracle/random_points.h"
 

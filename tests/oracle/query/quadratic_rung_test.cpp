@@ -1,21 +1,12 @@
 // The rung "quadratic": queries with known times, and random queries beside the algebraic kernel.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdio>
-
 #include "oracle/query/rungs.h"
 #include "tests/oracle/random_points.h"
 
 namespace assay::oracle {
 namespace {
 
-using detector::MovingPoint;
-using detector::Point;
-using detector::TimeEnclosure;
-using detector::Want;
-using test::Coordinates;
-using test::Random;
+using detector::MovingPoint, detector::Point, detector::TimeEnclosure, detector::Want,
+    test::Coordinates, test::Random;
 
 MovingPoint resting_at(const Point& p) { return {p, p}; }
 TimeEnclosure exactly(double t) { return {t, t}; }

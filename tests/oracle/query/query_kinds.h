@@ -1,10 +1,6 @@
 // Random queries of the kinds that methods are compared on.
 #pragma once
 
-#include <array>
-#include <cmath>
-#include <cstdlib>
-
 #include "tests/oracle/random_points.h"
 
 namespace assay::oracle::test {

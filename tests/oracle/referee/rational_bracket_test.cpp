@@ -1,18 +1,13 @@
 // Contacts that begin and end between neighbouring doubles, and what is no proof.
 #include "oracle/referee/rational_bracket.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "oracle/query/contact.h"
 #include "tests/oracle/random_points.h"
 
 namespace assay::oracle {
 namespace {
 
-using detector::EdgeEdge;
-using detector::VertexFace;
+using detector::EdgeEdge, detector::VertexFace;
 
 // A vertex over a face whose plane turns: z = t x, raised by `above` at two corners. The vertex
 // moves along the tangent of its path in that plane at t = 1/2, so that F has two zeros there,

@@ -1,12 +1,6 @@
 // The second referee: named cases, agreement with contact.h, and how much it leaves open.
 #include "oracle/referee/referee.h"
 
-#include <gtest/gtest.h>
-
-#include <chrono>
-#include <cmath>
-#include <cstdio>
-
 #include "oracle/query/contact.h"
 #include "oracle/referee/existence.h"
 #include "tests/oracle/query/query_kinds.h"
@@ -14,15 +8,8 @@
 namespace assay::oracle {
 namespace {
 
-using detector::EdgeEdge;
-using detector::MovingPoint;
-using detector::Point;
-using detector::VertexFace;
-using test::edge_edge;
-using test::Points;
-using test::QueryKind;
-using test::Random;
-using test::vertex_face;
+using detector::EdgeEdge, detector::MovingPoint, detector::Point, detector::VertexFace,
+    test::edge_edge, test::Points, test::QueryKind, test::Random, test::vertex_face;
 
 MovingPoint rest(const Point& p) { return {p, p}; }
 

@@ -1,13 +1,6 @@
 // The second opinion: no contradiction where the judgement is right, one where it is not.
 #include "oracle/referee/second_opinion.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <atomic>
-#include <cmath>
-#include <cstdio>
-
 #include "tests/oracle/random_points.h"
 #include "tests/oracle/small_meshes.h"
 

@@ -1,11 +1,7 @@
 // Triangles at rest at rational times: what they share and what they have become.
 #include "oracle/referee/static_check.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
+#include <Eigen/Geometry>
 
 #include "oracle/mesh/step.h"
 #include "tests/oracle/random_points.h"
@@ -14,10 +10,7 @@
 namespace assay::oracle {
 namespace {
 
-using test::positions;
-using test::Rows;
-using test::Step;
-using test::triangles;
+using test::Rows, test::Step, test::positions, test::triangles;
 
 bool meet_at(const Step& step, const StaticTime& time) {
   return triangles_meet({step.x_t0, step.x_t1}, step.f, {0, 1}, time);
@@ -122,6 +115,34 @@ TEST(StaticCheck, MeetingsAreInThePairSet) {
   }
   std::printf("seed 51: %d static checks, %d meetings\n", checks, meetings);
   EXPECT_GT(meetings, 100);
+}
+
+// The static test that a sampling detector uses, against rational arithmetic.
+
+TEST(TrianglesMeetNow, AgreesWithRationalArithmeticOnSmallIntegers) {
+  std::mt19937 random(1);
+  std::uniform_int_distribution<int> coordinate(0, 3);
+  const auto f = test::triangles({{0, 1, 2}, {3, 4, 5}});
+  int met = 0, apart = 0, without_area = 0;
+  for (int i = 0; i < 3000; ++i) {
+    detector::Positions x(6, 3);
+    for (Eigen::Index k = 0; k < x.size(); ++k) x.data()[k] = coordinate(random);
+    const auto is_flat = [&](Eigen::Index v) {
+      const Eigen::RowVector3d a = x.row(v), b = x.row(v + 1), c = x.row(v + 2);
+      return (b - a).cross(c - a).isZero(0);
+    };
+    const bool answer = assay_triangles_meet_now(x.data(), x.data() + 9) != 0;
+    if (is_flat(0) || is_flat(3)) {
+      EXPECT_FALSE(answer);
+      ++without_area;
+      continue;
+    }
+    EXPECT_EQ(answer, triangles_meet({x, x}, f, {0, 1}, RationalTime{0, 1})) << x;
+    ++(answer ? met : apart);
+  }
+  EXPECT_GT(met, 500);
+  EXPECT_GT(apart, 500);
+  EXPECT_GT(without_area, 20);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include "oracle/view/candidates.h"
 
-#include <gtest/gtest.h>
+#include "tests/test.h"
 
 namespace assay::oracle {
 namespace {

@@ -1,9 +1,5 @@
 #include "oracle/view/touched_by_ghosts.h"
 
-#include <gtest/gtest.h>
-
-#include <cstdio>
-
 #include "oracle/mesh/loops.h"
 #include "oracle/mesh/step.h"
 #include "tests/oracle/random_points.h"
@@ -12,33 +8,15 @@
 namespace assay::oracle {
 namespace {
 
-using detector::Positions;
-using detector::Triangles;
-using test::positions;
-using test::triangles;
+using detector::Positions, detector::Triangles, test::positions, test::triangles;
 using Flags = std::vector<std::uint8_t>;
 
 // An open box without its top (triangles 0 to 9), 8 vertices, and ghosts over the loop 4 5 6 7.
-const Triangles box_triangles = triangles({{0, 2, 1},
-                                           {0, 3, 2},
-                                           {0, 1, 5},
-                                           {0, 5, 4},
-                                           {1, 2, 6},
-                                           {1, 6, 5},
-                                           {2, 3, 7},
-                                           {2, 7, 6},
-                                           {3, 0, 4},
-                                           {3, 4, 7}});
+const Triangles box_triangles =
+    tests::triangles_of("0 2 1, 0 3 2, 0 1 5, 0 5 4, 1 2 6, 1 6 5, 2 3 7, 2 7 6, 3 0 4, 3 4 7");
 
 Positions box() {
-  return positions({{-4, -4, -4},
-                    {4, -4, -4},
-                    {4, 4, -4},
-                    {-4, 4, -4},
-                    {-4, -4, 4},
-                    {4, -4, 4},
-                    {4, 4, 4},
-                    {-4, 4, 4}});
+  return tests::positions_of("-4 -4 -4, 4 -4 -4, 4 4 -4, -4 4 -4, -4 -4 4, 4 -4 4, 4 4 4, -4 4 4");
 }
 
 Flags touched(const Positions& x_t0, const Positions& x_t1, const Triangles& f,

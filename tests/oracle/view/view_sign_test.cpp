@@ -1,21 +1,14 @@
 // Exact view signs; L1 and L2 are the laws of view points and view lines.
 #include "oracle/view/view_sign.h"
 
-#include <gtest/gtest.h>
-
-#include <cstdio>
-
 #include "tests/oracle/random_points.h"
 #include "tests/oracle/small_meshes.h"
 
 namespace assay::oracle {
 namespace {
 
-using detector::MovingPoint;
-using detector::Point;
-using detector::ViewPrimitive;
-using detector::ViewSign;
-using test::Random;
+using detector::MovingPoint, detector::Point, detector::ViewPrimitive, detector::ViewSign,
+    test::Random;
 
 MovingPoint rest(const Point& p) { return {p, p}; }
 ViewPrimitive view_point(const Point& q) { return {rest(q), rest(q)}; }

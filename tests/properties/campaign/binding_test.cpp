@@ -1,8 +1,6 @@
 // What a run rests on: its binding, its canary, and laws that were met too seldom.
 #include "properties/campaign/ledger/binding.h"
 
-#include <gtest/gtest.h>
-
 #include "properties/campaign/ledger/tally.h"
 #include "properties/campaign/phases/fault_hunt.h"
 #include "properties/campaign/trials/trials.h"

@@ -1,14 +1,9 @@
 // A small campaign as the tests of its parts run it.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <chrono>
-#include <string>
-#include <string_view>
-
 #include "properties/campaign/trials/trials.h"
 #include "properties/faults/fault.h"
+#include "tests/test.h"
 
 namespace assay::properties::test {
 

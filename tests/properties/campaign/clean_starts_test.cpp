@@ -1,5 +1,3 @@
-#include <gtest/gtest.h>
-
 #include "properties/campaign/phases/shrink.h"
 #include "properties/campaign/trials/planned_case.h"
 #include "properties/generators/families.h"

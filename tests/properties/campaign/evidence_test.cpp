@@ -1,9 +1,8 @@
 // Every kind of evidence survives its row, and what no run stores is refused.
 #include "properties/campaign/ledger/evidence.h"
 
-#include <gtest/gtest.h>
-
 #include "tests/properties/campaign/good_findings.h"
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {

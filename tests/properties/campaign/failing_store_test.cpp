@@ -1,6 +1,4 @@
 // A store that fails in the middle of the work: whoever runs a campaign is told by a value.
-#include <gtest/gtest.h>
-
 #include "properties/campaign/ledger/binding.h"
 #include "properties/campaign/ledger/run_folder.h"
 #include "properties/campaign/phases/phases.h"

@@ -1,17 +1,13 @@
 // Each gate fails for each of its reasons, and the first one that fails names the verdict.
 #include "properties/campaign/gates/gates.h"
 
-#include <gtest/gtest.h>
-
-#include <functional>
-
 #include "tests/properties/campaign/good_findings.h"
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {
 
-using test::failure;
-using test::good_findings;
+using test::failure, test::good_findings;
 
 using Change = std::function<void(RunFindings&)>;
 

@@ -1,11 +1,6 @@
 // The built-in detector under campaign smoke comes to the same, trial by trial, judged as the
 // built-in one and as a plug-in whose description names nothing of the contract: ABI 2 loosens
 // nothing, and takes nothing away. So does a planted fault.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <tuple>
-
 #include "properties/campaign/ledger/tally.h"
 #include "tests/properties/campaign/campaign_request.h"
 #include "tests/properties/small_case.h"

@@ -2,12 +2,8 @@
 #include "properties/campaign/ledger/merge.h"
 
 #include <fcntl.h>
-#include <gtest/gtest.h>
 #include <sys/file.h>
 #include <unistd.h>
-
-#include <algorithm>
-#include <fstream>
 
 #include "properties/campaign/ledger/binding.h"
 #include "properties/campaign/ledger/store.h"
@@ -17,8 +13,7 @@
 namespace assay::properties {
 namespace {
 
-using tests::read_text;
-using tests::Scratch;
+using tests::read_text, tests::Scratch;
 using Paths = std::vector<std::filesystem::path>;
 
 CampaignRequest request_of(Shard shard) {

@@ -1,12 +1,6 @@
 // Detectors of others (corpus/peers) in a small campaign: what corpus/peers/README.md expects of
 // each comes, what their contracts leave out does not, and each failure keeps its cause when it is
 // shrunk.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdlib>
-#include <set>
-
 #include "properties/campaign/phases/shrink.h"
 #include "properties/campaign/trials/trials.h"
 #include "properties/generators/families.h"

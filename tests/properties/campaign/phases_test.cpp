@@ -3,11 +3,8 @@
 #include "properties/campaign/phases/phases.h"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <numeric>
-#include <set>
 
 #include "corpus/cases/case_file.h"
 #include "detector/mesh/topology.h"

@@ -1,11 +1,6 @@
 // What a campaign is to do: plans of files and of names, and what is refused of them.
 #include "properties/campaign/plan.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <set>
-
 #include "corpus/json_fields.h"
 #include "properties/generators/families.h"
 #include "tests/reports/program.h"
@@ -13,8 +8,7 @@
 namespace assay::properties {
 namespace {
 
-using nlohmann::ordered_json;
-using tests::Scratch;
+using nlohmann::ordered_json, tests::Scratch;
 
 const char* const whole_plan = R"({"schema": "assay-campaign/1", "name": "tiny-1.a",
   "strata": [{"family": "closed-generic", "cases": 12, "bound": 0.5},

@@ -2,8 +2,6 @@
 // folder from a run that has to be repeated.
 #include "properties/campaign/phases/power_proof.h"
 
-#include <gtest/gtest.h>
-
 #include "properties/campaign/ledger/binding.h"
 #include "properties/campaign/ledger/run_folder.h"
 #include "tests/problem_words.h"

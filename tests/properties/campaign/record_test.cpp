@@ -1,13 +1,9 @@
 // Records of trials, their counts and sums, and the shards that trials are parted into.
-#include <gtest/gtest.h>
-
-#include <map>
-#include <vector>
-
 #include "properties/campaign/ledger/tally.h"
 #include "properties/campaign/phases/fault_hunt.h"
 #include "properties/campaign/trials/case_tally.h"
 #include "properties/campaign/trials/trials.h"
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {

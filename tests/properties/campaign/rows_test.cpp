@@ -1,9 +1,6 @@
 // The hash that every row of a store carries, and what a process knows of its rows: no change of a
 // row goes unseen.
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <functional>
 
 #include "properties/campaign/ledger/merge.h"
 #include "properties/campaign/ledger/row.h"

@@ -2,9 +2,7 @@
 // values in print.
 #include "properties/campaign/gates/statistics.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {

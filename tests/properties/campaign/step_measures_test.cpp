@@ -1,10 +1,9 @@
 #include "properties/campaign/ledger/step_measures.h"
 
-#include <gtest/gtest.h>
-
 #include <nlohmann/json.hpp>
 
 #include "properties/campaign/gates/not_judged.h"
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {

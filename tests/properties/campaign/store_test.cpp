@@ -1,12 +1,8 @@
 // The store of a campaign: what is kept, across kills and damage, and whose it is.
 #include "properties/campaign/ledger/store.h"
 
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <algorithm>
-#include <filesystem>
 
 #include "tests/problem_words.h"
 #include "tests/reports/program.h"

@@ -2,13 +2,6 @@
 // their failures are kept, replayed and shrunk.
 #include "properties/campaign/trials/trials.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <set>
-#include <sstream>
-
 #include "properties/campaign/ledger/tally.h"
 #include "properties/campaign/phases/fault_hunt.h"
 #include "properties/campaign/phases/shrink.h"
@@ -24,10 +17,7 @@
 namespace assay::properties {
 namespace {
 
-using test::faulty;
-using test::in_a_minute;
-using test::request_of;
-using tests::Scratch;
+using test::faulty, test::in_a_minute, test::request_of, tests::Scratch;
 
 class Trials : public testing::Test {
  protected:

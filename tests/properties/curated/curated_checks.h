@@ -1,10 +1,6 @@
 // What each named fact of a curated case means, as a check by the oracle alone.
 #pragma once
 
-#include <functional>
-#include <map>
-#include <set>
-
 #include "detector/step_result.h"
 #include "oracle/instant/layers.h"
 #include "oracle/mesh/loops.h"
@@ -14,8 +10,7 @@
 
 namespace assay::properties::test {
 
-using detector::ViewSign;
-using nlohmann::json;
+using detector::ViewSign, nlohmann::json;
 
 // The steps of a case: `b` is the last one, `a` the one before it where there are two.
 struct Facts {

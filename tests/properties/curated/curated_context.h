@@ -1,9 +1,6 @@
 // One step of a curated case with what the oracle says of it: signs, contacts, ghosts.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "corpus/cases/case_file.h"
@@ -13,6 +10,7 @@
 #include "oracle/view/candidates.h"
 #include "oracle/view/touched_by_ghosts.h"
 #include "oracle/view/view_sign.h"
+#include "tests/test.h"
 
 namespace assay::properties::test {
 

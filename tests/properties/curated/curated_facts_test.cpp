@@ -1,18 +1,11 @@
 // The pending facts of corpus/curated, checked by the oracle alone (cycles and ghosts, Vv, K,
 // embedding, layers, view primitives) or, what is said of a mutant, by the planted fault. What no
 // check exists for is counted and listed.
-#include <cstdio>
-
+#include "tests/curated_cases.h"
 #include "tests/properties/curated/curated_checks.h"
 
 namespace assay::properties::test {
 namespace {
-
-std::vector<std::filesystem::path> curated() {
-  auto files = corpus::case_files(std::filesystem::path(ASSAY_SOURCE_DIR) / "corpus/curated");
-  if (!files) ADD_FAILURE() << files.error().message;
-  return files ? files.value() : std::vector<std::filesystem::path>{};
-}
 
 // Checked and left, by kind, over all cases.
 struct Tally {
@@ -88,7 +81,7 @@ void check_values(const Facts& f, Tally& tally) {
 
 TEST(CuratedFacts, Hold) {
   Tally tally;
-  for (const auto& path : curated()) {
+  for (const auto& path : tests::curated_files()) {
     const auto c = corpus::read_case(path);
     ASSERT_TRUE(c.has_value()) << c.error().message;
     const Facts facts(c.value());
@@ -110,7 +103,7 @@ TEST(CuratedFacts, Hold) {
 
 // What the files say in words only.
 CuratedStep step_of(const std::string& id) {
-  for (const auto& path : curated()) {
+  for (const auto& path : tests::curated_files()) {
     if (path.stem() == id) return {corpus::read_case(path).value(), 0};
   }
   throw std::runtime_error("no case " + id);

@@ -1,20 +1,13 @@
 // Every case of corpus/curated with its own options and with every culling: answer, first time,
 // pair set, view signs. Facts that later work builds on are listed as pending.
-#include <gtest/gtest.h>
-
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "properties/judging/case_check.h"
+#include "tests/curated_cases.h"
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {
-
-std::vector<std::filesystem::path> curated() {
-  auto files = corpus::case_files(std::filesystem::path(ASSAY_SOURCE_DIR) / "corpus/curated");
-  if (!files) ADD_FAILURE() << files.error().message;
-  return files ? files.value() : std::vector<std::filesystem::path>{};
-}
 
 class Curated : public testing::TestWithParam<std::filesystem::path> {};
 
@@ -42,10 +35,10 @@ TEST_P(Curated, Holds) {
   if (!pending.empty()) std::printf("pending:%s\n", pending.c_str());
 }
 
-INSTANTIATE_TEST_SUITE_P(Corpus, Curated, testing::ValuesIn(curated()),
+INSTANTIATE_TEST_SUITE_P(Corpus, Curated, testing::ValuesIn(tests::curated_files()),
                          [](const auto& file) { return file.param.stem().string(); });
 
-TEST(CuratedCorpus, IsComplete) { EXPECT_GE(curated().size(), 50u); }
+TEST(CuratedCorpus, IsComplete) { EXPECT_GE(tests::curated_files().size(), 50u); }
 
 }  // namespace
 }  // namespace assay::properties

@@ -1,14 +1,11 @@
 // No single query of a stored case takes long: every vertex and face, every two edges, the view of
 // every triangle, whether or not a step would ask for them.
-#include <gtest/gtest.h>
-
-#include <cstdio>
-#include <ctime>
-
 #include "corpus/cases/case_file.h"
 #include "detector/contact/elementary.h"
 #include "detector/mesh/topology.h"
 #include "detector/view/view_signs.h"
+#include "tests/curated_cases.h"
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {
@@ -67,16 +64,11 @@ void time_step(const std::string& file, const corpus::Case& c, const SteppedMesh
 }
 
 TEST(CuratedTimes, NoQueryIsSlow) {
-  const auto files = corpus::case_files(std::filesystem::path(ASSAY_SOURCE_DIR) / "corpus/curated");
-  ASSERT_TRUE(files.has_value());
   Slowest slowest;
-  for (const auto& file : files.value()) {
-    const auto c = corpus::read_case(file);
-    ASSERT_TRUE(c.has_value()) << c.error().message;
-    for (std::size_t step = 0; step + 1 < c.value().frames.size(); ++step) {
-      time_step(file.stem().string(), c.value(),
-                {c.value().frames[step], c.value().frames[step + 1]},
-                corpus::view_of_step(c.value(), step), slowest);
+  for (const auto& c : tests::curated_cases()) {
+    for (std::size_t step = 0; step + 1 < c.frames.size(); ++step) {
+      time_step(c.id, c, {c.frames[step], c.frames[step + 1]}, corpus::view_of_step(c, step),
+                slowest);
     }
   }
   std::printf("%ld queries, the slowest %.2f ms, of %s\n", slowest.queries, slowest.ms,

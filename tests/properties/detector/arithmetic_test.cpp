@@ -1,25 +1,20 @@
 // Bounded arithmetic against the oracle: it never misses, is never late, and its intervals hold the
 // time; its false alarms are counted. Double and float are counted too, and must be wrong
 // somewhere.
-#include <gtest/gtest.h>
-
-#include <cstdio>
-#include <cstdlib>
-
 #include "corpus/queries/query_csv.h"
 #include "detector/contact/elementary.h"
 #include "detector/detector.h"
 #include "properties/judging/case_check.h"
 #include "properties/queries/query_families.h"
 #include "properties/worlds/small_steps.h"
+#include "tests/curated_cases.h"
 #include "tests/public_data.h"
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {
 
-using detector::Arithmetic;
-using detector::Culling;
-using detector::Want;
+using detector::Arithmetic, detector::Culling, detector::Want;
 
 struct Wrong {
   std::uint64_t alarms = 0, misses = 0;
@@ -146,21 +141,17 @@ TEST(ArithmeticSteps, BoundedKeepsItsClaimsOnSmallSteps) {
 // Every curated case in every arithmetic: bounded is held to its claims and to the facts that they
 // cover, double and float to answering.
 TEST(ArithmeticSteps, CuratedCases) {
-  const auto files = corpus::case_files(std::filesystem::path(ASSAY_SOURCE_DIR) / "corpus/curated");
-  ASSERT_TRUE(files.has_value());
   std::map<Arithmetic, int> wrong_steps;
-  for (const auto& file : files.value()) {
-    const auto c = corpus::read_case(file);
-    ASSERT_TRUE(c.has_value());
+  for (const auto& c : tests::curated_cases()) {
     for (const auto culling : {Culling::view_auto, Culling::view_point, Culling::view_line,
                                Culling::normal_cone, Culling::bvh}) {
       for (const auto arithmetic :
            {Arithmetic::bounded, Arithmetic::double_precision, Arithmetic::single_precision}) {
-        const auto report = check_case(c.value(), culling, 1, arithmetic);
+        const auto report = check_case(c, culling, 1, arithmetic);
         std::string lines;
         for (const auto& line : report.failed) lines += line + "\n";
-        EXPECT_EQ(report.outcome, Outcome::holds) << file.stem() << ", " << name_of(culling) << ", "
-                                                  << name_of(arithmetic) << ": " << lines;
+        EXPECT_EQ(report.outcome, Outcome::holds)
+            << c.id << ", " << name_of(culling) << ", " << name_of(arithmetic) << ": " << lines;
         for (const auto& step : report.steps) {
           wrong_steps[arithmetic] +=
               step.diff.wrong_answer() || !step.diff.missing.empty() || !step.diff.spurious.empty();

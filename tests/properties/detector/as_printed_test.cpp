@@ -1,21 +1,12 @@
 // The thesis as printed misses, each deviation on its case; and how often, over random cases.
 #include "properties/as_printed.h"
 
-#include <gtest/gtest.h>
-
-#include <cstdio>
-#include <filesystem>
-
 #include "properties/judging/fault_run.h"
+#include "tests/curated_cases.h"
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {
-
-corpus::Case curated(std::string_view id) {
-  const auto path =
-      std::filesystem::path(ASSAY_SOURCE_DIR) / "corpus/curated" / (std::string(id) + ".json");
-  return corpus::read_case(path).value();
-}
 
 TEST(AsPrinted, EachDeviationMissesOnItsCase) {
   ASSERT_EQ(deviations().size(), 5u);
@@ -23,7 +14,7 @@ TEST(AsPrinted, EachDeviationMissesOnItsCase) {
     SCOPED_TRACE(deviation.name);
     const Fault* fault = find_fault(deviation.fault);
     ASSERT_NE(fault, nullptr);
-    const auto c = curated(fault->curated);
+    const auto c = tests::curated_case(std::string(fault->curated));
     const auto judgements = judge_case(c);
     const auto defect = [&](const detector::Stages& stages) {
       return first_defect(run_case(c, as_printed_options, stages), judgements,

@@ -2,13 +2,10 @@
 // strength and in every kind.
 #include "corpus/hard/hard_families.h"
 
-#include <gtest/gtest.h>
-
-#include <set>
-
 #include "oracle/mesh/step.h"
 #include "oracle/view/view_sign.h"
 #include "properties/judging/agreement.h"
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {

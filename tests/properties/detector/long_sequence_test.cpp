@@ -1,18 +1,14 @@
 // Several hundred steps of every unclosed scene, period after period: at equal phases of the
 // periods Vv, counters, state and memory do not grow, and the oracle agrees. An arm through a hole
 // keeps Vv small, and leaves nothing behind.
-#include <gtest/gtest.h>
 #include <malloc.h>
-
-#include <algorithm>
-#include <cstdio>
-#include <map>
 
 #include "corpus/scenes/scenes.h"
 #include "detector/detector.h"
 #include "detector/state/step_state.h"
 #include "properties/judging/agreement.h"
 #include "properties/judging/case_check.h"
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {

@@ -1,12 +1,8 @@
 // Long sequences whose state goes through bytes: handles of the C interface that are restored on
 // the way give what one handle gives that was never interrupted.
-#include <gtest/gtest.h>
-
-#include <cstdio>
-#include <memory>
-
 #include "corpus/scenes/scenes.h"
 #include "detector/plugin/assay_builtin_detector.h"
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {

@@ -1,10 +1,9 @@
 // Same input, same bytes, for any number of threads: meshes that are large enough for every loop to
 // be shared out. Small ones, of every kind, are law Change_ThreadsDoNotShow.
-#include <gtest/gtest.h>
-
 #include "corpus/scenes/scenes.h"
 #include "detector/detector.h"
 #include "properties/laws/metamorphic/result_equality.h"
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {

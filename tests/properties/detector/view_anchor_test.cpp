@@ -1,17 +1,12 @@
 // How good the detector's own view primitives are, on scenes and on a real mesh at rest.
 #include "detector/view/view_anchor.h"
 
-#include <gtest/gtest.h>
-
-#include <cstdio>
-#include <cstdlib>
-#include <random>
-
 #include "corpus/scenes/scenes.h"
 #include "detector/detector.h"
 #include "detector/geometry/winding.h"
 #include "detector/view/view_signs.h"
 #include "tests/public_data.h"
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {

@@ -1,14 +1,6 @@
 // What the families reach, judged by the oracle: collisions, clean starts, premises of the laws and
 // how close they come to failing, set pairs among first contacts; and what a case and a judgement
 // cost. Measured is printed beside wanted.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdio>
-#include <ctime>
-#include <limits>
-#include <string>
-
 #include "detector/mesh/surface.h"
 #include "oracle/instant/layers.h"
 #include "oracle/mesh/loops.h"
@@ -18,13 +10,12 @@
 #include "properties/generators/draft.h"
 #include "properties/generators/families.h"
 #include "tests/properties/generators/tag_table.h"
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {
 
-using detector::Positions;
-using detector::ViewPrimitive;
-using detector::ViewSign;
+using detector::Positions, detector::ViewPrimitive, detector::ViewSign;
 
 // Of the processor, so that other work on the machine does not count.
 double microseconds_since(std::clock_t begin) {

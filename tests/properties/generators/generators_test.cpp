@@ -1,16 +1,12 @@
 // Random meshes: every case is valid input, the same bytes whenever it is made, and the families
 // hold what they are for. Rates are printed beside the wanted ones.
-#include <gtest/gtest.h>
-
 #include <bit>
-#include <cstdio>
-#include <map>
-#include <string>
 
 #include "detector/mesh/mesh_checks.h"
 #include "oracle/mesh/loops.h"
 #include "properties/generators/families.h"
 #include "properties/generators/motions.h"
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {
@@ -137,85 +133,21 @@ TEST(Generators, EveryTagOccurs) {
       for (const auto& tag : make_case(family, id_of(family, i)).tags) ++tags[tag];
     }
   }
-  std::vector<std::string> wanted = {"closed",
-                                     "unclosed",
-                                     "broken",
-                                     "response",
-                                     "orientation:inward",
-                                     "order:shuffled",
-                                     "mode:positive",
-                                     "mode:aimed",
-                                     "mode:free",
-                                     "size:2-12",
-                                     "size:13-40",
-                                     "size:41-100",
-                                     "size:101-200",
-                                     "shape:tetrahedron",
-                                     "shape:bipyramid",
-                                     "shape:sphere",
-                                     "shape:split-sphere",
-                                     "shape:capsule",
-                                     "shape:star",
-                                     "shape:torus",
-                                     "shape:sheet",
-                                     "shape:tube",
-                                     "shape:spiral",
-                                     "pieces:apart",
-                                     "pieces:nested",
-                                     "pieces:cavity",
-                                     "pieces:at-a-vertex",
-                                     "pieces:at-an-edge",
-                                     "holes:1",
-                                     "holes:2",
-                                     "holes:3",
-                                     "holes:4",
-                                     "holes:vertex-twice",
-                                     "broken:missing-faces",
-                                     "broken:turned-faces",
-                                     "broken:leaves",
-                                     "broken:zero-area",
-                                     "broken:open-seam",
-                                     "broken:doubled-vertex",
-                                     "broken:unused-vertices",
-                                     "broken:any-faces",
-                                     "motion:positive",
-                                     "motion:and-back",
-                                     "motion:large-step",
-                                     "close:dent",
-                                     "close:edge-on",
-                                     "close:below-surface",
-                                     "view:own",
-                                     "view:point",
-                                     "view:line",
-                                     "view:ends-apart",
-                                     "view:moving",
-                                     "view:inside",
-                                     "view:outside",
-                                     "view:anywhere",
-                                     "view:pierced",
-                                     "view:on-a-vertex",
-                                     "view:on-an-edge",
-                                     "view:on-a-face",
-                                     "aim:vertex",
-                                     "aim:edge",
-                                     "aim:face",
-                                     "aim:edge-edge",
-                                     "aim:grazing",
-                                     "aim:simultaneous",
-                                     "aim:coplanar",
-                                     "aim:region-border",
-                                     "aim:start",
-                                     "aim:end",
-                                     "aim:mid-step",
-                                     "menu:small-integers",
-                                     "menu:dyadics",
-                                     "menu:ulp",
-                                     "menu:sliver",
-                                     "menu:near-coincidence",
-                                     "menu:far",
-                                     "menu:mixed-scales",
-                                     "menu:wide-scales",
-                                     "menu:denormal"};
+  std::vector<std::string> wanted = tests::words(
+      "closed unclosed broken response orientation:inward order:shuffled mode:positive "
+      "mode:aimed mode:free size:2-12 size:13-40 size:41-100 size:101-200 shape:tetrahedron "
+      "shape:bipyramid shape:sphere shape:split-sphere shape:capsule shape:star shape:torus "
+      "shape:sheet shape:tube shape:spiral pieces:apart pieces:nested pieces:cavity "
+      "pieces:at-a-vertex pieces:at-an-edge holes:1 holes:2 holes:3 holes:4 "
+      "holes:vertex-twice broken:missing-faces broken:turned-faces broken:leaves broken:zero-area "
+      "broken:open-seam broken:doubled-vertex broken:unused-vertices broken:any-faces "
+      "motion:positive motion:and-back motion:large-step close:dent close:edge-on "
+      "close:below-surface view:own view:point view:line view:ends-apart view:moving "
+      "view:inside view:outside view:anywhere view:pierced view:on-a-vertex view:on-an-edge "
+      "view:on-a-face aim:vertex aim:edge aim:face aim:edge-edge aim:grazing aim:simultaneous "
+      "aim:coplanar aim:region-border aim:start aim:end aim:mid-step menu:small-integers "
+      "menu:dyadics menu:ulp menu:sliver menu:near-coincidence menu:far menu:mixed-scales "
+      "menu:wide-scales menu:denormal");
   for (const auto& motion : motions()) wanted.push_back(std::string("motion:") + motion.name);
   for (int steps = 1; steps <= 8; ++steps) wanted.push_back("steps:" + std::to_string(steps));
   for (const auto& tag : wanted) EXPECT_GE(tags[tag], 5) << tag;

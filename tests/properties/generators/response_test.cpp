@@ -2,14 +2,11 @@
 // from its own frames.
 #include "properties/generators/response.h"
 
-#include <gtest/gtest.h>
-
-#include <string>
-
 #include "oracle/mesh/step.h"
 #include "properties/generators/families.h"
 #include "properties/judging/case_check.h"
 #include "tests/properties/generators/tag_table.h"
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {

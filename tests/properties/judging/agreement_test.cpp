@@ -1,15 +1,13 @@
 // The diff must find what is wrong: each kind of difference is planted once.
 #include "properties/judging/agreement.h"
 
-#include <gtest/gtest.h>
-
 #include "detector/step_result.h"
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {
 
-using detector::Answer;
-using detector::PairContact;
+using detector::Answer, detector::PairContact;
 
 detector::StepResult result_with(std::vector<PairContact> pairs) {
   detector::StepResult result;

@@ -1,7 +1,7 @@
 // The detector's options as a case states them.
 #include "properties/judging/case_options.h"
 
-#include <gtest/gtest.h>
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {

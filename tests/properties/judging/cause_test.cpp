@@ -1,10 +1,7 @@
 #include "properties/judging/cause.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "oracle/mesh/step.h"
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {

@@ -2,23 +2,15 @@
 // made is never broken.
 #include "properties/claims/claims.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <iterator>
-#include <limits>
-#include <string>
-
 #include "detector/plugin/assay_detector.h"
 #include "detector/step_result.h"
 #include "properties/judging/agreement.h"
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {
 
-using detector::Answer;
-using detector::PairContact;
-using detector::TimeEnclosure;
+using detector::Answer, detector::PairContact, detector::TimeEnclosure;
 
 // Triangles 0-1 share an edge, 0-2 and 1-2 a vertex; 3 and 4 are apart.
 detector::Triangles mesh() {

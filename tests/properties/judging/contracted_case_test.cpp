@@ -1,9 +1,8 @@
 #include "properties/judging/contracted_case.h"
 
-#include <gtest/gtest.h>
-
 #include "properties/campaign/trials/planned_case.h"
 #include "properties/worker/plugin/query_case.h"
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {

@@ -1,6 +1,4 @@
 // What is said of hand-made runs of a case.
-#include <gtest/gtest.h>
-
 #include "properties/campaign/trials/trials.h"
 #include "properties/judging/case_check.h"
 #include "properties/judging/cause.h"
@@ -9,10 +7,7 @@
 namespace assay::properties {
 namespace {
 
-using detector::Answer;
-using detector::Culling;
-using detector::Pairs;
-using detector::Start;
+using detector::Answer, detector::Culling, detector::Pairs, detector::Start;
 
 class JudgedTrials : public testing::Test {
  protected:

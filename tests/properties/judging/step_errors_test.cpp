@@ -1,15 +1,13 @@
 #include "properties/judging/step_errors.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <nlohmann/json.hpp>
+
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {
 
-using detector::Answer;
-using detector::PairContact;
+using detector::Answer, detector::PairContact;
 
 PairContact meeting(std::int32_t a, std::int32_t b, double time) {
   return {{a, b}, {time, time}, {}};

@@ -1,9 +1,5 @@
 // The detector's handling of holes against the oracle's own: loops, touched triangles, clean
 // triangles at a new start. Small-integer steps, where degenerate ghosts and ties are frequent.
-#include <gtest/gtest.h>
-
-#include <cstdio>
-
 #include "corpus/cases/case_file.h"
 #include "detector/boundary/boundary_handler.h"
 #include "detector/detector.h"
@@ -11,6 +7,8 @@
 #include "oracle/mesh/loops.h"
 #include "oracle/view/touched_by_ghosts.h"
 #include "properties/worlds/small_steps.h"
+#include "tests/curated_cases.h"
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {
@@ -111,12 +109,10 @@ TEST(Boundary, L9_L11_SetsEqualTheOraclesOnUnclosedMeshes) {
 
 // D8: the tip enters through the hole (step A, no contact) and hits from inside (step B).
 TEST(Boundary, L8_L11_D8_TheArmIsViolatedThenDirtyThenFound) {
-  const auto c = corpus::read_case(std::string(ASSAY_SOURCE_DIR) +
-                                   "/corpus/curated/D8_release_arm_sequence.json");
-  ASSERT_TRUE(c) << c.error().message;
-  const auto& frames = c.value().frames;
+  const auto c = tests::curated_case("D8_release_arm_sequence");
+  const auto& frames = c.frames;
   auto made = detector::Detector::create(
-      c.value().triangles, frames[0],
+      c.triangles, frames[0],
       {detector::Culling::view_point, detector::Start::verified, detector::Pairs::all});
   const auto a = made.value().step(frames[0], frames[1]);
   EXPECT_EQ(a.answer, detector::Answer::free);

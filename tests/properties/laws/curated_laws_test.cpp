@@ -1,34 +1,22 @@
 // The laws of what is carried from step to step, put to the curated cases: from a point, and under
 // view-auto, whose steps may have views or not; and in which steps it used them, where a case
 // states that.
-#include <gtest/gtest.h>
-
 #include <nlohmann/json.hpp>
 
 #include "properties/laws/law.h"
+#include "tests/curated_cases.h"
 #include "tests/properties/laws/judged_case.h"
+#include "tests/test.h"
 
 namespace assay::properties::test {
 namespace {
 
-constexpr std::string_view carried_laws[] = {"L8_CarriedCleanIsClean",
-                                             "L8_WhatIsNotCleanStaysDirty",
-                                             "L8_CleanAndUntouchedStaysClean",
-                                             "L9_DirtyIsTheOraclesAccount",
-                                             "L9_NewStartIsTheOraclesLayers",
-                                             "L15_StepsWithoutViewsAreInTheAccount",
-                                             "L11_ViolatedIsWhatGhostsTouch",
-                                             "L11_ApexesGoOnFromWhereTheyWere",
-                                             "Change_RepeatedCall",
-                                             "Change_RowStride",
-                                             "Change_RestoredStateGoesOn"};
-
-std::vector<corpus::Case> curated_cases() {
-  const auto files = corpus::case_files(std::filesystem::path(ASSAY_SOURCE_DIR) / "corpus/curated");
-  std::vector<corpus::Case> cases;
-  for (const auto& file : files.value()) cases.push_back(corpus::read_case(file).value());
-  return cases;
-}
+const auto carried_laws = tests::words(
+    "L8_CarriedCleanIsClean L8_WhatIsNotCleanStaysDirty L8_CleanAndUntouchedStaysClean "
+    "L9_DirtyIsTheOraclesAccount L9_NewStartIsTheOraclesLayers "
+    "L15_StepsWithoutViewsAreInTheAccount L11_ViolatedIsWhatGhostsTouch "
+    "L11_ApexesGoOnFromWhereTheyWere Change_RepeatedCall Change_RowStride "
+    "Change_RestoredStateGoesOn");
 
 // The case behind a step in which nothing moves. Of a first step view-auto knows less than of later
 // ones, so this lets every step of the case go on from a committed one.
@@ -59,7 +47,7 @@ class CuratedLaws : public testing::TestWithParam<Played> {};
 
 TEST_P(CuratedLaws, OfWhatIsCarriedHold) {
   LawTally sum;
-  for (const auto& c : curated_cases()) {
+  for (const auto& c : tests::curated_cases()) {
     if (c.expected.answer == detector::Answer::error) continue;
     Setting setting;
     setting.options.culling = GetParam().culling;
@@ -67,7 +55,7 @@ TEST_P(CuratedLaws, OfWhatIsCarriedHold) {
     const bool is_auto = GetParam().culling == detector::Culling::view_auto;
     const JudgedCase judged(is_auto ? after_a_still_step(c) : c, setting);
     CaseFacts facts = judged.facts();
-    for (const auto name : carried_laws) {
+    for (const auto& name : carried_laws) {
       LawTally tally;
       law_named(name)->check(facts, tally);
       EXPECT_EQ(tally.broken, 0u) << name << ": " << tally.first_broken;
@@ -88,7 +76,7 @@ INSTANTIATE_TEST_SUITE_P(
 // "views_used" of a case: 1 for each step in which view-auto used its views, 0 for the others.
 TEST(CuratedViews, AreUsedInTheStepsThatAreStated) {
   int stated = 0;
-  for (const auto& c : curated_cases()) {
+  for (const auto& c : tests::curated_cases()) {
     const auto pending = nlohmann::json::parse(c.pending);
     if (!pending.contains("views_used")) continue;
     ++stated;

@@ -10,15 +10,11 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <rapidcheck.h>
-
-#include <cstdio>
-#include <cstdlib>
-#include <string>
 
 #include "properties/laws/law.h"
 #include "tests/properties/laws/judged_case.h"
+#include "tests/test.h"
 
 namespace assay::properties::test {
 

@@ -1,13 +1,10 @@
 // Every law by rapidcheck, under its own name; and all of them over cases of all families.
 #include <fmt/format.h>
 
-#include <set>
-#include <string>
-#include <vector>
-
 #include "properties/judging/case_check.h"
 #include "properties/laws/facts/case_facts.h"
 #include "properties/laws/law.h"
+#include "tests/curated_cases.h"
 #include "tests/properties/laws/law_property.h"
 
 namespace assay::properties::test {
@@ -195,18 +192,15 @@ TEST(LawTable, L1_to_L13_AllLawsHoldOverAllFamilies) {
 
 // Hand-made meshes, each with its own primitive, ends of sequences, and trust where none is due.
 TEST(LawTable, L1_to_L13_AllLawsHoldOfCuratedCases) {
-  const auto files = corpus::case_files(std::string(ASSAY_SOURCE_DIR) + "/corpus/curated");
-  ASSERT_TRUE(files);
+  const auto cases = tests::curated_cases();
   std::uint64_t met = 0;
-  for (const auto& file : files.value()) {
-    const auto read = corpus::read_case(file);
-    ASSERT_TRUE(read) << file;
-    if (read.value().expected.answer == detector::Answer::error) continue;
+  for (const auto& c : cases) {
+    if (c.expected.answer == detector::Answer::error) continue;
     for (const auto culling : {detector::Culling::view_point, detector::Culling::view_line}) {
       Setting setting;
-      setting.options = options_of(read.value());
+      setting.options = options_of(c);
       setting.options.culling = culling;
-      const JudgedCase judged(read.value(), setting);
+      const JudgedCase judged(c, setting);
       CaseFacts facts = judged.facts();
       for (const auto& law : laws()) {
         LawTally tally;
@@ -216,9 +210,9 @@ TEST(LawTable, L1_to_L13_AllLawsHoldOfCuratedCases) {
       }
     }
   }
-  std::printf("%zu cases, premises met %llu times\n", files.value().size(),
+  std::printf("%zu cases, premises met %llu times\n", cases.size(),
               static_cast<unsigned long long>(met));
-  EXPECT_GT(met, files.value().size());
+  EXPECT_GT(met, cases.size());
 }
 
 LawTally tally(std::uint64_t premise, std::uint64_t close, std::uint64_t broken,

@@ -1,15 +1,11 @@
 // Random sequences of unclosed meshes, in and out and about: in every step the violated and the
 // dirty triangles are those of the oracle's own account, from its loops, ghosts and layers.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdio>
-
 #include "oracle/mesh/loops.h"
 #include "properties/laws/facts/carried_state.h"
 #include "properties/random.h"
 #include "properties/worlds/small_steps.h"
 #include "tests/properties/laws/judged_case.h"
+#include "tests/test.h"
 
 namespace assay::properties::test {
 namespace {

@@ -1,10 +1,6 @@
 // The detector's view signs, lanes and all, against the oracle's, for triangles without a mesh.
 #include "detector/view/view_signs.h"
 
-#include <gtest/gtest.h>
-
-#include <cstdio>
-
 #include "oracle/view/view_sign.h"
 #include "tests/detector/small_stack.h"
 #include "tests/detector/view/triangle_batches.h"

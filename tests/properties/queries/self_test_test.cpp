@@ -1,12 +1,8 @@
 // The parts of the self-test: small worlds are complete, cases can be made alone, exact conditions
 // of the constructed families hold, results do not depend on the number of threads.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <set>
-
 #include "properties/queries/self_check.h"
 #include "properties/queries/small_worlds.h"
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {

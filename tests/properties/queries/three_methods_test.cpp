@@ -1,9 +1,5 @@
 // Three methods that share no arithmetic answer the same queries: the oracle's rungs, the referee,
 // and the detector's elementary test.
-#include <gtest/gtest.h>
-
-#include <cstdio>
-
 #include "detector/contact/elementary.h"
 #include "oracle/query/contact.h"
 #include "oracle/referee/referee.h"
@@ -12,9 +8,7 @@
 namespace assay::tests {
 namespace {
 
-using detector::Decision;
-using detector::Want;
-using oracle::test::QueryKind;
+using detector::Decision, detector::Want, oracle::test::QueryKind;
 
 struct Verdicts {
   oracle::ContactAnswer oracle;

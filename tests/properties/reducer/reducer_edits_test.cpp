@@ -1,13 +1,9 @@
 // Size, edits and sphere meshes of the reducer.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <set>
-
 #include "properties/reducer/case_edits.h"
 #include "properties/reducer/mesh_size.h"
 #include "properties/reducer/sphere_meshes.h"
 #include "tests/properties/reducer/resting_cases.h"
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {

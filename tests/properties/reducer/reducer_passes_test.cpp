@@ -1,16 +1,12 @@
 // Each pass of the reducer by itself, with judges that say what must stay.
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
-#include <set>
 
 #include "corpus/scenes/shapes.h"
 #include "properties/reducer/case_edits.h"
 #include "properties/reducer/numbers.h"
 #include "properties/reducer/passes/passes.h"
 #include "tests/properties/reducer/resting_cases.h"
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {

@@ -11,6 +11,7 @@
 
 #include "properties/campaign/phases/fault_hunt.h"
 #include "properties/reducer/mesh_size.h"
+#include "tests/curated_cases.h"
 #include "tests/properties/reducer/inflate.h"
 #include "tests/properties/reducer/toy_faults.h"
 
@@ -51,10 +52,8 @@ void print_row(const std::string& name, const corpus::Case& start, const Judge& 
 }
 
 corpus::Case inflated_curated_case(const Fault& fault, const Judge& judge, std::uint64_t seed) {
-  auto c =
-      corpus::read_case(ASSAY_SOURCE_DIR "/corpus/curated/" + std::string(fault.curated) + ".json");
-  if (!c) throw std::runtime_error(c.error().message);
-  return toys::inflated_case(c.value(), judge, large, many_steps, seed);
+  return toys::inflated_case(tests::curated_case(std::string(fault.curated)), judge, large,
+                             many_steps, seed);
 }
 
 }  // namespace

@@ -1,22 +1,18 @@
 // The reducer as a whole, on faults planted in toy detectors.
 #include "properties/reducer/reducer.h"
 
-#include <gtest/gtest.h>
-
 #include <cctype>
-#include <cmath>
-#include <set>
 
 #include "detector/mesh/topology.h"
 #include "properties/reducer/case_edits.h"
 #include "properties/reducer/mesh_size.h"
 #include "tests/properties/reducer/toy_faults.h"
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {
 
-using toys::large_failing_case;
-using toys::toy_fault;
+using toys::large_failing_case, toys::toy_fault;
 
 bool is_closed(const corpus::Case& c) {
   for (const auto& part :

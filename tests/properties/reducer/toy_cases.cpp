@@ -4,14 +4,14 @@
 #include "corpus/scenes/shapes.h"
 #include "detector/options.h"
 #include "properties/random.h"
+#include "tests/curated_cases.h"
 #include "tests/properties/reducer/inflate.h"
 #include "tests/properties/reducer/toy_faults.h"
 
 namespace assay::properties::toys {
 namespace {
 
-using corpus::Case;
-using detector::Positions;
+using corpus::Case, detector::Positions;
 
 // A sum of few waves, and a jump of a vertex now and then.
 class Motion {
@@ -85,11 +85,9 @@ Case starting_case(Start start, int triangles, Random& random) {
 }
 
 Case known_case(const ToyFault& fault) {
-  auto c =
-      corpus::read_case(std::string(ASSAY_SOURCE_DIR "/corpus/curated/") + fault.known + ".json");
-  if (!c) throw std::runtime_error(c.error().message);
-  c.value().ghosts.reset();
-  return c.value();
+  auto c = tests::curated_case(fault.known);
+  c.ghosts.reset();
+  return c;
 }
 
 }  // namespace

@@ -14,10 +14,7 @@
 namespace assay::properties::toys {
 namespace {
 
-using corpus::Case;
-using detector::PairContact;
-using detector::Positions;
-using detector::ViewSign;
+using corpus::Case, detector::PairContact, detector::Positions, detector::ViewSign;
 
 // Runs `judge_one` on each step until it finds something. Closed meshes only; dirty is what the
 // layers at the start of the step say.

@@ -9,11 +9,8 @@
 
 namespace assay::properties::toys {
 
-using corpus::Case;
-using detector::PairContact;
-using detector::Positions;
-using detector::ViewPrimitive;
-using detector::ViewSign;
+using corpus::Case, detector::PairContact, detector::Positions, detector::ViewPrimitive,
+    detector::ViewSign;
 
 Signs exact_signs(const ToyStep& step) {
   return oracle::view_signs({step.x_t0, step.x_t1}, step.mesh.triangles, {&step.view, 1}, 1);

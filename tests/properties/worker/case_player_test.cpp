@@ -1,21 +1,14 @@
 // A case is played as a caller of the detector would go through its script by hand.
 #include "properties/worker/case_player.h"
 
-#include <gtest/gtest.h>
-
 #include "properties/judging/fault_run.h"
+#include "tests/curated_cases.h"
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {
 
-using detector::Culling;
-using detector::Detector;
-using detector::StepResult;
-using detector::ViewPrimitive;
-
-corpus::Case curated(const std::string& name) {
-  return corpus::read_case(ASSAY_SOURCE_DIR "/corpus/curated/" + name + ".json").value();
-}
+using detector::Culling, detector::Detector, detector::StepResult, detector::ViewPrimitive;
 
 CasePlayer player_of(const corpus::Case& c, const detector::Options& options) {
   return CasePlayer::make(c, options).value();
@@ -31,7 +24,7 @@ bool same_ends(const ViewPrimitive& a, const ViewPrimitive& b) {
 }
 
 TEST(CasePlayer, CommitsAndEvaluatesAsScripted) {
-  const auto c = curated("F_evaluation_kept");
+  const auto c = tests::curated_case("F_evaluation_kept");
   ASSERT_EQ(c.script, (std::vector<corpus::CaseStep>{{0, 1, true}, {1, 1, false}, {1, 2, true}}));
   const auto& x = c.frames;
   for (const auto culling : all_values<Culling>) {
@@ -49,7 +42,7 @@ TEST(CasePlayer, CommitsAndEvaluatesAsScripted) {
 }
 
 TEST(CasePlayer, KnowsWhereEachStepStartsAndEnds) {
-  const auto c = curated("F_start_elsewhere");
+  const auto c = tests::curated_case("F_start_elsewhere");
   const auto player = player_of(c, {});
   ASSERT_EQ(player.steps(), 2u);
   EXPECT_EQ(player.step(1), (corpus::CaseStep{2, 3, true}));
@@ -58,7 +51,7 @@ TEST(CasePlayer, KnowsWhereEachStepStartsAndEnds) {
 }
 
 TEST(CasePlayer, GivesTheStatedViewToACullingThatLooks) {
-  const auto c = curated("F_line_nearer_end");
+  const auto c = tests::curated_case("F_line_nearer_end");
   const auto line = corpus::view_of_step(c, 0).value();
   ASSERT_FALSE(line.is_point());
   const ViewPrimitive point{line.q0, line.q0};
@@ -83,7 +76,7 @@ TEST(CasePlayer, GivesTheStatedViewToACullingThatLooks) {
 }
 
 TEST(CasePlayer, OfARefusedMeshThereIsNone) {
-  auto c = curated("F_start_elsewhere");
+  auto c = tests::curated_case("F_start_elsewhere");
   c.triangles(0, 1) = c.triangles(0, 0);
   const auto made = CasePlayer::make(c, {});
   const auto by_hand = Detector::create(c.triangles, c.frames[0], {});
@@ -93,7 +86,7 @@ TEST(CasePlayer, OfARefusedMeshThereIsNone) {
 }
 
 TEST(CasePlayer, ALookLeavesTheStateAlone) {
-  const auto c = curated("F_doubt_carried");
+  const auto c = tests::curated_case("F_doubt_carried");
   const detector::Options options{Culling::view_point};
   auto played = player_of(c, options), looked = player_of(c, options);
   ASSERT_GE(played.steps(), 2u);
@@ -107,7 +100,7 @@ TEST(CasePlayer, ALookLeavesTheStateAlone) {
 }
 
 TEST(CasePlayer, AStoppedStepIsUndecidedAndCommitsNothing) {
-  const auto c = curated("F_doubt_carried");
+  const auto c = tests::curated_case("F_doubt_carried");
   const detector::Options options{Culling::view_point};
   auto stopped = player_of(c, options);
   EXPECT_EQ(stopped.play(0, [] { return true; }).answer, detector::Answer::undecided);
@@ -117,7 +110,7 @@ TEST(CasePlayer, AStoppedStepIsUndecidedAndCommitsNothing) {
 TEST(CasePlayer, TakesOtherStages) {
   const Fault* fault = find_fault("state/dirty-not-carried");
   ASSERT_NE(fault, nullptr);
-  const auto c = curated("F_doubt_carried");
+  const auto c = tests::curated_case("F_doubt_carried");
   auto wrong = CasePlayer::make(c, fault->options, fault->stages(fault->options)).value();
   auto right = player_of(c, fault->options);
   EXPECT_TRUE(same(wrong.play(0), right.play(0)));

@@ -3,10 +3,7 @@
 
 #include <unistd.h>
 
-#include <filesystem>
-#include <fstream>
-#include <string>
-#include <vector>
+#include "tests/test.h"
 
 namespace assay::properties::test {
 

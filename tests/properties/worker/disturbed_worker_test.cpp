@@ -1,16 +1,8 @@
 // What is a neighbour's doing and what is the detector's own: workers killed from outside, and
 // plug-ins that end their process.
-#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <chrono>
-#include <ctime>
-#include <filesystem>
-#include <fstream>
-#include <map>
-#include <thread>
 
 #include "properties/judging/judged_run.h"
 #include "properties/worker/processor_time.h"
@@ -22,13 +14,9 @@
 namespace assay::properties {
 namespace {
 
-using test::burning_case;
-using test::children;
-using test::plugin;
-using test::plugin_alone;
-using test::small_case;
+using test::burning_case, test::children, test::plugin, test::plugin_alone, test::small_case;
 
-// The first small case that is, or is not, one on which self_kill.cpp kills itself.
+// The first small case that is, or is not, one on which troubled_builtin.cpp kills itself.
 corpus::Case fatal_case(bool is_fatal = true) {
   for (std::uint64_t i = 0;; ++i) {
     auto c = small_case(31, i);
@@ -192,10 +180,9 @@ TEST(DisturbedWorker, LoadingIsTriedThreeTimes) {
   WorkerProcess worker(ASSAY_WORKER, plugin("kills_itself_while_loaded"));
   const auto description = worker.describe();
   ASSERT_FALSE(description);
-  EXPECT_NE(description.error().message.find("ended while it was loaded: killed by signal 9 "
-                                             "(Killed), three times in a row"),
-            std::string::npos)
-      << description.error().message;
+  EXPECT_TRUE(says(description.error().message,
+                   "ended while it was loaded: killed by signal 9 "
+                   "(Killed), three times in a row"));
   EXPECT_EQ(worker.starts(), 3u);
   EXPECT_EQ(worker.disturbances(), 0u);
   EXPECT_EQ(worker.run(small_case(31, 0), plugin_alone)[0].end, RunEnd::not_run);
@@ -214,9 +201,7 @@ TEST(DisturbedWorker, APlugInThatDiesWhenItIsLoadedAgainHasCrashed) {
   ::unsetenv("ASSAY_TEST_FILE");
   std::filesystem::remove(file);
   EXPECT_EQ(run.end, RunEnd::crashed);
-  EXPECT_NE(run.explanation.find("ended while it was loaded: killed by signal 11"),
-            std::string::npos)
-      << run.explanation;
+  EXPECT_TRUE(says(run.explanation, "ended while it was loaded: killed by signal 11"));
 }
 
 }  // namespace

@@ -1,16 +1,11 @@
 // What a plug-in says of a call that failed is told, whichever call it was, and of every step.
-#include <gtest/gtest.h>
-
-#include <cstdlib>
-
 #include "properties/worker/worker_process.h"
 #include "tests/properties/worker/worker_cases.h"
 
 namespace assay::properties {
 namespace {
 
-using detector::Answer;
-using test::plugin_alone;
+using detector::Answer, test::plugin_alone;
 
 class ErrorTexts : public testing::Test {
  protected:

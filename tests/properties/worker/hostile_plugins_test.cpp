@@ -1,19 +1,11 @@
 // A plug-in that answers nothing and tries everything: no reply of its is a run that holds, and
 // what is not its own stays as it is.
 #include <grp.h>
-#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <sys/xattr.h>
 #include <unistd.h>
-
-#include <array>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <map>
-#include <set>
 
 #include "properties/worker/isolation/scratch_folder.h"
 #include "properties/worker/worker_process.h"
@@ -23,9 +15,7 @@
 namespace assay::properties {
 namespace {
 
-using test::plugin;
-using test::plugin_alone;
-using test::small_case;
+using test::plugin, test::plugin_alone, test::small_case;
 
 // A process that is not the plug-in's, and sleeps.
 class Bystander {
@@ -87,46 +77,39 @@ class Hostile : public testing::Test {
 };
 
 TEST_F(Hostile, ForgedRepliesAreCrashes) {
-  for (const auto& [mode, rule] : std::map<std::string, std::string>{
-           {"forge-no-steps", "0 results for 1 steps"},
-           {"forge-more-steps", "9 results for 1 steps"},
-           {"forge-not-run", "that it not run, which only the host can say"},
-           {"forge-hung", "that it hung, which only the host can say"},
-           {"forge-crashed", "that it crashed, which only the host can say"},
-           {"forge-refused-with-steps", "steps of a case that was not run"},
-           {"forge-end", "bytes that are none"},
-           {"forge-answer", "bytes that are none"},
-           {"forge-number", "to another request"},
-           {"forge-place", "to another request"},
-           {"forge-text", "a text that is no line"},
-           {"forge-control", "a text that is no line"},
-           {"forge-bytes", "a text that is no line"},
-           {"forge-long-text", "longer than any reply to this case"},
-           {"forge-no-interval", "a first time that is no interval in [0, 1]"},
-           {"forge-pair-beyond", "a pair that is none of the mesh"},
-           {"forge-pair-of-one", "a pair that is none of the mesh"},
-           {"forge-pair-twice", "pairs that do not ascend"},
-           {"forge-pair-time", "a pair that is none of the mesh"},
-           {"forge-free-with-pairs", "pairs beside the answer free"},
-           {"forge-views", "views, which no plug-in has"},
-           {"forge-counts", "counts or times, which the host measures"},
-           {"forge-bool", "bytes that are none"},
-           {"forge-count-of-steps", "bytes that are none"},
-           {"forge-candidates", "candidates that it does not claim"},
-           {"forge-no-answers", "answers of another kind of detector"},
-           {"forge-candidate-none", "0 lists of candidates for 1 steps"},
-           {"forge-candidate-missing", "no candidates beside an answer"},
-           {"forge-candidate-beyond", "a candidate that is none of the mesh"},
-           {"forge-candidate-of-one", "a candidate that is none of the mesh"},
-           {"forge-candidate-negative", "a candidate that is none of the mesh"},
-           {"forge-candidate-twice", "candidates that do not ascend"},
-           {"forge-garbage", "bytes that are none"},
-           {"forge-nothing", "bytes that are none"},
+  for (const auto& [rule, modes] : std::map<std::string, const char*>{
+           {"0 results for 1 steps", "forge-no-steps"},
+           {"9 results for 1 steps", "forge-more-steps"},
+           {"that it not run, which only the host can say", "forge-not-run"},
+           {"that it hung, which only the host can say", "forge-hung"},
+           {"that it crashed, which only the host can say", "forge-crashed"},
+           {"steps of a case that was not run", "forge-refused-with-steps"},
+           {"bytes that are none",
+            "forge-end forge-answer forge-bool forge-count-of-steps forge-garbage forge-nothing"},
+           {"to another request", "forge-number forge-place"},
+           {"a text that is no line", "forge-text forge-control forge-bytes"},
+           {"longer than any reply to this case", "forge-long-text"},
+           {"a first time that is no interval in [0, 1]", "forge-no-interval"},
+           {"a pair that is none of the mesh",
+            "forge-pair-beyond forge-pair-of-one forge-pair-time"},
+           {"pairs that do not ascend", "forge-pair-twice"},
+           {"pairs beside the answer free", "forge-free-with-pairs"},
+           {"views, which no plug-in has", "forge-views"},
+           {"counts or times, which the host measures", "forge-counts"},
+           {"candidates that it does not claim", "forge-candidates"},
+           {"answers of another kind of detector", "forge-no-answers"},
+           {"0 lists of candidates for 1 steps", "forge-candidate-none"},
+           {"no candidates beside an answer", "forge-candidate-missing"},
+           {"a candidate that is none of the mesh",
+            "forge-candidate-beyond forge-candidate-of-one forge-candidate-negative"},
+           {"candidates that do not ascend", "forge-candidate-twice"},
        }) {
-    const auto run = this->run(mode);
-    EXPECT_EQ(run.end, RunEnd::crashed) << mode;
-    EXPECT_EQ(run.explanation, "sent a reply that is none: " + rule) << mode;
-    EXPECT_TRUE(run.steps.empty()) << mode;
+    for (const auto& mode : tests::words(modes)) {
+      const auto run = this->run(mode);
+      EXPECT_EQ(run.end, RunEnd::crashed) << mode;
+      EXPECT_EQ(run.explanation, "sent a reply that is none: " + rule) << mode;
+      EXPECT_TRUE(run.steps.empty()) << mode;
+    }
   }
 }
 
@@ -191,32 +174,12 @@ TEST_F(Hostile, WhatIsLegalIsAnAnswer) {
 }
 
 TEST_F(Hostile, DeedsHarmNothing) {
-  for (const char* mode : {"overwrite",
-                           "truncate",
-                           "unlink",
-                           "rename",
-                           "link",
-                           "make-beside",
-                           "write-own-program",
-                           "daemon",
-                           "kill-bystander",
-                           "kill-parents",
-                           "stop-bystander",
-                           "queue-bystander",
-                           "trace-bystander",
-                           "write-bystander",
-                           "memory-of-bystander",
-                           "memory-of-parent",
-                           "descriptors",
-                           "close-descriptors",
-                           "descriptors-of-parent",
-                           "many-processes",
-                           "socket",
-                           "terminal",
-                           "new-user",
-                           "kill-itself",
-                           "deep-stack",
-                           "all-memory"}) {
+  for (const auto& mode : tests::words(
+           "overwrite truncate unlink rename link make-beside write-own-program daemon kill- "
+           "bystander kill-parents stop-bystander queue-bystander trace-bystander write- "
+           "bystander memory-of-bystander memory-of-parent descriptors close-descriptors "
+           "descriptors-of-parent many-processes socket terminal new-user kill-itself deep- "
+           "stack all-memory")) {
     const auto run = this->run(mode);
     EXPECT_NE(run.end, RunEnd::not_run) << mode << ": " << run.explanation;
     expect_all_is_well(mode);

@@ -1,12 +1,6 @@
 // What is judged is one file, whatever is built in its place meanwhile.
 #include "properties/worker/plugin/judged_library.h"
 
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-
 #include "corpus/digest.h"
 #include "properties/worker/worker_process.h"
 #include "tests/problem_words.h"
@@ -16,10 +10,7 @@ namespace assay::properties {
 namespace {
 
 namespace fs = std::filesystem;
-using detector::Answer;
-using test::plugin;
-using test::plugin_alone;
-using test::small_case;
+using detector::Answer, test::plugin, test::plugin_alone, test::small_case;
 
 class JudgedLibraries : public testing::Test {
  protected:

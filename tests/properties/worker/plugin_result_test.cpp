@@ -1,10 +1,6 @@
 // A plug-in's result: what it says, and what it says against the rules.
-#include <gtest/gtest.h>
-
-#include <array>
-#include <limits>
-
 #include "properties/worker/plugin/plugin_reading.h"
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {

@@ -1,24 +1,16 @@
 // Each plug-in of tests/plugins gets the verdict that it deserves, over curated and random cases,
 // through the worker; and the oracle stays right whatever they do.
-#include <gtest/gtest.h>
 #include <xmmintrin.h>
-
-#include <cmath>
-#include <fstream>
-#include <limits>
-#include <map>
-#include <sstream>
 
 #include "properties/judging/judged_run.h"
 #include "properties/worker/worker_process.h"
+#include "tests/curated_cases.h"
 #include "tests/properties/small_case.h"
 
 namespace assay::properties {
 namespace {
 
-using detector::Answer;
-using test::plugin;
-using test::small_case;
+using detector::Answer, test::plugin, test::small_case;
 
 const std::vector<Configuration> twice(2, {"plug-in", {}});
 
@@ -30,9 +22,7 @@ struct Judged {
 // Curated cases and random small steps, with the oracle's judgements made before any plug-in runs.
 const std::vector<Judged>& cases() {
   static const std::vector<Judged> all = [] {
-    std::vector<corpus::Case> found;
-    const auto files = corpus::case_files(std::string(ASSAY_SOURCE_DIR) + "/corpus/curated");
-    for (const auto& file : files.value()) found.push_back(corpus::read_case(file).value());
+    auto found = tests::curated_cases();
     EXPECT_GE(found.size(), 50u);
     constexpr std::uint64_t small_steps = 1200, seed = 41;
     for (std::uint64_t i = 0; i < small_steps; ++i) found.push_back(small_case(seed, i));

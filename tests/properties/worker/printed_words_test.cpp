@@ -1,18 +1,13 @@
 // What a plug-in prints: kept a case, its end alone where that is much, and harmless.
 #include "properties/worker/isolation/printed_words.h"
 
-#include <gtest/gtest.h>
-
-#include <cstdlib>
-
 #include "properties/worker/worker_process.h"
 #include "tests/properties/worker/worker_cases.h"
 
 namespace assay::properties {
 namespace {
 
-using test::plugin_alone;
-using test::small_case;
+using test::plugin_alone, test::small_case;
 
 TEST(LastWords, TheEndIsKeptFromAWholeLineOn) {
   LastWords words;

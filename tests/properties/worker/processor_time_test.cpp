@@ -1,15 +1,12 @@
 // Processor time of a process seen from outside: where it may be used, and how sleep is told.
 #include "properties/worker/processor_time.h"
 
-#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
-#include <functional>
-#include <thread>
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {

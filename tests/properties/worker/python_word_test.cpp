@@ -2,11 +2,8 @@
 // what tells it from another one.
 #include "properties/worker/plugin/python_word.h"
 
-#include <gtest/gtest.h>
 #include <stdlib.h>
 #include <unistd.h>
-
-#include <fstream>
 
 #include "corpus/digest.h"
 #include "properties/worker/plugin/judged_library.h"

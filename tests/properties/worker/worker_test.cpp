@@ -1,23 +1,14 @@
 // The worker: the same answers as in this process, and what it is for: whatever a detector does to
 // its process, the host goes on.
-#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <thread>
 
 #include "detector/detector.h"
 #include "properties/judging/judged_run.h"
 #include "properties/worker/messages.h"
 #include "properties/worker/worker_process.h"
+#include "tests/curated_cases.h"
 #include "tests/problem_words.h"
 #include "tests/properties/small_case.h"
 #include "tests/properties/worker/children.h"
@@ -26,11 +17,7 @@
 namespace assay::properties {
 namespace {
 
-using detector::Answer;
-using test::children;
-using test::plugin;
-using test::plugin_alone;
-using test::small_case;
+using detector::Answer, test::children, test::plugin, test::plugin_alone, test::small_case;
 
 const std::vector<Configuration> four = {
     {"view-point", {detector::Culling::view_point}},
@@ -71,12 +58,10 @@ TEST(Worker, TheScriptOfACaseIsFollowed) {
 }
 
 TEST(Worker, AViewOfTheCaseIsGivenWhereTheCullingIsOneOfViews) {
-  auto c = corpus::read_case(std::string(ASSAY_SOURCE_DIR) +
-                             "/corpus/curated/B1_one_vertex_own_nearest.json");
-  ASSERT_TRUE(c);
-  ASSERT_TRUE(c.value().view && !c.value().view->q1.empty());
-  const auto runs = WorkerProcess(ASSAY_WORKER, std::nullopt).run(c.value(), four);
-  const auto line = corpus::view_of_step(c.value(), 0);
+  const auto c = tests::curated_case("B1_one_vertex_own_nearest");
+  ASSERT_TRUE(c.view && !c.view->q1.empty());
+  const auto runs = WorkerProcess(ASSAY_WORKER, std::nullopt).run(c, four);
+  const auto line = corpus::view_of_step(c, 0);
   const auto &seen_from_point = runs[0].steps[0].primitives[0],
              &seen_from_line = runs[1].steps[0].primitives[0];
   EXPECT_EQ(seen_from_line.q1.t0, line->q1.t0);

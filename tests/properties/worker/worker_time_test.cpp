@@ -1,18 +1,9 @@
 // The worker's limits of time: processor time wherever it is used, and wider nets of wall clock for
 // what uses none. No test here asks that something be over soon.
-#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/ptrace.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <array>
-#include <atomic>
-#include <chrono>
-#include <cstdio>
-#include <filesystem>
-#include <optional>
-#include <thread>
 
 #include "properties/worker/channel.h"
 #include "properties/worker/child_process.h"
@@ -25,11 +16,7 @@
 namespace assay::properties {
 namespace {
 
-using test::burning_case;
-using test::children;
-using test::plugin;
-using test::plugin_alone;
-using test::small_case;
+using test::burning_case, test::children, test::plugin, test::plugin_alone, test::small_case;
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point begin) {

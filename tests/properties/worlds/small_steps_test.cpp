@@ -2,15 +2,10 @@
 // oracle, pairs and times compared bit by bit, and view signs against the oracle's.
 #include "properties/worlds/small_steps.h"
 
-#include <gtest/gtest.h>
-
-#include <cstdio>
-#include <cstdlib>
-#include <map>
-
 #include "detector/detector.h"
 #include "oracle/view/view_sign.h"
 #include "properties/judging/agreement.h"
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {

@@ -1,14 +1,8 @@
 // Small worlds of tetrahedra: the classes cover every motion, and all of them hold.
 #include "properties/worlds/tetrahedron_world.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdio>
-#include <set>
-#include <string_view>
-
 #include "properties/judging/case_check.h"
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {

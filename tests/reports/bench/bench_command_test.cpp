@@ -1,23 +1,14 @@
 // `assay bench`: its statistics on known numbers, its suites at a hundredth of their size, and the
 // verb as a user runs it.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <nlohmann/json.hpp>
-#include <numeric>
-
 #include "corpus/scenes/scenes.h"
 #include "detector/contact/elementary.h"
 #include "detector/step/stages.h"
 #include "reports/bench/cases.h"
 #include "reports/bench/interleave.h"
 #include "reports/bench/parts/measuring_arena.h"
-#include "reports/bench/parts/plain_loops.h"
-#include "reports/bench/peak_memory.h"
 #include "reports/bench/pictures.h"
 #include "reports/bench/query_sets.h"
-#include "reports/bench/timed_step.h"
+#include "reports/bench/sweep.h"
 #include "tests/reports/program.h"
 
 namespace assay::reports {

@@ -1,11 +1,5 @@
 // `assay bench --suite peers`: small runs with peers whose answers are known, one that hangs and
 // one that crashes; and the meshes of corpus/peers, each of which shows a peer's worst miss.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <filesystem>
-#include <nlohmann/json.hpp>
-
 #include "corpus/scenes/scenes.h"
 #include "properties/judging/case_check.h"
 #include "properties/judging/contracted_case.h"

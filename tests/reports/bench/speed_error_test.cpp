@@ -2,22 +2,17 @@
 // wrong, its files.
 #include "reports/bench/whole/speed_error.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "properties/random.h"
 #include "reports/bench/cases.h"
 #include "reports/estimate.h"
+#include "tests/test.h"
 
 namespace assay::reports {
 namespace {
 
-using detector::Arithmetic;
-using detector::Culling;
-using detector::Pairs;
+using detector::Arithmetic, detector::Culling, detector::Pairs;
 
 TEST(Bootstrap, IsDeterministicAndHoldsTheMedian) {
   const std::vector<double> samples = {5, 1, 4, 2, 3, 9, 7};

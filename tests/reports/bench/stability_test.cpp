@@ -2,22 +2,16 @@
 // wrong in the way that it is.
 #include "reports/bench/whole/stability.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "detector/step/stages.h"
 #include "reports/bench/whole/stability_changes.h"
+#include "tests/test.h"
 
 namespace assay::reports {
 namespace {
 
-using corpus::HardFamily;
-using detector::ContactResult;
-using detector::FourPoints;
-using detector::Want;
+using corpus::HardFamily, detector::ContactResult, detector::FourPoints, detector::Want;
 
 const HardFamily& family_named(std::string_view name) {
   const auto all = corpus::hard_families();

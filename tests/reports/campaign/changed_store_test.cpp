@@ -2,8 +2,6 @@
 // plug-in could that leaves a process behind: there is neither verdict nor certificate then.
 #include <fmt/format.h>
 
-#include <thread>
-
 #include "properties/campaign/ledger/record.h"
 #include "tests/reports/campaign/started.h"
 #include "tests/reports/run_fixture.h"

@@ -2,8 +2,6 @@
 // complete table, through `certify` too, is tests/reports/hostile.
 #include <deque>
 #include <future>
-#include <set>
-#include <utility>
 
 #include "tests/reports/hostile_fixture.h"
 
@@ -92,8 +90,7 @@ TEST_F(HostilePlugin, ARunThatBeganIsolatedDoesNotGoOnWithLess) {
     ASSERT_LE(run_assay("run" + command.substr(verb.size())).exit_code, 1);
     const auto ended = run_assay(command + " --isolation none");
     EXPECT_EQ(ended.exit_code, 2) << verb;
-    EXPECT_TRUE(contains(ended.err, "began with isolation full, and would go on with none"))
-        << ended.err;
+    EXPECT_TRUE(says(ended.err, "began with isolation full, and would go on with none"));
   }
 }
 

@@ -1,8 +1,4 @@
 // `run --corpus DIR`: cases of the detector's owner, judged beside the campaign's.
-#include <gtest/gtest.h>
-
-#include <nlohmann/json.hpp>
-
 #include "corpus/cases/case_file.h"
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/gates/gates.h"

@@ -1,8 +1,6 @@
 // A run that plants all faults and finds them, for tests of --power.
 #pragma once
 
-#include <nlohmann/json.hpp>
-
 #include "properties/campaign/ledger/run_folder.h"
 #include "tests/reports/tiny_campaign.h"
 

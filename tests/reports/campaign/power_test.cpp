@@ -1,6 +1,4 @@
 // `--power DIR`: the proof that planted faults are found, taken from another run of this build.
-#include <gtest/gtest.h>
-
 #include "properties/campaign/gates/findings.h"
 #include "tests/reports/campaign/power_fixture.h"
 
@@ -19,10 +17,9 @@ class Power : public PowerFixture {
 TEST_F(Power, OfAnotherRunIsCopiedToldAndJudged) {
   const auto made = run(out, with_proof);
   ASSERT_EQ(made.exit_code, 0) << made.out << made.err;
-  EXPECT_TRUE(contains(made.out,
-                       "; planted faults as campaign proof, seed 7, of this build found "
-                       "them; "))
-      << made.out;
+  EXPECT_TRUE(says(made.out,
+                   "; planted faults as campaign proof, seed 7, of this build found "
+                   "them; "));
   const auto proved = rows_of(proof_folder() + "/shard-1-of-1.sqlite", "fault");
   EXPECT_TRUE(
       contains(made.out, " by their curated case alone; campaign proof, seed 7, of this build\n"))
@@ -79,8 +76,7 @@ TEST_F(Power, ACertificateNamesItAndIsVerified) {
 
   const auto made = certify("");
   ASSERT_EQ(made.exit_code, 0) << made.out << made.err;
-  EXPECT_TRUE(contains(made.out, " (" + std::to_string(before.size()) + " are stored, "))
-      << made.out;
+  EXPECT_TRUE(says(made.out, " (" + std::to_string(before.size()) + " are stored, "));
   EXPECT_TRUE(contains(made.out, "; until done\n")) << made.out;
   const auto after = trials_of(out);
   EXPECT_EQ(after.size(), 3600u);

@@ -1,12 +1,7 @@
 // `assay run` whose workers somebody else kills: it comes to the same and says that it was
 // disturbed.
-#include <gtest/gtest.h>
 #include <sys/syscall.h>
 #include <unistd.h>
-
-#include <chrono>
-#include <cstdlib>
-#include <thread>
 
 #include "properties/random.h"
 #include "tests/reports/campaign/started.h"
@@ -171,10 +166,9 @@ TEST(RunDisturbed, WorkersKilledAtRandomMomentsChangeNeitherVerdictNorTallies) {
   // What hit the canary, or a worker that had nothing left to do, disturbed no trial.
   EXPECT_GE(disturbed.times, 1u);
   EXPECT_LE(disturbed.times, killed);
-  EXPECT_TRUE(contains(text, "\n" + std::to_string(disturbed.trials) +
-                                 " trials ran again: their worker was killed from outside (" +
-                                 std::to_string(disturbed.times) + " times)\n"))
-      << text;
+  EXPECT_TRUE(says(text, "\n" + std::to_string(disturbed.trials) +
+                             " trials ran again: their worker was killed from outside (" +
+                             std::to_string(disturbed.times) + " times)\n"));
 }
 
 }  // namespace

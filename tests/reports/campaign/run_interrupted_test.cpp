@@ -1,11 +1,5 @@
 // `assay run` that is killed, interrupted, or started twice: what is stored stays, and the same
 // again goes on.
-#include <gtest/gtest.h>
-
-#include <chrono>
-#include <cstdlib>
-#include <thread>
-
 #include "properties/random.h"
 #include "tests/reports/campaign/started.h"
 #include "tests/reports/tiny_campaign.h"
@@ -137,9 +131,8 @@ TEST_F(Interrupted, CtrlCEndsItWithALineAndIsNoCrash) {
     const int status = started.end();
     ASSERT_TRUE(WIFEXITED(status)) << read_text(text);
     EXPECT_EQ(WEXITSTATUS(status), 3) << read_text(text);
-    EXPECT_TRUE(contains(read_text(text), "interrupted: what was judged is stored in " + out +
-                                              "; run the same again to go on\n"))
-        << read_text(text);
+    EXPECT_TRUE(says(read_text(text), "interrupted: what was judged is stored in " + out +
+                                          "; run the same again to go on\n"));
   }
   const auto trials = trials_of(out);
   EXPECT_GE(trials.size(), 20u);
@@ -182,8 +175,7 @@ TEST_F(Interrupted, ShrinkingLeavesTheBestSoFar) {
     EXPECT_EQ(run_assay("replay " + small + " --detector " + library).exit_code, 1);
     // It may have been done already.
     if (signal == SIGINT && WIFEXITED(status) && WEXITSTATUS(status) == 3) {
-      EXPECT_TRUE(contains(read_text(text), "interrupted: the smallest so far is in " + small))
-          << read_text(text);
+      EXPECT_TRUE(says(read_text(text), "interrupted: the smallest so far is in " + small));
     }
   }
 }

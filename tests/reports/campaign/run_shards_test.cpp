@@ -1,6 +1,4 @@
 // `assay run --shard I/N`: one part of a campaign.
-#include <gtest/gtest.h>
-
 #include "tests/reports/run_fixture.h"
 
 namespace assay::tests {

@@ -1,9 +1,5 @@
 // A named campaign runs to its end unless its user sets a limit of time.
-#include <gtest/gtest.h>
-
-#include <chrono>
 #include <regex>
-#include <thread>
 
 #include "tests/reports/campaign/started.h"
 #include "tests/reports/tiny_campaign.h"

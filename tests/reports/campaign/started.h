@@ -2,13 +2,11 @@
 #pragma once
 
 #include <fcntl.h>
-#include <gtest/gtest.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 
-#include <string>
-#include <vector>
+#include "tests/test.h"
 
 extern char** environ;
 

@@ -1,14 +1,8 @@
 // Folders over all combinations of gate results, three to the sixth: `run`, `certify`, `verify`,
 // the page's data, JUnit and Markdown say the same verdict, exit code and reasons.
-#include <gtest/gtest.h>
-
-#include <array>
-#include <nlohmann/json.hpp>
-
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/ledger/run_folder.h"
 #include "reports/campaign/campaign_text.h"
-#include "reports/certificate/junit.h"
 #include "reports/certificate/statement.h"
 #include "reports/certificate/summary.h"
 #include "reports/certificate/verify.h"

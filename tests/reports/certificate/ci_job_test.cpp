@@ -1,7 +1,5 @@
 // The job of detector/plugin/README.md, "In your CI", as a machine runs it:
 // tests/plugins/ci_job.sh.
-#include <gtest/gtest.h>
-
 #include "tests/reports/tiny_campaign.h"
 
 namespace assay::tests {
@@ -48,8 +46,8 @@ class CiJob : public testing::Test {
 TEST_F(CiJob, IsOfTenLinesAndStandsOnThePage) {
   const auto job = read_text((source / "tests/plugins/ci_job.sh").string());
   EXPECT_EQ(std::count(job.begin(), job.end(), '\n'), 10);
-  EXPECT_TRUE(contains(read_text((source / "detector/plugin/README.md").string()),
-                       "```sh\n" + job + "```\n"));
+  EXPECT_TRUE(
+      says(read_text((source / "detector/plugin/README.md").string()), "```sh\n" + job + "```\n"));
 }
 
 TEST_F(CiJob, EndsWithTheVerdict) {

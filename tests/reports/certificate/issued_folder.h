@@ -1,8 +1,6 @@
 // A folder with a certificate that verifies, made without running a campaign.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include "reports/certificate/statement.h"
 #include "reports/certificate/summary.h"
 #include "tests/reports/program.h"

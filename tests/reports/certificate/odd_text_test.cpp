@@ -1,8 +1,4 @@
 // Names that are no text, or markup: of a plug-in, of a folder.
-#include <gtest/gtest.h>
-
-#include <nlohmann/json.hpp>
-
 #include "properties/printable.h"
 #include "reports/certificate/verify.h"
 #include "tests/reports/certificate/issued_folder.h"

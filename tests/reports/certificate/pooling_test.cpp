@@ -1,6 +1,4 @@
 // Nights are pooled under equal digests only.
-#include <gtest/gtest.h>
-
 #include "properties/campaign/gates/statistics.h"
 #include "reports/certificate/verify.h"
 #include "tests/problem_words.h"

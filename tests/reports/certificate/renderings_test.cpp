@@ -1,17 +1,13 @@
 // JUnit and Markdown say what the certificate says.
-#include <gtest/gtest.h>
-
-#include "reports/certificate/junit.h"
 #include "reports/certificate/statement.h"
 #include "reports/certificate/summary.h"
 #include "tests/properties/campaign/good_findings.h"
+#include "tests/test.h"
 
 namespace assay::reports {
 namespace {
 
-using properties::RunFindings;
-using properties::test::failure;
-using properties::test::good_findings;
+using properties::RunFindings, properties::test::failure, properties::test::good_findings;
 
 nlohmann::ordered_json judged(
     const RunFindings& findings,

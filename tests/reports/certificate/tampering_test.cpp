@@ -2,9 +2,6 @@
 // and exit code 1 or 2. No byte of these files is without meaning, for the certificate holds the
 // digests of the others and is itself compared byte by byte; so none of the changes may pass.
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <nlohmann/json.hpp>
 
 #include "properties/campaign/ledger/row.h"
 #include "properties/random.h"

@@ -1,6 +1,4 @@
 // Waivers of known failures: what the file must hold, and until when.
-#include <gtest/gtest.h>
-
 #include "reports/campaign/own_cases.h"
 #include "tests/reports/program.h"
 

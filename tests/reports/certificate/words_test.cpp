@@ -1,12 +1,9 @@
 // The words that the schema of certificates lists are those of the enums.
-#include <gtest/gtest.h>
-
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "properties/campaign/gates/gates.h"
 #include "properties/claims/claims.h"
+#include "tests/test.h"
 
 namespace assay::tests {
 namespace {

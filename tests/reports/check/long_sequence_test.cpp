@@ -1,11 +1,5 @@
 // `check` on long sequences of files: the memory of a few frames, and what is told of a sequence
 // with a bad frame in it.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <ctime>
-#include <nlohmann/json.hpp>
-
 #include "reports/terminal/limits.h"
 #include "tests/reports/program.h"
 

@@ -1,14 +1,7 @@
 // The data of the page, assay-report/2, and the file that it is put into.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <nlohmann/json.hpp>
-#include <set>
-
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/ledger/merge.h"
 #include "properties/faults/fault.h"
-#include "reports/page/data/page_file.h"
 #include "reports/page/data/run_json.h"
 #include "tests/problem_words.h"
 #include "tests/reports/program.h"

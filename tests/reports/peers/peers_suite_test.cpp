@@ -1,9 +1,5 @@
 // `assay bench --suite peers --quick` with all peers that were built: every row has figures, those
 // that are absent are named, and the shipped detector's row is what it promises.
-#include <gtest/gtest.h>
-
-#include <nlohmann/json.hpp>
-
 #include "tests/reports/program.h"
 
 namespace assay::reports {

@@ -1,19 +1,13 @@
 // Pictures of the benches: what the scripts hold, that gnuplot draws them, what is said where it is
 // not installed.
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cstdlib>
-
-#include "reports/bench/gnuplot.h"
 #include "reports/bench/pictures.h"
 #include "reports/bench/whole/speed_error.h"
+#include "tests/test.h"
 
 namespace assay::reports {
 namespace {
 
-using detector::Arithmetic;
-using detector::Culling;
+using detector::Arithmetic, detector::Culling;
 
 std::size_t count(const std::string& text, const std::string& word) {
   std::size_t n = 0;

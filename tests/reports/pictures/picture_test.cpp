@@ -1,9 +1,4 @@
 // Contact points, scenes and pictures of failing cases.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-
 #include "reports/pictures/case_scene.h"
 #include "reports/pictures/contact_point.h"
 #include "reports/pictures/mesh_svg.h"
@@ -12,10 +7,7 @@
 namespace assay::tests {
 namespace {
 
-using detector::Positions;
-using detector::Triangles;
-using reports::contact_point;
-using reports::ViewSet;
+using detector::Positions, detector::Triangles, reports::contact_point, reports::ViewSet;
 using Vector = Eigen::Vector3d;
 
 std::size_t count_of(const std::string& text, const std::string& word) {

@@ -1,8 +1,4 @@
 // Bad input gets one clear line on stderr and exit code 2, nothing else.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "detector/options.h"
 #include "tests/reports/program.h"
 

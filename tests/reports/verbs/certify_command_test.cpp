@@ -1,8 +1,4 @@
 // `assay certify` and `assay verify` through the program: verdicts, and every tampering seen.
-#include <gtest/gtest.h>
-
-#include <nlohmann/json.hpp>
-
 #include "reports/certificate/verify.h"
 #include "tests/reports/json_schema.h"
 #include "tests/reports/tiny_campaign.h"
@@ -115,7 +111,7 @@ TEST_F(Certify, ACertificateVerifiesAndNoFieldOrFileCanBeChanged) {
     tampered[Json::json_pointer(place)] = changed(value);
     write(certificate, tampered.dump(1) + "\n");
     const auto lines = (leaf++ % between_anew == 0 ? verify_certificate(certificate)
-                                                   : verify_certificate(certificate, computed))
+                                                   : verify_certificate(certificate, &computed))
                            .differences;
     ASSERT_FALSE(lines.empty()) << place;
     EXPECT_EQ(lines[0].rfind(place, 0), 0u) << place << ": " << lines[0];
@@ -145,8 +141,7 @@ TEST_F(Certify, ACertificateVerifiesAndNoFieldOrFileCanBeChanged) {
   // The trials again, some of them and all.
   const auto some = run_assay("verify --again 0.3 --seed 7 " + certificate);
   EXPECT_EQ(some.exit_code, 0) << some.out << some.err;
-  EXPECT_TRUE(contains(some.out, "again: 8 of 24 trials, seed 7: all as they are stored\n"))
-      << some.out;
+  EXPECT_TRUE(says(some.out, "again: 8 of 24 trials, seed 7: all as they are stored\n"));
   EXPECT_EQ(run_assay("verify --again 0.3 --seed 7 " + certificate).out, some.out);
   const auto all = run_assay("verify --again 1 " + certificate);
   EXPECT_EQ(all.exit_code, 0) << all.out << all.err;
@@ -260,10 +255,9 @@ TEST_F(Certify, ACertificateOfAnOlderSchemaIsRefusedByName) {
   write(certificate, old.dump(1) + "\n");
   const auto refused = run_assay("verify " + certificate);
   EXPECT_EQ(refused.exit_code, 1);
-  EXPECT_TRUE(contains(refused.out,
-                       "of schema assay-certificate/1, this assay verifies "
-                       "assay-certificate/5: verify it with the assay that issued it"))
-      << refused.out;
+  EXPECT_TRUE(says(refused.out,
+                   "of schema assay-certificate/1, this assay verifies "
+                   "assay-certificate/5: verify it with the assay that issued it"));
 }
 
 TEST_F(Certify, BadInputIsOneLine) {

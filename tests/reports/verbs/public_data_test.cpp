@@ -2,10 +2,6 @@
 // ASSAY_DATA names no folder.
 #include "tests/public_data.h"
 
-#include <gtest/gtest.h>
-
-#include <nlohmann/json.hpp>
-
 #include "corpus/queries/query_csv.h"
 #include "detector/contact/contact_exact.h"
 #include "detector/contact/elementary.h"

@@ -1,10 +1,6 @@
 // Larger meshes: a plug-in that is wrong there alone is found by the oracle, one whose answer
 // depends there on the number of threads by running again; lines that replay tell that number.
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "corpus/scenes/scenes.h"
 #include "tests/public_data.h"
@@ -126,8 +122,7 @@ TEST_F(Repetitions, TheSecondRunOfATrialAsksAgainAndWithOtherThreads) {
 TEST_F(Repetitions, TheCertificateSaysUpToWhichSizeEachClaimWasTried) {
   const auto made = judge("certify", "steps_and_query", 700, "--part steps");
   EXPECT_EQ(made.exit_code, 0) << made.out << made.err;
-  EXPECT_TRUE(contains(made.out, "\nnot judged: the elementary query of this library\n"))
-      << made.out;
+  EXPECT_TRUE(says(made.out, "\nnot judged: the elementary query of this library\n"));
   const auto stated = predicate();
   EXPECT_EQ(stated["detector"]["unjudged_parts"], Json::array({"elementary query"}));
   EXPECT_EQ(stated["detector"]["query_claims"], Json::array());

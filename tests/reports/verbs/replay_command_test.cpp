@@ -1,6 +1,4 @@
 // `assay replay`: by id, by file, with --why and --export.
-#include <gtest/gtest.h>
-
 #include "corpus/cases/case_file.h"
 #include "properties/campaign/trials/planned_case.h"
 #include "properties/generators/families.h"
@@ -82,8 +80,7 @@ TEST(Replay, OfAPlugInShowsItsDefect) {
 
   const auto wrong =
       run_assay("replay " + curated("A4_endpoints_only") + " --detector " + plugin("no_interval"));
-  EXPECT_TRUE(contains(wrong.out, "DEFECT total: error in step 1: its first time, [1, 0], is no"))
-      << wrong.out;
+  EXPECT_TRUE(says(wrong.out, "DEFECT total: error in step 1: its first time, [1, 0], is no"));
 }
 
 TEST(Replay, WhatIsNeitherIdNorFileIsRefused) {

@@ -1,6 +1,4 @@
 // `assay report` as a user runs it.
-#include <gtest/gtest.h>
-
 #include "tests/reports/certificate/issued_folder.h"
 #include "tests/reports/tiny_campaign.h"
 
@@ -57,8 +55,7 @@ TEST_F(Report, ACertificateOfAnotherRunIsNotBelieved) {
   std::filesystem::copy_file(good + "/certificate.json", bad + "/certificate.json");
   const auto outcome = run_assay("report " + bad + " --out " + page);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_TRUE(contains(outcome.out, "bad: unverified; the certificate does not verify: "))
-      << outcome.out;
+  EXPECT_TRUE(says(outcome.out, "bad: unverified; the certificate does not verify: "));
   const auto text = read_text(page);
   EXPECT_TRUE(contains(text, R"("verdict":"unverified","why":"the certificate does not verify: )"));
   EXPECT_FALSE(contains(text, R"("verdict":"holds")")) << "nor in what the page is told besides";

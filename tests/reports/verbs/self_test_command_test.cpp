@@ -1,8 +1,4 @@
 // assay self-test, as a user runs it.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "tests/reports/program.h"
 
 namespace assay::tests {

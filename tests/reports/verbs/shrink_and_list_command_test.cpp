@@ -1,8 +1,4 @@
 // `assay shrink` and `assay list`.
-#include <gtest/gtest.h>
-
-#include <set>
-
 #include "corpus/cases/case_file.h"
 #include "properties/faults/fault.h"
 #include "properties/laws/law.h"

@@ -1,0 +1,187 @@
+// Files: their digests, how they are written, and what may be wrong with them before they are read.
+#include <signal.h>
+#include <sys/wait.h>
+
+#include "corpus/atomic_file.h"
+#include "corpus/digest.h"
+#include "corpus/file_bytes.h"
+#include "tests/corpus/scratch.h"
+#include "tests/problem_words.h"
+
+namespace assay::corpus {
+namespace {
+
+// SHA-256 against the examples in print.
+
+// NIST, "SHA-256 examples" (FIPS 180-4): no byte, one block, two blocks, a million times 'a'.
+constexpr const char* of_nothing =
+    "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855";
+constexpr const char* of_abc = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+constexpr const char* of_two_blocks =
+    "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1";
+constexpr const char* of_a_million =
+    "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0";
+
+TEST(Digest, AgreesWithValuesInPrint) {
+  EXPECT_EQ(sha256_of(""), of_nothing);
+  EXPECT_EQ(sha256_of("abc"), of_abc);
+  EXPECT_EQ(sha256_of("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"), of_two_blocks);
+  EXPECT_EQ(sha256_of(std::string(1'000'000, 'a')), of_a_million);
+}
+
+TEST(Digest, OfAFileIsThatOfItsBytes) {
+  const auto path = std::filesystem::temp_directory_path() / "assay-digest-test";
+  std::ofstream(path, std::ios::binary) << std::string(1'000'000, 'a');
+  const auto digest = sha256_of_file(path);
+  std::filesystem::remove(path);
+  ASSERT_TRUE(digest) << digest.error().message;
+  EXPECT_EQ(digest.value(), of_a_million);
+  const auto none = sha256_of_file(path);
+  ASSERT_FALSE(none);
+  EXPECT_TRUE(says(none.error(), "assay-digest-test: No such file"));
+}
+
+// Files written whole or not at all: by several at a time, and by who is killed.
+
+class AtomicFile : public Scratch {
+ protected:
+  std::filesystem::path file() const { return folder() / "file"; }
+  std::string text() const {
+    std::ifstream in(file(), std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  std::ptrdiff_t files_here() const {
+    return std::distance(std::filesystem::directory_iterator(folder()), {});
+  }
+};
+
+TEST_F(AtomicFile, ReplacesWhatIsThereAndLeavesNothingBeside) {
+  for (const std::string words : {"a longer text", "short", ""}) {
+    ASSERT_TRUE(write_file_atomically(file(), words));
+    EXPECT_EQ(text(), words);
+    EXPECT_EQ(files_here(), 1);
+  }
+}
+
+TEST_F(AtomicFile, WhatFailsLeavesNothing) {
+  std::filesystem::create_directory(file());
+  EXPECT_FALSE(write_file_atomically(file(), "text"));  // no file becomes a folder
+  EXPECT_EQ(files_here(), 1);
+}
+
+// What a killed writer left, long enough that it was not yet whole.
+TEST_F(AtomicFile, TheNextWriterTakesUpWhatAKilledOneLeft) {
+  ASSERT_TRUE(write_file_atomically(file(), "old"));
+  const std::string large(std::size_t{1} << 26, 'x');
+  bool was_left = false;
+  for (int attempt = 0; attempt < 50 && !was_left; ++attempt) {
+    const pid_t writer = fork();
+    if (writer == 0) {
+      for (;;) static_cast<void>(write_file_atomically(file(), large));
+    }
+    while (files_here() < 2) std::this_thread::yield();
+    kill(writer, SIGKILL);
+    waitpid(writer, nullptr, 0);
+    was_left = files_here() > 1;
+  }
+  ASSERT_TRUE(was_left);
+  EXPECT_TRUE(text() == "old" || text() == large);
+  ASSERT_TRUE(write_file_atomically(file(), "new"));
+  EXPECT_EQ(text(), "new");
+  EXPECT_EQ(files_here(), 1);
+}
+
+TEST_F(AtomicFile, SeveralWritersAtATimeAreWhole) {
+  constexpr int writers = 4, times = 200;
+  std::vector<std::thread> threads;
+  for (int w = 0; w < writers; ++w) {
+    threads.emplace_back([&, w] {
+      const std::string words(1000 + 1000 * w, static_cast<char>('a' + w));
+      for (int i = 0; i < times; ++i) {
+        EXPECT_TRUE(write_file_atomically(file(), words));
+        const auto seen = text();
+        ASSERT_FALSE(seen.empty());
+        EXPECT_EQ(seen.size(), 1000 + 1000 * static_cast<std::size_t>(seen[0] - 'a'));
+        EXPECT_EQ(std::count(seen.begin(), seen.end(), seen[0]), std::ssize(seen));
+      }
+    });
+  }
+  for (auto& thread : threads) thread.join();
+  EXPECT_EQ(files_here(), 1);
+}
+
+// What may be wrong with a file before its content is looked at, and compressed files.
+
+class FileProblems : public Scratch {};
+
+TEST_F(FileProblems, MissingEmptyFolder) {
+  const auto missing = read_mesh(folder() / "absent.obj");
+  ASSERT_FALSE(missing);
+  EXPECT_TRUE(says(missing.error(), "cannot be read: No such file"));
+  EXPECT_NE(missing.error().message.find("absent.obj"), std::string::npos);
+  EXPECT_TRUE(says(mesh_problem("empty.obj", ""), "the file is empty"));
+  const auto directory = read_mesh(folder());
+  ASSERT_FALSE(directory);
+  EXPECT_TRUE(says(directory.error(), "cannot be read: Is a directory"));
+}
+
+TEST_F(FileProblems, NoPermission) {
+  const auto path = write("locked.obj", obj_tetrahedron);
+  std::filesystem::permissions(path, std::filesystem::perms::none);
+  // The superuser may read everything; another user may not.
+  const bool superuser = geteuid() == 0;
+  if (superuser) {
+    ASSERT_EQ(seteuid(65534), 0);
+  }
+  const auto mesh = read_mesh(path);
+  if (superuser) {
+    ASSERT_EQ(seteuid(0), 0);
+  }
+  ASSERT_FALSE(mesh);
+  EXPECT_TRUE(says(mesh.error(), "cannot be read: Permission denied"));
+}
+
+TEST_F(FileProblems, MessagesAreOneLineWhateverThePath) {
+  const auto mesh = read_mesh(folder() / "two\nlines.obj");
+  ASSERT_FALSE(mesh);
+  EXPECT_EQ(mesh.error().message.find('\n'), std::string::npos);
+}
+
+TEST_F(FileProblems, EveryFormatCompressed) {
+  expect_tetrahedron(read_mesh(write("a.obj.gz", gzip(obj_tetrahedron))));
+  expect_tetrahedron(read_mesh(write("a.OBJ.GZ", gzip(obj_tetrahedron))));
+  expect_tetrahedron(read_mesh(write("a.off.gz", gzip(off_tetrahedron))));
+  expect_tetrahedron(read_mesh(write("a.ply.gz", gzip(ply_tetrahedron))));
+  // Told from its content, not from its name; several members one after another.
+  expect_tetrahedron(read_mesh(
+      write("b.obj", gzip(obj_tetrahedron.substr(0, 20)) + gzip(obj_tetrahedron.substr(20)))));
+}
+
+TEST_F(FileProblems, DamagedCompression) {
+  const std::string good = gzip(obj_tetrahedron);
+  for (std::size_t size = 1; size < good.size(); ++size) {
+    EXPECT_TRUE(says(mesh_problem("a.obj.gz", good.substr(0, size)), "the gzip stream")) << size;
+  }
+  std::string wrong_sum = good;
+  wrong_sum[wrong_sum.size() - 6] ^= 1;
+  EXPECT_TRUE(says(mesh_problem("b.obj.gz", wrong_sum), "the gzip stream is damaged"));
+  EXPECT_TRUE(says(mesh_problem("c.obj.gz", good + "tail"), "the gzip stream is damaged"));
+  EXPECT_TRUE(says(mesh_problem("d.obj.gz", obj_tetrahedron), "has no gzip signature"));
+  EXPECT_TRUE(says(mesh_problem("e.obj.gz", gzip("")), "the file is empty"));
+}
+
+TEST_F(FileProblems, DecompressedSizeIsLimited) {
+  const auto path = write("big.gz", gzip(std::string(1 << 20, 'x')));
+  const auto fits = read_bytes(path, 1 << 20);
+  ASSERT_TRUE(fits);
+  EXPECT_EQ(fits.value().size(), std::size_t{1} << 20);
+  const auto refused = read_bytes(path, (1 << 20) - 1);
+  ASSERT_FALSE(refused);
+  EXPECT_TRUE(says(refused.error(), "larger than the 1048575 bytes"));
+  const auto plain = read_bytes(write("plain", "12345"), 4);
+  ASSERT_FALSE(plain);
+  EXPECT_TRUE(says(plain.error(), "larger than the 4 bytes"));
+}
+
+}  // namespace
+}  // namespace assay::corpus

@@ -1,0 +1,27 @@
+// The cases of corpus/curated. Each of these throws where one cannot be read.
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "corpus/cases/case_file.h"
+
+namespace assay::tests {
+
+inline corpus::Case curated_case(const std::string& name) {
+  return corpus::read_case(ASSAY_SOURCE_DIR "/corpus/curated/" + name + ".json").value();
+}
+
+inline std::vector<std::filesystem::path> curated_files() {
+  return corpus::case_files(ASSAY_SOURCE_DIR "/corpus/curated").value();
+}
+
+inline std::vector<corpus::Case> curated_cases() {
+  std::vector<corpus::Case> cases;
+  for (const auto& file : curated_files()) cases.push_back(corpus::read_case(file).value());
+  return cases;
+}
+
+}  // namespace assay::tests

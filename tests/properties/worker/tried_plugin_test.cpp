@@ -1,0 +1,372 @@
+// Plug-ins of steps, of a query and of candidates with faults that are excused or found.
+#include "properties/campaign/ledger/step_measures.h"
+#include "properties/campaign/trials/planned_case.h"
+#include "properties/campaign/trials/trial.h"
+#include "properties/claims/contract.h"
+#include "properties/queries/query_families.h"
+#include "properties/worker/plugin/query_case.h"
+#include "properties/worker/worker_process.h"
+#include "tests/problem_words.h"
+#include "tests/properties/small_case.h"
+
+namespace assay::properties {
+namespace {
+
+struct Found {
+  std::map<Outcome, int> outcomes;
+  // Of defects: "late", "not-late: late", "not-late: late, CAUSE", and the whole sentence.
+  std::map<std::string, int> kinds, broken, signatures, explanations;
+  std::string first_defect;
+  StepMeasures measures;
+  std::uint64_t discards = 0, left_out = 0, contacts = 0;
+
+  void add(const JudgedTrial& verdict, const CaseRun& run) {
+    ++outcomes[verdict.outcome];
+    measures += measures_of(verdict.steps, run.steps);
+    if (!verdict.failure) return;
+    const auto& failure = *verdict.failure;
+    ++kinds[failure.kind];
+    ++broken[std::string(name_of(failure.claim)) + ": " + failure.kind];
+    ++signatures[failure.signature()];
+    ++explanations[failure.explanation];
+    if (first_defect.empty()) first_defect = failure.signature() + "; " + failure.explanation;
+  }
+};
+
+struct TriedPlugin {
+  TriedPlugin(const std::string& name, const char* variable, const std::string& words,
+              std::uint64_t threads = 1)
+      : worker((::setenv(variable, words.c_str(), 1), ASSAY_WORKER), test::plugin(name),
+               {.seconds = 20, .threads = threads}) {
+    const auto described = worker.describe();
+    EXPECT_TRUE(described) << words << ": " << described.error().message;
+    if (!described) return;
+    detector.name = described.value().name;
+    detector.built_in = false;
+    detector.claims = claims_on_steps(described.value());
+    detector.query_claims = claims_on_queries(described.value());
+    detector.contract = described.value().contract;
+    detector.configurations = {{"plug-in", {}}};
+  }
+
+  // So many cases of every family, each once or twice.
+  Found steps(const std::string& seed, std::uint64_t cases_a_family, bool twice) {
+    Found found;
+    for (const auto& family : families()) {
+      for (std::uint64_t i = 0; i < cases_a_family; ++i) {
+        const auto planned =
+            case_within(detector.contract, family,
+                        seed + ":" + std::string(family.name) + ":" + std::to_string(i));
+        found.measures.redrawn += planned.redrawn;
+        found.measures.steps_left_out += planned.steps_left_out;
+        if (!planned.seen) {
+          ++found.discards;
+          continue;
+        }
+        const auto truth = judge_case(*planned.seen, detector.contract);
+        std::vector<CaseRun> runs;
+        for (int k = 0; k < (twice ? 2 : 1); ++k)
+          runs.push_back(worker.run(*planned.seen, detector.configurations)[0]);
+        found.add(judge_trial(*planned.seen, truth, runs[0], detector.configurations[0], detector,
+                              twice ? &runs[1] : nullptr),
+                  runs[0]);
+      }
+    }
+    return found;
+  }
+
+  WorkerProcess worker;
+  DetectorUnderTest detector;
+};
+
+// The contract of a plug-in: every field has a fault that it excuses, and one that it does not.
+
+// Cases of every family through the plug-in by_contract with these words.
+Found found_by(const std::string& words) {
+  return TriedPlugin("by_contract", "ASSAY_BY_CONTRACT", words).steps("contract:1", 12, false);
+}
+
+void expect_excused(const std::string& words) {
+  auto found = found_by(words);
+  EXPECT_EQ(found.outcomes[Outcome::defect], 0) << words << ": " << found.first_defect;
+  EXPECT_GT(found.outcomes[Outcome::holds], 80) << words;
+  EXPECT_EQ(found.discards, 0u) << words;
+}
+
+void expect_defect(const std::string& words, const std::string& kind) {
+  auto found = found_by(words);
+  EXPECT_GT(found.outcomes[Outcome::defect], 0) << words;
+  EXPECT_GT(found.kinds[kind], 0) << words << ": " << found.first_defect;
+}
+
+TEST(Contract, WithoutOneTheDetectorHoldsAndItsFaultsAreFound) {
+  expect_excused("");
+  expect_defect("miss-at-start", "answered free");
+  expect_defect("miss-inside", "answered free");
+  expect_defect("late=1e-6", "late");
+  expect_defect("early=1e-6", "early");
+  expect_defect("alarm=2", "answered collision");
+  expect_defect("miss=edge-edge", "answered free");
+}
+
+TEST(Contract, AFreeStartExcusesContactsAtTheStartAlone) {
+  expect_excused("start=free miss-at-start abort-outside");
+  expect_defect("start=free miss-inside", "answered free");
+}
+
+TEST(Contract, AStartApartExcusesContactsAtTheStartAlone) {
+  expect_excused("start=apart:1e-12 miss-at-start");
+  expect_defect("start=apart:1e-12 miss-inside", "answered free");
+}
+
+TEST(Contract, ARangeExcusesWhatIsBeyondIt) {
+  expect_excused("range=1e-6:1e6 abort-outside");
+  expect_defect("range=1e-6:1e6 miss-inside", "answered free");
+}
+
+TEST(Contract, FeaturesThatAreNotTestedAreExcused) {
+  expect_excused("features=vertex-face");
+  expect_excused("features=edge-edge");
+  expect_defect("features=vertex-face miss=vertex-face", "answered free");
+  expect_defect("features=edge-edge miss=edge-edge", "answered free");
+}
+
+TEST(Contract, AToleranceExcusesTimesWithinIt) {
+  expect_excused("tolerance=1e-6 late=1e-7");
+  expect_excused("tolerance=1e-6 early=1e-7");
+  expect_defect("tolerance=1e-6 late=1e-5", "late");
+  expect_defect("tolerance=1e-6 early=1e-5", "early");
+}
+
+TEST(Contract, NoPairsExcusesThatThereAreNoneButNotThatThereAre) {
+  expect_excused("no-pairs");
+  expect_defect("no-pairs with-pairs", "error");
+  // Not a word of missing pairs.
+  auto found = found_by("no-pairs miss-inside");
+  EXPECT_EQ(found.kinds.count("missing pair"), 0u);
+  EXPECT_GT(found.kinds["answered free"], 0);
+}
+
+TEST(Contract, AMarginExcusesAlarmsButNoMiss) {
+  expect_excused("margin=0.1 alarm=2");
+  expect_defect("margin=0.1 miss-inside", "answered free");
+}
+
+TEST(Contract, LeavesOutAndCounts) {
+  const auto found = found_by("start=free");
+  const auto& measures = found.measures;
+  EXPECT_GT(measures.steps_left_out + measures.redrawn, 0u);
+  EXPECT_GT(measures.errors.contact, 30u);
+  const auto& errors = measures.errors;
+  EXPECT_EQ(errors.late.steps + errors.early.steps + errors.false_alarms, 0u);
+}
+
+TEST(Contract, CountsAlarmsAndTimesThatNobodyClaimed) {
+  constexpr const char* total_alone = "claims=128 ";
+  const auto alarms = found_by(std::string(total_alone) + "whenever").measures;
+  EXPECT_GT(alarms.errors.free, 20u);
+  EXPECT_EQ(alarms.errors.false_alarms, alarms.errors.free);
+  EXPECT_EQ(alarms.without_time, alarms.errors.collisions());
+  const auto late = found_by(std::string(total_alone) + "late=1e-3").measures.errors;
+  EXPECT_GT(late.late.steps, 30u);
+  EXPECT_NEAR(late.late.worst_share, 1e-3, 1e-4);
+  EXPECT_EQ(late.early.steps, 0u);
+}
+
+TEST(Contract, WhatIsSenselessIsRefusedInOneLine) {
+  const std::map<std::string, std::string> senseless = {
+      {"range=1:0.5", "upside down"},
+      {"tolerance=0.01", "is above 0.001"},
+      {"tolerance=nan", "no time"},
+      {"start=apart:0", "start_distance of 0"},
+      {"start=apart:-1", "is no length"},
+      {"range=-1:1", "range of coordinates is none"},
+      {"margin=inf", "its margin is no length"}};
+  for (const auto& [words, line] : senseless) {
+    ::setenv("ASSAY_BY_CONTRACT", words.c_str(), 1);
+    WorkerProcess worker(ASSAY_WORKER, test::plugin("by_contract"));
+    const auto description = worker.describe();
+    ASSERT_FALSE(description) << words;
+    EXPECT_TRUE(says(description.error(), line)) << words;
+  }
+}
+
+// A library of one elementary query: every claim has a fault that breaks it, every member of the
+// contract one that it excuses, and what it sends in place of answers is a crash or an error.
+
+// Queries of every family through the plug-in query_alone with these words, each twice.
+Found queries_with(const std::string& words, std::uint64_t queries_a_family = 25) {
+  TriedPlugin tried("query_alone", "ASSAY_QUERY", words);
+  const auto& detector = tried.detector;
+  Found found;
+  std::vector<corpus::Case> cases;
+  std::vector<detector::FourPoints> queries;
+  for (const auto& family : query_families()) {
+    for (std::uint64_t i = 0; i < queries_a_family; ++i) {
+      const auto made =
+          make_case(family, "queries:1:" + std::string(family.name) + ":" + std::to_string(i));
+      auto seen = contracted(made.c, detector.contract);
+      found.left_out += seen ? 0 : 1;
+      if (!seen) continue;
+      queries.push_back(*query_of(*seen));
+      cases.push_back(std::move(*seen));
+    }
+  }
+  const auto runs = tried.worker.ask(queries), again = tried.worker.ask(queries);
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const auto truth = judge_case(cases[i], detector.contract);
+    found.contacts += truth[0].pairs.size();
+    found.add(
+        judge_trial(cases[i], truth, runs[i], detector.configurations[0], detector, &again[i]),
+        runs[i]);
+  }
+  return found;
+}
+
+void expect_query_holds(const std::string& words) {
+  auto found = queries_with(words);
+  EXPECT_EQ(found.outcomes[Outcome::defect], 0) << words << ": " << found.first_defect;
+  EXPECT_GT(found.outcomes[Outcome::holds], 80) << words;
+  EXPECT_GT(found.contacts, 20u) << words;
+}
+
+void expect_query_breaks(const std::string& words, const std::string& kind) {
+  auto found = queries_with(words);
+  EXPECT_GT(found.broken[kind], 0) << words << ": " << found.first_defect;
+  EXPECT_GT(found.outcomes[Outcome::defect], 0) << words;
+}
+
+TEST(Queries, RightAnswersHold) {
+  expect_query_holds("");
+  EXPECT_EQ(queries_with("").left_out, 0u);
+}
+
+TEST(Queries, EveryClaimHasAFaultThatBreaksIt) {
+  expect_query_breaks("miss-inside", "free-sound: answered free");
+  expect_query_breaks("miss-at-start", "free-sound: answered free");
+  expect_query_breaks("miss-coplanar", "free-sound: answered free");
+  expect_query_breaks("late=1e-6", "not-late: late");
+  expect_query_breaks("early=1e-6", "first-time: early");
+  expect_query_breaks("alarm", "no-spurious: answered collision");
+  expect_query_breaks("changing", "deterministic: two runs differ");
+  expect_query_breaks("error", "total: error");
+  expect_query_breaks("refuse", "total: error");
+}
+
+TEST(Queries, WhatIsNoAnswerBreaksTotal) {
+  for (const char* words : {"no-interval", "nan", "no-answer"})
+    expect_query_breaks(words, "total: error");
+}
+
+TEST(Queries, ACrashIsThatOfItsQueryAlone) {
+  auto found = queries_with("abort-at-start", 10);
+  EXPECT_GT(found.broken["total: crashed"], 0);
+  EXPECT_EQ(found.outcomes[Outcome::defect], found.broken["total: crashed"]) << found.first_defect;
+  EXPECT_GT(found.outcomes[Outcome::holds], 20);
+}
+
+TEST(Queries, UndecidedAnswersAreNoDefects) {
+  for (const char* words : {"undecided", "no-memory"}) {
+    auto found = queries_with(words);
+    EXPECT_EQ(found.outcomes[Outcome::defect], 0) << words << ": " << found.first_defect;
+    EXPECT_EQ(found.outcomes[Outcome::undecided], static_cast<int>(found.contacts)) << words;
+  }
+}
+
+TEST(Queries, TheContractLeavesOutWhatItSays) {
+  for (const char* words : {"features=vertex-face miss=edge-edge abort-outside",
+                            "start=free miss-at-start abort-outside",
+                            "features=edge-edge miss=vertex-face abort-outside",
+                            "start=apart:1e-9 miss-at-start", "range=1e-6:1e6 abort-outside"}) {
+    expect_query_holds(words);
+    EXPECT_GT(queries_with(words).left_out, 0u) << words;
+  }
+  expect_query_holds("float32 abort-outside");
+  expect_query_holds("tolerance=1e-4 late=1e-6");
+  expect_query_holds("margin=0.1 alarm");
+}
+
+TEST(Queries, WhatTheContractDoesNotExcuseIsFound) {
+  expect_query_breaks("features=vertex-face miss=vertex-face", "free-sound: answered free");
+  expect_query_breaks("start=free miss-inside", "free-sound: answered free");
+  expect_query_breaks("start=apart:1e-9 miss-inside", "free-sound: answered free");
+  expect_query_breaks("tolerance=1e-4 late=2e-4", "not-late: late");
+  expect_query_breaks("range=1e-6:1e6 miss-inside", "free-sound: answered free");
+}
+
+TEST(Queries, OfACaseAreThoseThatItWasMadeOf) {
+  for (const auto& family : query_families()) {
+    for (std::uint64_t i = 0; i < 20; ++i) {
+      const auto made = make_case(family, std::string(family.name) + std::to_string(i));
+      const auto query = query_of(made.c);
+      ASSERT_TRUE(query) << family.name;
+      EXPECT_EQ(corpus::case_text(case_of_query(*query, made.c.id)), corpus::case_text(made.c));
+    }
+  }
+  auto c = make_case(query_families()[0], "any").c;
+  c.triangles(1, 2) = 0;
+  EXPECT_TRUE(says_query(c));
+  EXPECT_FALSE(query_of(c));
+  EXPECT_FALSE(contracted(c, {}));
+}
+
+// A library of candidates alone: judged by the pairs that it loses, and nothing else.
+
+// Cases of every family through the plug-in candidates_alone with this fault, each twice.
+Found found_with(const char* fault, std::uint64_t threads = 1) {
+  return TriedPlugin("candidates_alone", "ASSAY_CANDIDATES", fault, threads)
+      .steps("candidates:1", 6, true);
+}
+
+TEST(Candidates, OfBoxesOverTheWholeStepHold) {
+  auto found = found_with("");
+  EXPECT_EQ(found.outcomes[Outcome::defect], 0) << found.signatures.begin()->first;
+  EXPECT_EQ(found.outcomes[Outcome::holds], static_cast<int>(6 * families().size()));
+  EXPECT_GT(found.measures.candidate_steps, 40u);
+  EXPECT_GT(found.measures.least_candidates, 100u);
+  EXPECT_GT(found.measures.candidates, found.measures.least_candidates);
+  EXPECT_EQ(found.measures.errors.answered(), 0u) << "it answers none";
+}
+
+TEST(Candidates, ThatMissAContactAreFoundWithItsCause) {
+  for (const char* fault : {"ends-only", "every-second"}) {
+    auto found = found_with(fault);
+    EXPECT_GT(found.outcomes[Outcome::defect], 0) << fault;
+    EXPECT_GT(found.outcomes[Outcome::holds], 0) << fault;
+    for (const auto& [signature, count] : found.signatures)
+      EXPECT_TRUE(signature.starts_with("candidates: missing candidate, ")) << signature;
+    const auto& signature = found.signatures.begin()->first;
+    EXPECT_NE(signature.find(", t "), std::string::npos) << signature;
+    EXPECT_NE(found.explanations.begin()->first.find(" candidates"), std::string::npos);
+  }
+}
+
+TEST(Candidates, ThatChangeAreNotDeterministic) {
+  auto found = found_with("changing");
+  EXPECT_GT(found.signatures["deterministic: two runs differ"], 0);
+  EXPECT_EQ(found.signatures.size(), 1u) << found.signatures.begin()->first;
+}
+
+TEST(Candidates, ThatAreNoneBreakTotal) {
+  for (const char* fault : {"no-such-triangle", "no-list", "fail", "abort"}) {
+    auto found = found_with(fault);
+    EXPECT_GT(found.outcomes[Outcome::defect], 0) << fault;
+    for (const auto& [signature, count] : found.signatures)
+      EXPECT_TRUE(signature.starts_with("total: ")) << fault << ": " << signature;
+  }
+}
+
+TEST(Candidates, WithoutMemoryAreUndecided) {
+  auto found = found_with("no-memory");
+  EXPECT_EQ(found.outcomes[Outcome::undecided], static_cast<int>(6 * families().size()));
+}
+
+TEST(Candidates, AreToldHowManyThreadsTheyMayUse) {
+  auto found = found_with("threads=3", 3);
+  EXPECT_EQ(found.outcomes[Outcome::defect], 0);
+  found = found_with("threads=3", 1);
+  EXPECT_GT(found.outcomes[Outcome::defect], 0) << "the default is 1";
+}
+
+}  // namespace
+}  // namespace assay::properties
