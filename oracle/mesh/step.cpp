@@ -2,65 +2,17 @@
 
 #include <algorithm>
 #include <cassert>
-#include <tuple>
-#include <utility>
 #include <vector>
 
 #include "detector/mesh/step_types.h"
 #include "oracle/mesh/feature_pairs.h"
+#include "oracle/mesh/pair_store.h"
 #include "oracle/parallel_chunks.h"
 #include "oracle/processor_state.h"
 
 namespace assay::oracle {
+
 namespace {
-
-// Keeps one contact for each pair of triangles: the least by time, then feature kind, then feature
-// vertices. That is a total order, so what is kept does not depend on the order of add().
-class PairStore {
- public:
-  // REQUIRES a != b. Their order does not matter.
-  void add(std::int32_t a, std::int32_t b, const detector::TimeEnclosure& time,
-           const detector::Feature& feature);
-  // Moves all contacts of another store into this one.
-  void merge(PairStore& other);
-  // The kept contacts, ascending by pair; the store is empty afterwards.
-  std::vector<detector::PairContact> take();
-
- private:
-  void keep_least();
-
-  std::vector<detector::PairContact> contacts_;
-  std::size_t tidy_at_ = 1 << 16;  // when so many are held, only the least of each pair stay
-};
-
-auto key(const detector::PairContact& c) {
-  return std::tie(c.pair.a, c.pair.b, c.time.lo, c.time.hi, c.feature.kind, c.feature.vertices);
-}
-
-void PairStore::add(std::int32_t a, std::int32_t b, const detector::TimeEnclosure& time,
-                    const detector::Feature& feature) {
-  contacts_.push_back({{std::min(a, b), std::max(a, b)}, time, feature});
-  if (contacts_.size() >= tidy_at_) keep_least();
-}
-
-void PairStore::merge(PairStore& other) {
-  contacts_.insert(contacts_.end(), other.contacts_.begin(), other.contacts_.end());
-  other.contacts_ = {};
-}
-
-std::vector<detector::PairContact> PairStore::take() {
-  keep_least();
-  return std::exchange(contacts_, {});
-}
-
-void PairStore::keep_least() {
-  std::sort(contacts_.begin(), contacts_.end(),
-            [](const auto& x, const auto& y) { return key(x) < key(y); });
-  contacts_.erase(std::unique(contacts_.begin(), contacts_.end(),
-                              [](const auto& x, const auto& y) { return x.pair == y.pair; }),
-                  contacts_.end());
-  tidy_at_ = std::max(tidy_at_, 2 * contacts_.size());
-}
 
 using detector::Feature;
 using detector::FeatureKind;

@@ -62,8 +62,8 @@ class Referee {
 
   bool separated(std::int64_t k, int depth) {
     if (depth <= most_depth_of_doubles) {
-      const Separation quick = separated_in_double(hull_, time(k, depth), time(k + 1, depth));
-      if (quick != Separation::near) return quick == Separation::separated;
+      const SeparationProof quick = separated_in_double(hull_, time(k, depth), time(k + 1, depth));
+      if (quick != SeparationProof::near) return quick == SeparationProof::separated;
     }
     return separated_in_integers(exact(), k, depth);
   }

@@ -101,6 +101,15 @@ Check positive() {
           }};
 }
 
+Check length() {
+  return {"NUMBER >= 0", [](const std::string& word) {
+            const auto number = number_of(word);
+            return number && *number >= 0 && std::isfinite(*number)
+                       ? ""
+                       : fmt::format("'{}' is not a number of 0 or more", word);
+          }};
+}
+
 // This check is needed because CLI11 reads "-1", and numbers beyond 64 bits, as the largest
 // unsigned number.
 Check whole_number() {

@@ -119,6 +119,7 @@ std::optional<std::uint64_t> memory_size(const std::string& word);
 std::string memory_word(std::uint64_t bytes);
 
 Check positive();      // a number above 0
+Check length();        // a finite number >= 0
 Check whole_number();  // 0 .. 2^64-1
 Check share();         // a number above 0, at most 1
 

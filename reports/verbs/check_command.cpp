@@ -2,9 +2,11 @@
 // detector and, unless it is left out, the oracle, and the two are compared.
 #include <fmt/format.h>
 
+#include <array>
+
 #include "properties/judging/case_options.h"
 #include "properties/worker/worker_process.h"
-#include "reports/check/check_run.h"
+#include "reports/check/separation_check.h"
 #include "reports/terminal/text_file.h"
 #include "reports/verbs/verbs.h"
 
@@ -14,6 +16,7 @@ namespace {
 struct CheckRequest {
   std::vector<std::string> files;  // the frames of one mesh, or one case file
   CheckQuestion question;
+  std::optional<double> separation;
   bool fail_on_collision = false;
   std::string json_file;  // empty: not written
 };
@@ -31,6 +34,14 @@ Expected<int> run_check(const CheckRequest& request) {
                                  std::fflush(stdout);
                                },
                                {}};
+  if (request.separation) {
+    BOOST_OUTCOME_TRY(near, check_separation(question, *request.separation,
+                                             request.fail_on_collision, input, terminal));
+    if (question.wants_report) {
+      BOOST_OUTCOME_TRY(write_json_file(request.json_file, near.report));
+    }
+    return near.exit_code;
+  }
   BOOST_OUTCOME_TRY(answer, check_mesh(question, input, properties::worker_program(), terminal));
   if (question.wants_report) {
     BOOST_OUTCOME_TRY(write_json_file(request.json_file, answer.report));
@@ -47,23 +58,34 @@ void add_options(Verb& verb, CheckRequest& request) {
                          "A plug-in's library, or python:MODULE:CLASS (default: the built-in)");
   add_threads(verb, request.question.threads);
   auto& built_in = request.question.built_in;
-  plugin
-      .excludes(add_choice(verb, "--culling", built_in.culling, all_names<detector::Culling>(),
-                           from_name<detector::Culling>, "How the detector culls (default auto)"))
-      .excludes(add_choice(verb, "--start", built_in.start, all_names<detector::Start>(),
-                           from_name<detector::Start>,
-                           "What is known of the first frame (default verified)"))
-      .excludes(add_choice(verb, "--pairs", built_in.pairs, all_names<detector::Pairs>(),
-                           from_name<detector::Pairs>, "Which pairs are asked for (default all)"))
-      .excludes(add_choice(verb, "--arithmetic", built_in.arithmetic,
-                           all_names<detector::Arithmetic>(), from_name<detector::Arithmetic>,
-                           "What the detector computes in (default exact)"));
+  const std::array of_built_in = {
+      add_choice(verb, "--culling", built_in.culling, all_names<detector::Culling>(),
+                 from_name<detector::Culling>, "How the detector culls (default auto)"),
+      add_choice(verb, "--start", built_in.start, all_names<detector::Start>(),
+                 from_name<detector::Start>, "What is known of the first frame (default verified)"),
+      add_choice(verb, "--pairs", built_in.pairs, all_names<detector::Pairs>(),
+                 from_name<detector::Pairs>, "Which pairs are asked for (default all)"),
+      add_choice(verb, "--arithmetic", built_in.arithmetic, all_names<detector::Arithmetic>(),
+                 from_name<detector::Arithmetic>, "What the detector computes in (default exact)")};
   const auto no_oracle = verb.add_flag("--no-oracle", request.question.no_oracle,
                                        "Detector only; prints `not judged`");
-  verb.add("--second-opinion", request.question.second_opinion,
-           "Check the oracle itself by other methods, on this share of its questions")
-      .with(share())
-      .excludes(no_oracle);
+  const auto second_opinion =
+      verb.add("--second-opinion", request.question.second_opinion,
+               "Check the oracle itself by other methods, on this share of its questions")
+          .with(share())
+          .excludes(no_oracle);
+  auto separation =
+      verb.add("--separation", request.separation,
+               "Ask the oracle alone which triangles that share no vertex come within this "
+               "distance, when first, and how near any two come")
+          .with(length())
+          .excludes(plugin)
+          .excludes(no_oracle)
+          .excludes(second_opinion);
+  for (const auto& option : of_built_in) {
+    plugin.excludes(option);
+    separation.excludes(option);
+  }
   add_jobs(verb, request.question.jobs);
   verb.add("--time", request.question.time_limit,
            "Limit in seconds of processor time, all threads together; what is left is "
@@ -73,7 +95,7 @@ void add_options(Verb& verb, CheckRequest& request) {
              "a whole number above 0, alone or with K, M or G", memory_size,
              "Limit of resident memory, such as 6GB or 512MB (MB: 2^20 bytes)");
   verb.add_flag("--fail-on-collision", request.fail_on_collision,
-                "Exit code 5 when they agree on a collision");
+                "Exit code 5 when they agree on a collision, or a step comes within --separation");
   verb.add("--json", request.json_file, "Write the report here (assay-check/1)");
 }
 
