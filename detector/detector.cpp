@@ -37,6 +37,13 @@ std::vector<ViewAnchor> place_anchors(const Surface& surface,
   return anchors;
 }
 
+// A state knows nothing of components within which nothing is looked for. So it is of the mesh and
+// of the set of these components; of the rest of the relation between pairs it is independent.
+std::uint64_t digest_of(const StepContext& context) {
+  return digest_of(context.surface.mesh, context.surface.first_apex) ^
+         context.relation.digest_of_left_out();
+}
+
 }  // namespace
 
 SavedState::SavedState(StateFields fields)
@@ -87,6 +94,10 @@ Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView&
   PacedStop pace(asked, workers);
   if (auto problem = check_triangles(triangles, positions.rows(), pace)) return std::move(*problem);
   if (auto problem = check_positions(positions, positions.rows())) return std::move(*problem);
+  if (options.counted) {
+    if (auto problem = check_counted_pairs(*options.counted, triangles, positions.rows()))
+      return std::move(*problem);
+  }
   // Once the stop function has asked for an end it is not asked again.
   const StopFunction paced = [&] { return pace.now(); };
   const auto stopped = [] {
@@ -125,7 +136,10 @@ Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView&
                       std::move(anchors),
                       std::move(rules),
                       0,
-                      std::move(workers)};
+                      std::move(workers),
+                      {}};
+  context.relation = PairRelation(options.counted, context.surface.mesh);
+  context.options.counted = nullptr;  // the user's own, who may let it go
   if (views) context.adjacent_pairs = adjacent_pairs(context.surface.mesh);
   return Detector(
       std::unique_ptr<Detector::Parts>(new Detector::Parts{std::move(context), {}, {}}));
@@ -161,16 +175,17 @@ void Detector::reset() {
 
 SavedState Detector::state() const {
   const StepContext& context = parts_->context;
-  return SavedState(StateFields{digest_of(context.surface.mesh, context.surface.first_apex),
-                                context.options.culling, parts_->committed, context.apex_rules,
-                                context.anchors});
+  return SavedState(StateFields{digest_of(context), context.options.culling, parts_->committed,
+                                context.apex_rules, context.anchors});
 }
 
 std::optional<Problem> Detector::restore(const SavedState& saved) {
   const StateFields& state = saved.fields();
   StepContext& context = parts_->context;
-  if (state.mesh != digest_of(context.surface.mesh, context.surface.first_apex)) {
-    return Problem{InputError::foreign_state, "the state is of a detector of another mesh"};
+  if (state.mesh != digest_of(context)) {
+    return Problem{InputError::foreign_state,
+                   "the state is of a detector of another mesh, or of one that looks for contacts "
+                   "within other bodies"};
   }
   if (state.culling != context.options.culling || state.anchors.size() != context.anchors.size() ||
       state.apex_rules.size() != context.apex_rules.size()) {

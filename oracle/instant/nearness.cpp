@@ -10,6 +10,7 @@
 #include "oracle/instant/instant.h"
 #include "oracle/instant/instant_contacts.h"
 #include "oracle/mesh/feature_pairs.h"
+#include "oracle/query/contact.h"
 
 namespace assay::oracle {
 
@@ -120,6 +121,69 @@ std::optional<detector::TrianglePair> any_nearer_than(const detector::PositionsV
                       if (!found) found = {std::min(s, t), std::max(s, t)};
                     }});
   return found;
+}
+
+namespace {
+
+Place place_of(const detector::Point& x) {
+  return {mpq_class(x[0]), mpq_class(x[1]), mpq_class(x[2])};
+}
+
+// Whether the distance along some axis alone is not below the limit.
+template <class First, class Second>
+bool boxes_apart(const std::vector<detector::Point>& places, const First& a, const Second& b,
+                 const mpq_class& limit) {
+  for (int k = 0; k < 3; ++k) {
+    const auto less = [&](std::int32_t u, std::int32_t v) { return places[u][k] < places[v][k]; };
+    const auto [a_min, a_max] = std::minmax_element(a.begin(), a.end(), less);
+    const auto [b_min, b_max] = std::minmax_element(b.begin(), b.end(), less);
+    for (const auto& [low, high] : {std::pair(*a_max, *b_min), std::pair(*b_max, *a_min)}) {
+      if (places[high][k] <= places[low][k]) continue;
+      const mpq_class gap = mpq_class(places[high][k]) - mpq_class(places[low][k]);
+      if (gap >= limit) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+bool vertex_nearer_than(const std::vector<detector::Point>& places, std::int32_t vertex,
+                        const Face& face, double distance) {
+  const mpq_class limit(distance);
+  if (boxes_apart(places, std::array{vertex}, face, limit)) return false;
+  return squared_distance_to_face(place_of(places[vertex]), place_of(places[face[0]]),
+                                  place_of(places[face[1]]),
+                                  place_of(places[face[2]])) < limit * limit;
+}
+
+bool edges_nearer_than(const std::vector<detector::Point>& places, const Edge& a, const Edge& b,
+                       double distance) {
+  const mpq_class limit(distance);
+  if (boxes_apart(places, a, b, limit)) return false;
+  return squared_distance_of_edges(place_of(places[a[0]]), place_of(places[a[1]]),
+                                   place_of(places[b[0]]), place_of(places[b[1]])) < limit * limit;
+}
+
+bool faces_nearer_than(const std::vector<detector::Point>& places, const Face& a, const Face& b,
+                       double distance) {
+  if (boxes_apart(places, a, b, mpq_class(distance))) return false;
+  for (int i = 0; i < 3; ++i) {
+    if (vertex_nearer_than(places, a[i], b, distance)) return true;
+    if (vertex_nearer_than(places, b[i], a, distance)) return true;
+    for (int j = 0; j < 3; ++j) {
+      const Edge e = {a[i], a[(i + 1) % 3]}, f = {b[j], b[(j + 1) % 3]};
+      if (edges_nearer_than(places, e, f, distance)) return true;
+    }
+  }
+  const auto pierces = [&](const Face& of, int i, const Face& face) {
+    return segment_pierces_triangle(places[of[i]], places[of[(i + 1) % 3]],
+                                    {places[face[0]], places[face[1]], places[face[2]]});
+  };
+  for (int i = 0; i < 3; ++i) {
+    if (pierces(a, i, b) || pierces(b, i, a)) return true;
+  }
+  return false;
 }
 
 }  // namespace assay::oracle

@@ -3,8 +3,10 @@
 
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "detector/mesh/step_types.h"
+#include "oracle/mesh/mesh_features.h"
 
 namespace assay::oracle {
 
@@ -20,5 +22,16 @@ using WantedPair = std::function<bool(std::int32_t, std::int32_t)>;
 std::optional<detector::TrianglePair> any_nearer_than(const detector::PositionsView& x,
                                                       const detector::TrianglesView& triangles,
                                                       double distance, const WantedPair& counts);
+
+// Whether two features, each given by its vertices, are nearer to each other than `distance` at
+// these places, compared exactly. A vertex and a face that holds it have distance 0.
+// REQUIRES distance finite and greater than 0.
+bool vertex_nearer_than(const std::vector<detector::Point>& places, std::int32_t vertex,
+                        const Face& face, double distance);
+bool edges_nearer_than(const std::vector<detector::Point>& places, const Edge& a, const Edge& b,
+                       double distance);
+// The same of two whole faces, which are at distance 0 if they share a vertex or pierce each other.
+bool faces_nearer_than(const std::vector<detector::Point>& places, const Face& a, const Face& b,
+                       double distance);
 
 }  // namespace assay::oracle

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cassert>
+#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "detector/mesh/step_types.h"
 #include "oracle/mesh/feature_pairs.h"
+#include "oracle/mesh/pair_relation.h"
 #include "oracle/parallel_chunks.h"
 #include "oracle/processor_state.h"
 
@@ -80,7 +82,10 @@ class StepJudge {
         features_(mesh_features(triangles)),
         gate_(options.stop),
         asked_(options.features),
-        workers_(std::max(options.jobs, 1)) {}
+        workers_(std::max(options.jobs, 1)) {
+    if (options.counted && !options.counted->count_all())
+      relation_.emplace(*options.counted, features_);
+  }
 
   StepJudgement run() {
     judge_same_vertices();
@@ -102,6 +107,7 @@ class StepJudge {
   void judge_same_vertices() {
     for (const auto& [a, b] : same_vertices_pairs(features_.faces)) {
       const Face& f = features_.faces[a];
+      if (counts_features() && !relation_->counts_faces(a, b)) continue;
       const Feature feature{FeatureKind::same_vertices, {f[0], f[1], f[2], -1, -1}};
       workers_[0].pairs.add(a, b, {0, 0}, feature);
     }
@@ -136,11 +142,12 @@ class StepJudge {
   void judge_vertex_face(std::size_t item, std::size_t face, Worker& worker) {
     const std::int32_t v = features_.vertices[item];
     const Face& f = features_.faces[face];
+    if (!bodies_meet(v, f[0])) return;
     ++worker.candidates;
     const ContactAnswer answer = vertex_face_contact(
         {path(v), {path(f[0]), path(f[1]), path(f[2])}}, detector::Want::first_time);
     worker.rungs.add(answer.rung);
-    if (!answer.contact) return;
+    if (!answer.contact || (counts_features() && !relation_->counts_vertex_face(v, face))) return;
     const Feature feature{FeatureKind::vertex_face, {v, f[0], f[1], f[2], -1}};
     for (const std::int32_t t : features_.triangles_of_vertex.of(item)) {
       worker.pairs.add(t, static_cast<std::int32_t>(face), answer.first, feature);
@@ -151,11 +158,12 @@ class StepJudge {
 
   void judge_edge_edge(std::size_t item, std::size_t other, Worker& worker) {
     const Edge &a = features_.edges[item], &b = features_.edges[other];
+    if (!bodies_meet(a[0], b[0])) return;
     ++worker.candidates;
     const ContactAnswer answer = edge_edge_contact(
         {{path(a[0]), path(a[1])}, {path(b[0]), path(b[1])}}, detector::Want::first_time);
     worker.rungs.add(answer.rung);
-    if (!answer.contact) return;
+    if (!answer.contact || (counts_features() && !relation_->counts_edges(a, b))) return;
     const Feature feature{FeatureKind::edge_edge, {a[0], a[1], b[0], b[1], -1}};
     for (const std::int32_t s : features_.triangles_of_edge.of(item)) {
       for (const std::int32_t t : features_.triangles_of_edge.of(other)) {
@@ -168,12 +176,30 @@ class StepJudge {
   void judge_edge_face_at_start(std::size_t item, std::size_t face, Worker& worker) {
     const Edge& e = features_.edges[item];
     const Face& f = features_.faces[face];
+    if (!bodies_meet(e[0], f[0])) return;
     auto at = [&](std::int32_t vertex) { return motion_.start(vertex); };
     if (!segment_pierces_triangle(at(e[0]), at(e[1]), {at(f[0]), at(f[1]), at(f[2])})) return;
     const Feature feature{FeatureKind::piercing, {e[0], e[1], f[0], f[1], f[2]}};
     for (const std::int32_t t : features_.triangles_of_edge.of(item)) {
+      if (counts_features() && !relation_->counts_faces(t, static_cast<std::int32_t>(face)))
+        continue;
       worker.pairs.add(t, static_cast<std::int32_t>(face), {0, 0}, feature);
     }
+  }
+
+  bool bodies_meet(std::int32_t u, std::int32_t v) const {
+    return !relation_ || relation_->bodies_meet(u, v);
+  }
+  // Whether features are what counts. They are asked before their contact is kept. A relation of
+  // triangles is asked once for each pair in contact, at the end.
+  bool counts_features() const { return relation_ && relation_->is_of_features(); }
+
+  void keep_counted(std::vector<detector::PairContact>& pairs) const {
+    if (!relation_ || relation_->is_of_features()) return;
+    pairs.erase(
+        std::remove_if(pairs.begin(), pairs.end(),
+                       [&](const auto& c) { return !relation_->counts_faces(c.pair.a, c.pair.b); }),
+        pairs.end());
   }
 
   StepJudgement collect() {
@@ -188,6 +214,8 @@ class StepJudge {
     }
     result.pairs = workers_[0].pairs.take();
     result.asked_pairs = workers_[0].asked_pairs.take();
+    keep_counted(result.pairs);
+    keep_counted(result.asked_pairs);
     if (gate_.was_stopped()) return result;
     result.complete = true;
     result.answer = result.pairs.empty() ? detector::Answer::free : detector::Answer::collision;
@@ -202,6 +230,7 @@ class StepJudge {
   const MeshFeatures features_;
   StopGate gate_;
   const AskedFeatures asked_;
+  std::optional<PairRelation> relation_;  // nothing: everything counts
   std::vector<Worker> workers_;
 };
 

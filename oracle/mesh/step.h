@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "detector/mesh/counted_pairs.h"
 #include "detector/mesh/step_types.h"
 #include "oracle/query/contact.h"
 
@@ -21,6 +22,9 @@ struct JudgeOptions {
   int jobs = 1;                 // threads; the result does not depend on it
   detector::StopFunction stop;  // asked from one thread at a time
   AskedFeatures features = AskedFeatures::all;
+  // Which pairs count; null: all do. The judgement speaks of what counts alone. REQUIRES a relation
+  // without errors (detector/mesh/mesh_checks.h) that outlives the call.
+  const detector::CountedPairs* counted = nullptr;
 };
 
 struct StepJudgement {
@@ -34,7 +38,8 @@ struct StepJudgement {
   // each with the first time at which they do. Edges that pierce a face at t=0 and triangles with
   // the same three vertices do not count here. Empty when all kinds are asked for.
   std::vector<detector::PairContact> asked_pairs;
-  std::uint64_t feature_candidates = 0;  // feature pairs (VF, EE) whose boxes meet
+  // Feature pairs (VF, EE) whose boxes meet, of bodies that meet.
+  std::uint64_t feature_candidates = 0;
   RungCounts rungs;
 };
 

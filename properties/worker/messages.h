@@ -43,7 +43,8 @@ struct TravelsAsBytes<corpus::CaseStep> : std::true_type {};
 
 template <class Wire>
 void fields(Wire& wire, detector::Options& options) {
-  auto& [culling, start, pairs, arithmetic, threads] = options;
+  // No worker is asked with a relation between pairs yet, so none is sent.
+  auto& [culling, start, pairs, arithmetic, threads, counted] = options;
   wire("culling", culling, "start", start, "pairs", pairs, "arithmetic", arithmetic, "threads",
        threads);
 }
