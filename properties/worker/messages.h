@@ -25,8 +25,6 @@ struct TravelsAsBytes<detector::Point> : std::true_type {};
 template <>
 struct TravelsAsBytes<detector::MovingPoint> : std::true_type {};
 template <>
-struct TravelsAsBytes<detector::FourPoints> : std::true_type {};
-template <>
 struct TravelsAsBytes<detector::TimeEnclosure> : std::true_type {};
 template <>
 struct TravelsAsBytes<detector::TrianglePair> : std::true_type {};
@@ -93,8 +91,10 @@ void fields(Wire& wire, corpus::CaseView& view) {
 // Only what a detector may know travels, and never the expected facts.
 template <class Wire>
 void fields(Wire& wire, corpus::Case& c) {
-  wire("id", c.id, "triangles", c.triangles, "frames", c.frames, "script", c.script, "view",
-       c.view);
+  std::string query = query_word(c);
+  wire("id", c.id, "triangles", c.triangles, "frames", c.frames, "script", c.script, "view", c.view,
+       "query", query);
+  say_query(c, query);
 }
 
 template <class Wire>
@@ -138,11 +138,6 @@ void fields(Wire& wire, Hello& hello) {
        "refusal", hello.refusal);
 }
 
-// What a request asks for.
-enum class RequestKind : std::uint8_t { run, queries };
-template <>
-inline constexpr RequestKind last_of<RequestKind> = RequestKind::queries;
-
 // One case and how to run it; a RunReply comes back for each configuration, in order.
 struct RunRequest {
   std::uint64_t number = 0;  // drawn for this request
@@ -164,50 +159,6 @@ struct RunReply {
 template <class Wire>
 void fields(Wire& wire, RunReply& reply) {
   wire("number", reply.number, "place", reply.place, "run", reply.run);
-}
-
-// Elementary queries of a plug-in; one QueryReply comes back for all.
-struct QueryRequest {
-  std::uint64_t number = 0;  // drawn for this request
-  std::vector<detector::FourPoints> queries;
-};
-
-template <class Wire>
-void fields(Wire& wire, QueryRequest& request) {
-  wire("number", request.number, "queries", request.queries);
-}
-
-template <class Wire>
-void fields(Wire& wire, QueryAnswer& answer) {
-  auto& [answered, first, explanation] = answer;
-  wire("answered", answered, "first", first, "explanation", explanation);
-}
-
-struct QueryReply {
-  std::uint64_t number = 0;          // of the request
-  std::vector<QueryAnswer> answers;  // one for each query
-};
-
-template <class Wire>
-void fields(Wire& wire, QueryReply& reply) {
-  wire("number", reply.number, "answers", reply.answers);
-}
-
-// What a worker receives: one of the two.
-struct Request {
-  RequestKind kind = RequestKind::run;
-  RunRequest run;
-  QueryRequest query;
-};
-
-template <class Wire>
-void fields(Wire& wire, Request& request) {
-  wire("kind", request.kind);
-  if (request.kind == RequestKind::run) {
-    wire("run", request.run);
-  } else {
-    wire("query", request.query);
-  }
 }
 
 template <class... T>
@@ -232,7 +183,7 @@ constexpr std::uint64_t wire_version() {
   for (const std::size_t size :
        {sizeof(detector::Options), sizeof(detector::StepResult), sizeof(detector::PairContact),
         sizeof(detector::StepCounts), sizeof(detector::StepTimes), sizeof(Claims), sizeof(Contract),
-        sizeof(corpus::Case), sizeof(detector::FourPoints), sizeof(QueryAnswer)}) {
+        sizeof(corpus::Case)}) {
     hash = hash * 1099511628211u + size;
   }
   return hash;
@@ -261,16 +212,11 @@ inline constexpr std::uint64_t longest_hello = 4 * longest_reply_text;
 // - A result states nothing that plug-ins are not asked for, such as views.
 // - If the description claims candidates, there is a list of such pairs for each step, and else
 //   none.
-// - There are answers if and only if the plug-in has the part of steps.
+// - A run of a query (query_case.h) states neither pairs nor candidates, and has an answer.
+// - Otherwise there are answers if and only if the plug-in has the part of steps.
 // - Times, if there are any, are finite and not negative, one for each step.
 std::string broken_rule(const corpus::Case& c, const CaseRun& run,
                         const PluginDescription& description);
-
-// The same for answers to so many queries: there is one answer for each, with a known answer, an
-// interval in [0, 1] and at most one printable line.
-std::string broken_rule(std::size_t queries, const std::vector<QueryAnswer>& answers);
-// The most bytes that these answers may have.
-std::uint64_t longest_query_reply(std::size_t queries);
 
 // The same for a description: a name and a version in one printable line each that may be such
 // (fault_of_name), a margin that is a length, at least one part that can be judged, and a claim on

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <boost/outcome/try.hpp>
 #include <random>
 #include <thread>
 
@@ -120,9 +121,8 @@ struct WorkerProcess::Parts {
                                           std::to_string(::getpid()), std::to_string(limits.bytes)};
     if (plugin_library) {
       if (limits.isolation != IsolationMode::none && !scratch) {
-        auto made = ScratchFolder::make();
-        if (!made) return made.error();
-        scratch = std::move(made.value());
+        BOOST_OUTCOME_TRY(made, ScratchFolder::make());
+        scratch = std::move(made);
       }
       arguments.emplace_back(name_of(limits.isolation));
       arguments.push_back(scratch ? scratch->path().string() : std::string());
@@ -144,13 +144,12 @@ struct WorkerProcess::Parts {
     }
     const bool is_silent = plugin_library && limits.isolation != IsolationMode::none;
     auto printed = is_silent ? PrintedPipe::make() : std::nullopt;
-    auto child = ChildProcess::start(program, arguments, ends->second.descriptor(),
-                                     printed ? printed->write_end() : -1);
-    if (!child) return child.error();
+    BOOST_OUTCOME_TRY(child, ChildProcess::start(program, arguments, ends->second.descriptor(),
+                                                 printed ? printed->write_end() : -1));
     ++starts;
     if (printed) printed->close_write_end();
-    live.emplace(Live{std::move(child.value()), std::move(ends->first), std::this_thread::get_id(),
-                      0, std::move(printed)});
+    live.emplace(Live{std::move(child), std::move(ends->first), std::this_thread::get_id(), 0,
+                      std::move(printed)});
     { const Channel closed_here = std::move(ends->second); }
     return boost::outcome_v2::success();
   }
@@ -227,7 +226,7 @@ struct WorkerProcess::Parts {
                 std::vector<CaseRun>& runs) {
     // These are the fields of a Request, without a copy of the case.
     const std::uint64_t number = draw_number();
-    const std::string request = encode(RequestKind::run, number, c, rest);
+    const std::string request = encode(number, c, rest);
     WorkerWatch watch(live->child, limits.seconds, live->plugin);
     const Patience patience = [&] { return watch.patience(); };
     Transfer transfer = live->channel.send(request, patience);
@@ -261,57 +260,6 @@ struct WorkerProcess::Parts {
         return;
       }
     }
-  }
-
-  // Does the same for some queries in one message. If several were asked and one of them ends the
-  // worker, nothing is appended, and the answer says whether all of them are to be asked one by
-  // one, or in halves.
-  enum class Asked { answered, in_halves, one_by_one };
-  Asked ask_some(std::span<const detector::FourPoints> queries, std::vector<CaseRun>& runs) {
-    const std::uint64_t number = draw_number();
-    const std::vector<detector::FourPoints> copy(queries.begin(), queries.end());
-    const std::string request = encode(RequestKind::queries, number, copy);
-    WorkerWatch watch(live->child, limits.seconds, live->plugin);
-    const Patience patience = [&] { return watch.patience(); };
-    Transfer transfer = live->channel.send(request, patience);
-    std::string message;
-    if (transfer == Transfer::done)
-      transfer = live->channel.receive(message, patience, longest_query_reply(queries.size()));
-    QueryReply reply;
-    if (transfer == Transfer::done || transfer == Transfer::too_long) {
-      const auto rule = broken_rule_of(transfer, message, queries.size(), number, reply);
-      if (!rule.empty()) {
-        end_rule_breaker(watch, rule, runs);
-        if (queries.size() == 1) return Asked::answered;
-        runs.pop_back();
-        return Asked::in_halves;
-      }
-    }
-    if (transfer != Transfer::done) {
-      const bool is_hung = transfer == Transfer::timed_out && !watch.has_ended();
-      const std::size_t before = runs.size();
-      end_silent_worker(watch, is_hung, runs);
-      if (queries.size() == 1) return Asked::answered;
-      runs.resize(before);
-      return is_hung ? Asked::one_by_one : Asked::in_halves;
-    }
-    const double seconds = watch.next_case() / static_cast<double>(queries.size());
-    const std::string printed = live->take_printed();
-    for (auto& answer : reply.answers) {
-      CaseRun run = run_of(std::move(answer));
-      run.processor_seconds = seconds;
-      if (queries.size() == 1) run.printed = printed;
-      keep(std::move(run), runs);
-    }
-    return Asked::answered;
-  }
-
-  std::string broken_rule_of(Transfer transfer, const std::string& message, std::size_t queries,
-                             std::uint64_t number, QueryReply& reply) const {
-    if (transfer == Transfer::too_long) return "longer than any reply to these queries";
-    if (!decode(message, reply)) return "bytes that are none";
-    if (reply.number != number) return "to another request";
-    return broken_rule(queries, reply.answers);
   }
 
   // The message should be the reply with this number and place. Says which rule it breaks. Empty
@@ -389,44 +337,9 @@ Expected<PluginDescription> WorkerProcess::describe() {
   return parts_->description;
 }
 
-std::vector<CaseRun> WorkerProcess::ask(std::span<const detector::FourPoints> queries) {
-  constexpr std::size_t most_at_once = 256;
-  std::vector<CaseRun> runs;
-  std::size_t at_once = most_at_once;
-  while (runs.size() < queries.size()) {
-    const auto rest = queries.subspan(runs.size());
-    const auto some = rest.first(std::min(at_once, rest.size()));
-    const auto ready = parts_->ensure();
-    if (!ready) {
-      parts_->keep({parts_->end_of_loading, ready.error().message, {}}, runs);
-      continue;
-    }
-    if (!parts_->description.parts.query) {
-      parts_->keep({RunEnd::refused, "it answers no queries", {}}, runs);
-      continue;
-    }
-    switch (parts_->ask_some(some, runs)) {
-      case Parts::Asked::answered:
-        at_once = std::min(most_at_once, 2 * some.size());
-        break;
-      case Parts::Asked::in_halves:
-        at_once = std::max<std::size_t>(1, some.size() / 2);
-        break;
-      case Parts::Asked::one_by_one:
-        at_once = 1;
-        break;
-    }
-  }
-  return runs;
-}
-
 std::vector<CaseRun> WorkerProcess::run(const corpus::Case& c,
                                         std::span<const Configuration> configurations) {
   std::vector<CaseRun> runs;
-  if (const auto query = query_of(c); query && parts_->plugin_library) {
-    for (std::size_t i = 0; i < configurations.size(); ++i) runs.push_back(ask({&*query, 1})[0]);
-    return runs;
-  }
   while (runs.size() < configurations.size()) {
     const auto rest = configurations.subspan(runs.size());
     if (const auto ready = parts_->ensure()) {

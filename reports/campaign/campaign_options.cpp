@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <boost/outcome/try.hpp>
 #include <filesystem>
 
 #include "properties/campaign/phases/power_proof.h"
@@ -88,41 +89,37 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
                                    "again to go on",
                                    words.out),
                        exit_undecided);
-  auto plan = properties::find_plan(words.campaign);
-  if (!plan) return plan.error();
+  BOOST_OUTCOME_TRY(plan, properties::find_plan(words.campaign));
   properties::CampaignRequest request;
-  request.plan = std::move(plan.value());
+  request.plan = std::move(plan);
   if (words.time_limit) request.plan.seconds = *words.time_limit;
   if (words.case_seconds) request.plan.case_seconds = *words.case_seconds;
   if (words.memory) request.plan.case_bytes = *words.memory;
   request.seed = words.seed;
   request.jobs = words.jobs;
-  request.worker = properties::worker_program();
   if (!words.own_cases.empty()) {
-    auto own = read_own_cases(words.own_cases);
-    if (!own) return own.error();
-    request.own_cases = std::move(own.value());
+    BOOST_OUTCOME_TRY(own, read_own_cases(words.own_cases));
+    request.own_cases = std::move(own);
   }
   // The proof is read before the first code of a plug-in runs.
   if (!words.power.empty() && request.plan.fault_cases == 0) {
     fmt::print("campaign {} plants no faults: --power is not needed\n", request.plan.name);
   } else if (!words.power.empty()) {
-    auto proof = properties::take_power(words.power, words.out, request);
-    if (!proof) return proof.error();
-    request.power = std::move(proof.value());
+    BOOST_OUTCOME_TRY(proof, properties::take_power(words.power, words.out, request));
+    request.power = std::move(proof);
   }
   std::error_code error;
   request.folder = std::filesystem::weakly_canonical(words.out, error);
-  if (const auto apart = lies_apart(request.folder, words.detector); !apart) return apart.error();
+  BOOST_OUTCOME_TRY(lies_apart(request.folder, words.detector));
   auto chosen_words = words.detector;
   if (asks_queries_alone(request.plan) && chosen_words.part == DetectorPart::by_library)
     chosen_words.part = DetectorPart::query;
-  if (auto chosen = choose_detector(chosen_words, request); !chosen) return chosen.error();
+  BOOST_OUTCOME_TRY(subject, choose_detector(chosen_words, request.folder));
+  static_cast<properties::Subject&>(request) = std::move(subject);
   const auto& detector = request.detector;
   if (!words.data.empty()) {
-    auto sequences = public_sequences(words.data);
-    if (!sequences) return sequences.error();
-    request.repeated = std::move(sequences.value());
+    BOOST_OUTCOME_TRY(sequences, public_sequences(words.data));
+    request.repeated = std::move(sequences);
   }
   if (!detector.built_in && judged_claims(detector.claims, detector.contract).empty())
     return Problem{fmt::format(

@@ -3,6 +3,8 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <boost/outcome/try.hpp>
+
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/ledger/binding.h"
 #include "properties/campaign/phases/phases.h"
@@ -161,8 +163,7 @@ class CampaignTerminal : public properties::CampaignObserver {
 Expected<void> run_on_terminal(const properties::CampaignRequest& request, properties::Store& store,
                                const std::string& out) {
   CampaignTerminal terminal(request, out);
-  const auto ran = properties::run_campaign(request, ASSAY_CORPUS_DIR, store, terminal);
-  if (!ran) return ran.error();
+  BOOST_OUTCOME_TRY(properties::run_campaign(request, ASSAY_CORPUS_DIR, store, terminal));
   return terminal.written();
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/outcome/try.hpp>
 #include <set>
 
 #include "corpus/atomic_file.h"
@@ -159,8 +160,7 @@ Expected<void> write_slow_cases(const std::vector<SlowCase>& cases,
       const auto& text = smallest ? slow.smallest : slow.mesh;
       if (text.empty()) continue;
       const auto path = out / slow_file(slow, smallest);
-      if (const auto written = corpus::write_file_atomically(path, text); !written)
-        return written.error();
+      BOOST_OUTCOME_TRY(corpus::write_file_atomically(path, text));
     }
     const bool is_shrunk = !slow.smallest.empty();
     const auto shown = corpus::parse_case(is_shrunk ? slow.smallest : slow.mesh, "slow case");

@@ -57,9 +57,8 @@ corpus::Expected<std::vector<corpus::Case>> read_cases(
     const std::vector<std::filesystem::path>& files) {
   std::vector<corpus::Case> cases;
   for (const auto& file : files) {
-    auto c = corpus::read_case(file);
-    if (!c) return c.error();
-    cases.push_back(std::move(c.value()));
+    BOOST_OUTCOME_TRY(c, corpus::read_case(file));
+    cases.push_back(std::move(c));
   }
   return cases;
 }
@@ -74,15 +73,12 @@ std::string digest_of_files(const std::vector<std::filesystem::path>& files) {
 }
 
 Expected<properties::OwnCases> read_own_cases(const std::filesystem::path& folder) {
-  auto files = corpus::case_files(folder);
-  if (!files) return files.error();
-  std::erase_if(files.value(),
-                [](const auto& file) { return file.filename() == waivers_of_owner; });
-  if (files.value().empty())
+  BOOST_OUTCOME_TRY(files, corpus::case_files(folder));
+  std::erase_if(files, [](const auto& file) { return file.filename() == waivers_of_owner; });
+  if (files.empty())
     return Problem{fmt::format("{}: there is no case file in it", folder.string())};
-  auto cases = read_cases(files.value());
-  if (!cases) return cases.error();
-  return properties::OwnCases{std::move(cases.value()), digest_of_files(files.value())};
+  BOOST_OUTCOME_TRY(cases, read_cases(files));
+  return properties::OwnCases{std::move(cases), digest_of_files(files)};
 }
 
 std::optional<std::filesystem::path> owner_waivers(const std::filesystem::path& folder) {

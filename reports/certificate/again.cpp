@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <boost/outcome/try.hpp>
 #include <nlohmann/json.hpp>
 
 #include "properties/campaign/gates/findings.h"
@@ -29,13 +30,12 @@ Expected<std::string> certified_library(const properties::RunFindings& findings,
   if (library.empty())
     return Problem{"the stores do not say where the plug-in lies: name it by --detector"};
   judged = properties::JudgedLibrary::of(library, properties::worker_program());
-  const auto& digest = judged->digest();
-  if (!digest) return digest.error();
-  if (digest.value() != run.digests.plugin)
+  BOOST_OUTCOME_TRY(digest, judged->digest());
+  if (digest != run.digests.plugin)
     return Problem{
         fmt::format("{}: not the library that was certified: its SHA-256 is {}, {} is "
                     "certified",
-                    library, digest.value(), run.digests.plugin.value_or("none"))};
+                    library, digest, run.digests.plugin.value_or("none"))};
   return library;
 }
 
@@ -55,29 +55,26 @@ std::string difference_of_builds(const BoundRun& certified, const BoundRun& ours
 Expected<properties::TrialsAgain> run_certified_again(
     const std::filesystem::path& folder, const AgainRequest& asked,
     const std::function<void(const properties::TrialProgress&)>& progress) {
-  const auto findings = properties::read_findings(folder);
-  if (!findings) return findings.error();
-  const auto& run = findings.value().run;
+  BOOST_OUTCOME_TRY(findings, properties::read_findings(folder));
+  const auto& run = findings.run;
   std::shared_ptr<const properties::JudgedLibrary> judged;
-  const auto library = certified_library(findings.value(), asked.detector.library, judged);
-  if (!library) return library.error();
+  BOOST_OUTCOME_TRY(library, certified_library(findings, asked.detector.library, judged));
   properties::CampaignRequest request;
   request.plan = run.plan;
   request.seed = run.seed;
   request.jobs = asked.jobs;
-  request.worker = properties::worker_program();
-  const DetectorWords words{library.value(), asked.detector.isolation, run.detector.threads,
+  const DetectorWords words{library, asked.detector.isolation, run.detector.threads,
                             part_asked_by(run.plan)};
-  if (auto chosen = choose_detector(words, request); !chosen) return chosen.error();
-  const auto ours = properties::read_binding(properties::binding_of(request), folder);
-  if (!ours) return ours.error();
-  const auto difference = difference_of_builds(run, ours.value());
+  BOOST_OUTCOME_TRY(subject, choose_detector(words));
+  static_cast<properties::Subject&>(request) = std::move(subject);
+  BOOST_OUTCOME_TRY(ours, properties::read_binding(properties::binding_of(request), folder));
+  const auto difference = difference_of_builds(run, ours);
   if (!difference.empty())
     return Problem{
         fmt::format("{}: its trials cannot be run again: {}", folder.string(), difference)};
-  auto again = properties::run_again(request, folder, asked.share, asked.seed, progress);
-  if (!again) return again.error();
-  return std::move(again.value());
+  BOOST_OUTCOME_TRY(again,
+                    properties::run_again(request, folder, asked.share, asked.seed, progress));
+  return std::move(again);
 }
 
 }  // namespace assay::reports

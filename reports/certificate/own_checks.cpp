@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/outcome/try.hpp>
 
 #include "corpus/digest.h"
 #include "corpus/queries/query_csv.h"
@@ -151,9 +152,8 @@ class JudgedRows {
 };
 
 corpus::Expected<std::vector<corpus::Case>> curated(const std::filesystem::path& folder) {
-  const auto files = corpus::case_files(folder);
-  if (!files) return files.error();
-  return read_cases(files.value());
+  BOOST_OUTCOME_TRY(files, corpus::case_files(folder));
+  return read_cases(files);
 }
 
 // Makes a scene small enough to be judged in a few seconds, in as many frames as the scene needs.
@@ -161,14 +161,13 @@ corpus::Expected<corpus::Case> case_of_scene(const corpus::SceneInfo& scene) {
   corpus::SceneOptions options;
   options.size = 600;
   options.frames = std::max(6, scene.least_frames);
-  auto made = corpus::make_scene(scene.name, options);
-  if (!made) return made.error();
+  BOOST_OUTCOME_TRY(made, corpus::make_scene(scene.name, options));
   corpus::Case c;
   c.id = scene.name;
   c.about = "a scene";
   c.source = "assay scene";
-  c.triangles = std::move(made.value().triangles);
-  c.frames = std::move(made.value().frames);
+  c.triangles = std::move(made.triangles);
+  c.frames = std::move(made.frames);
   return c;
 }
 
@@ -183,14 +182,11 @@ Expected<void> check_queries(const properties::CampaignRequest& request,
     named.add(properties::case_of_query(one.query, fmt::format("named-query-{}", place++)));
   for (const auto& row : named.rows()) on_row(row);
   const auto file = corpus / ".." / "queries" / "example_vf.csv";
-  const auto queries = corpus::read_queries(file);
-  if (!queries) return queries.error();
+  BOOST_OUTCOME_TRY(queries, corpus::read_queries(file));
   JudgedRows labelled(request, file.filename().string(), on_failure, hung);
   place = 0;
-  for (const auto& one : queries.value()) {
-    const auto query =
-        std::visit([](const auto& q) { return detector::four_points(q); }, one.query);
-    labelled.add(properties::case_of_query(query, fmt::format("example-vf-{}", place++)));
+  for (const auto& one : queries) {
+    labelled.add(properties::case_of_query(one.query, fmt::format("example-vf-{}", place++)));
   }
   for (const auto& row : labelled.rows()) on_row(row);
   return outcome::success();
@@ -236,10 +232,9 @@ Expected<void> check_corpus(const properties::CampaignRequest& request,
     for (const auto& row : judged.rows()) on_row(row);
   }
   for (const auto& scene : corpus::scenes()) {
-    const auto c = case_of_scene(scene);
-    if (!c) return c.error();
+    BOOST_OUTCOME_TRY(c, case_of_scene(scene));
     JudgedRows judged(request, std::string(scene.name), on_failure, hung);
-    judged.add(c.value());
+    judged.add(c);
     for (const auto& row : judged.rows()) on_row(row);
   }
   if (request.detector.query_claims == properties::Claims()) return outcome::success();

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <boost/outcome/try.hpp>
+
 #include "corpus/digest.h"
 #include "corpus/json_fields.h"
 #include "properties/campaign/gates/findings.h"
@@ -146,9 +148,8 @@ Json make_predicate(const RunFindings& findings, const properties::Judgement& ju
 }
 
 properties::Expected<Json> make_statement(const std::filesystem::path& folder) {
-  const auto findings = properties::read_findings(folder);
-  if (!findings) return findings.error();
-  return make_statement(findings.value());
+  BOOST_OUTCOME_TRY(findings, properties::read_findings(folder));
+  return make_statement(findings);
 }
 
 properties::Expected<Json> make_statement(const RunFindings& findings) {

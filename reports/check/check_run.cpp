@@ -63,8 +63,7 @@ class CheckRun {
         mesh_(std::move(mesh)),
         subject_(subject),
         limits_(limits),
-        listener_(listener),
-        tally_(subject.description()) {
+        listener_(listener) {
     outcome_.is_judged = !question.no_oracle;
     outcome_.judged_by_claims = subject.judged_by_claims();
     outcome_.has_answers = subject.has_answers();
@@ -75,9 +74,8 @@ class CheckRun {
     nlohmann::ordered_json steps = nlohmann::ordered_json::array();
     if (begin()) {
       for (std::size_t s = 0; s < step_count(); ++s) {
-        const auto step = read_step(s);
-        if (!step) return step.error();
-        auto json = run_step(s, step.value());
+        BOOST_OUTCOME_TRY(step, read_step(s));
+        auto json = run_step(s, step);
         if (question_.wants_report) steps.push_back(std::move(json));
         if (refused_) return Problem{*refused_};
         if (outcome_.unsound) break;
@@ -85,8 +83,9 @@ class CheckRun {
       if (has_facts() && !outcome_.undecided) check_facts();
     }
     outcome_.limit_reached = limits_.reached();
-    if (!question_.no_oracle) tally_.tell(outcome_, subject_.steps_left_out());
-    if (outcome_.defect || outcome_.undecided) say(printed_text(subject_.printed()));
+    const auto* plugin = subject_.description();
+    if (plugin && !question_.no_oracle) outcome_.judge_claims(*plugin, subject_.steps_left_out());
+    if (outcome_.defect || outcome_.undecided) say(printed_text(subject_.run().printed));
     say(outcome_.summary());
     CheckAnswer answer{std::move(outcome_), nullptr};
     if (question_.wants_report)
@@ -124,9 +123,10 @@ class CheckRun {
     if (judged.disturbances > 0)
       say(fmt::format("the detector's process was killed from outside {} times, and began anew\n",
                       judged.disturbances));
-    if (const auto seconds = subject_.processor_seconds())
-      say(fmt::format("the detector took {:.3g} s of processor time for {} step{}\n", *seconds,
-                      step_count(), step_count() == 1 ? "" : "s"));
+    if (subject_.description())
+      say(fmt::format("the detector took {:.3g} s of processor time for {} step{}\n",
+                      subject_.run().processor_seconds, step_count(),
+                      step_count() == 1 ? "" : "s"));
     if (judged.outcome == Outcome::holds) return true;
     outcome_.ended = judged.explanation;
     for (const auto claim : judged.broken) {
@@ -147,12 +147,6 @@ class CheckRun {
             s == 0 ? subject_.create_ms() : std::nullopt};
   }
 
-  // The built-in detector's leaves nothing out.
-  properties::Contract contract() const {
-    const auto* plugin = subject_.description();
-    return plugin ? plugin->contract : properties::Contract{};
-  }
-
   // The limits are on work, and reading is none.
   corpus::Expected<corpus::SourceStep> read_step(std::size_t s) {
     const Limits::Pause pause(limits_);
@@ -170,12 +164,13 @@ class CheckRun {
     std::string told_error;
     if (result.answer == Answer::error) {
       const auto error = subject_.error_of(s, result);
-      if (error.refused) {
-        refused_ = fmt::format("step {}: {}", s + 1, error.message);
+      // The built-in detector has errors for input alone.
+      if (!subject_.description()) {
+        refused_ = fmt::format("step {}: {}", s + 1, error);
         return {};
       }
-      if (outcome_.ended.empty()) outcome_.ended = error.message;
-      told_error = fmt::format("  {}\n", error.message);
+      if (outcome_.ended.empty()) outcome_.ended = error;
+      told_error = fmt::format("  {}\n", error);
     }
     if (result.answer == Answer::collision && !outcome_.collision_step) {
       outcome_.collision_step = s;
@@ -192,17 +187,17 @@ class CheckRun {
     JudgedByOracle oracle;
     auto judged = timed(limits_, [&] {
       return oracle::judge_step({step.x_t0, step.x_t1}, steps_.triangles(),
-                                {question_.jobs, stop, subject_.asked()});
+                                {question_.jobs, stop, asked_features(subject_.contract())});
     });
     oracle.judgement = std::move(judged.answer);
     oracle.milliseconds = judged.milliseconds;
-    oracle.truth = truth_of(oracle.judgement, contract(), steps_.triangles());
-    oracle.diff = subject_.judge(s, result, oracle.judgement);
+    oracle.truth = truth_of(oracle.judgement, subject_.contract(), steps_.triangles());
+    oracle.diff = subject_.judge(s, result, oracle.judgement, steps_.triangles());
     const auto& diff = oracle.diff;
     progress.finish();
     outcome_.defect |= diff.outcome == Outcome::defect;
     outcome_.undecided |= diff.outcome == Outcome::undecided || diff.outcome == Outcome::error;
-    tally_.add(diff, result);
+    if (subject_.description()) outcome_.count(diff, result);
     say(step_text(s + 1, result, &oracle, shown_work(s)) + told_error);
     if (diff.outcome == Outcome::defect) print_defect(step, diff);
     auto json = json_of(result, &oracle);
@@ -253,10 +248,11 @@ class CheckRun {
   }
 
   void print_defect(const corpus::SourceStep& step, const properties::StepDiff& diff) const {
-    if (diff.missing.empty()) return;
+    // Nobody knows the stages of a plug-in.
+    if (diff.missing.empty() || subject_.description()) return;
     const auto& lost = diff.missing.front();
-    const std::string stage = subject_.stage_that_lost(step, lost.pair);
-    if (stage.empty()) return;
+    const std::string stage =
+        properties::stage_that_lost(steps_.triangles(), step.x_t0, step.x_t1, lost.pair);
     say(fmt::format("  triangles {} and {} were lost at: {}\n", lost.pair.a, lost.pair.b, stage));
   }
 
@@ -282,7 +278,6 @@ class CheckRun {
   Limits& limits_;
   const CheckListener& listener_;
   std::optional<std::string> refused_;
-  ClaimsTally tally_;
   CheckOutcome outcome_;
 };
 
@@ -306,9 +301,8 @@ Expected<CheckAnswer> check_mesh(const CheckQuestion& question, CheckInput& inpu
     return Problem{fmt::format("{}: {}", input.file, bad->message)};
   const bool is_plugin = !question.detector.library.empty();
   if (is_plugin) {
-    auto whole = input.steps->read_whole();
-    if (!whole) return whole.error();
-    input.steps = std::move(whole.value());
+    BOOST_OUTCOME_TRY(whole, input.steps->read_whole());
+    input.steps = std::move(whole);
   }
   Limits limits(question.time_limit, question.memory_limit);
   BuiltInChoice built_in = question.built_in;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <boost/outcome/try.hpp>
+
 #include "properties/campaign/plan.h"
 #include "properties/printable.h"
 #include "properties/worker/worker_process.h"
@@ -30,21 +32,23 @@ DetectorPart part_asked_by(const properties::CampaignPlan& plan) {
   return properties::asks_queries(plan) ? DetectorPart::by_library : DetectorPart::steps;
 }
 
-Expected<void> choose_detector(const DetectorWords& words, properties::CampaignRequest& request) {
-  request.detector = properties::built_in_detector();
-  request.threads = words.threads;
-  if (words.library.empty()) return outcome::success();
-  request.plugin = words.library;
-  request.judged = properties::JudgedLibrary::of(words.library, request.worker);
-  request.isolation = words.isolation;
+Expected<properties::Subject> choose_detector(const DetectorWords& words,
+                                              const std::filesystem::path& folder) {
+  properties::Subject subject;
+  subject.worker = properties::worker_program();
+  subject.detector = properties::built_in_detector();
+  subject.threads = words.threads;
+  if (words.library.empty()) return subject;
+  subject.plugin = words.library;
+  subject.judged = properties::JudgedLibrary::of(words.library, subject.worker);
+  subject.isolation = words.isolation;
   properties::WorkerProcess worker(
-      request.worker, request.plugin,
-      {.isolation = request.isolation, .threads = request.threads, .unread = request.folder});
-  const auto description = worker.describe();
-  if (!description) return description.error();
-  request.isolated = worker.isolation();
-  const auto& plugin = description.value();
-  request.takes_threads = plugin.parts.takes_threads;
+      subject.worker, subject.plugin,
+      {.isolation = subject.isolation, .threads = subject.threads, .unread = folder});
+  BOOST_OUTCOME_TRY(description, worker.describe());
+  subject.isolated = worker.isolation();
+  const auto& plugin = description;
+  subject.takes_threads = plugin.parts.takes_threads;
   const bool has_steps = plugin.parts.steps || plugin.parts.candidates;
   const bool of_queries =
       words.part == DetectorPart::query || (words.part == DetectorPart::by_library && !has_steps);
@@ -54,7 +58,7 @@ Expected<void> choose_detector(const DetectorWords& words, properties::CampaignR
     return Problem{fmt::format("{}: it holds no steps, but a query alone", words.library)};
   // The words of the plug-in go into ids, files and pages, so they must be printable.
   const auto name = properties::printable(plugin.name);
-  request.detector = {fmt::format("{} {}", name, properties::printable(plugin.version)),
+  subject.detector = {fmt::format("{} {}", name, properties::printable(plugin.version)),
                       false,
                       of_queries ? claims_on_queries(plugin) : claims_on_steps(plugin),
                       plugin.contract,
@@ -64,9 +68,9 @@ Expected<void> choose_detector(const DetectorWords& words, properties::CampaignR
                       {}};
   const bool is_query_judged = plugin.parts.query && words.part != DetectorPart::steps &&
                                !judged_claims(claims_on_queries(plugin), plugin.contract).empty();
-  if (is_query_judged) request.detector.query_claims = claims_on_queries(plugin);
-  request.detector.unjudged_parts = unjudged_parts(plugin, request.detector);
-  return outcome::success();
+  if (is_query_judged) subject.detector.query_claims = claims_on_queries(plugin);
+  subject.detector.unjudged_parts = unjudged_parts(plugin, subject.detector);
+  return subject;
 }
 
 std::string plugin_text(const std::string& name_and_version, const properties::Claims& claims,

@@ -16,10 +16,11 @@ namespace assay::reports {
 // The parts of a plug-in that a plan is about: steps, queries, or both.
 DetectorPart part_asked_by(const properties::CampaignPlan& plan);
 
-// Sets request.detector and, for a plug-in, the members of the request that tell of it. REQUIRES
-// that request.worker is set. Fails if the library cannot serve, does not hold the part that is
-// asked for, or cannot be isolated although that is required.
-Expected<void> choose_detector(const DetectorWords& words, properties::CampaignRequest& request);
+// The detector that the words name. `folder` is that of a run, in which a plug-in reads no file.
+// Fails if the library cannot serve, does not hold the part that is asked for, or cannot be
+// isolated although that is required.
+Expected<properties::Subject> choose_detector(const DetectorWords& words,
+                                              const std::filesystem::path& folder = {});
 
 // "plug-in NAME VERSION", its claims, its contract, its isolation, and the threads that it may
 // use: one line each, without a newline at the end.

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <memory>
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "corpus/formats/step_source.h"
@@ -29,45 +29,50 @@ class Subject {
   virtual std::string title() const = 0;
   // Fields of the JSON report: `culling` and `arithmetic` (null for a plug-in) and `detector`.
   virtual nlohmann::ordered_json to_json() const = 0;
-  // Milliseconds of preprocessing; nothing for a plug-in, which does it in a process of its own.
-  virtual std::optional<double> create_ms() const { return std::nullopt; }
-  // The detector is judged by its claims. If false, it must agree with the oracle in every bit.
-  virtual bool judged_by_claims() const { return true; }
-  // What a plug-in claims and under which contract; null for the built-in detector.
-  virtual const properties::PluginDescription* description() const { return nullptr; }
-  // How many steps of the input its contract leaves out.
-  virtual std::size_t steps_left_out() const { return 0; }
-  // Processor time of a plug-in's process, over all steps; nothing for the built-in detector.
-  virtual std::optional<double> processor_seconds() const { return std::nullopt; }
-
-  // The last lines that a plug-in printed.
-  virtual std::string printed() const { return {}; }
 
   // Called before the first step. Returns what the run as a whole broke, without judging any step.
   // If it does not hold, there may be no steps to ask for.
   virtual properties::JudgedRun begin() { return {}; }
-
   // The detector's answer to step s, which is `step`. Steps are asked for in order, each once.
   virtual detector::StepResult answer(std::size_t s, const corpus::SourceStep& step,
                                       const detector::StopFunction& stop) = 0;
-  // Why a step ended with an error. `refused` is set if the input is to blame, and not the
-  // detector.
-  struct StepError {
-    std::string message;
-    bool refused = false;
-  };
-  virtual StepError error_of(std::size_t s, const detector::StepResult& result) const = 0;
+  // Why a step ended with an error.
+  virtual std::string error_of(std::size_t s, const detector::StepResult& result) const = 0;
 
-  // The features that the oracle is to be asked for.
-  virtual oracle::AskedFeatures asked() const { return oracle::AskedFeatures::all; }
+  // The detector is judged by its claims. If false, it must agree with the oracle in every bit.
+  bool judged_by_claims() const { return plugin_ || !claims_.has(properties::Claim::times_unique); }
+  // What a plug-in claims and under which contract; null for the built-in detector.
+  const properties::PluginDescription* description() const { return plugin_ ? &*plugin_ : nullptr; }
+  const properties::Contract& contract() const { return contract_; }
   // Whether the steps have answers. Those of a library of candidates alone have none.
-  virtual bool has_answers() const { return true; }
-  virtual properties::StepDiff judge(std::size_t s, const detector::StepResult& result,
-                                     const oracle::StepJudgement& judgement) const = 0;
-  // The stage of the detector that lost a missing pair of a step; empty if its stages are not
-  // known.
-  virtual std::string stage_that_lost(const corpus::SourceStep& step,
-                                      detector::TrianglePair pair) const = 0;
+  bool has_answers() const { return !plugin_ || plugin_->parts.steps; }
+  // How many steps of the input the contract leaves out.
+  std::size_t steps_left_out() const { return steps_left_out_; }
+  // Milliseconds of preprocessing; nothing for a plug-in, which does it in a process of its own.
+  std::optional<double> create_ms() const { return create_ms_; }
+  // The run of a plug-in, over all steps; of the built-in detector it is empty.
+  const properties::CaseRun& run() const { return run_; }
+
+  properties::StepDiff judge(std::size_t s, const detector::StepResult& result,
+                             const oracle::StepJudgement& judgement,
+                             const detector::TrianglesView& triangles) const {
+    return s < run_.steps.size() ? compare_step(run_, s, judgement, claims_, contract_, triangles)
+                                 : compare(result, judgement, claims_, contract_, triangles);
+  }
+
+ protected:
+  static detector::StepResult undecided() {
+    detector::StepResult result;
+    result.answer = detector::Answer::undecided;
+    return result;
+  }
+
+  properties::Claims claims_;  // on steps
+  properties::Contract contract_;
+  std::optional<properties::PluginDescription> plugin_;
+  std::size_t steps_left_out_ = 0;
+  std::optional<double> create_ms_;
+  properties::CaseRun run_;
 };
 
 // The options of the built-in detector that the user states. The others are those of the case, or
@@ -80,8 +85,7 @@ struct BuiltInChoice {
   std::uint32_t threads = 1;  // 0: all cores
 };
 
-// If `limits` end the built-in detector before it is made, each of its steps is undecided. `input`
-// must outlive the subject.
+// If `limits` end the built-in detector before it is made, each of its steps is undecided.
 Expected<std::unique_ptr<Subject>> make_built_in(const BuiltInChoice& choice,
                                                  const CheckInput& input, Limits& limits);
 // The program `worker` runs the plug-in and ends whatever takes longer or more memory than

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/outcome/try.hpp>
 
 #include "corpus/atomic_file.h"
 #include "properties/judging/case_options.h"
@@ -185,8 +186,7 @@ Expected<void> export_case(const std::filesystem::path& folder, const corpus::Ca
   if (error)
     return Problem{fmt::format("{}: cannot be made: {}", folder.string(), error.message())};
   const auto write = [&](const std::string& name, const std::string& text) -> Expected<void> {
-    const auto written = corpus::write_file_atomically(folder / name, text);
-    if (!written) return written.error();
+    BOOST_OUTCOME_TRY(corpus::write_file_atomically(folder / name, text));
     return outcome::success();
   };
   for (std::size_t f = 0; f < c.frames.size(); ++f) {

@@ -7,7 +7,7 @@
 
 #include "corpus/cases/case_file.h"
 #include "oracle/mesh/step.h"
-#include "properties/campaign/trials/trial.h"
+#include "properties/judging/trial.h"
 
 namespace assay::reports {
 

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <boost/outcome/try.hpp>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -46,8 +47,7 @@ Expected<void> write_text_file(const std::string& path, const std::string& text)
   const auto target = std::filesystem::is_symlink(path, ignored)
                           ? std::filesystem::canonical(path, ignored)
                           : std::filesystem::path(path);
-  auto written = corpus::write_file_atomically(target, text);
-  if (!written) return written.error();
+  BOOST_OUTCOME_TRY(corpus::write_file_atomically(target, text));
   return outcome::success();
 }
 

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "reports/terminal/complaint.h"
+
 namespace CLI {
 class App;
 class Option;
@@ -69,11 +71,14 @@ using Action = std::function<int()>;
 // the defaults, and the options write into it.
 template <class Request>
 Action make_verb(CLI::App& app, const char* name, const char* about,
-                 void (*add_options)(Verb&, Request&), int (*run)(const Request&)) {
+                 void (*add_options)(Verb&, Request&), Expected<int> (*run)(const Request&)) {
   const auto request = std::make_shared<Request>();
   Verb verb(app, name, about);
   add_options(verb, *request);
-  return [request, run] { return run(*request); };
+  return [request, run] {
+    const auto code = run(*request);
+    return code ? code.value() : refuse(code.error());
+  };
 }
 
 }  // namespace assay::reports

@@ -2,6 +2,7 @@
 // picture.
 #include <fmt/format.h>
 
+#include <boost/outcome/try.hpp>
 #include <nlohmann/json.hpp>
 
 #include "reports/bench/gnuplot.h"
@@ -69,9 +70,8 @@ Expected<BenchedPlugin> plugin_of(const BenchRequest& request) {
   plugin.limits.isolation = words.isolation;
   plugin.limits.threads = words.threads;
   properties::WorkerProcess worker(properties::worker_program(), words.library, plugin.limits);
-  auto description = worker.describe();
-  if (!description) return description.error();
-  plugin.description = std::move(description.value());
+  BOOST_OUTCOME_TRY(description, worker.describe());
+  plugin.description = std::move(description);
   plugin.limits.least = worker.isolation();
   if (!plugin.description.parts.steps)
     return Problem{fmt::format("{}: it holds no steps, which are what is timed", words.library)};
@@ -90,22 +90,20 @@ Expected<BenchReport> measure(const BenchRequest& request) {
   const BenchProgress progress = {[&](const std::string& name) { line.phase(name); },
                                   [&] { line.tick(); }};
   if (!request.suite.empty()) return suite_named(request.suite)->run(settings, progress);
-  const auto plugin = plugin_of(request);
-  if (!plugin) return plugin.error();
-  return detector_suite(settings, plugin.value(), progress);
+  BOOST_OUTCOME_TRY(plugin, plugin_of(request));
+  return detector_suite(settings, plugin, progress);
 }
 
-int run_bench(const BenchRequest& request) try {
+Expected<int> run_bench(const BenchRequest& request) try {
   if (request.suite.empty() && request.detector.library.empty())
-    return refuse("bench: --suite NAME, or --detector LIB.so, says what to measure");
+    return Problem{"bench: --suite NAME, or --detector LIB.so, says what to measure"};
   const auto* suite = suite_named(request.suite);
   for (const auto* file : {&request.json_file, &request.csv_file, &request.svg_file}) {
-    if (auto may = may_write(*file, {}); !may) return refuse(may.error());
+    BOOST_OUTCOME_TRY(may_write(*file, {}));
   }
-  if (const auto problem = no_picture(request, suite); !problem.empty()) return refuse(problem);
-  const auto measured = measure(request);
-  if (!measured) return refuse(measured.error());
-  const auto& report = measured.value();
+  if (const auto problem = no_picture(request, suite); !problem.empty()) return Problem{problem};
+  BOOST_OUTCOME_TRY(measured, measure(request));
+  const auto& report = measured;
   fmt::print("suite {}, data {}\n", report.suite, request.data);
   fmt::print("{}", text_of(report));
   const auto write = [](const std::string& file, const std::string& text) {
@@ -116,19 +114,19 @@ int run_bench(const BenchRequest& request) try {
   if (!request.json_file.empty()) {
     const auto text = to_json(report, version_text())
                           .dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
-    if (auto done = write(request.json_file, text + "\n"); !done) return refuse(done.error());
+    BOOST_OUTCOME_TRY(write(request.json_file, text + "\n"));
   }
   if (!request.csv_file.empty()) {
-    if (auto done = write(request.csv_file, csv_of(report)); !done) return refuse(done.error());
+    BOOST_OUTCOME_TRY(write(request.csv_file, csv_of(report)));
   }
   if (!request.svg_file.empty()) {
     const auto drawing = draw(report.picture);
-    if (!drawing.problem.empty()) return refuse(drawing.problem);
-    if (auto done = write(request.svg_file, drawing.svg); !done) return refuse(done.error());
+    if (!drawing.problem.empty()) return Problem{drawing.problem};
+    BOOST_OUTCOME_TRY(write(request.svg_file, drawing.svg));
   }
   return report.wrong_answers.empty() ? exit_holds : exit_defect;
 } catch (const UnusableData& problem) {
-  return refuse(problem.what());
+  return Problem{problem.what()};
 }
 
 void add_options(Verb& verb, BenchRequest& request) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/outcome/try.hpp>
 #include <chrono>
 #include <ctime>
 #include <filesystem>
@@ -59,7 +60,7 @@ class Certification {
         begin_(Clock::now()) {}
 
   // Returns the exit code of the verdict, or of what kept it from being reached.
-  int run() {
+  Expected<int> run() {
     auto done = write_text_file(properties::campaign_file(out_).string(), campaign_text());
     // The stores are opened before the cases of the corpus run, because from then on every row is
     // known.
@@ -70,7 +71,7 @@ class Certification {
     if (done) done = forget_corpus_failures();
     if (done) done = store_ ? run_trials() : show_shards();
     if (done) done = show_corpus_failures();
-    if (!done) return refuse(done.error());
+    if (!done) return done.error();
     run_self_test();
     if (request_.detector.built_in) run_speed();
     return issue();
@@ -124,9 +125,8 @@ class Certification {
     checks_.drop(properties::StoredWaiver::kind);
     std::set<std::string> signatures;
     for (const auto& file : waiver_files()) {
-      const auto waivers = read_waivers(file);
-      if (!waivers) return waivers.error();
-      for (const auto& waiver : waivers.value()) {
+      BOOST_OUTCOME_TRY(waivers, read_waivers(file));
+      for (const auto& waiver : waivers) {
         if (!signatures.insert(waiver.signature).second)
           return Problem{
               fmt::format("{}: \"{}\" is waived already", file.string(), waiver.signature)};
@@ -167,9 +167,8 @@ class Certification {
       properties::keep_corpus_failures(request_, corpus_failures_, out_, checks_,
                                        [&](const std::string& text) { progress.show(text); });
     }
-    const auto kept = checks_.failures();
-    if (!kept) return kept.error();
-    const auto shown = write_failures(kept.value(), out_, words_.detector);
+    BOOST_OUTCOME_TRY(kept, checks_.failures());
+    const auto shown = write_failures(kept, out_, words_.detector);
     fmt::print("{}", shown.text);
     return shown.written;
   }
@@ -179,8 +178,7 @@ class Certification {
                                          properties::binding_of(request_));
     if (!store) return store.error();
     store_ = std::move(store.value());
-    if (const auto kept = properties::keeps_isolation(request_, *store_); !kept)
-      return kept.error();
+    BOOST_OUTCOME_TRY(properties::keeps_isolation(request_, *store_));
     return outcome::success();
   }
 
@@ -194,12 +192,10 @@ class Certification {
 
   // Takes the stores that `run` or `merge` wrote, and makes whole files of them.
   Expected<void> take_shards() {
-    const auto files = stored_shards(out_);
-    if (!files) return files.error();
-    for (const auto& file : files.value()) {
-      auto whole = properties::make_whole(file, request_);
-      if (!whole) return whole.error();
-      shards_[file.filename().string()] = std::move(whole.value());
+    BOOST_OUTCOME_TRY(files, stored_shards(out_));
+    for (const auto& file : files) {
+      BOOST_OUTCOME_TRY(whole, properties::make_whole(file, request_));
+      shards_[file.filename().string()] = std::move(whole);
     }
     return outcome::success();
   }
@@ -252,31 +248,29 @@ class Certification {
     });
   }
 
-  int issue() {
+  Expected<int> issue() {
     const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
     keep(properties::Issued{fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))),
                             seconds});
     checks_.seal();
-    if (const auto& problem = checks_.problem()) return refuse(*problem);
+    if (const auto& problem = checks_.problem()) return *problem;
     // The code of a plug-in may have reached the files. So there is a verdict on what was stored,
     // or none.
-    const auto findings = properties::read_findings(out_, known_rows());
-    if (!findings) return refuse(findings.error());
-    const auto statement = make_statement(findings.value());
-    if (!statement) return refuse(statement.error());
-    const auto& digests = statement.value()["predicate"]["digests"];
+    BOOST_OUTCOME_TRY(findings, properties::read_findings(out_, known_rows()));
+    BOOST_OUTCOME_TRY(statement, make_statement(findings));
+    const auto& digests = statement["predicate"]["digests"];
     if (digests["campaign"] != corpus::sha256_of(campaign_text()))
-      return refuse(properties::Problem{fmt::format("{}: was changed while this run was at work",
-                                                    properties::campaign_file(out_).string()),
-                                        ProblemKind::not_as_stored});
+      return Problem{fmt::format("{}: was changed while this run was at work",
+                                 properties::campaign_file(out_).string()),
+                     ProblemKind::not_as_stored};
     const auto certificate = properties::certificate_file(out_).string();
-    auto written = write_text_file(certificate, statement_text(statement.value()));
-    if (written) written = write_for_ci(statement.value()["predicate"], out_);
-    if (!written) return refuse(written.error());
-    const auto judgement = judge(findings.value());
+    auto written = write_text_file(certificate, statement_text(statement));
+    if (written) written = write_for_ci(statement["predicate"], out_);
+    if (!written) return written.error();
+    const auto judgement = judge(findings);
     fmt::print("{}\n{}\nverdict: {} in {:.0f} s; {}\nit speaks of {}\nnext: {} verify {}\n",
-               findings_text(findings.value()), gates_text(judgement), judgement.verdict, seconds,
-               certificate, judged_text(statement.value()["predicate"]), this_program(),
+               findings_text(findings), gates_text(judgement), judgement.verdict, seconds,
+               certificate, judged_text(statement["predicate"]), this_program(),
                shell_word(certificate));
     return judgement.exit_code;
   }
@@ -292,20 +286,18 @@ class Certification {
   const Clock::time_point begin_;
 };
 
-int run_certify(const CampaignWords& words) {
-  const auto asked = ask_for_campaign(words);
-  if (!asked) return refuse(asked.error());
-  const auto& request = asked.value();
+Expected<int> run_certify(const CampaignWords& words) {
+  BOOST_OUTCOME_TRY(asked, ask_for_campaign(words));
+  const auto& request = asked;
   if (request.power && holds_shards(words.out))
-    return refuse(
+    return Problem{
         fmt::format("{}: its shards are judged by their own planted faults: give --power "
                     "to the run of each",
-                    words.out));
-  auto checks = properties::Checks::open(words.out, request);
-  if (!checks) return refuse(checks.error());
+                    words.out)};
+  BOOST_OUTCOME_TRY(checks, properties::Checks::open(words.out, request));
   fmt::print("the shipped corpus, campaign {}, self-test and speed; writes {}\n", request.plan.name,
              words.out);
-  return Certification(words, request, std::move(checks.value())).run();
+  return Certification(words, request, std::move(checks)).run();
 }
 
 void add_options(Verb& verb, CampaignWords& words) {

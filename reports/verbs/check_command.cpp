@@ -2,6 +2,8 @@
 // detector and, unless it is left out, the oracle, and the two are compared.
 #include <fmt/format.h>
 
+#include <boost/outcome/try.hpp>
+
 #include "properties/judging/case_options.h"
 #include "properties/worker/worker_process.h"
 #include "reports/check/check_run.h"
@@ -19,11 +21,10 @@ struct CheckRequest {
   std::string json_file;  // empty: not written
 };
 
-int run_check(const CheckRequest& request) {
+Expected<int> run_check(const CheckRequest& request) {
   // This is asked before the work, not after it.
-  if (auto may = may_write(request.json_file, request.files); !may) return refuse(may.error());
-  auto input = read_check_input(request.files);
-  if (!input) return refuse(input.error());
+  BOOST_OUTCOME_TRY(may_write(request.json_file, request.files));
+  BOOST_OUTCOME_TRY(input, read_check_input(request.files));
   CheckQuestion question = request.question;
   question.files = request.files;
   question.wants_report = !request.json_file.empty();
@@ -33,13 +34,11 @@ int run_check(const CheckRequest& request) {
                                  std::fflush(stdout);
                                },
                                {}};
-  const auto answer = check_mesh(question, input.value(), properties::worker_program(), terminal);
-  if (!answer) return refuse(answer.error());
+  BOOST_OUTCOME_TRY(answer, check_mesh(question, input, properties::worker_program(), terminal));
   if (question.wants_report) {
-    const auto written = write_json_file(request.json_file, answer.value().report);
-    if (!written) return refuse(written.error());
+    BOOST_OUTCOME_TRY(write_json_file(request.json_file, answer.report));
   }
-  return answer.value().outcome.exit_code(request.fail_on_collision);
+  return answer.outcome.exit_code(request.fail_on_collision);
 }
 
 void add_options(Verb& verb, CheckRequest& request) {

@@ -3,11 +3,11 @@
 // instead; then its claims are judged too.
 #include <fmt/format.h>
 
+#include <boost/outcome/try.hpp>
 #include <nlohmann/json.hpp>
 
-#include "properties/words.h"
-#include "reports/check/query_score.h"
 #include "reports/queries/query_detector.h"
+#include "reports/queries/query_score.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
 #include "reports/terminal/text_file.h"
@@ -17,91 +17,83 @@
 namespace assay::reports {
 namespace {
 
+using QuerySet = std::vector<corpus::LabelledQuery>;
+
 struct CheckQueriesRequest {
   std::vector<std::string> files;
   std::vector<std::string> truths;  // none, or one for each file
-  QueryMethod method = QueryMethod::oracle;
+  const properties::QueryMethod* method = &properties::oracle_method();
   DetectorWords detector;
   std::string json_file;
 };
 
-using QuerySet = std::vector<corpus::LabelledQuery>;
-
-Expected<void> write_report(const std::string& file, const nlohmann::ordered_json& report) {
-  if (file.empty()) return outcome::success();
-  const auto written = write_json_file(file, report);
-  if (written) fmt::print("wrote {}\n", file);
-  return written;
+Expected<std::vector<QuerySet>> read_sets(const CheckQueriesRequest& request) {
+  if (!request.truths.empty() && request.truths.size() != request.files.size()) {
+    return Problem{
+        fmt::format("{} truth files for {} query files: give one for each, in the same order",
+                    request.truths.size(), request.files.size())};
+  }
+  BOOST_OUTCOME_TRY(may_write(request.json_file, request.files));
+  std::vector<QuerySet> sets;
+  for (std::size_t i = 0; i < request.files.size(); ++i) {
+    std::optional<std::filesystem::path> truth;
+    if (!request.truths.empty()) truth = request.truths[i];
+    BOOST_OUTCOME_TRY(queries, corpus::read_queries(request.files[i], truth));
+    sets.push_back(std::move(queries));
+  }
+  return sets;
 }
 
 // Asks the plug-in the queries of a file. The answers are judged and scored.
 Expected<void> ask_plugin(QueryDetector& detector, const std::string& file, const QuerySet& set,
                           QueryScore& score) {
-  std::vector<detector::FourPoints> queries;
+  std::vector<properties::Query> queries;
   std::vector<std::string> names;
   for (std::size_t i = 0; i < set.size(); ++i) {
-    queries.push_back(
-        std::visit([](const auto& q) { return detector::four_points(q); }, set[i].query));
+    queries.push_back(set[i].query);
     names.push_back(fmt::format("{} query {}", file, i));
   }
-  const auto judged = detector.judge(queries, names);
-  if (!judged) return judged.error();
+  BOOST_OUTCOME_TRY(judged, detector.judge(queries, names));
   for (std::size_t i = 0; i < set.size(); ++i) {
-    const auto& one = judged.value()[i];
+    const auto& one = judged[i];
     if (!one.is_within || one.run.steps.empty()) continue;
     const auto answer = one.run.steps[0].answer;
     if (answer != detector::Answer::free && answer != detector::Answer::collision) continue;
     const auto truth = one.is_rounded ? std::nullopt : set[i].truth;
     score.add_answer(file, i,
                      {answer == detector::Answer::collision, truth, truth && *truth != one.contact,
-                      one.microseconds});
+                      1e6 * one.run.times->steps[0]});
   }
   return outcome::success();
 }
 
-int check_plugin(const CheckQueriesRequest& request, const std::vector<QuerySet>& sets) {
-  auto opened = QueryDetector::open(request.detector);
-  if (!opened) return refuse(opened.error());
-  auto& detector = opened.value();
-  fmt::print("{}\n", detector.title());
-  std::fflush(stdout);
-  QueryScore score(detector.request().detector.name);
+Expected<int> run_check_queries(const CheckQueriesRequest& request) {
+  BOOST_OUTCOME_TRY(sets, read_sets(request));
+  std::optional<QueryDetector> plugin;
+  if (!request.detector.library.empty()) {
+    BOOST_OUTCOME_TRY(opened, QueryDetector::open(request.detector));
+    plugin = std::move(opened);
+    fmt::print("{}\n", plugin->title());
+    std::fflush(stdout);
+  }
+  QueryScore score = plugin ? QueryScore(plugin->name()) : QueryScore(*request.method);
   for (std::size_t i = 0; i < sets.size(); ++i) {
-    if (const auto asked = ask_plugin(detector, request.files[i], sets[i], score); !asked)
-      return refuse(asked.error());
+    const auto& set = sets[i];
+    if (!plugin) {
+      score.add(request.files[i], set);
+    } else if (const auto asked = ask_plugin(*plugin, request.files[i], set, score); !asked) {
+      return asked.error();
+    }
   }
   score.print();
-  fmt::print("{}", detector.text());
-  auto report = score.to_json(request.files);
-  report["detector"] = detector.to_json();
-  if (const auto written = write_report(request.json_file, report); !written)
-    return refuse(written.error());
-  return detector.exit_code();
-}
-
-int run_check_queries(const CheckQueriesRequest& request) {
-  if (!request.truths.empty() && request.truths.size() != request.files.size()) {
-    return refuse(
-        fmt::format("{} truth files for {} query files: give one for each, in the same order",
-                    request.truths.size(), request.files.size()));
+  if (plugin) fmt::print("{}", plugin->text());
+  if (!request.json_file.empty()) {
+    auto report = score.to_json(request.files);
+    report["detector"] = plugin ? plugin->to_json() : nlohmann::ordered_json();
+    BOOST_OUTCOME_TRY(write_json_file(request.json_file, report));
+    fmt::print("wrote {}\n", request.json_file);
   }
-  if (auto may = may_write(request.json_file, request.files); !may) return refuse(may.error());
-  std::vector<QuerySet> sets;
-  for (std::size_t i = 0; i < request.files.size(); ++i) {
-    std::optional<std::filesystem::path> truth;
-    if (!request.truths.empty()) truth = request.truths[i];
-    auto queries = corpus::read_queries(request.files[i], truth);
-    if (!queries) return refuse(queries.error());
-    sets.push_back(std::move(queries.value()));
-  }
-  if (!request.detector.library.empty()) return check_plugin(request, sets);
-  QueryScore score(request.method);
-  for (std::size_t i = 0; i < sets.size(); ++i) score.add(request.files[i], sets[i]);
-  score.print();
-  auto report = score.to_json(request.files);
-  report["detector"] = nullptr;
-  if (const auto written = write_report(request.json_file, report); !written)
-    return refuse(written.error());
+  if (plugin) return plugin->exit_code();
   if (score.is_unsound()) return exit_unsound;
   return score.is_wrong() ? exit_defect : exit_holds;
 }
@@ -109,11 +101,16 @@ int run_check_queries(const CheckQueriesRequest& request) {
 void add_options(Verb& verb, CheckQueriesRequest& request) {
   verb.add("files", request.files, "Query files (.csv, .csv.gz)").required();
   verb.add("--truth", request.truths, "Labels (.json), one file for each query file");
-  const auto parse = [](std::string_view word) {
-    return properties::value_of<QueryMethod>(query_method_names, word);
+  std::vector<const char*> words;
+  for (const auto& method : properties::named_methods()) words.push_back(method.name);
+  const auto parse = [](std::string_view word) -> std::optional<const properties::QueryMethod*> {
+    for (const auto& method : properties::named_methods()) {
+      if (word == method.name) return &method;
+    }
+    return std::nullopt;
   };
-  const auto method = add_choice(verb, "--method", request.method, joined(query_method_names, ", "),
-                                 parse, "Who answers (default oracle)");
+  const auto method = add_choice(verb, "--method", request.method, joined(words, ", "), parse,
+                                 "Who answers (default oracle)");
   add_detector(verb, request.detector, "A plug-in's library: its query answers").excludes(method);
   verb.add("--json", request.json_file, "Write the report here (assay-queries/1)");
 }

@@ -2,6 +2,8 @@
 // of a run.
 #include <fmt/format.h>
 
+#include <boost/outcome/try.hpp>
+
 #include "corpus/scenes/scenes.h"
 #include "properties/campaign/gates/findings.h"
 #include "properties/faults/fault.h"
@@ -60,13 +62,12 @@ int list_campaigns() {
   return exit_holds;
 }
 
-int list_failures(const std::string& folder) {
-  const auto findings = properties::read_findings(folder);
-  if (!findings) return refuse(findings.error().message);
+Expected<int> list_failures(const std::string& folder) {
+  BOOST_OUTCOME_TRY(findings, properties::read_findings(folder));
   std::string told;
-  for (const auto& failure : findings.value().failures) {
+  for (const auto& failure : findings.failures) {
     if (failure.signature != told)
-      fmt::print("{:>8} times  {}\n", findings.value().met_count(failure), failure.signature);
+      fmt::print("{:>8} times  {}\n", findings.met_count(failure), failure.signature);
     told = failure.signature;
     fmt::print("    {} ({}): {}\n{}", failure.id, failure.configuration, failure.explanation,
                printed_text(failure.printed));
@@ -75,22 +76,19 @@ int list_failures(const std::string& folder) {
   return exit_holds;
 }
 
-int list_slow(const std::string& folder) {
-  const auto findings = properties::read_findings(folder);
-  if (!findings) return refuse(findings.error().message);
-  fmt::print("{}", slow_trials_text(findings.value()));
+Expected<int> list_slow(const std::string& folder) {
+  BOOST_OUTCOME_TRY(findings, properties::read_findings(folder));
+  fmt::print("{}", slow_trials_text(findings));
   return exit_holds;
 }
 
-int run_list(const ListRequest& request) {
+Expected<int> run_list(const ListRequest& request) {
   const auto& [list, folder] = request;
-  if (list == "slow")
-    return folder.empty() ? refuse("list slow needs the folder of a run") : list_slow(folder);
-  if (list == "failures") {
-    return folder.empty() ? refuse("list failures needs the folder of a run")
-                          : list_failures(folder);
+  if (list == "slow" || list == "failures") {
+    if (folder.empty()) return Problem{fmt::format("list {} needs the folder of a run", list)};
+    return list == "slow" ? list_slow(folder) : list_failures(folder);
   }
-  if (!folder.empty()) return refuse(fmt::format("list {} takes no folder", list));
+  if (!folder.empty()) return Problem{fmt::format("list {} takes no folder", list)};
   if (list == "laws") return list_laws();
   if (list == "faults") return list_faults();
   if (list == "campaigns") return list_campaigns();

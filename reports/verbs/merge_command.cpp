@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/outcome/try.hpp>
 #include <filesystem>
 
 #include "properties/campaign/gates/findings.h"
@@ -27,9 +28,8 @@ properties::Expected<std::vector<std::filesystem::path>> stores_of(
     const std::vector<std::string>& folders) {
   std::vector<std::filesystem::path> stores;
   for (const auto& folder : folders) {
-    const auto found = properties::stored_shards(folder);
-    if (!found) return found.error();
-    stores.insert(stores.end(), found.value().begin(), found.value().end());
+    BOOST_OUTCOME_TRY(found, properties::stored_shards(folder));
+    stores.insert(stores.end(), found.begin(), found.end());
   }
   return stores;
 }
@@ -44,41 +44,37 @@ Expected<std::string> campaign_word(const properties::CampaignPlan& plan, const 
   const auto file = properties::campaign_file(out);
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) {
-    const auto written = write_text_file(file.string(), properties::plan_text(plan) + "\n");
-    if (!written) return written.error();
+    BOOST_OUTCOME_TRY(write_text_file(file.string(), properties::plan_text(plan) + "\n"));
   }
   return shell_word(file.string());
 }
 
-int run_merge(const MergeRequest& request) {
+Expected<int> run_merge(const MergeRequest& request) {
   const auto stores = stores_of(request.folders);
-  if (!stores) return refuse(stores.error().message);
+  if (!stores) return stores.error();
   std::error_code error;
   std::filesystem::create_directories(request.out, error);
-  if (error) return refuse(fmt::format("{}: cannot be made: {}", request.out, error.message()));
+  if (error) return Problem{fmt::format("{}: cannot be made: {}", request.out, error.message())};
   const auto out = properties::merged_file(request.out);
-  const auto merged = properties::merge_stores(stores.value(), out);
-  if (!merged) return refuse(merged.error().message);
-  const auto kept = properties::read_failures(out);
-  if (!kept) return refuse(kept.error().message);
-  const auto read = properties::read_one_store(out);
-  if (!read) return refuse(read.error().message);
-  const auto& findings = read.value();
+  BOOST_OUTCOME_TRY(properties::merge_stores(stores.value(), out));
+  BOOST_OUTCOME_TRY(kept, properties::read_failures(out));
+  BOOST_OUTCOME_TRY(read, properties::read_one_store(out));
+  const auto& findings = read;
   const auto& run = findings.run;
   const auto planned = findings.planned(), trials = findings.tally.trials();
   fmt::print("{} stores of campaign {}, seed {}: {} of {} trials; writes {}\n",
              stores.value().size(), run.plan.name, run.seed, trials, planned, out.string());
-  const auto failures = write_failures(kept.value(), request.out,
-                                       {findings.library, properties::IsolationMode::best});
+  const auto failures =
+      write_failures(kept, request.out, {findings.library, properties::IsolationMode::best});
   fmt::print("{}", failures.text);
-  if (!failures.written) return refuse(failures.written.error());
+  if (!failures.written) return failures.written.error();
   const auto judgement = judge(findings, properties::asked_of_a_run(findings));
   fmt::print("\n{}\n{}, so far\n", gates_text(judgement), verdict_text(findings, judgement));
   if (trials < planned) {
     fmt::print("{} trials are absent: merge the shards that hold them too\n", planned - trials);
   } else {
     const auto campaign = campaign_word(run.plan, request.out);
-    if (!campaign) return refuse(campaign.error());
+    if (!campaign) return campaign.error();
     fmt::print("next: {} certify --campaign {} --seed {}{} --out {}\n", this_program(),
                campaign.value(), run.seed,
                detector_words(findings.library, findings.run.detector.threads),

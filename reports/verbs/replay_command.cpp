@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/outcome/try.hpp>
 #include <charconv>
 #include <filesystem>
 #include <string_view>
@@ -81,9 +82,8 @@ corpus::Expected<ReplayedCase> case_of(const std::string& id_or_file) {
       return ReplayedCase{corpus::Case{}, trial};
     }
   }
-  auto read = corpus::read_case(id_or_file);
-  if (!read) return read.error();
-  return ReplayedCase{std::move(read.value()), std::nullopt};
+  BOOST_OUTCOME_TRY(read, corpus::read_case(id_or_file));
+  return ReplayedCase{std::move(read), std::nullopt};
 }
 
 // A case that states options runs in the configuration of these. One that does not runs in every
@@ -175,69 +175,62 @@ std::string misspelt(const std::string& id) {
                : "";
 }
 
-int run_replay(const ReplayRequest& request) {
+Expected<int> run_replay(const ReplayRequest& request) {
   auto made = case_of(request.id_or_file);
   if (!made) {
-    return refuse(made.error().message +
-                  (request.id_or_file.find(':') == std::string::npos
-                       ? ""
-                       : " (an id is CAMPAIGN:SEED:FAMILY:INDEX, with a family of this build)"));
+    return Problem{made.error().message +
+                   (request.id_or_file.find(':') == std::string::npos
+                        ? ""
+                        : " (an id is CAMPAIGN:SEED:FAMILY:INDEX, with a family of this build)")};
   }
   corpus::Case& c = made.value().c;
   const auto& trial = made.value().trial;
   if (trial) {
-    if (const auto line = misspelt(request.id_or_file); !line.empty()) return refuse(line);
+    if (const auto line = misspelt(request.id_or_file); !line.empty()) return Problem{line};
   }
-  properties::CampaignRequest subject;
-  subject.worker = properties::worker_program();
   auto words = request.detector;
   const bool is_query =
       trial ? properties::is_query_family(trial->family->name) : properties::says_query(c);
   if (is_query && words.library.empty())
-    return refuse("this is a query of a plug-in: name its library by --detector");
+    return Problem{"this is a query of a plug-in: name its library by --detector"};
   words.part = is_query ? DetectorPart::query : DetectorPart::steps;
-  if (auto chosen = choose_detector(words, subject); !chosen) return refuse(chosen.error());
+  BOOST_OUTCOME_TRY(subject, choose_detector(words));
   const auto& contract = subject.detector.contract;
   if (trial) c = properties::case_within(contract, *trial->family, request.id_or_file).made.c;
   if (auto problem = choose_configurations(c, subject.detector)) {
-    return refuse(fmt::format("{}: {}", request.id_or_file, *problem));
+    return Problem{fmt::format("{}: {}", request.id_or_file, *problem)};
   }
   const bool vouched = trial && properties::is_vouched_for(subject.detector, c, trial->index);
   if (vouched) {
     subject.detector.configurations = properties::with_clean_start(subject.detector.configurations);
   }
   if (request.why && !subject.detector.built_in) {
-    return refuse("--why is of the built-in detector: a plug-in does not show its stages");
+    return Problem{"--why is of the built-in detector: a plug-in does not show its stages"};
   }
   if (request.why && (request.why->a < 0 || request.why->b >= c.triangles.rows())) {
-    return refuse(fmt::format("--why {},{}: the mesh has {} triangles", request.why->a,
-                              request.why->b, c.triangles.rows()));
+    return Problem{fmt::format("--why {},{}: the mesh has {} triangles", request.why->a,
+                               request.why->b, c.triangles.rows())};
   }
   const auto seen = properties::contracted(c, subject.detector.contract);
   if (!seen) {
-    return refuse(fmt::format("{}: nothing of it is within the detector's contract: {}",
-                              request.id_or_file, properties::why_left_out(c, contract)));
+    return Problem{fmt::format("{}: nothing of it is within the detector's contract: {}",
+                               request.id_or_file, properties::why_left_out(c, contract))};
   }
   const auto truth = properties::judge_case(*seen, contract);
-  properties::WorkerLimits limits{.isolation = subject.isolation, .threads = subject.threads};
-  properties::WorkerProcess worker(subject.worker, subject.plugin, limits);
+  auto worker = subject.process();
   const auto runs = worker.run(*seen, subject.detector.configurations);
   for (const auto& run : runs) {
-    if (run.end == properties::RunEnd::not_run) return refuse(run.explanation);
+    if (run.end == properties::RunEnd::not_run) return Problem{run.explanation};
   }
   // A plug-in that claims to be deterministic is asked again, as in a campaign: in another process,
   // in which each step is evaluated twice.
   const bool asks_twice =
       !subject.detector.built_in && subject.detector.claims.has(properties::Claim::deterministic);
-  limits.variation = 1;
-  limits.asks_twice = true;
-  limits.least = worker.isolation();
-  properties::WorkerProcess second(subject.worker, subject.plugin, limits);
+  auto second = subject.process(1, true);
   const auto again = asks_twice ? second.run(*seen, subject.detector.configurations)
                                 : std::vector<properties::CaseRun>{};
   if (!request.export_folder.empty()) {
-    const auto written = export_case(request.export_folder, *seen, subject.detector, truth);
-    if (!written) return refuse(written.error());
+    BOOST_OUTCOME_TRY(export_case(request.export_folder, *seen, subject.detector, truth));
   }
   fmt::print("{}: {}{}\n", properties::printable(c.id),
              properties::size_text(properties::size_of(c)),

@@ -1,6 +1,8 @@
 // `assay report` shows runs as one HTML page that works offline.
 #include <fmt/format.h>
 
+#include <boost/outcome/try.hpp>
+
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/ledger/run_folder.h"
 #include "reports/certificate/verify.h"
@@ -27,9 +29,8 @@ using Json = nlohmann::ordered_json;
 // Everything that the page says of the run in a folder. A certificate that stands there is
 // believed only if it verifies.
 properties::Expected<Json> describe_run(const std::string& folder, PlainProgress& progress) {
-  const auto read = properties::read_findings(folder);
-  if (!read) return read.error();
-  const auto& findings = read.value();
+  BOOST_OUTCOME_TRY(read, properties::read_findings(folder));
+  const auto& findings = read;
   progress.show(fmt::format("{}: {} trials, {} failures kept", folder, findings.tally.trials(),
                             findings.failures.size()));
   const auto certificate = properties::certificate_file(folder);
@@ -46,21 +47,19 @@ properties::Expected<Json> describe_run(const std::string& folder, PlainProgress
   return json;
 }
 
-int run_report(const ReportRequest& request) {
-  if (auto may = may_write(request.out, {}); !may) return refuse(may.error());
+Expected<int> run_report(const ReportRequest& request) {
+  BOOST_OUTCOME_TRY(may_write(request.out, {}));
   Json runs = Json::array();
   PlainProgress progress("report");
   for (const auto& folder : request.folders) {
-    if (const auto line = sent_alone(certificate_in(folder)); !line.empty()) return refuse(line);
-    auto run = describe_run(folder, progress);
-    if (!run) return refuse(run.error().message);
-    runs.push_back(std::move(run.value()));
+    if (const auto line = sent_alone(certificate_in(folder)); !line.empty()) return Problem{line};
+    BOOST_OUTCOME_TRY(run, describe_run(folder, progress));
+    runs.push_back(std::move(run));
   }
   progress.finish();
   const Json data = {
       {"schema", "assay-report/2"}, {"version", version_text()}, {"runs", std::move(runs)}};
-  const auto written = write_text_file(request.out, page_text(page_template(), data));
-  if (!written) return refuse(written.error());
+  BOOST_OUTCOME_TRY(write_text_file(request.out, page_text(page_template(), data)));
   for (const auto& run : data["runs"]) {
     fmt::print("{}: {}; {}\n", run["folder"].get<std::string>(), run["verdict"].get<std::string>(),
                run["why"].get<std::string>());

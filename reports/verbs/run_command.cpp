@@ -1,6 +1,8 @@
 // `assay run` runs one shard of a campaign, and tells what it comes to.
 #include <fmt/format.h>
 
+#include <boost/outcome/try.hpp>
+
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/ledger/binding.h"
 #include "properties/campaign/ledger/run_folder.h"
@@ -36,8 +38,9 @@ Expected<void> write_files(const properties::CampaignRequest& request,
   return write_for_ci(make_predicate(findings, judgement, request.plan, ""), findings.folder, part);
 }
 
-int conclude(const properties::CampaignRequest& request, const properties::RunFindings& findings,
-             const std::string& out, double seconds) {
+Expected<int> conclude(const properties::CampaignRequest& request,
+                       const properties::RunFindings& findings, const std::string& out,
+                       double seconds) {
   const auto judgement = judge(findings, properties::asked_of_a_run(findings));
   fmt::print("{}\n{}\n{}, in {:.0f} s\n", findings_text(findings), gates_text(judgement),
              verdict_text(findings, judgement), seconds);
@@ -55,15 +58,14 @@ int conclude(const properties::CampaignRequest& request, const properties::RunFi
   // This line is for whoever waits for all shards, because the exit code may also be that of a
   // defect.
   fmt::print("shard {}: {}\n", text_of(request.shard), is_complete ? "complete" : "not complete");
-  if (const auto written = write_files(request, findings, judgement); !written)
-    return refuse(written.error());
+  BOOST_OUTCOME_TRY(write_files(request, findings, judgement));
   return judgement.exit_code;
 }
 
-int refuse_and_keep(Problem problem) {
+Problem and_kept(Problem problem) {
   // A store that somebody changed cannot be continued, so the line does not say that it can.
   if (problem.kind != ProblemKind::not_as_stored) problem.message += go_on;
-  return refuse(problem);
+  return problem;
 }
 
 // Runs the cases of the owner, which go with the first shard.
@@ -80,31 +82,25 @@ Expected<void> run_own_cases(const properties::CampaignRequest& request, propert
       },
       [&](const auto& failure) { failures.push_back(failure); });
   fmt::print("\n");
-  if (const auto kept = properties::keep_own_cases(store, rows, failures); !kept)
-    return kept.error();
+  BOOST_OUTCOME_TRY(properties::keep_own_cases(store, rows, failures));
   return outcome::success();
 }
 
-int run_campaign(const RunRequest& command) {
+Expected<int> run_campaign(const RunRequest& command) {
   const auto begin = std::chrono::steady_clock::now();
   const auto& out = command.words.out;
-  auto asked = ask_for_campaign(command.words);
-  if (!asked) return refuse(asked.error());
-  auto& request = asked.value();
+  BOOST_OUTCOME_TRY(asked, ask_for_campaign(command.words));
+  auto& request = asked;
   request.shard = command.shard;
   const auto file = properties::store_file(out, request.shard);
-  auto store = properties::Store::open(file, properties::binding_of(request));
-  if (!store) return refuse(store.error());
-  if (const auto kept = properties::keeps_isolation(request, store.value()); !kept)
-    return refuse(kept.error());
-  if (const auto done = run_own_cases(request, store.value()); !done)
-    return refuse_and_keep(done.error());
-  if (const auto done = run_on_terminal(request, store.value(), out); !done)
-    return refuse_and_keep(done.error());
+  BOOST_OUTCOME_TRY(store, properties::Store::open(file, properties::binding_of(request)));
+  BOOST_OUTCOME_TRY(properties::keeps_isolation(request, store));
+  if (const auto done = run_own_cases(request, store); !done) return and_kept(done.error());
+  if (const auto done = run_on_terminal(request, store, out); !done) return and_kept(done.error());
   // The code of a plug-in may have reached the file. So there is a verdict on what was stored, or
   // none.
-  const auto findings = properties::read_one_store(file, &store.value().known_rows());
-  if (!findings) return refuse_and_keep(findings.error());
+  const auto findings = properties::read_one_store(file, &store.known_rows());
+  if (!findings) return and_kept(findings.error());
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   return conclude(request, findings.value(), out, took.count());
 }

@@ -1,6 +1,7 @@
 // `assay scene` writes the frames of a kinematic scene.
 #include <fmt/format.h>
 
+#include <boost/outcome/try.hpp>
 #include <filesystem>
 
 #include "corpus/formats/mesh_writer.h"
@@ -20,8 +21,6 @@ struct SceneRequest {
   std::string out;
 };
 
-int refuse_scene(const corpus::Problem& problem) { return refuse(problem.message); }
-
 // Finds a frame that an earlier run with more frames left in the folder, because it would be taken
 // for a step of this scene.
 std::optional<std::string> stale_frame(const std::string& folder, std::size_t frames) {
@@ -33,27 +32,24 @@ std::optional<std::string> stale_frame(const std::string& folder, std::size_t fr
       next.filename().string());
 }
 
-int run_scene(const SceneRequest& request) {
+Expected<int> run_scene(const SceneRequest& request) {
   corpus::SceneOptions options;
   options.size = request.size;
   options.frames = request.frames;
   if (!request.mesh_file.empty()) {
-    if (request.size > 0) return refuse("--size has no meaning with --mesh");
-    auto mesh = corpus::read_mesh(request.mesh_file);
-    if (!mesh) return refuse_scene(mesh.error());
-    options.mesh = std::move(mesh.value());
+    if (request.size > 0) return Problem{"--size has no meaning with --mesh"};
+    BOOST_OUTCOME_TRY(mesh, corpus::read_mesh(request.mesh_file));
+    options.mesh = std::move(mesh);
   }
-  auto sequence = corpus::make_scene(request.name, options);
-  if (!sequence) return refuse_scene(sequence.error());
-  if (auto stale = stale_frame(request.out, sequence.value().frames.size())) {
-    return refuse(*stale);
+  BOOST_OUTCOME_TRY(sequence, corpus::make_scene(request.name, options));
+  if (auto stale = stale_frame(request.out, sequence.frames.size())) {
+    return Problem{*stale};
   }
-  auto written = corpus::write_sequence(request.out, sequence.value());
-  if (!written) return refuse_scene(written.error());
+  BOOST_OUTCOME_TRY(corpus::write_sequence(request.out, sequence));
   fmt::print("{}: {} frame(s) of {} triangles, {} vertices, in {}\n", request.name,
-             sequence.value().frames.size(), sequence.value().triangles.rows(),
-             sequence.value().frames[0].rows(), request.out);
-  if (sequence.value().frames.size() > 1) {
+             sequence.frames.size(), sequence.triangles.rows(), sequence.frames[0].rows(),
+             request.out);
+  if (sequence.frames.size() > 1) {
     fmt::print("next: {} check {}/frame_*.ply\n", this_program(), shell_word(request.out));
   }
   return exit_holds;

@@ -58,13 +58,11 @@ void print_failures(const SelfTestFamily& family, std::uint64_t seed, const Fami
   }
 }
 
-int replay(const SelfTestRequest& request) {
+Expected<int> replay(const SelfTestRequest& request) {
   const auto named = properties::self_test_case(request.replay);
-  if (!named) {
-    fmt::print(stderr, "assay: '{}' is no case of the self-test (family:seed:index)\n",
-               request.replay);
-    return exit_usage;
-  }
+  if (!named)
+    return Problem{
+        fmt::format("'{}' is no case of the self-test (family:seed:index)", request.replay)};
   fmt::print("{}", named->family->text(named->seed, named->index));
   QueryTally tally;
   const auto wrong = named->family->check(named->seed, named->index, tally);
@@ -91,7 +89,7 @@ void announce(const SelfTestRequest& request) {
   std::fflush(stdout);
 }
 
-int run_self_test(const SelfTestRequest& request) {
+Expected<int> run_self_test(const SelfTestRequest& request) {
   if (!request.detector.library.empty())
     return self_test_of_plugin(
         {request.detector, request.seed, request.queries, request.time_limit, request.replay});

@@ -1,6 +1,8 @@
 // `assay shrink` looks for the smallest case that fails as this one does.
 #include <fmt/format.h>
 
+#include <boost/outcome/try.hpp>
+
 #include "properties/campaign/phases/shrink.h"
 #include "properties/campaign/trials/case_tally.h"
 #include "properties/judging/case_check.h"
@@ -55,29 +57,24 @@ std::optional<Failing> find_failure(const corpus::Case& c,
   return std::nullopt;
 }
 
-int run_shrink(const ShrinkRequest& request) {
+Expected<int> run_shrink(const ShrinkRequest& request) {
   end_when_interrupted("interrupted: the smallest so far is in " + request.out, exit_undecided);
-  if (auto may = may_write(request.out, {request.file}); !may) return refuse(may.error());
-  auto read = corpus::read_case(request.file);
-  if (!read) return refuse(read.error().message);
-  const corpus::Case& c = read.value();
+  BOOST_OUTCOME_TRY(may_write(request.out, {request.file}));
+  BOOST_OUTCOME_TRY(read, corpus::read_case(request.file));
+  const corpus::Case& c = read;
   auto words = request.detector;
   const bool is_query = properties::says_query(c);
   if (is_query && words.library.empty())
-    return refuse(
-        fmt::format("{}: a query of a plug-in: name its library by --detector", request.file));
+    return Problem{
+        fmt::format("{}: a query of a plug-in: name its library by --detector", request.file)};
   words.part = is_query ? DetectorPart::query : DetectorPart::steps;
-  properties::CampaignRequest subject;
-  subject.worker = properties::worker_program();
-  if (auto chosen = choose_detector(words, subject); !chosen) return refuse(chosen.error());
+  BOOST_OUTCOME_TRY(subject, choose_detector(words));
   const auto options = properties::read_options(is_query ? corpus::Case() : c);
-  if (!options) return refuse(fmt::format("{}: {}", request.file, options.error().message));
+  if (!options) return Problem{fmt::format("{}: {}", request.file, options.error().message)};
   if (subject.detector.built_in && !c.options.empty()) {
     subject.detector.configurations = {{"the case's own", options.value()}};
   }
-  constexpr double hang_seconds = 10;
-  properties::WorkerProcess worker(subject.worker, subject.plugin,
-                                   {hang_seconds, 0, subject.isolation, {}, subject.threads});
+  auto worker = subject.process();
   const auto failing = find_failure(c, subject.detector, worker);
   if (!failing) {
     fmt::print("{}: holds in every configuration; there is nothing to shrink\n", request.file);
@@ -107,7 +104,7 @@ int run_shrink(const ShrinkRequest& request) {
     written = scenes.write_picture(request.out, reduction.smallest, failing->configuration.name,
                                    failing->signature);
   }
-  if (!written) return refuse(written.error());
+  if (!written) return written.error();
   fmt::print("{}; {} runs, {:.1f} s{}\npicture {}\nreplay: {} replay {}{}\n",
              properties::size_text(properties::size_of(c), properties::size_of(reduction.smallest)),
              reduction.calls, reduction.seconds, reduction.fixed_point ? "" : "; the time was over",

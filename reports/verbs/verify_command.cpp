@@ -2,6 +2,7 @@
 // itself. Several nights are pooled.
 #include <fmt/format.h>
 
+#include <boost/outcome/try.hpp>
 #include <filesystem>
 #include <optional>
 #include <random>
@@ -27,13 +28,12 @@ struct VerifyRequest {
 
 using Json = nlohmann::ordered_json;
 
-int print_pooled(const std::vector<Json>& predicates) {
-  const auto pooled = pool(predicates);
-  if (!pooled) return refuse(pooled.error().message);
+Expected<int> print_pooled(const std::vector<Json>& predicates) {
+  BOOST_OUTCOME_TRY(pooled, pool(predicates));
   fmt::print("{} nights together, all bounds at {} %:\n{:24} {:18} {:>9} {:>9} {:>9}\n",
              predicates.size(), 100 * predicates[0]["confidence"]["family"].get<double>(),
              "stratum", "configuration", "n", "holds", "bound");
-  for (const auto& row : pooled.value()) {
+  for (const auto& row : pooled) {
     fmt::print("{:24} {:18} {:>9} {:>9} {:>9.2e}\n", row["family"].get<std::string>(),
                row["configuration"].get<std::string>(), row["n"].get<std::uint64_t>(),
                row["holds"].get<std::uint64_t>(), row["bound"].get<double>());
@@ -49,7 +49,7 @@ std::uint64_t fresh_seed() {
 
 // The seed is chosen now, because whoever forges a certificate must not know which trials are
 // asked for.
-int run_trials_again(const std::string& certificate, const VerifyRequest& request) {
+Expected<int> run_trials_again(const std::string& certificate, const VerifyRequest& request) {
   const std::filesystem::path file = certificate;
   AgainRequest asked{*request.again, request.seed ? *request.seed : fresh_seed(), request.detector,
                      request.jobs};
@@ -59,7 +59,7 @@ int run_trials_again(const std::string& certificate, const VerifyRequest& reques
         progress.show(fmt::format("{}/{} trials", state.done, state.planned));
       });
   progress.finish();
-  if (!again) return refuse(again.error());
+  if (!again) return again.error();
   const auto& [trials, stored, difference] = again.value();
   if (difference) {
     fmt::print("{}\nNOT VERIFIED: {}, {} of {} trials run again, seed {}; it says nothing\n",
@@ -71,16 +71,16 @@ int run_trials_again(const std::string& certificate, const VerifyRequest& reques
   return exit_holds;
 }
 
-int run_verify(const VerifyRequest& request) {
+Expected<int> run_verify(const VerifyRequest& request) {
   if (!request.again && (request.seed || !request.detector.library.empty()))
-    return refuse("--seed and --detector are of --again, which is not given");
+    return Problem{"--seed and --detector are of --again, which is not given"};
   std::error_code ignored;
   auto certificates = request.certificates;
   for (auto& file : certificates) {
     file = certificate_in(file).string();
     if (!std::filesystem::is_regular_file(file, ignored))
-      return refuse(fmt::format("{}: no such file", file));
-    if (const auto line = sent_alone(file); !line.empty()) return refuse(line);
+      return Problem{fmt::format("{}: no such file", file)};
+    if (const auto line = sent_alone(file); !line.empty()) return Problem{line};
   }
   std::vector<Json> predicates;
   int code = exit_holds;
@@ -99,7 +99,7 @@ int run_verify(const VerifyRequest& request) {
                predicate["verdict"].get<std::string>());
     fmt::print("it speaks of {}\n", judged_text(predicate));
     if (request.again) {
-      const int differs = run_trials_again(file, request);
+      BOOST_OUTCOME_TRY(differs, run_trials_again(file, request));
       if (differs != exit_holds) return differs;
     }
     if (code == exit_holds) code = predicate["exit_code"].get<int>();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/outcome/try.hpp>
 #include <cctype>
 
 #include "properties/campaign/ledger/binding.h"
@@ -72,9 +73,9 @@ std::filesystem::path failure_file(const StoredFailure& failure, bool smallest) 
 }
 
 Expected<Checks> Checks::open(const std::filesystem::path& out, const CampaignRequest& request) {
-  auto store = Store::open(checks_file(out), with_shard(binding_of(request), checks_shard).value());
-  if (!store) return store.error();
-  return Checks(std::move(store.value()));
+  BOOST_OUTCOME_TRY(
+      store, Store::open(checks_file(out), with_shard(binding_of(request), checks_shard).value()));
+  return Checks(std::move(store));
 }
 
 void Checks::drop(std::string_view kind) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/outcome/try.hpp>
 #include <system_error>
 #include <tuple>
 
@@ -150,9 +151,8 @@ Expected<KeptFailures> Store::kept_failures() const {
 }
 
 Expected<KeptFailures> read_failures(const std::filesystem::path& file) {
-  const auto store = Store::read(file);
-  if (!store) return store.error();
-  return store.value().kept_failures();
+  BOOST_OUTCOME_TRY(store, Store::read(file));
+  return store.kept_failures();
 }
 
 const RowTally& Store::known_rows() const { return *parts_->known; }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/outcome/try.hpp>
 
 #include "properties/campaign/gates/findings.h"
 
@@ -51,9 +52,8 @@ Expected<PowerProof> take_power(const std::filesystem::path& folder,
     return Problem{fmt::format("{}: a proof must lie outside of the folder that the run writes",
                                folder.string())};
   }
-  const auto read = read_findings(folder);
-  if (!read) return read.error();
-  const RunFindings& findings = read.value();
+  BOOST_OUTCOME_TRY(read, read_findings(folder));
+  const RunFindings& findings = read;
   const auto build = read_binding(binding_of(request), folder);
   if (!build) return build.error();
   if (!is_of_build(findings, build.value())) {

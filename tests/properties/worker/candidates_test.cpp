@@ -6,7 +6,7 @@
 
 #include "properties/campaign/ledger/step_measures.h"
 #include "properties/campaign/trials/planned_case.h"
-#include "properties/campaign/trials/trial.h"
+#include "properties/judging/trial.h"
 #include "properties/worker/worker_process.h"
 #include "tests/properties/small_case.h"
 

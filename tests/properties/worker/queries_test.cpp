@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <map>
 
-#include "properties/campaign/trials/trial.h"
+#include "properties/judging/trial.h"
 #include "properties/queries/query_families.h"
 #include "properties/worker/plugin/query_case.h"
 #include "properties/worker/worker_process.h"
@@ -39,7 +39,7 @@ FoundInQueries queries_with(const std::string& words, std::uint64_t queries_a_fa
   detector.contract = description.value().contract;
   detector.configurations = {{"plug-in", {}}};
   std::vector<corpus::Case> cases;
-  std::vector<detector::FourPoints> queries;
+  std::vector<CaseRun> runs, again;
   for (const auto& family : query_families()) {
     for (std::uint64_t i = 0; i < queries_a_family; ++i) {
       const auto made =
@@ -47,11 +47,11 @@ FoundInQueries queries_with(const std::string& words, std::uint64_t queries_a_fa
       auto seen = contracted(made.c, detector.contract);
       found.left_out += seen ? 0 : 1;
       if (!seen) continue;
-      queries.push_back(*query_of(*seen));
+      runs.push_back(worker.run(*seen, detector.configurations).front());
       cases.push_back(std::move(*seen));
     }
   }
-  const auto runs = worker.ask(queries), again = worker.ask(queries);
+  for (const auto& c : cases) again.push_back(worker.run(c, detector.configurations).front());
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const auto truth = judge_case(cases[i], detector.contract);
     found.contacts += truth[0].pairs.size();
