@@ -2,15 +2,15 @@
 //
 //   ASSAY_FIELDS(MeshCounts, triangles, vertices, steps)
 //
-// names all members in the order of their declaration. One that is left out does not compile. A
-// type that shows less, or more, has a function `fields(archive, x)` that calls
+// names all members. One that is left out does not compile, and neither does a name that is no
+// member. A type that shows less, or more, has a function `fields(archive, x)` that calls
 // archive("name", x.name, "other", x.other).
 //
 // Archives turn that into messages (worker/wire.h) and into JSON objects, and back (json_fields.h).
 #pragma once
 
-#include <algorithm>
-#include <string_view>
+#include <boost/preprocessor/seq/for_each.hpp>
+#include <boost/preprocessor/variadic/to_seq.hpp>
 
 namespace assay::properties {
 
@@ -23,24 +23,14 @@ class NamedFields {
     static_cast<Archive&>(*this).field(name, item);
     if constexpr (sizeof...(rest) > 0) (*this)(rest...);
   }
-
-  // The names stand in one text, parted by ", ".
-  template <class... T>
-  void list(std::string_view names, T&... items) {
-    const auto next = [&] {
-      const auto name = names.substr(0, names.find(','));
-      names = names.substr(std::min(names.size(), name.size() + 2));
-      return name;
-    };
-    (static_cast<Archive&>(*this).field(next(), items), ...);
-  }
 };
 
 }  // namespace assay::properties
 
-#define ASSAY_FIELDS(Type, ...)              \
-  template <class Archive>                   \
-  void fields(Archive& archive, Type& x) {   \
-    auto& [__VA_ARGS__] = x;                 \
-    archive.list(#__VA_ARGS__, __VA_ARGS__); \
+#define ASSAY_FIELD_OF_X(r, data, name) archive(#name, x.name);
+#define ASSAY_FIELDS(Type, ...)                                                          \
+  template <class Archive>                                                               \
+  void fields(Archive& archive, Type& x) {                                               \
+    [[maybe_unused]] const auto& [__VA_ARGS__] = x; /* compiles only with all members */ \
+    BOOST_PP_SEQ_FOR_EACH(ASSAY_FIELD_OF_X, , BOOST_PP_VARIADIC_TO_SEQ(__VA_ARGS__))     \
   }

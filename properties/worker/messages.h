@@ -22,8 +22,9 @@ namespace assay::properties {
 
 ASSAY_FIELDS(detector::Options, culling, start, pairs, arithmetic, threads)
 ASSAY_FIELDS(detector::Problem, error, message)
-ASSAY_FIELDS(detector::StepResult, answer, problem, first, pairs, positive, negative, zero,
-             against_all, violated, dirty, views, doubts, signs, primitives, apexes, counts, times)
+ASSAY_FIELDS(detector::StepResult, answer, problem, first, pairs, view_positive, view_negative,
+             view_zero, against_all, violated, dirty, views, doubts, signs, primitives, apexes,
+             counts, times)
 ASSAY_FIELDS(RunTimes, create, steps, peak_bytes)
 
 template <class Wire>
@@ -92,7 +93,7 @@ struct QueryRequest {
   std::vector<detector::FourPoints> queries;
 };
 ASSAY_FIELDS(QueryRequest, number, queries)
-ASSAY_FIELDS(QueryAnswer, answered, first, explanation)
+ASSAY_FIELDS(QueryAnswer, answer, first, explanation)
 
 struct QueryReply {
   std::uint64_t number = 0;          // of the request

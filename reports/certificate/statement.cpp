@@ -113,7 +113,7 @@ Json make_predicate(const RunFindings& findings, const properties::Judgement& ju
                     const properties::CampaignPlan& plan, const std::string& campaign_digest) {
   Json problems = Json::array();
   for (const auto& problem : findings.evidence.problems) {
-    if (!problem.explanation.empty()) problems.push_back(problem.explanation);
+    if (!problem.what.empty()) problems.push_back(problem.what);
   }
   return in_utf8(
       {{"schema", certificate_schema},

@@ -46,9 +46,9 @@ std::string repeated_text(const std::vector<properties::Repetition>& repeated) {
     differing += one.broken ? 1 : 0;
     judged += one.judged.size();
     for (const auto& step : one.judged) wrong += step.holds ? 0 : 1;
-    if (!one.difference.empty())
+    if (!one.what.empty())
       lines += fmt::format("  {} {}: {}\n", one.broken ? "DIFFERS" : "not compared", one.input,
-                           one.difference);
+                           one.what);
   }
   return fmt::format(
       "on larger meshes: {} sequences of up to {} triangles, {} steps; {} differ from run to run; "

@@ -129,7 +129,7 @@ void check_repetitions(const RunFindings& f, Lines& lines) {
     lines.push_back(fmt::format("{} of {} scenes were repeated", done, wanted.size()));
 }
 
-// Checks that a process of a plug-in was asked again at the end.
+// Checks that a process of a plug-in was asked again at the end, and that it answered.
 void check_asked_again(const RunFindings& f, Lines& lines) {
   if (f.run.detector.built_in || f.planned() == 0) return;
   const auto done = f.evidence.asked_again.size();
@@ -137,13 +137,19 @@ void check_asked_again(const RunFindings& f, Lines& lines) {
   if (done < wanted)
     lines.push_back(
         fmt::format("{} of {} shards asked the detector again at the end", done, wanted));
+  for (const auto& asked : f.evidence.asked_again) {
+    if (asked.open > 0)
+      lines.push_back(
+          fmt::format("asked again at the end, the detector answered {} of {} cases no more",
+                      asked.open, asked.cases));
+  }
 }
 
 GateFindings check_harness(const RunFindings& f, const Asked& asked) {
   GateFindings found;
   auto& lines = found.against;
   for (const auto& problem : f.evidence.problems) {
-    if (!problem.explanation.empty()) lines.push_back(problem.explanation);
+    if (!problem.what.empty()) lines.push_back(problem.what);
   }
   check_power(f, lines);
   if (f.laws_are_judged()) {
@@ -165,7 +171,7 @@ GateFindings check_corpus(const RunFindings& f, const Asked& asked) {
     for (const auto& failed : row.failed) {
       if (!is_waived(f, asked, failed.signature))
         found.against.push_back(
-            fmt::format("{} ({}): {}", failed.id, row.configuration, failed.explanation));
+            fmt::format("{} ({}): {}", failed.id, row.configuration, failed.what));
     }
   }
   for (const auto& waiver : f.evidence.waivers) {
@@ -216,7 +222,7 @@ GateFindings check_complete(const RunFindings& f, const Asked& asked) {
   check_asked_again(f, lines);
   for (const auto& row : f.evidence.corpus) {
     for (const auto& open : row.open)
-      lines.push_back(fmt::format("{} ({}): {}", open.id, row.configuration, open.explanation));
+      lines.push_back(fmt::format("{} ({}): {}", open.id, row.configuration, open.what));
   }
   if (!asked.certificate) return found;
   if (f.evidence.corpus.empty()) lines.push_back("the corpus was not run");

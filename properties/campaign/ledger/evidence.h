@@ -36,12 +36,12 @@ struct Canary {
 // is empty when nothing did.
 struct HarnessProblem {
   static constexpr const char* kind = "problem";
-  std::string shard, explanation;
+  std::string shard, what;
   std::uint64_t trials = 0;
   // A later row replaces an earlier one. If both stand at the same number of trials, the one that
   // tells of a problem counts as later, because a problem is over when a further trial is stored
   // without one.
-  std::uint64_t progress() const { return 2 * trials + (explanation.empty() ? 0 : 1); }
+  std::uint64_t progress() const { return 2 * trials + (what.empty() ? 0 : 1); }
 };
 
 struct MeshCounts {
@@ -145,8 +145,8 @@ struct Repetition {
   std::uint64_t triangles = 0, steps = 0;
   std::uint64_t runs = 0;              // runs that ended by themselves
   std::vector<std::uint64_t> threads;  // how many it might use, run by run
-  std::string difference;              // how two runs differ, or one ended early
-  bool broken = false;                 // `difference` breaks a claim
+  std::string what;                    // how two runs differ, or one ended early
+  bool broken = false;                 // `what` breaks a claim
   std::vector<Judged> judged{};
   std::string key() const { return input + ", " + configuration; }
 };
@@ -204,7 +204,7 @@ inline constexpr const char* own_cases_in_id = "own/";
 struct CorpusRow {
   static constexpr const char* kind = "corpus";
   struct Failed {
-    std::string id, signature, explanation;
+    std::string id, signature, what;
   };
   // `failed` lists the cases that do not hold, `open` those without an answer, of which nothing is
   // known.

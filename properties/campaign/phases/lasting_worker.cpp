@@ -17,6 +17,9 @@ namespace {
 
 // Of each family: so many cases are remembered, and so many are looked at for them.
 constexpr int colliding_of_a_family = 2, free_of_a_family = 1, most_looked_at = 6;
+// After so many cases that have no answer any more none is asked again: each may take the limit of a
+// case.
+constexpr std::uint64_t most_open = 3;
 
 WorkerLimits limits_of(const CampaignRequest& request) {
   auto limits = request.worker_limits();
@@ -75,7 +78,7 @@ void LastingWorker::remember(const corpus::Case& c, CaseRun first) {
 AskedAgain LastingWorker::ask_again(Store& store) {
   AskedAgain row;
   row.shard = text_of(request_.shard);
-  for (; !remembered_.empty(); remembered_.pop_back()) {
+  for (; !remembered_.empty() && row.open < most_open; remembered_.pop_back()) {
     const auto& asked = remembered_.back();
     const auto again = run(asked.c);
     ++row.cases;

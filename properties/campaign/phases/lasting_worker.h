@@ -33,7 +33,8 @@ class LastingWorker {
 
   // Asks the process for all remembered cases again, the last one first. An answer that is not the
   // first one is judged anew, by the oracle and by the claim `deterministic`. If it breaks a claim,
-  // that is a failure of the run. What this came to is stored. Throws StoreProblem.
+  // that is a failure of the run. After three cases without an answer it stops asking. What this
+  // came to is stored. Throws StoreProblem.
   AskedAgain ask_again(Store& store);
 
  private:

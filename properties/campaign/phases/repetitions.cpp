@@ -70,14 +70,15 @@ void put_side_by_side(corpus::Case& c, int copies) {
     c.triangles.middleRows(k * triangles, triangles).array() += static_cast<int>(k * vertices);
 }
 
-// A map of space that keeps what is outside outside. It bends nothing, so what meets still does,
-// but for what rounding decides.
+// Entries between -most and most.
 Eigen::Matrix3d drawn_entries(Random& random, double most) {
   Eigen::Matrix3d entries;
   for (double& entry : entries.reshaped()) entry = most * random.signed_unit();
   return entries;
 }
 
+// A map of space that keeps what is outside outside. It bends nothing, so what meets still does,
+// but for what rounding decides.
 Eigen::Matrix3d drawn_map(Random& random) {
   constexpr double most = 0.25;
   return Eigen::Matrix3d::Identity() + drawn_entries(random, most);
@@ -256,9 +257,9 @@ class Repetitions {
     row.triangles = static_cast<std::uint64_t>(c.triangles.rows());
     const auto seen = contracted(c, request_.detector.contract);
     if (!seen) {
-      row.difference = "beyond the contract";
+      row.what = "beyond the contract";
     } else if (hung_ >= most_hung_repetitions) {
-      row.difference = fmt::format("not run: it hung on {} of them before", hung_);
+      row.what = fmt::format("not run: it hung on {} of them before", hung_);
     } else {
       row.steps = corpus::steps_of(*seen).size();
       run_all(*seen, judged, row);
@@ -293,7 +294,7 @@ class Repetitions {
       row.threads.push_back(threads_[place]);
       if (run.end == RunEnd::hung || run.end == RunEnd::out_of_memory) {
         hung_ += run.end == RunEnd::hung ? 1 : 0;
-        row.difference = run.explanation;
+        row.what = run.explanation;
         return;
       }
       ++row.runs;
@@ -372,12 +373,11 @@ class Repetitions {
             const JudgedRun& judged, Repetition& row) {
     row.broken = judged.outcome == Outcome::defect;
     const auto s = differing_step(first, run);
-    row.difference =
-        !s ? fmt::format("{}: {}", name_of(run.end), run.explanation)
-           : fmt::format("step {}, run {} with {} threads: {}; run 1 with {}: {}", *s + 1,
-                         row.threads.size(), row.threads.back(), answer_of(run, *s),
-                         row.threads.front(), answer_of(first, *s));
-    if (row.broken) keep_end(s ? with_steps(c, {*s}) : c, run, judged, row.difference);
+    row.what = !s ? fmt::format("{}: {}", name_of(run.end), run.explanation)
+                  : fmt::format("step {}, run {} with {} threads: {}; run 1 with {}: {}", *s + 1,
+                                row.threads.size(), row.threads.back(), answer_of(run, *s),
+                                row.threads.front(), answer_of(first, *s));
+    if (row.broken) keep_end(s ? with_steps(c, {*s}) : c, run, judged, row.what);
   }
 
   // Stores what the end of a run shows, or its difference from another one.

@@ -238,6 +238,10 @@ TEST(Gates, EveryShardAsksAPlugInAgainAtTheEnd) {
   expect(judged, Gate::complete, "incomplete", 3);
   EXPECT_EQ(judged.of(Gate::complete).reasons,
             std::vector<std::string>{"0 of 1 shards asked the detector again at the end"});
+  const Change no_answer = [](auto& f) { f.evidence.asked_again.at(0).open = 1; };
+  const auto open = judged_after({plug_in, no_answer});
+  expect(open, Gate::complete, "incomplete", 3);
+  EXPECT_EQ(open.of(Gate::complete).reasons.size(), 1u);
 }
 
 TEST(Gates, WithoutContactsInsideTheContractNothingIsCertified) {
