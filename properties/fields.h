@@ -10,6 +10,7 @@
 #pragma once
 
 #include <boost/preprocessor/seq/for_each.hpp>
+#include <boost/preprocessor/stringize.hpp>
 #include <boost/preprocessor/variadic/to_seq.hpp>
 
 namespace assay::properties {
@@ -27,7 +28,7 @@ class NamedFields {
 
 }  // namespace assay::properties
 
-#define ASSAY_FIELD_OF_X(r, data, name) archive(#name, x.name);
+#define ASSAY_FIELD_OF_X(r, data, name) archive(BOOST_PP_STRINGIZE(name), x.name);
 #define ASSAY_FIELDS(Type, ...)                                                          \
   template <class Archive>                                                               \
   void fields(Archive& archive, Type& x) {                                               \

@@ -17,8 +17,8 @@ namespace {
 
 // Of each family: so many cases are remembered, and so many are looked at for them.
 constexpr int colliding_of_a_family = 2, free_of_a_family = 1, most_looked_at = 6;
-// After so many cases that have no answer any more none is asked again: each may take the limit of a
-// case.
+// After so many cases that have no answer any more none is asked again, because each may take the
+// limit of a case.
 constexpr std::uint64_t most_open = 3;
 
 WorkerLimits limits_of(const CampaignRequest& request) {
