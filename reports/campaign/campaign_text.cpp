@@ -268,14 +268,19 @@ std::string verdict_text(const RunFindings& findings, const properties::Judgemen
   if (judgement.exit_code == exit_defect || judgement.exit_code == exit_unsound)
     std::transform(word.begin(), word.end(), word.begin(),
                    [](char c) { return c == '-' ? ' ' : static_cast<char>(std::toupper(c)); });
-  const auto& repeated = findings.evidence.repeated;
-  const auto differing =
-      std::count_if(repeated.begin(), repeated.end(), [](const auto& one) { return one.broken; });
-  return fmt::format(
-      "{}: {} trials with a defect, {} undecided, {} laws broken{}", word,
-      findings.tally.with_defect(), findings.tally.open(),
-      properties::broken_laws(findings.tally.counts),
-      differing ? fmt::format(", {} larger meshes on which runs differ", differing) : "");
+  std::uint64_t differing = 0, wrong_steps = 0, wrong_again = 0;
+  for (const auto& one : findings.evidence.repeated) {
+    differing += one.broken ? 1 : 0;
+    for (const auto& step : one.judged) wrong_steps += step.holds ? 0 : 1;
+  }
+  for (const auto& asked : findings.evidence.asked_again) wrong_again += asked.wrong;
+  std::string out = fmt::format("{}: {} trials with a defect, {} undecided, {} laws broken", word,
+                                findings.tally.with_defect(), findings.tally.open(),
+                                properties::broken_laws(findings.tally.counts));
+  if (differing) out += fmt::format(", {} larger meshes on which runs differ", differing);
+  if (wrong_steps) out += fmt::format(", {} wrong steps of larger meshes", wrong_steps);
+  if (wrong_again) out += fmt::format(", {} cases wrong when asked again", wrong_again);
+  return out;
 }
 
 }  // namespace assay::reports

@@ -100,6 +100,7 @@ TEST_F(Repetitions, ADetectorThatIsWrongAfterManyCommitsIsFound) {
     EXPECT_EQ(made.exit_code, 1) << made.out << made.err;
     EXPECT_TRUE(contains(made.out, "DEFECT free-sound: answered free, ")) << made.out;
     EXPECT_TRUE(contains(made.out, ", large mesh")) << made.out;
+    EXPECT_TRUE(contains(made.out, " wrong steps of larger meshes")) << made.out;
     const auto lines = replay_lines(made.out);
     ASSERT_FALSE(lines.empty());
     const auto again = run_assay(lines[0], "ASSAY_QUERY=free-after-commits=100 ");
