@@ -266,8 +266,7 @@ std::string corpus_row_text(const CorpusRow& row) {
       fmt::format("{:<18} {:<18} {:>6} {:>6} {:>11} {:>7} {:>8}\n", row.input, row.configuration,
                   row.cases, row.steps, row.collisions, row.pairs, row.defects);
   for (const auto& open : row.open) text += fmt::format("  {}: {}\n", open.id, open.what);
-  for (const auto& failed : row.failed)
-    text += fmt::format("  {}: {}\n", failed.id, failed.what);
+  for (const auto& failed : row.failed) text += fmt::format("  {}: {}\n", failed.id, failed.what);
   return text;
 }
 
