@@ -120,4 +120,10 @@ detector::Decision referee(const detector::EdgeEdge& query, const RefereeOptions
   return Referee(query, options).run();
 }
 
+detector::Decision referee(const detector::FourPoints& query, const RefereeOptions& options) {
+  const auto& p = query.points;
+  return query.first_group == 1 ? referee(detector::VertexFace{p[0], {p[1], p[2], p[3]}}, options)
+                                : referee(detector::EdgeEdge{{p[0], p[1]}, {p[2], p[3]}}, options);
+}
+
 }  // namespace assay::oracle

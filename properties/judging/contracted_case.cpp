@@ -140,18 +140,7 @@ std::string why_left_out(const corpus::Case& c, const Contract& contract) {
                      pair->b, distance, steps.size() > 1 ? ", and every other step starts so" : "");
 }
 
-namespace {
-
 using detector::FourPoints;
-
-oracle::ContactAnswer exact_answer(const FourPoints& q) {
-  const auto& p = q.points;
-  return q.first_group == 1
-             ? oracle::vertex_face_contact({p[0], {p[1], p[2], p[3]}}, detector::Want::first_time)
-             : oracle::edge_edge_contact({{p[0], p[1]}, {p[2], p[3]}}, detector::Want::first_time);
-}
-
-}  // namespace
 
 bool start_apart(const FourPoints& q, double distance) {
   // Two triangles of the two features. Where a feature is a point or a segment, so is its triangle.
@@ -172,7 +161,7 @@ bool start_apart(const FourPoints& q, double distance) {
 }
 
 oracle::StepJudgement judge_query(const FourPoints& query) {
-  const auto answer = exact_answer(query);
+  const auto answer = oracle::contact_of(query, detector::Want::first_time);
   oracle::StepJudgement judgement;
   judgement.complete = true;
   judgement.feature_candidates = 1;

@@ -125,21 +125,36 @@ std::optional<SelfTestCase> self_test_case(const std::string& name) {
   return {};
 }
 
-namespace {
+std::optional<std::string> SelfTestFamily::check(std::uint64_t seed, std::uint64_t index,
+                                                 QueryTally& tally) const {
+  const auto made = at(seed, index);
+  if (!made) return {};
+  return check_query(*made, Random(~seed, index).next(), tally);
+}
 
-std::uint64_t pick(std::uint64_t seed, std::uint64_t index) { return Random(~seed, index).next(); }
+std::string SelfTestFamily::text(std::uint64_t seed, std::uint64_t index) const {
+  const auto made = at(seed, index);
+  return made ? exact_text(made->query) + answers_text(made->query)
+              : "no query at this place: an equal one stands elsewhere\n";
+}
+
+namespace {
 
 class RungFamily final : public SelfTestFamily {
  public:
   RungFamily() : SelfTestFamily("rungs", "named queries, each with the rung that must decide it") {}
   std::uint64_t indices(std::uint64_t) const override { return rung_cases().size(); }
 
+  std::optional<GeneratedQuery> at(std::uint64_t, std::uint64_t index) const override {
+    return GeneratedQuery{named_at(index).query, {}};
+  }
+
   std::optional<std::string> check(std::uint64_t seed, std::uint64_t index,
                                    QueryTally& tally) const override {
-    const RungCase& named = rung_cases()[index % rung_cases().size()];
-    if (auto wrong = check_query({named.query, {}}, pick(seed, index), tally)) return wrong;
+    if (auto wrong = SelfTestFamily::check(seed, index, tally)) return wrong;
+    const RungCase& named = named_at(index);
     for (const auto want : {detector::Want::yes_no, detector::Want::first_time}) {
-      const auto answer = ask_oracle(named.query, want);
+      const auto answer = oracle::contact_of(named.query, want);
       if (answer.contact != named.contact ||
           (named.contact && want == detector::Want::first_time && answer.first != named.first)) {
         ++tally.contradictions;
@@ -153,13 +168,13 @@ class RungFamily final : public SelfTestFamily {
     return {};
   }
 
-  std::optional<Query> query_at(std::uint64_t, std::uint64_t index) const override {
-    return rung_cases()[index % rung_cases().size()].query;
+  std::string text(std::uint64_t seed, std::uint64_t index) const override {
+    return fmt::format("{}\n{}", named_at(index).name, SelfTestFamily::text(seed, index));
   }
 
-  std::string text(std::uint64_t, std::uint64_t index) const override {
-    const RungCase& named = rung_cases()[index % rung_cases().size()];
-    return fmt::format("{}\n{}{}", named.name, exact_text(named.query), answers_text(named.query));
+ private:
+  static const RungCase& named_at(std::uint64_t index) {
+    return rung_cases()[index % rung_cases().size()];
   }
 };
 
@@ -172,21 +187,9 @@ class WorldFamily final : public SelfTestFamily {
     return queries >= from_ ? world_.places() : 0;
   }
 
-  std::optional<std::string> check(std::uint64_t seed, std::uint64_t index,
-                                   QueryTally& tally) const override {
+  std::optional<GeneratedQuery> at(std::uint64_t, std::uint64_t index) const override {
     const auto query = world_.at(index);
-    if (!query) return {};
-    return check_query({*query, {}}, pick(seed, index), tally);
-  }
-
-  std::optional<Query> query_at(std::uint64_t, std::uint64_t index) const override {
-    return world_.at(index);
-  }
-
-  std::string text(std::uint64_t, std::uint64_t index) const override {
-    const auto query = world_.at(index);
-    return query ? exact_text(*query) + answers_text(*query)
-                 : "no query at this place: an equal one stands elsewhere\n";
+    return query ? std::optional(GeneratedQuery{*query, {}}) : std::nullopt;
   }
 
  private:
@@ -203,18 +206,8 @@ class RandomFamily final : public SelfTestFamily {
     return (queries + one_in - 1) / one_in;
   }
 
-  std::optional<std::string> check(std::uint64_t seed, std::uint64_t index,
-                                   QueryTally& tally) const override {
-    return check_query(generator_.make(seed, index), pick(seed, index), tally);
-  }
-
-  std::optional<Query> query_at(std::uint64_t seed, std::uint64_t index) const override {
-    return generator_.make(seed, index).query;
-  }
-
-  std::string text(std::uint64_t seed, std::uint64_t index) const override {
-    const Query query = generator_.make(seed, index).query;
-    return exact_text(query) + answers_text(query);
+  std::optional<GeneratedQuery> at(std::uint64_t seed, std::uint64_t index) const override {
+    return generator_.make(seed, index);
   }
 
  private:
@@ -246,7 +239,7 @@ class StepFamily final : public SelfTestFamily {
     return "pairs or times of the oracle's step and the detector's differ";
   }
 
-  std::optional<Query> query_at(std::uint64_t, std::uint64_t) const override { return {}; }
+  std::optional<GeneratedQuery> at(std::uint64_t, std::uint64_t) const override { return {}; }
 
   std::string text(std::uint64_t seed, std::uint64_t index) const override {
     const SmallStep step = make_small_step(seed, index);

@@ -89,15 +89,8 @@ int serve(Channel channel, const LoadedPlugin* library) {
   try {
     std::string message;
     while (channel.receive(message) == Transfer::done) {
-      Request received;
-      if (!decode(message, received)) return exit_usage;
-      if (received.kind == RequestKind::queries) {
-        if (!plugin || !plugin->description().parts.query) return exit_usage;
-        const QueryReply answered{received.query.number, plugin->ask(received.query.queries)};
-        if (channel.send(encode(answered)) != Transfer::done) return 0;
-        continue;
-      }
-      const RunRequest& request = received.run;
+      RunRequest request;
+      if (!decode(message, request)) return exit_usage;
       reply.number = request.number;
       for (reply.place = 0; reply.place < request.configurations.size(); ++reply.place) {
         const auto& configuration = request.configurations[reply.place];

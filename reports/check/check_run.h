@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "reports/check/check_outcome.h"
-#include "reports/check/subject.h"
+#include "reports/check/step_answers.h"
 #include "reports/terminal/option_words.h"
 
 namespace assay::reports {

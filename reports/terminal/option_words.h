@@ -16,7 +16,7 @@
 #include <system_error>
 #include <vector>
 
-#include "properties/worker/isolation/isolation.h"
+#include "properties/judging/subject.h"
 #include "reports/terminal/complaint.h"
 
 namespace CLI {
@@ -122,9 +122,7 @@ Check positive();      // a number above 0
 Check whole_number();  // 0 .. 2^64-1
 Check share();         // a number above 0, at most 1
 
-// Which part of a plug-in is judged. `by_library`: all that it holds, its steps or candidates and
-// its query.
-enum class DetectorPart : std::uint8_t { by_library, steps, query };
+using properties::DetectorPart;
 
 // A detector as the user names it.
 struct DetectorWords {

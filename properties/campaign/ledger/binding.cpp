@@ -68,7 +68,7 @@ std::string binding_of(const CampaignRequest& request) {
                      request.seed,
                      planted_count(),
                      text_of(request.shard),
-                     bound(request.detector, request.threads),
+                     bound(request.detector, request.limits.threads),
                      {digest_of("/proc/self/exe"), digest_of(request.worker),
                       plugin_digest(request), generator_digest()}};
   Json json = json_of_fields<Json>(run);

@@ -171,6 +171,19 @@ bool is_tested(const Contract& contract, const detector::PairContact& contact) {
          is_edge_edge == (contract.features == TestedFeatures::edge_edge);
 }
 
+// What the oracle would say of the step if the built-in detector, which answered so, is right.
+oracle::StepJudgement believed(const detector::StepResult& answered, const Contract& contract) {
+  oracle::StepJudgement judgement;
+  judgement.answer = answered.answer;
+  judgement.complete = true;
+  judgement.first = answered.first;
+  judgement.pairs = answered.pairs;
+  for (const auto& contact : answered.pairs) {
+    if (is_tested(contract, contact)) judgement.asked_pairs.push_back(contact);
+  }
+  return judgement;
+}
+
 // The steps in which the run breaks a claim if the built-in detector, whose run is `answered`, is
 // right: those with the fewest contacts, and not more than most_differing.
 std::vector<std::size_t> differing_steps(const corpus::Case& c, const DetectorUnderTest& detector,
@@ -178,16 +191,8 @@ std::vector<std::size_t> differing_steps(const corpus::Case& c, const DetectorUn
   const auto& contract = detector.contract;
   std::vector<std::size_t> places;
   for (std::size_t s = 0; s < std::min(run.steps.size(), answered.steps.size()); ++s) {
-    const auto& believed = answered.steps[s];
-    oracle::StepJudgement judgement;
-    judgement.answer = believed.answer;
-    judgement.complete = true;
-    judgement.first = believed.first;
-    judgement.pairs = believed.pairs;
-    for (const auto& contact : believed.pairs) {
-      if (is_tested(contract, contact)) judgement.asked_pairs.push_back(contact);
-    }
-    const auto diff = compare_step(run, s, judgement, detector.claims, contract, c.triangles);
+    const auto diff = compare_step(run, s, believed(answered.steps[s], contract), detector.claims,
+                                   contract, c.triangles);
     if (diff.outcome == Outcome::defect) places.push_back(s);
   }
   std::stable_sort(places.begin(), places.end(), [&](std::size_t a, std::size_t b) {
@@ -204,11 +209,7 @@ std::vector<std::size_t> plain_steps(const corpus::Case& c, const Contract& cont
   std::optional<std::size_t> colliding, free;
   std::size_t fewest = 0;
   for (std::size_t s = 0; s < answered.steps.size(); ++s) {
-    const auto& pairs = answered.steps[s].pairs;
-    const auto count = static_cast<std::size_t>(
-        std::count_if(pairs.begin(), pairs.end(), [&](const detector::PairContact& contact) {
-          return is_tested(contract, contact) && !leaves_out(contract, c.triangles, contact.pair);
-        }));
+    const auto count = truth_of(c, believed(answered.steps[s], contract), contract).pairs.size();
     if (count == 0 && !free) free = s;
     if (count > 0 && (!colliding || count < fewest)) {
       colliding = s;
@@ -336,22 +337,13 @@ class Repetitions {
           judge_trial(alone, truth, step_alone(run, s), configuration(), request_.detector);
       // Without a verdict nothing is known of this size.
       if (judged.outcome != Outcome::holds && judged.outcome != Outcome::defect) continue;
-      row.judged.push_back(
-          {s + 1, counted_contacts(truth[0], alone), judged.outcome == Outcome::holds});
+      row.judged.push_back({s + 1, truth_of(alone, truth[0], contract).pairs.size(),
+                            judged.outcome == Outcome::holds});
       if (!judged.failure) continue;
       auto failure = *judged.failure;
       failure.cause = "large mesh";
       if (kept[failure.signature()]++ < most_kept) keep(c, s, run, failure);
     }
-  }
-
-  std::uint64_t counted_contacts(const oracle::StepJudgement& truth, const corpus::Case& c) const {
-    const auto& contract = request_.detector.contract;
-    const auto& pairs = contract.features == TestedFeatures::both ? truth.pairs : truth.asked_pairs;
-    return static_cast<std::uint64_t>(
-        std::count_if(pairs.begin(), pairs.end(), [&](const detector::PairContact& contact) {
-          return !leaves_out(contract, c.triangles, contact.pair);
-        }));
   }
 
   // Stores a step that breaks a claim: alone, or with the steps before it if the detector answers
@@ -406,9 +398,10 @@ class Repetitions {
 }  // namespace
 
 std::vector<std::uint64_t> threads_of_runs(const CampaignRequest& request) {
-  if (!request.detector.claims.has(Claim::deterministic)) return {request.threads};
-  if (request.takes_threads) return {std::begin(repeated_threads), std::end(repeated_threads)};
-  return {request.threads, request.threads, request.threads};
+  if (!request.detector.claims.has(Claim::deterministic)) return {request.limits.threads};
+  if (request.description.parts.takes_threads)
+    return {std::begin(repeated_threads), std::end(repeated_threads)};
+  return std::vector(3, request.limits.threads);
 }
 
 bool is_repeated(const CampaignPlan& plan, bool built_in) {

@@ -8,9 +8,9 @@
 
 #include "properties/campaign/ledger/store.h"
 #include "properties/campaign/ledger/tally.h"
-#include "properties/campaign/trials/trial.h"
 #include "properties/generators/pair_blocks.h"
 #include "properties/judging/case_options.h"
+#include "properties/judging/trial.h"
 #include "properties/laws/facts/case_facts.h"
 #include "properties/laws/law.h"
 #include "properties/worker/child_process.h"

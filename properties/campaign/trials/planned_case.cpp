@@ -94,14 +94,9 @@ bool is_every_fourth(const std::string& id) {
 }
 
 bool has_contact(const corpus::Case& c, const Contract& contract) {
-  const bool is_query = says_query(c);
-  const bool all_features = is_query || contract.features == TestedFeatures::both;
-  for (const auto& step : judge_case(c, contract)) {
-    for (const auto& contact : all_features ? step.pairs : step.asked_pairs) {
-      if (is_query || !leaves_out(contract, c.triangles, contact.pair)) return true;
-    }
-  }
-  return false;
+  const auto steps = judge_case(c, contract);
+  return std::any_of(steps.begin(), steps.end(),
+                     [&](const auto& step) { return truth_of(c, step, contract).first; });
 }
 
 }  // namespace

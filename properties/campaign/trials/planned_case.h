@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "corpus/cases/case_file.h"
-#include "properties/campaign/trials/trial.h"
 #include "properties/claims/contract.h"
 #include "properties/generators/families.h"
+#include "properties/judging/trial.h"
 
 namespace assay::properties {
 

@@ -11,6 +11,7 @@
 #include "properties/printable.h"
 #include "properties/worker/case_run.h"
 #include "properties/worker/plugin/plugin_reading.h"
+#include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
 
@@ -114,34 +115,53 @@ Expected<PluginHost> PluginHost::open(const std::filesystem::path& library, std:
   return PluginHost(table.value(), std::move(description.value()));
 }
 
-std::vector<QueryAnswer> PluginHost::ask(std::span<const detector::FourPoints> queries) const {
-  std::vector<QueryAnswer> answers;
-  for (const auto& query : queries) {
-    constexpr std::size_t points = 4, axes = 3;
-    std::array<double, points * axes> x_t0, x_t1;
-    for (std::size_t i = 0; i < points; ++i) {
-      for (std::size_t k = 0; k < axes; ++k) {
-        x_t0[axes * i + k] = query.points[i].t0[k];
-        x_t1[axes * i + k] = query.points[i].t1[k];
-      }
-    }
-    assay_query_result raw = {};
-    const std::int32_t code =
-        table_.query(query.first_group == 1 ? ASSAY_QUERY_VERTEX_FACE : ASSAY_QUERY_EDGE_EDGE,
-                     x_t0.data(), x_t1.data(), &raw);
-    answers.push_back(query_answer(code, raw));
-    auto& explanation = answers.back().explanation;
-    if (code != ASSAY_OK && code != ASSAY_OUT_OF_MEMORY)
-      explanation = text_of_code(table_, "query", code);
-    if (code == ASSAY_OK && raw.answer == ASSAY_ERROR) {
-      if (auto text = text_of_error(table_); !text.empty()) explanation = std::move(text);
+CaseRun PluginHost::ask(const detector::FourPoints& query, bool is_timed) const {
+  constexpr std::size_t points = 4, axes = 3;
+  std::array<double, points * axes> x_t0, x_t1;
+  for (std::size_t i = 0; i < points; ++i) {
+    for (std::size_t k = 0; k < axes; ++k) {
+      x_t0[axes * i + k] = query.points[i].t0[k];
+      x_t1[axes * i + k] = query.points[i].t1[k];
     }
   }
-  return answers;
+  assay_query_result raw = {};
+  RunClock clock(is_timed);
+  clock.created();
+  clock.begin();
+  const std::int32_t code =
+      table_.query(query.first_group == 1 ? ASSAY_QUERY_VERTEX_FACE : ASSAY_QUERY_EDGE_EDGE,
+                   x_t0.data(), x_t1.data(), &raw);
+  clock.answered();
+  CaseRun run;
+  run.times = clock.take();
+  StepResult& result = run.steps.emplace_back();
+  if (code == ASSAY_OUT_OF_MEMORY) {
+    result.answer = Answer::undecided;
+    run.explanation = "out of memory";
+  } else if (code != ASSAY_OK) {
+    run.explanation = text_of_code(table_, "query", code);
+  } else {
+    assay_result alike = {};
+    alike.answer = raw.answer;
+    alike.first_lo = raw.first_lo;
+    alike.first_hi = raw.first_hi;
+    auto read = step_result(alike, 0);
+    if (read) {
+      result = std::move(read.value());
+    } else {
+      const auto text = raw.answer == ASSAY_ERROR ? text_of_error(table_) : "";
+      run.explanation = text.empty() ? read.error().message : text;
+    }
+  }
+  return run;
 }
 
 CaseRun PluginHost::run(const corpus::Case& c, bool is_timed) const {
   const auto& parts = description_.parts;
+  if (const auto query = query_of(c)) {
+    if (!parts.query) return {RunEnd::refused, "it answers no queries", {}};
+    return ask(*query, is_timed);
+  }
   if (!parts.steps && !parts.candidates) return {RunEnd::refused, "it takes no steps", {}};
   std::vector<detector::Positions> frames;
   for (const auto& frame : c.frames) {

@@ -219,18 +219,6 @@ Expected<detector::StepResult> step_result(const assay_result& raw, std::int32_t
   return result;
 }
 
-QueryAnswer query_answer(std::int32_t code, const assay_query_result& raw) {
-  if (code == ASSAY_OUT_OF_MEMORY) return {Answer::undecided, {}, "out of memory"};
-  if (code != ASSAY_OK) return {Answer::error, {}, "query returned " + std::to_string(code)};
-  assay_result alike = {};
-  alike.answer = raw.answer;
-  alike.first_lo = raw.first_lo;
-  alike.first_hi = raw.first_hi;
-  const auto result = step_result(alike, 0);
-  if (!result) return {Answer::error, {}, result.error().message};
-  return {result.value().answer, result.value().first, ""};
-}
-
 Expected<std::vector<detector::TrianglePair>> candidate_pairs(const assay_candidates& raw,
                                                               std::int32_t triangle_count) {
   const auto broken = [](std::string explanation) { return Problem{std::move(explanation)}; };

@@ -1,8 +1,8 @@
 // Plug-ins of steps, of a query and of candidates with faults that are excused or found.
 #include "properties/campaign/ledger/step_measures.h"
 #include "properties/campaign/trials/planned_case.h"
-#include "properties/campaign/trials/trial.h"
 #include "properties/claims/contract.h"
+#include "properties/judging/trial.h"
 #include "properties/queries/query_families.h"
 #include "properties/worker/plugin/query_case.h"
 #include "properties/worker/worker_process.h"
@@ -200,7 +200,7 @@ Found queries_with(const std::string& words, std::uint64_t queries_a_family = 25
   const auto& detector = tried.detector;
   Found found;
   std::vector<corpus::Case> cases;
-  std::vector<detector::FourPoints> queries;
+  std::vector<CaseRun> runs, again;
   for (const auto& family : query_families()) {
     for (std::uint64_t i = 0; i < queries_a_family; ++i) {
       const auto made =
@@ -208,11 +208,11 @@ Found queries_with(const std::string& words, std::uint64_t queries_a_family = 25
       auto seen = contracted(made.c, detector.contract);
       found.left_out += seen ? 0 : 1;
       if (!seen) continue;
-      queries.push_back(*query_of(*seen));
+      runs.push_back(tried.worker.run(*seen, detector.configurations)[0]);
       cases.push_back(std::move(*seen));
     }
   }
-  const auto runs = tried.worker.ask(queries), again = tried.worker.ask(queries);
+  for (const auto& c : cases) again.push_back(tried.worker.run(c, detector.configurations)[0]);
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const auto truth = judge_case(cases[i], detector.contract);
     found.contacts += truth[0].pairs.size();
