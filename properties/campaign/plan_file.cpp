@@ -293,7 +293,11 @@ corpus::Expected<CampaignPlan> find_plan(const std::string& name_or_file) {
   BOOST_OUTCOME_TRY(bytes, corpus::read_bytes(name_or_file));
   BOOST_OUTCOME_TRY(plan, parse_plan(bytes, name_or_file));
   for (const auto& named : named_plans()) {
-    if (plan.name != named.name || is_the_same_but_for_time(plan, named)) continue;
+    // The query of a plug-in is judged beside the steps, or alone, in a campaign of the same name.
+    if (plan.name != named.name || is_the_same_but_for_time(plan, named) ||
+        is_the_same_but_for_time(plan, with_queries(named)) ||
+        is_the_same_but_for_time(plan, query_plan(named)))
+      continue;
     return corpus::problem_in(name_or_file,
                               "is another plan than the built-in campaign of its name");
   }

@@ -165,6 +165,8 @@ TEST_F(Plans, TheNameOfABuiltInOneBelongsToItsPlanAlone) {
     const auto shorter = read(json.dump());
     ASSERT_TRUE(shorter) << shorter.error().message;
     EXPECT_EQ(shorter.value().name, named.name);
+    for (const auto& of_plugin : {with_queries(named), query_plan(named)})
+      EXPECT_TRUE(read(plan_text(of_plugin))) << named.name;
     auto smaller = json;
     smaller["strata"] = {{{"family", "broken"}, {"cases", 1}}};
     auto other = json;
