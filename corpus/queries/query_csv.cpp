@@ -140,10 +140,8 @@ class CsvReader {
     const auto point = [&](std::size_t i) {
       return detector::MovingPoint{rows[i].x, rows[i + 4].x};
     };
-    if (kind_ == Kind::vertex_face) {
-      return {detector::VertexFace{point(0), {point(1), point(2), point(3)}}, rows[0].label};
-    }
-    return {detector::EdgeEdge{{point(0), point(1)}, {point(2), point(3)}}, rows[0].label};
+    return {{{point(0), point(1), point(2), point(3)}, kind_ == Kind::vertex_face ? 1 : 2},
+            rows[0].label};
   }
 
   std::string_view text_;

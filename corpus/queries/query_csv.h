@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <optional>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "corpus/problem.h"
@@ -18,7 +17,7 @@
 namespace assay::corpus {
 
 struct LabelledQuery {
-  std::variant<detector::VertexFace, detector::EdgeEdge> query;
+  detector::FourPoints query;
   std::optional<bool> truth;  // whether there is a contact in [0,1]; absent without a label
 };
 

@@ -70,7 +70,7 @@ class Comparison {
   StepDiff run(StepTruth truth) {
     diff_.answer = result_.answer;
     diff_.oracle_complete = judgement_.complete;
-    diff_.nothing_in_contact = judgement_.complete && judgement_.pairs.empty();
+    diff_.nothing_in_contact = judgement_.complete && allowed().empty();
     diff_.claims_pairs = claims_.has(Claim::all_pairs) || claims_.has(Claim::first_pairs);
     if (result_.answer == Answer::error) {
       broken(Claim::total, !result_.problem);
@@ -80,6 +80,7 @@ class Comparison {
     diff_.partial = !detector_complete() || !judgement_.complete;
     truth_ = std::move(truth);
     diff_.first_contact = truth_.first;
+    diff_.starts_near = truth_.starts_near;
     diff_.left_out = std::move(truth_.left_out);
     compare_with_all();
     compare_with_what_counts();
@@ -90,6 +91,11 @@ class Comparison {
   }
 
  private:
+  // What may be reported: whatever is there, or is so within the slack.
+  const std::vector<PairContact>& allowed() const {
+    return judgement_.within_slack ? *judgement_.within_slack : judgement_.pairs;
+  }
+
   bool detector_complete() const { return result_.answer != Answer::undecided; }
 
   // Finds what the detector reports although it is not there, or not there yet. Contacts that the
@@ -97,10 +103,10 @@ class Comparison {
   void compare_with_all() {
     // If the oracle was stopped, it has not refuted what it has not reached.
     if (!judgement_.complete) return;
-    auto theirs = judgement_.pairs.begin();
+    auto theirs = allowed().begin();
     for (const auto& ours : result_.pairs) {
-      while (theirs != judgement_.pairs.end() && theirs->pair < ours.pair) ++theirs;
-      if (theirs == judgement_.pairs.end() || ours.pair < theirs->pair) {
+      while (theirs != allowed().end() && theirs->pair < ours.pair) ++theirs;
+      if (theirs == allowed().end() || ours.pair < theirs->pair) {
         diff_.spurious.push_back(ours);
       } else if (times_.ends_before(ours.time, theirs->time)) {
         diff_.early.push_back({ours.pair, ours.time, theirs->time});
@@ -180,14 +186,14 @@ class Comparison {
   void weigh() {
     broken(Claim::free_sound, diff_.answered_free);
     broken(Claim::not_late, diff_.late_first);
-    broken(Claim::first_time, diff_.wrong_first_time() && truth_.complete);
+    broken(Claim::first_time, diff_.wrong_first_time() && truth_.complete && contract_.margin == 0);
     if (contract_.reports_pairs) {
       broken(Claim::first_pairs, !unexcused_.empty());
       broken(Claim::all_pairs, !diff_.missing.empty() || !diff_.late.empty());
     }
     const bool spurious =
         diff_.answered_collision || !diff_.spurious.empty() || !diff_.early.empty();
-    broken(Claim::no_spurious, spurious && contract_.margin == 0);
+    broken(Claim::no_spurious, spurious && (contract_.margin == 0 || judgement_.within_slack));
     diff_.outcome = !diff_.broken.empty() ? Outcome::defect
                     : diff_.partial       ? Outcome::undecided
                                           : Outcome::holds;

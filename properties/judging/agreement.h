@@ -59,6 +59,7 @@ struct StepDiff {
   detector::Answer answer = detector::Answer::undecided;  // the detector's
   bool oracle_complete = false;                           // false: the oracle was stopped
   bool nothing_in_contact = false;  // by a complete oracle, whatever the contract leaves out
+  bool starts_near = false;         // StepTruth::starts_near
   bool claims_pairs = false;        // all-pairs or first-pairs is claimed
   // The detector or the oracle was stopped: only what both reached is compared.
   bool partial = false;
@@ -111,7 +112,8 @@ struct StepDiff {
 // in contact later than t* only, or its part of the contact graph at t* (triangles as nodes, pairs
 // in contact at t* as edges) holds a reported pair.
 //
-// If the contract has a margin, no-spurious is not judged. A step that was answered by an error
+// If the contract has a margin, first-time is not judged, and no-spurious goes by what comes within
+// separation + margin (StepJudgement::within_slack), or is not judged without that. A step that was answered by an error
 // breaks `total`, or is Outcome::error if `total` is not claimed. It is Outcome::error too if the
 // built-in detector refuses the input by name (StepResult::problem), because `total` speaks of
 // valid input. `deterministic` is not judged here, because it needs two runs: same_answers.

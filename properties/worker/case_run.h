@@ -82,7 +82,7 @@ struct CaseRun {
   // processes that it started if the run was long enough to look at them (processor_time.h).
   double processor_seconds = 0;
   // The last lines that a plug-in printed during the run (isolation/printed_words.h). Nothing with
-  // isolation none, nor for a query that was asked together with others.
+  // isolation none.
   std::string printed = {};
 };
 

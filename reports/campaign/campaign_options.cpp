@@ -96,7 +96,6 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
   if (words.memory) request.plan.case_bytes = *words.memory;
   request.seed = words.seed;
   request.jobs = words.jobs;
-  request.worker = properties::worker_program();
   if (!words.own_cases.empty()) {
     BOOST_OUTCOME_TRY(own, read_own_cases(words.own_cases));
     request.own_cases = std::move(own);
@@ -114,7 +113,8 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
   auto chosen_words = words.detector;
   if (asks_queries_alone(request.plan) && chosen_words.part == DetectorPart::by_library)
     chosen_words.part = DetectorPart::query;
-  BOOST_OUTCOME_TRY(choose_detector(chosen_words, request));
+  BOOST_OUTCOME_TRY(subject, choose_detector(chosen_words, {.unread = request.folder}));
+  static_cast<properties::Subject&>(request) = std::move(subject);
   const auto& detector = request.detector;
   if (!words.data.empty()) {
     BOOST_OUTCOME_TRY(sequences, public_sequences(words.data));

@@ -101,8 +101,7 @@ std::optional<CaseScene> make_scene(const corpus::Case& c,
   if (run.end != RunEnd::completed) scene.ended = end_text(run);
   scene.reports_pairs =
       run.has_answers && detector.contract.reports_pairs && !properties::says_query(scene.c);
-  scene.claims = detector.claims_in(configuration);
-  if (detector.contract.margin > 0) scene.claims.set(properties::Claim::no_spurious, false);
+  scene.claims = properties::judged_claims(detector.claims_in(configuration), detector.contract);
   scene.time_tolerance = detector.contract.time_tolerance;
   const auto script = corpus::steps_of(scene.c);
   for (std::size_t s = 0; s < script.size(); ++s) {
@@ -118,28 +117,19 @@ std::optional<CaseScene> make_scene(const corpus::Case& c,
   return scene;
 }
 
-namespace {
-
-constexpr double case_seconds = 10;
-
-}  // namespace
-
 SceneMaker::SceneMaker(const std::optional<DetectorWords>& detector)
     : detector_(properties::built_in_detector()) {
   if (!detector) {
     absent_ = "the store does not name the plug-in's library";
     return;
   }
-  properties::CampaignRequest request;
-  request.worker = properties::worker_program();
-  if (auto chosen = choose_detector(*detector, request); !chosen) {
-    absent_ = chosen.error().message;
+  auto subject = choose_detector(*detector);
+  if (!subject) {
+    absent_ = subject.error().message;
     return;
   }
-  detector_ = request.detector;
-  worker_.emplace(
-      properties::worker_program(), request.plugin,
-      properties::WorkerLimits{case_seconds, 0, request.isolation, {}, request.threads});
+  detector_ = subject.value().detector;
+  worker_.emplace(subject.value().process());
 }
 
 std::optional<CaseScene> SceneMaker::scene_of(const corpus::Case& c,

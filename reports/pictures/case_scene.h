@@ -12,7 +12,7 @@
 #include "detector/options.h"
 #include "detector/step_result.h"
 #include "oracle/mesh/step.h"
-#include "properties/campaign/trials/trial.h"
+#include "properties/judging/trial.h"
 #include "properties/worker/worker_process.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"

@@ -7,10 +7,11 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "corpus/formats/sequence_reader.h"
 #include "detector/mesh/mesh_checks.h"
-#include "oracle/mesh/step.h"
+#include "oracle/distance/step_distance.h"
 #include "properties/judging/case_options.h"
 #include "reports/check/check_run.h"
 #include "reports/pictures/contact_point.h"
@@ -30,17 +31,43 @@ void demand_good_input(const detector::TrianglesView& triangles,
     if (const auto bad = detector::check_positions(*x, x_t0.rows())) raise(*bad);
 }
 
+// With a separation above 0 the oracle is asked for what comes within it.
 py::dict judge(const py::object& triangles, const py::object& x_t0, const py::object& x_t1,
-               int jobs) {
+               double separation, int jobs) {
   const TrianglesArgument mesh(triangles, "triangles");
   const PositionsArgument from(x_t0, "x_t0"), to(x_t1, "x_t1");
   demand_good_input(mesh.view(), from.view(), to.view());
   const auto judgement = interruptible([&](const auto& stop) {
-    return oracle::judge_step({from.view(), to.view()}, mesh.view(), {jobs, stop});
+    const detector::SteppedMesh motion{from.view(), to.view()};
+    const oracle::JudgeOptions options{jobs, stop};
+    return separation > 0 ? oracle::judge_distance(motion, mesh.view(), {separation, 0}, {options})
+                          : oracle::judge_step(motion, mesh.view(), options);
   });
   py::dict fields = arrays_of(judgement.answer, judgement.first, judgement.pairs);
   fields["feature_candidates"] = judgement.feature_candidates;
   return fields;
+}
+
+// Returns the distance, and the pair, its first time within it and its features; or None where no
+// two triangles count.
+py::object least_distance(const py::object& triangles, const py::object& x_t0,
+                          const py::object& x_t1, int jobs) {
+  const TrianglesArgument mesh(triangles, "triangles");
+  const PositionsArgument from(x_t0, "x_t0"), to(x_t1, "x_t1");
+  demand_good_input(mesh.view(), from.view(), to.view());
+  const auto least = interruptible([&](const auto& stop) {
+    return oracle::least_distance({from.view(), to.view()}, mesh.view(),
+                                  {oracle::JudgeOptions{jobs, stop}});
+  });
+  if (!least.where) return py::none();
+  const auto& [pair, time, feature] = *least.where;
+  py::list vertices;
+  for (const auto v : feature.vertices) {
+    if (v >= 0) vertices.append(v);
+  }
+  return py::make_tuple(least.distance, py::make_tuple(pair.a, pair.b),
+                        py::make_tuple(time.lo, time.hi), detector::name_of(feature.kind),
+                        py::tuple(vertices));
 }
 
 using reports::CheckInput;
@@ -78,7 +105,20 @@ CheckQuestion question_of(const py::dict& given) {
   return question;
 }
 
-CheckInput input_of(const py::object& triangles, const py::list& frames) {
+// The relation of the bodies: by vertex the number of its body, and pairs of bodies that do not
+// meet.
+std::optional<corpus::CaseRelation> relation_of(const py::dict& given, const corpus::Case& c) {
+  corpus::CaseRelation relation;
+  take(given, "bodies", relation.pairs.body);
+  take(given, "apart", relation.pairs.apart);
+  if (relation.pairs.body.empty() && relation.pairs.apart.empty()) return std::nullopt;
+  if (const auto bad =
+          detector::check_counted_pairs(relation.pairs, c.triangles, c.frames[0].rows()))
+    raise(*bad);
+  return relation;
+}
+
+CheckInput input_of(const py::object& triangles, const py::list& frames, const py::dict& given) {
   corpus::Case c;
   c.triangles = TrianglesArgument(triangles, "triangles").view();
   for (const auto& frame : frames) {
@@ -88,6 +128,7 @@ CheckInput input_of(const py::object& triangles, const py::list& frames) {
   }
   if (c.frames.size() < 2) throw py::value_error("a step needs two frames or more");
   if (const auto bad = detector::check_triangles(c.triangles, c.frames[0].rows())) raise(*bad);
+  c.counted = relation_of(given, c);
   return {"frames",
           corpus::steps_of_case(std::make_shared<const corpus::Case>(std::move(c)), false)};
 }
@@ -114,7 +155,7 @@ py::tuple checked(CheckInput& input, const CheckQuestion& question, const std::s
 py::tuple check_arrays(const py::object& triangles, const py::list& frames, const py::dict& given,
                        const std::string& worker, const py::object& listener) {
   const auto question = question_of(given);
-  auto input = input_of(triangles, frames);
+  auto input = input_of(triangles, frames, given);
   return checked(input, question, worker, listener);
 }
 
@@ -222,6 +263,7 @@ py::tuple read_sequence(const std::vector<std::string>& files) {
 PYBIND11_MODULE(_judge, module) {
   using namespace assay::python;
   module.def("judge", judge);
+  module.def("least_distance", least_distance);
   module.def("check_arrays", check_arrays);
   module.def("check_files", check_files);
   module.def("contact_points", contact_points);

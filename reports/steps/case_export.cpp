@@ -180,6 +180,7 @@ std::string case_text(const corpus::Case& c, const properties::DetectorUnderTest
   std::string out =
       fmt::format("// Case {}, with the exact answer to each step.\n// Contract: {}.\n", c.id,
                   phrases.empty() ? "leaves nothing out" : joined(phrases, ", "));
+  if (c.counted) out += "// Of the pairs that count: `counted` of case.json says which do.\n";
   out += head;
   out += query ? fmt::format(fmt::runtime(query_text), query->first_group == 1)
                : fmt::format(fmt::runtime(mesh_text), rows_text(row_of_array, c.triangles),
@@ -192,6 +193,72 @@ std::string case_text(const corpus::Case& c, const properties::DetectorUnderTest
 
 std::string point_text(const detector::Point& p) {
   return fmt::format("{{{:a}, {:a}, {:a}}}", p[0], p[1], p[2]);
+}
+
+// A list of rows, each in braces, as `row` writes it.
+template <class List, class Row>
+std::string braced(const List& list, const Row& row) {
+  std::vector<std::string> rows;
+  for (const auto& item : list) rows.push_back(row(item));
+  return "{" + joined(rows, ", ") + "}";
+}
+
+std::string two_text(std::int32_t a, std::int32_t b) { return fmt::format("{}, {}", a, b); }
+
+// The relation as the built-in detector takes it.
+std::string relation_text(const detector::CountedPairs& pairs) {
+  const auto number = [](std::int32_t n) { return fmt::format("{}", n); };
+  const auto array = [](const auto& two) { return "{{" + two_text(two[0], two[1]) + "}}"; };
+  return fmt::format(
+      "static const builtin::CountedPairs counted = {{\n"
+      "  *assay::from_name<builtin::CountedLevel>(\"{}\"),\n  {},\n  {},\n  {}, {:a},\n  {},\n  "
+      "{},\n"
+      "  {},\n  {}}};\n",
+      name_of(pairs.level), braced(pairs.body, number), braced(pairs.apart, array), pairs.rings,
+      pairs.rest_distance,
+      braced(pairs.rest, [](const auto& x) { return "{" + point_text(x) + "}"; }),
+      braced(pairs.triangle_pairs,
+             [](const auto& pair) { return "{" + two_text(pair.a, pair.b) + "}"; }),
+      braced(pairs.vertex_faces,
+             [](const auto& pair) { return "{" + two_text(pair.vertex, pair.face) + "}"; }),
+      braced(pairs.edge_pairs,
+             [&](const auto& pair) { return "{" + array(pair.a) + ", " + array(pair.b) + "}"; }));
+}
+
+// The same as a plug-in is told it; a pointer that is null if the case has no relation.
+std::string told_relation_text(const corpus::Case& c) {
+  const auto* pairs = corpus::counted_of(c);
+  if (!pairs || pairs->count_all())
+    return "static const assay_counted_pairs* const counted = nullptr;\n";
+  std::string lists;
+  // An array, the number of its rows as a member, and its name; an empty list is a null pointer.
+  const auto member = [&](const char* type, const char* name, const auto& list, bool has_count,
+                          const auto& row) {
+    const auto count = has_count ? fmt::format("{}, ", list.size()) : "";
+    if (list.empty()) return count + "nullptr";
+    lists += fmt::format("static const {} counted_{}[] = {};\n", type, name, braced(list, row));
+    return fmt::format("{}counted_{}", count, name);
+  };
+  const std::vector<std::string> members = {
+      fmt::format("{}", static_cast<int>(pairs->level)),
+      member("std::int32_t", "body", pairs->body, false,
+             [](std::int32_t n) { return fmt::format("{}", n); }),
+      member("std::int32_t", "apart", pairs->apart, true,
+             [](const auto& two) { return two_text(two[0], two[1]); }),
+      fmt::format("{}, {:a}", pairs->rings, pairs->rest_distance),
+      member("double", "rest", pairs->rest, false,
+             [](const auto& x) { return fmt::format("{:a}, {:a}, {:a}", x[0], x[1], x[2]); }),
+      member("std::int32_t", "triangle_pairs", pairs->triangle_pairs, true,
+             [](const auto& pair) { return two_text(pair.a, pair.b); }),
+      member("std::int32_t", "vertex_faces", pairs->vertex_faces, true,
+             [](const auto& pair) { return two_text(pair.vertex, pair.face); }),
+      member("std::int32_t", "edge_pairs", pairs->edge_pairs, true, [](const auto& pair) {
+        return two_text(pair.a[0], pair.a[1]) + ", " + two_text(pair.b[0], pair.b[1]);
+      })};
+  return lists + fmt::format(
+                     "static const assay_counted_pairs counted_pairs = {{{}}};\n"
+                     "static const assay_counted_pairs* const counted = &counted_pairs;\n",
+                     joined(members, ", "));
 }
 
 // The options of the built-in detector, the view that each step is given, and the test.
@@ -207,13 +274,14 @@ std::string test_text(const corpus::Case& c, const detector::Options& options) {
   const auto chosen = [](const char* type, const char* name) {
     return fmt::format("  *assay::from_name<builtin::{}>(\"{}\"),\n", type, name);
   };
+  const auto* pairs = corpus::counted_of(c);
   return fmt::format(
-      "{}static const builtin::Options options = {{\n{}{}{}{}}};\n"
+      "{}{}static const builtin::Options options = {{\n{}{}{}{}{}}};\n"
       "static const Views views[] = {{\n{}}};\n"
       "static const bool is_refused = {}, has_unique_times = {};\n{}",
-      test_head, chosen("Culling", name_of(options.culling)),
+      test_head, pairs ? relation_text(*pairs) : "", chosen("Culling", name_of(options.culling)),
       chosen("Start", name_of(options.start)), chosen("Pairs", name_of(options.pairs)),
-      chosen("Arithmetic", name_of(options.arithmetic)), views,
+      chosen("Arithmetic", name_of(options.arithmetic)), pairs ? "  1, &counted" : "", views,
       c.expected.answer == detector::Answer::error,
       properties::claims_of(options).has(properties::Claim::times_unique), test_program);
 }
@@ -235,9 +303,10 @@ Expected<void> export_case(const std::filesystem::path& folder, const corpus::Ca
   if (detector.built_in) {
     files["case_test.cpp"] = test_text(c, detector.configurations.front().options);
   } else {
-    files["case_plugin.cpp"] = std::string(reading_program) +
-                               (properties::says_query(c) ? query_program : mesh_program) +
-                               plugin_program;
+    files["case_plugin.cpp"] =
+        std::string(reading_program) +
+        (properties::says_query(c) ? query_program : told_relation_text(c) + mesh_program) +
+        plugin_program;
   }
   for (const auto& [name, text] : files) {
     BOOST_OUTCOME_TRY(corpus::write_file_atomically(folder / name, text));

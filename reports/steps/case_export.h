@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "properties/campaign/trials/trial.h"
+#include "properties/judging/trial.h"
 #include "reports/terminal/complaint.h"
 
 namespace assay::reports {

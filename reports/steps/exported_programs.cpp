@@ -255,13 +255,20 @@ static std::vector<Found> run(const assay_detector_api* api) {
   std::vector<Found> list(step_count);
   assay_handle* handle = nullptr;
   const char* message = nullptr;
-  const std::int32_t code = api->create(&triangles[0][0], triangle_count, &frames[0][0][0],
-                                        vertex_count, &handle, &message);
+  std::int32_t code = api->create(&triangles[0][0], triangle_count, &frames[0][0][0],
+                                  vertex_count, &handle, &message);
+  const char* failing = "create";
+  if (code == ASSAY_OK && handle && counted) {
+    message = nullptr;
+    failing = "count";
+    const bool takes_it = api->abi_version >= 3 && api->count;
+    code = takes_it ? api->count(handle, counted) : std::int32_t(ASSAY_REFUSED);
+  }
   for (int s = 0; s < step_count; ++s) {
     Found& found = list[static_cast<std::size_t>(s)];
     if (code != ASSAY_OK || !handle) {
       found.is_answered = false;
-      if (code != ASSAY_OUT_OF_MEMORY) found.error = message ? message : why(api, "create");
+      if (code != ASSAY_OUT_OF_MEMORY) found.error = message ? message : why(api, failing);
       continue;
     }
     found.is_answered = api->evaluate != nullptr;

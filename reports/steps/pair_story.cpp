@@ -7,9 +7,11 @@
 #include "detector/boundary/boundary_handler.h"
 #include "detector/search/moving_box.h"
 #include "oracle/instant/layers.h"
+#include "oracle/mesh/pair_relation.h"
 #include "oracle/view/candidates.h"
 #include "oracle/view/touched_by_ghosts.h"
 #include "properties/judging/agreement.h"
+#include "properties/judging/body_names.h"
 #include "properties/numbering.h"
 #include "properties/worker/case_player.h"
 #include "reports/steps/step_text.h"
@@ -30,7 +32,13 @@ class PairStory {
  public:
   PairStory(const corpus::Case& c, const detector::Detector& detector,
             const detector::TrianglePair& pair)
-      : case_(c), detector_(detector), pair_(pair) {}
+      : case_(c), detector_(detector), pair_(pair) {
+    if (!c.counted) return;
+    const auto features = oracle::mesh_features(c.triangles);
+    const oracle::PairRelation relation(c.counted->pairs, features);
+    bodies_meet_ = relation.bodies_meet(c.triangles(pair.a, 0), c.triangles(pair.b, 0));
+    counts_ = relation.counts_faces(pair.a, pair.b);
+  }
 
   std::string of_step(const detector::StepResult& result, const detector::Positions& x_t0,
                       const detector::Positions& x_t1, const oracle::StepJudgement& truth) const {
@@ -45,8 +53,9 @@ class PairStory {
                        boxes_apart ? "are apart: never tested" : "meet");
     const auto found = std::find_if(truth.pairs.begin(), truth.pairs.end(),
                                     [&](const auto& contact) { return contact.pair == pair_; });
+    if (!counts_) out += "    the pair does not count: it is reported by neither\n";
     out += found == truth.pairs.end()
-               ? "    oracle: never in contact\n"
+               ? fmt::format("    oracle: {}\n", counts_ ? "never in contact" : "not asked")
                : fmt::format("    oracle: in contact at t = {} ({})\n", time_text(found->time),
                              properties::name_of(found->feature.kind));
     const bool reported = std::any_of(result.pairs.begin(), result.pairs.end(),
@@ -91,6 +100,7 @@ class PairStory {
   }
 
   std::string rule_text(const detector::StepResult& result) const {
+    if (!bodies_meet_) return "bodies that do not meet: not searched (L19)";
     if (component(pair_.a) != component(pair_.b)) return "two components: always a candidate (L10)";
     if (result.doubts.empty()) return "no view sets: every pair is a candidate";
     const oracle::Candidates k(
@@ -102,6 +112,7 @@ class PairStory {
   const corpus::Case& case_;
   const detector::Detector& detector_;
   detector::TrianglePair pair_;
+  bool bodies_meet_ = true, counts_ = true;  // by the case's relation
 };
 
 }  // namespace
@@ -111,7 +122,8 @@ std::string pair_story(const corpus::Case& c, const detector::Options& options,
                        const std::vector<oracle::StepJudgement>& truth) {
   auto made = properties::CasePlayer::make(c, options);
   if (!made) return fmt::format("  refused: {}\n", made.error().message);
-  std::string out = fmt::format("  why {}, {}:\n", pair.a, pair.b);
+  std::string out = fmt::format("  why {}, {}{}:\n", pair.a, pair.b,
+                                properties::bodies_text(corpus::counted_of(c), c.triangles, pair));
   auto& player = made.value();
   const PairStory story(c, player.detector(), pair);
   for (std::size_t s = 0; s < player.steps(); ++s) {

@@ -20,6 +20,9 @@ struct ShownWork {
   bool has_stages = true;     // view sets, counts, times and features: the built-in detector's
   bool reports_pairs = true;  // by its contract
   std::optional<double> create_ms;  // to be shown, if it is given
+  // What names pairs by their bodies; null: there is no relation.
+  const detector::CountedPairs* counted = nullptr;
+  const detector::Triangles* triangles = nullptr;
 };
 
 // What the oracle says of a step: its judgement, the part of it that counts under the detector's

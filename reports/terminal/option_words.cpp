@@ -42,6 +42,8 @@ VerbOption Verb::add(const std::string& name, Target& target, const std::string&
 }
 template VerbOption Verb::add(const std::string&, std::string&, const std::string&);
 template VerbOption Verb::add(const std::string&, std::vector<std::string>&, const std::string&);
+template VerbOption Verb::add(const std::string&, std::vector<std::vector<std::string>>&,
+                              const std::string&);
 template VerbOption Verb::add(const std::string&, int&, const std::string&);
 template VerbOption Verb::add(const std::string&, std::uint64_t&, const std::string&);
 template VerbOption Verb::add(const std::string&, double&, const std::string&);
@@ -98,6 +100,15 @@ Check positive() {
             return number && *number > 0 && std::isfinite(*number)
                        ? ""
                        : fmt::format("'{}' is not a number above 0", word);
+          }};
+}
+
+Check length() {
+  return {"NUMBER >= 0", [](const std::string& word) {
+            const auto number = number_of(word);
+            return number && *number >= 0 && std::isfinite(*number)
+                       ? ""
+                       : fmt::format("'{}' is not a number of 0 or more", word);
           }};
 }
 

@@ -16,7 +16,7 @@
 #include <system_error>
 #include <vector>
 
-#include "properties/worker/isolation/isolation.h"
+#include "properties/judging/subject.h"
 #include "reports/terminal/complaint.h"
 
 namespace CLI {
@@ -119,12 +119,11 @@ std::optional<std::uint64_t> memory_size(const std::string& word);
 std::string memory_word(std::uint64_t bytes);
 
 Check positive();      // a number above 0
+Check length();        // a finite number >= 0
 Check whole_number();  // 0 .. 2^64-1
 Check share();         // a number above 0, at most 1
 
-// Which part of a plug-in is judged. `by_library`: all that it holds, its steps or candidates and
-// its query.
-enum class DetectorPart : std::uint8_t { by_library, steps, query };
+using properties::DetectorPart;
 
 // A detector as the user names it.
 struct DetectorWords {

@@ -5,9 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "properties/words.h"
-#include "reports/check/query_score.h"
 #include "reports/queries/query_detector.h"
+#include "reports/queries/query_score.h"
 #include "reports/terminal/text_file.h"
 #include "reports/terminal/words.h"
 #include "reports/verbs/verbs.h"
@@ -15,15 +14,15 @@
 namespace assay::reports {
 namespace {
 
+using QuerySet = std::vector<corpus::LabelledQuery>;
+
 struct CheckQueriesRequest {
   std::vector<std::string> files;
   std::vector<std::string> truths;  // none, or one for each file
-  QueryMethod method = QueryMethod::oracle;
+  const properties::QueryMethod* method = &properties::oracle_method();
   DetectorWords detector;
   std::string json_file;
 };
-
-using QuerySet = std::vector<corpus::LabelledQuery>;
 
 Expected<void> write_report(const std::string& file, const nlohmann::ordered_json& report) {
   if (file.empty()) return outcome::success();
@@ -35,11 +34,10 @@ Expected<void> write_report(const std::string& file, const nlohmann::ordered_jso
 // Asks the plug-in the queries of a file. The answers are judged and scored.
 Expected<void> ask_plugin(QueryDetector& detector, const std::string& file, const QuerySet& set,
                           QueryScore& score) {
-  std::vector<detector::FourPoints> queries;
+  std::vector<properties::Query> queries;
   std::vector<std::string> names;
   for (std::size_t i = 0; i < set.size(); ++i) {
-    queries.push_back(
-        std::visit([](const auto& q) { return detector::four_points(q); }, set[i].query));
+    queries.push_back(set[i].query);
     names.push_back(fmt::format("{} query {}", file, i));
   }
   BOOST_OUTCOME_TRY(judged, detector.judge(queries, names));
@@ -51,7 +49,7 @@ Expected<void> ask_plugin(QueryDetector& detector, const std::string& file, cons
     const auto truth = one.is_rounded ? std::nullopt : set[i].truth;
     score.add_answer(file, i,
                      {answer == detector::Answer::collision, truth, truth && *truth != one.contact,
-                      one.microseconds});
+                      1e6 * one.run.times->steps[0]});
   }
   return outcome::success();
 }
@@ -60,7 +58,7 @@ Expected<int> check_plugin(const CheckQueriesRequest& request, const std::vector
   BOOST_OUTCOME_TRY(detector, QueryDetector::open(request.detector));
   fmt::print("{}\n", detector.title());
   std::fflush(stdout);
-  QueryScore score(detector.request().detector.name);
+  QueryScore score(detector.name());
   for (std::size_t i = 0; i < sets.size(); ++i) {
     BOOST_OUTCOME_TRY(ask_plugin(detector, request.files[i], sets[i], score));
   }
@@ -87,7 +85,7 @@ Expected<int> run_check_queries(const CheckQueriesRequest& request) {
     sets.push_back(std::move(queries));
   }
   if (!request.detector.library.empty()) return check_plugin(request, sets);
-  QueryScore score(request.method);
+  QueryScore score(*request.method);
   for (std::size_t i = 0; i < sets.size(); ++i) score.add(request.files[i], sets[i]);
   score.print();
   auto report = score.to_json(request.files);
@@ -100,11 +98,16 @@ Expected<int> run_check_queries(const CheckQueriesRequest& request) {
 void add_options(Verb& verb, CheckQueriesRequest& request) {
   verb.add("files", request.files, "Query files (.csv, .csv.gz)").required();
   verb.add("--truth", request.truths, "Labels (.json), one file for each query file");
-  const auto parse = [](std::string_view word) {
-    return properties::value_of<QueryMethod>(query_method_names, word);
+  std::vector<const char*> words;
+  for (const auto& method : properties::named_methods()) words.push_back(method.name);
+  const auto parse = [](std::string_view word) -> std::optional<const properties::QueryMethod*> {
+    for (const auto& method : properties::named_methods()) {
+      if (word == method.name) return &method;
+    }
+    return std::nullopt;
   };
-  const auto method = add_choice(verb, "--method", request.method, joined(query_method_names, ", "),
-                                 parse, "Who answers (default oracle)");
+  const auto method = add_choice(verb, "--method", request.method, joined(words, ", "), parse,
+                                 "Who answers (default oracle)");
   add_detector(verb, request.detector, "A plug-in's library: its query answers").excludes(method);
   verb.add("--json", request.json_file, "Write the report here (assay-queries/1)");
 }

@@ -178,15 +178,13 @@ Expected<int> run_replay(const ReplayRequest& request) {
   if (trial) {
     if (const auto line = misspelt(request.id_or_file); !line.empty()) return Problem{line};
   }
-  properties::CampaignRequest subject;
-  subject.worker = properties::worker_program();
   auto words = request.detector;
   const bool is_query =
       trial ? properties::is_query_family(trial->family->name) : properties::says_query(c);
   if (is_query && words.library.empty())
     return Problem{"this is a query of a plug-in: name its library by --detector"};
   words.part = is_query ? DetectorPart::query : DetectorPart::steps;
-  BOOST_OUTCOME_TRY(choose_detector(words, subject));
+  BOOST_OUTCOME_TRY(subject, choose_detector(words));
   const auto& contract = subject.detector.contract;
   if (trial) c = properties::case_within(contract, *trial->family, request.id_or_file).made.c;
   if (auto problem = choose_configurations(c, subject.detector)) {
@@ -209,8 +207,7 @@ Expected<int> run_replay(const ReplayRequest& request) {
                                request.id_or_file, properties::why_left_out(c, contract))};
   }
   const auto truth = properties::judge_case(*seen, contract);
-  properties::WorkerLimits limits{.isolation = subject.isolation, .threads = subject.threads};
-  properties::WorkerProcess worker(subject.worker, subject.plugin, limits);
+  auto worker = subject.process();
   const auto runs = worker.run(*seen, subject.detector.configurations);
   for (const auto& run : runs) {
     if (run.end == properties::RunEnd::not_run) return Problem{run.explanation};
@@ -219,10 +216,7 @@ Expected<int> run_replay(const ReplayRequest& request) {
   // in which each step is evaluated twice.
   const bool asks_twice =
       !subject.detector.built_in && subject.detector.claims.has(properties::Claim::deterministic);
-  limits.variation = 1;
-  limits.asks_twice = true;
-  limits.least = worker.isolation();
-  properties::WorkerProcess second(subject.worker, subject.plugin, limits);
+  auto second = subject.process(1, true);
   const auto again = asks_twice ? second.run(*seen, subject.detector.configurations)
                                 : std::vector<properties::CaseRun>{};
   if (!request.export_folder.empty()) {

@@ -19,12 +19,13 @@ constexpr const char* no_contact = "no step had a contact";
 std::string reason_against(Claim claim, const Contract& contract, const StepMeasures& m) {
   switch (claim) {
     case Claim::no_spurious:
-      return contract.margin > 0 ? "the contract has a margin" : "";
+      return contract.judges_alarms() ? "" : "the contract has a margin, and tests neighbours";
     case Claim::first_pairs:
     case Claim::all_pairs:
       if (!contract.reports_pairs) return "the detector reports no pairs";
       break;
     case Claim::first_time:
+      if (contract.margin > 0) return "the contract has a margin";
       if (seldom * m.without_time > m.errors.collisions())
         return fmt::format("its interval is wider than {} in {} of {} collisions",
                            widest_stated_time, m.without_time, m.errors.collisions());

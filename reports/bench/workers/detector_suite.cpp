@@ -26,12 +26,12 @@ std::optional<ComparedTime> compared(const std::vector<double>& plugin,
 // One worker for each of the two detectors, kept from sequence to sequence.
 class ComparedWorkers {
  public:
-  explicit ComparedWorkers(const BenchedPlugin& plugin)
+  ComparedWorkers(const properties::Subject& plugin, int jobs)
       : plugin_(plugin),
-        claims_(claims_on_steps(plugin.description)),
-        of_plugin_(properties::worker_program(), plugin.library, plugin.limits),
-        of_built_in_(properties::worker_program(), std::nullopt,
-                     {.seconds = plugin.limits.seconds}) {}
+        claims_(plugin.detector.claims),
+        jobs_(jobs),
+        of_plugin_(plugin.process()),
+        of_built_in_(plugin.worker, std::nullopt, {.seconds = plugin.limits.seconds}) {}
 
   // Adds a line to `wrong` for a broken claim of the plug-in, for two runs that differ although it
   // claims to be deterministic, and for anything that the built-in detector has wrong. `tick` is
@@ -42,7 +42,7 @@ class ComparedWorkers {
     out.name = family.name;
     out.kind = family.kind;
     out.triangles = static_cast<std::uint64_t>(timed.c.triangles.rows());
-    const auto& contract = plugin_.description.contract;
+    const auto& contract = plugin_.detector.contract;
     const auto seen = properties::contracted(timed.c, contract);
     out.steps = seen ? corpus::steps_of(*seen).size() : 0;
     out.left_out = corpus::steps_of(timed.c).size() - out.steps;
@@ -61,7 +61,7 @@ class ComparedWorkers {
         {&of_built_in_, {"built-in", {detector::Options{}.culling, start, pairs}, {}, true}}};
     const auto runs = sweep_workers(*seen, subjects, family.rounds, tick);
     tick();
-    const auto truth = properties::judge_case(*seen, contract, plugin_.jobs);
+    const auto truth = properties::judge_case(*seen, contract, jobs_);
     judge_plugin(*seen, runs[0], truth, wrong, out);
     judge_built_in(runs[1], truth, subjects[1].configuration.options, out.name, wrong);
     if (out.ended.empty()) {
@@ -71,15 +71,12 @@ class ComparedWorkers {
     return out;
   }
 
-  // How the plug-in's process is isolated. Known once it has run.
-  const properties::Isolation& isolation() const { return of_plugin_.isolation(); }
-
  private:
   void judge_plugin(const corpus::Case& seen, const WorkerRuns& runs,
                     const std::vector<oracle::StepJudgement>& truth,
                     std::vector<std::string>& wrong, ComparedSequence& out) const {
     out.ended = runs.ended;
-    const auto judged = judge_run(seen, *runs.first, truth, claims_, plugin_.description.contract);
+    const auto judged = judge_run(seen, *runs.first, truth, claims_, plugin_.detector.contract);
     for (const auto& diff : judged.steps) out.errors += errors_of(diff);
     // A run that broke off has no steps.
     if (judged.steps.empty()) out.errors.steps = out.errors.undecided = truth.size();
@@ -105,8 +102,9 @@ class ComparedWorkers {
     }
   }
 
-  const BenchedPlugin& plugin_;
-  const properties::Claims claims_;
+  const properties::Subject& plugin_;
+  const properties::Claims& claims_;
+  const int jobs_;
   properties::WorkerProcess of_plugin_, of_built_in_;
 };
 
@@ -162,12 +160,12 @@ void to_json(Json& json, const ComparedTime& time) {
       json_object("plugin_ms", time.plugin_ms, "built_in_ms", time.built_in_ms, "over", time.over);
 }
 
-BenchReport detector_suite(const BenchSettings& settings, const BenchedPlugin& plugin,
+BenchReport detector_suite(const BenchSettings& settings, const properties::Subject& plugin,
                            const BenchProgress& progress,
                            std::vector<ComparedSequence>* sequences) {
   constexpr Eigen::Index most_triangles_when_quick = 10'000;
   BenchReport report("detector");
-  ComparedWorkers workers(plugin);
+  ComparedWorkers workers(plugin, settings.jobs);
   std::vector<ComparedSequence> done;
   std::vector<std::string> missing;
   auto families = scene_families(settings);
@@ -187,15 +185,14 @@ BenchReport detector_suite(const BenchSettings& settings, const BenchedPlugin& p
   }
   for (const auto& file : missing) report.add_no_data("public sequence", file);
   const auto& about = plugin.description;
-  const auto claims = claims_on_steps(about);
+  const auto& claims = plugin.detector.claims;
   std::vector<const char*> claim_names;
   for (const auto claim : properties::list_of(claims)) claim_names.push_back(name_of(claim));
-  report.above = plugin_text(about.name + " " + about.version, claims, about.contract,
-                             workers.isolation(), plugin.limits.threads) +
-                 "\n" + sequences_text(done, claims.has(properties::Claim::all_pairs));
+  report.above =
+      plugin_text(plugin) + "\n" + sequences_text(done, claims.has(properties::Claim::all_pairs));
   report.figures["detector"] =
-      json_object("name", about.name, "version", about.version, "library", plugin.library, "claims",
-                  claim_names, "isolation", text_of(workers.isolation()), "threads",
+      json_object("name", about.name, "version", about.version, "library", plugin.plugin->string(),
+                  "claims", claim_names, "isolation", text_of(plugin.limits.least), "threads",
                   plugin.limits.threads, "contract", properties::json_of(about.contract));
   if (sequences) *sequences = std::move(done);
   return report;

@@ -1,10 +1,12 @@
 """The oracle, and a detector's steps against it."""
 
 import json
+import math
 import os
 from dataclasses import dataclass
-from typing import Any, Callable, Dict, List, Optional, Tuple
+from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
 
+import numpy as np
 import numpy.typing as npt
 
 from .frames import Frames, as_frames
@@ -94,17 +96,62 @@ def judge(
     x_t0: npt.ArrayLike,
     x_t1: npt.ArrayLike,
     *,
+    separation: float = 0,
     jobs: Optional[int] = None,
 ) -> Judgement:
     """The oracle's answer of a step: all pairs in contact, by exact arithmetic.
 
-    Arguments and errors are those of Detector; jobs: threads, all cores if None. Ctrl-C ends it.
+    separation: above 0, all pairs of triangles that share no vertex and come within this distance,
+    each with its first time within it; "collision" says that there are some. Arguments and errors
+    are those of Detector; jobs: threads, all cores if None. Ctrl-C ends it.
     """
     from . import _judge
 
-    return Judgement(
-        **_judge.judge(triangles, x_t0, x_t1, _jobs(jobs)), triangles=triangles, x_t0=x_t0, x_t1=x_t1
-    )
+    if not (math.isfinite(separation) and separation >= 0):
+        raise ValueError("separation: a length is wanted, finite and not below 0")
+    answer = _judge.judge(triangles, x_t0, x_t1, separation, _jobs(jobs))
+    return Judgement(**answer, triangles=triangles, x_t0=x_t0, x_t1=x_t1)
+
+
+def first_time_within(
+    triangles: npt.ArrayLike,
+    x_t0: npt.ArrayLike,
+    x_t1: npt.ArrayLike,
+    separation: float,
+    *,
+    jobs: Optional[int] = None,
+) -> Optional[Interval]:
+    """When two triangles that share no vertex first come within the distance; None: never.
+
+    The time is both ends of the interval, or lies strictly between them: two adjacent doubles.
+    """
+    return judge(triangles, x_t0, x_t1, separation=separation, jobs=jobs).first
+
+
+@dataclass(frozen=True)
+class LeastDistance:
+    """How near two triangles that share no vertex come during a step.
+
+    distance: the least double that some two come within; it is 0 where they touch. contact: the
+    first pair, by its triangles, that comes within it, when first, and by which features.
+    """
+
+    distance: float
+    contact: Contact
+
+
+def least_distance(
+    triangles: npt.ArrayLike,
+    x_t0: npt.ArrayLike,
+    x_t1: npt.ArrayLike,
+    *,
+    jobs: Optional[int] = None,
+) -> Optional[LeastDistance]:
+    """The least distance over a step, exactly; None if no two triangles share no vertex."""
+    from . import _judge
+
+    found = _judge.least_distance(triangles, x_t0, x_t1, _jobs(jobs))
+    return found and LeastDistance(found[0], Contact(*found[1:]))
 
 
 def check(
@@ -120,6 +167,8 @@ def check(
     time: Optional[float] = None,
     memory: Optional[str] = None,
     isolation: Optional[str] = None,
+    bodies: Optional[npt.ArrayLike] = None,
+    apart: Sequence[Tuple[int, int]] = (),
     progress: Optional[Callable[[str], None]] = None,
 ) -> CheckReport:
     """Each step through the detector and the oracle, and the diff: `assay check`.
@@ -129,6 +178,8 @@ def check(
     plug-in's library; "python:MODULE:CLASS"; or a class, which another process imports by its
     module. jobs: threads of the oracle; threads: of the detector, 0: all cores, and a plug-in is
     told 1. time, memory, isolation: as on the command line. progress: called with what is printed.
+    bodies: (n,) the number of each vertex's body, from 0 on; apart: pairs of bodies that do not
+    meet, or a body paired with itself: neither is of a case file, which says itself what counts.
 
     ValueError: input that is refused, with the line that says why. Ctrl-C ends it, but for a
     plug-in's process, which ends with its step or at `time`.
@@ -148,10 +199,14 @@ def check(
         "time": time,
         "memory": memory,
         "isolation": isolation,
+        "bodies": None if bodies is None else np.asarray(bodies, np.int32).tolist(),
+        "apart": [list(pair) for pair in apart],
     }
     worker = str(program("assay-worker")) if detector is not None else ""
     with surroundings(detector):
         if isinstance(frames, (str, os.PathLike)):
+            if bodies is not None or apart:
+                raise ValueError("bodies and apart are of meshes, and not of a case file")
             answer = _judge.check_files([os.fspath(frames)], asked, worker, progress)
         else:
             mesh: Frames = as_frames(frames)

@@ -29,22 +29,24 @@ TEST_F(QueryCsv, VertexFaceRowsInOrder) {
   ASSERT_EQ(queries.value().size(), 2U);
   EXPECT_EQ(queries.value()[0].truth, true);
   EXPECT_EQ(queries.value()[1].truth, false);
-  const auto& query = std::get<detector::VertexFace>(queries.value()[0].query);
-  EXPECT_EQ(query.vertex.t0, (detector::Point{0, -0.75, 0.625}));
-  EXPECT_EQ(query.face[0].t0[0], 0.5);
-  EXPECT_EQ(query.face[2].t0[0], 1.5);
-  EXPECT_EQ(query.vertex.t1[0], 2);
-  EXPECT_EQ(query.face[2].t1[0], 3.5);
+  const auto& query = queries.value()[0].query;
+  EXPECT_EQ(query.first_group, 1);
+  EXPECT_EQ(query.points[0].t0, (detector::Point{0, -0.75, 0.625}));
+  EXPECT_EQ(query.points[1].t0[0], 0.5);
+  EXPECT_EQ(query.points[3].t0[0], 1.5);
+  EXPECT_EQ(query.points[0].t1[0], 2);
+  EXPECT_EQ(query.points[3].t1[0], 3.5);
 }
 
 TEST_F(QueryCsv, EdgeEdgeRowsInOrderWithoutLabels) {
   const auto queries = read_queries(write("3036ee.csv", rows("")));
   ASSERT_TRUE(queries) << queries.error().message;
   EXPECT_EQ(queries.value()[0].truth, std::nullopt);
-  const auto& query = std::get<detector::EdgeEdge>(queries.value()[0].query);
-  EXPECT_EQ(query.a[1].t0[0], 0.5);
-  EXPECT_EQ(query.b[0].t0[0], 1);
-  EXPECT_EQ(query.b[1].t1[0], 3.5);
+  const auto& query = queries.value()[0].query;
+  EXPECT_EQ(query.first_group, 2);
+  EXPECT_EQ(query.points[1].t0[0], 0.5);
+  EXPECT_EQ(query.points[2].t0[0], 1);
+  EXPECT_EQ(query.points[3].t1[0], 3.5);
 }
 
 TEST_F(QueryCsv, CompressedCrlfAndBlanks) {
@@ -66,7 +68,7 @@ TEST_F(QueryCsv, KindIsToldByThePathOrNamed) {
   // The nearest folder rules.
   const auto near = read_queries(write("edge-edge/vertex-face/q.csv", rows("")));
   ASSERT_TRUE(near);
-  EXPECT_TRUE(std::holds_alternative<detector::VertexFace>(near.value()[0].query));
+  EXPECT_TRUE(near.value()[0].query.first_group == 1);
 }
 
 TEST_F(QueryCsv, Problems) {

@@ -147,14 +147,8 @@ class Peers : public testing::Test {
     request.plan.laws_every = 0;
     request.jobs = 2;
     request.worker = ASSAY_WORKER;
-    request.plugin = peer_.library;
-    WorkerProcess worker(request.worker, request.plugin);
-    const auto described = worker.describe();
-    EXPECT_TRUE(described) << described.error().message;
-    if (!described) return request;
-    const auto& d = described.value();
-    peer_.detector = {d.name, false, d.claims, d.contract, {{d.name, {}}}};
-    request.detector = peer_.detector;
+    test::set_plugin(request, peer_.library);
+    peer_.detector = request.detector;
     return request;
   }
 

@@ -212,10 +212,8 @@ TEST_F(Trials, FailuresShrinkAndGoOnShrinking) {
 TEST_F(Trials, AFailureOfAPlugInKeepsWhatItsPairSharesAndWhen) {
   auto request = request_of(60, 2);
   request.plan.laws_every = 0;
-  request.plugin = test::plugin("always_free");
-  WorkerProcess worker(ASSAY_WORKER, request.plugin);
-  const auto told = worker.describe().value();
-  request.detector = {told.name, false, told.claims, told.contract, {{told.name, {}}}};
+  test::set_plugin(request, test::plugin("always_free"));
+  auto worker = request.process();
   Store store = open("store");
   ASSERT_TRUE(run_trials(request, store, in_a_minute(), {}).complete);
   constexpr double hour = 3600;

@@ -104,6 +104,29 @@ TEST(Claims, CollisionAgainstNoneIsSpurious) {
   EXPECT_EQ(with_margin.outcome, Outcome::holds);
 }
 
+// Triangles 3 and 4 come within the slack at .25, and within the separation at .5 or not at all.
+TEST(Claims, ASlackExcusesWhatComesWithinIt) {
+  const Contract slack = {.adjacency = Adjacency::no_shared_vertex, .margin = .1, .separation = .1};
+  const auto within = [](std::vector<PairContact> pairs) {
+    auto step = truth(std::move(pairs));
+    step.within_slack = {pair_at(3, 4, .25)};
+    return step;
+  };
+  const auto near_miss = within({}), near = within({pair_at(3, 4, .5)});
+  const auto broken_by = [&](const oracle::StepJudgement& step, double t) {
+    return judged(collision({t, t}, {pair_at(3, 4, t)}), step, claimable, slack).broken;
+  };
+  EXPECT_EQ(broken_by(near_miss, .25), List{});
+  EXPECT_EQ(broken_by(near_miss, .75), List{});
+  EXPECT_EQ(broken_by(near_miss, .125), List{Claim::no_spurious});  // before it is within the slack
+  EXPECT_EQ(broken_by(near, .25), List{});
+  EXPECT_EQ(broken_by(near, .75), (List{Claim::not_late, Claim::all_pairs}));
+  EXPECT_EQ(judged(answer(Answer::free), near_miss, claimable, slack).broken, List{});
+  auto nowhere = near_miss;
+  nowhere.within_slack.emplace();
+  EXPECT_EQ(broken_by(nowhere, .25), List{Claim::no_spurious});
+}
+
 TEST(Claims, ATimeIsAnIntervalThatMustHoldTheOracles) {
   const double half_up = std::nextafter(.5, 1);
   const auto step = truth({pair_at(3, 4, .5, half_up)});  // strictly between the two

@@ -53,6 +53,39 @@ def test_the_oracle_agrees_with_the_detector(cloud):
     assert judgement.feature_candidates > len(judgement.pairs)
 
 
+def test_the_oracle_tells_what_comes_within_a_distance():
+    # A triangle falls towards another one, from 3 to 1 above it.
+    triangles = np.array([[0, 1, 2], [3, 4, 5]])
+    x_t0 = np.array([[0, 0, 0], [4, 0, 0], [0, 4, 0], [1, 1, 3], [2, 1, 4], [1, 2, 4]], float)
+    x_t1 = x_t0.copy()
+    x_t1[3:, 2] -= 2
+    assert assay.judge(triangles, x_t0, x_t1).answer == "free"
+    near = assay.judge(triangles, x_t0, x_t1, separation=2)
+    assert (near.answer, near.first, near.pairs.tolist()) == ("collision", (0.5, 0.5), [[0, 1]])
+    assert assay.first_time_within(triangles, x_t0, x_t1, 2) == (0.5, 0.5)
+    assert assay.first_time_within(triangles, x_t0, x_t1, 0.5) is None
+    least = assay.least_distance(triangles, x_t0, x_t1)
+    assert least.distance == 1
+    assert least.contact == assay.Contact((0, 1), (1, 1), "vertex-face", (3, 0, 1, 2))
+    assert assay.least_distance(triangles[:1], x_t0, x_t1) is None
+    with pytest.raises(ValueError, match="separation"):
+        assay.judge(triangles, x_t0, x_t1, separation=-1)
+
+
+def test_bodies_that_are_apart_do_not_meet(pair):
+    frames = (pair.triangles, [pair.x_t0, pair.x_t1])
+    bodies = [0] * 4 + [1] * 4
+    assert assay.check(frames).steps[0].answer == "collision"
+    report = assay.check(frames, bodies=bodies)
+    assert (report.outcome, report.steps[0].answer) == ("holds", "collision")
+    assert report.json["bodies"] == [{"triangles": 4, "vertices": 4}] * 2
+    report = assay.check(frames, bodies=bodies, apart=[(1, 0)])
+    assert (report.outcome, report.steps[0].answer) == ("holds", "free")
+    for wrong, why in [([0], "given for 1 vertices"), ([0] * 7 + [1], "is of two bodies")]:
+        with pytest.raises(ValueError, match=why):
+            assay.check(frames, bodies=wrong, apart=[(0, 0)])
+
+
 def test_the_oracle_refuses_what_the_detector_refuses(pair):
     for triangles, x_t1, name in [
         (pair.triangles + 1, pair.x_t1, "index_out_of_range"),

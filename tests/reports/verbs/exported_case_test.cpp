@@ -46,6 +46,23 @@ TEST_F(ExportedCase, CompilesAndPasses) {
   expect_passes(std::string(ASSAY_SOURCE_DIR) + "/corpus/curated/B1_one_vertex_own_nearest.json");
 }
 
+TEST_F(ExportedCase, SaysWhichPairsCount) {
+  expect_passes(curated("F_ignored_contact"));
+  // A relation of every part, whose lists name what counts anyway.
+  std::string text = read_text(curated("F_ignored_contact"));
+  const std::string level = "\"level\": \"";
+  const auto begin = text.find(level);
+  ASSERT_NE(begin, std::string::npos);
+  const auto end = text.find("\"", begin + level.size());
+  text.replace(begin, end - begin, level + "features");
+  text.insert(text.find(",", begin),
+              ", \"bodies\": [[9, 0]], \"rest_distance\": 0.5, \"vertex_faces\": [[0, 1], [0, 2]], "
+              "\"edge_pairs\": [[0, 1, 1, 2]]");
+  text.erase(text.find(",\n    \"steps\"", begin), std::string::npos);
+  text += "\n  },\n  \"pending\": {}\n}\n";
+  expect_passes(scratch.write("every_part.json", text));
+}
+
 TEST_F(ExportedCase, FailsWhereTheDetectorDiffers) {
   const std::string file = std::string(ASSAY_SOURCE_DIR) + "/corpus/curated/A4_endpoints_only.json";
   expect_passes(file);
@@ -114,6 +131,16 @@ TEST_F(ExportedPlugIn, IsPlainArrays) {
   EXPECT_EQ(judged("by_contract", "ASSAY_BY_CONTRACT=miss-inside"), 1);
   EXPECT_EQ(judged("by_contract", "ASSAY_BY_CONTRACT=late=0.1"), 1);
   EXPECT_EQ(status_of(scratch / "program ./none.so >/dev/null"), 2);
+}
+
+TEST_F(ExportedPlugIn, IsToldWhichPairsCount) {
+  const auto exported =
+      export_case(curated("F_ignored_contact"), "takes_relations", "ASSAY_TAKES_RELATIONS=ignores");
+  ASSERT_EQ(exported.exit_code, 1) << exported.out << exported.err;
+  compile_plugin();
+  EXPECT_EQ(judged("takes_relations", "ASSAY_TAKES_RELATIONS="), 0) << printed();
+  EXPECT_EQ(judged("takes_relations", "ASSAY_TAKES_RELATIONS=ignores"), 1) << printed();
+  EXPECT_EQ(judged("wrapped_builtin", "true"), 1) << printed();
 }
 
 // For each claim alone: a plug-in that breaks it, and one that keeps it.

@@ -1,46 +1,16 @@
-#include "properties/campaign/trials/trial.h"
+#include "properties/judging/trial.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "properties/judging/body_names.h"
 #include "properties/judging/case_check.h"
 #include "properties/judging/case_options.h"
 #include "properties/judging/cause.h"
 #include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
-
-using detector::Culling;
-using detector::Pairs;
-using detector::Start;
-
-Claims DetectorUnderTest::claims_in(const Configuration& configuration) const {
-  return built_in ? claims_of(configuration.options) : claims;
-}
-
-Claims DetectorUnderTest::claims_on(const corpus::Case& c,
-                                    const Configuration& configuration) const {
-  return says_query(c) && !built_in ? query_claims : claims_in(configuration);
-}
-
-DetectorUnderTest built_in_detector() {
-  DetectorUnderTest detector;
-  detector.name = "built-in";
-  for (const auto culling : all_values<Culling>) {
-    detector.configurations.push_back({name_of(culling), {culling, Start::verified, Pairs::all}});
-  }
-  // There is no configuration of first pairs for view lines, because a step with first pairs ends
-  // with K, which is found in the same way from lines.
-  detector.configurations.push_back(
-      {"view-point/first", {Culling::view_point, Start::verified, Pairs::first}});
-  for (const auto culling : {Culling::view_point, Culling::view_line}) {
-    detector.configurations.push_back(
-        {fmt::format("{}/bounded", name_of(culling)),
-         {culling, Start::verified, Pairs::all, detector::Arithmetic::bounded}});
-  }
-  return detector;
-}
 
 namespace {
 
@@ -62,10 +32,12 @@ void find_cause(Failure& failure, const corpus::Case& c, const corpus::CaseStep&
   const auto pairs = truth_of(c, truth, contract).pairs;
   const auto contact = std::find_if(pairs.begin(), pairs.end(),
                                     [&](const auto& exact) { return exact.pair == *failure.pair; });
+  const bool of_distance = contract.separation > 0;
+  const detector::SteppedMesh motion{x_t0, x_t1};
   failure.cause =
-      text_of(contact == pairs.end() ? cause_of(c.triangles, {x_t0, x_t1}, *failure.pair)
-              : says_query(c)        ? cause_of_query(c.triangles, {x_t0, x_t1}, *contact)
-                                     : cause_of(c.triangles, {x_t0, x_t1}, *contact));
+      text_of(contact == pairs.end() ? cause_of(c.triangles, motion, *failure.pair, of_distance)
+              : says_query(c)        ? cause_of_query(c.triangles, motion, *contact, of_distance)
+                                     : cause_of(c.triangles, motion, *contact, of_distance));
 }
 
 // Rewrites the explanation of a failed query in terms of features, because the two triangles of a
@@ -82,43 +54,35 @@ void name_features(Failure& failure, const detector::FourPoints& query) {
 JudgedTrial judge_trial(const corpus::Case& c, std::span<const oracle::StepJudgement> truth,
                         const CaseRun& run, const Configuration& configuration,
                         const DetectorUnderTest& detector, const CaseRun* again) {
-  const Claims claims = detector.claims_on(c, configuration);
-  JudgedRun whole = judge_run(c, run, truth, claims, detector.contract, again);
-  JudgedTrial judged{whole.outcome, {}, whole.left_out_misses, {}};
-  const auto steps = corpus::steps_of(c);
-  for (std::size_t s = 0; s < whole.steps.size() && !judged.failure; ++s) {
-    const StepDiff& diff = whole.steps[s];
-    if (diff.outcome == Outcome::defect) {
-      judged.outcome = Outcome::defect;
-      judged.failure = failure_of(diff, run.steps[s]);
-      if (judged.failure->kind == "error") {
-        const auto error = error_of(run, s);
-        judged.failure->explanation = error.empty() ? whole.explanation : error;
-      }
-      if (detector.built_in) {
-        find_stage(*judged.failure, c, steps[s], diff);
-      } else {
-        find_cause(*judged.failure, c, steps[s], truth[s], detector.contract);
-      }
-      judged.failure->step = s;
-    } else if (diff.outcome != Outcome::holds && judged.outcome == Outcome::holds) {
-      judged.outcome = diff.outcome;
+  JudgedTrial judged{
+      judge_run(c, run, truth, detector.claims_on(c, configuration), detector.contract, again), {}};
+  if (judged.outcome != Outcome::defect) return judged;
+  Failure& failure = judged.failure.emplace();
+  const auto is_defect = [](const StepDiff& diff) { return diff.outcome == Outcome::defect; };
+  const auto diff = std::find_if(judged.steps.begin(), judged.steps.end(), is_defect);
+  if (diff == judged.steps.end()) {
+    failure.claim = judged.broken.front();
+    failure.kind = failure.claim == Claim::deterministic ? "two runs differ" : name_of(run.end);
+    failure.explanation = judged.explanation.empty() ? failure.kind : judged.explanation;
+  } else {
+    const auto s = static_cast<std::size_t>(diff - judged.steps.begin());
+    const auto step = corpus::steps_of(c)[s];
+    failure = failure_of(*diff, run.steps[s]);
+    if (failure.kind == "error") {
+      const auto error = error_of(run, s);
+      failure.explanation = error.empty() ? judged.explanation : error;
     }
+    if (detector.built_in) {
+      find_stage(failure, c, step, *diff);
+    } else {
+      find_cause(failure, c, step, truth[s], detector.contract);
+    }
+    failure.step = s;
   }
-  if (judged.outcome == Outcome::defect && !judged.failure) {
-    judged.failure.emplace();
-    judged.failure->claim = whole.broken.front();
-    judged.failure->kind =
-        whole.broken.front() == Claim::deterministic ? "two runs differ" : name_of(run.end);
-    judged.failure->explanation =
-        whole.explanation.empty() ? judged.failure->kind : whole.explanation;
-  }
-  if (judged.failure) {
-    auto& failure = *judged.failure;
-    failure.configuration = configuration.name;
-    if (const auto query = query_of(c)) name_features(failure, *query);
-  }
-  judged.steps = std::move(whole.steps);
+  failure.configuration = configuration.name;
+  if (failure.pair)
+    failure.explanation += bodies_text(corpus::counted_of(c), c.triangles, *failure.pair);
+  if (const auto query = query_of(c)) name_features(failure, *query);
   return judged;
 }
 
@@ -133,19 +97,20 @@ std::string Failure::signature() const {
 
 namespace {
 
-std::string time_text(const detector::TimeEnclosure& t) {
+std::string enclosure_text(const detector::TimeEnclosure& t) {
   return t.lo == t.hi ? fmt::format("{}", t.lo) : fmt::format("[{}, {}]", t.lo, t.hi);
 }
 
 // Gives "collision at 0.5" or "free", for example.
 std::string answer_text(detector::Answer answer, const detector::TimeEnclosure& first) {
-  return answer == detector::Answer::collision ? fmt::format("collision at {}", time_text(first))
-                                               : name_of(answer);
+  return answer == detector::Answer::collision
+             ? fmt::format("collision at {}", enclosure_text(first))
+             : name_of(answer);
 }
 
 std::string contact_text(const detector::PairContact& contact) {
   return fmt::format("triangles {} and {} meet at {} ({})", contact.pair.a, contact.pair.b,
-                     time_text(contact.time), name_of(contact.feature.kind));
+                     enclosure_text(contact.time), name_of(contact.feature.kind));
 }
 
 // t* may lie between two adjacent doubles, of which the lower one alone does not hold it.
@@ -198,7 +163,7 @@ class FailureOfStep {
     failure_.pair = wrong.pair;
     failure_.explanation =
         fmt::format("triangles {} and {} at {}, and not at {}", wrong.pair.a, wrong.pair.b,
-                    time_text(wrong.detector), time_text(wrong.oracle));
+                    enclosure_text(wrong.detector), enclosure_text(wrong.oracle));
   }
 
   void off_first_time() {
