@@ -266,12 +266,38 @@ std::string plan_text(const CampaignPlan& plan) {
   return writer.json.dump();
 }
 
+namespace {
+
 // Whether two plans differ in their time alone. A campaign that was stopped by --time keeps its
 // name.
-static bool is_the_same_but_for_time(CampaignPlan a, CampaignPlan b) {
+bool is_the_same_but_for_time(CampaignPlan a, CampaignPlan b) {
   a.seconds = b.seconds = 0;
   return plan_text(a) == plan_text(b);
 }
+
+// Whether options of a run make the plan of the named one: they limit a case, and the query of a
+// plug-in is judged beside the steps, or alone.
+bool is_made_of(CampaignPlan plan, const CampaignPlan& named) {
+  plan.case_seconds = named.case_seconds;
+  plan.case_bytes = named.case_bytes;
+  return is_the_same_but_for_time(plan, named) ||
+         is_the_same_but_for_time(plan, with_queries(named)) ||
+         is_the_same_but_for_time(plan, query_plan(named));
+}
+
+// Reads a plan. If it bears the name of a built-in campaign, it has to be that one.
+template <class IsThatOne>
+corpus::Expected<CampaignPlan> read_plan(const std::string& file, const IsThatOne& is_that_one) {
+  BOOST_OUTCOME_TRY(bytes, corpus::read_bytes(file));
+  BOOST_OUTCOME_TRY(plan, parse_plan(bytes, file));
+  for (const auto& named : named_plans()) {
+    if (plan.name == named.name && !is_that_one(plan, named))
+      return corpus::problem_in(file, "is another plan than the built-in campaign of its name");
+  }
+  return plan;
+}
+
+}  // namespace
 
 const CampaignPlan* plan_meant_by(std::string_view name) {
   for (const auto& plan : named_plans()) {
@@ -290,18 +316,11 @@ corpus::Expected<CampaignPlan> find_plan(const std::string& name_or_file) {
     return corpus::problem_in(name_or_file,
                               "is no campaign and no file; did you mean " + meant->name + "?");
   }
-  BOOST_OUTCOME_TRY(bytes, corpus::read_bytes(name_or_file));
-  BOOST_OUTCOME_TRY(plan, parse_plan(bytes, name_or_file));
-  for (const auto& named : named_plans()) {
-    // The query of a plug-in is judged beside the steps, or alone, in a campaign of the same name.
-    if (plan.name != named.name || is_the_same_but_for_time(plan, named) ||
-        is_the_same_but_for_time(plan, with_queries(named)) ||
-        is_the_same_but_for_time(plan, query_plan(named)))
-      continue;
-    return corpus::problem_in(name_or_file,
-                              "is another plan than the built-in campaign of its name");
-  }
-  return plan;
+  return read_plan(name_or_file, is_the_same_but_for_time);
+}
+
+corpus::Expected<CampaignPlan> kept_plan(const std::filesystem::path& file) {
+  return read_plan(file.string(), is_made_of);
 }
 
 }  // namespace assay::properties

@@ -155,7 +155,7 @@ properties::Expected<Json> make_statement(const RunFindings& findings) {
   const auto file = properties::campaign_file(findings.folder);
   const auto digest = corpus::sha256_of_file(file);
   if (!digest) return Problem{digest.error().message};
-  const auto plan = properties::find_plan(file.string());
+  const auto plan = properties::kept_plan(file);
   if (!plan) return Problem{plan.error().message};
   if (!is_plan_of(findings, plan.value())) {
     return Problem{"campaign.json is not the campaign of the stores"};
