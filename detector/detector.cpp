@@ -1,5 +1,8 @@
 #include "detector/detector.h"
 
+#include <limits>
+#include <string>
+
 #include "detector/assembly.h"
 #include "detector/mesh/mesh_checks.h"
 #include "detector/mesh/paced_stop.h"
@@ -35,6 +38,31 @@ std::vector<ViewAnchor> place_anchors(const Surface& surface,
     }
   }
   return anchors;
+}
+
+// A state knows nothing of components within which nothing is looked for. So it is of the mesh and
+// of the set of these components; of the rest of the relation between pairs it is independent.
+std::uint64_t digest_of(const StepContext& context) {
+  return digest_of(context.surface.mesh, context.surface.first_apex) ^
+         context.relation.digest_of_left_out();
+}
+
+// Views and cones prove that nothing is in contact, and nothing of how near it is.
+std::optional<Problem> check_separation(const Options& options) {
+  const double d = options.separation;
+  const auto wrong = [](std::string message) {
+    return Problem{InputError::wrong_separation, std::move(message)};
+  };
+  if (!(d >= 0 && d <= std::numeric_limits<double>::max()))
+    return wrong("the separation is not a finite number of 0 or more");
+  if (d == 0) return std::nullopt;
+  if (options.culling != Culling::bvh && options.culling != Culling::none)
+    return wrong(std::string("culling ") + name_of(options.culling) +
+                 " does not answer a separation; bvh and none do");
+  if (options.arithmetic != Arithmetic::exact)
+    return wrong(std::string("arithmetic ") + name_of(options.arithmetic) +
+                 " does not answer a separation; exact does");
+  return std::nullopt;
 }
 
 }  // namespace
@@ -82,11 +110,16 @@ Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView&
 Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView& positions,
                             const Options& options, Stages stages, const StopFunction& stop,
                             Workers workers) {
+  if (auto problem = check_separation(options)) return std::move(*problem);
   SharedStop shared(stop);
   const StopFunction asked = shared.function();
   PacedStop pace(asked, workers);
   if (auto problem = check_triangles(triangles, positions.rows(), pace)) return std::move(*problem);
   if (auto problem = check_positions(positions, positions.rows())) return std::move(*problem);
+  if (options.counted) {
+    if (auto problem = check_counted_pairs(*options.counted, triangles, positions.rows()))
+      return std::move(*problem);
+  }
   // Once the stop function has asked for an end it is not asked again.
   const StopFunction paced = [&] { return pace.now(); };
   const auto stopped = [] {
@@ -105,6 +138,7 @@ Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView&
   if (pace.stopped()) return stopped();
   BoundingVolumeTree tree(surface.mesh, positions, &pace);
   if (pace.now()) return stopped();
+  tree.grow_boxes(stages.elementary->separation());
   std::vector<ApexRule> rules;
   if (views && !surface.is_closed()) {
     rules = stages.boundary->choose_apexes(surface, tree, positions, *stages.elementary, paced);
@@ -125,7 +159,10 @@ Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView&
                       std::move(anchors),
                       std::move(rules),
                       0,
-                      std::move(workers)};
+                      std::move(workers),
+                      {}};
+  context.relation = PairRelation(options.counted, context.surface.mesh);
+  context.options.counted = nullptr;  // the user's own, who may let it go
   if (views) context.adjacent_pairs = adjacent_pairs(context.surface.mesh);
   return Detector(
       std::unique_ptr<Detector::Parts>(new Detector::Parts{std::move(context), {}, {}}));
@@ -161,16 +198,17 @@ void Detector::reset() {
 
 SavedState Detector::state() const {
   const StepContext& context = parts_->context;
-  return SavedState(StateFields{digest_of(context.surface.mesh, context.surface.first_apex),
-                                context.options.culling, parts_->committed, context.apex_rules,
-                                context.anchors});
+  return SavedState(StateFields{digest_of(context), context.options.culling, parts_->committed,
+                                context.apex_rules, context.anchors});
 }
 
 std::optional<Problem> Detector::restore(const SavedState& saved) {
   const StateFields& state = saved.fields();
   StepContext& context = parts_->context;
-  if (state.mesh != digest_of(context.surface.mesh, context.surface.first_apex)) {
-    return Problem{InputError::foreign_state, "the state is of a detector of another mesh"};
+  if (state.mesh != digest_of(context)) {
+    return Problem{InputError::foreign_state,
+                   "the state is of a detector of another mesh, or of one that looks for contacts "
+                   "within other bodies"};
   }
   if (state.culling != context.options.culling || state.anchors.size() != context.anchors.size() ||
       state.apex_rules.size() != context.apex_rules.size()) {

@@ -54,9 +54,10 @@ class SavedState {
 
 class Detector {
  public:
-  // Errors: those of check_triangles and check_positions. The tree, the view anchors and the
-  // apexes are made from `positions` (preprocessing, O((M + ghosts) log M)). Any positions of the
-  // mesh will do; those of the first frame are best.
+  // Errors: those of check_triangles, check_positions and, for options.counted,
+  // check_counted_pairs. The tree, the view anchors and the apexes are made from `positions`
+  // (preprocessing, O((M + ghosts) log M)). Any positions of the mesh will do; those of the first
+  // frame are best.
   static Expected<Detector> create(const TrianglesView& triangles, const PositionsView& positions,
                                    const Options& options);
   // The same, and `stop` can end it, with the error `stopped`. It is asked after every few
@@ -93,8 +94,9 @@ class Detector {
   // Goes on from a saved state. Further results equal those of the detector that was saved bit by
   // bit if both detectors were made from the same positions; otherwise their counts may differ. A
   // step that was evaluated and not committed is dropped. Error: foreign_state, if the state is of
-  // another mesh or culling; damaged_state, if it contradicts the mesh. After an error nothing has
-  // changed.
+  // another mesh or culling, or if other bodies do not meet themselves (Options::counted; of the
+  // rest of that relation a state is independent); damaged_state, if it contradicts the mesh. After
+  // an error nothing has changed.
   std::optional<Problem> restore(const SavedState& state);
 
   // Forgets the state: the next step is a new start.

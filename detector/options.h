@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "detector/mesh/counted_pairs.h"
 #include "detector/mesh/step_types.h"
 
 namespace assay::detector {
@@ -68,6 +69,15 @@ struct Options {
   // How many threads a step and create() may use; 0 means as many as the machine has. Results are
   // the same for any number, counts included. A library built without oneTBB uses one thread.
   std::uint32_t threads = 1;
+  // Which pairs count (L19); null: all of them. It is read when a detector is created, which keeps
+  // a copy. A pair that does not count is not reported; its contacts are still found where the
+  // state has to know them.
+  const CountedPairs* counted = nullptr;
+  // What is looked for: contacts if it is 0, else pairs of triangles that come within this
+  // distance, in the units of the positions (L16). Pairs that share a vertex do not count then.
+  // REQUIRES, else create() refuses it with wrong_separation: it is finite and not negative; with
+  // one above 0 the culling is bvh or none, and the arithmetic exact.
+  double separation = 0;
 };
 
 // Calls `visit` with the name of each option that is one of a list of values, and with the option.

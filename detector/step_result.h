@@ -1,4 +1,5 @@
-// What a step reports.
+// What a step reports. If a separation was asked for (Options::separation), "in contact" means here
+// that two triangles come within that distance.
 #pragma once
 
 #include <cstddef>

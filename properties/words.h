@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,15 +21,6 @@ template <class Enum, std::size_t n>
 constexpr const char* word_of(const char* const (&words)[n], Enum value) {
   const auto place = static_cast<std::size_t>(value);
   return place < n ? words[place] : "unknown";
-}
-
-// The value of a word; nothing for an unknown word.
-template <class Enum, std::size_t n>
-constexpr std::optional<Enum> value_of(const char* const (&words)[n], std::string_view word) {
-  for (std::size_t place = 0; place < n; ++place) {
-    if (words[place] == word) return static_cast<Enum>(place);
-  }
-  return std::nullopt;
 }
 
 // "once" or "3 times".

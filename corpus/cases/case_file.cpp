@@ -130,6 +130,47 @@ std::string step_text(const ExpectedStep& step) {
   return out + "\n      }";
 }
 
+// A list of rows under a key, if there are any.
+template <class Item, class ItemText>
+void append_list(std::string& out, std::string_view key, const std::vector<Item>& items,
+                 ItemText item_text) {
+  if (items.empty()) return;
+  out += fmt::format(",\n    \"{}\": ", key);
+  append_rows(out, items.size(), 4, [&](std::size_t i) { return item_text(items[i]); });
+}
+
+// Numbers of vertices that follow each other and are of one body, each with that body.
+std::vector<std::array<std::int32_t, 2>> runs_of(const std::vector<std::int32_t>& body) {
+  std::vector<std::array<std::int32_t, 2>> runs;
+  for (const std::int32_t b : body) {
+    if (runs.empty() || runs.back()[1] != b) runs.push_back({0, b});
+    ++runs.back()[0];
+  }
+  return runs;
+}
+
+void append_counted(std::string& out, const Case& c) {
+  const auto& [pairs, steps] = *c.counted;
+  const auto two = [](const auto& pair) { return fmt::format("[{}, {}]", pair[0], pair[1]); };
+  out += fmt::format(",\n  \"counted\": {{\n    \"level\": \"{}\"", name_of(pairs.level));
+  append_list(out, "bodies", runs_of(pairs.body), two);
+  append_list(out, "apart", pairs.apart, two);
+  if (pairs.rings != 0) out += fmt::format(",\n    \"rings\": {}", pairs.rings);
+  if (pairs.rest_distance != 0)
+    out += fmt::format(",\n    \"rest_distance\": {}", number(pairs.rest_distance));
+  if (pairs.rest_distance == 0 || pairs.rest != points_of(c.frames.front()))
+    append_list(out, "rest", pairs.rest, [](const detector::Point& x) { return text(x); });
+  append_list(out, "triangle_pairs", pairs.triangle_pairs,
+              [](const auto& pair) { return fmt::format("[{}, {}]", pair.a, pair.b); });
+  append_list(out, "vertex_faces", pairs.vertex_faces,
+              [](const auto& pair) { return fmt::format("[{}, {}]", pair.vertex, pair.face); });
+  append_list(out, "edge_pairs", pairs.edge_pairs, [](const auto& pair) {
+    return fmt::format("[{}, {}, {}, {}]", pair.a[0], pair.a[1], pair.b[0], pair.b[1]);
+  });
+  append_list(out, "steps", steps, [](const ExpectedStep& step) { return step_text(step); });
+  out += "\n  }";
+}
+
 // One key a line, the values as they came.
 void append_pending(std::string& out, const std::string& pending) {
   const Json facts = Json::parse(pending, nullptr, false);
@@ -170,6 +211,7 @@ std::string case_text(const Case& c) {
   append_rows(out, c.expected.steps.size(), 4,
               [&](std::size_t i) { return step_text(c.expected.steps[i]); });
   out += "\n  }";
+  if (c.counted) append_counted(out, c);
   append_pending(out, c.pending);
   return out + "\n}\n";
 }

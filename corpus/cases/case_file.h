@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "corpus/problem.h"
+#include "detector/mesh/counted_pairs.h"
 #include "detector/mesh/step_types.h"
 
 namespace assay::corpus {
@@ -62,6 +63,13 @@ struct ExpectedFacts {
   std::vector<ExpectedStep> steps;  // one for each step of the case, or none
 };
 
+// Which pairs count, and what then holds. The `expected` facts of a case speak of all pairs,
+// whatever counts, because laws and state do (L19); `steps` speaks of those that count.
+struct CaseRelation {
+  detector::CountedPairs pairs;
+  std::vector<ExpectedStep> steps;  // one for each step of the case, without signs, or none
+};
+
 struct Case {
   std::string id;      // the file's name without .json
   std::string about;   // one line: what it shows
@@ -76,10 +84,16 @@ struct Case {
   // Options such as culling and start, by name, in the words of the command line.
   std::map<std::string, std::string, std::less<>> options;
   ExpectedFacts expected;
+  std::optional<CaseRelation> counted;  // absent: every pair counts
   // A JSON object in compact text, kept verbatim: further facts by name, which are explained in
   // tests/properties/curated/curated_checks.h. "{}" when there are none.
   std::string pending = "{}";
 };
+
+// Which pairs count; null: all of them.
+inline const detector::CountedPairs* counted_of(const Case& c) {
+  return c.counted ? &c.counted->pairs : nullptr;
+}
 
 // A committed step for each two consecutive frames.
 std::vector<CaseStep> consecutive_steps(std::size_t frames);
@@ -93,6 +107,9 @@ const detector::Positions& end_of(const Case& c, const CaseStep& step);
 
 // The view primitive during steps_of(c)[step]; nothing when the case states none.
 std::optional<detector::ViewPrimitive> view_of_step(const Case& c, std::size_t step);
+
+// The vertices of a frame as points.
+std::vector<detector::Point> points_of(const detector::Positions& x);
 
 // The canonical text of a case.
 std::string case_text(const Case& c);

@@ -12,6 +12,7 @@
 #include "corpus/cases/case_file.h"
 #include "corpus/json_fields.h"
 #include "corpus/problem.h"
+#include "detector/mesh/mesh_checks.h"
 #include "detector/mesh/step_types.h"
 
 namespace assay::corpus {
@@ -115,6 +116,22 @@ Expected<detector::Answer> read_answer(const JsonField& field) {
   return *answer;
 }
 
+// Reads lists of so many integers, each in [0, end).
+template <std::size_t n>
+Expected<std::vector<std::array<std::int32_t, n>>> read_tuples(const JsonField& field,
+                                                               std::int64_t end) {
+  using Tuple = std::array<std::int32_t, n>;
+  return read_list<Tuple>(field, [end](const JsonField& item) -> Expected<Tuple> {
+    BOOST_OUTCOME_TRY(expect_size(item, n));
+    Tuple tuple{};
+    for (std::size_t i = 0; i < n; ++i) {
+      BOOST_OUTCOME_TRY(value, item.item(i).integer(0, end));
+      tuple[i] = value;
+    }
+    return tuple;
+  });
+}
+
 class CaseParser {
  public:
   explicit CaseParser(JsonField top) : top_(std::move(top)) {}
@@ -139,6 +156,9 @@ class CaseParser {
     }
     BOOST_OUTCOME_TRY(read_options());
     BOOST_OUTCOME_TRY(read_expected());
+    if (top_.has("counted")) {
+      BOOST_OUTCOME_TRY(read_counted());
+    }
     BOOST_OUTCOME_TRY(pending, top_.at("pending"));
     if (!pending.json().is_object()) return pending.problem("an object expected");
     case_.pending = pending.json().dump();
@@ -256,6 +276,93 @@ class CaseParser {
       BOOST_OUTCOME_TRY(expect_size(field, steps_of(case_).size()));
     }
     case_.expected.steps = std::move(steps);
+    return boost::outcome_v2::success();
+  }
+
+  Expected<void> read_counted() {
+    BOOST_OUTCOME_TRY(field, top_.at("counted"));
+    BOOST_OUTCOME_TRY(level_field, field.at("level"));
+    BOOST_OUTCOME_TRY(level_name, level_field.text());
+    const auto level = from_name<detector::CountedLevel>(level_name);
+    if (!level) return level_field.problem("triangles or features expected");
+    CaseRelation relation;
+    relation.pairs.level = *level;
+    BOOST_OUTCOME_TRY(read_bodies(field, relation.pairs));
+    BOOST_OUTCOME_TRY(read_rest(field, relation.pairs));
+    BOOST_OUTCOME_TRY(read_counted_lists(field, relation.pairs));
+    if (auto problem = detector::check_counted_pairs(relation.pairs, case_.triangles,
+                                                     case_.frames[0].rows())) {
+      return field.problem(fmt::format("{}: {}", name_of(problem->error), problem->message));
+    }
+    if (field.has("steps")) {
+      BOOST_OUTCOME_TRY(steps_field, field.at("steps"));
+      BOOST_OUTCOME_TRY(expect_size(steps_field, steps_of(case_).size()));
+      BOOST_OUTCOME_TRY(steps, read_list<ExpectedStep>(steps_field, [&](const JsonField& item) {
+                          return read_step(item);
+                        }));
+      relation.steps = std::move(steps);
+    }
+    case_.counted = std::move(relation);
+    return boost::outcome_v2::success();
+  }
+
+  Expected<void> read_bodies(const JsonField& field, detector::CountedPairs& pairs) const {
+    const std::int64_t vertices = case_.frames[0].rows();
+    if (field.has("bodies")) {
+      BOOST_OUTCOME_TRY(bodies, field.at("bodies"));
+      BOOST_OUTCOME_TRY(runs, read_tuples<2>(bodies, vertices + 1));
+      for (const auto& [count, body] : runs) {
+        if (static_cast<std::int64_t>(pairs.body.size()) + count > vertices)
+          return bodies.problem(fmt::format("more than {} vertices", vertices));
+        pairs.body.insert(pairs.body.end(), static_cast<std::size_t>(count), body);
+      }
+    }
+    if (field.has("apart")) {
+      BOOST_OUTCOME_TRY(apart_field, field.at("apart"));
+      BOOST_OUTCOME_TRY(apart, read_tuples<2>(apart_field, vertices));
+      pairs.apart = std::move(apart);
+    }
+    return boost::outcome_v2::success();
+  }
+
+  Expected<void> read_rest(const JsonField& field, detector::CountedPairs& pairs) const {
+    if (field.has("rings")) {
+      BOOST_OUTCOME_TRY(rings_field, field.at("rings"));
+      BOOST_OUTCOME_TRY(rings, rings_field.integer(0, std::int64_t{1} << 31));
+      pairs.rings = rings;
+    }
+    if (field.has("rest_distance")) {
+      BOOST_OUTCOME_TRY(distance_field, field.at("rest_distance"));
+      BOOST_OUTCOME_TRY(distance, distance_field.number());
+      pairs.rest_distance = distance;
+    }
+    if (field.has("rest")) {
+      BOOST_OUTCOME_TRY(rest_field, field.at("rest"));
+      BOOST_OUTCOME_TRY(rest, read_points(rest_field));
+      pairs.rest = std::move(rest);
+    } else if (pairs.rest_distance != 0) {
+      pairs.rest = points_of(case_.frames[0]);
+    }
+    return boost::outcome_v2::success();
+  }
+
+  Expected<void> read_counted_lists(const JsonField& field, detector::CountedPairs& pairs) const {
+    const std::int64_t vertices = case_.frames[0].rows(), triangles = case_.triangles.rows();
+    if (field.has("triangle_pairs")) {
+      BOOST_OUTCOME_TRY(list_field, field.at("triangle_pairs"));
+      BOOST_OUTCOME_TRY(list, read_tuples<2>(list_field, triangles));
+      for (const auto& [a, b] : list) pairs.triangle_pairs.push_back({a, b});
+    }
+    if (field.has("vertex_faces")) {
+      BOOST_OUTCOME_TRY(list_field, field.at("vertex_faces"));
+      BOOST_OUTCOME_TRY(list, read_tuples<2>(list_field, std::max(vertices, triangles)));
+      for (const auto& [v, face] : list) pairs.vertex_faces.push_back({v, face});
+    }
+    if (field.has("edge_pairs")) {
+      BOOST_OUTCOME_TRY(list_field, field.at("edge_pairs"));
+      BOOST_OUTCOME_TRY(list, read_tuples<4>(list_field, vertices));
+      for (const auto& [a, b, c, d] : list) pairs.edge_pairs.push_back({{a, b}, {c, d}});
+    }
     return boost::outcome_v2::success();
   }
 

@@ -36,4 +36,10 @@ std::optional<detector::ViewPrimitive> view_of_step(const Case& c, std::size_t s
   return detector::ViewPrimitive{q0, c.view->q1.empty() ? q0 : moving(c.view->q1)};
 }
 
+std::vector<detector::Point> points_of(const detector::Positions& x) {
+  std::vector<detector::Point> points;
+  for (std::int32_t v = 0; v < x.rows(); ++v) points.push_back(detector::point_of(x, v));
+  return points;
+}
+
 }  // namespace assay::corpus

@@ -1,9 +1,12 @@
 #include "corpus/formats/step_source.h"
 
+#include <fmt/format.h>
+
 #include <boost/outcome/try.hpp>
 #include <utility>
 
-#include "corpus/formats/sequence_reader.h"
+#include "corpus/formats/bodies_reader.h"
+#include "detector/mesh/mesh_checks.h"
 
 namespace assay::corpus {
 namespace {
@@ -30,6 +33,7 @@ class StepsOfCase : public StepSource {
                       view_of_step(*case_, s), script_[s].commit};
   }
 
+  const detector::CountedPairs* counted() const override { return counted_of(*case_); }
   std::shared_ptr<const Case> whole() const override { return case_; }
   const Case* case_file() const override { return is_case_file_ ? case_.get() : nullptr; }
 
@@ -46,13 +50,18 @@ class StepsOfCase : public StepSource {
 // Consecutive steps share a frame: the end of one is the start of the next.
 class StepsOfFiles : public StepSource {
  public:
-  StepsOfFiles(SequenceReader reader, Positions first, Positions second)
-      : reader_(std::move(reader)), x_t0_(std::move(first)), x_t1_(std::move(second)) {}
+  StepsOfFiles(BodiesReader reader, std::optional<detector::CountedPairs> counted, Positions first,
+               Positions second)
+      : reader_(std::move(reader)),
+        counted_(std::move(counted)),
+        x_t0_(std::move(first)),
+        x_t1_(std::move(second)) {}
 
   std::size_t count() const override { return reader_.frames() - 1; }
   std::size_t frames() const override { return reader_.frames(); }
   const detector::Triangles& triangles() const override { return reader_.triangles(); }
   const Positions& first_frame() const override { return x_t0_; }
+  const detector::CountedPairs* counted() const override { return counted_ ? &*counted_ : nullptr; }
 
   Expected<SourceStep> step(std::size_t s) override {
     if (s > step_) {
@@ -64,6 +73,7 @@ class StepsOfFiles : public StepSource {
   Expected<std::unique_ptr<StepSource>> read_whole() override {
     Case c;
     c.triangles = reader_.triangles();
+    if (counted_) c.counted = CaseRelation{*counted_, {}};
     c.frames.push_back(std::move(x_t0_));
     c.frames.push_back(std::move(x_t1_));
     while (!reader_.at_end()) {
@@ -83,7 +93,8 @@ class StepsOfFiles : public StepSource {
     return boost::outcome_v2::success();
   }
 
-  SequenceReader reader_;
+  BodiesReader reader_;
+  std::optional<detector::CountedPairs> counted_;
   std::size_t step_ = 0;  // whose frames these are
   Positions x_t0_, x_t1_;
 };
@@ -95,12 +106,27 @@ std::unique_ptr<StepSource> steps_of_case(std::shared_ptr<const Case> c, bool is
 }
 
 Expected<std::unique_ptr<StepSource>> steps_of_files(std::vector<std::filesystem::path> files) {
-  SequenceReader reader(std::move(files));
+  return steps_of_bodies({{std::move(files)}, {}});
+}
+
+Expected<std::unique_ptr<StepSource>> steps_of_bodies(const BodyFiles& bodies) {
+  BodiesReader reader(bodies.frames);
+  BOOST_OUTCOME_TRYV(reader.fit());
   BOOST_OUTCOME_TRY(first, reader.next());
+  std::optional<detector::CountedPairs> counted;
+  if (bodies.frames.size() > 1 || !bodies.apart.empty()) {
+    counted.emplace();
+    counted->body = reader.bodies();
+    counted->apart = bodies.apart;
+    if (const auto wrong =
+            detector::check_counted_pairs(*counted, reader.triangles(), first.rows()))
+      return problem_in({}, wrong->message);
+  }
   if (reader.at_end()) return one_frame_only();
   BOOST_OUTCOME_TRY(second, reader.next());
   BOOST_OUTCOME_TRYV(reader.look_ahead());
-  return std::make_unique<StepsOfFiles>(std::move(reader), std::move(first), std::move(second));
+  return std::make_unique<StepsOfFiles>(std::move(reader), std::move(counted), std::move(first),
+                                        std::move(second));
 }
 
 Expected<std::unique_ptr<StepSource>> read_steps(const std::vector<std::filesystem::path>& files) {

@@ -3,6 +3,7 @@
 // these.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -36,6 +37,9 @@ class StepSource {
   // problem.
   virtual Expected<SourceStep> step(std::size_t s) = 0;
 
+  // Which pairs count; null: all of them. The same for all steps.
+  virtual const detector::CountedPairs* counted() const { return nullptr; }
+
   // The case, if it is at hand as a whole; else null.
   virtual std::shared_ptr<const Case> whole() const { return nullptr; }
   // The same if it states options and facts; null if it is but triangles and frames.
@@ -52,6 +56,16 @@ std::unique_ptr<StepSource> steps_of_case(std::shared_ptr<const Case> c, bool is
 // Each file is a frame, and is read once: the first two now, the others when their step is asked
 // for. Those that are not there or of no known format are refused now. REQUIRES a file.
 Expected<std::unique_ptr<StepSource>> steps_of_files(std::vector<std::filesystem::path> files);
+
+// Several meshes as bodies of one: their vertices and triangles follow each other. A body has a
+// file for each frame, or one file: then it stands still.
+struct BodyFiles {
+  std::vector<std::vector<std::filesystem::path>> frames;  // by body
+  // Bodies that do not meet (detector/mesh/counted_pairs.h).
+  std::vector<std::array<std::int32_t, 2>> apart;
+};
+// As steps_of_files. The relation of the steps has the bodies. REQUIRES a body, and a file of each.
+Expected<std::unique_ptr<StepSource>> steps_of_bodies(const BodyFiles& bodies);
 
 // What these files hold: one case file (.json), or frames of one mesh, two or more. REQUIRES a
 // file.

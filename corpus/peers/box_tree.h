@@ -26,6 +26,12 @@ struct Box {
     take(box.lo);
     take(box.hi);
   }
+  void grow(double by) {
+    for (int k = 0; k < 3; ++k) {
+      lo[k] -= by;
+      hi[k] += by;
+    }
+  }
   bool meets(const Box& other) const {
     for (int k = 0; k < 3; ++k) {
       if (hi[k] < other.lo[k] || other.hi[k] < lo[k]) return false;

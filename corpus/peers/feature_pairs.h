@@ -58,7 +58,8 @@ struct FeatureTests {
 template <class Tests>
 class FeaturePairs : public TrianglePairs<FeatureTests<Tests>> {
  public:
-  explicit FeaturePairs(const plugin::Mesh& mesh) : TrianglePairs<FeatureTests<Tests>>(mesh) {}
+  explicit FeaturePairs(const plugin::Mesh& mesh, double separation = 0)
+      : TrianglePairs<FeatureTests<Tests>>(mesh, separation) {}
 };
 
 }  // namespace assay::peers

@@ -14,7 +14,8 @@ struct IpcAdditive : IpcStep<ipc::AdditiveCCD> {
   using IpcStep::IpcStep;
   static plugin::Description describe() {
     plugin::Description d = description();
-    d.name = "IPC Toolkit, LBVH and additive CCD";
+    d.name = separation > 0 ? "IPC Toolkit, additive CCD, minimum separation"
+                            : "IPC Toolkit, LBVH and additive CCD";
     d.claims = ASSAY_CLAIM_DETERMINISTIC | ASSAY_CLAIM_TOTAL;
     return d;
   }

@@ -2,10 +2,12 @@
 // step that is free of collisions by one of its narrow phases.
 //
 // Version: 1.5.0, from its public sources. Functions: ipc::CollisionMesh and
-// ipc::compute_collision_free_stepsize of ipc/ipc.hpp, with min_distance 0, as its tutorial
-// "Getting started" calls them. Settings: the defaults of each. Contract of both narrow phases: no
-// contact at the start ("Assumes vertices_t0 is intersection free"), and coordinates of usual
-// sizes, because its tolerances are lengths. It tells a time and no pairs.
+// ipc::compute_collision_free_stepsize of ipc/ipc.hpp, as its tutorial "Getting started" calls
+// them. Settings: the defaults of each, and min_distance ASSAY_PEER_SEPARATION: 0, or 1e-3 ("The
+// minimum distance allowable between any two elements"; "CCD with a minimum separation distance").
+// Contract of both narrow phases: no contact at the start ("Assumes vertices_t0 is intersection
+// free"), and coordinates of usual sizes, because its tolerances are lengths. It tells a time and
+// no pairs, and promises nothing of how near what it takes for a collision is.
 #pragma once
 
 #include <tbb/global_control.h>
@@ -24,6 +26,8 @@ namespace assay::peers {
 template <class NarrowPhase>
 class IpcStep {
  public:
+  static constexpr double separation = ASSAY_PEER_SEPARATION;
+
   explicit IpcStep(const plugin::Mesh& mesh) : mesh_(made(mesh)) {}
 
   // The toolkit works in threads of TBB, so their number is limited there.
@@ -37,7 +41,7 @@ class IpcStep {
   plugin::Result evaluate(plugin::Positions x_t0, plugin::Positions x_t1) {
     ipc::LBVH broad_phase;
     const double size = ipc::compute_collision_free_stepsize(
-        mesh_, plugin::eigen(x_t0), plugin::eigen(x_t1), 0, &broad_phase, narrow_phase_);
+        mesh_, plugin::eigen(x_t0), plugin::eigen(x_t1), separation, &broad_phase, narrow_phase_);
     return size < 1 ? plugin::Result::collision(size, 1) : plugin::Result::free();
   }
 
@@ -48,6 +52,8 @@ class IpcStep {
     d.least_nonzero = 1e-6;
     d.largest = 1e6;
     d.reports = ASSAY_REPORTS_NO_PAIRS;
+    d.separation = separation;
+    if (separation > 0) d.adjacency = ASSAY_ADJACENCY_NO_SHARED_VERTEX;
     return d;
   }
 

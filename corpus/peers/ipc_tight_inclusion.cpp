@@ -17,7 +17,8 @@ struct IpcTightInclusion : IpcStep<ipc::TightInclusionCCD> {
   using IpcStep::IpcStep;
   static plugin::Description describe() {
     plugin::Description d = description();
-    d.name = "IPC Toolkit, LBVH and Tight-Inclusion";
+    d.name = separation > 0 ? "IPC Toolkit, Tight-Inclusion, minimum separation"
+                            : "IPC Toolkit, LBVH and Tight-Inclusion";
     d.claims = ASSAY_CLAIM_FREE_SOUND | ASSAY_CLAIM_NOT_LATE | ASSAY_CLAIM_DETERMINISTIC |
                ASSAY_CLAIM_TOTAL;
     return d;

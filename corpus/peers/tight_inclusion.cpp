@@ -1,22 +1,34 @@
 // Tight-Inclusion, a conservative test by inclusion functions (Wang et al. 2021), put to all pairs
-// of features of triangles whose swept boxes meet.
+// of features of triangles whose swept boxes meet. It is built twice: with ASSAY_PEER_SEPARATION 0,
+// and with 1e-3, its minimum separation ms.
 //
 // Version: tag v1.0.6 of its public sources, which calls itself 1.0.4. Functions:
 // ticcd::vertexFaceCCD and ticcd::edgeEdgeCCD of tight_inclusion/ccd.hpp. Settings, those that its
-// README suggests for a single query: err {-1, -1, -1} (it computes the bound of the query), ms 0,
+// README suggests for a single query: err {-1, -1, -1} (it computes the bound of the query),
 // tolerance 1e-6, t_max 1, max_itr 1e6, no_zero_toi false, breadth-first. Contract: no contact at
 // the start, and coordinates of usual sizes, because its tolerance is a length; its time is a
 // lower bound. Claims: free-sound and not-late from its README ("Because our method is
 // conservative, we guarantee a result of false implies no collision occurs"; "toi: ... it will
 // return the earliest collision time"); total and deterministic, because they are functions of
 // their arguments that return a bool. It announces a collision when features only come nearer to
-// each other than tolerance, so no-spurious is not claimed.
+// each other than tolerance, so of ms 0 no-spurious is not claimed.
+//
+// With ms the same is claimed of what comes within ms ("We guarantee a collision will be reported
+// if the distance between the two primitives is less than ms"), and no-spurious too: a false alarm
+// happens "only if the minimal distance ... is no larger than tolerance + ms + err". Which distance
+// it does not say. The code compares each coordinate (interval_root_finder,
+// evaluate_bbox_one_dimension_vector), so it is the greatest difference along an axis, and the
+// slack is given for that: sqrt(3) (ms + tolerance + err) - ms. What ends by max_itr is excepted
+// there ("the solving precision may not reach the target precision"), and is not told apart here.
+#include <cmath>
 #include <tight_inclusion/ccd.hpp>
 
 #include "corpus/peers/feature_pairs.h"
 
 namespace assay::peers {
 namespace {
+
+constexpr double separation = ASSAY_PEER_SEPARATION, tolerance = 1e-6;
 
 struct TightInclusionTests {
   static Time vertex_face(const FourPaths& paths) { return ask(ticcd::vertexFaceCCD, paths); }
@@ -33,7 +45,7 @@ struct TightInclusionTests {
 
   static Time ask(Test test, const FourPaths& paths) {
     const ticcd::Array3 bound_of_the_query(-1, -1, -1);
-    constexpr double separation = 0, tolerance = 1e-6, whole_step = 1;
+    constexpr double whole_step = 1;
     constexpr long most_iterations = 1'000'000;
     double time = 0, reached_tolerance = 0;
     const auto &x = paths.at[0], &y = paths.at[1];
@@ -48,16 +60,23 @@ struct TightInclusionTests {
 };
 
 struct TightInclusion : FeaturePairs<TightInclusionTests> {
-  using FeaturePairs::FeaturePairs;
+  explicit TightInclusion(const plugin::Mesh& mesh) : FeaturePairs(mesh, separation) {}
   static plugin::Description describe() {
     plugin::Description d;
-    d.name = "Tight-Inclusion, all pairs";
+    d.name = separation > 0 ? "Tight-Inclusion, minimum separation" : "Tight-Inclusion, all pairs";
     d.version = TIGHT_INCLUSION_VER;
     d.claims = ASSAY_CLAIM_FREE_SOUND | ASSAY_CLAIM_NOT_LATE | ASSAY_CLAIM_DETERMINISTIC |
                ASSAY_CLAIM_TOTAL;
     d.start = ASSAY_START_FREE;
     d.least_nonzero = 1e-6;
     d.largest = 1e6;
+    if (separation > 0) {
+      constexpr double most_err = 7.6e-15;  // get_numerical_error, for ms above 0
+      d.claims |= ASSAY_CLAIM_NO_SPURIOUS;
+      d.adjacency = ASSAY_ADJACENCY_NO_SHARED_VERTEX;
+      d.separation = separation;
+      d.margin = std::sqrt(3.) * (separation + tolerance + most_err) - separation;
+    }
     return d;
   }
 };

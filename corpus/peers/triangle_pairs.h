@@ -1,5 +1,7 @@
 // What the peers that test two triangles at a time have in common. Their test is put to every pair
-// of triangles whose swept boxes meet, and the step's first time is the least of the pairs'.
+// of triangles whose swept boxes meet, and the step's first time is the least of the pairs'. One
+// that is asked for a distance is asked of triangles that share no vertex, and of boxes that may be
+// as far apart as that.
 #pragma once
 
 #include <optional>
@@ -27,15 +29,18 @@ struct TrianglePath {
 template <class Test>
 class TrianglePairs {
  public:
-  explicit TrianglePairs(const plugin::Mesh& mesh)
-      : triangles_(mesh.triangles.data(), mesh.triangles.data() + 3 * mesh.triangles.size()),
+  explicit TrianglePairs(const plugin::Mesh& mesh, double separation = 0)
+      : separation_(separation),
+        triangles_(mesh.triangles.data(), mesh.triangles.data() + 3 * mesh.triangles.size()),
         tree_(boxes_of(mesh.positions, mesh.positions)) {}
 
   plugin::Result evaluate(plugin::Positions x_t0, plugin::Positions x_t1) {
     tree_.fit(boxes_of(x_t0, x_t1));
     plugin::Result result;
     tree_.for_each_pair([&](std::int32_t a, std::int32_t b) {
-      const Time time = Test::first_time(path_of(a, x_t0, x_t1), path_of(b, x_t0, x_t1));
+      const auto s = path_of(a, x_t0, x_t1), t = path_of(b, x_t0, x_t1);
+      if (separation_ > 0 && s.shares_a_vertex_with(t)) return;
+      const Time time = Test::first_time(s, t);
       if (!time) return;
       const bool is_first = result.pairs.empty() || (*time)[0] < result.first[0];
       if (is_first) result.first = *time;
@@ -65,11 +70,14 @@ class TrianglePairs {
       for (const auto& at : path.at) {
         for (const double* p : at) box.take(p);
       }
+      // Half would do but for rounding.
+      box.grow(separation_);
       boxes_.push_back(box);
     }
     return boxes_;
   }
 
+  double separation_;
   std::vector<std::int32_t> triangles_;  // three vertices each
   std::vector<Box> boxes_;
   BoxTree tree_;

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "corpus/file_bytes.h"
+#include "corpus/formats/text_lines.h"
 #include "corpus/json_fields.h"
 
 namespace assay::corpus {
@@ -42,6 +43,7 @@ std::optional<Kind> kind_of(const std::filesystem::path& path) {
 struct Row {
   detector::Point x{};
   std::optional<bool> label;
+  std::optional<double> separation;
 };
 
 class CsvReader {
@@ -59,11 +61,13 @@ class CsvReader {
       // Only the end of the file may be blank.
       if (line.empty() && text_.find_first_not_of(" \t\r\n") == std::string_view::npos) break;
       BOOST_OUTCOME_TRY(row, read_row(line));
-      if (filled > 0 && row.label != rows[0].label) {
-        return wrong(fmt::format("this row's label is not that of its query's first row, {} before",
-                                 filled));
+      rows[filled] = row;
+      const bool is_labelled_alike = row.label == rows[0].label;
+      if (!is_labelled_alike || row.separation != rows[0].separation) {
+        return wrong(fmt::format("this row's {} is not that of its query's first row, {} before",
+                                 is_labelled_alike ? "separation" : "label", filled));
       }
-      rows[filled++] = row;
+      ++filled;
       if (filled == rows_a_query) {
         queries.push_back(query_of(rows));
         filled = 0;
@@ -89,7 +93,7 @@ class CsvReader {
   }
 
   Expected<Row> read_row(std::string_view line) const {
-    std::array<std::string_view, 7> columns;
+    std::array<std::string_view, 8> columns;
     std::size_t count = 0;
     for (bool more = true; more; ++count) {
       const std::size_t comma = std::min(line.find(','), line.size());
@@ -97,19 +101,25 @@ class CsvReader {
       more = comma < line.size();
       line.remove_prefix(more ? comma + 1 : comma);
     }
-    if (count != 6 && count != 7) {
-      return wrong(fmt::format("{} columns, where 6 or 7 are expected", count));
+    if (count < 6 || count > columns.size()) {
+      return wrong(fmt::format("{} columns, where 6 to 8 are expected", count));
     }
     Row row;
     for (std::size_t k = 0; k < 3; ++k) {
       BOOST_OUTCOME_TRY(value, coordinate(columns[2 * k], columns[2 * k + 1], "xyz"[k]));
       row.x[k] = value;
     }
-    if (count == 7) {
+    if (count == 7 || !columns[6].empty()) {
       if (columns[6] != "0" && columns[6] != "1") {
         return wrong("the label is neither 0 nor 1");
       }
       row.label = columns[6] == "1";
+    }
+    if (count == columns.size()) {
+      row.separation = parse_double(columns[7]);
+      if (!row.separation || !(*row.separation >= 0) || !std::isfinite(*row.separation)) {
+        return wrong("the separation is no length");
+      }
     }
     return row;
   }
@@ -140,10 +150,9 @@ class CsvReader {
     const auto point = [&](std::size_t i) {
       return detector::MovingPoint{rows[i].x, rows[i + 4].x};
     };
-    if (kind_ == Kind::vertex_face) {
-      return {detector::VertexFace{point(0), {point(1), point(2), point(3)}}, rows[0].label};
-    }
-    return {detector::EdgeEdge{{point(0), point(1)}, {point(2), point(3)}}, rows[0].label};
+    return {{{point(0), point(1), point(2), point(3)}, kind_ == Kind::vertex_face ? 1 : 2},
+            rows[0].label,
+            rows[0].separation};
   }
 
   std::string_view text_;

@@ -2,14 +2,15 @@
 // query, plain or gzip.
 //
 // A row is numerator,denominator for x, y and z. If it has a seventh column, that is the query's
-// truth (1: contact, 0: none). Rows of an edge-edge query: ea0 ea1 eb0 eb1 at t0, the same at t1;
-// of a vertex-face query: v f0 f1 f2 at t0, the same at t1. Every value must equal a double.
+// truth (1: contact, 0: none). If it has an eighth one, that is the query's separation, a decimal:
+// the truth is then whether the features come within it, and the seventh column may be empty. Rows
+// of an edge-edge query: ea0 ea1 eb0 eb1 at t0, the same at t1; of a vertex-face query: v f0 f1 f2
+// at t0, the same at t1. Every coordinate must equal a double.
 #pragma once
 
 #include <filesystem>
 #include <optional>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "corpus/problem.h"
@@ -18,8 +19,12 @@
 namespace assay::corpus {
 
 struct LabelledQuery {
-  std::variant<detector::VertexFace, detector::EdgeEdge> query;
-  std::optional<bool> truth;  // whether there is a contact in [0,1]; absent without a label
+  detector::FourPoints query;
+  // Whether there is a contact in [0,1], or with a separation whether the features come within it;
+  // absent without a label.
+  std::optional<bool> truth;
+  // A length in the units of the points, finite and >= 0; absent where contact is asked for.
+  std::optional<double> separation;
 };
 
 // The path tells whether a file holds vertex-face or edge-edge queries: it has a folder named

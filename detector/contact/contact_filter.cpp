@@ -34,10 +34,10 @@ struct FilterSearch {
 
 }  // namespace
 
-bool separated_along_an_axis(const FourPoints& query) {
+bool separated_along_an_axis(const FourPoints& query, double by) {
   const int split = query.first_group;
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto ordered = [&](const Point MovingPoint::*end, int& sense) {
+    const auto sense_at = [&](const Point MovingPoint::*end) {
       double lo[2], hi[2];
       for (int group = 0; group < 2; ++group) {
         const int begin = group == 0 ? 0 : split, stop = group == 0 ? split : 4;
@@ -48,14 +48,10 @@ bool separated_along_an_axis(const FourPoints& query) {
           hi[group] = std::max(hi[group], x);
         }
       }
-      sense = hi[0] < lo[1] ? -1 : lo[0] > hi[1] ? 1 : 0;
-      return sense != 0;
+      return lo[1] - hi[0] > by ? -1 : lo[0] - hi[1] > by ? 1 : 0;
     };
-    int sense_t0 = 0, sense_t1 = 0;
-    if (ordered(&MovingPoint::t0, sense_t0) && ordered(&MovingPoint::t1, sense_t1) &&
-        sense_t0 == sense_t1) {
-      return true;
-    }
+    const int sense = sense_at(&MovingPoint::t0);
+    if (sense != 0 && sense_at(&MovingPoint::t1) == sense) return true;
   }
   return false;
 }

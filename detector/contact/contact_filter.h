@@ -8,10 +8,11 @@
 
 namespace assay::detector {
 
-// The axis rung. Whether the two groups are strictly ordered along an axis, in the same sense at
-// t=0 and at t=1. Then there is no contact, because every point moves linearly. Exact, because it
-// only compares inputs. About 10 ns.
-bool separated_along_an_axis(const FourPoints& query);
+// The axis rung. Whether the two groups are more than `by` apart along an axis, in the same sense
+// at t=0 and at t=1. Then they are so throughout, because every point moves linearly; by 0, there
+// is no contact. Exact: a difference of doubles that is rounded to more than a double is more than
+// it. REQUIRES by >= 0. About 10 ns.
+bool separated_along_an_axis(const FourPoints& query, double by = 0);
 
 struct FilterResult {
   Decision decision = Decision::open;

@@ -27,6 +27,10 @@ ContactResult test_contact_past_axis(const FourPoints& query, Want want) {
   return result;
 }
 
+bool ElementaryTest::is_apart_along_an_axis(const FourPoints& query) const {
+  return separated_along_an_axis(query);
+}
+
 namespace {
 
 class BoundedTest : public ElementaryTest {

@@ -36,6 +36,10 @@ ContactResult test_contact(const FourPoints& query, Want want, Arithmetic arithm
 class ElementaryTest {
  public:
   virtual ~ElementaryTest() = default;
+  // The distance that is asked about: 0 asks for contacts, d > 0 for features that come within d.
+  virtual double separation() const { return 0; }
+  // The axis rung (contact_filter.h).
+  virtual bool is_apart_along_an_axis(const FourPoints& query) const;
   virtual ContactResult test(const FourPoints& query, Want want) const {
     return test_contact_past_axis(query, want);
   }

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <optional>
 
@@ -46,6 +47,34 @@ class Ball {
     exponent_ = exponent + 64 * (static_cast<std::int64_t>(size) - 1);
     normalize();
   }
+
+  // Exactly this double. REQUIRES that it is finite.
+  static Ball of(double value) {
+    Ball ball;
+    int exponent = 0;
+    ball.middle_ = 2 * std::frexp(value, &exponent);
+    ball.exponent_ = value == 0 ? 0 : exponent - 1;
+    return ball;
+  }
+
+  // All numbers between two doubles. REQUIRES 0 <= lo < hi, and hi - lo in the range of normal
+  // doubles. The middle and half of the width are each rounded once; the slack covers that, since
+  // the radius grows by a bit of hi as well.
+  static Ball between(double lo, double hi) {
+    assert(0 <= lo && lo < hi && hi - lo >= 0x1p-1000);
+    Ball ball;
+    ball.middle_ = lo / 2 + hi / 2;
+    ball.radius_ = slack * ((hi - lo) / 2 + 0x1p-52 * hi);
+    ball.normalize();
+    return ball;
+  }
+
+  Ball operator-() const {
+    Ball negated = *this;
+    negated.middle_ = -middle_;
+    return negated;
+  }
+  friend Ball operator-(const Ball& a, const Ball& b) { return a + (-b); }
 
   friend Ball operator+(const Ball& a, const Ball& b) {
     if (a.is_zero()) return b;

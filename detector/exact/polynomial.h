@@ -1,5 +1,6 @@
-// Polynomials in the step's time with exact integer coefficients. Those of the detector have
-// degree 5 at most (the middle piece of a view-line), but this class does not limit the degree.
+// Polynomials in the step's time with exact integer coefficients. Those of contacts and views have
+// degree 5 at most (the middle piece of a view-line), those of distances 6; this class does not
+// limit the degree.
 #pragma once
 
 #include <boost/container/small_vector.hpp>
@@ -59,7 +60,7 @@ class Polynomial {
   // those of this polynomial by some bits at most.
   Polynomial quotient(const Polynomial& divisor) const;
 
-  static constexpr std::size_t inline_coefficients = 6;
+  static constexpr std::size_t inline_coefficients = 7;
 
  private:
   void trim();

@@ -123,17 +123,22 @@ std::vector<RealRoot> roots_in_unit_interval(const Polynomial& f) {
 
 namespace {
 
-// The signs of a polynomial of degree 2 at most just inside the ends of an open interval.
+// The signs of a polynomial just inside the ends of an open interval: where it vanishes at an end,
+// the first of its derivatives that does not tells.
 struct EndSigns {
   int after_lo, before_hi;
 };
 
 EndSigns end_signs(const Polynomial& q, const Dyadic& lo, const Dyadic& hi) {
-  const Polynomial slope = q.derivative();
-  const int bend = slope.derivative().sign_at_zero();
-  const auto first_of = [](int a, int b, int c) { return a != 0 ? a : b != 0 ? b : c; };
-  return {first_of(q.sign_at(lo), slope.sign_at(lo), bend),
-          first_of(q.sign_at(hi), -slope.sign_at(hi), bend)};
+  EndSigns signs{q.sign_at(lo), q.sign_at(hi)};
+  int turned = -1;  // of the derivative of odd order, before an end
+  for (Polynomial slope = q.derivative();
+       !slope.is_zero() && (signs.after_lo == 0 || signs.before_hi == 0);
+       slope = slope.derivative(), turned = -turned) {
+    if (signs.after_lo == 0) signs.after_lo = slope.sign_at(lo);
+    if (signs.before_hi == 0) signs.before_hi = turned * slope.sign_at(hi);
+  }
+  return signs;
 }
 
 // The sign of q at the root -b/a of a t + b.
@@ -145,8 +150,11 @@ int sign_at_root_of_linear(const Polynomial& q, const Polynomial& linear) {
 }  // namespace
 
 int RealRoot::sign_of(const Polynomial& q) const {
-  assert(q.degree() <= 2);
   if (is_exact() || q.degree() <= 0) return q.sign_at(lo_);
+  if (q.degree() > 2) {
+    const SignChanges changes = sign_changes_over(q, lo_, hi_);
+    return changes.count == 0 ? changes.first : sign_beside_roots(q);
+  }
   const int at_lo = q.sign_at(lo_), at_hi = q.sign_at(hi_);
   if (q.degree() == 1 && at_lo * at_hi >= 0) return at_lo != 0 ? at_lo : at_hi;
   if (q.degree() == 2 && at_lo * at_hi > 0) {
@@ -173,6 +181,35 @@ int RealRoot::sign_by_order(const Polynomial& q, int after_lo, int before_hi) co
   if (after_lo == before_hi) return q_there;
   const int f_there = r_changes && q_there == after_lo ? of_r.before_hi : of_r.after_lo;
   return f_there == sign_after_lo_ ? before_hi : after_lo;
+}
+
+// Of the roots of f and q in the gap of doubles around (lo,hi) each gets an interval of its own, or
+// its exact time. The part in (lo,hi) of one of these intervals holds the root of f: there f
+// changes its sign. No other root of q is in that part. So q vanishes at the root of f if and only
+// if q, with its multiple roots made simple, changes its sign over the part; and if not, q has one
+// sign there.
+int RealRoot::sign_beside_roots(const Polynomial& q) const {
+  std::vector<IsolatedRoot> roots;
+  isolate_in_gap(square_free_part(f_ * q), enclosure_, Roots::all, roots);
+  const auto is_before = [](const Dyadic& a, const Dyadic& b) {
+    return (b + Dyadic{-a.mantissa, a.exponent}).mantissa.sign() > 0;
+  };
+  for (const IsolatedRoot& root : roots) {
+    const Dyadic& lo = is_before(lo_, root.lo) ? root.lo : lo_;
+    const Dyadic& hi = is_before(root.hi, hi_) ? root.hi : hi_;
+    if (root.is_time()) {
+      if (is_before(lo_, root.lo) && is_before(root.lo, hi_) && f_.sign_at(root.lo) == 0)
+        return q.sign_at(root.lo);
+      continue;
+    }
+    if (!is_before(lo, hi)) continue;
+    const EndSigns of_f = end_signs(f_, lo, hi);
+    if (of_f.after_lo == of_f.before_hi) continue;
+    const EndSigns of_q = end_signs(square_free_part(q), lo, hi);
+    return of_q.after_lo != of_q.before_hi ? 0 : end_signs(q, lo, hi).after_lo;
+  }
+  assert(false);
+  return 0;
 }
 
 }  // namespace assay::detector

@@ -1,10 +1,10 @@
 // The distinct real roots of an integer polynomial in [0,1], their unique enclosures in doubles,
-// and the exact sign of a quadratic at a root.
+// and the exact sign of another polynomial at a root.
 //
 // Method: multiple roots are made simple (polynomial.h), then Descartes' rule tells the roots
-// apart (root_isolation.h). Signs at doubles enclose each root. The sign of a quadratic at a root
-// follows from its signs on the root's interval, or, if these do not tell, from the order of two
-// roots (real_root.cpp). Every sign is first computed in balls (ball.h). Nothing here is
+// apart (root_isolation.h). Signs at doubles enclose each root. The sign of another polynomial at a
+// root follows from its signs on the root's interval, or, if these do not tell, from the order of
+// two roots (real_root.cpp). Every sign is first computed in balls (ball.h). Nothing here is
 // recursive: intervals wait in lists.
 #pragma once
 
@@ -26,7 +26,8 @@ class RealRoot {
   RealRoot(const Polynomial& f, const Dyadic& lo, const Dyadic& hi, int sign_after_lo,
            TimeEnclosure doubles);
 
-  // The exact sign of q at this root. REQUIRES that q has degree 2 at most.
+  // The exact sign of q at this root. If q has a degree above 2 and roots close to this one, all of
+  // these are told apart first: 50 us and more.
   int sign_of(const Polynomial& q) const;
   const TimeEnclosure& enclosure() const { return enclosure_; }
 
@@ -35,6 +36,8 @@ class RealRoot {
   // The same for a q with roots in (lo, hi) that has the signs after_lo and before_hi just inside
   // the ends of the interval.
   int sign_by_order(const Polynomial& q, int after_lo, int before_hi) const;
+  // The same for a q of any degree.
+  int sign_beside_roots(const Polynomial& q) const;
 
   Dyadic lo_, hi_;  // both are the root itself if is_exact()
   int sign_after_lo_ = 0;

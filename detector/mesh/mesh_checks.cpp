@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace assay::detector {
@@ -108,6 +109,124 @@ std::optional<Problem> check_positions(const PositionsView& positions, Eigen::In
     }
   }
   return std::nullopt;
+}
+
+namespace {
+
+Problem wrong_relation(std::string message) {
+  return {InputError::wrong_relation, std::move(message)};
+}
+
+Problem out_of_range(const char* list, std::int32_t index, Eigen::Index count) {
+  return {InputError::index_out_of_range,
+          std::string(list) + " names " + std::to_string(index) + " of " + std::to_string(count)};
+}
+
+std::optional<Problem> check_bodies(const CountedPairs& counted, const TrianglesView& triangles,
+                                    Eigen::Index vertex_count) {
+  const auto& body = counted.body;
+  if (!body.empty() && static_cast<Eigen::Index>(body.size()) != vertex_count) {
+    return Problem{InputError::wrong_frame_size,
+                   "bodies are given for " + std::to_string(body.size()) +
+                       " vertices, the mesh has " + std::to_string(vertex_count)};
+  }
+  std::int32_t bodies = 1;
+  for (const auto b : body) {
+    if (b < 0 || b >= vertex_count) return out_of_range("the list of bodies", b, vertex_count);
+    bodies = std::max(bodies, b + 1);
+  }
+  for (const auto& pair : counted.apart) {
+    for (const auto b : pair) {
+      if (b < 0 || b >= bodies) return out_of_range("a pair of bodies", b, bodies);
+    }
+  }
+  for (Eigen::Index t = 0; !body.empty() && t < triangles.rows(); ++t) {
+    const auto a = body[at(triangles(t, 0))];
+    if (a == body[at(triangles(t, 1))] && a == body[at(triangles(t, 2))]) continue;
+    return Problem{InputError::triangle_of_two_bodies, at_triangle(t) + " is of two bodies"};
+  }
+  return std::nullopt;
+}
+
+std::optional<Problem> check_rest(const CountedPairs& counted, Eigen::Index vertex_count) {
+  if (!std::isfinite(counted.rest_distance) || counted.rest_distance < 0)
+    return wrong_relation("the distance at rest is negative or not finite");
+  const bool may_be_empty = counted.rest_distance == 0;
+  if (counted.rest.empty() && may_be_empty) return std::nullopt;
+  if (static_cast<Eigen::Index>(counted.rest.size()) != vertex_count) {
+    return Problem{InputError::wrong_frame_size,
+                   "places at rest are given for " + std::to_string(counted.rest.size()) +
+                       " vertices, the mesh has " + std::to_string(vertex_count)};
+  }
+  for (std::size_t v = 0; v < counted.rest.size(); ++v) {
+    const Point& x = counted.rest[v];
+    if (std::all_of(x.begin(), x.end(), [](double c) { return std::isfinite(c); })) continue;
+    return Problem{InputError::non_finite_coordinate,
+                   "vertex " + std::to_string(v) + " has a coordinate at rest that is not finite"};
+  }
+  return std::nullopt;
+}
+
+using SortedEdge = std::array<std::int32_t, 2>;
+
+SortedEdge sorted_edge(std::int32_t u, std::int32_t v) { return {std::min(u, v), std::max(u, v)}; }
+
+std::optional<Problem> check_edge_pairs(const std::vector<TwoEdges>& pairs,
+                                        const TrianglesView& triangles, Eigen::Index vertex_count) {
+  if (pairs.empty()) return std::nullopt;
+  std::vector<SortedEdge> edges;
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    for (int k = 0; k < 3; ++k)
+      edges.push_back(sorted_edge(triangles(t, k), triangles(t, (k + 1) % 3)));
+  }
+  std::sort(edges.begin(), edges.end());
+  for (const auto& pair : pairs) {
+    for (const auto& [u, v] : {pair.a, pair.b}) {
+      for (const auto end : {u, v}) {
+        if (end < 0 || end >= vertex_count)
+          return out_of_range("a pair of edges", end, vertex_count);
+      }
+      if (std::binary_search(edges.begin(), edges.end(), sorted_edge(u, v))) continue;
+      return wrong_relation("a pair of edges names " + std::to_string(u) + "-" + std::to_string(v) +
+                            ", which is no edge of the mesh");
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Problem> check_lists(const CountedPairs& counted, const TrianglesView& triangles,
+                                   Eigen::Index vertex_count) {
+  const bool of_features = counted.level == CountedLevel::features;
+  const bool lists_triangles = !counted.triangle_pairs.empty(),
+             lists_features = !counted.vertex_faces.empty() || !counted.edge_pairs.empty();
+  if (of_features ? lists_triangles : lists_features) {
+    return wrong_relation(of_features ? "a list of triangles, but features are what counts"
+                                      : "a list of features, but triangles are what counts");
+  }
+  for (const auto& [a, b] : counted.triangle_pairs) {
+    for (const auto t : {a, b}) {
+      if (t < 0 || t >= triangles.rows())
+        return out_of_range("a pair of triangles", t, triangles.rows());
+    }
+    if (a == b) return wrong_relation(at_triangle(a) + " is paired with itself");
+  }
+  for (const auto& [v, face] : counted.vertex_faces) {
+    if (v < 0 || v >= vertex_count) return out_of_range("a vertex with a face", v, vertex_count);
+    if (face < 0 || face >= triangles.rows())
+      return out_of_range("a vertex with a face", face, triangles.rows());
+  }
+  return check_edge_pairs(counted.edge_pairs, triangles, vertex_count);
+}
+
+}  // namespace
+
+std::optional<Problem> check_counted_pairs(const CountedPairs& counted,
+                                           const TrianglesView& triangles,
+                                           Eigen::Index vertex_count) {
+  if (auto problem = check_bodies(counted, triangles, vertex_count)) return problem;
+  if (counted.rings < 0) return wrong_relation("there are fewer than 0 rings");
+  if (auto problem = check_rest(counted, vertex_count)) return problem;
+  return check_lists(counted, triangles, vertex_count);
 }
 
 }  // namespace assay::detector

@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "detector/mesh/counted_pairs.h"
 #include "detector/mesh/paced_stop.h"
 #include "detector/mesh/problem.h"
 #include "detector/mesh/types.h"
@@ -29,5 +30,15 @@ std::optional<Problem> check_triangles(const TrianglesView& triangles, Eigen::In
 
 // Nothing if all is well, else wrong_frame_size or non_finite_coordinate. O(N).
 std::optional<Problem> check_positions(const PositionsView& positions, Eigen::Index vertex_count);
+
+// Nothing if all is well. Else the first error that applies: wrong_frame_size (bodies or places at
+// rest are not one for each vertex), index_out_of_range (in a list or a pair of bodies),
+// triangle_of_two_bodies, non_finite_coordinate (at rest), or wrong_relation: rings below 0, a
+// distance that is negative or not finite, a triangle paired with itself, an edge that no triangle
+// has, a list of the other level. REQUIRES triangles that have passed check_triangles. O(N + M),
+// and O(M log M) if edges are listed.
+std::optional<Problem> check_counted_pairs(const CountedPairs& counted,
+                                           const TrianglesView& triangles,
+                                           Eigen::Index vertex_count);
 
 }  // namespace assay::detector

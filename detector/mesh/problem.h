@@ -12,19 +12,22 @@
 namespace assay::detector {
 
 enum class InputError : std::uint8_t {
-  no_triangles = 1,           // an empty mesh has no self-collision to detect
-  index_out_of_range = 2,     // a triangle names a vertex that does not exist
-  repeated_index = 3,         // a triangle names one vertex twice
-  same_vertices_twice = 4,    // two triangles have the same three vertices
-  wrong_frame_size = 5,       // positions do not have the mesh's number of vertices
-  non_finite_coordinate = 6,  // NaN or infinity
-  wrong_primitive_count = 7,  // not none, one, or one view primitive for each component
-  nothing_to_commit = 8,      // commit() without a completed evaluate()
-  foreign_state = 9,          // restore() with the state of another mesh or culling
-  damaged_state = 10,         // the bytes are no saved state, or were cut or changed
-  other_state_version = 11,   // the saved state has a form that this build does not read
-  mesh_too_large = 12,        // more triangles or vertices than the detector's indices can number
-  stopped = 13,               // the stop function asked for an end before there was a detector
+  no_triangles = 1,             // an empty mesh has no self-collision to detect
+  index_out_of_range = 2,       // a triangle names a vertex that does not exist
+  repeated_index = 3,           // a triangle names one vertex twice
+  same_vertices_twice = 4,      // two triangles have the same three vertices
+  wrong_frame_size = 5,         // positions do not have the mesh's number of vertices
+  non_finite_coordinate = 6,    // NaN or infinity
+  wrong_primitive_count = 7,    // not none, one, or one view primitive for each component
+  nothing_to_commit = 8,        // commit() without a completed evaluate()
+  foreign_state = 9,            // restore() with the state of another mesh or culling
+  damaged_state = 10,           // the bytes are no saved state, or were cut or changed
+  other_state_version = 11,     // the saved state has a form that this build does not read
+  mesh_too_large = 12,          // more triangles or vertices than the detector's indices can number
+  stopped = 13,                 // the stop function asked for an end before there was a detector
+  triangle_of_two_bodies = 14,  // its vertices are of two bodies (counted_pairs.h)
+  wrong_relation = 15,          // what CountedPairs says of pairs cannot be so
+  wrong_separation = 16,        // no distance, or with options that do not answer it
 };
 constexpr auto names_of(InputError) {
   using enum InputError;
@@ -40,7 +43,10 @@ constexpr auto names_of(InputError) {
                                            {damaged_state, "damaged_state"},
                                            {other_state_version, "other_state_version"},
                                            {mesh_too_large, "mesh_too_large"},
-                                           {stopped, "stopped"}});
+                                           {stopped, "stopped"},
+                                           {triangle_of_two_bodies, "triangle_of_two_bodies"},
+                                           {wrong_relation, "wrong_relation"},
+                                           {wrong_separation, "wrong_separation"}});
 }
 
 struct Problem {

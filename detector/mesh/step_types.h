@@ -50,6 +50,13 @@ struct TimeEnclosure {
   friend auto operator<=>(const TimeEnclosure&, const TimeEnclosure&) = default;
 };
 
+// A distance: the exact sum of two doubles, such as the offsets of two bodies. The second may be
+// negative, for a distance just below a double. REQUIRES both finite, and first and sum >= 0.
+struct Separation {
+  double first = 0, second = 0;
+  friend bool operator==(const Separation&, const Separation&) = default;
+};
+
 // Triangle indices, a < b.
 struct TrianglePair {
   std::int32_t a = 0, b = 0;

@@ -1,6 +1,7 @@
 #include "detector/plugin/assay_builtin_detector.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 #include <limits>
 
@@ -53,12 +54,15 @@ bool choose(Enum& choice, std::int32_t number) {
 // Copies the given options. Returns what is wrong with them, or null. The numbers of the C
 // interface are those of the enumerations in C++.
 const char* read_options(const assay_builtin_options& given, Options& options) {
-  if (given.struct_size != sizeof given) return "struct_size is not the size of the options";
+  constexpr std::size_t size_before_separation = offsetof(assay_builtin_options, separation);
+  if (given.struct_size != sizeof given && given.struct_size != size_before_separation)
+    return "struct_size is not the size of the options";
   if (!choose(options.culling, given.culling)) return "no such culling";
   if (!choose(options.start, given.start)) return "no such start";
   if (!choose(options.pairs, given.pairs)) return "no such choice of pairs";
   if (!choose(options.arithmetic, given.arithmetic)) return "no such arithmetic";
   options.threads = given.threads;
+  if (given.struct_size == sizeof given) options.separation = given.separation;
   return nullptr;
 }
 

@@ -46,9 +46,13 @@ enum {
   ASSAY_BUILTIN_OTHER_STATE_VERSION = 11,  /* the state has a form that this build does not read */
   ASSAY_BUILTIN_MESH_TOO_LARGE = 12,       /* more triangles or vertices than indices can number */
   ASSAY_BUILTIN_STOPPED = 13,              /* (not met in C: create takes no stop function) */
-  ASSAY_BUILTIN_WRONG_OPTIONS = 64,        /* an option has no such value; struct_size is wrong */
-  ASSAY_BUILTIN_SMALL_BUFFER = 65,         /* the state takes more bytes than the buffer has */
-  ASSAY_BUILTIN_TOO_MANY = 66,             /* more than 2^31 - 1 triangles or vertices */
+  ASSAY_BUILTIN_TRIANGLE_OF_TWO_BODIES =
+      14,                              /* (not met in C: nobody says there which pairs count) */
+  ASSAY_BUILTIN_WRONG_RELATION = 15,   /* (likewise) */
+  ASSAY_BUILTIN_WRONG_SEPARATION = 16, /* no distance, or with options that do not answer it */
+  ASSAY_BUILTIN_WRONG_OPTIONS = 64,    /* an option has no such value; struct_size is wrong */
+  ASSAY_BUILTIN_SMALL_BUFFER = 65,     /* the state takes more bytes than the buffer has */
+  ASSAY_BUILTIN_TOO_MANY = 66,         /* more than 2^31 - 1 triangles or vertices */
   ASSAY_BUILTIN_NO_MEMORY = 67
 };
 
@@ -101,10 +105,13 @@ typedef struct assay_builtin_options {
   int32_t arithmetic;   /* ASSAY_ARITHMETIC_... */
   uint32_t threads;     /* how many it may use; 0: as many as the machine has. The results do not
                            depend on the number */
+  double separation;    /* 0: contacts are looked for. Above 0: pairs of triangles without a common
+                           vertex that come within this distance; culling is then bvh or none, and
+                           arithmetic exact. Options of a size without this member have 0 */
 } assay_builtin_options;
 
 #define ASSAY_BUILTIN_DEFAULTS \
-  { sizeof(assay_builtin_options), ASSAY_CULLING_AUTO, 0, 0, 0, 1 }
+  { sizeof(assay_builtin_options), ASSAY_CULLING_AUTO, 0, 0, 0, 1, 0 }
 
 /* As the table's create. options may be NULL: the defaults. *handle is set with ASSAY_OK only. */
 int32_t assay_builtin_create(const int32_t* triangles, uint64_t triangle_count,

@@ -6,7 +6,8 @@
  * from x_t0 to x_t1. It answers whether the mesh touches itself, when first, and which triangles.
  * Two triangles are in contact when a vertex, edge or face of one meets one of the other that
  * shares no vertex with it; touching counts, and so do t = 0 and t = 1. The doubles given are
- * exact numbers, in the user's units of length. Times are fractions of the step.
+ * exact numbers, in the user's units of length. Times are fractions of the step. A detector that
+ * keeps a distance is asked for what comes within it (separation, in the description).
  *
  * MEMORY. Nothing allocated on one side is freed on the other. Arrays that the host passes are
  * valid during the call and must not be written. Arrays and texts that the detector returns are
@@ -32,9 +33,10 @@
  * candidates need create and destroy.
  *
  * VERSIONS. abi_version is the first member of the table in every version. Members are only ever
- * added at the end, and then the version goes up. A host of version 2 loads tables of version 1
- * too: it reads the table up to destroy and the description up to margin, and takes the other
- * members to be 0. It refuses a table whose version is above its own. */
+ * added at the end, and then the version goes up. This host loads tables of older versions too: of
+ * version 1 it reads the table up to destroy and the description up to margin, of version 2 the
+ * table up to error_text and the description up to reports, and it takes the other members to be
+ * 0. It refuses a table whose version is above its own. */
 #ifndef ASSAY_DETECTOR_H
 #define ASSAY_DETECTOR_H
 
@@ -44,7 +46,7 @@
 extern "C" {
 #endif
 
-#define ASSAY_DETECTOR_ABI_VERSION 2u
+#define ASSAY_DETECTOR_ABI_VERSION 3u
 
 #if defined(_WIN32)
 #define ASSAY_DETECTOR_EXPORT __declspec(dllexport)
@@ -113,6 +115,12 @@ enum {
                                 (first-pairs, all-pairs) are not judged */
 };
 
+/* What a relation between pairs is a relation of: of triangles, or of a vertex and a face, and of
+ * two edges, that share no vertex. Of features a pair of triangles counts by its counted feature
+ * pairs; an edge that pierces a face at t = 0 counts where some feature pair of the two triangles
+ * does. */
+enum { ASSAY_COUNTS_TRIANGLES = 0, ASSAY_COUNTS_FEATURES = 1 };
+
 #define ASSAY_WIDEST_TIME_TOLERANCE 1e-3
 
 /* What the detector is called, what it claims, and its contract: all members from adjacency on. In
@@ -124,8 +132,9 @@ typedef struct assay_description {
   uint32_t claims;     /* ASSAY_CLAIM_..., or-ed */
   int32_t adjacency;   /* ASSAY_ADJACENCY_... */
   int32_t coordinates; /* ASSAY_COORDINATES_... */
-  double margin;       /* distance at which triangles count as touching, user's units; finite,
-                          >= 0. If it is above 0, no-spurious is not judged */
+  double margin;       /* a slack, user's units; finite, >= 0: it may also report triangles that
+                          come within separation + margin. If it is above 0, first-time is not
+                          judged, and no-spurious only with ASSAY_ADJACENCY_NO_SHARED_VERTEX */
 
   /* Since version 2. */
   int32_t start;         /* ASSAY_START_... */
@@ -142,6 +151,18 @@ typedef struct assay_description {
   double time_tolerance; /* a time counts as late, early or wrong when it is off by more than this
                             share of the step; 0 <= time_tolerance <= 1e-3 */
   int32_t reports;       /* ASSAY_REPORTS_... */
+
+  /* Since version 3. */
+  double separation; /* user's units; finite, >= 0. Above 0, the question is which triangles come
+                        within this distance, 0 included, in place of which touch: read `within
+                        separation` wherever a claim says `in contact`. It wants
+                        ASSAY_ADJACENCY_NO_SHARED_VERTEX, as neighbours are near throughout. The
+                        elementary query is asked the same of two features. */
+  /* What the detector leaves out by itself, besides neighbours (adjacency). At rest
+   * the mesh is as in the positions that create is given. */
+  int32_t counts;       /* ASSAY_COUNTS_...: what rings and rest_distance are of */
+  int32_t rings;        /* pairs joined by a path of fewer edges of the mesh; 0: none */
+  double rest_distance; /* pairs nearer to each other at rest, user's units; 0: none */
 } assay_description;
 
 /* The detector's own data of one mesh. */
@@ -162,6 +183,27 @@ typedef struct assay_result {
                                the times are not known: then pairs are judged without times */
   const char* message;      /* with ASSAY_ERROR: one line, or NULL */
 } assay_result;
+
+/* Which pairs count. A pair that does not count is not to be reported, and makes no step a
+ * collision. Everything that is not named here counts. Below, "the two" are two triangles or two
+ * features, as the level says. */
+typedef struct assay_counted_pairs {
+  int32_t level; /* ASSAY_COUNTS_... */
+  /* vertex_count numbers of bodies from 0 on, or NULL: all vertices are of body 0. The vertices of
+   * a triangle are of one body. */
+  const int32_t* body;
+  uint64_t apart_count;
+  const int32_t* apart; /* apart_count x 2: bodies that do not meet, or one that meets not itself */
+  int32_t rings;        /* the two are joined by a path of fewer edges; 0: none */
+  double rest_distance; /* the two are nearer to each other at rest; 0: none */
+  const double* rest;   /* vertex_count x 3 places at rest; NULL if rest_distance is 0 */
+  uint64_t triangle_pair_count;
+  const int32_t* triangle_pairs; /* triangle_pair_count x 2; of triangles only */
+  uint64_t vertex_face_count;
+  const int32_t* vertex_faces; /* vertex_face_count x 2: vertex, triangle; of features only */
+  uint64_t edge_pair_count;
+  const int32_t* edge_pairs; /* edge_pair_count x 4: two vertices an edge; of features only */
+} assay_counted_pairs;
 
 enum { ASSAY_QUERY_VERTEX_FACE = 0, ASSAY_QUERY_EDGE_EDGE = 1 };
 
@@ -229,6 +271,12 @@ typedef struct assay_detector_api {
    * line, valid until the next call, or NULL. The host asks at once after a return code other than
    * ASSAY_OK, after an ASSAY_ERROR without a message, and after a describe() that returns NULL. */
   const char* (*error_text)(void);
+
+  /* Since version 3. It may be NULL. */
+
+  /* Says which pairs count, once and before the first step, if not all do. What is needed of it
+   * later must be copied. A library without this function is asked about all pairs. */
+  int32_t (*count)(assay_handle* handle, const assay_counted_pairs* counted);
 } assay_detector_api;
 
 /* The one symbol that a plug-in exports. Returns a table that is valid as long as the library is

@@ -15,7 +15,8 @@
 // - static void use_threads(std::uint32_t count): called once, before everything but describe();
 // - static Result query(std::int32_t kind, Positions x_t0, Positions x_t1): an elementary query of
 //   four points, given as four rows at t=0 and at t=1; pairs in its result are not read;
-// - std::vector<Pair> candidates(Positions x_t0, Positions x_t1): a broad phase.
+// - std::vector<Pair> candidates(Positions x_t0, Positions x_t1): a broad phase;
+// - void count(const CountedPairs& counted): which pairs count, called before the first step.
 //
 // A library may hold a query or a broad phase alone. Such a class has no evaluate(), and one with
 // a query alone needs no constructor either.
@@ -45,7 +46,7 @@
 
 #include "detector/plugin/assay_detector.h"
 
-static_assert(ASSAY_DETECTOR_ABI_VERSION == 2, "this header is of another version");
+static_assert(ASSAY_DETECTOR_ABI_VERSION == 3, "this header is of another version");
 
 namespace assay {
 namespace plugin {
@@ -72,6 +73,7 @@ class Rows {
 using Positions = Rows<double>;        // a row is a vertex
 using Triangles = Rows<std::int32_t>;  // a row is a triangle: three indices of vertices
 using Pair = std::array<std::int32_t, 2>;
+using CountedPairs = assay_counted_pairs;
 using Interval = std::array<double, 2>;  // of time: lo, hi
 
 struct Mesh {

@@ -86,6 +86,7 @@ ASSAY_PLUGIN_FINDS(query, Result(D::query(std::int32_t(), std::declval<Positions
 ASSAY_PLUGIN_FINDS(candidates,
                    std::vector<Pair>(std::declval<D&>().candidates(std::declval<Positions>(),
                                                                    std::declval<Positions>())));
+ASSAY_PLUGIN_FINDS(count, std::declval<D&>().count(std::declval<const CountedPairs&>()));
 #undef ASSAY_PLUGIN_FINDS
 
 template <class D>
@@ -200,6 +201,11 @@ std::int32_t candidates(assay_handle* handle, const double* x_t0, const double* 
   });
 }
 
+template <class D>
+std::int32_t count(assay_handle* handle, const assay_counted_pairs* counted) noexcept {
+  return guarded(last_line<D>(), [&] { Handle<D>::of(handle).detector.count(*counted); });
+}
+
 // The table of a class. A member whose name is that of an optional function has to be callable as
 // such: else the function would be left out in silence.
 template <class D>
@@ -215,6 +221,8 @@ const assay_detector_api* table() {
                 "std::vector<Pair> candidates(Positions x_t0, Positions x_t1)");
   static_assert(has_evaluate<D>::value || has_query<D>::value || has_candidates<D>::value,
                 "a detector has evaluate(), query() or candidates()");
+  static_assert(has_count<D>::value || !names_count<D>::value,
+                "void count(const CountedPairs& counted)");
   static_assert(has_evaluate<D>::value || !has_commit<D>::value, "commit() goes with evaluate()");
   static const assay_detector_api api = [] {
     assay_detector_api made = {};
@@ -230,6 +238,7 @@ const assay_detector_api* table() {
       made.commit = &detail::commit<D>;
       made.result = &detail::result<D>;
     }
+    if constexpr (has_count<D>::value) made.count = &detail::count<D>;
     if constexpr (has_use_threads<D>::value) made.use_threads = &detail::use_threads<D>;
     if constexpr (has_query<D>::value) made.query = &detail::query<D>;
     if constexpr (has_candidates<D>::value) made.candidates = &detail::candidates<D>;

@@ -168,9 +168,10 @@ bool BoundingVolumeTree::refit(const Topology& mesh, const SteppedMesh& motion, 
   RoundedPositions points;  // given back before the search takes room for its own
   if (!points.assign(motion, pace)) return false;
   grid_ = points.grid();
+  const FloatLanes by = grid_.margin(separation_) / 2;
   const bool completed = for_each_upward(work_of_node, &pace, [&](std::int32_t node) {
     const std::int32_t child = child_[at(node)];
-    boxes_[at(node)] = child < 0 ? points.box(mesh.triangles[at(~child)])
+    boxes_[at(node)] = child < 0 ? grown(points.box(mesh.triangles[at(~child)]), by)
                                  : join(boxes_[at(child)], boxes_[at(child) + 1]);
   });
   if (completed) fitted_to_ = Arrays(motion);

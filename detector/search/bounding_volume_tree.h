@@ -70,6 +70,12 @@ class BoundingVolumeTree {
   MovingBox box_of_triangle(const std::array<std::int32_t, 3>& corners,
                             const SteppedMesh& motion) const;
 
+  // From the next refit on, the boxes of triangles that come within `distance` of each other are
+  // not apart.
+  void grow_boxes(double distance) {
+    separation_ = distance;
+    forget_fit();
+  }
   // Makes the boxes those of the triangles as they move over the step. O(M): one pass over the
   // nodes from the last to the first.
   void refit(const Topology& mesh, const SteppedMesh& motion);
@@ -108,6 +114,7 @@ class BoundingVolumeTree {
   std::vector<std::int32_t> component_;
   std::vector<std::int32_t> component_root_;  // by component
   std::vector<MovingBox> boxes_;
+  double separation_ = 0;
   std::optional<Arrays> fitted_to_;
   FloatGrid grid_;
   std::vector<Block> blocks_;

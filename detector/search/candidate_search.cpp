@@ -21,6 +21,7 @@ CandidateSearch::CandidateSearch(const SearchStages& stages, const Topology& mes
       pace_(pace),
       contacts_(mesh, motion, stages.elementary, Want::first_time, memory.representatives,
                 memory.marks.types, &pace_) {
+  contacts_.sort_by(stages.relation);
   if (pace.workers()) contacts_.make_lanes(pace.workers()->count());
 }
 
@@ -91,7 +92,8 @@ bool CandidateSearch::search(const PairTables& tables, bool uses_proofs) {
       return contacts_.add_candidate(a, b, may_pierce, stop_, lane);
     });
   };
-  const SearchInput input = {mesh_, tree_, memory_.marks, tables, &pace_, uses_proofs};
+  const SearchInput input = {mesh_,  tree_,       memory_.marks,   tables,
+                             &pace_, uses_proofs, stages_.relation};
   return stages_.search.search(input, counts_, PairSink::in_lanes(take)) &&
          contacts_.run(stop_, &pace_);
 }

@@ -13,6 +13,7 @@ struct SearchStages {
   const Marking& marking;
   MeshSearch& search;
   const ElementaryTest& elementary;
+  const PairRelation* relation = nullptr;  // null: everything counts
 };
 
 // What is kept from one search to the next. It depends on the mesh and on the types that were
@@ -61,6 +62,10 @@ class CandidateSearch {
 
   // See FeatureContacts.
   std::vector<PairContact> take_contacts() { return contacts_.take(); }
+  std::optional<bool> found_ignored() const { return contacts_.found_ignored(stop_); }
+  bool take_counted(const std::vector<PairContact>& contacts, std::vector<PairContact>& counted) {
+    return contacts_.take_counted(contacts, stop_, counted);
+  }
   NarrowCounts narrow_counts() const { return contacts_.counts(); }
   double test_time() const { return contacts_.test_time(); }
   const SearchCounts& search_counts() const { return counts_; }

@@ -3,7 +3,6 @@
 #include <atomic>
 #include <utility>
 
-#include "detector/contact/contact_filter.h"
 #include "detector/parallel/workers.h"
 #include "detector/search/stopwatch.h"
 
@@ -28,7 +27,8 @@ FeatureContacts::FeatureContacts(const Topology& mesh, const SteppedMesh& motion
       motion_(motion),
       elementary_(elementary),
       want_(want),
-      pairs_(mesh, motion, representatives, types, pace) {
+      neighbours_count_(elementary.separation() == 0),
+      pairs_(mesh, motion, representatives, types, pace, elementary.separation()) {
   make_lanes(1);
 }
 
@@ -85,11 +85,32 @@ bool FeatureContacts::add_candidate(std::int32_t a, std::int32_t b, bool may_pie
   return of_lane.untested.size() < tests_at_once || run(of_lane, stop);
 }
 
+bool FeatureContacts::counts(std::int32_t a, std::int32_t b) const {
+  if (neighbours_count_) return true;
+  const auto &p = mesh_.triangles[at(a)], &q = mesh_.triangles[at(b)];
+  return std::find_first_of(p.begin(), p.end(), q.begin(), q.end()) == p.end();
+}
+
+bool FeatureContacts::some_pair_counts(FeatureKey key) const {
+  if (neighbours_count_) return true;
+  const auto first = first_of(key), second = second_of(key);
+  const bool is_vertex = kind_of(key) == FeatureKind::vertex_face;
+  const auto of_first = (is_vertex ? mesh_.vertex_triangles : mesh_.edge_triangles).row(first);
+  const auto of_second = kind_of(key) == FeatureKind::edge_edge ? mesh_.edge_triangles.row(second)
+                                                                : std::span(&second, 1);
+  return std::any_of(of_first.begin(), of_first.end(), [&](std::int32_t a) {
+    return std::any_of(of_second.begin(), of_second.end(),
+                       [&](std::int32_t b) { return counts(a, b); });
+  });
+}
+
 void FeatureContacts::test(FeatureKey key, Lane& lane) const {
+  if (!some_pair_counts(key)) return;
   const auto first = first_of(key), second = second_of(key);
   const auto& face = mesh_.triangles[at(second)];
   const auto add = [&](std::int32_t a, std::int32_t b, const TimeEnclosure& time,
                        const Feature& feature) {
+    if (!counts(a, b)) return;
     lane.found.push_back({{std::min(a, b), std::max(a, b)}, time, feature});
   };
   if (kind_of(key) == FeatureKind::piercing) {
@@ -103,7 +124,7 @@ void FeatureContacts::test(FeatureKey key, Lane& lane) const {
     for (const auto t : mesh_.edge_triangles.row(first)) add(t, second, time, feature);
   } else {
     const FourPoints points = query(key);
-    if (separated_along_an_axis(points)) {
+    if (elementary_.is_apart_along_an_axis(points)) {
       lane.counts.rungs.add(ContactRung::axis);
       return;
     }
@@ -124,16 +145,73 @@ void FeatureContacts::test(FeatureKey key, Lane& lane) const {
   }
 }
 
+// Copies those contacts of the feature pair that count. A pair of features counts for all pairs of
+// triangles that hold it. A piercing counts for those of which some feature pair does.
+void FeatureContacts::sort_features(FeatureKey key, std::size_t found_before, Lane& lane) const {
+  const auto first = first_of(key), second = second_of(key);
+  const auto found = std::span(lane.found).subspan(found_before);
+  const bool pierces = kind_of(key) == FeatureKind::piercing;
+  const bool counts = kind_of(key) == FeatureKind::vertex_face
+                          ? relation_->counts_vertex_face(mesh_, first, second)
+                          : !pierces && relation_->counts_edges(mesh_, first, second);
+  for (const auto& contact : found) {
+    if (pierces ? relation_->counts(mesh_, contact.pair) : counts) {
+      lane.found_counted.push_back(contact);
+    } else if (mesh_.component_of_triangle[at(contact.pair.a)] ==
+               mesh_.component_of_triangle[at(contact.pair.b)]) {
+      lane.found_ignored = true;
+    }
+  }
+}
+
+constexpr std::size_t pairs_between_stops = 64;
+
+std::optional<bool> FeatureContacts::found_ignored(const StopFunction& stop) const {
+  if (!relation_ || !relation_->sorts_contacts()) return false;
+  if (relation_->is_of_features()) {
+    return std::any_of(lanes_.begin(), lanes_.end(),
+                       [](const auto& lane) { return lane->found_ignored; });
+  }
+  std::size_t seen = 0;
+  for (const auto& contact : contacts_.held()) {
+    if (seen++ % pairs_between_stops == 0 && stop && stop()) return std::nullopt;
+    const auto [a, b] = contact.pair;
+    if (mesh_.component_of_triangle[at(a)] == mesh_.component_of_triangle[at(b)] &&
+        !relation_->counts(mesh_, contact.pair)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool FeatureContacts::take_counted(const std::vector<PairContact>& contacts,
+                                   const StopFunction& stop, std::vector<PairContact>& counted) {
+  if (relation_->is_of_features()) {
+    counted = counted_.take();
+    return true;
+  }
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (i % pairs_between_stops == 0 && stop && stop()) return false;
+    if (relation_->counts(mesh_, contacts[i].pair)) counted.push_back(contacts[i]);
+  }
+  return true;
+}
+
 // Lanes may hand over in any order: PairContacts keeps the contact of a pair that is first in
 // time, not the one that came first.
 bool FeatureContacts::hand_over(Lane& lane, const StopFunction& stop) {
   if (lane.found.empty()) return true;
   const std::lock_guard guard(handing_over_);
-  for (const PairContact& contact : lane.found) {
-    if (contacts_.is_nearly_full() && !contacts_.make_room(stop)) return false;
-    contacts_.add(contact);
+  return hand_over(lane.found, contacts_, stop) && hand_over(lane.found_counted, counted_, stop);
+}
+
+bool FeatureContacts::hand_over(std::vector<PairContact>& found, PairContacts& contacts,
+                                const StopFunction& stop) {
+  for (const PairContact& contact : found) {
+    if (contacts.is_nearly_full() && !contacts.make_room(stop)) return false;
+    contacts.add(contact);
   }
-  lane.found.clear();
+  found.clear();
   return true;
 }
 
@@ -142,7 +220,10 @@ bool FeatureContacts::run(Lane& lane, const StopFunction& stop) {
   constexpr std::size_t tests_between_stops = 256, found_at_once = 1024;
   for (std::size_t i = 0; i < lane.untested.size(); ++i) {
     if (i % tests_between_stops == 0 && stop && stop()) return false;
+    const std::size_t found_before = lane.found.size();
     test(lane.untested[i], lane);
+    if (relation_ && relation_->is_of_features() && lane.found.size() > found_before)
+      sort_features(lane.untested[i], found_before, lane);
     if (lane.found.size() >= found_at_once && !hand_over(lane, stop)) return false;
   }
   lane.untested.clear();

@@ -5,6 +5,10 @@
 // pair with 0, 1 or 2 common vertices has 6 VF + 9 EE, 4 VF + 5 EE or 2 VF + 2 EE feature pairs
 // without a common vertex, and 6, 2 or 0 edges that may pierce the other triangle (looked at only
 // at t=0).
+//
+// If the elementary test asks for features within a distance (L16), only triangle pairs without a
+// common vertex count: neighbours are within every distance above their edges and heights. A
+// feature pair that is held by neighbours alone is then not tested.
 #pragma once
 
 #include <algorithm>
@@ -12,6 +16,7 @@
 #include <deque>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,6 +25,7 @@
 #include "detector/mesh/step_types.h"
 #include "detector/mesh/topology.h"
 #include "detector/search/feature_pairs.h"
+#include "detector/search/pair_relation.h"
 
 namespace assay::detector {
 
@@ -57,6 +63,9 @@ class PairContacts {
   // vertices. The list is empty afterwards.
   std::vector<PairContact> take();
 
+  // Those that are held, in any order; some pairs come several times.
+  std::span<const PairContact> held() const { return all_; }
+
   // The memory that is held, in bytes.
   std::size_t bytes() const {
     return (all_.capacity() + late_.capacity()) * sizeof(PairContact) +
@@ -92,6 +101,10 @@ class FeatureContacts {
   // Says which types the search asks for whose candidates come next.
   void ask(const AskedTypes& asked) { pairs_.ask(asked); }
 
+  // Sorts what is found by this relation, which must outlive this object; null: everything counts.
+  // REQUIRES that no candidate has come yet.
+  void sort_by(const PairRelation* relation) { relation_ = relation; }
+
   // How many lanes candidates come in (parallel/workers.h): one until this is called.
   void make_lanes(std::size_t count);
 
@@ -116,6 +129,15 @@ class FeatureContacts {
   // Want::yes_no every time is {0, 0}.
   std::vector<PairContact> take() { return contacts_.take(); }
 
+  // Whether a contact within one component was found that does not count. REQUIRES that run() has
+  // tested all candidates. Nothing if `stop` asked for an end.
+  std::optional<bool> found_ignored(const StopFunction& stop) const;
+  // Appends to `counted` those of `contacts`, which take() has given, that count; with a relation
+  // of features the first contact that counts of each pair. REQUIRES a relation. False if `stop`
+  // asked for an end; some may then be left out.
+  bool take_counted(const std::vector<PairContact>& contacts, const StopFunction& stop,
+                    std::vector<PairContact>& counted);
+
  private:
   struct OneType;  // the types and representatives that the short constructor makes for itself
   FeatureContacts(const Topology& mesh, const SteppedMesh& motion, const ElementaryTest& elementary,
@@ -124,23 +146,35 @@ class FeatureContacts {
   struct Lane {
     std::vector<FeatureKey> untested;
     std::vector<PairContact> found;  // not yet handed over to contacts_
+    // The same for counted_, with a relation of features.
+    std::vector<PairContact> found_counted;
+    bool found_ignored = false;
     NarrowCounts counts;
     double test_time = 0;
   };
   bool run(Lane& lane, const StopFunction& stop);
   void test(FeatureKey key, Lane& lane) const;
+  void sort_features(FeatureKey key, std::size_t found_before, Lane& lane) const;
+  bool counts(std::int32_t a, std::int32_t b) const;
+  // Whether some triangle pair that holds the two features counts.
+  bool some_pair_counts(FeatureKey key) const;
   bool hand_over(Lane& lane, const StopFunction& stop);
+  static bool hand_over(std::vector<PairContact>& found, PairContacts& contacts,
+                        const StopFunction& stop);
   FourPoints query(FeatureKey key) const;
 
   const Topology& mesh_;
   SteppedMesh motion_;
   const ElementaryTest& elementary_;
   Want want_;
+  bool neighbours_count_;
   std::unique_ptr<OneType> own_;
   FeaturePairs pairs_;
   std::vector<std::unique_ptr<Lane>> lanes_;
   std::mutex handing_over_;
   PairContacts contacts_;
+  const PairRelation* relation_ = nullptr;
+  PairContacts counted_;  // with a relation of features alone
 };
 
 }  // namespace assay::detector

@@ -63,7 +63,7 @@ void FeaturePairs::append(std::int32_t a, std::int32_t b, bool may_pierce,
   if (asks_by_types_ && within && asked_.within_before.holds(types_[at(a)], types_[at(b)])) return;
   const Triangle of_a = triangle(a), of_b = triangle(b);
   // The search has compared the boxes along the axes.
-  if (apart_along_diagonals(of_a.box.diagonals, of_b.box.diagonals)) return;
+  if (apart(of_a.box.diagonals, of_b.box.diagonals, points_.margin().diagonals)) return;
   const Pair pair{of_a, of_b, within};
   vertices_on_face(pair, of_a, of_b, keys);
   vertices_on_face(pair, of_b, of_a, keys);
@@ -74,7 +74,7 @@ void FeaturePairs::vertices_on_face(const Pair& pair, const Triangle& vertices_o
                                     const Triangle& face, std::vector<FeatureKey>& keys) const {
   for (std::size_t i = 0; i < 3; ++i) {
     if (!represents_corner(vertices_of.represented, i)) continue;
-    if (apart(feature_box(*vertices_of.points[i]), face.box)) continue;
+    if (apart(feature_box(*vertices_of.points[i]), face.box, points_.margin())) continue;
     const std::int32_t v = vertices_of.corners[i];
     if (contains(face.corners, v)) continue;
     if (takes(pair, {vertices_of.type, representatives_.types_of_vertex(v)},
@@ -93,18 +93,18 @@ void FeaturePairs::edges_on_edges(const Pair& pair, bool may_pierce,
   for (std::size_t j = 0; j < 3; ++j) {
     if (!represents_edge(b.represented, j)) continue;
     boxes_of_b[count] = b.edge_box(j);
-    if (apart(boxes_of_b[count], a.box)) continue;
+    if (apart(boxes_of_b[count], a.box, points_.margin())) continue;
     if (may_pierce) edge_through_face(pair, b.edges[j], boxes_of_b[count], b, a, keys);
     edges_of_b[count++] = j;
   }
   for (std::size_t i = 0; i < 3; ++i) {
     if (!represents_edge(a.represented, i)) continue;
     const FeatureBox box = a.edge_box(i);
-    if (apart(box, b.box)) continue;
+    if (apart(box, b.box, points_.margin())) continue;
     if (may_pierce) edge_through_face(pair, a.edges[i], box, a, b, keys);
     const auto u0 = a.corners[(i + 1) % 3], u1 = a.corners[(i + 2) % 3];
     for (std::size_t n = 0; n < count; ++n) {
-      if (apart(box, boxes_of_b[n])) continue;
+      if (apart(box, boxes_of_b[n], points_.margin())) continue;
       const std::size_t j = edges_of_b[n];
       const auto v0 = b.corners[(j + 1) % 3], v1 = b.corners[(j + 2) % 3];
       if (u0 == v0 || u0 == v1 || u1 == v0 || u1 == v1) continue;
@@ -145,10 +145,15 @@ FloatLanes diagonals(const Point& y) {
 
 }  // namespace
 
-FeaturePoints::FeaturePoints(const SteppedMesh& motion, PacedStop* pace) {
+FeaturePoints::FeaturePoints(const SteppedMesh& motion, PacedStop* pace, double separation) {
   constexpr std::uint64_t work_of_vertex = 8;
   const FloatGrid f(motion, pace);
   if (pace && pace->stopped()) return;
+  if (separation > 0) {
+    const float along = f.diagonal_margin(separation);
+    margin_.axes = f.margin(separation);
+    margin_.diagonals = FloatLanes{along, along, along, along};
+  }
   const auto count = static_cast<std::size_t>(motion.size());
   points_ = std::make_unique_for_overwrite<FeaturePoint[]>(count);
   for_all_paced(count, work_of_vertex, pace, [&](std::size_t v) {

@@ -60,7 +60,13 @@ constexpr std::int32_t second_of(FeatureKey key) {
 //   then the true sums differ by more than 2^-20 - 3 * 2^-22 - 2 * 2^-49 > 0.
 // So diagonals do not tell apart what lies closer than about a millionth of the mesh's size.
 
-inline constexpr float diagonal_margin = 0x1p-20f;
+// If features within a distance are asked for, the margins grow by that distance
+// (FloatGrid::margin).
+
+struct FeatureMargin {
+  static constexpr float least = 0x1p-20f;
+  FloatLanes axes = {0, 0, 0, 0}, diagonals = {least, least, least, least};
+};
 
 // A vertex over the step, in one cache line.
 struct alignas(64) FeaturePoint {
@@ -81,28 +87,25 @@ inline FeatureBox feature_box(const FeaturePoint& p, const FeaturePoint& q, cons
   return {box_of(p.axes, q.axes, r.axes), box_of(p.diagonals, q.diagonals, r.diagonals)};
 }
 
-inline bool apart_along_diagonals(const MovingBox& a, const MovingBox& b) {
-  constexpr float m = diagonal_margin;
-  constexpr FloatLanes margin = {m, m, m, m};
-  return any(((a.hi_t0 + margin < b.lo_t0) & (a.hi_t1 + margin < b.lo_t1)) |
-             ((b.hi_t0 + margin < a.lo_t0) & (b.hi_t1 + margin < a.lo_t1)));
-}
-
-inline bool apart(const FeatureBox& a, const FeatureBox& b) {
-  return apart(a.axes, b.axes) || apart_along_diagonals(a.diagonals, b.diagonals);
+inline bool apart(const FeatureBox& a, const FeatureBox& b, const FeatureMargin& margin = {}) {
+  return apart(a.axes, b.axes, margin.axes) || apart(a.diagonals, b.diagonals, margin.diagonals);
 }
 
 // All vertices of a step. Memory: 32 bytes a triangle.
 class FeaturePoints {
  public:
   // If `pace` was stopped, they must not be used.
-  explicit FeaturePoints(const SteppedMesh& motion, PacedStop* pace = nullptr);
+  explicit FeaturePoints(const SteppedMesh& motion, PacedStop* pace = nullptr,
+                         double separation = 0);
+  // By how much features have to be apart that are farther apart than the separation.
+  const FeatureMargin& margin() const { return margin_; }
   const FeaturePoint& operator[](std::int32_t vertex) const {
     return points_[static_cast<std::size_t>(vertex)];
   }
 
  private:
   std::unique_ptr<FeaturePoint[]> points_;
+  FeatureMargin margin_;
 };
 
 // The pair rule in terms of triangle types: which pairs of types the present search asks for, and
@@ -165,12 +168,16 @@ struct AskedTypes {
 
 class FeaturePairs {
  public:
-  // types: by triangle, those of `representatives`. The references must outlive this object. If
-  // `pace` was stopped, it must not be used.
+  // types: by triangle, those of `representatives`. separation: features that are not farther
+  // apart are taken. The references must outlive this object. If `pace` was stopped, it must not be
+  // used.
   FeaturePairs(const Topology& mesh, const SteppedMesh& motion,
                const Representatives& representatives, const std::vector<TriangleType>& types,
-               PacedStop* pace = nullptr)
-      : mesh_(mesh), representatives_(representatives), types_(types), points_(motion, pace) {}
+               PacedStop* pace = nullptr, double separation = 0)
+      : mesh_(mesh),
+        representatives_(representatives),
+        types_(types),
+        points_(motion, pace, separation) {}
 
   // Says what the searches to come ask for. Until it is called they ask for everything, and
   // nothing was asked for before.

@@ -36,7 +36,8 @@ FloatGrid::FloatGrid(const SteppedMesh& motion, PacedStop* pace) {
     centre_[k] = 0.5 * lo[k] + 0.5 * hi[k];
     int exponent = 0;
     std::frexp(0.5 * hi[k] - 0.5 * lo[k], &exponent);
-    constexpr int least_exponent = -1022, greatest_exponent = 1022;
+    // 2^-1024 is a double, if no normal one, and products with it are rounded in order.
+    constexpr int least_exponent = -1022, greatest_exponent = 1024;
     scale_[k] = std::ldexp(1.0, -std::clamp(exponent, least_exponent, greatest_exponent));
     common_scale_ = k == 0 ? scale_[k] : std::min(common_scale_, scale_[k]);
   }

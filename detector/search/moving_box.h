@@ -65,6 +65,16 @@ inline bool apart(const MovingBox& a, const MovingBox& b) {
              ((b.hi_t0 < a.lo_t0) & (b.hi_t1 < a.lo_t1)));
 }
 
+// The same for points that are ordered by more than a margin, by axis.
+inline bool apart(const MovingBox& a, const MovingBox& b, FloatLanes margin) {
+  return any(((a.hi_t0 + margin < b.lo_t0) & (a.hi_t1 + margin < b.lo_t1)) |
+             ((b.hi_t0 + margin < a.lo_t0) & (b.hi_t1 + margin < a.lo_t1)));
+}
+
+inline MovingBox grown(const MovingBox& box, FloatLanes by) {
+  return {box.lo_t0 - by, box.hi_t0 + by, box.lo_t1 - by, box.hi_t1 + by};
+}
+
 inline bool apart_at_start(const MovingBox& a, const MovingBox& b) {
   return any((a.hi_t0 < b.lo_t0) | (b.hi_t0 < a.lo_t0));
 }
@@ -92,6 +102,27 @@ class FloatGrid {
     return {(*this)(motion.vertices_t0, vertex), (*this)(motion.vertices_t1, vertex)};
   }
 
+  // Margins in floats for a distance d, 0 for d = 0. Points that are ordered by more than margin(d)
+  // along an axis, or whose boxes are apart although each was grown by half of it, are farther
+  // apart than d along that axis.
+  //
+  // f(x) is off by at most 2^-23: |(x - centre) scale| <= 2 is rounded to float, and to double
+  // before. Let D = d scale, m = D (1 + 2^-20) + 2^-20, and a margin or a bound of a grown box be
+  // rounded by 2^-24 (2 + m) at most. Boxes are compared after two such roundings. So the order
+  // proves that the scaled coordinates differ by more than
+  //   m - 2 * 2^-24 (2 + m) - 2 * 2^-23 > D (1 + 2^-20 - 2^-22) + 2^-20 - 2^-21 - 2^-40 > D.
+  // The rounding of m itself, by 2^-24 m, is covered in the same way. A margin may be infinite.
+  FloatLanes margin(double d) const {
+    const auto by = [&](int k) { return margin_of(d * scale_[k]); };
+    return d == 0 ? FloatLanes{} : FloatLanes{by(0), by(1), by(2), 0};
+  }
+  // The same for sums of coordinates along the diagonals (feature_pairs.h), with the margin that
+  // these need for d = 0: along a diagonal a distance of d is sqrt(3) d.
+  float diagonal_margin(double d) const {
+    constexpr double root = 1.7320508075688774;
+    return margin_of(root * (d * common_scale_));
+  }
+
   // (x - centre), multiplied by one power of two for all axes. Each coordinate is at most 2 in
   // size for positions of the step.
   Point scaled(const PositionsView& x, std::int32_t vertex) const {
@@ -100,6 +131,10 @@ class FloatGrid {
   }
 
  private:
+  static float margin_of(double scaled) {
+    return static_cast<float>(scaled * (1 + 0x1p-20) + 0x1p-20);
+  }
+
   double centre_[3] = {0, 0, 0};
   double scale_[3] = {1, 1, 1};
   double common_scale_ = 1;  // the least of the three

@@ -14,18 +14,26 @@ struct NodePair {
 
 // What the lanes of a search share.
 struct Hunt {
-  Hunt(const SearchInput& input, bool skips_nodes, const PairSink& taker)
-      : tree(input.tree),
-        flags(input.marks.node_flags.data()),
-        within(input.tables.within),
-        across(input.tables.across),
+  Hunt(const SearchInput& searched, bool skips_nodes, const PairSink& taker)
+      : input(searched),
+        tree(searched.tree),
+        flags(searched.marks.node_flags.data()),
+        within(searched.tables.within),
+        across(searched.tables.across),
         either(within.joined_with(across)),
         skips(skips_nodes),
         sink(taker) {}
 
+  // The table for pairs of these two components; an empty one if they do not meet.
+  const PairTable& table_of(std::int32_t c, std::int32_t d) const {
+    if (!input.components_meet(c, d)) return nothing;
+    return c == d ? within : across;
+  }
+
+  const SearchInput& input;
   const BoundingVolumeTree& tree;
   const std::uint8_t* flags;
-  const PairTable within, across, either;
+  const PairTable within, across, either, nothing = {};
   const bool skips;
   const PairSink& sink;
   std::atomic<bool> is_stopped = false;
@@ -95,7 +103,7 @@ class Descent {
     return tree_.component(p.a) == mixed_components || tree_.component(p.b) == mixed_components;
   }
   const PairTable& table_of(const NodePair& p) const {
-    return tree_.component(p.a) == tree_.component(p.b) ? hunt_.within : hunt_.across;
+    return hunt_.table_of(tree_.component(p.a), tree_.component(p.b));
   }
 
   // One table serves all pairs below a pair that is not mixed.
@@ -295,9 +303,9 @@ bool ExhaustiveSearch::search(const SearchInput& input, SearchCounts& counts,
   for (std::int32_t a = 0; a < n; ++a) {
     const auto flags = input.marks.flags(a);
     for (std::int32_t b = a + 1; b < n; ++b) {
-      const bool same = component[at(a)] == component[at(b)];
-      const PairTable& table = same ? input.tables.within : input.tables.across;
-      if (!table.asks(flags, input.marks.flags(b))) continue;
+      const auto c = component[at(a)], d = component[at(b)];
+      const PairTable& table = c == d ? input.tables.within : input.tables.across;
+      if (!table.asks(flags, input.marks.flags(b)) || !input.components_meet(c, d)) continue;
       ++counts.candidate_pairs;
       if (!sink(a, b)) return false;
     }

@@ -11,6 +11,7 @@
 #include "detector/mesh/paced_stop.h"
 #include "detector/mesh/step_counts.h"
 #include "detector/search/marking.h"
+#include "detector/search/pair_relation.h"
 
 namespace assay::detector {
 
@@ -82,6 +83,13 @@ struct SearchInput {
   // search. Null: nothing is asked, and the calling thread searches alone.
   PacedStop* pace = nullptr;
   bool uses_proofs = true;  // whether proofs, if the search has any, are worth their cost
+  // Null: everything counts. Else the search leaves out the pairs of components that do not meet.
+  const PairRelation* relation = nullptr;
+
+  // Whether pairs of two components, or those of one, are searched.
+  bool components_meet(std::int32_t c, std::int32_t d) const {
+    return !relation || relation->components_meet(c, d);
+  }
 };
 
 class MeshSearch;

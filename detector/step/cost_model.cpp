@@ -21,6 +21,7 @@ double saved_share(const GivenStep& step, const StepMarks& marks,
                    const std::vector<std::uint8_t>* counts = nullptr) {
   double saved = 0, count = 0;
   for (std::size_t c = 0; c < marks.primitives.size(); ++c) {
+    if (!step.looks_within(c)) continue;
     std::size_t positive = 0, negative = 0;
     for (const auto t : step.own_triangles(c)) {
       if (counts && (*counts)[at(t)] == 0) continue;
@@ -32,7 +33,7 @@ double saved_share(const GivenStep& step, const StepMarks& marks,
     saved += (p * p + n * n) / m;
     count += m;
   }
-  return saved / count;
+  return count == 0 ? 0 : saved / count;
 }
 
 // By triangle: 1 if it was in no contact with its own component in the step before.
@@ -184,6 +185,7 @@ std::uint64_t CostModel::expected_candidates() const {
 bool CostModel::worth_classifying(const GivenStep& step, const StepMarks& marks) {
   double saved = 0, count = 0, open = 0;
   for (std::size_t c = 0; c < marks.primitives.size(); ++c) {
+    if (!step.looks_within(c)) continue;
     const auto own = step.own_triangles(c);
     const auto m = static_cast<double>(own.size());
     count += m;
@@ -196,6 +198,7 @@ bool CostModel::worth_classifying(const GivenStep& step, const StepMarks& marks)
     saved += m * sample.saved();
     open += m * sample.share_of(sample.rungs.open);
   }
+  if (count == 0) return does_without(ViewUse::saving_too_little);  // nothing within counts
   const double hoped = worth_of_saved * saved / count * static_cast<double>(expected_candidates());
   if (saved / count >= least_share && cost_of_open * open <= hoped) return true;
   share_of_signs_ = share_ = saved / count;

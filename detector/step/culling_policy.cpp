@@ -57,7 +57,8 @@ StepState state_at_end(const GivenStep& step, const StepMarks& marks, const Pace
   state.keep(mesh_x_t1, pace);
   state.inside.resize(step.surface.mesh.components.size());
   for (std::size_t c = 0; c < state.inside.size(); ++c) {
-    if (marks.free[c]) state.inside[c] = {marks.primitives[c].q0.t1, marks.primitives[c].q1.t1};
+    if (marks.free[c] && step.looks_within(c))
+      state.inside[c] = {marks.primitives[c].q0.t1, marks.primitives[c].q1.t1};
   }
   release.settle(step, marks, pairs, complete, state);
   if (marks.has_views()) return state;

@@ -1,5 +1,6 @@
 #include "detector/step/stages.h"
 
+#include "detector/distance/nearness.h"
 #include "detector/traditional/traditional.h"
 
 namespace assay::detector {
@@ -22,7 +23,8 @@ Stages standard_stages(const Options& options) {
   } else {
     stages.pair_search = std::make_shared<TreeSearch>();
   }
-  stages.elementary = make_elementary_test(options.arithmetic);
+  stages.elementary = options.separation > 0 ? make_near_test(options.separation)
+                                             : make_elementary_test(options.arithmetic);
   stages.release = std::make_shared<ReleaseRule>(options.arithmetic);
   return stages;
 }

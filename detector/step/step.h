@@ -20,6 +20,7 @@ struct StepContext {
   std::vector<ApexRule> apex_rules;  // one for each loop; likewise
   std::uint64_t adjacent_pairs = 0;  // of the mesh; the cost model asks for it (cost_model.h)
   Workers workers;
+  PairRelation relation;
 };
 
 // Answers the step, going on from `known`, the state of the last commit if there is one. If the

@@ -27,10 +27,11 @@ TriangleType type_of(const StepMarks& marks, std::size_t t) {
 }
 
 // Sets the sizes of V+, V-, V0 and Vv and the doubts in the result. REQUIRES a step with views.
-void count_sets(const StepMarks& marks, StepResult& result) {
+void count_sets(const StepMarks& marks, bool looks_everywhere, StepResult& result) {
   const std::size_t count = marks.clean.size();
   result.doubts.assign(count, 0);
-  if (marks.all_free()) {  // all is positive, clean and touched by no ghost
+  // All is then positive, clean and touched by no ghost.
+  if (marks.all_free() && looks_everywhere) {
     result.view_positive = count;
     return;
   }
@@ -83,7 +84,8 @@ StepRun::StepRun(StepContext& context, const StepState* known, const SteppedMesh
              .elementary = *context.stages.elementary,
              .stop = stop,
              .motion = motion,
-             .known = known},
+             .known = known,
+             .relation = context.relation.count_all() ? nullptr : &context.relation},
       cost_{.pace = PacedStop(stop, context.workers)} {
   context_.tree.forget_fit();  // the caller may have written new positions into the same arrays
   marks_.clean.assign(mesh_.triangles.size(), 0);
@@ -114,6 +116,10 @@ bool StepRun::classify_components() {
   Stopwatch watch(result_.times.view_test);
   marks_.signs.assign(given_.surface.all().triangles.size(), ViewSign::zero);
   for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
+    if (!given_.looks_within(c)) {
+      marks_.free[c] = 1;
+      continue;
+    }
     // The classifier counts the work of signs itself; this is what the component takes besides.
     constexpr std::uint64_t work_beside_signs = 200;
     const bool is_classified = context_.stages.classifier->classify(
@@ -177,7 +183,7 @@ bool StepRun::sweep_ghosts() {
 
 bool StepRun::ends_free() {
   if (!marks_.has_views()) return false;
-  count_sets(marks_, result_);
+  count_sets(marks_, !context_.relation.leaves_out_components(), result_);
   return marks_.all_free() && mesh_.components.size() == 1;
 }
 
@@ -192,9 +198,9 @@ bool StepRun::mark_types() {
   for_all_paced(types.size(), work_of_type, cost_.pace,
                 [&](std::size_t t) { types[t] = type_of(marks_, t); });
   const Stages& stages = context_.stages;
-  search_.emplace(
-      SearchStages{*stages.pair_rule, *stages.marking, *context_.pair_search, *stages.elementary},
-      mesh_, given_.tree, context_.search, given_.motion, cost_.pace);
+  search_.emplace(SearchStages{*stages.pair_rule, *stages.marking, *context_.pair_search,
+                               *stages.elementary, given_.relation},
+                  mesh_, given_.tree, context_.search, given_.motion, cost_.pace);
   Stopwatch watch(result_.times.broad_phase);
   return search_->mark(types);
 }
@@ -214,25 +220,36 @@ bool StepRun::find_pairs() {
 }
 
 bool StepRun::close_pairs() {
-  if (!marks_.has_views() || context_.options.pairs != Pairs::all) return true;
+  if (!marks_.has_views()) return true;
   Stopwatch watch(result_.times.closure);
-  return search_->close();
+  if (context_.options.pairs != Pairs::all) {
+    const auto ignored = search_->found_ignored();
+    if (!ignored) return false;
+    if (!*ignored) return true;
+  }
+  return is_closed_ = search_->close();
 }
 
-void StepRun::take_found() {
-  if (!search_) return;
+bool StepRun::take_found() {
+  if (!search_) return true;
+  bool is_sorted = true;
   result_.pairs = search_->take_contacts();
+  if (given_.relation) {
+    std::swap(all_contacts_, result_.pairs);
+    is_sorted = search_->take_counted(all_contacts_, result_.pairs);
+  }
   cost_.counts.search = search_->search_counts();
   cost_.counts.marking = search_->marking_counts();
   cost_.counts.narrow = search_->narrow_counts();
   cost_.counts.closure_rounds = search_->closure_rounds();
   if (marks_.has_views()) policy_.record_cost(cost_.counts, candidates_of_k_);
   search_.reset();  // gives its memory back
+  return is_sorted;
 }
 
 StepResult StepRun::finish(bool completed, const SteppedMesh& mesh, bool has_own_primitives,
                            std::optional<StepState>& next) {
-  take_found();
+  completed = take_found() && completed;
   // A stop that some stage has heard ends the step, whatever that stage returned.
   completed = completed && !cost_.pace.stopped();
   result_.answer = !completed              ? Answer::undecided
@@ -241,8 +258,9 @@ StepResult StepRun::finish(bool completed, const SteppedMesh& mesh, bool has_own
   result_.first = least_time(result_.pairs);
   if (completed) {
     // Set whole or, if memory fails, not at all.
-    next = state_at_end(given_, marks_, cost_.pace, *context_.stages.release, result_.pairs,
-                        is_complete(), mesh.vertices_t1);
+    next = state_at_end(given_, marks_, cost_.pace, *context_.stages.release,
+                        given_.relation ? all_contacts_ : result_.pairs, is_complete(),
+                        mesh.vertices_t1);
     next->policy = policy_.next(cost_.counts, has_own_primitives);
     result_.views = policy_.use();
   }

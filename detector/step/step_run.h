@@ -48,7 +48,9 @@ class StepRun {
   bool mark_types();
   // Finds the candidates, and tests them as they come up.
   bool find_pairs();
-  // Closes the set of pairs (L7), if all pairs are asked for.
+  // Closes the set of pairs (L7), if all pairs are asked for, or if K has found a contact within a
+  // component that does not count. Without the closure a later one that counts could then be
+  // missed, because L3 speaks of all contacts (L19).
   bool close_pairs();
 
   // The result. If the step was completed, `next` is set to the state at its end (L8). The flag
@@ -57,10 +59,13 @@ class StepRun {
                     std::optional<StepState>& next);
 
  private:
-  // What the search found goes into the result, also if it was stopped.
-  void take_found();
+  // What the search found goes into the result, also if it was stopped. False if it was stopped
+  // while contacts were sorted into those that count and others.
+  bool take_found();
   // Whether the pairs found are all that are in contact in the step.
-  bool is_complete() const { return !marks_.has_views() || context_.options.pairs == Pairs::all; }
+  bool is_complete() const {
+    return !marks_.has_views() || context_.options.pairs == Pairs::all || is_closed_;
+  }
 
   StepContext& context_;
   const Topology& mesh_;
@@ -70,6 +75,9 @@ class StepRun {
   StepCost cost_;
   std::optional<CandidateSearch> search_;  // from mark_types() to finish()
   std::uint64_t candidates_of_k_ = 0;      // before the closure
+  bool is_closed_ = false;
+  // All contacts found, those that do not count too; empty if everything counts.
+  std::vector<PairContact> all_contacts_;
   StepResult result_;
 };
 

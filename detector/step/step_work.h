@@ -9,6 +9,7 @@
 #include "detector/mesh/step_counts.h"
 #include "detector/options.h"
 #include "detector/parallel/workers.h"
+#include "detector/search/pair_relation.h"
 #include "detector/state/step_state.h"
 
 namespace assay::detector {
@@ -23,6 +24,7 @@ struct GivenStep {
   const StopFunction& stop;  // all workers may ask it
   SteppedMesh motion;        // rows: vertices of the mesh, then apexes
   const StepState* known;    // the state of the last commit if this step starts there, else null
+  const PairRelation* relation = nullptr;  // null: every pair counts
 
   // The component together with its ghosts, which is a cycle.
   const Component& component(std::size_t c) const { return surface.all().components[c]; }
@@ -33,14 +35,22 @@ struct GivenStep {
   std::span<const std::int32_t> ghosts(std::size_t c) const {
     return std::span(component(c).triangles).subspan(own_triangles(c).size());
   }
+  // Whether contacts are looked for within the component. If its body does not meet itself none of
+  // them counts: it needs no view, no ghosts and no state (L19).
+  bool looks_within(std::size_t c) const {
+    const auto number = static_cast<std::int32_t>(c);
+    return !relation || relation->components_meet(number, number);
+  }
 };
 
 // What the stages have found out so far, by component and by triangle. Later stages rely on it.
 struct StepMarks {
   std::vector<ViewPrimitive> primitives = {};  // by component
   std::vector<ViewSign> signs = {};            // by triangle of the surface
-  std::vector<std::uint8_t> free = {};         // by component: 1 if L5 shows it free over the step
-  std::vector<std::uint8_t> clean = {};        // by triangle of the mesh: 1 if clean at t=0
+  // By component: 1 if there is nothing to look for within it, because L5 shows it free over the
+  // step, or because nothing within it counts.
+  std::vector<std::uint8_t> free = {};
+  std::vector<std::uint8_t> clean = {};  // by triangle of the mesh: 1 if clean at t=0
   // By triangle of the mesh: 1 if a ghost touches it during the step.
   std::vector<std::uint8_t> touched = {};
   // The same for touches of moving boxes; it serves the counts alone.

@@ -1,7 +1,5 @@
 #include "oracle/instant/nearness.h"
 
-#include <gmpxx.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,68 +7,13 @@
 
 #include "oracle/instant/instant.h"
 #include "oracle/instant/instant_contacts.h"
+#include "oracle/mesh/feature_distance.h"
 #include "oracle/mesh/feature_pairs.h"
+#include "oracle/query/contact.h"
 
 namespace assay::oracle {
 
 namespace {
-
-using Place = std::array<mpq_class, 3>;
-
-Place minus(const Place& a, const Place& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-mpq_class product(const Place& a, const Place& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-Place normal_to(const Place& a, const Place& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Place along(const Place& from, const Place& direction, const mpq_class& share) {
-  return {from[0] + share * direction[0], from[1] + share * direction[1],
-          from[2] + share * direction[2]};
-}
-mpq_class squared(const Place& a) { return product(a, a); }
-
-mpq_class squared_distance_to(const Place& p, const Place& a, const Place& b) {
-  const Place edge = minus(b, a), to = minus(p, a);
-  const mpq_class length = squared(edge);
-  if (length == 0) return squared(to);
-  const mpq_class share = product(to, edge) / length;
-  if (share <= 0) return squared(to);
-  if (share >= 1) return squared(minus(p, b));
-  return squared(minus(to, along({}, edge, share)));
-}
-
-// The squared distance is a convex function of the two places on the edges, so it is least at an
-// end of one of them, or where both derivatives are 0.
-mpq_class squared_distance_of_edges(const Place& a, const Place& b, const Place& c,
-                                    const Place& d) {
-  mpq_class least = std::min({squared_distance_to(a, c, d), squared_distance_to(b, c, d),
-                              squared_distance_to(c, a, b), squared_distance_to(d, a, b)});
-  const Place u = minus(b, a), v = minus(d, c), w = minus(a, c);
-  const mpq_class uu = squared(u), vv = squared(v), uv = product(u, v), uw = product(u, w),
-                  vw = product(v, w);
-  const mpq_class determinant = uu * vv - uv * uv;
-  if (determinant == 0) return least;  // parallel, or points
-  const mpq_class s = (uv * vw - vv * uw) / determinant, t = (uu * vw - uv * uw) / determinant;
-  if (s < 0 || s > 1 || t < 0 || t > 1) return least;
-  return std::min(least, squared(minus(along(a, u, s), along(c, v, t))));
-}
-
-// If the point is above the inside of the face, this is its distance to the plane, else that to an
-// edge.
-mpq_class squared_distance_to_face(const Place& p, const Place& a, const Place& b, const Place& c) {
-  mpq_class least = std::min(
-      {squared_distance_to(p, a, b), squared_distance_to(p, b, c), squared_distance_to(p, c, a)});
-  const Place normal = normal_to(minus(b, a), minus(c, a));
-  const mpq_class length = squared(normal);
-  if (length == 0) return least;
-  const auto is_inside = [&](const Place& from, const Place& to) {
-    return product(normal, normal_to(minus(to, from), minus(p, from))) >= 0;
-  };
-  if (!is_inside(a, b) || !is_inside(b, c) || !is_inside(c, a)) return least;
-  const mpq_class height = product(normal, minus(p, a));
-  return std::min(least, mpq_class(height * height / length));
-}
 
 // The box, widened by the distance, so that the boxes of two features that are nearer meet.
 Box widened(Box box, double distance) {
@@ -89,20 +32,16 @@ std::optional<detector::TrianglePair> any_nearer_than(const detector::PositionsV
                                                       double distance, const WantedPair& counts) {
   const Instant instant(x);
   const StaticPoints points = instant.points();
-  const mpq_class limit = mpq_class(distance) * mpq_class(distance);
-  const auto at = [&](std::int32_t v) {
-    return Place{mpq_class(x(v, 0)), mpq_class(x(v, 1)), mpq_class(x(v, 2))};
-  };
+  std::vector<detector::Point> places;
+  for (std::int32_t v = 0; v < x.rows(); ++v) places.push_back(detector::point_of(x, v));
   const FeatureTests tests = {
       [&](std::int32_t v, const Face& f) {
         return vertex_meets_face(points, v, f) ||
-               (distance > 0 &&
-                squared_distance_to_face(at(v), at(f[0]), at(f[1]), at(f[2])) < limit);
+               (distance > 0 && vertex_nearer_than(places, v, f, distance));
       },
       [&](const Edge& a, const Edge& b) {
         return edges_meet(points, a, b) ||
-               (distance > 0 &&
-                squared_distance_of_edges(at(a[0]), at(a[1]), at(b[0]), at(b[1])) < limit);
+               (distance > 0 && edges_nearer_than(places, a, b, distance));
       },
       [&](const Edge& e, const Face& f) { return edge_pierces_face(points, e, f); }};
   const MeshFeatures features = mesh_features(triangles);

@@ -2,65 +2,21 @@
 
 #include <algorithm>
 #include <cassert>
+#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "detector/mesh/step_types.h"
 #include "oracle/mesh/feature_pairs.h"
+#include "oracle/mesh/pair_relation.h"
+#include "oracle/mesh/pair_store.h"
 #include "oracle/parallel_chunks.h"
 #include "oracle/processor_state.h"
 
 namespace assay::oracle {
+
 namespace {
-
-// Keeps one contact for each pair of triangles: the least by time, then feature kind, then feature
-// vertices. That is a total order, so what is kept does not depend on the order of add().
-class PairStore {
- public:
-  // REQUIRES a != b. Their order does not matter.
-  void add(std::int32_t a, std::int32_t b, const detector::TimeEnclosure& time,
-           const detector::Feature& feature);
-  // Moves all contacts of another store into this one.
-  void merge(PairStore& other);
-  // The kept contacts, ascending by pair; the store is empty afterwards.
-  std::vector<detector::PairContact> take();
-
- private:
-  void keep_least();
-
-  std::vector<detector::PairContact> contacts_;
-  std::size_t tidy_at_ = 1 << 16;  // when so many are held, only the least of each pair stay
-};
-
-auto key(const detector::PairContact& c) {
-  return std::tie(c.pair.a, c.pair.b, c.time.lo, c.time.hi, c.feature.kind, c.feature.vertices);
-}
-
-void PairStore::add(std::int32_t a, std::int32_t b, const detector::TimeEnclosure& time,
-                    const detector::Feature& feature) {
-  contacts_.push_back({{std::min(a, b), std::max(a, b)}, time, feature});
-  if (contacts_.size() >= tidy_at_) keep_least();
-}
-
-void PairStore::merge(PairStore& other) {
-  contacts_.insert(contacts_.end(), other.contacts_.begin(), other.contacts_.end());
-  other.contacts_ = {};
-}
-
-std::vector<detector::PairContact> PairStore::take() {
-  keep_least();
-  return std::exchange(contacts_, {});
-}
-
-void PairStore::keep_least() {
-  std::sort(contacts_.begin(), contacts_.end(),
-            [](const auto& x, const auto& y) { return key(x) < key(y); });
-  contacts_.erase(std::unique(contacts_.begin(), contacts_.end(),
-                              [](const auto& x, const auto& y) { return x.pair == y.pair; }),
-                  contacts_.end());
-  tidy_at_ = std::max(tidy_at_, 2 * contacts_.size());
-}
 
 using detector::Feature;
 using detector::FeatureKind;
@@ -80,7 +36,12 @@ class StepJudge {
         features_(mesh_features(triangles)),
         gate_(options.stop),
         asked_(options.features),
-        workers_(std::max(options.jobs, 1)) {}
+        workers_(std::max(options.jobs, 1)) {
+    if (options.counted && !options.counted->count_all())
+      counted_.emplace(*options.counted, features_);
+    if (options.tested && !options.tested->count_all()) tested_.emplace(*options.tested, features_);
+    tells_apart_ = asked_ != AskedFeatures::all || tested_;
+  }
 
   StepJudgement run() {
     judge_same_vertices();
@@ -103,7 +64,7 @@ class StepJudge {
     for (const auto& [a, b] : same_vertices_pairs(features_.faces)) {
       const Face& f = features_.faces[a];
       const Feature feature{FeatureKind::same_vertices, {f[0], f[1], f[2], -1, -1}};
-      workers_[0].pairs.add(a, b, {0, 0}, feature);
+      add_at_start(a, b, feature, workers_[0]);
     }
   }
 
@@ -136,31 +97,37 @@ class StepJudge {
   void judge_vertex_face(std::size_t item, std::size_t face, Worker& worker) {
     const std::int32_t v = features_.vertices[item];
     const Face& f = features_.faces[face];
+    if (!bodies_meet(v, f[0])) return;
     ++worker.candidates;
     const ContactAnswer answer = vertex_face_contact(
         {path(v), {path(f[0]), path(f[1]), path(f[2])}}, detector::Want::first_time);
     worker.rungs.add(answer.rung);
-    if (!answer.contact) return;
+    const auto counts = [&](const PairRelation& in) { return in.counts_vertex_face(v, face); };
+    if (!answer.contact || !passes(counted_, counts)) return;
+    const bool is_asked = asks(AskedFeatures::vertex_face) && passes(tested_, counts);
     const Feature feature{FeatureKind::vertex_face, {v, f[0], f[1], f[2], -1}};
     for (const std::int32_t t : features_.triangles_of_vertex.of(item)) {
       worker.pairs.add(t, static_cast<std::int32_t>(face), answer.first, feature);
-      if (asked_ == AskedFeatures::vertex_face)
+      if (is_asked)
         worker.asked_pairs.add(t, static_cast<std::int32_t>(face), answer.first, feature);
     }
   }
 
   void judge_edge_edge(std::size_t item, std::size_t other, Worker& worker) {
     const Edge &a = features_.edges[item], &b = features_.edges[other];
+    if (!bodies_meet(a[0], b[0])) return;
     ++worker.candidates;
     const ContactAnswer answer = edge_edge_contact(
         {{path(a[0]), path(a[1])}, {path(b[0]), path(b[1])}}, detector::Want::first_time);
     worker.rungs.add(answer.rung);
-    if (!answer.contact) return;
+    const auto counts = [&](const PairRelation& in) { return in.counts_edges(a, b); };
+    if (!answer.contact || !passes(counted_, counts)) return;
+    const bool is_asked = asks(AskedFeatures::edge_edge) && passes(tested_, counts);
     const Feature feature{FeatureKind::edge_edge, {a[0], a[1], b[0], b[1], -1}};
     for (const std::int32_t s : features_.triangles_of_edge.of(item)) {
       for (const std::int32_t t : features_.triangles_of_edge.of(other)) {
         worker.pairs.add(s, t, answer.first, feature);
-        if (asked_ == AskedFeatures::edge_edge) worker.asked_pairs.add(s, t, answer.first, feature);
+        if (is_asked) worker.asked_pairs.add(s, t, answer.first, feature);
       }
     }
   }
@@ -168,12 +135,36 @@ class StepJudge {
   void judge_edge_face_at_start(std::size_t item, std::size_t face, Worker& worker) {
     const Edge& e = features_.edges[item];
     const Face& f = features_.faces[face];
+    if (!bodies_meet(e[0], f[0])) return;
     auto at = [&](std::int32_t vertex) { return motion_.start(vertex); };
     if (!segment_pierces_triangle(at(e[0]), at(e[1]), {at(f[0]), at(f[1]), at(f[2])})) return;
     const Feature feature{FeatureKind::piercing, {e[0], e[1], f[0], f[1], f[2]}};
     for (const std::int32_t t : features_.triangles_of_edge.of(item)) {
-      worker.pairs.add(t, static_cast<std::int32_t>(face), {0, 0}, feature);
+      add_at_start(t, static_cast<std::int32_t>(face), feature, worker);
     }
+  }
+
+  bool bodies_meet(std::int32_t u, std::int32_t v) const {
+    return !counted_ || counted_->bodies_meet(u, v);
+  }
+  bool asks(AskedFeatures kind) const {
+    return tells_apart_ && (asked_ == kind || asked_ == AskedFeatures::all);
+  }
+  // A relation of features is asked before a contact is kept. A relation of triangles is asked once
+  // for each pair in contact, at the end (keep_counted).
+  using Relation = std::optional<PairRelation>;  // nothing: every pair passes
+  template <class Counts>
+  static bool passes(const Relation& relation, const Counts& counts) {
+    return !relation || !relation->is_of_features() || counts(*relation);
+  }
+
+  // Such a contact is of no kind of features: it is asked for where all kinds are.
+  void add_at_start(std::int32_t a, std::int32_t b, const Feature& feature, Worker& worker) const {
+    const auto counts = [&](const PairRelation& in) { return in.counts_faces(a, b); };
+    if (!passes(counted_, counts)) return;
+    worker.pairs.add(a, b, {0, 0}, feature);
+    if (tells_apart_ && asked_ == AskedFeatures::all && passes(tested_, counts))
+      worker.asked_pairs.add(a, b, {0, 0}, feature);
   }
 
   StepJudgement collect() {
@@ -188,6 +179,9 @@ class StepJudge {
     }
     result.pairs = workers_[0].pairs.take();
     result.asked_pairs = workers_[0].asked_pairs.take();
+    keep_counted(counted_, result.pairs);
+    keep_counted(counted_, result.asked_pairs);
+    keep_counted(tested_, result.asked_pairs);
     if (gate_.was_stopped()) return result;
     result.complete = true;
     result.answer = result.pairs.empty() ? detector::Answer::free : detector::Answer::collision;
@@ -202,6 +196,8 @@ class StepJudge {
   const MeshFeatures features_;
   StopGate gate_;
   const AskedFeatures asked_;
+  Relation counted_, tested_;
+  bool tells_apart_ = false;  // whether asked_pairs is asked for
   std::vector<Worker> workers_;
 };
 

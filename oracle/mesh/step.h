@@ -7,8 +7,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "detector/mesh/counted_pairs.h"
 #include "detector/mesh/step_types.h"
 #include "oracle/query/contact.h"
 
@@ -21,6 +23,11 @@ struct JudgeOptions {
   int jobs = 1;                 // threads; the result does not depend on it
   detector::StopFunction stop;  // asked from one thread at a time
   AskedFeatures features = AskedFeatures::all;
+  // Which pairs count; null: all do. The judgement speaks of what counts alone. REQUIRES a relation
+  // without errors (detector/mesh/mesh_checks.h) that outlives the call.
+  const detector::CountedPairs* counted = nullptr;
+  // Which of these asked_pairs tells apart, beside `features`; null: all. The same is required.
+  const detector::CountedPairs* tested = nullptr;
 };
 
 struct StepJudgement {
@@ -30,11 +37,16 @@ struct StepJudgement {
   bool complete = false;                     // false: the judgement was stopped
   detector::TimeEnclosure first;             // the least time of all; set for a collision
   std::vector<detector::PairContact> pairs;  // ascending by pair, each with its least time
-  // If JudgeOptions::features names one kind: the pairs in which two features of that kind meet,
-  // each with the first time at which they do. Edges that pierce a face at t=0 and triangles with
-  // the same three vertices do not count here. Empty when all kinds are asked for.
+  // If JudgeOptions names one kind of features, or some pairs as tested: the pairs in which two
+  // tested features of that kind meet, each with the first time at which they do. With one kind,
+  // edges that pierce a face at t=0 and triangles with the same three vertices do not count here.
+  // Empty if JudgeOptions names neither.
   std::vector<detector::PairContact> asked_pairs;
-  std::uint64_t feature_candidates = 0;  // feature pairs (VF, EE) whose boxes meet
+  // Not by judge_step. Pairs that a detector with a slack may report, ascending, each with the time
+  // from which it may: a question about distance may be asked a second time, with a greater one.
+  std::optional<std::vector<detector::PairContact>> within_slack;
+  // Feature pairs (VF, EE) whose boxes meet, of bodies that meet.
+  std::uint64_t feature_candidates = 0;
   RungCounts rungs;
 };
 

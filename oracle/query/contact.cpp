@@ -6,9 +6,7 @@
 
 namespace assay::oracle {
 
-namespace {
-
-ContactAnswer answer(const FourPoints& q, detector::Want want) {
+ContactAnswer contact_of(const FourPoints& q, detector::Want want) {
   require_exact_processor_state();
   if (separated_by_axis(q)) return {false, {}, Rung::axis};
 
@@ -26,15 +24,13 @@ ContactAnswer answer(const FourPoints& q, detector::Want want) {
   return {full.contact, full.first, Rung::quadratic};
 }
 
-std::optional<detector::TimeEnclosure> answer_by_kernel(const FourPoints& q) {
+std::optional<detector::TimeEnclosure> first_time_by_kernel(const FourPoints& q) {
   require_exact_processor_state();
   ContactPolynomials polynomials(q);
   const ExactAnswer full = algebraic_answer(polynomials, detector::Want::first_time);
   if (!full.contact) return {};
   return full.first;
 }
-
-}  // namespace
 
 void RungCounts::add(Rung rung) {
   switch (rung) {
@@ -58,19 +54,11 @@ RungCounts& RungCounts::operator+=(const RungCounts& other) {
 }
 
 ContactAnswer vertex_face_contact(const detector::VertexFace& query, detector::Want want) {
-  return answer(four_points(query), want);
-}
-
-std::optional<detector::TimeEnclosure> first_time_by_kernel(const detector::VertexFace& query) {
-  return answer_by_kernel(four_points(query));
-}
-
-std::optional<detector::TimeEnclosure> first_time_by_kernel(const detector::EdgeEdge& query) {
-  return answer_by_kernel(four_points(query));
+  return contact_of(four_points(query), want);
 }
 
 ContactAnswer edge_edge_contact(const detector::EdgeEdge& query, detector::Want want) {
-  return answer(four_points(query), want);
+  return contact_of(four_points(query), want);
 }
 
 }  // namespace assay::oracle

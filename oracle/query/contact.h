@@ -25,6 +25,7 @@ struct RungCounts {
   std::uint64_t axis = 0, interval = 0, quadratic = 0;
   void add(Rung rung);
   RungCounts& operator+=(const RungCounts& other);
+  friend bool operator==(const RungCounts&, const RungCounts&) = default;
 };
 
 struct ContactAnswer {
@@ -34,14 +35,14 @@ struct ContactAnswer {
   Rung rung = Rung::axis;
 };
 
+ContactAnswer contact_of(const detector::FourPoints& query, detector::Want want);
 ContactAnswer vertex_face_contact(const detector::VertexFace& query, detector::Want want);
 ContactAnswer edge_edge_contact(const detector::EdgeEdge& query, detector::Want want);
 
 // The first contact time, or nothing where there is no contact, by CGAL's algebraic kernel and
 // without the rungs: a second opinion of 0.1 to 0.4 ms (7 ms when exponents spread over all
 // doubles).
-std::optional<detector::TimeEnclosure> first_time_by_kernel(const detector::VertexFace& query);
-std::optional<detector::TimeEnclosure> first_time_by_kernel(const detector::EdgeEdge& query);
+std::optional<detector::TimeEnclosure> first_time_by_kernel(const detector::FourPoints& query);
 
 // Whether, without motion, the open segment e0e1 strictly pierces the open triangle f0f1f2: the
 // ends lie strictly on opposite sides of its plane, and the line passes strictly inside all three

@@ -41,13 +41,12 @@ DoubleHull double_hull(const Corners& c) {
   }
   hull.usable = std::isfinite(largest);
   if (!hull.usable) return hull;
-  int exponent = 0;
-  std::frexp(largest, &exponent);
+  std::frexp(largest, &hull.exponent);
   hull.size.fill(0x1p-900);
   for (int i = 0; i < c.count; ++i) {
     for (int k = 0; k < 3; ++k) {
       for (double* x : {&hull.t0.corner[i][k], &hull.t1.corner[i][k]}) {
-        *x = std::ldexp(*x, -exponent);
+        *x = std::ldexp(*x, -hull.exponent);
         hull.size[k] = std::max(hull.size[k], std::fabs(*x));
       }
     }
@@ -87,6 +86,9 @@ IntegerHull integer_hull(const Corners& c) {
     }
   }
   IntegerHull hull;
+  // All zero: any unit will do.
+  if (unit == std::numeric_limits<int>::max()) unit = 0;
+  hull.unit = unit;
   hull.t0.corners = hull.t1.corners = c.count;
   for (int i = 0; i < c.count; ++i) {
     for (int k = 0; k < 3; ++k) {

@@ -51,13 +51,14 @@ Vector<Number> outer(const Vector<Number>& a, const Vector<Number>& b) {
           Number(a[0] * b[1] - a[1] * b[0])};
 }
 
-// The corners at t=0 and t=1 in double, times a power of two that brings the largest coordinate
-// into [1/2,1]. `usable` is false when a difference overflows. Coordinate k of a corner, at either
-// end, is wrong by at most u * size[k] + 2^-1074 (u = 2^-53): the difference is rounded once, and
-// the scaling is exact above the denormals.
+// The corners at t=0 and t=1 in double, times the power of two, 2^-exponent, that brings the
+// largest coordinate into [1/2,1]. `usable` is false when a difference overflows. Coordinate k of a
+// corner, at either end, is wrong by at most u * size[k] + 2^-1074 (u = 2^-53): the difference is
+// rounded once, and the scaling is exact above the denormals.
 struct DoubleHull {
   Hull<double> t0, t1;
   Vector<double> size = {};  // largest |coordinate| of a corner as computed, at least 2^-900
+  int exponent = 0;
   bool usable = false;
 
   // The corners at t in [0,1], a multiple of 2^-53. Wrong by at most 3.01 u size[k] + 2^-1072
@@ -65,10 +66,10 @@ struct DoubleHull {
   Hull<double> at(double t) const;
 };
 
-// The same corners, exact: times a power of two of their own, which makes all coordinates
-// integers.
+// The same corners, exact: times 2^-unit, which makes all coordinates integers.
 struct IntegerHull {
   Hull<mpz_class> t0, t1;
+  int unit = 0;
 
   // q times the corners at time p/q, 0 <= p <= q.
   Hull<mpz_class> at(std::int64_t p, std::int64_t q) const;

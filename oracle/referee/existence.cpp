@@ -185,11 +185,12 @@ bool crossing_in_a_box(const IntegerHull& hull, const Crossing& guess, double un
   const auto middle = [](double x) { return range_about(x, parameter_bits).lo; };
   const auto rows = map.adjugate(middle(guess.t), middle(guess.u), middle(guess.v));
   if (!rows) return false;
+  const auto last = static_cast<std::int64_t>(std::ldexp(until, parameter_bits));
   // Large boxes forgive a poor guess, small ones a strongly curved map.
   for (const int bits : {6, 12, 20, 27, 34, 42}) {
     const std::array<Range, 3> box = {range_about(guess.t, bits), range_about(guess.u, bits),
                                       range_about(guess.v, bits)};
-    if (std::ldexp(static_cast<double>(box[0].hi), -parameter_bits) > until) continue;
+    if (box[0].hi > last) continue;
     if (hull.t0.corners == 3 && box[1].hi + box[2].hi > parameter_one) continue;
     if (signs_differ_on_opposite_sides(map, *rows, box)) return true;
   }
@@ -339,8 +340,8 @@ bool separates(const Piece<mpz_class>& p, const Vector<mpz_class>& n_s,
 
 }  // namespace
 
-Separation separated_in_double(const DoubleHull& hull, double s, double e) {
-  if (!hull.usable) return Separation::near;
+SeparationProof separated_in_double(const DoubleHull& hull, double s, double e) {
+  if (!hull.usable) return SeparationProof::near;
   Piece<double> piece(hull.at(s), hull.at(e));
   piece.set_weights(nearest_to_origin(piece.middle).weight);
   bool near = false;
@@ -350,7 +351,9 @@ Separation separated_in_double(const DoubleHull& hull, double s, double e) {
         near |= verdict == 0;
         return verdict == 1;
       });
-  return found ? Separation::separated : near ? Separation::near : Separation::not_found;
+  return found  ? SeparationProof::separated
+         : near ? SeparationProof::near
+                : SeparationProof::not_found;
 }
 
 bool separated_in_integers(const IntegerHull& hull, std::int64_t k, int depth) {

@@ -19,11 +19,11 @@ namespace assay::oracle {
 
 // near: no direction that was tried surely separates, but for one of them rounding errors leave it
 // open, or a difference overflows in double. Integers may yet prove it.
-enum class Separation : std::uint8_t { separated, near, not_found };
+enum class SeparationProof : std::uint8_t { separated, near, not_found };
 
 // On [s,e]. REQUIRES 0 <= s < e <= 1, both multiples of 2^-53. In double with error bounds; about
 // 1 us.
-Separation separated_in_double(const DoubleHull& hull, double s, double e);
+SeparationProof separated_in_double(const DoubleHull& hull, double s, double e);
 
 // On [k/2^depth, (k+1)/2^depth]. REQUIRES depth <= 61. In integers; tens of us. False: nothing is
 // known.

@@ -62,8 +62,8 @@ class Referee {
 
   bool separated(std::int64_t k, int depth) {
     if (depth <= most_depth_of_doubles) {
-      const Separation quick = separated_in_double(hull_, time(k, depth), time(k + 1, depth));
-      if (quick != Separation::near) return quick == Separation::separated;
+      const SeparationProof quick = separated_in_double(hull_, time(k, depth), time(k + 1, depth));
+      if (quick != SeparationProof::near) return quick == SeparationProof::separated;
     }
     return separated_in_integers(exact(), k, depth);
   }
@@ -118,6 +118,12 @@ detector::Decision referee(const detector::VertexFace& query, const RefereeOptio
 detector::Decision referee(const detector::EdgeEdge& query, const RefereeOptions& options) {
   require_exact_processor_state();
   return Referee(query, options).run();
+}
+
+detector::Decision referee(const detector::FourPoints& query, const RefereeOptions& options) {
+  const auto& p = query.points;
+  return query.first_group == 1 ? referee(detector::VertexFace{p[0], {p[1], p[2], p[3]}}, options)
+                                : referee(detector::EdgeEdge{{p[0], p[1]}, {p[2], p[3]}}, options);
 }
 
 }  // namespace assay::oracle

@@ -11,9 +11,7 @@
 
 #include "properties/campaign/ledger/evidence.h"
 #include "properties/campaign/plan.h"
-#include "properties/campaign/trials/trial.h"
-#include "properties/worker/plugin/judged_library.h"
-#include "properties/worker/worker_process.h"
+#include "properties/judging/trial.h"
 
 namespace assay::properties {
 
@@ -34,19 +32,11 @@ struct OwnCases {
 // The seed of a campaign for which none is given. Everybody knows its cases.
 inline constexpr std::uint64_t default_seed = 1;
 
-struct CampaignRequest {
+struct CampaignRequest : Subject {
   CampaignPlan plan;
   std::uint64_t seed = default_seed;
   int jobs = 1;
   Shard shard;
-  DetectorUnderTest detector;
-  std::optional<std::filesystem::path> plugin;
-  std::shared_ptr<const JudgedLibrary> judged;    // its file, kept for all workers of the request
-  IsolationMode isolation = IsolationMode::best;  // as asked for the plug-in's process
-  Isolation isolated;                             // the isolation that the process has
-  std::uint64_t threads = 1;                      // threads that the plug-in may use
-  bool takes_threads = false;                     // the plug-in asks for that number
-  std::filesystem::path worker;                   // the program assay-worker
   std::filesystem::path folder;  // of the run; the plug-in does not read what it holds
   // The proof of another run of this build that planted faults are found. If it is given, no fault
   // is planted in this run.
@@ -59,7 +49,12 @@ struct CampaignRequest {
 
   // The limits of the workers that run the campaign's cases.
   WorkerLimits worker_limits(std::uint32_t variation = 0) const {
-    return {plan.case_seconds, plan.case_bytes, isolation, isolated, threads, folder, variation};
+    auto of_case = limits;
+    of_case.seconds = plan.case_seconds;
+    of_case.bytes = plan.case_bytes;
+    of_case.unread = folder;
+    of_case.variation = variation;
+    return of_case;
   }
 
   // The limits of the worker that runs a case a second time, to judge the claim `deterministic`: it
@@ -67,10 +62,10 @@ struct CampaignRequest {
   // another number of threads, and each step is evaluated twice.
   WorkerLimits second_worker_limits() const {
     constexpr std::uint64_t some = 3;  // large meshes are run with 1, 2 and 4 (repetitions.h)
-    auto limits = worker_limits(1);
-    if (takes_threads) limits.threads = threads == some ? 1 : some;
-    limits.asks_twice = true;
-    return limits;
+    auto second = worker_limits(1);
+    if (description.parts.takes_threads) second.threads = limits.threads == some ? 1 : some;
+    second.asks_twice = true;
+    return second;
   }
 };
 

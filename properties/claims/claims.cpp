@@ -12,10 +12,18 @@ std::vector<Claim> list_of(const Claims& claims) {
 
 std::vector<Claim> all_claims() { return list_of(claims_from_outside); }
 
-Claims judged_claims(const Claims& claims, const Contract& contract) {
+Claims judged_claims(const Claims& claims, const Contract& contract, bool of_queries) {
   Claims judged = claims;
-  if (contract.margin > 0) judged.set(Claim::no_spurious, false);
+  if (contract.margin > 0) judged.set(Claim::first_time, false);
+  if (!contract.judges_alarms(of_queries)) judged.set(Claim::no_spurious, false);
   return contract.reports_pairs ? judged : judged.without({Claim::first_pairs, Claim::all_pairs});
+}
+
+Contract contract_of(const detector::Options& options) {
+  Contract contract;
+  if (options.separation > 0) contract.adjacency = Adjacency::no_shared_vertex;
+  contract.separation = options.separation;
+  return contract;
 }
 
 Claims claims_of(const detector::Options& options) {

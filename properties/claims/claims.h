@@ -10,8 +10,9 @@
 
 namespace assay::properties {
 
-// In the list below t* is the first contact time of the step. The contact graph at t* has the
-// triangles as nodes, and the pairs that are in contact at t* as edges.
+// In the list below t* is the first contact time of the step; under a contract with a separation d
+// it is the first time within d, and a contact is a pair that comes within d. The contact graph at
+// t* has the triangles as nodes, and the pairs that are in contact at t* as edges.
 enum class Claim : std::uint8_t {
   free_sound,     // never `free` when the oracle has a contact
   not_late,       // lower end of its first time <= t*
@@ -87,9 +88,14 @@ std::vector<Claim> all_claims();
 // deterministic and total. With pairs first, no arithmetic claims all-pairs.
 Claims claims_of(const detector::Options& options);
 
-// The claims that are judged under this contract. If it has a margin, no-spurious is not judged,
-// because the detector may then report a collision before there is one. First-pairs and all-pairs
-// are not judged of a detector that reports no pairs.
-Claims judged_claims(const Claims& claims, const Contract& contract);
+// What the built-in detector is asked with these options: contact, or within a separation of pairs
+// that share no vertex.
+Contract contract_of(const detector::Options& options);
+
+// The claims that are judged under this contract. If it has a margin, first-time is not judged,
+// because the detector may then report a collision before there is one; no-spurious is judged with
+// the margin of queries, and of steps if the detector leaves neighbours out. First-pairs and
+// all-pairs are not judged of a detector that reports no pairs.
+Claims judged_claims(const Claims& claims, const Contract& contract, bool of_queries = false);
 
 }  // namespace assay::properties

@@ -3,6 +3,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "corpus/cases/case_file.h"
+
 namespace assay::properties {
 
 std::string number_text(double x) {
@@ -19,6 +21,9 @@ bool is_length(double x) { return std::isfinite(x) && x >= 0; }
 
 std::string fault_of(const Contract& contract) {
   if (!is_length(contract.margin)) return "its margin is no length";
+  if (!is_length(contract.separation)) return "its separation is no length";
+  if (contract.separation > 0 && contract.adjacency != Adjacency::no_shared_vertex)
+    return "it has a separation, and tests neighbours, which are near whatever it is";
   if (!is_length(contract.start_distance)) return "its start_distance is no length";
   if (contract.start == StartRule::apart && contract.start_distance == 0)
     return "it starts apart, by a start_distance of 0";
@@ -29,6 +34,8 @@ std::string fault_of(const Contract& contract) {
   if (contract.least_nonzero > contract.largest)
     return "its range of coordinates is upside down: from " + number_text(contract.least_nonzero) +
            " to " + number_text(contract.largest);
+  if (contract.rings < 0) return "its rings are below 0";
+  if (!is_length(contract.rest_distance)) return "its rest_distance is no length";
   if (!(contract.time_tolerance >= 0)) return "its time_tolerance is no time";
   if (contract.time_tolerance > widest_time_tolerance)
     return "its time_tolerance " + number_text(contract.time_tolerance) + " is above " +
@@ -44,6 +51,7 @@ std::vector<std::string> phrases_of(const Contract& contract) {
   if (contract.adjacency != Adjacency::all) say("neighbours ", name_of(contract.adjacency));
   if (contract.coordinates != Coordinates::float64)
     say("coordinates ", name_of(contract.coordinates));
+  if (contract.separation > 0) say("within ", number_text(contract.separation));
   if (contract.margin > 0) say("margin ", number_text(contract.margin));
   if (contract.start == StartRule::free) list.emplace_back("starts free");
   if (contract.start == StartRule::apart)
@@ -52,8 +60,24 @@ std::vector<std::string> phrases_of(const Contract& contract) {
   if (contract.has_range()) say("coordinates up to ", number_text(contract.largest));
   if (contract.features != TestedFeatures::both) say("", name_of(contract.features), " alone");
   if (contract.time_tolerance > 0) say("times within ", number_text(contract.time_tolerance));
+  const char* level = name_of(contract.counts);
+  if (contract.rings > 0)
+    list.push_back(std::string(level) + " beyond " + std::to_string(contract.rings) +
+                   (contract.rings == 1 ? " ring" : " rings"));
+  if (contract.rest_distance > 0)
+    list.push_back(std::string(level) + " from " + number_text(contract.rest_distance) +
+                   " apart at rest");
   if (!contract.reports_pairs) list.emplace_back("no pairs");
   return list;
+}
+
+detector::CountedPairs tested_pairs(const Contract& contract, const detector::Positions& rest) {
+  detector::CountedPairs pairs;
+  pairs.level = contract.counts;
+  pairs.rings = contract.rings;
+  pairs.rest_distance = contract.rest_distance;
+  if (contract.rest_distance > 0) pairs.rest = corpus::points_of(rest);
+  return pairs;
 }
 
 int shared_vertices(const detector::TrianglesView& triangles, detector::TrianglePair pair) {

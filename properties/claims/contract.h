@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "detector/mesh/counted_pairs.h"
 #include "detector/mesh/step_types.h"
 #include "detector/mesh/types.h"
 #include "properties/words.h"
@@ -63,8 +64,9 @@ inline constexpr double widest_time_tolerance = 1e-3;
 struct Contract {
   Adjacency adjacency = Adjacency::all;
   Coordinates coordinates = Coordinates::float64;
-  // Above 0: the detector reports features that come so close as contacts. Its false alarms are
-  // then not judged (the claim no-spurious).
+  // The slack m: the detector may also report what comes within separation + m. Above 0, first-time
+  // is not judged, and no-spurious is only if the detector leaves neighbours out: these are within
+  // m of each other throughout.
   double margin = 0;
   StartRule start = StartRule::any;
   double start_distance = 0;  // for StartRule::apart
@@ -76,20 +78,44 @@ struct Contract {
   TestedFeatures features = TestedFeatures::both;
   double time_tolerance = 0;  // a time is late, early or wrong when it is off by more than this
   bool reports_pairs = true;
+  // Above 0: the question is not which triangles touch, but which come within this distance. Then
+  // pairs that share no vertex are asked for alone.
+  double separation = 0;
+  // What the detector leaves out by itself, as members of detector/mesh/counted_pairs.h, at the
+  // level `counts`. At rest the mesh is as in the frame that a detector is made from.
+  detector::CountedLevel counts = detector::CountedLevel::triangles;
+  std::int32_t rings = 0;
+  double rest_distance = 0;
+  // Whether the detector can be told which pairs count. One that cannot is asked about all pairs.
+  bool takes_relations = true;
   friend bool operator==(const Contract&, const Contract&) = default;
 
   bool has_range() const { return largest > 0; }
+  // Whether it is judged what the detector reports although it is not there. The features of a
+  // query share no vertex.
+  bool judges_alarms(bool of_queries = false) const {
+    return margin == 0 || of_queries || adjacency == Adjacency::no_shared_vertex;
+  }
+  // Whether the oracle has to tell contacts that the detector tests from others
+  // (StepJudgement::asked_pairs).
+  bool tests_part() const {
+    return features != TestedFeatures::both || rings > 0 || rest_distance > 0;
+  }
 };
 
 // Each member by its name, in reports, certificates and messages.
 template <class Archive>
 void fields(Archive& archive, Contract& contract) {
   auto& [adjacency, coordinates, margin, start, start_distance, least_nonzero, largest, features,
-         time_tolerance, reports_pairs] = contract;
+         time_tolerance, reports_pairs, separation, counts, rings, rest_distance, takes_relations] =
+      contract;
   archive("adjacency", adjacency, "coordinates", coordinates, "margin", margin);
   archive("start", start, "start_distance", start_distance);
   archive("least_nonzero", least_nonzero, "largest", largest, "features", features);
   archive("time_tolerance", time_tolerance, "reports_pairs", reports_pairs);
+  archive("separation", separation);
+  archive("counts", counts, "rings", rings, "rest_distance", rest_distance);
+  archive("takes_relations", takes_relations);
 }
 
 // The shortest decimal that reads back to the same double. It is made without libfmt, because the
@@ -104,9 +130,12 @@ std::string fault_of(const Contract& contract);
 // "coordinates up to 1e+06", "times within 1e-09". Empty for the contract that leaves nothing out.
 std::vector<std::string> phrases_of(const Contract& contract);
 
+// The relation of what the contract tests, on a mesh whose vertices are at rest at `rest`.
+detector::CountedPairs tested_pairs(const Contract& contract, const detector::Positions& rest);
+
 int shared_vertices(const detector::TrianglesView& triangles, detector::TrianglePair pair);
 
-// Whether the contract's adjacency lets the detector leave this pair out.
+// Whether the contract's adjacency alone lets the detector leave this pair out.
 bool leaves_out(const Contract& contract, const detector::TrianglesView& triangles,
                 detector::TrianglePair pair);
 

@@ -9,6 +9,7 @@
 #include "properties/generators/menus.h"
 #include "properties/generators/motions.h"
 #include "properties/generators/primitives.h"
+#include "properties/generators/relations.h"
 #include "properties/generators/response.h"
 #include "properties/generators/shapes/shapes.h"
 
@@ -45,6 +46,20 @@ constexpr Recipe unclosed_near = {
     .closed = false, .nearly_degenerate = true, .positive = 30, .aimed = 30};
 constexpr Recipe broken = {.closed = false, .broken = true, .aimed = 30};
 
+constexpr Recipe counted_generic = {.positive = 10, .aimed = 50};
+constexpr Recipe counted_exact = {.closed = false, .exact = true, .positive = 10, .aimed = 50};
+
+GeneratedCase make_counted(Random& random, std::string id) {
+  const Recipe& recipe = random.one_in(2) ? counted_generic : counted_exact;
+  GeneratedCase made = make_by(recipe, random, std::move(id));
+  add_relation(random, made);
+  return made;
+}
+
+constexpr Family counted_table[] = {
+    {"counted", "bodies, rings and distances at rest; closed and generic, or with holes and exact",
+     false, true, make_counted}};
+
 constexpr Family family_table[] = {
     {"closed-generic", "closed meshes, smooth and local motions, doubles of many bits", true, false,
      make<closed_generic>},
@@ -66,6 +81,7 @@ constexpr Family family_table[] = {
 }  // namespace
 
 std::span<const Family> families() { return family_table; }
+std::span<const Family> counted_families() { return counted_table; }
 
 GeneratedCase make_case(const Family& family, std::string_view id) {
   Random random(id);

@@ -28,6 +28,8 @@ struct Family {
 
 // The strata's families in a fixed order.
 std::span<const Family> families();
+// Families of cases with a relation (relations.h), for plan files: no named campaign has them.
+std::span<const Family> counted_families();
 
 // Makes the case of an id "campaign:seed:stratum:index". The id's hash is the only source of
 // randomness, so any case can be made alone, with the same bytes on every machine. Takes 10 us. A

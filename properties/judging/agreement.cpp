@@ -70,7 +70,7 @@ class Comparison {
   StepDiff run(StepTruth truth) {
     diff_.answer = result_.answer;
     diff_.oracle_complete = judgement_.complete;
-    diff_.nothing_in_contact = judgement_.complete && judgement_.pairs.empty();
+    diff_.nothing_in_contact = judgement_.complete && allowed().empty();
     diff_.claims_pairs = claims_.has(Claim::all_pairs) || claims_.has(Claim::first_pairs);
     if (result_.answer == Answer::error) {
       broken(Claim::total, !result_.problem);
@@ -80,16 +80,23 @@ class Comparison {
     diff_.partial = !detector_complete() || !judgement_.complete;
     truth_ = std::move(truth);
     diff_.first_contact = truth_.first;
+    diff_.starts_near = truth_.starts_near;
     diff_.left_out = std::move(truth_.left_out);
     compare_with_all();
     compare_with_what_counts();
     compare_answers();
+    compare_with_slack();
     excuse();
     weigh();
     return std::move(diff_);
   }
 
  private:
+  // What may be reported: whatever is there, or is so within the slack.
+  const std::vector<PairContact>& allowed() const {
+    return judgement_.within_slack ? *judgement_.within_slack : judgement_.pairs;
+  }
+
   bool detector_complete() const { return result_.answer != Answer::undecided; }
 
   // Finds what the detector reports although it is not there, or not there yet. Contacts that the
@@ -97,10 +104,10 @@ class Comparison {
   void compare_with_all() {
     // If the oracle was stopped, it has not refuted what it has not reached.
     if (!judgement_.complete) return;
-    auto theirs = judgement_.pairs.begin();
+    auto theirs = allowed().begin();
     for (const auto& ours : result_.pairs) {
-      while (theirs != judgement_.pairs.end() && theirs->pair < ours.pair) ++theirs;
-      if (theirs == judgement_.pairs.end() || ours.pair < theirs->pair) {
+      while (theirs != allowed().end() && theirs->pair < ours.pair) ++theirs;
+      if (theirs == allowed().end() || ours.pair < theirs->pair) {
         diff_.spurious.push_back(ours);
       } else if (times_.ends_before(ours.time, theirs->time)) {
         diff_.early.push_back({ours.pair, ours.time, theirs->time});
@@ -173,6 +180,18 @@ class Comparison {
     diff_.excused = std::move(excused);
   }
 
+  // With a slack a first time may be earlier than the exact one, but not than the first that comes
+  // within the slack.
+  void compare_with_slack() {
+    if (!judgement_.within_slack || !judgement_.complete || result_.answer != Answer::collision)
+      return;
+    const auto first = std::min_element(
+        allowed().begin(), allowed().end(),
+        [](const PairContact& a, const PairContact& b) { return a.time < b.time; });
+    if (first != allowed().end() && times_.ends_before(result_.first, first->time))
+      diff_.first_in_slack = *first;
+  }
+
   void broken(Claim claim, bool refuted) {
     if (refuted && claims_.has(claim)) diff_.broken.push_back(claim);
   }
@@ -180,14 +199,14 @@ class Comparison {
   void weigh() {
     broken(Claim::free_sound, diff_.answered_free);
     broken(Claim::not_late, diff_.late_first);
-    broken(Claim::first_time, diff_.wrong_first_time() && truth_.complete);
+    broken(Claim::first_time, diff_.wrong_first_time() && truth_.complete && contract_.margin == 0);
     if (contract_.reports_pairs) {
       broken(Claim::first_pairs, !unexcused_.empty());
       broken(Claim::all_pairs, !diff_.missing.empty() || !diff_.late.empty());
     }
-    const bool spurious =
-        diff_.answered_collision || !diff_.spurious.empty() || !diff_.early.empty();
-    broken(Claim::no_spurious, spurious && contract_.margin == 0);
+    const bool spurious = diff_.answered_collision || !diff_.spurious.empty() ||
+                          !diff_.early.empty() || diff_.first_in_slack;
+    broken(Claim::no_spurious, spurious && (contract_.margin == 0 || judgement_.within_slack));
     diff_.outcome = !diff_.broken.empty() ? Outcome::defect
                     : diff_.partial       ? Outcome::undecided
                                           : Outcome::holds;
@@ -239,10 +258,13 @@ oracle::AskedFeatures asked_features(const Contract& contract) {
 
 std::string stage_that_lost(const detector::TrianglesView& triangles,
                             const detector::PositionsView& x_t0,
-                            const detector::PositionsView& x_t1, TrianglePair pair) {
+                            const detector::PositionsView& x_t1, TrianglePair pair,
+                            detector::Options options) {
+  options.start = detector::Start::unknown;
+  options.pairs = detector::Pairs::all;
   const auto finds = [&](detector::Culling culling) {
-    auto made = detector::Detector::create(
-        triangles, x_t0, {culling, detector::Start::unknown, detector::Pairs::all});
+    options.culling = culling;
+    auto made = detector::Detector::create(triangles, x_t0, options);
     if (!made) return false;
     const auto result = made.value().evaluate(x_t0, x_t1);
     return std::any_of(result.pairs.begin(), result.pairs.end(),
@@ -258,8 +280,9 @@ void judge_candidates(const CandidatePairs& candidates, const oracle::StepJudgem
                       const Claims& claims, const Contract& contract,
                       const detector::TrianglesView& triangles, StepDiff& diff) {
   if (!claims.has(Claim::candidates)) return;
+  const StepTruth truth = truth_of(judgement, contract, triangles);
+  diff.starts_near = truth.starts_near;
   if (candidates) {
-    const StepTruth truth = truth_of(judgement, contract, triangles);
     auto ours = candidates->begin();
     for (const auto& contact : truth.pairs) {
       while (ours != candidates->end() && *ours < contact.pair) ++ours;

@@ -59,6 +59,7 @@ struct StepDiff {
   detector::Answer answer = detector::Answer::undecided;  // the detector's
   bool oracle_complete = false;                           // false: the oracle was stopped
   bool nothing_in_contact = false;  // by a complete oracle, whatever the contract leaves out
+  bool starts_near = false;         // StepTruth::starts_near
   bool claims_pairs = false;        // all-pairs or first-pairs is claimed
   // The detector or the oracle was stopped: only what both reached is compared.
   bool partial = false;
@@ -74,6 +75,10 @@ struct StepDiff {
   std::vector<detector::PairContact> spurious;  // reported, but not in contact
   // Pairs whose interval begins after their time, which is unsafe, or ends before it.
   std::vector<WrongTime> late, early;
+
+  // With a slack, the first pair that comes within it, if the detector's first time ends before
+  // that.
+  std::optional<detector::PairContact> first_in_slack;
 
   // The earliest contact that counts; nothing if there is none.
   std::optional<detector::PairContact> first_contact;
@@ -101,7 +106,7 @@ struct StepDiff {
 // Judges a step by what its detector claims. Pairs of the oracle that lie outside of the
 // contract's adjacency and features do not count against the detector: its first time is compared
 // with t*, the first time of the other pairs. If the detector does report such a pair, it is not
-// spurious.
+// spurious. Under a separation it is: pairs that share a vertex are then not asked for.
 //
 // The detector's times are intervals. An interval is wrong if it does not hold the oracle's time:
 // if it begins after that time, or ends before it, each by more than the contract's tolerance
@@ -111,11 +116,12 @@ struct StepDiff {
 // in contact later than t* only, or its part of the contact graph at t* (triangles as nodes, pairs
 // in contact at t* as edges) holds a reported pair.
 //
-// If the contract has a margin, no-spurious is not judged. A step that was answered by an error
-// breaks `total`, or is Outcome::error if `total` is not claimed. It is Outcome::error too if the
-// built-in detector refuses the input by name (StepResult::problem), because `total` speaks of
-// valid input. `deterministic` is not judged here, because it needs two runs: same_answers.
-// O(n log n) in the number of pairs.
+// If the contract has a margin, first-time is not judged, and no-spurious goes by what comes within
+// separation + margin (StepJudgement::within_slack), or is not judged without that. A step that was
+// answered by an error breaks `total`, or is Outcome::error if `total` is not claimed. It is
+// Outcome::error too if the built-in detector refuses the input by name (StepResult::problem),
+// because `total` speaks of valid input. `deterministic` is not judged here, because it needs two
+// runs: same_answers. O(n log n) in the number of pairs.
 //
 // What breaks a claim:
 // - free-sound: the answer `free`, although there is a contact.
@@ -123,8 +129,9 @@ struct StepDiff {
 // - first-time: a first time that is late, or whose interval ends before t*.
 // - first-pairs: a missing pair without excuse.
 // - all-pairs: a missing pair, or a late one.
-// - no-spurious: `collision` although there is no contact, a spurious pair, or a pair whose time
-//   ends before its contact.
+// - no-spurious: `collision` although there is no contact, a spurious pair, a pair whose time
+//   ends before its contact, or, with a margin, a first time that ends before all that comes within
+//   the slack.
 //
 // times-unique breaks nothing by itself. If it is claimed, an interval is wrong unless it is the
 // oracle's in every bit.
@@ -138,13 +145,14 @@ StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement
 // The features that the oracle is to be asked for under this contract.
 oracle::AskedFeatures asked_features(const Contract& contract);
 
-// The stage of the detector at which a missed pair was lost. It is found by running the step with
-// less culling: "view sets" if culling bvh finds the pair, "pair search" if only culling none
+// The stage at which the detector with these options lost a pair. It is found by running the step
+// with less culling: "view sets" if culling bvh finds the pair, "pair search" if only culling none
 // does, "elementary test" if neither does. Culling none is tried for meshes of up to 2,000
 // triangles; for a larger one the answer is "pair search or elementary test".
 std::string stage_that_lost(const detector::TrianglesView& triangles,
                             const detector::PositionsView& x_t0,
-                            const detector::PositionsView& x_t1, detector::TrianglePair pair);
+                            const detector::PositionsView& x_t1, detector::TrianglePair pair,
+                            detector::Options options = {});
 
 // Adds to the diff of a step what its candidates show: each pair in contact that counts under the
 // contract has to be among them. If there are none, or the oracle was stopped, a step that would

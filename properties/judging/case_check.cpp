@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "oracle/view/view_sign.h"
+#include "properties/judging/step_truth.h"
 #include "properties/worker/case_player.h"
 
 namespace assay::properties {
@@ -44,7 +45,8 @@ class CaseChecker {
       collision |= report_.steps.back().result.answer == Answer::collision;
     }
     const auto& expected = case_.expected.answer;
-    if (!expected) return finish();
+    // The answer that is expected of a case is that of all pairs (CaseRelation).
+    if (!expected || case_.counted) return finish();
     if (*expected == Answer::collision ? claims_.has(Claim::free_sound) && !collision
                                        : claims_.has(Claim::no_spurious) && collision) {
       fail(fmt::format("answer {}, expected {}", collision ? "collision" : "free",
@@ -63,20 +65,25 @@ class CaseChecker {
   }
 
   void check_step(std::size_t s) {
-    CaseStepReport step{
-        player_->play(s),
-        oracle::judge_step({player_->x_t0(s), player_->x_t1(s)}, case_.triangles, {jobs_, {}}),
-        {}};
-    step.diff = compare(step.result, step.judgement, claims_);
+    CaseStepReport step{player_->play(s), judged(s, corpus::counted_of(case_)), {}};
+    step.diff =
+        compare(step.result, step.judgement, claims_, contract_of(options_), case_.triangles);
     const std::string where = fmt::format("step {}: ", s + 1);
     if (step.diff.outcome != Outcome::holds) fail(where + "detector and oracle disagree");
-    if (s < case_.expected.steps.size()) {
-      check_facts(where, case_.expected.steps[s], step.judgement);
-    }
+    if (s < case_.expected.steps.size())
+      check_facts(where, case_.expected.steps[s],
+                  case_.counted ? judged(s, nullptr) : step.judgement);
+    if (case_.counted && s < case_.counted->steps.size())
+      check_facts(where + "of what counts: ", case_.counted->steps[s], step.judgement);
     if (uses_views(options_.culling) && claims_.has(Claim::free_sound))
       check_signs(where, s, step.result);
     if (const auto view = corpus::view_of_step(case_, s)) check_expected_signs(where, s, *view);
     report_.steps.push_back(std::move(step));
+  }
+
+  oracle::StepJudgement judged(std::size_t s, const detector::CountedPairs* counted) const {
+    return judge_under(contract_of(options_), {player_->x_t0(s), player_->x_t1(s)}, case_.triangles,
+                       {jobs_, {}, oracle::AskedFeatures::all, counted});
   }
 
   void check_facts(const std::string& where, const corpus::ExpectedStep& expected,
@@ -110,9 +117,9 @@ class CaseChecker {
         const auto exact = sign_by_oracle(s, t, result.primitives[c]);
         const auto ours = result.signs[static_cast<std::size_t>(t)];
         // A triangle in V0 costs time only. Arithmetic that does not certify every sign may put
-        // triangles there.
-        const bool allowed =
-            exact == ours || (!claims_.has(Claim::no_spurious) && ours == ViewSign::zero);
+        // triangles there, and so does a relation for which a component needs no views.
+        const bool may_be_zero = !claims_.has(Claim::no_spurious) || case_.counted;
+        const bool allowed = exact == ours || (may_be_zero && ours == ViewSign::zero);
         if (!allowed) {
           fail(fmt::format("{}view sign of triangle {}: detector {}, oracle {}", where, t,
                            static_cast<int>(ours), static_cast<int>(exact)));

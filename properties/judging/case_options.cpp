@@ -2,12 +2,24 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
+#include <cmath>
+
 namespace assay::properties {
 
 namespace {
 
 // False for a name or a word that is none; the options then stay as they are.
 bool set_option(detector::Options& options, std::string_view name, std::string_view word) {
+  if (name == "separation") {
+    double distance = 0;
+    const char* const end = word.data() + word.size();
+    const auto [read, error] = std::from_chars(word.data(), end, distance);
+    if (error != std::errc() || read != end || !(distance >= 0) || !std::isfinite(distance))
+      return false;
+    options.separation = distance;
+    return true;
+  }
   bool is_known = false;
   for_each_choice(options, [&](std::string_view choice, auto& option) {
     if (choice != name) return;
@@ -24,6 +36,7 @@ OptionWords options_text(const detector::Options& options) {
   OptionWords text;
   for_each_choice(options, [&](const char* name, auto option) { text[name] = name_of(option); });
   if (options.arithmetic == detector::Options().arithmetic) text.erase("arithmetic");
+  if (options.separation != 0) text["separation"] = fmt::format("{}", options.separation);
   return text;
 }
 

@@ -1,4 +1,5 @@
-// The detector's options as the words of a case file; detector/options.h lists these words.
+// The detector's options as the words of a case file; detector/options.h lists these words. The
+// separation is a number, as the shortest decimal that gives back the same double.
 #pragma once
 
 #include <map>

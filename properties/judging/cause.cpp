@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "oracle/distance/closest_places.h"
 #include "oracle/instant/instant_contacts.h"
 #include "oracle/instant/nearness.h"
 #include "oracle/mesh/contact_shape.h"
@@ -22,9 +23,17 @@ using detector::SteppedMesh;
 using detector::TrianglesView;
 
 constexpr const char* time_words[] = {"t inside", "t at 1", "t near 0", "t at 0"};
-constexpr const char* shape_words[] = {
-    "generic",        "double root", "at the end of a feature", "coplanar throughout",
-    "parallel edges", "without area"};
+constexpr const char* shape_words[] = {"generic",
+                                       "double root",
+                                       "at the end of a feature",
+                                       "coplanar throughout",
+                                       "parallel edges",
+                                       "without area",
+                                       "distance to a face",
+                                       "distance of two edges",
+                                       "distance to an edge",
+                                       "distance of two vertices",
+                                       "beyond the distance"};
 constexpr const char* number_words[] = {"ordinary numbers", "tiny numbers", "huge numbers"};
 constexpr const char* sharing_words[] = {"sharing nothing", "sharing a vertex", "sharing an edge"};
 constexpr const char* at_rest = "at rest";
@@ -145,9 +154,10 @@ class PairOfStep {
   }
 
   // Tells what is special about the contact of these two features.
-  CauseShape shape(const PairContact& contact) const {
+  CauseShape shape(const PairContact& contact, bool of_distance) const {
     if (is_without_area(contact.time)) return CauseShape::without_area;
     const auto& v = contact.feature.vertices;
+    if (of_distance) return shape_of_distance(contact);
     if (contact.feature.kind == FeatureKind::vertex_face) {
       return shape_of(oracle::shape_of(
           detector::VertexFace{path(v[0]), {path(v[1]), path(v[2]), path(v[3])}}, contact.time));
@@ -157,6 +167,26 @@ class PairOfStep {
   }
 
  private:
+  CauseShape shape_of_distance(const PairContact& contact) const {
+    const auto& v = contact.feature.vertices;
+    const bool is_vertex_face = contact.feature.kind == FeatureKind::vertex_face;
+    const auto places = oracle::closest_places(
+        {{path(v[0]), path(v[1]), path(v[2]), path(v[3])}, is_vertex_face ? 1 : 2},
+        contact.time.lo);
+    const auto is_inside = [](double share) { return 0 < share && share < 1; };
+    const bool first = is_inside(places.first), second = is_inside(places.second);
+    if (!is_vertex_face) {
+      return first && second   ? CauseShape::distance_of_edges
+             : first || second ? CauseShape::distance_to_edge
+                               : CauseShape::distance_of_vertices;
+    }
+    const bool beside_first = is_inside(1 - places.first - places.second);
+    const int corners_held = (places.first > 0) + (places.second > 0) + beside_first;
+    return corners_held == 3   ? CauseShape::distance_to_face
+           : corners_held == 2 ? CauseShape::distance_to_edge
+                               : CauseShape::distance_of_vertices;
+  }
+
   static constexpr int corners[] = {0, 1, 2};
   using Rational = std::array<mpq_class, 3>;
 
@@ -197,13 +227,13 @@ class PairOfStep {
   std::optional<detector::Feature> query_;
 };
 
-Cause cause_of_contact(const PairOfStep& pair, const PairContact& contact) {
+Cause cause_of_contact(const PairOfStep& pair, const PairContact& contact, bool of_distance) {
   Cause cause{time_of(contact.time), false, std::nullopt, pair.numbers(), pair.sharing()};
   cause.is_near_at_start = cause.time != CauseTime::at_0 && pair.is_near_at_start();
   for (const std::int32_t v : contact.feature.vertices) cause.is_moving |= v >= 0 && pair.moves(v);
   const bool has_shape = contact.feature.kind == FeatureKind::vertex_face ||
                          contact.feature.kind == FeatureKind::edge_edge;
-  if (has_shape) cause.shape = pair.shape(contact);
+  if (has_shape) cause.shape = pair.shape(contact, of_distance);
   // Features that rest and meet are coplanar anyway, so that says nothing.
   if (!cause.is_moving && cause.shape == CauseShape::coplanar_throughout)
     cause.shape = CauseShape::generic;
@@ -213,22 +243,24 @@ Cause cause_of_contact(const PairOfStep& pair, const PairContact& contact) {
 }  // namespace
 
 Cause cause_of(const TrianglesView& triangles, const SteppedMesh& motion,
-               const PairContact& contact) {
-  return cause_of_contact({triangles, motion, contact.pair}, contact);
+               const PairContact& contact, bool of_distance) {
+  return cause_of_contact({triangles, motion, contact.pair}, contact, of_distance);
 }
 
 Cause cause_of_query(const TrianglesView& triangles, const SteppedMesh& motion,
-                     const PairContact& contact) {
+                     const PairContact& contact, bool of_distance) {
   PairOfStep pair(triangles, motion, contact.pair);
   pair.set_query(contact.feature);
-  return cause_of_contact(pair, contact);
+  return cause_of_contact(pair, contact, of_distance);
 }
 
 Cause cause_of(const TrianglesView& triangles, const SteppedMesh& motion,
-               detector::TrianglePair pair) {
+               detector::TrianglePair pair, bool of_distance) {
   const PairOfStep of(triangles, motion, pair);
-  return {std::nullopt, of.moves(),   std::nullopt,
-          of.numbers(), of.sharing(), of.is_near_at_start()};
+  Cause cause{std::nullopt, of.moves(),   std::nullopt,
+              of.numbers(), of.sharing(), of.is_near_at_start()};
+  if (of_distance) cause.shape = CauseShape::beyond_distance;
+  return cause;
 }
 
 std::string text_of(const Cause& cause) {
@@ -261,7 +293,7 @@ int oddity_of(std::string_view signature) {
   oddity = 2 * oddity + says(near_start);
   oddity = 3 * oddity + place_of(sharing_words);
   oddity = 2 * oddity + says(at_rest);
-  oddity = 10 * oddity + place_of(shape_words);
+  oddity = static_cast<int>(std::size(shape_words)) * oddity + place_of(shape_words);
   return 10 * oddity + place_of(time_words);
 }
 

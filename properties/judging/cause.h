@@ -27,6 +27,14 @@ enum class CauseShape : std::uint8_t {
   coplanar_throughout,
   parallel_edges,
   without_area,
+  // Of a question about distance in place of the others, but for without_area: where the nearest
+  // points of the two features lie at the first time within it, as doubles see it. The last is of a
+  // pair that never comes within it.
+  distance_to_face,
+  distance_of_edges,
+  distance_to_edge,
+  distance_of_vertices,
+  beyond_distance,
 };
 
 // How large the coordinates of the two triangles are, leaving zeros aside. `ordinary`: all from
@@ -38,7 +46,7 @@ struct Cause {
   std::optional<CauseTime> time;  // nothing if there is no contact
   // Some vertex of the two features moves; without a contact, some vertex of the two triangles.
   bool is_moving = true;
-  std::optional<CauseShape> shape;  // nothing without a contact, and for piercing
+  std::optional<CauseShape> shape;  // nothing without a contact of a kind, and for piercing
   CauseNumbers numbers = CauseNumbers::ordinary;
   // Of a query it is always `nothing`.
   CauseSharing sharing = CauseSharing::nothing;
@@ -49,16 +57,18 @@ struct Cause {
   friend bool operator==(const Cause&, const Cause&) = default;
 };
 
+// Below, `of_distance` says that a contact is a pair that comes within a distance.
+
 // The cause for a contact of the oracle in the step.
 Cause cause_of(const detector::TrianglesView& triangles, const detector::SteppedMesh& motion,
-               const detector::PairContact& contact);
+               const detector::PairContact& contact, bool of_distance = false);
 // The cause for a contact of the two features of a query (query_case.h). The triangles of its mesh
 // hold more than these features, so only the area of the face counts.
 Cause cause_of_query(const detector::TrianglesView& triangles, const detector::SteppedMesh& motion,
-                     const detector::PairContact& contact);
+                     const detector::PairContact& contact, bool of_distance = false);
 // The cause for a pair of triangles that is not in contact.
 Cause cause_of(const detector::TrianglesView& triangles, const detector::SteppedMesh& motion,
-               detector::TrianglePair pair);
+               detector::TrianglePair pair, bool of_distance = false);
 
 // "t inside, moving, coplanar throughout, sharing an edge, near contact at the start, huge
 // numbers". What is ordinary of the last three is not mentioned: strangers, a start far enough

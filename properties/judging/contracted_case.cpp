@@ -2,24 +2,51 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <map>
 #include <vector>
 
+#include "oracle/distance/feature_distance.h"
 #include "oracle/instant/nearness.h"
+#include "oracle/mesh/pair_relation.h"
 #include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
 
 namespace {
 
-// The pair of triangles for which the contract does not take a step that starts with the mesh at x.
+// The pair of triangles for which the contract does not take a step of the case that starts with
+// the mesh at x. Only pairs that count, and that the detector tests, are looked at.
 std::optional<detector::TrianglePair> pair_too_near(const detector::PositionsView& x,
-                                                    const detector::TrianglesView& triangles,
+                                                    const corpus::Case& c,
                                                     const Contract& contract) {
   const double distance = contract.start == StartRule::apart ? contract.start_distance : 0;
-  return oracle::any_nearer_than(x, triangles, distance, [&](std::int32_t a, std::int32_t b) {
-    return !leaves_out(contract, triangles, {a, b});
+  const auto own = tested_pairs(contract, c.frames.front());
+  oracle::MeshFeatures features;
+  std::optional<oracle::PairRelation> tested, counted;
+  if (c.counted || !own.count_all()) features = oracle::mesh_features(c.triangles);
+  if (!own.count_all()) tested.emplace(own, features);
+  if (c.counted) counted.emplace(c.counted->pairs, features);
+  return oracle::any_nearer_than(x, c.triangles, distance, [&](std::int32_t a, std::int32_t b) {
+    return !leaves_out(contract, c.triangles, {a, b}) && (!tested || tested->counts_faces(a, b)) &&
+           (!counted || counted->counts_faces(a, b));
   });
+}
+
+// The relation as the detector sees it: as coarse as its coordinates, or none if it can be told
+// none. Returns whether it can be so.
+bool contract_relation(corpus::Case& c, const Contract& contract) {
+  if (!contract.takes_relations) c.counted.reset();
+  if (!c.counted || contract.coordinates == Coordinates::float64) return true;
+  auto& [pairs, steps] = *c.counted;
+  const auto given = pairs;
+  const auto round = [](double& x) { return std::isfinite(x = static_cast<float>(x)); };
+  bool is_finite = round(pairs.rest_distance);
+  for (auto& place : pairs.rest) {
+    for (double& x : place) is_finite = round(x) && is_finite;
+  }
+  if (pairs != given) steps.clear();
+  return is_finite;
 }
 
 // Why the contract does not take the mesh at these places, rounded already; empty if it does.
@@ -43,7 +70,8 @@ List entries_of(const List& list, const std::vector<std::int32_t>& frames) {
 
 }  // namespace
 
-corpus::Case with_steps(const corpus::Case& c, const std::vector<std::size_t>& places) {
+corpus::Case with_steps(const corpus::Case& c, const std::vector<std::size_t>& places,
+                        const Contract& contract) {
   const auto steps = corpus::steps_of(c);
   corpus::Case out = c;
   out.script.clear();
@@ -57,12 +85,19 @@ corpus::Case with_steps(const corpus::Case& c, const std::vector<std::size_t>& p
     if (is_new) used.push_back(frame);
     return entry->second;
   };
+  if (contract.rest_distance > 0) use(0);
   for (const std::size_t place : places) {
     const auto from = use(steps[place].from);
     out.script.push_back({from, use(steps[place].to), steps[place].commit});
     if (place < c.expected.steps.size()) out.expected.steps.push_back(c.expected.steps[place]);
   }
   out.frames = entries_of(c.frames, used);
+  if (out.counted) {
+    out.counted->steps.clear();
+    for (const std::size_t place : places) {
+      if (place < c.counted->steps.size()) out.counted->steps.push_back(c.counted->steps[place]);
+    }
+  }
   if (c.view)
     out.view = corpus::CaseView{entries_of(c.view->q0, used), entries_of(c.view->q1, used)};
   if (c.ghosts) out.ghosts->apexes = entries_of(c.ghosts->apexes, used);
@@ -85,10 +120,14 @@ std::vector<Edge> edges_of(const corpus::Case& c) {
 std::optional<corpus::Case> contracted(const corpus::Case& c, const Contract& contract) {
   corpus::Case out = c;
   const auto edges = edges_of(c);
+  if (!contract_relation(out, contract)) return std::nullopt;
   for (auto& frame : out.frames) {
     detector::Positions taken = contracted(frame, contract.coordinates);
     // Facts about other coordinates are none about these.
-    if (taken != frame && out.expected.answer != detector::Answer::error) out.expected = {};
+    if (taken != frame && out.expected.answer != detector::Answer::error) {
+      out.expected = {};
+      if (out.counted) out.counted->steps.clear();
+    }
     frame = std::move(taken);
     if (!why_no_frame(frame, edges, contract).empty()) return std::nullopt;
   }
@@ -102,12 +141,12 @@ std::optional<corpus::Case> contracted(const corpus::Case& c, const Contract& co
   std::vector<std::size_t> places;
   for (std::size_t s = 0; s < steps.size(); ++s) {
     const auto [entry, is_new] = may_start.try_emplace(steps[s].from, false);
-    if (is_new)
-      entry->second = !pair_too_near(start_of(out, steps[s]), out.triangles, contract).has_value();
+    if (is_new) entry->second = !pair_too_near(start_of(out, steps[s]), out, contract).has_value();
     if (entry->second) places.push_back(s);
   }
   if (places.empty()) return std::nullopt;
-  return places.size() == steps.size() ? out : with_steps(out, places);
+  if (places.size() == steps.size()) return out;
+  return with_steps(out, places, contract);
 }
 
 std::string why_left_out(const corpus::Case& c, const Contract& contract) {
@@ -134,24 +173,16 @@ std::string why_left_out(const corpus::Case& c, const Contract& contract) {
   }
   const auto steps = corpus::steps_of(c);
   const auto x = contracted(start_of(c, steps.front()), contract.coordinates);
-  const auto pair = pair_too_near(x, c.triangles, contract);
+  corpus::Case seen = c;
+  for (auto& frame : seen.frames) frame = contracted(frame, contract.coordinates);
+  if (!contract_relation(seen, contract)) return "a place at rest has no float32";
+  const auto pair = pair_too_near(x, seen, contract);
   if (!pair) return "";
   return fmt::format("start {}: triangles {} and {} are {} where step 1 starts{}", start, pair->a,
                      pair->b, distance, steps.size() > 1 ? ", and every other step starts so" : "");
 }
 
-namespace {
-
 using detector::FourPoints;
-
-oracle::ContactAnswer exact_answer(const FourPoints& q) {
-  const auto& p = q.points;
-  return q.first_group == 1
-             ? oracle::vertex_face_contact({p[0], {p[1], p[2], p[3]}}, detector::Want::first_time)
-             : oracle::edge_edge_contact({{p[0], p[1]}, {p[2], p[3]}}, detector::Want::first_time);
-}
-
-}  // namespace
 
 bool start_apart(const FourPoints& q, double distance) {
   // Two triangles of the two features. Where a feature is a point or a segment, so is its triangle.
@@ -171,21 +202,35 @@ bool start_apart(const FourPoints& q, double distance) {
                                   [](std::int32_t, std::int32_t) { return true; });
 }
 
-oracle::StepJudgement judge_query(const FourPoints& query) {
-  const auto answer = exact_answer(query);
+oracle::StepJudgement judge_query(const FourPoints& query, const Contract& contract) {
   oracle::StepJudgement judgement;
   judgement.complete = true;
   judgement.feature_candidates = 1;
-  judgement.rungs.add(answer.rung);
-  judgement.answer = answer.contact ? detector::Answer::collision : detector::Answer::free;
-  if (!answer.contact) return judgement;
-  judgement.first = answer.first;
-  const auto kind = query.first_group == 1 ? detector::FeatureKind::vertex_face
-                                           : detector::FeatureKind::edge_edge;
-  detector::PairContact contact{{0, 1}, answer.first, {}};
-  contact.feature.kind = kind;
-  for (std::int32_t v = 0; v < 4; ++v) contact.feature.vertices[static_cast<std::size_t>(v)] = v;
-  judgement.pairs = judgement.asked_pairs = {contact};
+  // The two features as a pair, if they meet.
+  const auto pair_at = [&](bool meet, const detector::TimeEnclosure& first) {
+    std::vector<detector::PairContact> pairs;
+    if (!meet) return pairs;
+    const auto kind = query.first_group == 1 ? detector::FeatureKind::vertex_face
+                                             : detector::FeatureKind::edge_edge;
+    pairs.push_back({{0, 1}, first, {kind, {0, 1, 2, 3, -1}}});
+    return pairs;
+  };
+  if (contract.separation > 0) {
+    const auto answer = oracle::first_time_within(query, {contract.separation, 0});
+    judgement.rungs.add(answer.rung);
+    judgement.pairs = pair_at(answer.near, answer.first);
+  } else {
+    const auto answer = oracle::contact_of(query, detector::Want::first_time);
+    judgement.rungs.add(answer.rung);
+    judgement.pairs = pair_at(answer.contact, answer.first);
+  }
+  if (contract.margin > 0) {
+    const auto slack = oracle::first_time_within(query, {contract.separation, contract.margin});
+    judgement.within_slack = pair_at(slack.near, slack.first);
+  }
+  judgement.asked_pairs = judgement.pairs;
+  judgement.answer = judgement.pairs.empty() ? detector::Answer::free : detector::Answer::collision;
+  if (!judgement.pairs.empty()) judgement.first = judgement.pairs.front().time;
   return judgement;
 }
 
@@ -200,6 +245,8 @@ bool takes(const Contract& contract, const FourPoints& query) {
 Contract on_queries(const Contract& contract) {
   Contract own = contract;
   own.adjacency = Adjacency::all;
+  own.rings = 0;
+  own.rest_distance = 0;
   return own;
 }
 

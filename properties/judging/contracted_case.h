@@ -30,15 +30,17 @@ std::string why_left_out(const corpus::Case& c, const Contract& contract);
 // query.
 std::vector<Edge> edges_of(const corpus::Case& c);
 
-// The case with only the steps at these places, ascending, and the frames that they use. What was
+// The case with only the steps at these places, ascending, and the frames that they use. If the
+// contract goes by distances at rest, its first frame stays too, because that is at rest. What was
 // expected of the whole case is no longer known, unless it is that the mesh is refused. REQUIRES at
 // least one place.
-corpus::Case with_steps(const corpus::Case& c, const std::vector<std::size_t>& places);
+corpus::Case with_steps(const corpus::Case& c, const std::vector<std::size_t>& places,
+                        const Contract& contract = {});
 
-// The exact answer to the query alone, in the form of a judgement of its case (query_case.h). A
-// contact is one of triangles 0 and 1, by the two features that are asked. Cost:
-// oracle/query/contact.h.
-oracle::StepJudgement judge_query(const detector::FourPoints& query);
+// The exact answer to the query alone, as the contract asks it, in the form of a judgement of its
+// case (query_case.h). A contact is one of triangles 0 and 1, by the two features that are asked.
+// Cost: oracle/query/contact.h, oracle/distance/feature_distance.h.
+oracle::StepJudgement judge_query(const detector::FourPoints& query, const Contract& contract = {});
 
 // Whether the two features are not in contact at t = 0, and not nearer there than the distance.
 bool start_apart(const detector::FourPoints& query, double distance);

@@ -70,47 +70,4 @@ CaseRun without_marking_counts(std::vector<StepResult> results) {
   return run;
 }
 
-std::optional<StepDefect> first_defect(std::span<const StepResult> results,
-                                       std::span<const oracle::StepJudgement> judgements,
-                                       detector::Pairs claimed) {
-  for (std::size_t s = 0; s < results.size(); ++s) {
-    StepDefect defect{s, compare(results[s], judgements[s], claims_of({.pairs = claimed}))};
-    if (defect.diff.outcome != Outcome::holds) return defect;
-  }
-  return std::nullopt;
-}
-
-namespace {
-
-std::optional<StepDefect> defect_of(const corpus::Case& c, const Fault& fault, MakeStages stages,
-                                    std::span<const oracle::StepJudgement> judgements) {
-  const auto results = run_case(c, fault.options, stages(fault.options));
-  auto defect = first_defect(results, judgements, fault.options.pairs);
-  if (defect || !fault.is_disturbed) return defect;
-  const auto disturbed = run_disturbed(c, fault.options, stages, results);
-  for (std::size_t s = 0; s < results.size(); ++s) {
-    if (same_answers(without_marking_counts({results[s]}),
-                     without_marking_counts({disturbed[s]}))) {
-      continue;
-    }
-    StepDefect differs{s, {}};
-    differs.diff.outcome = Outcome::defect;
-    differs.diff.broken = {Claim::deterministic};
-    return differs;
-  }
-  return std::nullopt;
-}
-
-}  // namespace
-
-std::optional<StepDefect> first_defect(const corpus::Case& c, const Fault& fault,
-                                       std::span<const oracle::StepJudgement> judgements) {
-  return defect_of(c, fault, fault.stages, judgements);
-}
-
-std::optional<StepDefect> first_defect_without(const corpus::Case& c, const Fault& fault,
-                                               std::span<const oracle::StepJudgement> judgements) {
-  return defect_of(c, fault, detector::standard_stages, judgements);
-}
-
 }  // namespace assay::properties

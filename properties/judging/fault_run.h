@@ -1,7 +1,6 @@
 // Runs a planted fault on a case of the corpus, judged by the oracle.
 #pragma once
 
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,24 +33,5 @@ std::vector<detector::StepResult> run_disturbed(const corpus::Case& c,
 // The results as a run that can be compared with another: without the counts of marking, because
 // these depend on the marking before, whether its step was committed or not.
 CaseRun without_marking_counts(std::vector<detector::StepResult> results);
-
-// A step at which a detector does not keep what its options claim.
-struct StepDefect {
-  std::size_t step = 0;
-  StepDiff diff;
-};
-
-// The first step with a defect. `judgements` are those of judge_case. For a fault that shows only
-// in a disturbed run, the first step in which that run differs counts too.
-std::optional<StepDefect> first_defect(std::span<const detector::StepResult> results,
-                                       std::span<const oracle::StepJudgement> judgements,
-                                       detector::Pairs claimed);
-std::optional<StepDefect> first_defect(const corpus::Case& c, const Fault& fault,
-                                       std::span<const oracle::StepJudgement> judgements);
-
-// The same for the right detector with the options of the fault. It must hold where the fault does
-// not.
-std::optional<StepDefect> first_defect_without(const corpus::Case& c, const Fault& fault,
-                                               std::span<const oracle::StepJudgement> judgements);
 
 }  // namespace assay::properties

@@ -34,22 +34,28 @@ void not_answered(JudgedRun& judged, const Claims& claims) {
   }
 }
 
-}  // namespace
-
-std::vector<oracle::StepJudgement> judge_case(const corpus::Case& c,
-                                              const oracle::JudgeOptions& options) {
+std::vector<oracle::StepJudgement> judge_steps(const corpus::Case& c, const Contract& contract,
+                                               int jobs) {
+  const auto tested = tested_pairs(contract, c.frames.front());
+  const oracle::JudgeOptions options = {jobs, {}, {}, corpus::counted_of(c), &tested};
   std::vector<oracle::StepJudgement> judgements;
   for (const auto& step : corpus::steps_of(c)) {
     judgements.push_back(
-        oracle::judge_step({start_of(c, step), end_of(c, step)}, c.triangles, options));
+        judge_under(contract, {start_of(c, step), end_of(c, step)}, c.triangles, options));
   }
   return judgements;
 }
 
+}  // namespace
+
+std::vector<oracle::StepJudgement> judge_case(const corpus::Case& c) {
+  return judge_steps(c, {}, 1);
+}
+
 std::vector<oracle::StepJudgement> judge_case(const corpus::Case& c, const Contract& contract,
                                               int jobs) {
-  if (const auto query = query_of(c)) return {judge_query(*query)};
-  return judge_case(c, {jobs, {}, asked_features(contract)});
+  if (const auto query = query_of(c)) return {judge_query(*query, contract)};
+  return judge_steps(c, contract, jobs);
 }
 
 StepTruth truth_of(const corpus::Case& c, const oracle::StepJudgement& judgement,

@@ -22,9 +22,8 @@ struct JudgedRun {
   std::size_t left_out_misses = 0;  // steps that only the contract saves from being a miss
 };
 
-// The judgement of the oracle on every step of a case.
-std::vector<oracle::StepJudgement> judge_case(const corpus::Case& c,
-                                              const oracle::JudgeOptions& options = {});
+// The judgement of the oracle on every step of a case; pairs are those that count by its relation.
+std::vector<oracle::StepJudgement> judge_case(const corpus::Case& c);
 // The same, for what the contract takes; for a query (query_case.h) only the query is judged.
 // REQUIRES a contracted case.
 std::vector<oracle::StepJudgement> judge_case(const corpus::Case& c, const Contract& contract,

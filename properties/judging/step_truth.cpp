@@ -1,7 +1,11 @@
 #include "properties/judging/step_truth.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
+
+#include "oracle/distance/step_distance.h"
+#include "properties/judging/agreement.h"
 
 namespace assay::properties {
 
@@ -13,12 +17,44 @@ Answer StepTruth::answer() const {
   return complete ? Answer::free : Answer::undecided;
 }
 
+namespace {
+
+// Adds those of `others` whose pair is not there. Both lists ascend, and so does the result.
+void add_others(const std::vector<PairContact>& others, std::vector<PairContact>& pairs) {
+  const auto by_pair = [](const PairContact& a, const PairContact& b) { return a.pair < b.pair; };
+  std::vector<PairContact> all;
+  std::set_union(pairs.begin(), pairs.end(), others.begin(), others.end(), std::back_inserter(all),
+                 by_pair);
+  pairs = std::move(all);
+}
+
+}  // namespace
+
+oracle::StepJudgement judge_under(const Contract& contract, const detector::SteppedMesh& motion,
+                                  const detector::TrianglesView& triangles,
+                                  oracle::JudgeOptions options) {
+  options.features = asked_features(contract);
+  auto judgement =
+      contract.separation > 0
+          ? oracle::judge_distance(motion, triangles, {contract.separation, 0}, {options})
+          : oracle::judge_step(motion, triangles, options);
+  if (contract.margin == 0 || !contract.judges_alarms()) return judgement;
+  auto slack =
+      oracle::judge_distance(motion, triangles, {contract.separation, contract.margin},
+                             {oracle::JudgeOptions{options.jobs, options.stop,
+                                                   oracle::AskedFeatures::all, options.counted}});
+  judgement.complete &= slack.complete;
+  // Contacts of neighbours do not count, and may be reported.
+  if (contract.separation == 0) add_others(judgement.pairs, slack.pairs);
+  judgement.within_slack = std::move(slack.pairs);
+  return judgement;
+}
+
 StepTruth truth_of(const oracle::StepJudgement& judgement, const Contract& contract,
                    const detector::TrianglesView& triangles) {
   StepTruth truth;
   truth.complete = judgement.complete;
-  const bool all_features = contract.features == TestedFeatures::both;
-  for (const auto& contact : all_features ? judgement.pairs : judgement.asked_pairs) {
+  for (const auto& contact : contract.tests_part() ? judgement.asked_pairs : judgement.pairs) {
     if (!leaves_out(contract, triangles, contact.pair)) truth.pairs.push_back(contact);
   }
   // A contact is left out if it is not among these, or is so only later.
@@ -33,6 +69,7 @@ StepTruth truth_of(const oracle::StepJudgement& judgement, const Contract& contr
       std::min_element(truth.pairs.begin(), truth.pairs.end(),
                        [](const PairContact& a, const PairContact& b) { return a.time < b.time; });
   if (first != truth.pairs.end()) truth.first = *first;
+  truth.starts_near = contract.separation > 0 && truth.first && truth.first->time.hi == 0;
   return truth;
 }
 

@@ -56,7 +56,7 @@ bool contradicts(const MethodAnswer& a, const MethodAnswer& b) {
 std::optional<std::string> first_contradiction(const GeneratedQuery& made, std::uint64_t pick,
                                                QueryTally& tally) {
   const Query& query = made.query;
-  const auto timed = ask_oracle(query, detector::Want::first_time);
+  const auto timed = oracle::contact_of(query, detector::Want::first_time);
   const MethodAnswer expected = as_method(timed);
   tally.contacts += timed.contact ? 1 : 0;
   tally.rungs.add(timed.rung);
@@ -120,8 +120,9 @@ std::string exact_text(const Query& query) {
 }
 
 std::string answers_text(const Query& query) {
-  std::string out = fmt::format("oracle, timed: {}\n",
-                                text(as_method(ask_oracle(query, detector::Want::first_time))));
+  std::string out =
+      fmt::format("oracle, timed: {}\n",
+                  text(as_method(oracle::contact_of(query, detector::Want::first_time))));
   for (const QueryMethod& method : query_methods()) {
     out += fmt::format("{}: {}\n", method.name, text(method.answer(query)));
   }
@@ -139,7 +140,7 @@ using oracle::ContactAnswer;
 using Broken = std::optional<std::string>;
 
 Broken compare_answers(const Query& changed, const ContactAnswer& expected) {
-  const ContactAnswer answer = ask_oracle(changed, Want::first_time);
+  const ContactAnswer answer = oracle::contact_of(changed, Want::first_time);
   if (answer.contact != expected.contact) return "another answer";
   if (answer.contact && answer.first != expected.first) return "another first time";
   return "";
@@ -232,7 +233,7 @@ Broken translation(const Query& query, const ContactAnswer& answer, std::uint64_
 Broken time_reversed(const Query& query, const ContactAnswer& answer, std::uint64_t) {
   Query q = query;
   for (MovingPoint& p : q.points) std::swap(p.t0, p.t1);
-  const ContactAnswer back = ask_oracle(q, Want::first_time);
+  const ContactAnswer back = oracle::contact_of(q, Want::first_time);
   if (back.contact != answer.contact) return "another answer";
   // The first time of the reversed query is 1 - (last time), and the last time is not before the
   // first.
@@ -260,8 +261,8 @@ Broken halves(const Query& query, const ContactAnswer& answer, std::uint64_t) {
       first.points[i].t1[k] = second.points[i].t0[k] = std::ldexp(middle, -1);
     }
   }
-  const ContactAnswer early = ask_oracle(first, Want::first_time);
-  const ContactAnswer late = early.contact ? early : ask_oracle(second, Want::first_time);
+  const ContactAnswer early = oracle::contact_of(first, Want::first_time);
+  const ContactAnswer late = early.contact ? early : oracle::contact_of(second, Want::first_time);
   if (late.contact != answer.contact) return "the halves answer otherwise";
   if (!answer.contact) return "";
   if (early.contact) {

@@ -1,11 +1,14 @@
-// A list of the methods that answer an elementary contact query. They must all agree.
+// A list of the methods that answer an elementary query of contact, and some of distance. They must
+// all agree.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 
 #include "detector/mesh/step_types.h"
 #include "oracle/query/contact.h"
+#include "properties/claims/claims.h"
 
 namespace assay::properties {
 
@@ -15,11 +18,19 @@ using Query = detector::FourPoints;
 struct MethodAnswer {
   detector::Decision decision = detector::Decision::open;  // open: the method cannot tell
   std::optional<detector::TimeEnclosure> first;            // set if the method answers with a time
+  int rung = 0;                                            // which of the method's rungs decided
 };
 
 struct QueryMethod {
   const char* name;
   MethodAnswer (*answer)(const Query& query);
+  std::array<const char*, 5> rungs = {"", "", "", "", ""};  // their names; "" for none
+  // Of free-sound and no-spurious. Bounded arithmetic may raise false alarms; plain doubles and
+  // floats promise nothing.
+  Claims claims = {Claim::free_sound, Claim::no_spurious};
+  bool is_referee = false;
+  // Whether the features come within d, finite and >= 0; null if the method knows no distance.
+  MethodAnswer (*within)(const Query& query, double d) = nullptr;
 };
 
 // All methods but the oracle's timed answer, with which they are compared: the oracle asked for
@@ -28,6 +39,10 @@ struct QueryMethod {
 // touches open.
 std::span<const QueryMethod> query_methods();
 
-oracle::ContactAnswer ask_oracle(const Query& query, detector::Want want);
+// Those that a user may ask by name, each for yes or no: the oracle, its referee with all the work
+// that it may do, and the detector's ladder in each arithmetic.
+std::span<const QueryMethod> named_methods();
+const QueryMethod& oracle_method();
+const QueryMethod& detector_method();  // in exact arithmetic
 
 }  // namespace assay::properties

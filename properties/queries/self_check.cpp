@@ -6,15 +6,19 @@
 #include <atomic>
 #include <charconv>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <iterator>
+#include <limits>
 #include <mutex>
 #include <string_view>
 #include <thread>
 
 #include "detector/detector.h"
+#include "oracle/distance/feature_distance.h"
 #include "oracle/mesh/step.h"
 #include "properties/judging/agreement.h"
+#include "properties/queries/distance_checks.h"
 #include "properties/queries/rung_cases.h"
 #include "properties/queries/small_worlds.h"
 #include "properties/random.h"
@@ -125,21 +129,36 @@ std::optional<SelfTestCase> self_test_case(const std::string& name) {
   return {};
 }
 
-namespace {
+std::optional<std::string> SelfTestFamily::check(std::uint64_t seed, std::uint64_t index,
+                                                 QueryTally& tally) const {
+  const auto made = at(seed, index);
+  if (!made) return {};
+  return check_query(*made, Random(~seed, index).next(), tally);
+}
 
-std::uint64_t pick(std::uint64_t seed, std::uint64_t index) { return Random(~seed, index).next(); }
+std::string SelfTestFamily::text(std::uint64_t seed, std::uint64_t index) const {
+  const auto made = at(seed, index);
+  return made ? exact_text(made->query) + answers_text(made->query)
+              : "no query at this place: an equal one stands elsewhere\n";
+}
+
+namespace {
 
 class RungFamily final : public SelfTestFamily {
  public:
   RungFamily() : SelfTestFamily("rungs", "named queries, each with the rung that must decide it") {}
   std::uint64_t indices(std::uint64_t) const override { return rung_cases().size(); }
 
+  std::optional<GeneratedQuery> at(std::uint64_t, std::uint64_t index) const override {
+    return GeneratedQuery{named_at(index).query, {}};
+  }
+
   std::optional<std::string> check(std::uint64_t seed, std::uint64_t index,
                                    QueryTally& tally) const override {
-    const RungCase& named = rung_cases()[index % rung_cases().size()];
-    if (auto wrong = check_query({named.query, {}}, pick(seed, index), tally)) return wrong;
+    if (auto wrong = SelfTestFamily::check(seed, index, tally)) return wrong;
+    const RungCase& named = named_at(index);
     for (const auto want : {detector::Want::yes_no, detector::Want::first_time}) {
-      const auto answer = ask_oracle(named.query, want);
+      const auto answer = oracle::contact_of(named.query, want);
       if (answer.contact != named.contact ||
           (named.contact && want == detector::Want::first_time && answer.first != named.first)) {
         ++tally.contradictions;
@@ -153,13 +172,13 @@ class RungFamily final : public SelfTestFamily {
     return {};
   }
 
-  std::optional<Query> query_at(std::uint64_t, std::uint64_t index) const override {
-    return rung_cases()[index % rung_cases().size()].query;
+  std::string text(std::uint64_t seed, std::uint64_t index) const override {
+    return fmt::format("{}\n{}", named_at(index).name, SelfTestFamily::text(seed, index));
   }
 
-  std::string text(std::uint64_t, std::uint64_t index) const override {
-    const RungCase& named = rung_cases()[index % rung_cases().size()];
-    return fmt::format("{}\n{}{}", named.name, exact_text(named.query), answers_text(named.query));
+ private:
+  static const RungCase& named_at(std::uint64_t index) {
+    return rung_cases()[index % rung_cases().size()];
   }
 };
 
@@ -172,21 +191,9 @@ class WorldFamily final : public SelfTestFamily {
     return queries >= from_ ? world_.places() : 0;
   }
 
-  std::optional<std::string> check(std::uint64_t seed, std::uint64_t index,
-                                   QueryTally& tally) const override {
+  std::optional<GeneratedQuery> at(std::uint64_t, std::uint64_t index) const override {
     const auto query = world_.at(index);
-    if (!query) return {};
-    return check_query({*query, {}}, pick(seed, index), tally);
-  }
-
-  std::optional<Query> query_at(std::uint64_t, std::uint64_t index) const override {
-    return world_.at(index);
-  }
-
-  std::string text(std::uint64_t, std::uint64_t index) const override {
-    const auto query = world_.at(index);
-    return query ? exact_text(*query) + answers_text(*query)
-                 : "no query at this place: an equal one stands elsewhere\n";
+    return query ? std::optional(GeneratedQuery{*query, {}}) : std::nullopt;
   }
 
  private:
@@ -203,18 +210,8 @@ class RandomFamily final : public SelfTestFamily {
     return (queries + one_in - 1) / one_in;
   }
 
-  std::optional<std::string> check(std::uint64_t seed, std::uint64_t index,
-                                   QueryTally& tally) const override {
-    return check_query(generator_.make(seed, index), pick(seed, index), tally);
-  }
-
-  std::optional<Query> query_at(std::uint64_t seed, std::uint64_t index) const override {
-    return generator_.make(seed, index).query;
-  }
-
-  std::string text(std::uint64_t seed, std::uint64_t index) const override {
-    const Query query = generator_.make(seed, index).query;
-    return exact_text(query) + answers_text(query);
+  std::optional<GeneratedQuery> at(std::uint64_t seed, std::uint64_t index) const override {
+    return generator_.make(seed, index);
   }
 
  private:
@@ -246,7 +243,7 @@ class StepFamily final : public SelfTestFamily {
     return "pairs or times of the oracle's step and the detector's differ";
   }
 
-  std::optional<Query> query_at(std::uint64_t, std::uint64_t) const override { return {}; }
+  std::optional<GeneratedQuery> at(std::uint64_t, std::uint64_t) const override { return {}; }
 
   std::string text(std::uint64_t seed, std::uint64_t index) const override {
     const SmallStep step = make_small_step(seed, index);
@@ -283,6 +280,88 @@ class StepFamily final : public SelfTestFamily {
   }
 };
 
+// Queries of distance (distance_queries.h), asked of the oracle and of the distance referee. Where
+// d is 0 the contact oracle has to agree in every bit. For some of them the least distance is asked
+// for, too: it comes within d just where the query does.
+class DistanceFamilyCheck final : public SelfTestFamily {
+ public:
+  explicit DistanceFamilyCheck(const DistanceFamily& family)
+      : SelfTestFamily(family.name, family.about), family_(family) {}
+  // A query of distance takes longer than one of contact, so there are fewer.
+  std::uint64_t indices(std::uint64_t queries) const override {
+    const auto one_in = static_cast<std::uint64_t>(4 * family_.one_in);
+    return (queries + one_in - 1) / one_in;
+  }
+
+  std::optional<std::string> check(std::uint64_t seed, std::uint64_t index,
+                                   QueryTally& tally) const override {
+    const DistanceQuery query = family_.make(seed, index);
+    const auto d = query.distance;
+    oracle::FirstNear answer;
+    DistanceTally found;
+    auto wrong = check_distance(
+        query,
+        [&](const DistanceQuery& q) {
+          answer = oracle::first_time_within(q.motion, d);
+          return DistanceAnswer{answer.near, answer.first};
+        },
+        found);
+    ++tally.queries;
+    tally.contacts += answer.near ? 1 : 0;
+    tally.open += found.open;
+    tally.rungs.add(answer.rung);
+    if (!wrong && d.first == -d.second) wrong = against_contact(query.motion, answer);
+    if (!wrong && Random(~seed, index).next() % least_asked_one_in == 0)
+      wrong = against_least(query.motion, d, answer);
+    tally.contradictions += wrong ? 1 : 0;
+    return wrong;
+  }
+
+  // The queries of a plug-in are of contact.
+  std::optional<GeneratedQuery> at(std::uint64_t, std::uint64_t) const override { return {}; }
+
+  std::string text(std::uint64_t seed, std::uint64_t index) const override {
+    const DistanceQuery query = family_.make(seed, index);
+    const auto answer = oracle::first_time_within(query.motion, query.distance);
+    return exact_text(query) +
+           (answer.near
+                ? fmt::format("oracle: near at [{:a}, {:a}]\n", answer.first.lo, answer.first.hi)
+                : "oracle: never near\n") +
+           fmt::format("least distance: {:a}\n", oracle::least_distance(query.motion));
+  }
+
+ private:
+  static constexpr std::uint64_t least_asked_one_in = 16;
+
+  static std::optional<std::string> against_contact(const Query& motion,
+                                                    const oracle::FirstNear& answer) {
+    const auto contact = oracle::contact_of(motion, detector::Want::first_time);
+    if (contact.contact == answer.near && (!answer.near || contact.first == answer.first))
+      return {};
+    return "within 0 is not the same as in contact";
+  }
+
+  // The least distance is the least double that the features come within.
+  static std::optional<std::string> against_least(const Query& motion,
+                                                  const detector::Separation& d,
+                                                  const oracle::FirstNear& answer) {
+    const double least = oracle::least_distance(motion);
+    const auto is_within = [&](double distance) {
+      return oracle::first_time_within(motion, {distance, 0}, detector::Want::yes_no).near;
+    };
+    if (std::isfinite(least) && !is_within(least)) return "farther apart than the least distance";
+    if (least > 0 && is_within(std::nextafter(least, 0.0))) return "nearer than the least distance";
+    // The sum is rounded, so only what lies beyond the rounding is compared.
+    const double sum = d.first + d.second;
+    if (answer.near ? least > std::nextafter(sum, std::numeric_limits<double>::infinity())
+                    : std::isfinite(sum) && least < std::nextafter(sum, 0.0))
+      return "the least distance does not fit the answer";
+    return {};
+  }
+
+  DistanceFamily family_;
+};
+
 }  // namespace
 
 const std::vector<std::unique_ptr<const SelfTestFamily>>& self_test_families() {
@@ -301,6 +380,9 @@ const std::vector<std::unique_ptr<const SelfTestFamily>>& self_test_families() {
     all.push_back(std::make_unique<StepFamily>());
     for (const QueryGenerator& generator : query_generators()) {
       all.push_back(std::make_unique<RandomFamily>(generator));
+    }
+    for (const DistanceFamily& family : distance_families()) {
+      all.push_back(std::make_unique<DistanceFamilyCheck>(family));
     }
     world("line-4", "all queries on {0,1,2,3}", 4, 1, every_point_moves, 20'000);
     world("cube-2", "all queries on {0,1}^3", 2, 3, every_point_moves, 100'000);

@@ -26,14 +26,14 @@ class SelfTestFamily {
   const std::string& about() const { return about_; }
   // How many indices to check if `queries` random small-integer queries are asked for.
   virtual std::uint64_t indices(std::uint64_t queries) const = 0;
-  // Checks a case. Returns what is wrong with it, or nothing. Some indices of a small world hold
-  // no case.
+  // The query of the case; nothing for whole steps, and for some indices of a small world, which
+  // hold no case.
+  virtual std::optional<GeneratedQuery> at(std::uint64_t seed, std::uint64_t index) const = 0;
+  // Checks a case. Returns what is wrong with it, or nothing.
   virtual std::optional<std::string> check(std::uint64_t seed, std::uint64_t index,
-                                           QueryTally& tally) const = 0;
-  // The query of the case, if it is one; nothing for whole steps.
-  virtual std::optional<Query> query_at(std::uint64_t seed, std::uint64_t index) const = 0;
+                                           QueryTally& tally) const;
   // The case with its exact numbers, and what each method says of it.
-  virtual std::string text(std::uint64_t seed, std::uint64_t index) const = 0;
+  virtual std::string text(std::uint64_t seed, std::uint64_t index) const;
 
  private:
   std::string name_, about_;

@@ -103,6 +103,7 @@ Query SmallWorld::query_of(const Arranged& query) const {
 }
 
 std::optional<Query> SmallWorld::at(std::uint64_t place) const {
+  if (place >= places()) return {};
   const auto query = arranged_at(place);
   if (!query || !is_least_of_its_class(*query)) return {};
   return query_of(*query);

@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "corpus/cases/case_file.h"
+#include "detector/mesh/mesh_checks.h"
 #include "oracle/mesh/loops.h"
 #include "properties/numbering.h"
+#include "properties/reducer/relation_edits.h"
 
 namespace assay::properties {
 
@@ -91,6 +93,13 @@ Case rebuilt(const Case& c, const std::vector<Corners>& triangles,
     }
   };
   renumber(result.triangles);
+  if (c.counted) {
+    NewVertices renumbered;
+    for (const auto end : target) renumbered.number.push_back(number[at(end)]);
+    for (const auto old : kept) renumbered.was.push_back(static_cast<std::int32_t>(old));
+    result.counted = {carried_over(c.counted->pairs, c.triangles, result.triangles, renumbered),
+                      {}};
+  }
   if (!result.ghosts) return result;
   if (result.ghosts->triangles.rows() == 0) {
     result.ghosts.reset();
@@ -124,6 +133,8 @@ bool is_valid(const Case& c) {
     };
     if (!fits(c.view->q0) || (!c.view->q1.empty() && !fits(c.view->q1))) return false;
   }
+  if (c.counted && detector::check_counted_pairs(c.counted->pairs, c.triangles, vertices))
+    return false;
   if (!c.ghosts) return true;
   if (c.ghosts->apexes.size() != c.frames.size()) return false;
   for (const auto& apexes : c.ghosts->apexes) {
@@ -209,6 +220,7 @@ Case seen_from_its_middle(const Case& c) {
 Case with_steps(const Case& c, const std::vector<corpus::CaseStep>& steps) {
   Case result = c;
   result.expected = {};
+  if (result.counted) result.counted->steps.clear();
   result.pending = "{}";
   std::vector<std::int32_t> number(c.frames.size(), -1);
   for (const auto& step : steps) {

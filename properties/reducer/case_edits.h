@@ -3,6 +3,8 @@
 // renumbered in their old order, and the expected facts are cleared, because they were those of
 // the old case.
 //
+// A relation goes on with the vertices and triangles that are left (relation_edits.h).
+//
 // If a case has ghosts, they are made anew from the unmatched edges of the new mesh. Each fan
 // takes the apex of an old fan with which it shares a vertex, or else the mean of its loop.
 #pragma once
@@ -17,7 +19,7 @@ namespace assay::properties {
 
 // Whether the case is valid; only valid cases are judged. It has at least one triangle, step and
 // frame; indices are in range, none twice in a triangle; no two triangles have the same three
-// vertices; coordinates are finite; frames, view and apexes have equal lengths.
+// vertices; coordinates are finite; frames, view and apexes have equal lengths; the relation fits.
 bool is_valid(const corpus::Case& c);
 
 inline std::size_t vertex_count(const corpus::Case& c) {

@@ -66,6 +66,13 @@ MeshSize size_of(const corpus::Case& c) {
     for (Eigen::Index i = 0; i < frame.size(); ++i) size.numbers += number_cost(frame.data()[i]);
   }
   if (c.view) size.numbers += cost_of(c.view->q0) + cost_of(c.view->q1);
+  if (c.counted) {
+    const auto& pairs = c.counted->pairs;
+    size.relation = pairs.apart.size() + static_cast<std::size_t>(pairs.rings) +
+                    (pairs.rest_distance > 0 ? 1 : 0) + pairs.triangle_pairs.size() +
+                    pairs.vertex_faces.size() + pairs.edge_pairs.size();
+    if (pairs.rest != corpus::points_of(c.frames.front())) size.numbers += cost_of(pairs.rest);
+  }
   if (c.ghosts) {
     size.ghosts = static_cast<std::size_t>(c.ghosts->triangles.rows());
     for (const auto& frame : c.ghosts->apexes) size.numbers += cost_of(frame);

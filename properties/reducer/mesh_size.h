@@ -19,7 +19,9 @@ struct MeshSize {
   std::size_t moving = 0;  // vertices that move, summed over the steps
   // 0: no view is given; 1: a fixed point; 2: a moving point; 3: a fixed line; 4: a moving line.
   int view = 0;
-  std::size_t ghosts = 0;     // ghost triangles that the case itself brings
+  std::size_t ghosts = 0;  // ghost triangles that the case itself brings
+  // How much the relation leaves out by name: bodies, rings, a distance at rest, pairs in lists.
+  std::size_t relation = 0;
   std::uint64_t numbers = 0;  // sum of number_cost over all coordinates, view and apexes included
   friend auto operator<=>(const MeshSize&, const MeshSize&) = default;
 };

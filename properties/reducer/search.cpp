@@ -1,5 +1,6 @@
 #include "properties/reducer/search.h"
 
+#include <array>
 #include <bit>
 
 #include "properties/reducer/case_edits.h"
@@ -30,6 +31,28 @@ class ContentHash {
       add(static_cast<std::uint64_t>(triangles.data()[i]));
     }
   }
+  // In order, with the number of members in front.
+  template <class List, class Members>
+  void add_list(const List& list, const Members& members) {
+    add(static_cast<std::uint64_t>(list.size()));
+    for (const auto& item : list) {
+      for (const std::int32_t member : members(item)) add(static_cast<std::uint64_t>(member));
+    }
+  }
+  void add(const detector::CountedPairs& pairs) {
+    const auto as_it_is = [](const auto& item) { return item; };
+    add(static_cast<std::uint64_t>(pairs.level));
+    add_list(pairs.body, [](std::int32_t body) { return std::array{body}; });
+    add_list(pairs.apart, as_it_is);
+    add(static_cast<std::uint64_t>(pairs.rings));
+    add(pairs.rest_distance);
+    add(pairs.rest);
+    add_list(pairs.triangle_pairs, [](const auto& p) { return std::array{p.a, p.b}; });
+    add_list(pairs.vertex_faces, [](const auto& p) { return std::array{p.vertex, p.face}; });
+    add_list(pairs.edge_pairs, [](const auto& p) {
+      return std::array{p.a[0], p.a[1], p.b[0], p.b[1]};
+    });
+  }
   std::uint64_t value() const { return state_; }
 
  private:
@@ -55,6 +78,7 @@ std::uint64_t hash_of(const Case& c) {
     hash.add(c.ghosts->triangles);
     for (const auto& apexes : c.ghosts->apexes) hash.add(apexes);
   }
+  if (c.counted) hash.add(c.counted->pairs);
   return hash.value();
 }
 
@@ -64,6 +88,7 @@ ReductionSearch::ReductionSearch(const Case& failing, const Judge& judge,
                                  const ReduceLimits& limits, const OnBetter& on_better)
     : judge_(judge), limits_(limits), on_better_(on_better), best_(failing) {
   best_.expected = {};
+  if (best_.counted) best_.counted->steps.clear();
   best_.pending = "{}";
   size_ = reported_ = size_of(best_);
   begin_pass("start");

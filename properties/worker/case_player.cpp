@@ -17,7 +17,9 @@ detector::Expected<CasePlayer> CasePlayer::make(const corpus::Case& c,
                                                 const detector::Options& options,
                                                 std::optional<detector::Stages> stages,
                                                 const detector::StopFunction& stop) {
-  auto made = detector::assemble(c.triangles, c.frames.front(), options,
+  detector::Options of_case = options;
+  of_case.counted = corpus::counted_of(c);
+  auto made = detector::assemble(c.triangles, c.frames.front(), of_case,
                                  stages ? *std::move(stages) : standard_stages(options), stop);
   if (!made) return std::move(made.error());
   return CasePlayer(c, options, std::move(made.value()));

@@ -23,8 +23,9 @@ inline std::vector<detector::ViewPrimitive> given_view(
 
 class CasePlayer {
  public:
-  // Makes a new detector from the first frame, with these stages or the standard ones. The case
-  // must outlive the player. Errors and cost are those of Detector::create.
+  // Makes a new detector from the first frame, with these stages or the standard ones. What counts
+  // is the case's to say, not the options'. The case must outlive the player. Errors and cost are
+  // those of Detector::create.
   static detector::Expected<CasePlayer> make(const corpus::Case& c,
                                              const detector::Options& options,
                                              std::optional<detector::Stages> stages = {},

@@ -81,8 +81,9 @@ struct CaseRun {
   // The processor time of the last attempt: that of the worker with its threads, and that of the
   // processes that it started if the run was long enough to look at them (processor_time.h).
   double processor_seconds = 0;
-  // The last lines that a plug-in printed during the run (isolation/printed_words.h). Nothing with
-  // isolation none, nor for a query that was asked together with others.
+  // The last lines that a plug-in printed since the run before this one was heard
+  // (isolation/printed_words.h). Of cases that were sent together they may be of a later one.
+  // Nothing with isolation none.
   std::string printed = {};
 };
 

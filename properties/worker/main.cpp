@@ -89,20 +89,14 @@ int serve(Channel channel, const LoadedPlugin* library) {
   try {
     std::string message;
     while (channel.receive(message) == Transfer::done) {
-      Request received;
-      if (!decode(message, received)) return exit_usage;
-      if (received.kind == RequestKind::queries) {
-        if (!plugin || !plugin->description().parts.query) return exit_usage;
-        const QueryReply answered{received.query.number, plugin->ask(received.query.queries)};
-        if (channel.send(encode(answered)) != Transfer::done) return 0;
-        continue;
-      }
-      const RunRequest& request = received.run;
-      reply.number = request.number;
-      for (reply.place = 0; reply.place < request.configurations.size(); ++reply.place) {
-        const auto& configuration = request.configurations[reply.place];
-        reply.run = plugin ? plugin->run(request.c, configuration.is_timed)
-                           : run_case(request.c, configuration);
+      RunRequest request;
+      if (!decode(message, request)) return exit_usage;
+      const auto& [number, cases, configurations] = request;
+      reply.number = number;
+      for (reply.place = 0; reply.place < cases.size() * configurations.size(); ++reply.place) {
+        const auto& c = cases[reply.place / configurations.size()];
+        const auto& configuration = configurations[reply.place % configurations.size()];
+        reply.run = plugin ? plugin->run(c, configuration.is_timed) : run_case(c, configuration);
         if (channel.send(encode(reply)) != Transfer::done) return 0;
         if (reply.run.end == RunEnd::out_of_memory) return 0;
       }

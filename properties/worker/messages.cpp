@@ -91,10 +91,10 @@ std::string broken_rule(const CandidatePairs& candidates, const StepResult& resu
 
 // Says which rule is broken about the parts that the description names. The run has a result for
 // each step.
-std::string broken_rule_of_parts(const CaseRun& run, const PluginDescription& description,
+std::string broken_rule_of_parts(const CaseRun& run, const PluginParts& parts,
                                  Eigen::Index triangles) {
-  if (run.has_answers != description.parts.steps) return "answers of another kind of detector";
-  const std::size_t lists = description.parts.candidates ? run.steps.size() : 0;
+  if (run.has_answers != parts.steps) return "answers of another kind of detector";
+  const std::size_t lists = parts.candidates ? run.steps.size() : 0;
   if (lists == 0 && !run.candidates.empty()) return "candidates that it does not claim";
   if (run.candidates.size() != lists)
     return fmt::format("{} lists of candidates for {} steps", run.candidates.size(),
@@ -140,8 +140,11 @@ std::string broken_rule(const corpus::Case& c, const CaseRun& run,
   if (run.steps.size() != steps) {
     return fmt::format("{} results for {} steps", run.steps.size(), steps);
   }
+  // The triangles of a query only hold its features, so there is no pair of them to be stated.
+  const bool is_query = query_of(c).has_value();
+  const Eigen::Index triangles = is_query ? 0 : c.triangles.rows();
   for (const auto& result : run.steps) {
-    if (auto broken = broken_rule(result, c.triangles.rows()); !broken.empty()) return broken;
+    if (auto broken = broken_rule(result, triangles); !broken.empty()) return broken;
   }
   if (run.errors.size() > steps || !std::all_of(run.errors.begin(), run.errors.end(), is_line))
     return "errors of steps that are none";
@@ -153,21 +156,7 @@ std::string broken_rule(const corpus::Case& c, const CaseRun& run,
       return "times that are none";
     }
   }
-  return broken_rule_of_parts(run, description, c.triangles.rows());
-}
-
-std::uint64_t longest_query_reply(std::size_t queries) {
-  return bytes_of_a_result + queries * (longest_reply_text + sizeof(QueryAnswer));
-}
-
-std::string broken_rule(std::size_t queries, const std::vector<QueryAnswer>& answers) {
-  if (answers.size() != queries)
-    return fmt::format("{} answers to {} queries", answers.size(), queries);
-  for (const auto& answer : answers) {
-    if (!is_line(answer.explanation)) return "a text that is no line";
-    if (!is_interval(answer.first)) return "a first time that is no interval in [0, 1]";
-  }
-  return "";
+  return broken_rule_of_parts(run, is_query ? PluginParts{} : description.parts, triangles);
 }
 
 std::string broken_rule(const PluginDescription& description) {

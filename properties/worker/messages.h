@@ -20,7 +20,13 @@
 
 namespace assay::properties {
 
-ASSAY_FIELDS(detector::Options, culling, start, pairs, arithmetic, threads)
+// The relation that counts is the case's, and travels with it.
+template <class Wire>
+void fields(Wire& wire, detector::Options& options) {
+  auto& [culling, start, pairs, arithmetic, threads, counted, separation] = options;
+  wire("culling", culling, "start", start, "pairs", pairs, "arithmetic", arithmetic, "threads",
+       threads, "separation", separation);
+}
 ASSAY_FIELDS(detector::Problem, error, message)
 ASSAY_FIELDS(detector::StepResult, answer, problem, first, pairs, view_positive, view_negative,
              view_zero, against_all, violated, dirty, views, doubts, signs, primitives, apexes,
@@ -38,12 +44,20 @@ void fields(Wire& wire, CaseRun& run) {
 
 ASSAY_FIELDS(Configuration, name, options, fault, is_timed)
 ASSAY_FIELDS(corpus::CaseView, q0, q1)
+ASSAY_FIELDS(detector::CountedPairs, level, body, apart, rings, rest_distance, rest, triangle_pairs,
+             vertex_faces, edge_pairs)
 
 // Only what a detector may know travels, and never the expected facts.
 template <class Wire>
+void fields(Wire& wire, corpus::CaseRelation& relation) {
+  wire("pairs", relation.pairs);
+}
+template <class Wire>
 void fields(Wire& wire, corpus::Case& c) {
-  wire("id", c.id, "triangles", c.triangles, "frames", c.frames, "script", c.script, "view",
-       c.view);
+  std::string query = query_word(c);
+  wire("id", c.id, "triangles", c.triangles, "frames", c.frames, "script", c.script, "view", c.view,
+       "counted", c.counted, "query", query);
+  if (query != query_word(c)) say_query(c, query);  // a writer changes nothing
 }
 
 template <class Wire>
@@ -67,56 +81,21 @@ struct Hello {
 };
 ASSAY_FIELDS(Hello, wire_version, description, serves, refusal)
 
-// What a request asks for.
-enum class RequestKind : std::uint8_t { run, queries };
-template <>
-inline constexpr RequestKind last_of<RequestKind> = RequestKind::queries;
-
-// One case and how to run it; a RunReply comes back for each configuration, in order.
+// Cases and how to run them. A RunReply comes back for each configuration of the first case, in
+// order, then for those of the next.
 struct RunRequest {
   std::uint64_t number = 0;  // drawn for this request
-  corpus::Case c;
+  std::vector<corpus::Case> cases;
   std::vector<Configuration> configurations;
 };
-ASSAY_FIELDS(RunRequest, number, c, configurations)
+ASSAY_FIELDS(RunRequest, number, cases, configurations)
 
 struct RunReply {
   std::uint64_t number = 0;  // of the request
-  std::uint64_t place = 0;   // of the configuration in it
+  std::uint64_t place = 0;   // of the run in it
   CaseRun run;
 };
 ASSAY_FIELDS(RunReply, number, place, run)
-
-// Elementary queries of a plug-in; one QueryReply comes back for all.
-struct QueryRequest {
-  std::uint64_t number = 0;  // drawn for this request
-  std::vector<detector::FourPoints> queries;
-};
-ASSAY_FIELDS(QueryRequest, number, queries)
-ASSAY_FIELDS(QueryAnswer, answer, first, explanation)
-
-struct QueryReply {
-  std::uint64_t number = 0;          // of the request
-  std::vector<QueryAnswer> answers;  // one for each query
-};
-ASSAY_FIELDS(QueryReply, number, answers)
-
-// What a worker receives: one of the two.
-struct Request {
-  RequestKind kind = RequestKind::run;
-  RunRequest run;
-  QueryRequest query;
-};
-
-template <class Wire>
-void fields(Wire& wire, Request& request) {
-  wire("kind", request.kind);
-  if (request.kind == RequestKind::run) {
-    wire("run", request.run);
-  } else {
-    wire("query", request.query);
-  }
-}
 
 template <class... T>
 std::string encode(const T&... messages) {
@@ -140,7 +119,7 @@ constexpr std::uint64_t wire_version() {
   for (const std::size_t size :
        {sizeof(detector::Options), sizeof(detector::StepResult), sizeof(detector::PairContact),
         sizeof(detector::StepCounts), sizeof(detector::StepTimes), sizeof(Claims), sizeof(Contract),
-        sizeof(corpus::Case), sizeof(detector::FourPoints), sizeof(QueryAnswer)}) {
+        sizeof(corpus::Case), sizeof(detector::CountedPairs)}) {
     hash = hash * 1099511628211u + size;
   }
   return hash;
@@ -169,16 +148,11 @@ inline constexpr std::uint64_t longest_hello = 4 * longest_reply_text;
 // - A result states nothing that plug-ins are not asked for, such as views.
 // - If the description claims candidates, there is a list of such pairs for each step, and else
 //   none.
-// - There are answers if and only if the plug-in has the part of steps.
+// - A run of a query (query_case.h) states neither pairs nor candidates, and has an answer.
+// - Otherwise there are answers if and only if the plug-in has the part of steps.
 // - Times, if there are any, are finite and not negative, one for each step.
 std::string broken_rule(const corpus::Case& c, const CaseRun& run,
                         const PluginDescription& description);
-
-// The same for answers to so many queries: there is one answer for each, with a known answer, an
-// interval in [0, 1] and at most one printable line.
-std::string broken_rule(std::size_t queries, const std::vector<QueryAnswer>& answers);
-// The most bytes that these answers may have.
-std::uint64_t longest_query_reply(std::size_t queries);
 
 // The same for a description: a name and a version in one printable line each that may be such
 // (fault_of_name), a margin that is a length, at least one part that can be judged, and a claim on

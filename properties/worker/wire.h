@@ -7,15 +7,18 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
 
 #include "corpus/cases/case_file.h"
+#include "detector/mesh/counted_pairs.h"
 #include "detector/mesh/enum_names.h"
 #include "detector/mesh/step_types.h"
 #include "detector/step_result.h"
@@ -33,7 +36,8 @@ inline constexpr bool travels_as_bytes =
     std::is_arithmetic_v<T> || std::is_enum_v<T> ||
     is_one_of<T, detector::Point, detector::MovingPoint, detector::FourPoints,
               detector::TimeEnclosure, detector::TrianglePair, detector::PairContact,
-              detector::ViewPrimitive, detector::StepCounts, detector::StepTimes, corpus::CaseStep>;
+              detector::ViewPrimitive, detector::StepCounts, detector::StepTimes, corpus::CaseStep,
+              std::array<std::int32_t, 2>, detector::VertexAndFace, detector::TwoEdges>;
 
 // The greatest value of an enum, whose values count from 0; a message with another value is
 // invalid. An enum that lists its values needs no more; for another one that travels by itself it
@@ -72,6 +76,12 @@ class WireWriter : public NamedFields<WireWriter> {
       put_size(items.size());
       for (auto& item : items) put(item);
     }
+  }
+  // As a vector of them, without a copy. A writer does not change what it is given.
+  template <class T>
+  void put(std::span<const T>& items) {
+    put_size(items.size());
+    for (const auto& item : items) put(const_cast<T&>(item));
   }
   template <class T>
   void put(std::optional<T>& item) {

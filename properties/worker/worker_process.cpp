@@ -223,24 +223,25 @@ struct WorkerProcess::Parts {
   }
 
   // Sends what is left to do and appends the answers, until a run ends the worker.
-  void run_rest(const corpus::Case& c, const std::vector<Configuration>& rest,
+  void run_rest(std::span<const corpus::Case> cases, const std::vector<Configuration>& rest,
                 std::vector<CaseRun>& runs) {
-    // These are the fields of a Request, without a copy of the case.
+    // These are the fields of a RunRequest, without a copy of the cases.
     const std::uint64_t number = draw_number();
-    const std::string request = encode(RequestKind::run, number, c, rest);
+    const std::string request = encode(number, cases, rest);
     WorkerWatch watch(live->child, limits.seconds, live->plugin);
     const Transfer transfer = live->channel.send(request, [&] { return watch.patience(); });
-    for (std::size_t i = 0; i < rest.size(); ++i) {
+    for (std::size_t i = 0; i < cases.size() * rest.size(); ++i) {
+      const auto& c = cases[i / rest.size()];
       RunReply reply;
-      const auto heard = hear(watch, transfer, longest_reply(c), "this case", reply, runs, [&] {
+      const bool is_heard = hear(watch, transfer, longest_reply(c), reply, runs, [&] {
         if (reply.number != number || reply.place != i) return std::string("to another request");
         auto rule = plugin_library ? broken_rule(c, reply.run, description) : "";
         if (rule.empty() && reply.run.end == RunEnd::completed &&
-            reply.run.times.has_value() != rest[i].is_timed)
+            reply.run.times.has_value() != rest[i % rest.size()].is_timed)
           rule = "times that nobody asked for, or none";
         return rule;
       });
-      if (heard != Heard::reply) return;
+      if (!is_heard) return;
       CaseRun run = std::move(reply.run);
       run.processor_seconds = watch.next_case();
       run.printed = live->take_printed();
@@ -253,67 +254,31 @@ struct WorkerProcess::Parts {
     }
   }
 
-  // Does the same for some queries in one message. If several were asked and one of them ends the
-  // worker, nothing is appended, and the answer says whether all of them are to be asked one by
-  // one, or in halves.
-  enum class Asked { answered, in_halves, one_by_one };
-  Asked ask_some(std::span<const detector::FourPoints> queries, std::vector<CaseRun>& runs) {
-    const std::uint64_t number = draw_number();
-    const std::vector<detector::FourPoints> copy(queries.begin(), queries.end());
-    const std::string request = encode(RequestKind::queries, number, copy);
-    WorkerWatch watch(live->child, limits.seconds, live->plugin);
-    const Transfer transfer = live->channel.send(request, [&] { return watch.patience(); });
-    QueryReply reply;
-    const std::size_t before = runs.size();
-    const auto heard = hear(
-        watch, transfer, longest_query_reply(queries.size()), "these queries", reply, runs, [&] {
-          return reply.number != number ? "to another request"
-                                        : broken_rule(queries.size(), reply.answers);
-        });
-    if (heard != Heard::reply) {
-      if (queries.size() == 1) return Asked::answered;
-      runs.resize(before);
-      return heard == Heard::nothing_in_time ? Asked::one_by_one : Asked::in_halves;
-    }
-    const double seconds = watch.next_case() / static_cast<double>(queries.size());
-    const std::string printed = live->take_printed();
-    for (auto& answer : reply.answers) {
-      CaseRun run = run_of(std::move(answer));
-      run.processor_seconds = seconds;
-      if (queries.size() == 1) run.printed = printed;
-      keep(std::move(run), runs);
-    }
-    return Asked::answered;
-  }
-
   // Hears the reply to a request that was sent like that. `rule_of` says which rule a decoded reply
   // breaks. If there is no reply by the rules, the worker is ended, and the run that was under way
   // is appended, unless it is to be repeated.
-  enum class Heard { reply, nothing_in_time, no_reply };
-  template <class Reply, class RuleOf>
-  Heard hear(WorkerWatch& watch, Transfer transfer, std::uint64_t longest, const char* asked,
-             Reply& reply, std::vector<CaseRun>& runs, const RuleOf& rule_of) {
+  template <class RuleOf>
+  bool hear(WorkerWatch& watch, Transfer transfer, std::uint64_t longest, RunReply& reply,
+            std::vector<CaseRun>& runs, const RuleOf& rule_of) {
     std::string message;
     if (transfer == Transfer::done)
       transfer = live->channel.receive(
           message, [&] { return watch.patience(); }, longest);
     if (transfer != Transfer::done && transfer != Transfer::too_long) {
-      const bool is_hung = transfer == Transfer::timed_out && !watch.has_ended();
-      end_silent_worker(watch, is_hung, runs);
-      return is_hung ? Heard::nothing_in_time : Heard::no_reply;
+      end_silent_worker(watch, transfer == Transfer::timed_out && !watch.has_ended(), runs);
+      return false;
     }
-    const std::string rule = transfer == Transfer::too_long
-                                 ? fmt::format("longer than any reply to {}", asked)
-                             : decode(message, reply) ? rule_of()
-                                                      : "bytes that are none";
-    if (rule.empty()) return Heard::reply;
+    const std::string rule = transfer == Transfer::too_long ? "longer than any reply to this case"
+                             : decode(message, reply)       ? rule_of()
+                                                            : "bytes that are none";
+    if (rule.empty()) return true;
     // The plug-in sent something that is no reply, so it counts as one that crashed.
     CaseRun run;
     run.end = RunEnd::crashed;
     run.explanation = broken(rule);
     end_worker(watch, std::chrono::milliseconds(0), run);
     keep(std::move(run), runs);
-    return Heard::no_reply;
+    return false;
   }
 
   ChildEnd end_worker(WorkerWatch& watch, std::chrono::milliseconds patience, CaseRun& run) {
@@ -372,50 +337,20 @@ Expected<PluginDescription> WorkerProcess::describe() {
   return parts_->description;
 }
 
-std::vector<CaseRun> WorkerProcess::ask(std::span<const detector::FourPoints> queries) {
+std::vector<CaseRun> WorkerProcess::run(std::span<const corpus::Case> cases,
+                                        std::span<const Configuration> configurations) {
   constexpr std::size_t most_at_once = 256;
   std::vector<CaseRun> runs;
-  std::size_t at_once = most_at_once;
-  while (runs.size() < queries.size()) {
-    const auto rest = queries.subspan(runs.size());
-    const auto some = rest.first(std::min(at_once, rest.size()));
-    const auto ready = parts_->ensure();
-    if (!ready) {
-      parts_->keep({parts_->end_of_loading, ready.error().message, {}}, runs);
-      continue;
-    }
-    if (!parts_->description.parts.query) {
-      parts_->keep({RunEnd::refused, "it answers no queries", {}}, runs);
-      continue;
-    }
-    switch (parts_->ask_some(some, runs)) {
-      case Parts::Asked::answered:
-        at_once = std::min(most_at_once, 2 * some.size());
-        break;
-      case Parts::Asked::in_halves:
-        at_once = std::max<std::size_t>(1, some.size() / 2);
-        break;
-      case Parts::Asked::one_by_one:
-        at_once = 1;
-        break;
-    }
-  }
-  return runs;
-}
-
-std::vector<CaseRun> WorkerProcess::run(const corpus::Case& c,
-                                        std::span<const Configuration> configurations) {
-  std::vector<CaseRun> runs;
-  if (const auto query = query_of(c); query && parts_->plugin_library) {
-    for (std::size_t i = 0; i < configurations.size(); ++i) runs.push_back(ask({&*query, 1})[0]);
-    return runs;
-  }
-  while (runs.size() < configurations.size()) {
-    const auto rest = configurations.subspan(runs.size());
+  while (runs.size() < cases.size() * configurations.size()) {
+    // A case of which some runs are there is ended by itself.
+    const std::size_t begun = runs.size() % configurations.size();
+    const auto left = cases.subspan(runs.size() / configurations.size());
+    const auto some = left.first(begun > 0 ? 1 : std::min(most_at_once, left.size()));
+    const auto rest = configurations.subspan(begun);
     if (const auto ready = parts_->ensure()) {
       std::vector<Configuration> configured(rest.begin(), rest.end());
       for (auto& one : configured) one.options.threads = parts_->limits.threads;
-      parts_->run_rest(c, std::move(configured), runs);
+      parts_->run_rest(some, configured, runs);
     } else {
       parts_->keep({parts_->end_of_loading, ready.error().message, {}}, runs);
     }

@@ -13,7 +13,6 @@
 #include <span>
 #include <vector>
 
-#include "detector/mesh/step_types.h"
 #include "properties/problem.h"
 #include "properties/worker/case_run.h"
 #include "properties/worker/isolation/isolation.h"
@@ -76,13 +75,13 @@ class WorkerProcess {
   // A run whose worker is killed from outside (child_process.h) is repeated in a new worker. After
   // the third such death in a row it counts as crashed: one death may be bad luck, three are taken
   // for the plug-in's own doing. Loading a plug-in may fail in the same way.
-  std::vector<CaseRun> run(const corpus::Case& c, std::span<const Configuration> configurations);
-
-  // Puts elementary queries to a plug-in that has this part, and returns one run for each, as for
-  // its case (query_case.h). Many go in one message; if one of them ends the worker, they are
-  // asked again in smaller parts until that one is found. Queries that are given to run() as cases
-  // of a plug-in are asked in this way too. REQUIRES queries as the contract has them.
-  std::vector<CaseRun> ask(std::span<const detector::FourPoints> queries);
+  std::vector<CaseRun> run(const corpus::Case& c, std::span<const Configuration> configurations) {
+    return run({&c, 1}, configurations);
+  }
+  // The same for many small cases, which go to the worker together: the runs of the first case,
+  // then those of the next. What is printed and the processor time are not told apart.
+  std::vector<CaseRun> run(std::span<const corpus::Case> cases,
+                           std::span<const Configuration> configurations);
 
   // How often a worker was started, for statistics and tests.
   std::uint64_t starts() const;

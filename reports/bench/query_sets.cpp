@@ -80,8 +80,8 @@ bool append_file(const std::string& csv, const std::string& truth, LabelledSet& 
   const auto queries = corpus::read_queries(csv, truths);
   if (!queries) throw UnusableData(queries.error().message);
   for (const auto& q : queries.value()) {
-    if (!q.truth) continue;
-    set.queries.push_back(std::visit([](const auto& x) { return four_points(x); }, q.query));
+    if (!q.truth || q.separation) continue;
+    set.queries.push_back(q.query);
     set.truths.push_back(*q.truth);
   }
   return true;

@@ -96,11 +96,11 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
   if (words.memory) request.plan.case_bytes = *words.memory;
   request.seed = words.seed;
   request.jobs = words.jobs;
-  request.worker = properties::worker_program();
   if (!words.own_cases.empty()) {
     BOOST_OUTCOME_TRY(own, read_own_cases(words.own_cases));
     request.own_cases = std::move(own);
   }
+  request.worker = properties::worker_program();  // of which a proof speaks, too
   // The proof is read before the first code of a plug-in runs.
   if (!words.power.empty() && request.plan.fault_cases == 0) {
     fmt::print("campaign {} plants no faults: --power is not needed\n", request.plan.name);
@@ -114,13 +114,15 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
   auto chosen_words = words.detector;
   if (asks_queries_alone(request.plan) && chosen_words.part == DetectorPart::by_library)
     chosen_words.part = DetectorPart::query;
-  BOOST_OUTCOME_TRY(choose_detector(chosen_words, request));
+  BOOST_OUTCOME_TRY(subject, choose_detector(chosen_words, {.unread = request.folder}));
+  static_cast<properties::Subject&>(request) = std::move(subject);
   const auto& detector = request.detector;
   if (!words.data.empty()) {
     BOOST_OUTCOME_TRY(sequences, public_sequences(words.data));
     request.repeated = std::move(sequences);
   }
-  if (!detector.built_in && judged_claims(detector.claims, detector.contract).empty())
+  if (!detector.built_in &&
+      judged_claims(detector.claims, detector.contract, detector.of_queries).empty())
     return Problem{fmt::format(
         "{}: it claims nothing that its contract leaves to be judged; there is nothing to certify",
         words.detector.library)};

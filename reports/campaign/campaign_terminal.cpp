@@ -73,10 +73,11 @@ class CampaignTerminal : public properties::CampaignObserver {
   void on_failures_shrunk(const properties::KeptFailures& kept) override {
     progress_.reset();
     std::string text;
-    written_ = write_failures(kept, out_,
-                              {request_.plugin ? request_.plugin->string() : "", request_.isolation,
-                               request_.threads, part_asked_by(request_.plan)},
-                              text);
+    written_ =
+        write_failures(kept, out_,
+                       {request_.plugin ? request_.plugin->string() : "", request_.limits.isolation,
+                        request_.limits.threads, part_asked_by(request_.plan)},
+                       text);
     fmt::print("{}", text);
     std::fflush(stdout);
   }
@@ -149,11 +150,7 @@ class CampaignTerminal : public properties::CampaignObserver {
       fmt::print("until done\n");
     }
     fmt::print("{}\nwrites {}\n",
-               request_.detector.built_in
-                   ? "detector built-in"
-                   : plugin_text(request_.detector.name, request_.detector.claims,
-                                 request_.detector.contract, request_.isolated, request_.threads),
-               out_);
+               request_.detector.built_in ? "detector built-in" : plugin_text(request_), out_);
     std::fflush(stdout);
   }
 

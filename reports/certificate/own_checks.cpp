@@ -187,9 +187,7 @@ Expected<void> check_queries(const properties::CampaignRequest& request,
   JudgedRows labelled(request, file.filename().string(), on_failure, hung);
   place = 0;
   for (const auto& one : queries) {
-    const auto query =
-        std::visit([](const auto& q) { return detector::four_points(q); }, one.query);
-    labelled.add(properties::case_of_query(query, fmt::format("example-vf-{}", place++)));
+    labelled.add(properties::case_of_query(one.query, fmt::format("example-vf-{}", place++)));
   }
   labelled.tell(on_row);
   return outcome::success();

@@ -1,4 +1,4 @@
-// The parts of a certificate's predicate (schema assay-certificate/5, reports/README.md). Each
+// The parts of a certificate's predicate (schema assay-certificate/6, reports/README.md). Each
 // function renders a part of the findings or gates as JSON.
 #pragma once
 

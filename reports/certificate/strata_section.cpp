@@ -185,6 +185,7 @@ Json measures_json(const properties::StepMeasures& m) {
             {"given", m.candidates},
             {"least", m.least_candidates},
             {"over_least", candidates_over_least(m)}}},
+          {"near_at_start", m.starts_near},
           {"left_out",
            {{"cases_redrawn", m.redrawn},
             {"steps", m.steps_left_out},

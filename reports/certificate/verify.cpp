@@ -268,10 +268,10 @@ Expected<properties::TrialsAgain> run_certified_again(
   request.plan = run.plan;
   request.seed = run.seed;
   request.jobs = asked.jobs;
-  request.worker = properties::worker_program();
   const DetectorWords words{library, asked.detector.isolation, run.detector.threads,
                             part_asked_by(run.plan)};
-  BOOST_OUTCOME_TRY(choose_detector(words, request));
+  BOOST_OUTCOME_TRY(subject, choose_detector(words));
+  static_cast<properties::Subject&>(request) = std::move(subject);
   BOOST_OUTCOME_TRY(ours, properties::read_binding(properties::binding_of(request), folder));
   const auto difference = difference_of_builds(run, ours);
   if (!difference.empty())

@@ -75,10 +75,10 @@ int CheckOutcome::exit_code(bool fail_on_collision) const {
 using Json = nlohmann::ordered_json;
 
 Json check_report(const std::vector<std::string>& files, const detector::Topology& mesh,
-                  const Subject& subject, const CheckOutcome& outcome, Json steps) {
+                  const StepAnswers& answers, const CheckOutcome& outcome, Json steps) {
   const auto or_null = [](const std::string& text) { return text.empty() ? Json() : Json(text); };
-  const auto tested = subject.to_json();
-  const auto create_ms = subject.create_ms();
+  const auto tested = answers.to_json();
+  const auto create_ms = answers.create_ms();
   return {{"schema", "assay-check/1"},
           {"version", version_text()},
           {"files", files},
@@ -86,6 +86,7 @@ Json check_report(const std::vector<std::string>& files, const detector::Topolog
           {"components", mesh.components.size()},
           {"culling", tested["culling"]},
           {"arithmetic", tested["arithmetic"]},
+          {"separation", answers.under_test().contract.separation},
           {"detector", tested["detector"]},
           {"detector_ended", or_null(outcome.ended)},
           {"judged", outcome.is_judged},
@@ -96,23 +97,21 @@ Json check_report(const std::vector<std::string>& files, const detector::Topolog
           {"steps", std::move(steps)}};
 }
 
-void ClaimsTally::add(const properties::StepDiff& diff, const detector::StepResult& result) {
-  if (!plugin_) return;
-  measures_ += properties::measures_of({&diff, 1}, {&result, 1});
-  measures_.left_out_misses += diff.left_out_missed ? 1 : 0;
+void CheckOutcome::count(const properties::StepDiff& diff, const detector::StepResult& result) {
+  measures += properties::measures_of({&diff, 1}, {&result, 1});
+  measures.left_out_misses += diff.left_out_missed ? 1 : 0;
 }
 
-void ClaimsTally::tell(CheckOutcome& outcome, std::size_t steps_left_out) const {
-  if (!plugin_) return;
-  outcome.measures = measures_;
-  outcome.measures.steps_left_out = steps_left_out;
+void CheckOutcome::judge_claims(const properties::DetectorUnderTest& plugin,
+                                std::size_t steps_left_out) {
+  measures.steps_left_out = steps_left_out;
   std::vector<std::string> claims;
-  for (const auto claim : list_of(claims_on_steps(*plugin_))) claims.emplace_back(name_of(claim));
-  outcome.not_judged = properties::not_judged(claims, plugin_->contract, outcome.measures);
+  for (const auto claim : list_of(plugin.claims)) claims.emplace_back(name_of(claim));
+  not_judged = properties::not_judged(claims, plugin.contract, measures);
   for (const auto& claim : claims) {
-    const bool is_judged = std::none_of(outcome.not_judged.begin(), outcome.not_judged.end(),
+    const bool is_judged = std::none_of(not_judged.begin(), not_judged.end(),
                                         [&](const auto& one) { return one.claim == claim; });
-    if (is_judged) outcome.held.push_back(claim);
+    if (is_judged) held.push_back(claim);
   }
 }
 

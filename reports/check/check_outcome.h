@@ -10,8 +10,7 @@
 #include "detector/mesh/step_types.h"
 #include "detector/mesh/topology.h"
 #include "properties/campaign/gates/not_judged.h"
-#include "properties/worker/plugin/plugin_description.h"
-#include "reports/check/subject.h"
+#include "reports/check/step_answers.h"
 
 namespace assay::reports {
 
@@ -32,6 +31,12 @@ struct CheckOutcome {
   std::optional<std::size_t> collision_step;  // the first step with a collision, counted from 0
   detector::TimeEnclosure collision_time;
 
+  // Counts a judged step of a plug-in.
+  void count(const properties::StepDiff& diff, const detector::StepResult& result);
+  // What all of them come to. `steps_left_out` is the number of steps of the input that the
+  // contract leaves out.
+  void judge_claims(const properties::DetectorUnderTest& plugin, std::size_t steps_left_out);
+
   // The last lines of what `check` prints, each with its end of line.
   std::string summary() const;
   const char* word() const;
@@ -41,24 +46,7 @@ struct CheckOutcome {
 // The report of `check`, schema assay-check/1 (documented in reports/README.md). `steps`: an entry
 // for each step that was judged (steps/step_json.h).
 nlohmann::ordered_json check_report(const std::vector<std::string>& files,
-                                    const detector::Topology& mesh, const Subject& subject,
+                                    const detector::Topology& mesh, const StepAnswers& answers,
                                     const CheckOutcome& outcome, nlohmann::ordered_json steps);
-
-// What the steps of a plug-in come to under `check`: its claims, and what it does whatever it
-// claims.
-class ClaimsTally {
- public:
-  // `plugin` is null for the built-in detector, for which nothing is counted.
-  explicit ClaimsTally(const properties::PluginDescription* plugin) : plugin_(plugin) {}
-
-  void add(const properties::StepDiff& diff, const detector::StepResult& result);
-  // Writes the result into `outcome`. `steps_left_out` is the number of steps of the input that
-  // the contract leaves out.
-  void tell(CheckOutcome& outcome, std::size_t steps_left_out) const;
-
- private:
-  const properties::PluginDescription* plugin_;
-  properties::StepMeasures measures_;
-};
 
 }  // namespace assay::reports

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/outcome/try.hpp>
 #include <chrono>
 #include <new>
 #include <optional>
@@ -13,8 +12,10 @@
 #include "detector/step_result.h"
 #include "oracle/mesh/step.h"
 #include "oracle/referee/second_opinion.h"
+#include "properties/judging/body_names.h"
 #include "properties/judging/case_check.h"
 #include "properties/judging/case_options.h"
+#include "properties/numbering.h"
 #include "reports/check/check_outcome.h"
 #include "reports/check/detector_choice.h"
 #include "reports/steps/step_json.h"
@@ -57,17 +58,17 @@ auto timed(Limits& limits, const Ask& ask) {
 class CheckRun {
  public:
   CheckRun(const CheckQuestion& question, corpus::StepSource& steps, detector::Topology mesh,
-           Subject& subject, Limits& limits, const CheckListener& listener)
+           StepAnswers& answers, Limits& limits, const CheckListener& listener)
       : question_(question),
         steps_(steps),
         mesh_(std::move(mesh)),
-        subject_(subject),
+        answers_(answers),
         limits_(limits),
         listener_(listener),
-        tally_(subject.description()) {
+        tested_(tested_pairs(answers.under_test().contract, steps.first_frame())) {
     outcome_.is_judged = !question.no_oracle;
-    outcome_.judged_by_claims = subject.judged_by_claims();
-    outcome_.has_answers = subject.has_answers();
+    outcome_.judged_by_claims = answers.judged_by_claims();
+    outcome_.has_answers = answers.has_answers();
   }
 
   Expected<CheckAnswer> run() {
@@ -75,9 +76,8 @@ class CheckRun {
     nlohmann::ordered_json steps = nlohmann::ordered_json::array();
     if (begin()) {
       for (std::size_t s = 0; s < step_count(); ++s) {
-        const auto step = read_step(s);
-        if (!step) return step.error();
-        auto json = run_step(s, step.value());
+        BOOST_OUTCOME_TRY(step, read_step(s));
+        auto json = run_step(s, step);
         if (question_.wants_report) steps.push_back(std::move(json));
         if (refused_) return Problem{*refused_};
         if (outcome_.unsound) break;
@@ -85,13 +85,15 @@ class CheckRun {
       if (has_facts() && !outcome_.undecided) check_facts();
     }
     outcome_.limit_reached = limits_.reached();
-    if (!question_.no_oracle) tally_.tell(outcome_, subject_.steps_left_out());
-    if (outcome_.defect || outcome_.undecided) say(printed_text(subject_.printed()));
+    if (answers_.is_plugin() && !question_.no_oracle)
+      outcome_.judge_claims(answers_.under_test(), answers_.steps_left_out());
+    if (outcome_.defect || outcome_.undecided) say(printed_text(answers_.run().printed));
     say(outcome_.summary());
     CheckAnswer answer{std::move(outcome_), nullptr};
     if (question_.wants_report)
       answer.report =
-          check_report(question_.files, mesh_, subject_, answer.outcome, std::move(steps));
+          check_report(question_.files, mesh_, answers_, answer.outcome, std::move(steps));
+    if (question_.wants_report) answer.report["bodies"] = bodies_json();
     return answer;
   }
 
@@ -106,27 +108,30 @@ class CheckRun {
     say(fmt::format("{} triangles, {} vertices, {} component{}", mesh_.triangles.size(),
                     steps_.first_frame().rows(), mesh_.components.size(),
                     mesh_.components.size() == 1 ? "" : "s"));
+    if (const auto bodies = question_.bodies.size(); bodies > 0)
+      say(fmt::format(", {} bod{}", bodies, bodies == 1 ? "y" : "ies"));
     if (unclosed) {
       say(fmt::format(" ({} unclosed{})", unclosed,
                       question_.detector.library.empty() ? ": closed with ghosts" : ""));
     }
     say(fmt::format(
-        "; {} step{}; {}{}{}\n", step_count(), step_count() == 1 ? "" : "s", subject_.title(),
+        "; {} step{}; {}{}{}\n", step_count(), step_count() == 1 ? "" : "s", answers_.title(),
         question_.no_oracle ? "; no oracle: not judged" : "",
         question_.time_limit ? fmt::format("; at most {} s", *question_.time_limit) : ""));
     if (!question_.announced_file.empty())
       say(fmt::format("writes {}\n", question_.announced_file));
   }
 
-  // Lets the subject begin. Returns whether there are steps to go through.
+  // Lets the detector begin. Returns whether there are steps to go through.
   bool begin() {
-    const auto judged = subject_.begin();
+    const auto judged = answers_.begin();
     if (judged.disturbances > 0)
       say(fmt::format("the detector's process was killed from outside {} times, and began anew\n",
                       judged.disturbances));
-    if (const auto seconds = subject_.processor_seconds())
-      say(fmt::format("the detector took {:.3g} s of processor time for {} step{}\n", *seconds,
-                      step_count(), step_count() == 1 ? "" : "s"));
+    if (answers_.is_plugin())
+      say(fmt::format("the detector took {:.3g} s of processor time for {} step{}\n",
+                      answers_.run().processor_seconds, step_count(),
+                      step_count() == 1 ? "" : "s"));
     if (judged.outcome == Outcome::holds) return true;
     outcome_.ended = judged.explanation;
     for (const auto claim : judged.broken) {
@@ -141,16 +146,29 @@ class CheckRun {
   }
 
   ShownWork shown_work(std::size_t s) const {
-    const auto* plugin = subject_.description();
     // The time of preprocessing is shown once, with the first step.
-    return {!plugin, !plugin || plugin->contract.reports_pairs,
-            s == 0 ? subject_.create_ms() : std::nullopt};
+    const auto& contract = answers_.under_test().contract;
+    return {
+        !answers_.is_plugin(), contract.reports_pairs, s == 0 ? answers_.create_ms() : std::nullopt,
+        steps_.counted(),      &steps_.triangles(),    contract.separation};
   }
 
-  // The built-in detector's leaves nothing out.
-  properties::Contract contract() const {
-    const auto* plugin = subject_.description();
-    return plugin ? plugin->contract : properties::Contract{};
+  // How large each body is; null if there are none.
+  nlohmann::ordered_json bodies_json() const {
+    const auto* counted = steps_.counted();
+    if (!counted || counted->body.empty()) return nullptr;
+    const auto& body = counted->body;
+    struct Size {
+      std::size_t triangles = 0, vertices = 0;
+    };
+    std::vector<Size> sizes(properties::at(*std::max_element(body.begin(), body.end())) + 1);
+    for (const auto b : body) ++sizes[properties::at(b)].vertices;
+    for (Eigen::Index t = 0; t < steps_.triangles().rows(); ++t)
+      ++sizes[properties::at(body[properties::at(steps_.triangles()(t, 0))])].triangles;
+    nlohmann::ordered_json bodies = nlohmann::ordered_json::array();
+    for (const auto& size : sizes)
+      bodies.push_back({{"triangles", size.triangles}, {"vertices", size.vertices}});
+    return bodies;
   }
 
   // The limits are on work, and reading is none.
@@ -166,22 +184,23 @@ class CheckRun {
       return limits_.exceeded() || (listener_.stop && listener_.stop());
     };
     progress.phase("detector");
-    detector::StepResult result = subject_.answer(s, step, stop);
+    detector::StepResult result = answers_.answer(s, step, stop);
     std::string told_error;
     if (result.answer == Answer::error) {
-      const auto error = subject_.error_of(s, result);
-      if (error.refused) {
-        refused_ = fmt::format("step {}: {}", s + 1, error.message);
+      const auto error = answers_.error_of(s, result);
+      // The built-in detector has errors for input alone.
+      if (!answers_.is_plugin()) {
+        refused_ = fmt::format("step {}: {}", s + 1, error);
         return {};
       }
-      if (outcome_.ended.empty()) outcome_.ended = error.message;
-      told_error = fmt::format("  {}\n", error.message);
+      if (outcome_.ended.empty()) outcome_.ended = error;
+      told_error = fmt::format("  {}\n", error);
     }
     if (result.answer == Answer::collision && !outcome_.collision_step) {
       outcome_.collision_step = s;
       outcome_.collision_time = result.first;
     }
-    outcome_.undecided |= subject_.has_answers() && result.answer == Answer::undecided;
+    outcome_.undecided |= answers_.has_answers() && result.answer == Answer::undecided;
     if (question_.no_oracle) {
       progress.finish();
       say(step_text(s + 1, result, nullptr, shown_work(s)) + told_error);
@@ -191,18 +210,19 @@ class CheckRun {
     progress.phase("oracle");
     JudgedByOracle oracle;
     auto judged = timed(limits_, [&] {
-      return oracle::judge_step({step.x_t0, step.x_t1}, steps_.triangles(),
-                                {question_.jobs, stop, subject_.asked()});
+      return properties::judge_under(answers_.under_test().contract, {step.x_t0, step.x_t1},
+                                     steps_.triangles(),
+                                     {question_.jobs, stop, {}, steps_.counted(), &tested_});
     });
     oracle.judgement = std::move(judged.answer);
     oracle.milliseconds = judged.milliseconds;
-    oracle.truth = truth_of(oracle.judgement, contract(), steps_.triangles());
-    oracle.diff = subject_.judge(s, result, oracle.judgement);
+    oracle.truth = truth_of(oracle.judgement, answers_.under_test().contract, steps_.triangles());
+    oracle.diff = answers_.judge(s, result, oracle.judgement, steps_.triangles());
     const auto& diff = oracle.diff;
     progress.finish();
     outcome_.defect |= diff.outcome == Outcome::defect;
     outcome_.undecided |= diff.outcome == Outcome::undecided || diff.outcome == Outcome::error;
-    tally_.add(diff, result);
+    if (answers_.is_plugin()) outcome_.count(diff, result);
     say(step_text(s + 1, result, &oracle, shown_work(s)) + told_error);
     if (diff.outcome == Outcome::defect) print_defect(step, diff);
     auto json = json_of(result, &oracle);
@@ -228,8 +248,16 @@ class CheckRun {
                                             Progress& progress) {
     const double share = *question_.second_opinion;
     const auto [opinion, milliseconds] = timed(limits_, [&] {
-      return oracle::second_opinion({step.x_t0, step.x_t1}, steps_.triangles(), judgement,
-                                    {share, question_.jobs, stop, {}});
+      const detector::SteppedMesh motion = {step.x_t0, step.x_t1};
+      const oracle::SecondOpinionOptions options = {share, question_.jobs, stop, {}};
+      const auto* counted = steps_.counted();
+      const bool asks_contacts = answers_.under_test().contract.separation == 0;
+      if (asks_contacts && (!counted || counted->count_all()))
+        return oracle::second_opinion(motion, steps_.triangles(), judgement, options);
+      // The other methods know neither relation nor separation, so the oracle is asked for all
+      // contacts.
+      const auto all = oracle::judge_step(motion, steps_.triangles(), {question_.jobs, stop});
+      return oracle::second_opinion(motion, steps_.triangles(), all, options);
     });
     progress.finish();
     say(second_opinion_text(opinion, milliseconds));
@@ -242,22 +270,33 @@ class CheckRun {
   // Names the frames of this step alone if each frame is a file of its own. The same queries are
   // chosen again.
   std::string replay_line(std::size_t s) const {
-    const auto& files = question_.files;
-    const bool file_a_frame = files.size() == steps_.frames();
     std::string input;
-    for (std::size_t i = 0; i < files.size(); ++i) {
-      if (!file_a_frame || i == s || i == s + 1) input += " " + files[i];
+    const auto name = [&](const std::vector<std::string>& files) {
+      const bool file_a_frame = files.size() == steps_.frames();
+      for (std::size_t i = 0; i < files.size(); ++i) {
+        if (!file_a_frame || i == s || i == s + 1) input += " " + files[i];
+      }
+    };
+    if (question_.bodies.empty()) name(question_.files);
+    for (const auto& files : question_.bodies) {
+      input += " --body";
+      name(files);
     }
+    for (const auto& [a, b] : question_.apart) input += fmt::format(" --apart {},{}", a, b);
     return fmt::format("{} check{} --second-opinion {}", this_program(true), input,
                        *question_.second_opinion);
   }
 
   void print_defect(const corpus::SourceStep& step, const properties::StepDiff& diff) const {
-    if (diff.missing.empty()) return;
+    // Nobody knows the stages of a plug-in.
+    if (diff.missing.empty() || answers_.is_plugin()) return;
     const auto& lost = diff.missing.front();
-    const std::string stage = subject_.stage_that_lost(step, lost.pair);
-    if (stage.empty()) return;
-    say(fmt::format("  triangles {} and {} were lost at: {}\n", lost.pair.a, lost.pair.b, stage));
+    const std::string stage =
+        properties::stage_that_lost(steps_.triangles(), step.x_t0, step.x_t1, lost.pair,
+                                    answers_.under_test().configurations.front().options);
+    say(fmt::format("  triangles {} and {}{} were lost at: {}\n", lost.pair.a, lost.pair.b,
+                    properties::bodies_text(steps_.counted(), steps_.triangles(), lost.pair),
+                    stage));
   }
 
   // Whether the facts of the case are to be checked. They are facts of the built-in detector; a
@@ -278,11 +317,11 @@ class CheckRun {
   const CheckQuestion& question_;
   corpus::StepSource& steps_;
   detector::Topology mesh_;
-  Subject& subject_;
+  StepAnswers& answers_;
   Limits& limits_;
   const CheckListener& listener_;
   std::optional<std::string> refused_;
-  ClaimsTally tally_;
+  const detector::CountedPairs tested_;  // under the contract
   CheckOutcome outcome_;
 };
 
@@ -298,6 +337,14 @@ corpus::Expected<CheckInput> read_check_input(const std::vector<std::string>& fi
   return CheckInput{files[0], std::move(steps)};
 }
 
+corpus::Expected<CheckInput> read_bodies(const BodyWords& bodies,
+                                         const std::vector<std::array<std::int32_t, 2>>& apart) {
+  corpus::BodyFiles files{{}, apart};
+  for (const auto& frames : bodies) files.frames.emplace_back(frames.begin(), frames.end());
+  BOOST_OUTCOME_TRY(steps, corpus::steps_of_bodies(files));
+  return CheckInput{bodies[0][0], std::move(steps)};
+}
+
 Expected<CheckAnswer> check_mesh(const CheckQuestion& question, CheckInput& input,
                                  const std::filesystem::path& worker,
                                  const CheckListener& listener) {
@@ -306,26 +353,27 @@ Expected<CheckAnswer> check_mesh(const CheckQuestion& question, CheckInput& inpu
     return Problem{fmt::format("{}: {}", input.file, bad->message)};
   const bool is_plugin = !question.detector.library.empty();
   if (is_plugin) {
-    auto whole = input.steps->read_whole();
-    if (!whole) return whole.error();
-    input.steps = std::move(whole.value());
+    BOOST_OUTCOME_TRY(whole, input.steps->read_whole());
+    input.steps = std::move(whole);
   }
   Limits limits(question.time_limit, question.memory_limit);
-  BuiltInChoice built_in = question.built_in;
-  built_in.threads = static_cast<std::uint32_t>(question.threads);
-  auto subject = !is_plugin
-                     ? make_built_in(built_in, input, limits)
-                     : make_plugin_subject(worker, question.detector.library,
-                                           {question.time_limit.value_or(longest_check_seconds),
-                                            question.memory_limit.value_or(0),
-                                            question.detector.isolation,
-                                            {},
-                                            std::max<std::uint64_t>(question.threads, 1)},
-                                           input);
-  if (!subject) return subject.error();
+  const auto begin = [&]() -> Expected<std::unique_ptr<StepAnswers>> {
+    if (!is_plugin) {
+      BuiltInChoice choice = question.built_in;
+      choice.threads = static_cast<std::uint32_t>(question.threads);
+      return answers_of_built_in(choice, input, limits);
+    }
+    DetectorWords words = question.detector;
+    words.threads = std::max<std::uint64_t>(question.threads, 1);
+    BOOST_OUTCOME_TRY(plugin, choose_detector(words,
+                                              {question.time_limit.value_or(longest_check_seconds),
+                                               question.memory_limit.value_or(0)},
+                                              worker));
+    return answers_of_plugin(std::move(plugin), input);
+  };
+  BOOST_OUTCOME_TRY(answers, begin());
   auto mesh = detector::make_topology(input.steps->triangles(), vertices);
-  return CheckRun(question, *input.steps, std::move(mesh), *subject.value(), limits, listener)
-      .run();
+  return CheckRun(question, *input.steps, std::move(mesh), *answers, limits, listener).run();
 }
 
 }  // namespace assay::reports

@@ -2,6 +2,7 @@
 // oracle, and the two are compared.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -9,7 +10,7 @@
 #include <vector>
 
 #include "reports/check/check_outcome.h"
-#include "reports/check/subject.h"
+#include "reports/check/step_answers.h"
 #include "reports/terminal/option_words.h"
 
 namespace assay::reports {
@@ -17,9 +18,16 @@ namespace assay::reports {
 // Takes frames of one mesh (two or more), which are read as their steps come, or reads one case
 // file. Fails if its options are not understood. REQUIRES a file.
 corpus::Expected<CheckInput> read_check_input(const std::vector<std::string>& files);
+// The same of several meshes as bodies of one. REQUIRES a file of each.
+using BodyWords = std::vector<std::vector<std::string>>;
+corpus::Expected<CheckInput> read_bodies(const BodyWords& bodies,
+                                         const std::vector<std::array<std::int32_t, 2>>& apart);
 
 struct CheckQuestion {
-  std::vector<std::string> files;  // what the input was read from, for reports and replay lines
+  // What the input was read from, for reports and replay lines; bodies are empty if it has none.
+  std::vector<std::string> files;
+  BodyWords bodies;
+  std::vector<std::array<std::int32_t, 2>> apart;
   BuiltInChoice built_in;
   DetectorWords detector;     // its `threads` is not used; the one below is
   std::uint64_t threads = 0;  // 0: all cores; a plug-in is told 1

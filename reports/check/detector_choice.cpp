@@ -3,83 +3,31 @@
 #include <fmt/format.h>
 
 #include "properties/campaign/plan.h"
-#include "properties/printable.h"
-#include "properties/worker/worker_process.h"
 #include "reports/terminal/words.h"
 
 namespace assay::reports {
-
-namespace {
-
-std::vector<std::string> unjudged_parts(const properties::PluginDescription& plugin,
-                                        const properties::DetectorUnderTest& detector) {
-  std::vector<std::string> parts;
-  if (plugin.parts.steps && detector.of_queries) parts.emplace_back("whole steps");
-  if (plugin.parts.candidates &&
-      (detector.of_queries || !detector.claims.has(properties::Claim::candidates)))
-    parts.emplace_back("broad phase");
-  if (plugin.parts.query && detector.query_claims == properties::Claims())
-    parts.emplace_back("elementary query");
-  return parts;
-}
-
-}  // namespace
 
 DetectorPart part_asked_by(const properties::CampaignPlan& plan) {
   if (properties::asks_queries_alone(plan)) return DetectorPart::query;
   return properties::asks_queries(plan) ? DetectorPart::by_library : DetectorPart::steps;
 }
 
-Expected<void> choose_detector(const DetectorWords& words, properties::CampaignRequest& request) {
-  request.detector = properties::built_in_detector();
-  request.threads = words.threads;
-  if (words.library.empty()) return outcome::success();
-  request.plugin = words.library;
-  request.judged = properties::JudgedLibrary::of(words.library, request.worker);
-  request.isolation = words.isolation;
-  properties::WorkerProcess worker(
-      request.worker, request.plugin,
-      {.isolation = request.isolation, .threads = request.threads, .unread = request.folder});
-  const auto description = worker.describe();
-  if (!description) return description.error();
-  request.isolated = worker.isolation();
-  const auto& plugin = description.value();
-  request.takes_threads = plugin.parts.takes_threads;
-  const bool has_steps = plugin.parts.steps || plugin.parts.candidates;
-  const bool of_queries =
-      words.part == DetectorPart::query || (words.part == DetectorPart::by_library && !has_steps);
-  if (of_queries && !plugin.parts.query)
-    return Problem{fmt::format("{}: it holds no elementary query", words.library)};
-  if (!of_queries && !has_steps)
-    return Problem{fmt::format("{}: it holds no steps, but a query alone", words.library)};
-  // The words of the plug-in go into ids, files and pages, so they must be printable.
-  const auto name = properties::printable(plugin.name);
-  request.detector = {fmt::format("{} {}", name, properties::printable(plugin.version)),
-                      false,
-                      of_queries ? claims_on_queries(plugin) : claims_on_steps(plugin),
-                      plugin.contract,
-                      {{name, {}}},
-                      of_queries,
-                      {},
-                      {}};
-  const bool is_query_judged = plugin.parts.query && words.part != DetectorPart::steps &&
-                               !judged_claims(claims_on_queries(plugin), plugin.contract).empty();
-  if (is_query_judged) request.detector.query_claims = claims_on_queries(plugin);
-  request.detector.unjudged_parts = unjudged_parts(plugin, request.detector);
-  return outcome::success();
+Expected<properties::Subject> choose_detector(const DetectorWords& words,
+                                              properties::WorkerLimits limits,
+                                              const std::filesystem::path& worker) {
+  limits.isolation = words.isolation;
+  limits.threads = words.threads;
+  return properties::Subject::open(worker, words.library, words.part, limits);
 }
 
-std::string plugin_text(const std::string& name_and_version, const properties::Claims& claims,
-                        const properties::Contract& contract,
-                        const properties::Isolation& isolation, std::uint64_t threads) {
-  std::vector<const char*> names;
-  for (const auto claim : properties::list_of(claims)) names.push_back(name_of(claim));
-  const std::string words = joined(names, ", ");
-  const std::string left_out = joined(phrases_of(contract), ", ");
+std::string plugin_text(const properties::Subject& plugin) {
+  std::vector<const char*> claims;
+  for (const auto claim : list_of(plugin.detector.claims)) claims.push_back(name_of(claim));
+  const std::string left_out = joined(phrases_of(plugin.detector.contract), ", ");
   return fmt::format("plug-in {}\nclaims: {}\ncontract: {}\nisolation: {}\nthreads: {}",
-                     name_and_version, words.empty() ? "nothing" : words,
-                     left_out.empty() ? "leaves nothing out" : left_out, text_of(isolation),
-                     threads);
+                     plugin.detector.name, claims.empty() ? "nothing" : joined(claims, ", "),
+                     left_out.empty() ? "leaves nothing out" : left_out,
+                     text_of(plugin.limits.least), plugin.limits.threads);
 }
 
 std::string printed_text(const std::string& printed) {

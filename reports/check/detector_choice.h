@@ -2,12 +2,10 @@
 // itself, for people.
 #pragma once
 
-#include <cstdint>
+#include <filesystem>
 #include <string>
 
 #include "properties/campaign/request.h"
-#include "properties/claims/claims.h"
-#include "properties/worker/isolation/isolation.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
 
@@ -16,16 +14,15 @@ namespace assay::reports {
 // The parts of a plug-in that a plan is about: steps, queries, or both.
 DetectorPart part_asked_by(const properties::CampaignPlan& plan);
 
-// Sets request.detector and, for a plug-in, the members of the request that tell of it. REQUIRES
-// that request.worker is set. Fails if the library cannot serve, does not hold the part that is
-// asked for, or cannot be isolated although that is required.
-Expected<void> choose_detector(const DetectorWords& words, properties::CampaignRequest& request);
+// The detector that the words name. `limits` are those of its processes, but for the isolation and
+// the threads of the words; `worker` is the program assay-worker. Fails as Subject::open does.
+Expected<properties::Subject> choose_detector(
+    const DetectorWords& words, properties::WorkerLimits limits = {},
+    const std::filesystem::path& worker = properties::worker_program());
 
 // "plug-in NAME VERSION", its claims, its contract, its isolation, and the threads that it may
 // use: one line each, without a newline at the end.
-std::string plugin_text(const std::string& name_and_version, const properties::Claims& claims,
-                        const properties::Contract& contract,
-                        const properties::Isolation& isolation, std::uint64_t threads);
+std::string plugin_text(const properties::Subject& plugin);
 
 // "  it printed:" and the lines that it printed in a case, each behind four blanks; empty if it
 // printed nothing.

@@ -39,6 +39,33 @@ std::optional<detector::TrianglePair> CaseScene::shown_pair() const {
   return first == pairs.end() ? std::nullopt : std::optional(first->pair);
 }
 
+double middle(const detector::TimeEnclosure& time) { return time.lo + (time.hi - time.lo) / 2; }
+
+std::string CaseScene::asked_distance() const {
+  const auto &d = contract.separation, &slack = contract.margin;
+  std::string text = d > 0 ? "d " + properties::number_text(d) : "";
+  if (slack > 0) text += (d > 0 ? ", slack " : "slack ") + properties::number_text(slack);
+  return text;
+}
+
+std::optional<NearestPoints> CaseScene::nearest_points(const SceneStep& step,
+                                                       detector::PairContact contact) const {
+  using detector::FeatureKind;
+  auto& feature = contact.feature;
+  if (const auto query = properties::query_of(c)) {
+    feature = {query->first_group == 1 ? FeatureKind::vertex_face : FeatureKind::edge_edge,
+               {0, 1, 2, 3, -1}};
+  } else if (contract.separation > 0 && feature.kind != FeatureKind::piercing) {
+    // Of the features that are within d at t = 0 any may be named, not the nearest.
+    feature = {};
+  }
+  auto nearest = contact_places(contact, c.triangles, start_of(c, step.span), end_of(c, step.span),
+                                middle(contact.time));
+  // Of triangles that pierce each other only rounding is left.
+  if (nearest && nearest->distance() < 1e-9 * contract.separation) nearest->b = nearest->a;
+  return nearest;
+}
+
 namespace {
 
 template <class List>
@@ -68,7 +95,7 @@ std::string SceneStep::difference(const detector::TrianglePair& pair,
     return claims.has(Claim::no_spurious) ? "early" : "earlier, not claimed";
   const bool is_late =
       has_pair(diff->late, pair) ||
-      properties::time_off(reported->time, exact->time, scene.time_tolerance).late > 0;
+      properties::time_off(reported->time, exact->time, scene.contract.time_tolerance).late > 0;
   if (!is_late) return "agrees";
   return claims.has(Claim::all_pairs) ? "late" : "later, not claimed";
 }
@@ -101,9 +128,8 @@ std::optional<CaseScene> make_scene(const corpus::Case& c,
   if (run.end != RunEnd::completed) scene.ended = end_text(run);
   scene.reports_pairs =
       run.has_answers && detector.contract.reports_pairs && !properties::says_query(scene.c);
-  scene.claims = detector.claims_in(configuration);
-  if (detector.contract.margin > 0) scene.claims.set(properties::Claim::no_spurious, false);
-  scene.time_tolerance = detector.contract.time_tolerance;
+  scene.claims = properties::judged_claims(detector.claims_in(configuration), detector.contract);
+  scene.contract = detector.contract;
   const auto script = corpus::steps_of(scene.c);
   for (std::size_t s = 0; s < script.size(); ++s) {
     SceneStep step{script[s], truth_of(scene.c, truth[s], detector.contract), {}, {}};
@@ -118,28 +144,19 @@ std::optional<CaseScene> make_scene(const corpus::Case& c,
   return scene;
 }
 
-namespace {
-
-constexpr double case_seconds = 10;
-
-}  // namespace
-
 SceneMaker::SceneMaker(const std::optional<DetectorWords>& detector)
     : detector_(properties::built_in_detector()) {
   if (!detector) {
     absent_ = "the store does not name the plug-in's library";
     return;
   }
-  properties::CampaignRequest request;
-  request.worker = properties::worker_program();
-  if (auto chosen = choose_detector(*detector, request); !chosen) {
-    absent_ = chosen.error().message;
+  auto subject = choose_detector(*detector);
+  if (!subject) {
+    absent_ = subject.error().message;
     return;
   }
-  detector_ = request.detector;
-  worker_.emplace(
-      properties::worker_program(), request.plugin,
-      properties::WorkerLimits{case_seconds, 0, request.isolation, {}, request.threads});
+  detector_ = subject.value().detector;
+  worker_.emplace(subject.value().process());
 }
 
 std::optional<CaseScene> SceneMaker::scene_of(const corpus::Case& c,
@@ -147,7 +164,7 @@ std::optional<CaseScene> SceneMaker::scene_of(const corpus::Case& c,
   properties::Configuration chosen{configuration, {}};
   if (const auto options = properties::read_options(c); detector_.built_in && options)
     chosen.options = options.value();
-  auto scene = make_scene(c, detector_, chosen, worker_ ? &*worker_ : nullptr);
+  auto scene = make_scene(c, detector_.in(chosen), chosen, worker_ ? &*worker_ : nullptr);
   if (scene && !absent_.empty()) scene->ended = absent_;
   return scene;
 }

@@ -12,8 +12,9 @@
 #include "detector/options.h"
 #include "detector/step_result.h"
 #include "oracle/mesh/step.h"
-#include "properties/campaign/trials/trial.h"
+#include "properties/judging/trial.h"
 #include "properties/worker/worker_process.h"
+#include "reports/pictures/contact_places.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
 
@@ -43,7 +44,7 @@ struct CaseScene {
   std::vector<SceneStep> steps;
   std::optional<detector::Surface> surface;    // the mesh and its ghosts; nothing if it was refused
   properties::Claims claims;                   // that are judged under the contract
-  double time_tolerance = 0;                   // the contract's
+  properties::Contract contract;               // that it is judged under
   bool reports_pairs = true;                   // false: the detector says nothing of pairs
   std::string ended;                           // how the detector's run broke off; else empty
   std::optional<properties::Failure> failure;  // what is wrong, if the case still fails
@@ -52,7 +53,16 @@ struct CaseScene {
   // contact.
   std::size_t shown_step() const;
   std::optional<detector::TrianglePair> shown_pair() const;
+
+  // What the contract wants of distances, "d 0.01, slack 0.002"; empty if it asks what touches.
+  std::string asked_distance() const;
+  // Where the two of a contact are nearest to each other at its time: the two features of a query,
+  // else the two triangles, if the contract asks for a distance, else the features that touch.
+  std::optional<NearestPoints> nearest_points(const SceneStep& step,
+                                              detector::PairContact contact) const;
 };
+
+double middle(const detector::TimeEnclosure& time);
 
 // `worker` runs the detector; null: it is not at hand. Nothing if the contract cannot represent a
 // coordinate. The case is judged exactly, which is dear: meant for shrunk cases.

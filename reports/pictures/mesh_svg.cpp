@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "detector/boundary/boundary_handler.h"
-#include "reports/pictures/contact_point.h"
 #include "reports/terminal/words.h"
 
 namespace assay::reports {
@@ -25,8 +24,6 @@ std::string escaped(const std::string& text) {
       {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}};
   return replaced(text, written);
 }
-
-double middle(const detector::TimeEnclosure& time) { return time.lo + (time.hi - time.lo) / 2; }
 
 class Picture {
  public:
@@ -65,9 +62,18 @@ class Picture {
     for (const auto i : order) {
       if (is_shown(i)) out += outline(i);
     }
-    if (answered_) out += mark(*answered_, "fill=\"none\" stroke=\"#d6336c\"", 9);
-    if (exact_) out += mark(*exact_, "fill=\"#111\" stroke=\"#fff\"", 5);
+    if (answered_) out += mark(*answered_, "#d6336c", "fill=\"none\" stroke=\"#d6336c\"", 9);
+    if (exact_) out += mark(*exact_, "#111", "fill=\"#111\" stroke=\"#fff\"", 5);
     return out;
+  }
+  // "distance 0.0098, d 0.01", of the exact contact or else of the detector's; empty if nobody asks
+  // for a distance.
+  std::string distance_text() const {
+    const auto* contact = exact_ ? exact_ : answered_;
+    const auto asked = scene_.asked_distance();
+    const auto places = contact ? scene_.nearest_points(step_, *contact) : std::nullopt;
+    return asked.empty() || !places ? ""
+                                    : fmt::format("distance {:.6g}, {}", places->distance(), asked);
   }
 
  private:
@@ -170,13 +176,23 @@ class Picture {
         "fill=\"#777\">{}</text>\n",
         points(i), centre[0], centre[1] + 4, i);
   }
-  std::string mark(const detector::PairContact& contact, const char* look, int radius) const {
-    const auto point =
-        contact_point(contact, scene_.c.triangles, x_t0_, x_t1_, middle(contact.time));
-    if (!point) return "";
-    const auto p = pixel(unit({(*point)[0], (*point)[1], (*point)[2]}));
-    return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" {} stroke-width=\"2\"/>\n",
-                       p[0], p[1], radius, look);
+  // A circle if the two places are one in the picture, else two smaller ones and the segment.
+  std::string mark(const detector::PairContact& contact, const char* colour, const char* look,
+                   int radius) const {
+    const auto places = scene_.nearest_points(step_, contact);
+    if (!places) return "";
+    const auto p = pixel(unit(places->a)), q = pixel(unit(places->b));
+    const bool is_one = (p - q).norm() < 0.5;
+    const auto circle = [&](const Eigen::Vector2d& at) {
+      return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" {} stroke-width=\"2\"/>\n",
+                         at[0], at[1], is_one ? radius : radius - 2, look);
+    };
+    if (is_one) return circle(p);
+    return circle(p) + circle(q) +
+           fmt::format(
+               "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\" "
+               "stroke-width=\"2\"/>\n",
+               p[0], p[1], q[0], q[1], colour);
   }
 
   const CaseScene& scene_;
@@ -204,9 +220,13 @@ std::string mesh_svg(const CaseScene& scene, const std::string& title) {
   std::string out = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
       "viewBox=\"0 0 {0} {1}\" font-family=\"sans-serif\" font-size=\"12\">\n<title>{2}</title>\n",
-      width, picture + caption, escaped(title));
-  if (!scene.steps.empty()) out += Picture(scene, scene.steps[scene.shown_step()]).body();
-  std::string where;
+      width, picture + caption + (scene.asked_distance().empty() ? 0 : row), escaped(title));
+  std::string where, distance;
+  if (!scene.steps.empty()) {
+    const Picture shown(scene, scene.steps[scene.shown_step()]);
+    out += shown.body();
+    distance = shown.distance_text();
+  }
   if (const auto pair = scene.shown_pair()) {
     const auto& step = scene.steps[scene.shown_step()];
     const auto* exact = contact_of(step.truth.pairs, pair);
@@ -215,7 +235,8 @@ std::string mesh_svg(const CaseScene& scene, const std::string& title) {
              : contact_of(step.truth.left_out, *pair) ? "left out by the contract"
                                                       : "no contact by the oracle";
   }
-  return out + line(1, title) + line(2, where) + "</svg>\n";
+  if (!distance.empty()) distance = line(3, distance);
+  return out + line(1, title) + line(2, where) + distance + "</svg>\n";
 }
 
 }  // namespace assay::reports

@@ -11,7 +11,9 @@ namespace assay::reports {
 // time of its contact, seen from the side that shows most of the failing pair. Triangles have the
 // colours of their view sets; if the detector shows none, the two of the pair have a colour each,
 // and the others are grey. The pair is outlined and numbered, ghosts are dashed, and the contact is
-// a disc (exact) and a ring (the detector's). `title` stands below. O(n log n) in the triangles.
+// a disc (exact) and a ring (the detector's): two of these and the segment between them where the
+// nearest points are apart. `title` stands below, and the distance where one is asked for.
+// O(n log n) in the triangles.
 std::string mesh_svg(const CaseScene& scene, const std::string& title);
 
 }  // namespace assay::reports

@@ -7,13 +7,14 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "corpus/formats/sequence_reader.h"
 #include "detector/mesh/mesh_checks.h"
-#include "oracle/mesh/step.h"
+#include "oracle/distance/step_distance.h"
 #include "properties/judging/case_options.h"
-#include "reports/check/check_run.h"
-#include "reports/pictures/contact_point.h"
+#include "reports/check/separation_check.h"
+#include "reports/pictures/contact_places.h"
 #include "reports/python/arrays.h"
 #include "reports/python/calls.h"
 
@@ -30,17 +31,43 @@ void demand_good_input(const detector::TrianglesView& triangles,
     if (const auto bad = detector::check_positions(*x, x_t0.rows())) raise(*bad);
 }
 
+// With a distance the oracle is asked for what comes within it, and not for contacts.
 py::dict judge(const py::object& triangles, const py::object& x_t0, const py::object& x_t1,
-               int jobs) {
+               const std::optional<double>& within, int jobs) {
   const TrianglesArgument mesh(triangles, "triangles");
   const PositionsArgument from(x_t0, "x_t0"), to(x_t1, "x_t1");
   demand_good_input(mesh.view(), from.view(), to.view());
   const auto judgement = interruptible([&](const auto& stop) {
-    return oracle::judge_step({from.view(), to.view()}, mesh.view(), {jobs, stop});
+    const detector::SteppedMesh motion{from.view(), to.view()};
+    const oracle::JudgeOptions options{jobs, stop};
+    return within ? oracle::judge_distance(motion, mesh.view(), {*within, 0}, {options})
+                  : oracle::judge_step(motion, mesh.view(), options);
   });
   py::dict fields = arrays_of(judgement.answer, judgement.first, judgement.pairs);
   fields["feature_candidates"] = judgement.feature_candidates;
   return fields;
+}
+
+// Returns the distance, and the pair, its first time within it and its features; or None where no
+// two triangles count.
+py::object least_distance(const py::object& triangles, const py::object& x_t0,
+                          const py::object& x_t1, int jobs) {
+  const TrianglesArgument mesh(triangles, "triangles");
+  const PositionsArgument from(x_t0, "x_t0"), to(x_t1, "x_t1");
+  demand_good_input(mesh.view(), from.view(), to.view());
+  const auto least = interruptible([&](const auto& stop) {
+    return oracle::least_distance({from.view(), to.view()}, mesh.view(),
+                                  {oracle::JudgeOptions{jobs, stop}});
+  });
+  if (!least.where) return py::none();
+  const auto& [pair, time, feature] = *least.where;
+  py::list vertices;
+  for (const auto v : feature.vertices) {
+    if (v >= 0) vertices.append(v);
+  }
+  return py::make_tuple(least.distance, py::make_tuple(pair.a, pair.b),
+                        py::make_tuple(time.lo, time.hi), detector::name_of(feature.kind),
+                        py::tuple(vertices));
 }
 
 using reports::CheckInput;
@@ -78,7 +105,20 @@ CheckQuestion question_of(const py::dict& given) {
   return question;
 }
 
-CheckInput input_of(const py::object& triangles, const py::list& frames) {
+// The relation of the bodies: by vertex the number of its body, and pairs of bodies that do not
+// meet.
+std::optional<corpus::CaseRelation> relation_of(const py::dict& given, const corpus::Case& c) {
+  corpus::CaseRelation relation;
+  take(given, "bodies", relation.pairs.body);
+  take(given, "apart", relation.pairs.apart);
+  if (relation.pairs.body.empty() && relation.pairs.apart.empty()) return std::nullopt;
+  if (const auto bad =
+          detector::check_counted_pairs(relation.pairs, c.triangles, c.frames[0].rows()))
+    raise(*bad);
+  return relation;
+}
+
+CheckInput input_of(const py::object& triangles, const py::list& frames, const py::dict& given) {
   corpus::Case c;
   c.triangles = TrianglesArgument(triangles, "triangles").view();
   for (const auto& frame : frames) {
@@ -88,13 +128,16 @@ CheckInput input_of(const py::object& triangles, const py::list& frames) {
   }
   if (c.frames.size() < 2) throw py::value_error("a step needs two frames or more");
   if (const auto bad = detector::check_triangles(c.triangles, c.frames[0].rows())) raise(*bad);
+  c.counted = relation_of(given, c);
   return {"frames",
           corpus::steps_of_case(std::make_shared<const corpus::Case>(std::move(c)), false)};
 }
 
 // Returns the report as JSON, what is printed, and the exit code.
-py::tuple checked(CheckInput& input, const CheckQuestion& question, const std::string& worker,
-                  const py::object& listener) {
+py::tuple checked(CheckInput& input, const CheckQuestion& question, const py::dict& given,
+                  const std::string& worker, const py::object& listener) {
+  std::optional<double> separation;
+  take(given, "separation", separation);
   std::string text;
   const auto tell = [&](const std::string& said) {
     text += said;
@@ -102,20 +145,24 @@ py::tuple checked(CheckInput& input, const CheckQuestion& question, const std::s
     const py::gil_scoped_acquire interpreter;
     listener(said);
   };
-  const auto answer = interruptible([&](const auto& stop) {
-    return reports::check_mesh(question, input, worker, {tell, stop});
+  using Answer = reports::SeparationAnswer;
+  const auto answer = interruptible([&](const auto& stop) -> reports::Expected<Answer> {
+    if (separation)
+      return reports::check_separation(question, {*separation, {}}, false, input, {tell, stop});
+    BOOST_OUTCOME_TRY(mesh, reports::check_mesh(question, input, worker, {tell, stop}));
+    return Answer{mesh.outcome.exit_code(false), std::move(mesh.report)};
   });
   if (!answer) throw py::value_error(answer.error().message);
   return py::make_tuple(
       answer.value().report.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace),
-      text, answer.value().outcome.exit_code(false));
+      text, answer.value().exit_code);
 }
 
 py::tuple check_arrays(const py::object& triangles, const py::list& frames, const py::dict& given,
                        const std::string& worker, const py::object& listener) {
   const auto question = question_of(given);
-  auto input = input_of(triangles, frames);
-  return checked(input, question, worker, listener);
+  auto input = input_of(triangles, frames, given);
+  return checked(input, question, given, worker, listener);
 }
 
 // Checks a case file, or files of frames.
@@ -125,7 +172,7 @@ py::tuple check_files(const std::vector<std::string>& files, const py::dict& giv
   question.files = files;
   auto input = reports::read_check_input(files);
   if (!input) throw py::value_error(input.error().message);
-  return checked(input.value(), question, worker, listener);
+  return checked(input.value(), question, given, worker, listener);
 }
 
 using IntegerArray = py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>;
@@ -185,10 +232,10 @@ py::array contact_points(const py::object& triangles, const py::object& x_t0,
     contact.feature.kind = static_cast<detector::FeatureKind>(features.at(k, 0));
     for (std::size_t i = 0; i < contact.feature.vertices.size(); ++i)
       contact.feature.vertices[i] = features.at(k, static_cast<py::ssize_t>(i) + 1);
-    const auto point =
-        reports::contact_point(contact, rows, from.view(), to.view(), contact.time.lo);
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      *out++ = point ? (*point)[axis] : std::numeric_limits<double>::quiet_NaN();
+    const auto places =
+        reports::contact_places(contact, rows, from.view(), to.view(), contact.time.lo);
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+      *out++ = places ? places->middle()[axis] : std::numeric_limits<double>::quiet_NaN();
   }
   return points;
 }
@@ -222,6 +269,7 @@ py::tuple read_sequence(const std::vector<std::string>& files) {
 PYBIND11_MODULE(_judge, module) {
   using namespace assay::python;
   module.def("judge", judge);
+  module.def("least_distance", least_distance);
   module.def("check_arrays", check_arrays);
   module.def("check_files", check_files);
   module.def("contact_points", contact_points);

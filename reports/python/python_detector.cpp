@@ -131,10 +131,14 @@ std::vector<ContractMember> contract_members() {
           {"features", &Description::features, words_of<properties::TestedFeatures>()},
           {"reports", &Description::reports, {"pairs", "no-pairs"}},
           {"margin", &Description::margin, {}},
+          {"separation", &Description::separation, {}},
           {"start_distance", &Description::start_distance, {}},
           {"least_nonzero", &Description::least_nonzero, {}},
           {"largest", &Description::largest, {}},
-          {"time_tolerance", &Description::time_tolerance, {}}};
+          {"time_tolerance", &Description::time_tolerance, {}},
+          {"counts", &Description::counts, words_of<detector::CountedLevel>()},
+          {"rings", &Description::rings, {}},
+          {"rest_distance", &Description::rest_distance, {}}};
 }
 
 py::tuple claim_words() {

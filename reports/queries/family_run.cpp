@@ -30,10 +30,11 @@ void count_query(FamilyCount& count, const JudgedQuery& one, const std::string& 
   ++count.queries;
   count.contacts += one.contact ? 1 : 0;
   count.left_out += one.is_within ? 0 : 1;
-  count.defects += one.failure ? 1 : 0;
-  const bool is_open = one.outcome != Outcome::holds && one.outcome != Outcome::defect;
+  count.defects += one.verdict.failure ? 1 : 0;
+  const auto outcome = one.verdict.outcome;
+  const bool is_open = outcome != Outcome::holds && outcome != Outcome::defect;
   count.undecided += one.is_within && is_open ? 1 : 0;
-  if (one.failure && count.first_failure.empty()) count.first_failure = name;
+  if (one.verdict.failure && count.first_failure.empty()) count.first_failure = name;
 }
 
 class PluginSelfTest {
@@ -48,15 +49,13 @@ class PluginSelfTest {
       std::vector<detector::FourPoints> queries;
       std::vector<std::string> names;
       for (; index < end && queries.size() < at_once; ++index) {
-        const auto query = family.query_at(request_.seed, index);
-        if (!query) continue;
-        queries.push_back(*query);
+        const auto made = family.at(request_.seed, index);
+        if (!made) continue;
+        queries.push_back(made->query);
         names.push_back(fmt::format("{}:{}:{}", family.name(), request_.seed, index));
       }
-      const auto judged = detector_.judge(queries, names);
-      if (!judged) return judged.error();
-      for (std::size_t i = 0; i < queries.size(); ++i)
-        count_query(count, judged.value()[i], names[i]);
+      BOOST_OUTCOME_TRY(judged, detector_.judge(queries, names));
+      for (std::size_t i = 0; i < queries.size(); ++i) count_query(count, judged[i], names[i]);
     }
     return count;
   }
@@ -77,16 +76,15 @@ class PluginSelfTest {
   bool was_over_ = false;
 };
 
-int replay_query(QueryDetector& detector, const QuerySelfTest& request) {
+Expected<int> replay_query(QueryDetector& detector, const QuerySelfTest& request) {
   const auto named = properties::self_test_case(request.replay);
-  const auto query = named ? named->family->query_at(named->seed, named->index) : std::nullopt;
-  if (!query)
-    return refuse(
-        fmt::format("'{}' is no query of the self-test (family:seed:index)", request.replay));
+  const auto made = named ? named->family->at(named->seed, named->index) : std::nullopt;
+  if (!made)
+    return Problem{
+        fmt::format("'{}' is no query of the self-test (family:seed:index)", request.replay)};
   fmt::print("{}", named->family->text(named->seed, named->index));
-  const auto judged = detector.judge({*query}, {request.replay});
-  if (!judged) return refuse(judged.error());
-  const auto& one = judged.value()[0];
+  BOOST_OUTCOME_TRY(judged, detector.judge({made->query}, {request.replay}));
+  const auto& one = judged[0];
   if (!one.run.steps.empty()) {
     const auto& step = one.run.steps[0];
     fmt::print("plug-in: {}{}{}\n", properties::name_of(step.answer),
@@ -99,10 +97,9 @@ int replay_query(QueryDetector& detector, const QuerySelfTest& request) {
 
 }  // namespace
 
-int self_test_of_plugin(const QuerySelfTest& request) {
-  auto opened = QueryDetector::open(request.detector);
-  if (!opened) return refuse(opened.error());
-  auto& detector = opened.value();
+Expected<int> self_test_of_plugin(const QuerySelfTest& request) {
+  BOOST_OUTCOME_TRY(opened, QueryDetector::open(request.detector));
+  auto& detector = opened;
   if (!request.replay.empty()) return replay_query(detector, request);
   fmt::print("{}\n", detector.title());
   fmt::print(family_row, "family", "queries", "contacts", "left out", "defects", "undecided", "s");
@@ -112,9 +109,8 @@ int self_test_of_plugin(const QuerySelfTest& request) {
   for (const auto& family : properties::self_test_families()) {
     if (family->indices(request.queries) == 0 || test.is_over()) continue;
     const double begin = test.seconds();
-    const auto counted = test.run(*family);
-    if (!counted) return refuse(counted.error());
-    const auto& count = counted.value();
+    BOOST_OUTCOME_TRY(counted, test.run(*family));
+    const auto& count = counted;
     if (count.queries == 0) continue;
     fmt::print(family_row, family->name(), count.queries, count.contacts, count.left_out,
                count.defects, count.undecided, fmt::format("{:.1f}", test.seconds() - begin));

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
 
 namespace assay::reports {
@@ -20,6 +21,6 @@ struct QuerySelfTest {
 // Prints a line for each family, then what the plug-in does whatever it claims, and the claims
 // that it breaks. Whole steps are left out. Returns the exit code of the verdict: 1 if a claim is
 // broken, 3 if the time was over.
-int self_test_of_plugin(const QuerySelfTest& request);
+Expected<int> self_test_of_plugin(const QuerySelfTest& request);
 
 }  // namespace assay::reports

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include "properties/campaign/ledger/step_measures.h"
@@ -23,42 +22,23 @@ namespace {
 // The number is chosen so that a library that crashes at each of a million queries is known in a
 // minute.
 constexpr std::uint64_t most_crashes = 100;
-constexpr double query_seconds = 10;  // of processor time, for all queries of a message
-
-properties::WorkerProcess worker_of(const properties::CampaignRequest& request,
-                                    std::uint32_t variation) {
-  properties::WorkerLimits limits{query_seconds, 0, request.isolation, {}, request.threads};
-  limits.variation = variation;
-  return properties::WorkerProcess(request.worker, request.plugin, limits);
-}
-
-bool same_frames(const corpus::Case& a, const corpus::Case& b) {
-  return a.frames[0] == b.frames[0] && a.frames[1] == b.frames[1];
-}
 
 }  // namespace
 
-QueryDetector::QueryDetector(std::unique_ptr<properties::CampaignRequest> request)
-    : request_(std::move(request)),
-      worker_(worker_of(*request_, 0)),
-      second_(worker_of(*request_, 1)) {}
+QueryDetector::QueryDetector(properties::Subject subject)
+    : subject_(std::move(subject)), worker_(subject_.process()), second_(subject_.process(1)) {}
 
 Expected<QueryDetector> QueryDetector::open(const DetectorWords& words) {
-  auto request = std::make_unique<properties::CampaignRequest>();
-  request->worker = properties::worker_program();
   DetectorWords of_queries = words;
   of_queries.part = DetectorPart::query;
-  if (auto chosen = choose_detector(of_queries, *request); !chosen) return chosen.error();
-  const auto& detector = request->detector;
-  if (judged_claims(detector.claims, detector.contract).empty())
+  BOOST_OUTCOME_TRY(subject, choose_detector(of_queries));
+  const auto& detector = subject.detector;
+  if (judged_claims(detector.claims, detector.contract, true).empty())
     return Problem{fmt::format("{}: it claims nothing of its query", words.library)};
-  return QueryDetector(std::move(request));
+  return QueryDetector(std::move(subject));
 }
 
-std::string QueryDetector::title() const {
-  return plugin_text(request_->detector.name, request_->detector.claims,
-                     request_->detector.contract, request_->isolated, request_->threads);
-}
+std::string QueryDetector::title() const { return plugin_text(subject_); }
 
 Expected<std::vector<JudgedQuery>> QueryDetector::judge(
     const std::vector<detector::FourPoints>& queries, const std::vector<std::string>& names) {
@@ -79,15 +59,16 @@ Expected<std::vector<JudgedQuery>> QueryDetector::judge(
         ++left_out_;
       } else {
         ++judged_;
-        const bool is_open = one.outcome == Outcome::undecided || one.outcome == Outcome::error;
+        const bool is_open =
+            one.verdict.outcome == Outcome::undecided || one.verdict.outcome == Outcome::error;
         undecided_ += is_open ? 1 : 0;
       }
-      if (one.failure) {
+      if (const auto& failure = one.verdict.failure) {
         ++defects_;
-        ++broken_[properties::name_of(one.failure->claim)];
-        const auto signature = one.failure->signature();
+        ++broken_[properties::name_of(failure->claim)];
+        const auto signature = failure->signature();
         if (met_[signature]++ == 0)
-          shown_.push_back({name, signature, properties::printable(one.failure->explanation)});
+          shown_.push_back({name, signature, properties::printable(failure->explanation)});
       }
       all.push_back(std::move(one));
     }
@@ -143,46 +124,35 @@ int QueryDetector::exit_code() const {
 }
 
 std::vector<JudgedQuery> QueryDetector::judge_some(std::span<const detector::FourPoints> queries) {
-  const auto& plugin = request_->detector;
+  const auto& plugin = subject_.detector;
+  const properties::Configuration configuration{"query", {}, {}, true};
   std::vector<JudgedQuery> judged(queries.size());
   std::vector<std::size_t> places;
   std::vector<corpus::Case> cases;
-  std::vector<detector::FourPoints> asked;
   for (std::size_t i = 0; i < queries.size(); ++i) {
     const auto given = properties::case_of_query(queries[i], "query");
     auto seen = properties::contracted(given, plugin.contract);
     if (!seen) continue;
     judged[i].is_within = true;
-    judged[i].is_rounded = !same_frames(given, *seen);
+    judged[i].is_rounded = seen->frames != given.frames;
     places.push_back(i);
-    asked.push_back(*properties::query_of(*seen));
     cases.push_back(std::move(*seen));
   }
-  // This starts the worker before the time is taken. If it does not start, the runs say why.
-  [[maybe_unused]] const auto started = worker_.describe();
-  const auto begin = std::chrono::steady_clock::now();
-  auto runs = worker_.ask(asked);
-  const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - begin;
+  auto runs = worker_.run(cases, {&configuration, 1});
   std::vector<properties::CaseRun> again;
   if (plugin.claims.has(properties::Claim::deterministic)) {
-    std::reverse(asked.begin(), asked.end());
-    again = second_.ask(asked);
+    again = second_.run(std::vector(cases.rbegin(), cases.rend()), {&configuration, 1});
     std::reverse(again.begin(), again.end());
   }
-  const properties::Configuration configuration{"query", {}};
   for (std::size_t i = 0; i < places.size(); ++i) {
     JudgedQuery& one = judged[places[i]];
-    const auto truth = properties::judge_case(cases[i], plugin.contract);
-    auto verdict = properties::judge_trial(cases[i], truth, runs[i], configuration, plugin,
-                                           again.empty() ? nullptr : &again[i]);
-    measures_ += properties::measures_of(verdict.steps, runs[i].steps);
-    one.contact = !truth[0].pairs.empty();
-    one.first = truth[0].first;
-    one.outcome = verdict.outcome;
-    one.failure = std::move(verdict.failure);
-    one.microseconds = took.count() / static_cast<double>(places.size());
-    crashes_ += runs[i].end == properties::RunEnd::crashed ? 1 : 0;
     one.run = std::move(runs[i]);
+    crashes_ += one.run.end == properties::RunEnd::crashed ? 1 : 0;
+    const auto truth = properties::judge_case(cases[i], plugin.contract);
+    one.contact = !truth[0].pairs.empty();
+    one.verdict = properties::judge_trial(cases[i], truth, one.run, configuration, plugin,
+                                          again.empty() ? nullptr : &again[i]);
+    measures_ += properties::measures_of(one.verdict.steps, one.run.steps);
   }
   return judged;
 }

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <map>
-#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
@@ -13,9 +12,7 @@
 
 #include "detector/mesh/step_types.h"
 #include "properties/campaign/ledger/step_measures.h"
-#include "properties/campaign/request.h"
-#include "properties/campaign/trials/trial.h"
-#include "properties/worker/worker_process.h"
+#include "properties/judging/trial.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
 
@@ -25,12 +22,9 @@ namespace assay::reports {
 struct JudgedQuery {
   bool is_within = false;   // the contract takes it; else the rest says nothing
   bool is_rounded = false;  // by the contract, so that another query is judged
-  bool contact = false;     // the oracle finds a contact, at `first`
-  detector::TimeEnclosure first;
+  bool contact = false;     // the oracle finds one
   properties::CaseRun run;
-  properties::Outcome outcome = properties::Outcome::undecided;
-  std::optional<properties::Failure> failure;
-  double microseconds = 0;  // clock time of its message over the number of queries in it
+  properties::JudgedTrial verdict;
 };
 
 // A query that broke a claim.
@@ -47,7 +41,9 @@ class QueryDetector {
 
   // The plug-in's name, claims, contract and isolation, one line each.
   std::string title() const;
-  const properties::CampaignRequest& request() const { return *request_; }
+  const std::string& name() const { return subject_.detector.name; }
+  // That of its contract: 0 if it is asked for contact.
+  double separation() const { return subject_.detector.contract.separation; }
 
   // Judges some queries. REQUIRES one name for each. Fails if no worker can be started. A query
   // that is not asked any more, because the plug-in crashed too often before, is counted as not
@@ -64,13 +60,13 @@ class QueryDetector {
   int exit_code() const;
 
  private:
-  explicit QueryDetector(std::unique_ptr<properties::CampaignRequest> request);
+  explicit QueryDetector(properties::Subject subject);
 
-  // Asks and judges some queries in one message. If `deterministic` is claimed, the second worker
-  // is asked too, in the other order. Runs that did not take place end with RunEnd::not_run.
+  // Asks and judges some queries. If `deterministic` is claimed, the second worker is asked too, in
+  // the other order. Runs that did not take place end with RunEnd::not_run.
   std::vector<JudgedQuery> judge_some(std::span<const detector::FourPoints> queries);
 
-  std::unique_ptr<properties::CampaignRequest> request_;
+  properties::Subject subject_;
   properties::WorkerProcess worker_, second_;
   properties::StepMeasures measures_;  // of all queries that were judged
   std::uint64_t crashes_ = 0;

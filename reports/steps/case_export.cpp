@@ -47,8 +47,8 @@ std::string fraction_of(double share) {
 
 // The rows of the three lists in which a step stands.
 struct StepRows {
-  std::string steps, pairs, left_out;
-  std::size_t pair_count = 0, left_out_count = 0;
+  std::string steps, pairs, allowed;
+  std::size_t pair_count = 0, allowed_count = 0;
 };
 
 std::string pair_row(const detector::PairContact& contact, int part) {
@@ -56,15 +56,17 @@ std::string pair_row(const detector::PairContact& contact, int part) {
                      contact.time.lo, contact.time.hi, part);
 }
 
-void add_step(const corpus::CaseStep& step, const properties::StepTruth& truth, bool is_query,
-              StepRows& rows) {
+// `allowed` may be reported or not: what the contract leaves out or, if it has a slack, all that
+// comes within that.
+void add_step(const corpus::CaseStep& step, const properties::StepTruth& truth,
+              const std::vector<detector::PairContact>& allowed, bool is_query, StepRows& rows) {
   const auto time = truth.first ? truth.first->time : detector::TimeEnclosure{};
   // The two triangles of a query only hold the features that are asked for.
   const std::size_t pairs = is_query ? 0 : truth.pairs.size();
   rows.steps += fmt::format("    {{{}, {}, {}, {}, {}, {}, \"{}\", \"{}\", {}, {}, {}, {}}},\n",
                             step.from, step.to, step.commit, truth.first.has_value(), time.lo,
                             time.hi, fraction_of(time.lo), fraction_of(time.hi), rows.pair_count,
-                            pairs, rows.left_out_count, truth.left_out.size());
+                            pairs, rows.allowed_count, allowed.size());
   std::map<detector::TrianglePair, int> part_of;
   int part = 0;
   for (const auto& contacts : properties::contact_parts(truth.pairs, time)) {
@@ -75,9 +77,9 @@ void add_step(const corpus::CaseStep& step, const properties::StepTruth& truth, 
     const auto found = part_of.find(truth.pairs[i].pair);
     rows.pairs += pair_row(truth.pairs[i], found == part_of.end() ? -1 : found->second);
   }
-  for (const auto& contact : truth.left_out) rows.left_out += pair_row(contact, -1);
+  for (const auto& contact : allowed) rows.allowed += pair_row(contact, -1);
   rows.pair_count += pairs;
-  rows.left_out_count += truth.left_out.size();
+  rows.allowed_count += allowed.size();
 }
 
 constexpr const char* head = R"(#include <algorithm>
@@ -116,7 +118,7 @@ struct Step {{
   bool commit, collision;
   double lo, hi;
   const char *lo_as_fraction, *hi_as_fraction;
-  int first_pair, pair_count, first_left_out, left_out_count;
+  int first_pair, pair_count, first_allowed, allowed_count;
 }};
 static const Step steps[] = {{
 {}}};
@@ -133,8 +135,9 @@ struct Pair {{
 static const Pair pairs[] = {{
 {}    {{-1, -1, 0, 0, -1}},  // the end
 }};
-// Contacts that the contract leaves out: the detector may report them or not.
-static const Pair left_out[] = {{
+// What the detector may report or not, but not earlier: contacts that the contract leaves out, or
+// all that comes within its margin.
+static const Pair allowed[] = {{
 {}    {{-1, -1, 0, 0, -1}},  // the end
 }};
 
@@ -148,11 +151,14 @@ static const double time_tolerance = {};
 )";
 
 // "free_sound | total", in the words of the exported file.
-std::string claims_text(const properties::DetectorUnderTest& detector) {
+std::string claims_text(const properties::DetectorUnderTest& detector, bool is_query) {
+  using properties::Claim;
   std::vector<std::string> names;
   const auto claims = detector.claims_in(detector.configurations.front());
-  for (const auto claim : list_of(properties::judged_claims(claims, detector.contract)))
-    names.push_back(replaced(name_of(claim), {{'-', "_"}}));
+  auto judged = properties::judged_claims(claims, detector.contract);
+  // The features of a query are no neighbours, so a slack does not make this void.
+  if (is_query) judged.set(Claim::no_spurious, claims.has(Claim::no_spurious));
+  for (const auto claim : list_of(judged)) names.push_back(replaced(name_of(claim), {{'-', "_"}}));
   return names.empty() ? "0" : joined(names, " | ");
 }
 
@@ -171,8 +177,11 @@ std::string case_text(const corpus::Case& c, const properties::DetectorUnderTest
   const auto query = properties::query_of(c);
   StepRows rows;
   const auto script = corpus::steps_of(c);
-  for (std::size_t s = 0; s < script.size(); ++s)
-    add_step(script[s], truth_of(c, judgements[s], detector.contract), query.has_value(), rows);
+  for (std::size_t s = 0; s < script.size(); ++s) {
+    const auto truth = truth_of(c, judgements[s], detector.contract);
+    add_step(script[s], truth, judgements[s].within_slack.value_or(truth.left_out),
+             query.has_value(), rows);
+  }
   std::string frames;
   for (const auto& frame : c.frames)
     frames += fmt::format("  {{\n{}  }},\n", rows_text(row_of_array, frame));
@@ -180,18 +189,85 @@ std::string case_text(const corpus::Case& c, const properties::DetectorUnderTest
   std::string out =
       fmt::format("// Case {}, with the exact answer to each step.\n// Contract: {}.\n", c.id,
                   phrases.empty() ? "leaves nothing out" : joined(phrases, ", "));
+  if (detector.contract.separation > 0) out += "// To meet is here to come within that distance.\n";
+  if (c.counted) out += "// Of the pairs that count: `counted` of case.json says which do.\n";
   out += head;
   out += query ? fmt::format(fmt::runtime(query_text), query->first_group == 1)
                : fmt::format(fmt::runtime(mesh_text), rows_text(row_of_array, c.triangles),
                              c.triangles.rows(), c.frames[0].rows());
   out += fmt::format(fmt::runtime(lists_text), c.frames[0].rows(), frames, rows.steps,
-                     script.size(), rows.pairs, rows.left_out, all_claims_text(),
-                     claims_text(detector), detector.contract.time_tolerance);
+                     script.size(), rows.pairs, rows.allowed, all_claims_text(),
+                     claims_text(detector, query.has_value()), detector.contract.time_tolerance);
   return out + judging_program;
 }
 
 std::string point_text(const detector::Point& p) {
   return fmt::format("{{{:a}, {:a}, {:a}}}", p[0], p[1], p[2]);
+}
+
+// A list of rows, each in braces, as `row` writes it.
+template <class List, class Row>
+std::string braced(const List& list, const Row& row) {
+  std::vector<std::string> rows;
+  for (const auto& item : list) rows.push_back(row(item));
+  return "{" + joined(rows, ", ") + "}";
+}
+
+std::string two_text(std::int32_t a, std::int32_t b) { return fmt::format("{}, {}", a, b); }
+
+// The relation as the built-in detector takes it.
+std::string relation_text(const detector::CountedPairs& pairs) {
+  const auto number = [](std::int32_t n) { return fmt::format("{}", n); };
+  const auto array = [](const auto& two) { return "{{" + two_text(two[0], two[1]) + "}}"; };
+  return fmt::format(
+      "static const builtin::CountedPairs counted = {{\n"
+      "  *assay::from_name<builtin::CountedLevel>(\"{}\"),\n  {},\n  {},\n  {}, {:a},\n  {},\n  "
+      "{},\n"
+      "  {},\n  {}}};\n",
+      name_of(pairs.level), braced(pairs.body, number), braced(pairs.apart, array), pairs.rings,
+      pairs.rest_distance,
+      braced(pairs.rest, [](const auto& x) { return "{" + point_text(x) + "}"; }),
+      braced(pairs.triangle_pairs,
+             [](const auto& pair) { return "{" + two_text(pair.a, pair.b) + "}"; }),
+      braced(pairs.vertex_faces,
+             [](const auto& pair) { return "{" + two_text(pair.vertex, pair.face) + "}"; }),
+      braced(pairs.edge_pairs,
+             [&](const auto& pair) { return "{" + array(pair.a) + ", " + array(pair.b) + "}"; }));
+}
+
+// The same as a plug-in is told it; a pointer that is null if the case has no relation.
+std::string told_relation_text(const corpus::Case& c) {
+  const auto* pairs = corpus::counted_of(c);
+  if (!pairs || pairs->count_all()) return "static const assay_counted_pairs* counted = nullptr;\n";
+  std::string lists;
+  // An array, the number of its rows as a member, and its name; an empty list is a null pointer.
+  const auto member = [&](const char* type, const char* name, const auto& list, bool has_count,
+                          const auto& row) {
+    const auto count = has_count ? fmt::format("{}, ", list.size()) : "";
+    if (list.empty()) return count + "nullptr";
+    lists += fmt::format("static const {} counted_{}[] = {};\n", type, name, braced(list, row));
+    return fmt::format("{}counted_{}", count, name);
+  };
+  const std::vector<std::string> members = {
+      fmt::format("{}", static_cast<int>(pairs->level)),
+      member("std::int32_t", "body", pairs->body, false,
+             [](std::int32_t n) { return fmt::format("{}", n); }),
+      member("std::int32_t", "apart", pairs->apart, true,
+             [](const auto& two) { return two_text(two[0], two[1]); }),
+      fmt::format("{}, {:a}", pairs->rings, pairs->rest_distance),
+      member("double", "rest", pairs->rest, false,
+             [](const auto& x) { return fmt::format("{:a}, {:a}, {:a}", x[0], x[1], x[2]); }),
+      member("std::int32_t", "triangle_pairs", pairs->triangle_pairs, true,
+             [](const auto& pair) { return two_text(pair.a, pair.b); }),
+      member("std::int32_t", "vertex_faces", pairs->vertex_faces, true,
+             [](const auto& pair) { return two_text(pair.vertex, pair.face); }),
+      member("std::int32_t", "edge_pairs", pairs->edge_pairs, true, [](const auto& pair) {
+        return two_text(pair.a[0], pair.a[1]) + ", " + two_text(pair.b[0], pair.b[1]);
+      })};
+  return lists + fmt::format(
+                     "static const assay_counted_pairs counted_pairs = {{{}}};\n"
+                     "static const assay_counted_pairs* counted = &counted_pairs;\n",
+                     joined(members, ", "));
 }
 
 // The options of the built-in detector, the view that each step is given, and the test.
@@ -207,13 +283,15 @@ std::string test_text(const corpus::Case& c, const detector::Options& options) {
   const auto chosen = [](const char* type, const char* name) {
     return fmt::format("  *assay::from_name<builtin::{}>(\"{}\"),\n", type, name);
   };
+  const auto* pairs = corpus::counted_of(c);
   return fmt::format(
-      "{}static const builtin::Options options = {{\n{}{}{}{}}};\n"
+      "{}{}static const builtin::Options options = {{\n{}{}{}{}{}}};\n"
       "static const Views views[] = {{\n{}}};\n"
       "static const bool is_refused = {}, has_unique_times = {};\n{}",
-      test_head, chosen("Culling", name_of(options.culling)),
+      test_head, pairs ? relation_text(*pairs) : "", chosen("Culling", name_of(options.culling)),
       chosen("Start", name_of(options.start)), chosen("Pairs", name_of(options.pairs)),
-      chosen("Arithmetic", name_of(options.arithmetic)), views,
+      chosen("Arithmetic", name_of(options.arithmetic)),
+      fmt::format("  1, {}, {:a}", pairs ? "&counted" : "nullptr", options.separation), views,
       c.expected.answer == detector::Answer::error,
       properties::claims_of(options).has(properties::Claim::times_unique), test_program);
 }
@@ -235,9 +313,10 @@ Expected<void> export_case(const std::filesystem::path& folder, const corpus::Ca
   if (detector.built_in) {
     files["case_test.cpp"] = test_text(c, detector.configurations.front().options);
   } else {
-    files["case_plugin.cpp"] = std::string(reading_program) +
-                               (properties::says_query(c) ? query_program : mesh_program) +
-                               plugin_program;
+    files["case_plugin.cpp"] =
+        std::string(reading_program) +
+        (properties::says_query(c) ? query_program : told_relation_text(c) + mesh_program) +
+        plugin_program;
   }
   for (const auto& [name, text] : files) {
     BOOST_OUTCOME_TRY(corpus::write_file_atomically(folder / name, text));

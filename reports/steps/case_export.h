@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "properties/campaign/trials/trial.h"
+#include "properties/judging/trial.h"
 #include "reports/terminal/complaint.h"
 
 namespace assay::reports {
@@ -17,9 +17,10 @@ namespace assay::reports {
 //
 // FOLDER/case.cpp needs neither Assay nor a test framework. It holds mesh and frames, or the four
 // points of a query (properties/worker/plugin/query_case.h); for each step what the oracle finds
-// that counts under the contract, with its time as decimals and as fractions, and the contacts that
-// the contract leaves out; the claims; a function that is left to be filled in, and a main() that
-// asks for each claim. Its exit codes are 0: no claim is broken, 1: one is, 2: not filled in.
+// that counts under the contract, with its time as decimals and as fractions, and what else may be
+// reported, because the contract leaves it out or has a slack; the claims; a function that is left
+// to be filled in, and a main() that asks for each claim. Its exit codes are 0: no claim is broken,
+// 1: one is, 2: not filled in.
 //
 // For a plug-in the second file is FOLDER/case_plugin.cpp, whose program takes a library as its
 // word and asks its assay_detector(); it ends with 1 too where the library crashes or exits, if

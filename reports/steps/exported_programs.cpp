@@ -41,8 +41,8 @@ static bool is_wrong(int s, const Found& found) {
   }
   const Pair* const met = pairs + step.first_pair;
   const auto met_count = static_cast<std::size_t>(step.pair_count);
-  const Pair* const other = left_out + step.first_left_out;
-  const auto other_count = static_cast<std::size_t>(step.left_out_count);
+  const Pair* const other = allowed + step.first_allowed;
+  const auto other_count = static_cast<std::size_t>(step.allowed_count);
   const auto reported = [&](const Pair& pair) {
     return find(found.pairs.data(), found.pairs.size(), pair);
   };
@@ -84,7 +84,7 @@ static bool is_wrong(int s, const Found& found) {
   std::printf("\n");
   for (std::size_t i = 0; i < met_count; ++i) {
     const Pair* const ours = reported(met[i]);
-    std::printf("  triangles %d and %d meet at %.17g, ", met[i].a, met[i].b, met[i].lo);
+    std::printf("  triangles %d and %d at %.17g, ", met[i].a, met[i].b, met[i].lo);
     if (ours)
       std::printf("reported at [%.17g, %.17g]\n", ours->lo, ours->hi);
     else
@@ -92,7 +92,7 @@ static bool is_wrong(int s, const Found& found) {
   }
   for (const Pair& ours : found.pairs)
     if (!find(met, met_count, ours) && !find(other, other_count, ours))
-      std::printf("  triangles %d and %d are reported, and do not meet\n", ours.a, ours.b);
+      std::printf("  triangles %d and %d are reported, and should not be\n", ours.a, ours.b);
   return true;
 }
 
@@ -255,13 +255,20 @@ static std::vector<Found> run(const assay_detector_api* api) {
   std::vector<Found> list(step_count);
   assay_handle* handle = nullptr;
   const char* message = nullptr;
-  const std::int32_t code = api->create(&triangles[0][0], triangle_count, &frames[0][0][0],
-                                        vertex_count, &handle, &message);
+  std::int32_t code = api->create(&triangles[0][0], triangle_count, &frames[0][0][0],
+                                  vertex_count, &handle, &message);
+  const char* failing = "create";
+  if (code == ASSAY_OK && handle && counted) {
+    message = nullptr;
+    failing = "count";
+    const bool takes_it = api->abi_version >= 3 && api->count;
+    code = takes_it ? api->count(handle, counted) : std::int32_t(ASSAY_REFUSED);
+  }
   for (int s = 0; s < step_count; ++s) {
     Found& found = list[static_cast<std::size_t>(s)];
     if (code != ASSAY_OK || !handle) {
       found.is_answered = false;
-      if (code != ASSAY_OUT_OF_MEMORY) found.error = message ? message : why(api, "create");
+      if (code != ASSAY_OUT_OF_MEMORY) found.error = message ? message : why(api, failing);
       continue;
     }
     found.is_answered = api->evaluate != nullptr;

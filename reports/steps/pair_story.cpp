@@ -6,10 +6,13 @@
 
 #include "detector/boundary/boundary_handler.h"
 #include "detector/search/moving_box.h"
+#include "oracle/distance/step_distance.h"
 #include "oracle/instant/layers.h"
+#include "oracle/mesh/pair_relation.h"
 #include "oracle/view/candidates.h"
 #include "oracle/view/touched_by_ghosts.h"
 #include "properties/judging/agreement.h"
+#include "properties/judging/body_names.h"
 #include "properties/numbering.h"
 #include "properties/worker/case_player.h"
 #include "reports/steps/step_text.h"
@@ -29,32 +32,61 @@ const char* sign_text(detector::ViewSign sign) {
 class PairStory {
  public:
   PairStory(const corpus::Case& c, const detector::Detector& detector,
-            const detector::TrianglePair& pair)
-      : case_(c), detector_(detector), pair_(pair) {}
+            const detector::TrianglePair& pair, double separation)
+      : case_(c),
+        detector_(detector),
+        pair_(pair),
+        separation_(separation),
+        is_asked_(
+            !leaves_out(properties::contract_of({.separation = separation}), c.triangles, pair)),
+        counts_(is_asked_) {
+    if (!c.counted) return;
+    const auto features = oracle::mesh_features(c.triangles);
+    const oracle::PairRelation relation(c.counted->pairs, features);
+    bodies_meet_ = relation.bodies_meet(c.triangles(pair.a, 0), c.triangles(pair.b, 0));
+    counts_ = is_asked_ && relation.counts_faces(pair.a, pair.b);
+  }
 
   std::string of_step(const detector::StepResult& result, const detector::Positions& x_t0,
                       const detector::Positions& x_t1, const oracle::StepJudgement& truth) const {
     std::string out;
-    const auto layers = layers_at_start(result, x_t0);
+    const auto layers = separation_ > 0 ? std::nullopt : layers_at_start(result, x_t0);
     for (const auto t : {pair_.a, pair_.b}) out += triangle_text(t, result, layers);
     const detector::RoundedPositions points({x_t0, x_t1});
     const auto& triangles = detector_.topology().triangles;
-    const bool boxes_apart =
-        apart(points.box(triangles[at(pair_.a)]), points.box(triangles[at(pair_.b)]));
-    out += fmt::format("    {}; moving boxes {}\n", rule_text(result),
+    const auto by = points.grid().margin(separation_) / 2;  // as the detector's tree grows them
+    const bool boxes_apart = apart(grown(points.box(triangles[at(pair_.a)]), by),
+                                   grown(points.box(triangles[at(pair_.b)]), by));
+    out += fmt::format("    {}; moving boxes{} {}\n", rule_text(result),
+                       separation_ > 0 ? fmt::format(" grown by {}", separation_) : "",
                        boxes_apart ? "are apart: never tested" : "meet");
-    const auto found = std::find_if(truth.pairs.begin(), truth.pairs.end(),
-                                    [&](const auto& contact) { return contact.pair == pair_; });
-    out += found == truth.pairs.end()
-               ? "    oracle: never in contact\n"
-               : fmt::format("    oracle: in contact at t = {} ({})\n", time_text(found->time),
-                             properties::name_of(found->feature.kind));
+    if (!counts_) out += "    the pair does not count: it is reported by neither\n";
+    out += fmt::format("    oracle: {}\n", oracle_text({x_t0, x_t1}, truth));
     const bool reported = std::any_of(result.pairs.begin(), result.pairs.end(),
                                       [&](const auto& contact) { return contact.pair == pair_; });
     return out + fmt::format("    detector: {}\n", reported ? "reported" : "not reported");
   }
 
  private:
+  std::string oracle_text(const detector::SteppedMesh& motion,
+                          const oracle::StepJudgement& truth) const {
+    if (!counts_) return "not asked";
+    const auto found = std::find_if(truth.pairs.begin(), truth.pairs.end(),
+                                    [&](const auto& contact) { return contact.pair == pair_; });
+    if (found != truth.pairs.end())
+      return fmt::format("{} at t = {} ({})", met_text(separation_), time_text(found->time),
+                         properties::name_of(found->feature.kind));
+    const std::string never = "never " + met_text(separation_);
+    if (separation_ == 0) return never;
+    oracle::DistanceOptions options;
+    options.counted = corpus::counted_of(case_);
+    options.also_asked = [&](std::int32_t a, std::int32_t b) {
+      return detector::TrianglePair{a, b} == pair_;
+    };
+    const auto least = oracle::least_distance(motion, case_.triangles, options);
+    return fmt::format("{}; least distance {}", never, least.distance);
+  }
+
   std::int32_t component(std::int32_t t) const {
     return detector_.topology().component_of_triangle[at(t)];
   }
@@ -91,6 +123,8 @@ class PairStory {
   }
 
   std::string rule_text(const detector::StepResult& result) const {
+    if (!is_asked_) return "a common vertex: not asked with a separation";
+    if (!bodies_meet_) return "bodies that do not meet: not searched (L19)";
     if (component(pair_.a) != component(pair_.b)) return "two components: always a candidate (L10)";
     if (result.doubts.empty()) return "no view sets: every pair is a candidate";
     const oracle::Candidates k(
@@ -102,6 +136,10 @@ class PairStory {
   const corpus::Case& case_;
   const detector::Detector& detector_;
   detector::TrianglePair pair_;
+  double separation_;
+  bool is_asked_;  // not of two with a common vertex, if there is a separation
+  bool counts_;    // nor where the case's relation says so
+  bool bodies_meet_ = true;
 };
 
 }  // namespace
@@ -111,9 +149,10 @@ std::string pair_story(const corpus::Case& c, const detector::Options& options,
                        const std::vector<oracle::StepJudgement>& truth) {
   auto made = properties::CasePlayer::make(c, options);
   if (!made) return fmt::format("  refused: {}\n", made.error().message);
-  std::string out = fmt::format("  why {}, {}:\n", pair.a, pair.b);
+  std::string out = fmt::format("  why {}, {}{}:\n", pair.a, pair.b,
+                                properties::bodies_text(corpus::counted_of(c), c.triangles, pair));
   auto& player = made.value();
-  const PairStory story(c, player.detector(), pair);
+  const PairStory story(c, player.detector(), pair, options.separation);
   for (std::size_t s = 0; s < player.steps(); ++s) {
     out += fmt::format("   step {}:\n", s + 1) +
            story.of_step(player.play(s), player.x_t0(s), player.x_t1(s), truth[s]);

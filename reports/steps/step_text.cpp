@@ -7,6 +7,7 @@
 
 #include "detector/step_result.h"
 #include "properties/judging/agreement.h"
+#include "properties/judging/body_names.h"
 
 namespace assay::reports {
 
@@ -34,7 +35,7 @@ std::string verdict_text(const properties::StepDiff& diff) {
   return diff.outcome == Outcome::undecided ? "undecided" : "DIFFER";
 }
 
-std::string diff_text(const properties::StepDiff& diff, bool has_stages) {
+std::string diff_text(const properties::StepDiff& diff, const ShownWork& shown) {
   std::string out = fmt::format("  diff: {} missing, {} spurious, {} late, {} early{}{}{}\n",
                                 diff.missing.size(), diff.spurious.size(), diff.late.size(),
                                 diff.early.size(), diff.wrong_answer() ? ", wrong answer" : "",
@@ -50,7 +51,9 @@ std::string diff_text(const properties::StepDiff& diff, bool has_stages) {
                         bool has_features) {
     for (std::size_t i = 0; i < pairs.size() && i < most_listed; ++i) {
       const auto& [pair, time, feature] = pairs[i];
-      out += fmt::format("  {}: triangles {} and {} at t = {}", heading, pair.a, pair.b,
+      const auto bodies =
+          shown.counted ? properties::bodies_text(shown.counted, *shown.triangles, pair) : "";
+      out += fmt::format("  {}: triangles {} and {}{} at t = {}", heading, pair.a, pair.b, bodies,
                          time_text(time));
       out += has_features ? fmt::format(" ({})\n", properties::name_of(feature.kind)) : "\n";
     }
@@ -58,7 +61,7 @@ std::string diff_text(const properties::StepDiff& diff, bool has_stages) {
       out += fmt::format("  ... {} more\n", pairs.size() - most_listed);
   };
   list("missing", diff.missing, true);
-  list("spurious", diff.spurious, has_stages);
+  list("spurious", diff.spurious, shown.has_stages);
   list("no candidate", diff.missing_candidates, true);
   return out;
 }
@@ -103,6 +106,10 @@ std::string stages_text(const detector::StepResult& result, std::optional<double
 
 }  // namespace
 
+std::string met_text(double separation) {
+  return separation > 0 ? fmt::format("within {}", separation) : "in contact";
+}
+
 std::string left_out_text(const properties::StepTruth& truth) {
   if (truth.left_out.empty()) return "";
   const auto first = std::min_element(truth.left_out.begin(), truth.left_out.end(),
@@ -120,7 +127,8 @@ std::string step_text(std::size_t number, const detector::StepResult& result,
                                 has_answer ? properties::name_of(result.answer) : "no answer");
   if (result.answer == Answer::collision) {
     out += fmt::format(" at t = {}", time_text(result.first));
-    if (shown.reports_pairs) out += fmt::format(", {} pairs in contact", result.pairs.size());
+    if (shown.reports_pairs)
+      out += fmt::format(", {} pairs {}", result.pairs.size(), met_text(shown.separation));
   }
   if (!diff) {
     out += "; not judged\n";
@@ -145,7 +153,7 @@ std::string step_text(std::size_t number, const detector::StepResult& result,
                        diff->candidates->given, diff->candidates->least,
                        diff->missing_candidates.size());
   out += times_text(*diff, shown.has_stages);
-  if (diff->outcome != Outcome::holds || differs(*diff)) out += diff_text(*diff, shown.has_stages);
+  if (diff->outcome != Outcome::holds || differs(*diff)) out += diff_text(*diff, shown);
   return out;
 }
 

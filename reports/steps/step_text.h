@@ -15,11 +15,18 @@ namespace assay::reports {
 // One double if the enclosure is exact or its ends look alike at 9 digits, else both ends.
 std::string time_text(const detector::TimeEnclosure& time);
 
+// "in contact", or with a separation above 0 "within 0.1".
+std::string met_text(double separation);
+
 // What can be shown of a detector's work.
 struct ShownWork {
   bool has_stages = true;     // view sets, counts, times and features: the built-in detector's
   bool reports_pairs = true;  // by its contract
   std::optional<double> create_ms;  // to be shown, if it is given
+  // What names pairs by their bodies; null: there is no relation.
+  const detector::CountedPairs* counted = nullptr;
+  const detector::Triangles* triangles = nullptr;
+  double separation = 0;  // of the contract
 };
 
 // What the oracle says of a step: its judgement, the part of it that counts under the detector's

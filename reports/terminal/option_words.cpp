@@ -42,9 +42,12 @@ VerbOption Verb::add(const std::string& name, Target& target, const std::string&
 }
 template VerbOption Verb::add(const std::string&, std::string&, const std::string&);
 template VerbOption Verb::add(const std::string&, std::vector<std::string>&, const std::string&);
+template VerbOption Verb::add(const std::string&, std::vector<std::vector<std::string>>&,
+                              const std::string&);
 template VerbOption Verb::add(const std::string&, int&, const std::string&);
 template VerbOption Verb::add(const std::string&, std::uint64_t&, const std::string&);
 template VerbOption Verb::add(const std::string&, double&, const std::string&);
+template VerbOption Verb::add(const std::string&, std::vector<double>&, const std::string&);
 template VerbOption Verb::add(const std::string&, std::optional<double>&, const std::string&);
 
 VerbOption Verb::add_flag(const std::string& name, bool& target, const std::string& about) {
@@ -67,6 +70,14 @@ std::optional<double> number_of(const std::string& word) {
 }
 
 }  // namespace
+
+std::optional<std::array<std::int32_t, 2>> two_numbers(const std::string& word) {
+  const auto comma = word.find(',');
+  if (comma == std::string::npos) return std::nullopt;
+  const auto a = whole_number_of<std::int32_t>(word.substr(0, comma));
+  const auto b = whole_number_of<std::int32_t>(word.substr(comma + 1));
+  return a && b ? std::optional(std::array{*a, *b}) : std::nullopt;
+}
 
 std::optional<std::uint64_t> memory_size(const std::string& word) {
   const auto digits = word.find_first_not_of("0123456789");
@@ -98,6 +109,15 @@ Check positive() {
             return number && *number > 0 && std::isfinite(*number)
                        ? ""
                        : fmt::format("'{}' is not a number above 0", word);
+          }};
+}
+
+Check length() {
+  return {"NUMBER >= 0", [](const std::string& word) {
+            const auto number = number_of(word);
+            return number && *number >= 0 && std::isfinite(*number)
+                       ? ""
+                       : fmt::format("'{}' is not a number of 0 or more", word);
           }};
 }
 

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <charconv>
 #include <cstdint>
 #include <functional>
@@ -16,7 +17,7 @@
 #include <system_error>
 #include <vector>
 
-#include "properties/worker/isolation/isolation.h"
+#include "properties/judging/subject.h"
 #include "reports/terminal/complaint.h"
 
 namespace CLI {
@@ -112,6 +113,9 @@ std::optional<T> whole_number_of(const std::string& word) {
   return is_number ? std::optional(number) : std::nullopt;
 }
 
+// "3,17": two numbers, which may be equal. Nothing for other words.
+std::optional<std::array<std::int32_t, 2>> two_numbers(const std::string& word);
+
 // "6GB", "6G", "512MB", "1000" (bytes); K or KB, M or MB, G or GB are 2^10, 2^20, 2^30 bytes.
 // Nothing for other words.
 std::optional<std::uint64_t> memory_size(const std::string& word);
@@ -119,12 +123,11 @@ std::optional<std::uint64_t> memory_size(const std::string& word);
 std::string memory_word(std::uint64_t bytes);
 
 Check positive();      // a number above 0
+Check length();        // a finite number >= 0
 Check whole_number();  // 0 .. 2^64-1
 Check share();         // a number above 0, at most 1
 
-// Which part of a plug-in is judged. `by_library`: all that it holds, its steps or candidates and
-// its query.
-enum class DetectorPart : std::uint8_t { by_library, steps, query };
+using properties::DetectorPart;
 
 // A detector as the user names it.
 struct DetectorWords {

@@ -55,24 +55,6 @@ std::string no_picture(const BenchRequest& request, const Suite* suite) {
   return cannot_draw();
 }
 
-// The plug-in. It is loaded once here, so that what is wrong with it is known before any work.
-Expected<BenchedPlugin> plugin_of(const BenchRequest& request) {
-  const auto& words = request.detector;
-  BenchedPlugin plugin;
-  plugin.library = words.library;
-  plugin.jobs = request.settings.jobs;
-  plugin.limits.seconds = request.settings.case_seconds;
-  plugin.limits.isolation = words.isolation;
-  plugin.limits.threads = words.threads;
-  properties::WorkerProcess worker(properties::worker_program(), words.library, plugin.limits);
-  BOOST_OUTCOME_TRY(description, worker.describe());
-  plugin.description = std::move(description);
-  plugin.limits.least = worker.isolation();
-  if (!plugin.description.parts.steps)
-    return Problem{fmt::format("{}: it holds no steps, which are what is timed", words.library)};
-  return plugin;
-}
-
 constexpr double quick_scale = .1;
 
 Expected<BenchReport> measure(const BenchRequest& request) {
@@ -82,7 +64,11 @@ Expected<BenchReport> measure(const BenchRequest& request) {
   const BenchProgress progress = {[&](const std::string& name) { line.phase(name); },
                                   [&] { line.tick(); }};
   if (!request.suite.empty()) return suite_named(request.suite)->run(settings, progress);
-  BOOST_OUTCOME_TRY(plugin, plugin_of(request));
+  // It is loaded once here, so that what is wrong with it is known before any work.
+  BOOST_OUTCOME_TRY(plugin, choose_detector(request.detector, {.seconds = settings.case_seconds}));
+  if (!plugin.description.parts.steps)
+    return Problem{
+        fmt::format("{}: it holds no steps, which are what is timed", request.detector.library)};
   return detector_suite(settings, plugin, progress);
 }
 

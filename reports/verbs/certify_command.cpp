@@ -83,8 +83,8 @@ class Certification {
                            absolute_path(words_.own_cases), absolute_path(words_.data)});
     keep(input_digests());
     if (request_.plugin)
-      keep(properties::PluginIsolation{properties::checks_shard, name_of(request_.isolation),
-                                       text_of(request_.isolated)});
+      keep(properties::PluginIsolation{properties::checks_shard, name_of(request_.limits.isolation),
+                                       text_of(request_.limits.least)});
     keep(properties::asked_of_a_certificate());
   }
 

@@ -2,9 +2,11 @@
 // detector and, unless it is left out, the oracle, and the two are compared.
 #include <fmt/format.h>
 
+#include <array>
+
 #include "properties/judging/case_options.h"
 #include "properties/worker/worker_process.h"
-#include "reports/check/check_run.h"
+#include "reports/check/separation_check.h"
 #include "reports/terminal/text_file.h"
 #include "reports/verbs/verbs.h"
 
@@ -13,17 +15,31 @@ namespace {
 
 struct CheckRequest {
   std::vector<std::string> files;  // the frames of one mesh, or one case file
+  std::vector<std::string> apart;  // words "A,B"
   CheckQuestion question;
+  std::optional<double> separation;
+  std::vector<double> offsets;
   bool fail_on_collision = false;
   std::string json_file;  // empty: not written
 };
 
 Expected<int> run_check(const CheckRequest& request) {
-  // This is asked before the work, not after it.
-  BOOST_OUTCOME_TRY(may_write(request.json_file, request.files));
-  BOOST_OUTCOME_TRY(input, read_check_input(request.files));
   CheckQuestion question = request.question;
   question.files = request.files;
+  for (const auto& files : question.bodies)
+    question.files.insert(question.files.end(), files.begin(), files.end());
+  if (question.files.empty()) return Problem{"frames is required, or --body for each mesh"};
+  for (const auto& word : request.apart) question.apart.push_back(*two_numbers(word));
+  if (!question.apart.empty() && question.bodies.empty())
+    return Problem{"--apart is of bodies, which --body names"};
+  if (!request.offsets.empty() && request.offsets.size() != question.bodies.size())
+    return Problem{
+        fmt::format("{} offsets for {} bodies: give one for each --body, in the same order",
+                    request.offsets.size(), question.bodies.size())};
+  // This is asked before the work, not after it.
+  BOOST_OUTCOME_TRY(may_write(request.json_file, question.files));
+  BOOST_OUTCOME_TRY(input, question.bodies.empty() ? read_check_input(request.files)
+                                                   : read_bodies(question.bodies, question.apart));
   question.wants_report = !request.json_file.empty();
   question.announced_file = request.json_file;
   const CheckListener terminal{[](const std::string& text) {
@@ -31,6 +47,15 @@ Expected<int> run_check(const CheckRequest& request) {
                                  std::fflush(stdout);
                                },
                                {}};
+  if (request.separation || !request.offsets.empty()) {
+    const AskedDistance d = {request.separation.value_or(0), request.offsets};
+    BOOST_OUTCOME_TRY(near,
+                      check_separation(question, d, request.fail_on_collision, input, terminal));
+    if (question.wants_report) {
+      BOOST_OUTCOME_TRY(write_json_file(request.json_file, near.report));
+    }
+    return near.exit_code;
+  }
   BOOST_OUTCOME_TRY(answer, check_mesh(question, input, properties::worker_program(), terminal));
   if (question.wants_report) {
     BOOST_OUTCOME_TRY(write_json_file(request.json_file, answer.report));
@@ -39,31 +64,57 @@ Expected<int> run_check(const CheckRequest& request) {
 }
 
 void add_options(Verb& verb, CheckRequest& request) {
-  verb.add("frames", request.files,
-           "Two or more frames (OBJ, PLY, OFF; .gz too), or one case file (.json)")
-      .required();
+  const auto frames =
+      verb.add("frames", request.files,
+               "Two or more frames (OBJ, PLY, OFF; .gz too), or one case file (.json)");
+  verb.add("--body", request.question.bodies,
+           "The frames of one of several meshes, which become bodies of one; numbered from 0. One "
+           "frame: it stands still")
+      .excludes(frames);
+  verb.add("--apart", request.apart, "A,B: bodies that do not meet; A,A: one that meets not itself")
+      .with(one_of("A,B: two bodies by number", two_numbers));
   auto plugin =
       add_detector_alone(verb, request.question.detector,
                          "A plug-in's library, or python:MODULE:CLASS (default: the built-in)");
   add_threads(verb, request.question.threads);
   auto& built_in = request.question.built_in;
-  plugin
-      .excludes(add_choice(verb, "--culling", built_in.culling, all_names<detector::Culling>(),
-                           from_name<detector::Culling>, "How the detector culls (default auto)"))
-      .excludes(add_choice(verb, "--start", built_in.start, all_names<detector::Start>(),
-                           from_name<detector::Start>,
-                           "What is known of the first frame (default verified)"))
-      .excludes(add_choice(verb, "--pairs", built_in.pairs, all_names<detector::Pairs>(),
-                           from_name<detector::Pairs>, "Which pairs are asked for (default all)"))
-      .excludes(add_choice(verb, "--arithmetic", built_in.arithmetic,
-                           all_names<detector::Arithmetic>(), from_name<detector::Arithmetic>,
-                           "What the detector computes in (default exact)"));
+  const std::array of_built_in = {
+      add_choice(verb, "--culling", built_in.culling, all_names<detector::Culling>(),
+                 from_name<detector::Culling>, "How the detector culls (default auto)"),
+      add_choice(verb, "--start", built_in.start, all_names<detector::Start>(),
+                 from_name<detector::Start>, "What is known of the first frame (default verified)"),
+      add_choice(verb, "--pairs", built_in.pairs, all_names<detector::Pairs>(),
+                 from_name<detector::Pairs>, "Which pairs are asked for (default all)"),
+      add_choice(verb, "--arithmetic", built_in.arithmetic, all_names<detector::Arithmetic>(),
+                 from_name<detector::Arithmetic>, "What the detector computes in (default exact)")};
   const auto no_oracle = verb.add_flag("--no-oracle", request.question.no_oracle,
                                        "Detector only; prints `not judged`");
-  verb.add("--second-opinion", request.question.second_opinion,
-           "Check the oracle itself by other methods, on this share of its questions")
-      .with(share())
-      .excludes(no_oracle);
+  const auto second_opinion =
+      verb.add("--second-opinion", request.question.second_opinion,
+               "Check the oracle itself by other methods, on this share of its questions")
+          .with(share())
+          .excludes(no_oracle);
+  auto separation =
+      verb.add("--separation", request.separation,
+               "Ask the oracle alone which triangles that share no vertex come within this "
+               "distance, when first, and how near any two come")
+          .with(length())
+          .excludes(plugin)
+          .excludes(no_oracle)
+          .excludes(second_opinion);
+  auto offset = verb.add("--offset", request.offsets,
+                         "The same with a length for each --body, in their order: the distance of "
+                         "two triangles is the sum of their bodies' lengths")
+                    .with(length())
+                    .excludes(plugin)
+                    .excludes(no_oracle)
+                    .excludes(second_opinion)
+                    .excludes(separation);
+  for (const auto& option : of_built_in) {
+    plugin.excludes(option);
+    separation.excludes(option);
+    offset.excludes(option);
+  }
   add_jobs(verb, request.question.jobs);
   verb.add("--time", request.question.time_limit,
            "Limit in seconds of processor time, all threads together; what is left is "
@@ -73,7 +124,7 @@ void add_options(Verb& verb, CheckRequest& request) {
              "a whole number above 0, alone or with K, M or G", memory_size,
              "Limit of resident memory, such as 6GB or 512MB (MB: 2^20 bytes)");
   verb.add_flag("--fail-on-collision", request.fail_on_collision,
-                "Exit code 5 when they agree on a collision");
+                "Exit code 5 when they agree on a collision, or a step comes within --separation");
   verb.add("--json", request.json_file, "Write the report here (assay-check/1)");
 }
 

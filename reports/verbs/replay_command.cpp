@@ -85,8 +85,8 @@ std::optional<std::string> choose_configurations(const corpus::Case& c,
   if (!read) return read.error().message;
   const auto& options = read.value();
   const char* first = options.pairs == detector::Pairs::first ? "/first" : "";
-  detector.configurations = {
-      {fmt::format("{}{}", properties::name_of(options.culling), first), options}};
+  detector =
+      detector.in({fmt::format("{}{}", properties::name_of(options.culling), first), options});
   return std::nullopt;
 }
 
@@ -100,8 +100,8 @@ void print_steps(const corpus::Case& c, const std::vector<oracle::StepJudgement>
                script[s].commit ? "committed" : "evaluated only",
                properties::name_of(truth.answer()));
     if (truth.first) {
-      fmt::print(" at t = {}, {} pair{} in contact", time_text(truth.first->time),
-                 truth.pairs.size(), truth.pairs.size() == 1 ? "" : "s");
+      fmt::print(" at t = {}, {} pair{} {}", time_text(truth.first->time), truth.pairs.size(),
+                 truth.pairs.size() == 1 ? "" : "s", met_text(contract.separation));
     }
     fmt::print("{}\n", left_out_text(truth));
   }
@@ -178,15 +178,13 @@ Expected<int> run_replay(const ReplayRequest& request) {
   if (trial) {
     if (const auto line = misspelt(request.id_or_file); !line.empty()) return Problem{line};
   }
-  properties::CampaignRequest subject;
-  subject.worker = properties::worker_program();
   auto words = request.detector;
   const bool is_query =
       trial ? properties::is_query_family(trial->family->name) : properties::says_query(c);
   if (is_query && words.library.empty())
     return Problem{"this is a query of a plug-in: name its library by --detector"};
   words.part = is_query ? DetectorPart::query : DetectorPart::steps;
-  BOOST_OUTCOME_TRY(choose_detector(words, subject));
+  BOOST_OUTCOME_TRY(subject, choose_detector(words));
   const auto& contract = subject.detector.contract;
   if (trial) c = properties::case_within(contract, *trial->family, request.id_or_file).made.c;
   if (auto problem = choose_configurations(c, subject.detector)) {
@@ -209,8 +207,7 @@ Expected<int> run_replay(const ReplayRequest& request) {
                                request.id_or_file, properties::why_left_out(c, contract))};
   }
   const auto truth = properties::judge_case(*seen, contract);
-  properties::WorkerLimits limits{.isolation = subject.isolation, .threads = subject.threads};
-  properties::WorkerProcess worker(subject.worker, subject.plugin, limits);
+  auto worker = subject.process();
   const auto runs = worker.run(*seen, subject.detector.configurations);
   for (const auto& run : runs) {
     if (run.end == properties::RunEnd::not_run) return Problem{run.explanation};
@@ -219,10 +216,7 @@ Expected<int> run_replay(const ReplayRequest& request) {
   // in which each step is evaluated twice.
   const bool asks_twice =
       !subject.detector.built_in && subject.detector.claims.has(properties::Claim::deterministic);
-  limits.variation = 1;
-  limits.asks_twice = true;
-  limits.least = worker.isolation();
-  properties::WorkerProcess second(subject.worker, subject.plugin, limits);
+  auto second = subject.process(1, true);
   const auto again = asks_twice ? second.run(*seen, subject.detector.configurations)
                                 : std::vector<properties::CaseRun>{};
   if (!request.export_folder.empty()) {
@@ -257,12 +251,10 @@ Expected<int> run_replay(const ReplayRequest& request) {
 
 // Reads "3,17", for example.
 std::optional<detector::TrianglePair> parse_pair(const std::string& word) {
-  const auto comma = word.find(',');
-  if (comma == std::string::npos) return std::nullopt;
-  const auto a = whole_number_of<std::int32_t>(word.substr(0, comma));
-  const auto b = whole_number_of<std::int32_t>(word.substr(comma + 1));
-  if (!a || !b || *a == *b) return std::nullopt;
-  return detector::TrianglePair{std::min(*a, *b), std::max(*a, *b)};
+  const auto two = two_numbers(word);
+  if (!two || (*two)[0] == (*two)[1]) return std::nullopt;
+  const auto [a, b] = std::minmax((*two)[0], (*two)[1]);
+  return detector::TrianglePair{a, b};
 }
 
 void add_options(Verb& verb, ReplayRequest& request) {

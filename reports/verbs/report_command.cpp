@@ -52,7 +52,7 @@ Expected<int> run_report(const ReportRequest& request) {
   }
   progress.finish();
   const Json data = {
-      {"schema", "assay-report/2"}, {"version", version_text()}, {"runs", std::move(runs)}};
+      {"schema", "assay-report/3"}, {"version", version_text()}, {"runs", std::move(runs)}};
   BOOST_OUTCOME_TRY(write_text_file(request.out, page_text(page_template(), data)));
   for (const auto& run : data["runs"]) {
     fmt::print("{}: {}; {}\n", run["folder"].get<std::string>(), run["verdict"].get<std::string>(),

@@ -34,7 +34,7 @@ double share_of(std::uint64_t part, std::uint64_t whole) {
 
 void print_row(const std::string& name, const QueryTally& t, double seconds) {
   const std::uint64_t judged = t.rungs.axis + t.rungs.interval + t.rungs.quadratic;
-  fmt::print("{:<14}{:>10}{:>10}{:>16}{:>8}{:>9.2f}{:>12.2f}{:>13.2f}{:>9.1f}\n", name, t.queries,
+  fmt::print("{:<22}{:>10}{:>10}{:>16}{:>8}{:>9.2f}{:>12.2f}{:>13.2f}{:>9.1f}\n", name, t.queries,
              t.contacts, t.contradictions, t.open, share_of(t.rungs.axis, judged),
              share_of(t.rungs.interval, judged), share_of(t.rungs.quadratic, judged), seconds);
   std::fflush(stdout);
@@ -76,13 +76,13 @@ void announce(const SelfTestRequest& request) {
       request.time_limit ? fmt::format("done, or {:.0f} s from now", *request.time_limit) : "done");
   for (const auto& family : properties::self_test_families()) {
     if (family->indices(request.queries) > 0) {
-      fmt::print("  {:<14}{}\n", family->name(), family->about());
+      fmt::print("  {:<22}{}\n", family->name(), family->about());
     } else {
-      fmt::print("  {:<14}left out: more --queries wanted for {}\n", family->name(),
+      fmt::print("  {:<22}left out: more --queries wanted for {}\n", family->name(),
                  family->about());
     }
   }
-  fmt::print("{:<14}{:>10}{:>10}{:>16}{:>8}{:>9}{:>12}{:>13}{:>9}\n", "family", "queries",
+  fmt::print("{:<22}{:>10}{:>10}{:>16}{:>8}{:>9}{:>12}{:>13}{:>9}\n", "family", "queries",
              "contacts", "contradictions", "open", "axis %", "interval %", "quadratic %", "s");
   std::fflush(stdout);
 }

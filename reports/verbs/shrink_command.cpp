@@ -64,17 +64,13 @@ Expected<int> run_shrink(const ShrinkRequest& request) {
     return Problem{
         fmt::format("{}: a query of a plug-in: name its library by --detector", request.file)};
   words.part = is_query ? DetectorPart::query : DetectorPart::steps;
-  properties::CampaignRequest subject;
-  subject.worker = properties::worker_program();
-  BOOST_OUTCOME_TRY(choose_detector(words, subject));
+  BOOST_OUTCOME_TRY(subject, choose_detector(words));
   const auto options = properties::read_options(is_query ? corpus::Case() : c);
   if (!options) return Problem{fmt::format("{}: {}", request.file, options.error().message)};
   if (subject.detector.built_in && !c.options.empty()) {
-    subject.detector.configurations = {{"the case's own", options.value()}};
+    subject.detector = subject.detector.in({"the case's own", options.value()});
   }
-  constexpr double hang_seconds = 10;
-  properties::WorkerProcess worker(subject.worker, subject.plugin,
-                                   {hang_seconds, 0, subject.isolation, {}, subject.threads});
+  auto worker = subject.process();
   const auto failing = find_failure(c, subject.detector, worker);
   if (!failing) {
     fmt::print("{}: holds in every configuration; there is nothing to shrink\n", request.file);

@@ -122,7 +122,7 @@ int write(int argc, char** argv) {
     for (const auto& generator : generators) {
       if (i % static_cast<std::uint64_t>(generator.one_in) != 0) continue;
       const auto query = generator.make(seed, i).query;
-      const auto answer = properties::ask_oracle(query, detector::Want::first_time);
+      const auto answer = oracle::contact_of(query, detector::Want::first_time);
       facts.queries.push_back({query, answer.contact, answer.first});
     }
   }

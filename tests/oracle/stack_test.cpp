@@ -36,7 +36,7 @@ FourMoving any_exponents(test::Random& random, bool flat) {
 
 template <class Feature>
 void expect_answered(const Feature& query) {
-  const auto first = first_time_by_kernel(query);
+  const auto first = first_time_by_kernel(four_points(query));
   const ContactAnswer answer = [&] {
     if constexpr (std::is_same_v<Feature, VertexFace>) {
       return vertex_face_contact(query, Want::first_time);

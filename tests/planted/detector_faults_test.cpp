@@ -1,6 +1,6 @@
 // Planted faults of the detector: each is found by its curated case, which the right detector
 // passes; the equivalent ones are never found.
-#include "properties/judging/fault_run.h"
+#include "properties/campaign/phases/fault_hunt.h"
 #include "properties/worlds/small_steps.h"
 #include "tests/curated_cases.h"
 #include "tests/test.h"
@@ -41,8 +41,10 @@ TEST_P(Planted, IsFoundByItsCase) {
   const corpus::Case* c = curated(fault.curated);
   ASSERT_NE(c, nullptr) << "no case " << fault.curated;
   const auto judgements = judge_case(*c);
-  EXPECT_FALSE(first_defect_without(*c, fault, judgements)) << "the right detector fails too";
-  EXPECT_TRUE(first_defect(*c, fault, judgements)) << fault.about;
+  Fault right = fault;
+  right.stages = detector::standard_stages;
+  EXPECT_FALSE(failure_of_fault(right, *c, judgements)) << "the right detector fails too";
+  EXPECT_TRUE(failure_of_fault(fault, *c, judgements)) << fault.about;
 }
 
 INSTANTIATE_TEST_SUITE_P(Faults, Planted, testing::ValuesIn(with_status(FaultStatus::planted)),
@@ -94,7 +96,7 @@ class NeverShows : public testing::TestWithParam<Fault> {};
 
 TEST_P(NeverShows, OnCuratedCases) {
   for (const auto& c : tests::curated_cases()) {
-    EXPECT_FALSE(first_defect(c, GetParam(), judge_case(c))) << c.id;
+    EXPECT_FALSE(failure_of_fault(GetParam(), c, judge_case(c))) << c.id;
   }
 }
 
@@ -139,7 +141,7 @@ TEST(PlantedFaults, SmallStepsShowThemAndNoEquivalentOne) {
     for (const auto& fault : faults()) {
       if (fault.status == FaultStatus::planted && i >= steps_of_planted) continue;
       const bool is_line = fault.options.culling == detector::Culling::view_line;
-      const auto defect = first_defect(is_line ? line : point, fault, judgements);
+      const auto defect = failure_of_fault(fault, is_line ? line : point, judgements);
       found[fault.name] += defect.has_value();
       ASSERT_TRUE(!defect || fault.status != FaultStatus::equivalent)
           << fault.name << ", seed " << seed << ", case " << i;

@@ -71,7 +71,7 @@ RunReply all_free(const RunRequest& request, std::uint64_t place) {
   RunReply reply;
   reply.number = request.number;
   reply.place = place;
-  reply.run.steps.resize(assay::corpus::steps_of(request.c).size());
+  reply.run.steps.resize(assay::corpus::steps_of(request.cases.front()).size());
   for (auto& step : reply.run.steps) step.answer = Answer::free;
   return reply;
 }
@@ -99,23 +99,6 @@ Forgery colliding(assay::detector::PairContact contact, int times = 1) {
 
 Forgery with_candidates(const std::vector<assay::detector::TrianglePair>& pairs) {
   return changed([pairs](RunReply& r) { r.run.candidates = {pairs}; });
-}
-
-// Of answers to queries; the bytes of a reply whose answers are all free.
-std::string forged_answers(const QueryRequest& request, const std::string& mode) {
-  QueryReply reply{request.number, {}};
-  reply.answers.resize(request.queries.size(), {Answer::free, {}, ""});
-  auto& first = reply.answers.front();
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  if (mode == "forge-query-count") reply.answers.emplace_back();
-  if (mode == "forge-query-none") reply.answers.clear();
-  if (mode == "forge-query-nan") first.first = {nan, nan};
-  if (mode == "forge-query-time") first.first = {0, 2};
-  if (mode == "forge-query-answer") first.answer = static_cast<Answer>(9);
-  if (mode == "forge-query-text") first.explanation = "fine\n\033[2Jcertified";
-  if (mode == "forge-query-long") first.explanation.assign(1 << 20, 'x');
-  if (mode == "forge-query-number") ++reply.number;
-  return encode(reply);
 }
 
 const std::map<std::string, Forgery>& forgeries() {
@@ -177,6 +160,24 @@ const std::map<std::string, Forgery>& forgeries() {
       {"forge-candidate-negative", with_candidates({{-1, 1}})},
       {"forge-candidate-twice", with_candidates({{0, 1}, {0, 1}})},
       {"forge-candidate-lies", with_candidates({{0, 1}})},
+      // Of a query.
+      {"forge-query-count", changed([](RunReply& r) { r.run.steps.resize(2); })},
+      {"forge-query-none", changed([](RunReply& r) { r.run.steps.clear(); })},
+      {"forge-query-nan", changed([](RunReply& r) {
+         r.run.steps[0].first = {nan, nan};
+       })},
+      {"forge-query-time", changed([](RunReply& r) {
+         r.run.steps[0].first = {0, 2};
+       })},
+      {"forge-query-answer",
+       changed([](RunReply& r) { r.run.steps[0].answer = static_cast<Answer>(9); })},
+      {"forge-query-text",
+       changed([](RunReply& r) { r.run.explanation = "fine\n\033[2Jcertified"; })},
+      {"forge-query-long", changed([](RunReply& r) { r.run.explanation.assign(1 << 20, 'x'); })},
+      {"forge-query-number", changed([](RunReply& r) { ++r.number; })},
+      {"forge-query-pairs", colliding({{0, 1}, {0, 1}, {}})},
+      {"forge-query-candidates", with_candidates({{0, 1}})},
+      {"forge-query-lies", changed([](RunReply&) {})},
       {"forge-garbage", [](RunReply) { return std::string(4096, '\x5a'); }},
       {"forge-nothing", [](RunReply) { return std::string(); }},
       {"forge-lies", changed([](RunReply&) {})},  // legal, and judged as answers are
@@ -199,13 +200,8 @@ const std::map<std::string, Forgery>& forgeries() {
   channel.send(encode(hello));
   std::string message;
   while (channel.receive(message) == Transfer::done) {
-    Request received;
-    if (!decode(message, received)) break;
-    if (received.kind == RequestKind::queries) {
-      channel.send(forged_answers(received.query, mode));
-      continue;
-    }
-    const RunRequest& request = received.run;
+    RunRequest request;
+    if (!decode(message, request)) break;
     for (std::uint64_t i = 0; i < request.configurations.size(); ++i) {
       channel.send(forgery(all_free(request, i)));
     }
@@ -565,7 +561,6 @@ const assay_detector_api* assay_detector() {
   const std::string mode = variable("ASSAY_HOSTILE");
   const auto forgery = forgeries().find(mode);
   if (forgery != forgeries().end()) forge(forgery->second, mode);
-  if (mode.starts_with("forge-query")) forge({}, mode);
   if (mode == "forge-length") forge_length();
   if (mode == "forge-refusal") forge_hello("", 0, "a\n\033[2Jcertified");
   if (mode == "forge-long-refusal") forge_hello("", 0, std::string(longest, 'x'));

@@ -1,6 +1,7 @@
-// An elementary query and nothing else: the built-in one. Compiled with WITH_STEPS, it stands
-// beside the built-in detector of whole steps. Its contract and faults are words of the environment
-// variable ASSAY_QUERY, such as "features=vertex-face miss=edge-edge":
+// An elementary query and nothing else: the built-in one, of distance if it has a separation.
+// Compiled with WITH_STEPS, it stands beside the built-in detector of whole steps. Its contract and
+// faults are words of the environment variable ASSAY_QUERY, such as "features=vertex-face
+// miss=edge-edge":
 //
 //   (those of told.h)                        its description
 //   miss=vertex-face, miss=edge-edge         answers free
@@ -10,7 +11,8 @@
 //   alarm                                    answers collision to every query
 //   undecided, error, refuse, no-memory      to every query that has a contact
 //   changing                                 every third answer is another
-//   abort-at-start                           aborts where the first contact is at 0
+//   abort-at-start, burn-at-start=S          aborts, or first uses S seconds of processor time (60
+//                                            at most), where the first contact is at 0
 //   no-interval, no-answer, nan              what is no result
 //   abort-outside                            aborts when a query out of the contract is put to it
 //   free-above=N, undecided-above=N          how the steps of larger meshes are answered
@@ -23,10 +25,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <limits>
 
 #include "detector/contact/contact_exact.h"
 #include "detector/contact/elementary.h"
+#include "detector/distance/nearness.h"
 #include "tests/plugins/changed_builtin.h"
 #include "tests/plugins/told.h"
 
@@ -73,6 +77,12 @@ bool misses(std::int32_t kind, const FourPoints& q, bool at_start) {
   return told.has(at_start ? "miss-at-start" : "miss-inside");
 }
 
+void burn(double seconds) {
+  const double until = std::clock() + std::min(seconds, 60.) * CLOCKS_PER_SEC;
+  while (seconds > 0 && std::clock() < until) {
+  }
+}
+
 std::int32_t query(std::int32_t kind, const double* x_t0, const double* x_t1,
                    assay_query_result* out) {
   FourPoints q;
@@ -83,10 +93,12 @@ std::int32_t query(std::int32_t kind, const double* x_t0, const double* x_t1,
       q.points[i].t1[k] = x_t1[3 * i + k];
     }
   }
-  const auto found = test_contact(q, Want::first_time);
+  const double d = describe()->separation;
+  const auto found = d > 0 ? test_near(q, d, Want::first_time) : test_contact(q, Want::first_time);
   const bool at_start = found.contact && found.time.hi == 0;
   if (told.has("abort-outside") && is_outside(kind, q, at_start)) std::abort();
   if (told.has("abort-at-start") && at_start) std::abort();
+  if (at_start) burn(told.number_of("burn-at-start"));
   const double shift = told.number_of("late") - told.number_of("early");
   if (found.contact && !misses(kind, q, at_start)) {
     out->answer = ASSAY_COLLISION;

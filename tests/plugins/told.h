@@ -2,7 +2,7 @@
 // Those that describe a detector are the same for all plug-ins:
 //
 //   start=free, start=apart:D, range=LO:HI, features=vertex-face, features=edge-edge, tolerance=T,
-//   margin=D, no-pairs, adjacency=NUMBER, float32, claims=BITS
+//   margin=D, separation=D, no-pairs, adjacency=NUMBER, float32, claims=BITS
 #pragma once
 
 #include <cstdlib>
@@ -43,6 +43,7 @@ class Told {
     d.version = "1";
     d.claims = has("claims") ? static_cast<std::uint32_t>(number_of("claims")) : claims;
     d.margin = number_of("margin");
+    d.separation = number_of("separation");
     d.time_tolerance = number_of("tolerance");
     d.adjacency = static_cast<std::int32_t>(number_of("adjacency"));
     if (has("no-pairs")) d.reports = ASSAY_REPORTS_NO_PAIRS;

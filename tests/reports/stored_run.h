@@ -9,9 +9,26 @@
 #include "properties/campaign/ledger/store.h"
 #include "properties/worker/worker_process.h"
 #include "tests/curated_cases.h"
+#include "tests/meshes.h"
 #include "tests/test.h"
 
 namespace assay::tests {
+
+// Two triangles, each a body. The lowest corner of the upper one is above the inside of the other,
+// as high as is said at t = 0 and at t = 1; another one is 0.1 higher.
+inline corpus::Case one_above_another(double height_t0, double height_t1) {
+  corpus::Case c;
+  c.id = "one_above_another";
+  c.about = "one triangle comes near another";
+  c.source = "made by a test";
+  c.triangles = triangles({{0, 1, 2}, {3, 4, 5}});
+  for (const double z : {height_t0, height_t1}) {
+    c.frames.push_back(
+        positions({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 2, z + 0.1}, {1, 1, z}, {2, 1, z + 1}}));
+  }
+  c.counted.emplace().pairs.body = {0, 0, 0, 1, 1, 1};
+  return c;
+}
 
 struct RunToStore {
   properties::CampaignRequest request;
@@ -53,7 +70,11 @@ struct RunToStore {
   // A failure whose mesh is a curated case.
   RunToStore& fail(const std::string& name, const std::string& signature,
                    const std::string& explanation) {
-    const auto text = corpus::case_text(curated_case(name));
+    return fail(curated_case(name), signature, explanation);
+  }
+  RunToStore& fail(const corpus::Case& c, const std::string& signature,
+                   const std::string& explanation) {
+    const auto text = corpus::case_text(c);
     failures.push_back({"tiny:1:broken:" + std::to_string(failures.size()), "view-point", signature,
                         explanation, text, text});
     return *this;

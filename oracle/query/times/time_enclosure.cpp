@@ -10,9 +10,12 @@ namespace assay::oracle {
 
 namespace {
 
-// A zero of f in [s,e] in plain doubles: only a guess, so no error bound is needed.
+constexpr int greatest_degree = 6;
+
+}  // namespace
+
 double guess_zero(const IntegerPolynomial& f, double s, double e, int sign_at_s) {
-  std::array<double, 4> c{};
+  std::array<double, greatest_degree + 1> c{};
   long greatest = std::numeric_limits<long>::min();
   for (const Integer& x : f.c) {
     long exponent = 0;
@@ -29,10 +32,14 @@ double guess_zero(const IntegerPolynomial& f, double s, double e, int sign_at_s)
   double lo = s, hi = e, t = 0.5 * (s + e);
   constexpr int most_steps = 100;
   for (int step = 0; step < most_steps; ++step) {
-    const double value = ((c[3] * t + c[2]) * t + c[1]) * t + c[0];
+    double value = 0, slope = 0;
+    for (int i = f.degree(); i >= 0; --i) {
+      slope = slope * t + value;
+      value = value * t + c[i];
+    }
     if (value == 0) break;
     ((value > 0) == (sign_at_s > 0) ? lo : hi) = t;
-    const double newton = t - value / ((3 * c[3] * t + 2 * c[2]) * t + c[1]);
+    const double newton = t - value / slope;
     const double next = newton > lo && newton < hi ? newton : 0.5 * (lo + hi);
     if (next == t || !(lo < hi)) break;
     t = next;
@@ -40,11 +47,9 @@ double guess_zero(const IntegerPolynomial& f, double s, double e, int sign_at_s)
   return t;
 }
 
-}  // namespace
-
 detector::TimeEnclosure simple_zero_time(const IntegerPolynomial& f, double s, double e) {
   const int sign_at_s = sign_at(f, s);
-  assert(f.degree() <= 3 && sign_at_s * sign_at(f, e) < 0);
+  assert(f.degree() <= greatest_degree && sign_at_s * sign_at(f, e) < 0);
   return enclose_time(guess_zero(f, s, e, sign_at_s), s, e,
                       [&](double t) { return sign_at(f, t) * sign_at_s; });
 }

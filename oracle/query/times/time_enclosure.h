@@ -67,8 +67,12 @@ detector::TimeEnclosure enclose_time(double guess, double lo, double hi, Compare
   return {value(below), value(above)};
 }
 
+// A zero of f in [s,e] in plain doubles: only a guess, so it has no error bound. f is of degree 6
+// at most, and `sign_at_s` is its sign at s, opposite to that at e.
+double guess_zero(const IntegerPolynomial& f, double s, double e, int sign_at_s);
+
 // Encloses the zero of f in (s,e) by exact integer signs of f at doubles, without the algebraic
-// kernel. REQUIRES that f is of degree 3 at most, that it has exactly one zero in (s,e), a simple
+// kernel. REQUIRES that f is of degree 6 at most, that it has exactly one zero in (s,e), a simple
 // one, and opposite signs at s and e, and that 0 <= s < e <= 1. 1 to 3 us.
 detector::TimeEnclosure simple_zero_time(const IntegerPolynomial& f, double s, double e);
 

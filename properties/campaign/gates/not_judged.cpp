@@ -16,15 +16,18 @@ constexpr std::uint64_t seldom = 100;
 constexpr const char* no_contact = "no step had a contact";
 
 // Says why a claim was not judged. Empty if it was judged.
-std::string reason_against(Claim claim, const Contract& contract, const StepMeasures& m) {
+std::string reason_against(Claim claim, const Contract& contract, const StepMeasures& m,
+                           bool of_queries) {
   switch (claim) {
     case Claim::no_spurious:
-      return contract.margin > 0 ? "the contract has a margin" : "";
+      return contract.judges_alarms(of_queries) ? ""
+                                                : "the contract has a margin, and tests neighbours";
     case Claim::first_pairs:
     case Claim::all_pairs:
       if (!contract.reports_pairs) return "the detector reports no pairs";
       break;
     case Claim::first_time:
+      if (contract.margin > 0) return "the contract has a margin";
       if (seldom * m.without_time > m.errors.collisions())
         return fmt::format("its interval is wider than {} in {} of {} collisions",
                            widest_stated_time, m.without_time, m.errors.collisions());
@@ -51,19 +54,20 @@ bool is_among(const std::vector<NotJudged>& left, std::string_view claim) {
 }  // namespace
 
 std::vector<NotJudged> not_judged(const std::vector<std::string>& claims, const Contract& contract,
-                                  const StepMeasures& measures) {
+                                  const StepMeasures& measures, bool of_queries) {
   std::vector<NotJudged> list;
   for (const Claim claim : all_claims()) {
     if (!has(claims, claim)) continue;
-    auto reason = reason_against(claim, contract, measures);
+    auto reason = reason_against(claim, contract, measures, of_queries);
     if (!reason.empty()) list.push_back({name_of(claim), std::move(reason)});
   }
   return list;
 }
 
-std::vector<NotJudged> not_judged(const BoundDetector& detector, const StepMeasures& measures) {
+std::vector<NotJudged> not_judged(const BoundDetector& detector, const StepMeasures& measures,
+                                  bool of_queries) {
   if (detector.built_in || detector.configurations.empty()) return {};
-  return not_judged(detector.configurations[0].claims, detector.contract, measures);
+  return not_judged(detector.configurations[0].claims, detector.contract, measures, of_queries);
 }
 
 std::vector<NotJudged> not_judged(const RunFindings& findings) {
@@ -72,7 +76,7 @@ std::vector<NotJudged> not_judged(const RunFindings& findings) {
   for (const auto& [family, stratum] : findings.tally.strata) {
     if (of_queries || !is_query_family(family)) measures += stratum.measures;
   }
-  return not_judged(findings.run.detector, measures);
+  return not_judged(findings.run.detector, measures, of_queries);
 }
 
 std::vector<std::string> judged_claims(const RunFindings& findings) {

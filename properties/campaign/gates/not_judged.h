@@ -18,8 +18,9 @@ struct NotJudged {
 // time. Of a detector that is judged by steps and queries, the steps decide. Empty for the built-in
 // detector, whose contract is the default and whose times are enclosures.
 std::vector<NotJudged> not_judged(const std::vector<std::string>& claims, const Contract& contract,
-                                  const StepMeasures& measures);
-std::vector<NotJudged> not_judged(const BoundDetector& detector, const StepMeasures& measures);
+                                  const StepMeasures& measures, bool of_queries = false);
+std::vector<NotJudged> not_judged(const BoundDetector& detector, const StepMeasures& measures,
+                                  bool of_queries = false);
 std::vector<NotJudged> not_judged(const RunFindings& findings);
 
 // The names of the claims of a plug-in that were judged.

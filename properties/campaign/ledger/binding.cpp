@@ -68,7 +68,7 @@ std::string binding_of(const CampaignRequest& request) {
                      request.seed,
                      planted_count(),
                      text_of(request.shard),
-                     bound(request.detector, request.threads),
+                     bound(request.detector, request.limits.threads),
                      {digest_of("/proc/self/exe"), digest_of(request.worker),
                       plugin_digest(request), generator_digest()}};
   Json json = json_of_fields<Json>(run);
@@ -108,7 +108,7 @@ Expected<BoundRun> read_binding(const std::string& text, const std::filesystem::
 std::string generator_digest() {
   constexpr std::uint64_t cases = 16;  // this many cases of each family
   std::string digests;
-  for (const auto known : {families(), query_families()}) {
+  for (const auto known : {families(), counted_families(), query_families()}) {
     for (const auto& family : known) {
       for (std::uint64_t i = 0; i < cases; ++i) {
         const auto made =

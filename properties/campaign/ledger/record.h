@@ -87,8 +87,8 @@ inline constexpr std::string_view repeated_in_id = "repeated/";
 inline constexpr std::string_view asked_again_in_id = "asked-again/";
 
 // `about_text` is what the case file of a failure says of itself: "all-pairs: missing pair,
-// edge-edge; triangles 0 and 1 meet at 0.5". `shown_explanation` reads it back: it returns the part
-// after the signature, from the smallest mesh if there is one.
+// edge-edge; triangles 0 and 1 meet at t = 0.5". `shown_explanation` reads it back: it returns the
+// part after the signature, from the smallest mesh if there is one.
 std::string about_text(const std::string& signature, const std::string& explanation);
 std::string shown_explanation(const StoredFailure& failure);
 

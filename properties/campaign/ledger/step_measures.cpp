@@ -21,6 +21,7 @@ constexpr NamedNumber numbers[] = {
     {"least_candidates", &StepMeasures::least_candidates},
     {"redrawn", &StepMeasures::redrawn},
     {"steps_left_out", &StepMeasures::steps_left_out},
+    {"starts_near", &StepMeasures::starts_near},
     {"left_out_misses", &StepMeasures::left_out_misses},
     {"contact_trials", &StepMeasures::contact_trials},
     {"repeated_trials", &StepMeasures::repeated_trials},
@@ -83,6 +84,10 @@ StepMeasures measures_of(std::span<const StepDiff> diffs,
   StepMeasures sum;
   for (std::size_t s = 0; s < diffs.size(); ++s) {
     const StepDiff& diff = diffs[s];
+    if (diff.starts_near) {
+      ++sum.starts_near;
+      continue;
+    }
     sum.errors += errors_of(diff);
     if (!diff.oracle_complete) continue;
     if (diff.candidates) {
@@ -100,6 +105,7 @@ StepMeasures measures_of(std::span<const StepDiff> diffs,
 
 bool has_judged_contact(std::span<const StepDiff> diffs) {
   return std::any_of(diffs.begin(), diffs.end(), [](const StepDiff& diff) {
+    if (diff.starts_near) return false;
     return diff.has_answer ? diff.first_contact.has_value() && !diff.partial
                            : diff.candidates && diff.candidates->least > 0;
   });

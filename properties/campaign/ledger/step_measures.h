@@ -23,6 +23,8 @@ struct StepMeasures {
   std::uint64_t candidate_steps = 0;   // steps for which candidates were given
   std::uint64_t candidates = 0;        // given in these steps
   std::uint64_t least_candidates = 0;  // pairs in contact that count, in these steps
+  // Steps that are within the separation at t = 0. They are judged, and counted nowhere else here.
+  std::uint64_t starts_near = 0;
   // What the contract leaves out.
   std::uint64_t redrawn = 0;          // cases that it does not take at all
   std::uint64_t steps_left_out = 0;   // steps left out of cases that it takes

@@ -76,12 +76,12 @@ class CampaignRun {
  private:
   // Notes the isolation of all trials that the store holds, including those of an earlier call.
   void note_isolation() {
-    PluginIsolation now{text_of(request_.shard), name_of(request_.isolation),
-                        text_of(request_.isolated)};
+    PluginIsolation now{text_of(request_.shard), name_of(request_.limits.isolation),
+                        text_of(request_.limits.least)};
     if (store_.trial_count() > 0) {
       for (const auto& before : stored().isolation) {
-        now.asked = name_of(weaker(request_.isolation, before.asked));
-        now.got = text_of(common_to(request_.isolated, isolation_of(before.got)));
+        now.asked = name_of(weaker(request_.limits.isolation, before.asked));
+        now.got = text_of(common_to(request_.limits.least, isolation_of(before.got)));
       }
     }
     store_.set(to_row(now));
@@ -190,11 +190,11 @@ Expected<void> keeps_isolation(const CampaignRequest& request, const Store& stor
   if (!request.plugin || store.trial_count() == 0) return boost::outcome_v2::success();
   return catch_store_problem([&] {
     for (const auto& before : facts_in(store).isolation) {
-      if (covers(request.isolated, isolation_of(before.got))) continue;
+      if (covers(request.limits.least, isolation_of(before.got))) continue;
       throw StoreProblem(
           fmt::format("this run began with isolation {}, and would go on with {}: "
                       "ask for no less, or for another --out",
-                      before.got, text_of(request.isolated)));
+                      before.got, text_of(request.limits.least)));
     }
   });
 }

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <utility>
 
+#include "oracle/mesh/pair_relation.h"
 #include "properties/campaign/ledger/evidence.h"
 #include "properties/campaign/ledger/store_problem.h"
 #include "properties/campaign/plan.h"
@@ -164,11 +166,44 @@ CaseRun step_alone(const CaseRun& run, std::size_t s) {
   return one;
 }
 
-// Whether the features that meet first are of a kind that the contract has tested.
-bool is_tested(const Contract& contract, const detector::PairContact& contact) {
-  const bool is_edge_edge = contact.feature.kind == detector::FeatureKind::edge_edge;
-  return contract.features == TestedFeatures::both ||
-         is_edge_edge == (contract.features == TestedFeatures::edge_edge);
+// Whether the contract has a contact tested, as far as the features tell that meet first.
+class TestedContacts {
+ public:
+  TestedContacts(const Contract& contract, const corpus::Case& c)
+      : contract_(contract), own_(tested_pairs(contract, c.frames.front())) {
+    if (own_.count_all()) return;
+    features_ = oracle::mesh_features(c.triangles);
+    relation_.emplace(own_, features_);
+  }
+  TestedContacts(const TestedContacts&) = delete;
+  TestedContacts& operator=(const TestedContacts&) = delete;
+
+  bool operator()(const detector::PairContact& contact) const {
+    const bool is_edge_edge = contact.feature.kind == detector::FeatureKind::edge_edge;
+    const bool is_of_kind = contract_.features == TestedFeatures::both ||
+                            is_edge_edge == (contract_.features == TestedFeatures::edge_edge);
+    return is_of_kind && (!relation_ || relation_->counts_faces(contact.pair.a, contact.pair.b));
+  }
+
+ private:
+  const Contract& contract_;
+  const detector::CountedPairs own_;
+  oracle::MeshFeatures features_;
+  std::optional<oracle::PairRelation> relation_;
+};
+
+// What the oracle would say of the step if the built-in detector, which answered so, is right.
+oracle::StepJudgement believed(const detector::StepResult& answered,
+                               const TestedContacts& is_tested) {
+  oracle::StepJudgement judgement;
+  judgement.answer = answered.answer;
+  judgement.complete = true;
+  judgement.first = answered.first;
+  judgement.pairs = answered.pairs;
+  for (const auto& contact : answered.pairs) {
+    if (is_tested(contact)) judgement.asked_pairs.push_back(contact);
+  }
+  return judgement;
 }
 
 // The steps in which the run breaks a claim if the built-in detector, whose run is `answered`, is
@@ -176,18 +211,11 @@ bool is_tested(const Contract& contract, const detector::PairContact& contact) {
 std::vector<std::size_t> differing_steps(const corpus::Case& c, const DetectorUnderTest& detector,
                                          const CaseRun& run, const CaseRun& answered) {
   const auto& contract = detector.contract;
+  const TestedContacts is_tested(contract, c);
   std::vector<std::size_t> places;
   for (std::size_t s = 0; s < std::min(run.steps.size(), answered.steps.size()); ++s) {
-    const auto& believed = answered.steps[s];
-    oracle::StepJudgement judgement;
-    judgement.answer = believed.answer;
-    judgement.complete = true;
-    judgement.first = believed.first;
-    judgement.pairs = believed.pairs;
-    for (const auto& contact : believed.pairs) {
-      if (is_tested(contract, contact)) judgement.asked_pairs.push_back(contact);
-    }
-    const auto diff = compare_step(run, s, judgement, detector.claims, contract, c.triangles);
+    const auto diff = compare_step(run, s, believed(answered.steps[s], is_tested), detector.claims,
+                                   contract, c.triangles);
     if (diff.outcome == Outcome::defect) places.push_back(s);
   }
   std::stable_sort(places.begin(), places.end(), [&](std::size_t a, std::size_t b) {
@@ -201,14 +229,11 @@ std::vector<std::size_t> differing_steps(const corpus::Case& c, const DetectorUn
 // the first without any. `answered` is the run of the built-in detector.
 std::vector<std::size_t> plain_steps(const corpus::Case& c, const Contract& contract,
                                      const CaseRun& answered) {
+  const TestedContacts is_tested(contract, c);
   std::optional<std::size_t> colliding, free;
   std::size_t fewest = 0;
   for (std::size_t s = 0; s < answered.steps.size(); ++s) {
-    const auto& pairs = answered.steps[s].pairs;
-    const auto count = static_cast<std::size_t>(
-        std::count_if(pairs.begin(), pairs.end(), [&](const detector::PairContact& contact) {
-          return is_tested(contract, contact) && !leaves_out(contract, c.triangles, contact.pair);
-        }));
+    const auto count = truth_of(c, believed(answered.steps[s], is_tested), contract).pairs.size();
     if (count == 0 && !free) free = s;
     if (count > 0 && (!colliding || count < fewest)) {
       colliding = s;
@@ -255,7 +280,7 @@ class Repetitions {
     row.configuration = configuration().name;
     row.shard = text_of(request_.shard);
     row.triangles = static_cast<std::uint64_t>(c.triangles.rows());
-    const auto seen = contracted(c, request_.detector.contract);
+    const auto seen = contracted(c, contract());
     if (!seen) {
       row.what = "beyond the contract";
     } else if (hung_ >= most_hung_repetitions) {
@@ -268,6 +293,7 @@ class Repetitions {
   }
 
  private:
+  const Contract& contract() const { return request_.detector.contract; }
   const Configuration& configuration() const { return request_.detector.configurations.front(); }
 
   // Each run, by its place in threads_, has a process of its own, which it keeps from mesh to mesh.
@@ -298,8 +324,8 @@ class Repetitions {
         return;
       }
       ++row.runs;
-      const auto judged = judge_run(c, first ? *first : run, {}, claims, request_.detector.contract,
-                                    first ? &run : nullptr);
+      const auto judged =
+          judge_run(c, first ? *first : run, {}, claims, contract(), first ? &run : nullptr);
       if (judged.outcome != Outcome::holds) {
         tell(c, first ? *first : run, run, judged, row);
         return;
@@ -314,10 +340,12 @@ class Repetitions {
   }
 
   std::vector<std::size_t> chosen_steps(const corpus::Case& c, const CaseRun& run) {
-    const Configuration chooser{"auto", {}};
+    Configuration chooser{"auto", {}};
+    if (const double d = contract().separation; d > 0)
+      chooser = {"bvh", {.culling = detector::Culling::bvh, .separation = d}};
     const auto answered = std::move(built_in_.run(c, {&chooser, 1}).front());
     auto places = differing_steps(c, request_.detector, run, answered);
-    const auto plain = plain_steps(c, request_.detector.contract, answered);
+    const auto plain = plain_steps(c, contract(), answered);
     places.insert(places.end(), plain.begin(), plain.end());
     std::sort(places.begin(), places.end());
     places.erase(std::unique(places.begin(), places.end()), places.end());
@@ -326,18 +354,18 @@ class Repetitions {
 
   void judge_steps(const corpus::Case& c, const std::vector<std::size_t>& places,
                    const CaseRun& run, Repetition& row) {
-    const auto& contract = request_.detector.contract;
     const bool is_small = c.triangles.rows() <= largest_small_mesh;
     std::map<std::string, int> kept;
     for (const auto s : places) {
-      const auto alone = with_steps(c, {s});
-      const auto truth = judge_case(alone, contract, is_small ? 1 : request_.jobs);
+      const auto alone = with_steps(c, {s}, contract());
+      const auto truth = judge_case(alone, contract(), is_small ? 1 : request_.jobs);
       const auto judged =
           judge_trial(alone, truth, step_alone(run, s), configuration(), request_.detector);
       // Without a verdict nothing is known of this size.
       if (judged.outcome != Outcome::holds && judged.outcome != Outcome::defect) continue;
+      const auto facts = truth_of(alone, truth[0], contract());
       row.judged.push_back(
-          {s + 1, counted_contacts(truth[0], alone), judged.outcome == Outcome::holds});
+          {s + 1, facts.starts_near ? 0 : facts.pairs.size(), judged.outcome == Outcome::holds});
       if (!judged.failure) continue;
       auto failure = *judged.failure;
       failure.cause = "large mesh";
@@ -345,23 +373,14 @@ class Repetitions {
     }
   }
 
-  std::uint64_t counted_contacts(const oracle::StepJudgement& truth, const corpus::Case& c) const {
-    const auto& contract = request_.detector.contract;
-    const auto& pairs = contract.features == TestedFeatures::both ? truth.pairs : truth.asked_pairs;
-    return static_cast<std::uint64_t>(
-        std::count_if(pairs.begin(), pairs.end(), [&](const detector::PairContact& contact) {
-          return !leaves_out(contract, c.triangles, contact.pair);
-        }));
-  }
-
   // Stores a step that breaks a claim: alone, or with the steps before it if the detector answers
   // otherwise without them.
   void keep(const corpus::Case& c, std::size_t s, const CaseRun& run, Failure failure) {
     failure.explanation = fmt::format("{}, {} triangles, step {}: {}", c.id, c.triangles.rows(),
                                       s + 1, failure.explanation);
-    auto shown = with_steps(c, {s});
+    auto shown = with_steps(c, {s}, contract());
     if (!same_answers(step_alone(run, s), run_once(shown, 0)))
-      shown = with_steps(c, first_places(s + 1));
+      shown = with_steps(c, first_places(s + 1), contract());
     store_.add({fmt::format("{}{}, step {}", repeated_in_id, c.id, s + 1), configuration().name,
                 failure.signature(), failure.explanation,
                 corpus::case_text(failing_case(shown, configuration(), request_.detector, failure)),
@@ -377,7 +396,7 @@ class Repetitions {
                   : fmt::format("step {}, run {} with {} threads: {}; run 1 with {}: {}", *s + 1,
                                 row.threads.size(), row.threads.back(), answer_of(run, *s),
                                 row.threads.front(), answer_of(first, *s));
-    if (row.broken) keep_end(s ? with_steps(c, {*s}) : c, run, judged, row.what);
+    if (row.broken) keep_end(s ? with_steps(c, {*s}, contract()) : c, run, judged, row.what);
   }
 
   // Stores what the end of a run shows, or its difference from another one.
@@ -406,9 +425,10 @@ class Repetitions {
 }  // namespace
 
 std::vector<std::uint64_t> threads_of_runs(const CampaignRequest& request) {
-  if (!request.detector.claims.has(Claim::deterministic)) return {request.threads};
-  if (request.takes_threads) return {std::begin(repeated_threads), std::end(repeated_threads)};
-  return {request.threads, request.threads, request.threads};
+  if (!request.detector.claims.has(Claim::deterministic)) return {request.limits.threads};
+  if (request.description.parts.takes_threads)
+    return {std::begin(repeated_threads), std::end(repeated_threads)};
+  return std::vector(3, request.limits.threads);
 }
 
 bool is_repeated(const CampaignPlan& plan, bool built_in) {

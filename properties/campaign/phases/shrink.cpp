@@ -137,6 +137,7 @@ void shrink_failures(const CampaignRequest& request, Store& store, const ReduceL
 std::optional<corpus::Case> with_explicit_view(const corpus::Case& c,
                                                const detector::Options& options) {
   if (c.view || !uses_views(options.culling)) return std::nullopt;
+  // A component within which nothing counts needs no view, so all pairs count here.
   auto made = detector::Detector::create(c.triangles, c.frames[0], options);
   if (!made) return std::nullopt;
   corpus::Case out = c;

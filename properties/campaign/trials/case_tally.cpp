@@ -8,9 +8,9 @@
 
 #include "properties/campaign/ledger/store.h"
 #include "properties/campaign/ledger/tally.h"
-#include "properties/campaign/trials/trial.h"
 #include "properties/generators/pair_blocks.h"
 #include "properties/judging/case_options.h"
+#include "properties/judging/trial.h"
 #include "properties/laws/facts/case_facts.h"
 #include "properties/laws/law.h"
 #include "properties/worker/child_process.h"
@@ -113,7 +113,9 @@ std::vector<CaseTally> tally_cases(std::span<const RunCase> cases) {
       if (!counted_blocks) count_blocks(runs[i], truth, tallies[k].counts);
       counted_blocks = true;
       for (const Law& law : laws()) {
-        if (with_laws && is_checked_on(law, made.c.id)) checks.push_back({&law, k, i});
+        // Laws speak of all contacts, and a run with a relation tells only those that count.
+        if (with_laws && !made.c.counted && is_checked_on(law, made.c.id))
+          checks.push_back({&law, k, i});
       }
     }
   }

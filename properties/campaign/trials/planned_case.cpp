@@ -9,6 +9,7 @@
 
 #include "oracle/instant/layers.h"
 #include "oracle/mesh/loops.h"
+#include "properties/generators/approaches.h"
 #include "properties/judging/contracted_case.h"
 #include "properties/judging/judged_run.h"
 #include "properties/queries/query_families.h"
@@ -69,23 +70,34 @@ double extent_of(const corpus::Case& c) {
   return x.rows() == 0 ? 0 : (x.colwise().maxCoeff() - x.colwise().minCoeff()).maxCoeff();
 }
 
+// Whether a case may be scaled until its largest coordinate is this.
+bool fits(double largest, const Contract& contract) {
+  constexpr double far_enough = 1e100;  // no mesh of anybody is larger
+  return largest <= (contract.has_range() ? contract.largest : far_enough);
+}
+
 // The power of two by which the case is scaled.
 int exponent_within(const corpus::Case& c, const Contract& contract) {
   const double largest = largest_of(c), extent = extent_of(c);
-  const double wanted = contract.start == StartRule::apart ? 8 * contract.start_distance : 0;
   const int into_range = contract.has_range() ? exponent_into_range(c, contract) : 0;
+  if (contract.separation > 0 && extent > 0) {
+    // Twice to 512 times as large as the separation: then some of its parts are nearer than that.
+    Random random(c.id);
+    const int exponent =
+        std::ilogb(contract.separation) + random.between(1, 9) - std::ilogb(extent);
+    if (fits(std::ldexp(largest, exponent), contract)) return exponent;
+  }
+  const double wanted = contract.start == StartRule::apart ? 8 * contract.start_distance : 0;
   if (!(extent > 0) || !(std::ldexp(extent, into_range) < wanted) || !std::isfinite(wanted))
     return into_range;
   const int apart = std::ilogb(wanted) - std::ilogb(extent) + 1;
-  constexpr double far_enough = 1e100;  // no mesh of anybody is larger
-  const double most = contract.has_range() ? contract.largest : far_enough;
-  return std::ldexp(largest, apart) <= most ? apart : into_range;
+  return fits(std::ldexp(largest, apart), contract) ? apart : into_range;
 }
 
 // Whether every fourth case of such cases has to have a contact.
 bool leaves_contacts_out(const Contract& contract, const Family& family) {
   return is_query_family(family.name) || contract.adjacency != Adjacency::all ||
-         contract.start != StartRule::any || contract.features != TestedFeatures::both;
+         contract.start != StartRule::any || contract.tests_part() || contract.separation > 0;
 }
 
 bool is_every_fourth(const std::string& id) {
@@ -93,15 +105,25 @@ bool is_every_fourth(const std::string& id) {
   return !digits.empty() && std::strtoull(digits.c_str(), nullptr, 10) % 4 == 0;
 }
 
-bool has_contact(const corpus::Case& c, const Contract& contract) {
-  const bool is_query = says_query(c);
-  const bool all_features = is_query || contract.features == TestedFeatures::both;
+// Of a question about distance every second case is aimed at it.
+bool may_be_aimed(const Contract& contract) {
+  return least_aimed <= contract.separation && contract.separation <= most_aimed;
+}
+
+// What the oracle says of a case: whether a step has a contact that counts, and whether one starts
+// without being near already. A step that starts near is judged, but shows little.
+struct Shown {
+  bool contact = false, start_apart = false;
+};
+
+Shown shown_by(const corpus::Case& c, const Contract& contract) {
+  Shown shown;
   for (const auto& step : judge_case(c, contract)) {
-    for (const auto& contact : all_features ? step.pairs : step.asked_pairs) {
-      if (is_query || !leaves_out(contract, c.triangles, contact.pair)) return true;
-    }
+    const auto truth = truth_of(c, step, contract);
+    shown.start_apart |= !truth.starts_near;
+    shown.contact |= truth.first && !truth.starts_near;
   }
-  return false;
+  return shown;
 }
 
 }  // namespace
@@ -118,6 +140,10 @@ corpus::Case brought_into_contract(corpus::Case c, const Contract& contract) {
   if (c.ghosts) {
     for (auto& apexes : c.ghosts->apexes) scale_all(apexes, exponent);
   }
+  if (c.counted) {
+    scale_all(c.counted->pairs.rest, exponent);
+    c.counted->pairs.rest_distance = scaled(c.counted->pairs.rest_distance, exponent);
+  }
   return c;
 }
 
@@ -130,13 +156,21 @@ PlannedCase case_within(const Contract& contract, const Family& family, const st
     PlannedCase planned;
     planned.made = make_case(family, attempt);
     planned.made.c = brought_into_contract(std::move(planned.made.c), contract);
+    Random random(attempt + ":aimed");  // other numbers than those that the case was drawn by
+    if (may_be_aimed(contract) && random.one_in(2))
+      planned.made.c = with_approach(std::move(planned.made.c), contract.separation, random);
     planned.seen = contracted(planned.made.c, contract);
     planned.redrawn = redrawn;
     if (planned.seen) {
       planned.steps_left_out =
           corpus::steps_of(planned.made.c).size() - corpus::steps_of(*planned.seen).size();
-      const bool may_stay = !wants_contact || ++without_contact > most_without_contact;
-      if (may_stay || has_contact(*planned.seen, contract)) return planned;
+      if (!wants_contact && contract.separation == 0) return planned;
+      const auto shown = shown_by(*planned.seen, contract);
+      if (!shown.start_apart) {
+        planned.seen.reset();
+      } else if (!wants_contact || shown.contact || ++without_contact > most_without_contact) {
+        return planned;
+      }
     }
     if (planned.seen || !last.seen) last = std::move(planned);
   }

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "corpus/cases/case_file.h"
-#include "properties/campaign/trials/trial.h"
 #include "properties/claims/contract.h"
 #include "properties/generators/families.h"
+#include "properties/judging/trial.h"
 
 namespace assay::properties {
 
@@ -28,14 +28,17 @@ struct PlannedCase {
 // every fourth case has to have a contact that counts, and is drawn again until it has one. At most
 // most_redrawn attempts are made, each deterministic; of them at most most_without_contact on cases
 // that the contract takes, and then the last of these stays. The case is brought into the contract
-// (below). Without a contract this is, of a mesh, the case of the id.
+// (below). Under a contract with a separation every second case is aimed at that (approaches.h),
+// and a case of which every step starts within it does not serve. Without a contract this is, of a
+// mesh, the case of the id.
 inline constexpr std::uint64_t most_redrawn = 200, most_without_contact = 40;
 PlannedCase case_within(const Contract& contract, const Family& family, const std::string& id);
 
 // The case scaled by a power of two, so that the contract may take it. Its features can hardly lie
 // start_distance apart if the whole mesh is smaller than eight times that, so it becomes that
-// large, if a range of the contract allows it. If the contract has a range, the case is scaled
-// until its largest coordinate fits, or until its shortest edge does.
+// large, if a range of the contract allows it. With a separation the mesh becomes twice to 512
+// times as large as that. If the contract has a range, the case is scaled until its largest
+// coordinate fits, or until its shortest edge does.
 corpus::Case brought_into_contract(corpus::Case c, const Contract& contract);
 
 // Finds the cases for which Start::clean may be used, because what the caller then vouches for is

@@ -5,10 +5,12 @@
 #include <cmath>
 #include <set>
 
+#include "properties/numbering.h"
 #include "properties/random.h"
 #include "properties/reducer/case_edits.h"
 #include "properties/reducer/numbers.h"
 #include "properties/reducer/passes/passes.h"
+#include "properties/reducer/relation_edits.h"
 
 namespace assay::properties {
 
@@ -116,12 +118,14 @@ Case with_vertices_by_use(const Case& c) {
   std::vector<std::int32_t> number(static_cast<std::size_t>(c.frames.front().rows()), -1);
   std::int32_t used = 0;
   Case ordered = c;
+  auto was = in_order(number.size());
   for (Eigen::Index t = 0; t < c.triangles.rows(); ++t) {
     for (int i = 0; i < 3; ++i) {
       const auto old = c.triangles(t, i);
       auto& n = number[static_cast<std::size_t>(old)];
       if (n < 0) {
         n = used++;
+        was[at(n)] = old;
         for (std::size_t f = 0; f < c.frames.size(); ++f) {
           ordered.frames[f].row(n) = c.frames[f].row(old);
         }
@@ -129,6 +133,9 @@ Case with_vertices_by_use(const Case& c) {
       ordered.triangles(t, i) = n;
     }
   }
+  if (c.counted)
+    ordered.counted->pairs =
+        carried_over(c.counted->pairs, c.triangles, ordered.triangles, {number, was});
   return ordered;
 }
 

@@ -30,6 +30,7 @@ std::span<const Pass> simplifying_passes() {
   static constexpr Pass passes[] = {
       {"freeze vertices", freeze_vertices},
       {"view", simplify_view},
+      {"relation", simplify_relation},
       {"round all", round_all},
       {"translate", translate},
   };

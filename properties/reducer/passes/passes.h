@@ -40,6 +40,9 @@ void try_small_spheres(ReductionSearch& search);    // also over vertices around
 // step_passes.cpp: vertices that moved are put to rest.
 void freeze_vertices(ReductionSearch& search);  // halves, then one by one, at either end's place
 
+// There too: the relation says less.
+void simplify_relation(ReductionSearch& search);  // without it, without its parts, at rest at first
+
 // There too: passes on the view primitive that the case states.
 void simplify_view(ReductionSearch& search);  // fixed, a point, at the origin
 void drop_view(ReductionSearch& search);      // the detector's own one serves as well

@@ -1,4 +1,5 @@
-// Passes that drop steps, make the view primitive simpler, and let vertices rest (passes.h).
+// Passes that drop steps, make the view primitive and the relation simpler, and let vertices rest
+// (passes.h).
 
 #include "properties/reducer/case_edits.h"
 #include "properties/reducer/passes/passes.h"
@@ -135,6 +136,53 @@ void freeze_vertices(ReductionSearch& search) {
       }
     }
   }
+}
+
+namespace {
+
+// Offers the case with this change of its relation.
+template <class Change>
+bool offer_relation(ReductionSearch& search, const Change& change) {
+  corpus::Case simpler = search.best();
+  change(simpler.counted->pairs);
+  return search.offer(simpler);
+}
+
+template <class List>
+void shorten(ReductionSearch& search, List detector::CountedPairs::*list) {
+  const auto size = [&] { return (search.best().counted->pairs.*list).size(); };
+  if (size() == 0) return;
+  try_halves(search, size, [&](std::size_t begin, std::size_t end) {
+    return offer_relation(search, [&](detector::CountedPairs& pairs) {
+      const auto first = (pairs.*list).begin();
+      (pairs.*list)
+          .erase(first + static_cast<std::ptrdiff_t>(begin),
+                 first + static_cast<std::ptrdiff_t>(end));
+    });
+  });
+}
+
+}  // namespace
+
+void simplify_relation(ReductionSearch& search) {
+  if (!search.best().counted) return;
+  corpus::Case without = search.best();
+  without.counted.reset();
+  if (search.offer(without)) return;
+  using detector::CountedPairs;
+  shorten(search, &CountedPairs::apart);
+  shorten(search, &CountedPairs::triangle_pairs);
+  shorten(search, &CountedPairs::vertex_faces);
+  shorten(search, &CountedPairs::edge_pairs);
+  while (search.best().counted->pairs.rings > 0 &&
+         offer_relation(search, [](CountedPairs& pairs) { --pairs.rings; })) {
+  }
+  offer_relation(search, [](CountedPairs& pairs) { pairs.rest_distance = 0, pairs.rest.clear(); });
+  const auto& best = search.best();
+  if (best.counted->pairs.rest_distance > 0)
+    offer_relation(search, [first = corpus::points_of(best.frames.front())](CountedPairs& pairs) {
+      pairs.rest = first;
+    });
 }
 
 }  // namespace assay::properties

@@ -11,6 +11,7 @@
 #include "properties/printable.h"
 #include "properties/worker/case_run.h"
 #include "properties/worker/plugin/plugin_reading.h"
+#include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
 
@@ -82,6 +83,35 @@ class PluginRun {
   bool reports_pairs_, asks_twice_;
 };
 
+// Tells the plug-in which pairs count. Says why it does not take that; empty if it does.
+std::string tell_what_counts(const assay_detector_api& table, assay_handle* handle,
+                             const detector::CountedPairs& pairs) {
+  // They are handed over as they stand.
+  static_assert(sizeof(detector::TrianglePair) == 2 * sizeof(std::int32_t));
+  static_assert(sizeof(detector::VertexAndFace) == 2 * sizeof(std::int32_t));
+  static_assert(sizeof(detector::TwoEdges) == 4 * sizeof(std::int32_t));
+  static_assert(sizeof(detector::Point) == 3 * sizeof(double));
+  const auto numbers = [](const auto& list) {
+    return list.empty() ? nullptr : reinterpret_cast<const std::int32_t*>(list.data());
+  };
+  assay_counted_pairs counted = {};
+  counted.level = static_cast<std::int32_t>(pairs.level);
+  counted.body = numbers(pairs.body);
+  counted.apart_count = pairs.apart.size();
+  counted.apart = numbers(pairs.apart);
+  counted.rings = pairs.rings;
+  counted.rest_distance = pairs.rest_distance;
+  counted.rest = pairs.rest.empty() ? nullptr : pairs.rest.front().data();
+  counted.triangle_pair_count = pairs.triangle_pairs.size();
+  counted.triangle_pairs = numbers(pairs.triangle_pairs);
+  counted.vertex_face_count = pairs.vertex_faces.size();
+  counted.vertex_faces = numbers(pairs.vertex_faces);
+  counted.edge_pair_count = pairs.edge_pairs.size();
+  counted.edge_pairs = numbers(pairs.edge_pairs);
+  const std::int32_t code = table.count(handle, &counted);
+  return code == ASSAY_OK ? "" : text_of_code(table, "count", code);
+}
+
 }  // namespace
 
 Expected<PluginHost> PluginHost::open(const std::filesystem::path& library, std::uint32_t threads,
@@ -114,34 +144,53 @@ Expected<PluginHost> PluginHost::open(const std::filesystem::path& library, std:
   return PluginHost(table.value(), std::move(description.value()));
 }
 
-std::vector<QueryAnswer> PluginHost::ask(std::span<const detector::FourPoints> queries) const {
-  std::vector<QueryAnswer> answers;
-  for (const auto& query : queries) {
-    constexpr std::size_t points = 4, axes = 3;
-    std::array<double, points * axes> x_t0, x_t1;
-    for (std::size_t i = 0; i < points; ++i) {
-      for (std::size_t k = 0; k < axes; ++k) {
-        x_t0[axes * i + k] = query.points[i].t0[k];
-        x_t1[axes * i + k] = query.points[i].t1[k];
-      }
-    }
-    assay_query_result raw = {};
-    const std::int32_t code =
-        table_.query(query.first_group == 1 ? ASSAY_QUERY_VERTEX_FACE : ASSAY_QUERY_EDGE_EDGE,
-                     x_t0.data(), x_t1.data(), &raw);
-    answers.push_back(query_answer(code, raw));
-    auto& explanation = answers.back().explanation;
-    if (code != ASSAY_OK && code != ASSAY_OUT_OF_MEMORY)
-      explanation = text_of_code(table_, "query", code);
-    if (code == ASSAY_OK && raw.answer == ASSAY_ERROR) {
-      if (auto text = text_of_error(table_); !text.empty()) explanation = std::move(text);
+CaseRun PluginHost::ask(const detector::FourPoints& query, bool is_timed) const {
+  constexpr std::size_t points = 4, axes = 3;
+  std::array<double, points * axes> x_t0, x_t1;
+  for (std::size_t i = 0; i < points; ++i) {
+    for (std::size_t k = 0; k < axes; ++k) {
+      x_t0[axes * i + k] = query.points[i].t0[k];
+      x_t1[axes * i + k] = query.points[i].t1[k];
     }
   }
-  return answers;
+  assay_query_result raw = {};
+  RunClock clock(is_timed);
+  clock.created();
+  clock.begin();
+  const std::int32_t code =
+      table_.query(query.first_group == 1 ? ASSAY_QUERY_VERTEX_FACE : ASSAY_QUERY_EDGE_EDGE,
+                   x_t0.data(), x_t1.data(), &raw);
+  clock.answered();
+  CaseRun run;
+  run.times = clock.take();
+  StepResult& result = run.steps.emplace_back();
+  if (code == ASSAY_OUT_OF_MEMORY) {
+    result.answer = Answer::undecided;
+    run.explanation = "out of memory";
+  } else if (code != ASSAY_OK) {
+    run.explanation = text_of_code(table_, "query", code);
+  } else {
+    assay_result alike = {};
+    alike.answer = raw.answer;
+    alike.first_lo = raw.first_lo;
+    alike.first_hi = raw.first_hi;
+    auto read = step_result(alike, 0);
+    if (read) {
+      result = std::move(read.value());
+    } else {
+      const auto text = raw.answer == ASSAY_ERROR ? text_of_error(table_) : "";
+      run.explanation = text.empty() ? read.error().message : text;
+    }
+  }
+  return run;
 }
 
 CaseRun PluginHost::run(const corpus::Case& c, bool is_timed) const {
   const auto& parts = description_.parts;
+  if (const auto query = query_of(c)) {
+    if (!parts.query) return {RunEnd::refused, "it answers no queries", {}};
+    return ask(*query, is_timed);
+  }
   if (!parts.steps && !parts.candidates) return {RunEnd::refused, "it takes no steps", {}};
   std::vector<detector::Positions> frames;
   for (const auto& frame : c.frames) {
@@ -166,6 +215,12 @@ CaseRun PluginHost::run(const corpus::Case& c, bool is_timed) const {
   }
   PluginRun plugin(table_, handle, static_cast<std::int32_t>(c.triangles.rows()),
                    description_.contract.reports_pairs, asks_twice_);
+  if (c.counted && !c.counted->pairs.count_all()) {
+    // A contracted case has no relation for such a plug-in.
+    if (!table_.count) return {RunEnd::refused, "it cannot be told which pairs count", {}};
+    auto refusal = tell_what_counts(table_, handle, c.counted->pairs);
+    if (!refusal.empty()) return {RunEnd::refused, std::move(refusal), {}};
+  }
   CaseRun run;
   run.has_answers = parts.steps;
   for (const auto& step : corpus::steps_of(c)) {

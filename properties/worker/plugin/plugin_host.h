@@ -3,14 +3,11 @@
 #pragma once
 
 #include <filesystem>
-#include <span>
-#include <vector>
 
 #include "detector/plugin/assay_detector.h"
 #include "properties/problem.h"
 #include "properties/worker/case_run.h"
 #include "properties/worker/plugin/plugin_description.h"
-#include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
 
@@ -30,14 +27,14 @@ class PluginHost {
 
   // Runs a case as run_case does. If a result breaks the header's rules (an index out of range, an
   // invalid interval), its step is an error; `explanation` tells errors. Coordinates are rounded
-  // as the contract says. The caller has to leave out the steps that the contract leaves out.
+  // as the contract says. The caller has to leave out the steps that the contract leaves out. If
+  // the case is a query (query_case.h), that function of the plug-in is asked, with the coordinates
+  // as they are.
   CaseRun run(const corpus::Case& c, bool is_timed = false) const;
 
-  // Answers each query, by the same rules. REQUIRES that the plug-in has this part, and queries as
-  // the contract has them.
-  std::vector<QueryAnswer> ask(std::span<const detector::FourPoints> queries) const;
-
  private:
+  CaseRun ask(const detector::FourPoints& query, bool is_timed) const;
+
   PluginHost(const assay_detector_api& table, PluginDescription description)
       : table_(table), description_(std::move(description)) {}
 

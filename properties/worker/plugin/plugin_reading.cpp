@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <iterator>
 
 #include "detector/mesh/step_types.h"
 #include "detector/step_result.h"
@@ -15,9 +16,18 @@ namespace {
 
 constexpr std::uint32_t first_version = 1;
 
-// The members that every version has: the table up to destroy, the description up to margin.
-constexpr std::size_t first_table_bytes = offsetof(assay_detector_api, use_threads);
-constexpr std::size_t first_description_bytes = offsetof(assay_description, start);
+// How much of the table and of the description a version has.
+struct KnownBytes {
+  std::size_t table, description;
+};
+constexpr KnownBytes bytes_of_versions[] = {
+    {offsetof(assay_detector_api, use_threads), offsetof(assay_description, start)},
+    {offsetof(assay_detector_api, count), offsetof(assay_description, separation)},
+    {sizeof(assay_detector_api), sizeof(assay_description)}};
+static_assert(std::size(bytes_of_versions) == ASSAY_DETECTOR_ABI_VERSION);
+const KnownBytes& bytes_of(std::uint32_t version) {
+  return bytes_of_versions[version - first_version];
+}
 
 Problem broken(std::string explanation) { return {std::move(explanation)}; }
 
@@ -30,6 +40,7 @@ std::string gap_in(const assay_detector_api& table) {
   const bool needs_handle = all || table.candidates;
   if (needs_handle && !(table.create && table.destroy))
     return "a function is missing in its table: create or destroy";
+  if (table.count && !needs_handle) return "its table counts pairs, and takes no steps";
   return "";
 }
 
@@ -58,7 +69,11 @@ std::string read_contract(const assay_description& raw, Contract& contract) {
   if (!read_number(raw.features, contract.features)) return unknown("features", raw.features);
   if (raw.reports < 0 || raw.reports > ASSAY_REPORTS_NO_PAIRS)
     return unknown("reports", raw.reports);
+  if (!read_number(raw.counts, contract.counts)) return unknown("counts", raw.counts);
+  contract.rings = raw.rings;
+  contract.rest_distance = raw.rest_distance;
   contract.margin = raw.margin;
+  contract.separation = raw.separation;
   contract.start_distance = raw.start_distance;
   contract.least_nonzero = raw.least_nonzero;
   contract.largest = raw.largest;
@@ -97,7 +112,7 @@ Expected<assay_detector_api> read_table(const assay_detector_api* api) {
                    std::to_string(ASSAY_DETECTOR_ABI_VERSION)};
   }
   assay_detector_api table = {};
-  std::memcpy(&table, api, version == first_version ? first_table_bytes : sizeof table);
+  std::memcpy(&table, api, bytes_of(version).table);
   if (auto gap = gap_in(table); !gap.empty()) return broken(std::move(gap));
   return table;
 }
@@ -106,8 +121,7 @@ Expected<PluginDescription> read_description(const assay_detector_api& table) {
   const assay_description* given = table.describe();
   if (!given) return broken(nothing_described(table));
   assay_description raw = {};
-  std::memcpy(&raw, given,
-              table.abi_version == first_version ? first_description_bytes : sizeof raw);
+  std::memcpy(&raw, given, bytes_of(table.abi_version).description);
   Claims known = claims_from_outside;
   if (table.abi_version == first_version) known.set(Claim::candidates, false);
   if (raw.claims & ~known.bits()) return broken("unknown bits in its claims");
@@ -115,6 +129,7 @@ Expected<PluginDescription> read_description(const assay_detector_api& table) {
   PluginDescription description;
   if (auto fault = read_contract(raw, description.contract); !fault.empty())
     return broken(std::move(fault));
+  description.contract.takes_relations = table.count != nullptr;
   description.name = line_of(raw.name);
   description.version = line_of(raw.version);
   if (description.name.empty()) return broken("it has no name");
@@ -217,18 +232,6 @@ Expected<detector::StepResult> step_result(const assay_result& raw, std::int32_t
   std::string broken = read_result(raw, triangle_count, result);
   if (!broken.empty()) return Problem{std::move(broken)};
   return result;
-}
-
-QueryAnswer query_answer(std::int32_t code, const assay_query_result& raw) {
-  if (code == ASSAY_OUT_OF_MEMORY) return {Answer::undecided, {}, "out of memory"};
-  if (code != ASSAY_OK) return {Answer::error, {}, "query returned " + std::to_string(code)};
-  assay_result alike = {};
-  alike.answer = raw.answer;
-  alike.first_lo = raw.first_lo;
-  alike.first_hi = raw.first_hi;
-  const auto result = step_result(alike, 0);
-  if (!result) return {Answer::error, {}, result.error().message};
-  return {result.value().answer, result.value().first, ""};
 }
 
 Expected<std::vector<detector::TrianglePair>> candidate_pairs(const assay_candidates& raw,

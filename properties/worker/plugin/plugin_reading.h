@@ -9,7 +9,6 @@
 #include "detector/step_result.h"
 #include "properties/problem.h"
 #include "properties/worker/plugin/plugin_description.h"
-#include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
 
@@ -36,10 +35,6 @@ Expected<PluginDescription> read_description(const assay_detector_api& table);
 // plug-in reports none, pairs break the rules.
 Expected<detector::StepResult> step_result(const assay_result& raw, std::int32_t triangle_count,
                                            bool reports_pairs = true);
-
-// The answer of a query function that returned `code`, as a step has it: an error in words if
-// there is no answer, undecided if memory failed.
-QueryAnswer query_answer(std::int32_t code, const assay_query_result& raw);
 
 // The candidate pairs a < b, ascending, each once. Fails if an index is none of a
 // triangle.

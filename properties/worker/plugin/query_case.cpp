@@ -36,13 +36,21 @@ corpus::Case case_of_query(const detector::FourPoints& query, std::string id) {
   return c;
 }
 
+std::string query_word(const corpus::Case& c) {
+  const auto word = c.options.find(query_option);
+  return word == c.options.end() ? "" : word->second;
+}
+
+void say_query(corpus::Case& c, const std::string& word) {
+  if (!word.empty()) c.options[query_option] = word;
+}
+
 bool says_query(const corpus::Case& c) { return c.options.contains(query_option); }
 
 std::optional<detector::FourPoints> query_of(const corpus::Case& c) {
-  const auto word = c.options.find(query_option);
-  if (word == c.options.end()) return std::nullopt;
-  const bool is_vertex_face = word->second == vertex_face_word;
-  if (!is_vertex_face && word->second != edge_edge_word) return std::nullopt;
+  const std::string word = query_word(c);
+  const bool is_vertex_face = word == vertex_face_word;
+  if (!is_vertex_face && word != edge_edge_word) return std::nullopt;
   const detector::Triangles expected = triangles_of_queries();
   if (c.triangles.rows() != expected.rows() || c.triangles != expected) return std::nullopt;
   const auto steps = corpus::steps_of(c);
@@ -54,15 +62,6 @@ std::optional<detector::FourPoints> query_of(const corpus::Case& c) {
   for (int v = 0; v < vertices_of_a_query; ++v)
     query.points[static_cast<std::size_t>(v)] = detector::SteppedMesh{x_t0, x_t1}.path(v);
   return query;
-}
-
-CaseRun run_of(QueryAnswer answer) {
-  CaseRun run;
-  run.explanation = std::move(answer.explanation);
-  auto& step = run.steps.emplace_back();
-  step.answer = answer.answer;
-  step.first = answer.first;
-  return run;
 }
 
 }  // namespace assay::properties

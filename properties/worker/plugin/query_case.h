@@ -1,4 +1,4 @@
-// An elementary query as a case, so that campaigns, the reducer and `replay` can treat it like any
+// An elementary query as a case, so that everything that runs and judges cases treats it like any
 // other.
 //
 // The case has four vertices in the order of FourPoints, two triangles (0,1,2) and (1,3,2), one
@@ -9,21 +9,12 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "corpus/cases/case_file.h"
 #include "detector/mesh/step_types.h"
 #include "detector/mesh/types.h"
-#include "properties/worker/case_run.h"
 
 namespace assay::properties {
-
-// What a plug-in answers to a query.
-struct QueryAnswer {
-  detector::Answer answer = detector::Answer::error;
-  detector::TimeEnclosure first;  // only with a collision
-  std::string explanation;        // only with an error: one line
-};
 
 corpus::Case case_of_query(const detector::FourPoints& query, std::string id);
 
@@ -33,8 +24,8 @@ bool says_query(const corpus::Case& c);
 std::optional<detector::FourPoints> query_of(const corpus::Case& c);
 
 const char* query_word(const detector::FourPoints& query);  // "vertex-face", "edge-edge"
-
-// The answer as the run of the query's case.
-CaseRun run_of(QueryAnswer answer);
+// What the case says of itself in this way; an empty word if it does not say that it is a query.
+std::string query_word(const corpus::Case& c);
+void say_query(corpus::Case& c, const std::string& word);
 
 }  // namespace assay::properties

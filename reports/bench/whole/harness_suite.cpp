@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include "oracle/mesh/step.h"
-#include "properties/campaign/trials/trial.h"
 #include "properties/generators/families.h"
+#include "properties/judging/trial.h"
 #include "properties/queries/query_methods.h"
 #include "properties/worker/case_run.h"
 #include "reports/bench/cases.h"
@@ -49,7 +49,7 @@ void ask_simulation_queries(const BenchSettings& settings, BenchReport& report) 
   const auto samples = interleave(settings.rounds(5), {[&] {
                                     return ns_of([&] {
                                       for (const auto& query : set->queries) {
-                                        keep(properties::ask_oracle(query, detector::Want::yes_no));
+                                        keep(oracle::contact_of(query, detector::Want::yes_no));
                                       }
                                     });
                                   }});

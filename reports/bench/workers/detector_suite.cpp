@@ -26,12 +26,12 @@ std::optional<ComparedTime> compared(const std::vector<double>& plugin,
 // One worker for each of the two detectors, kept from sequence to sequence.
 class ComparedWorkers {
  public:
-  explicit ComparedWorkers(const BenchedPlugin& plugin)
+  ComparedWorkers(const properties::Subject& plugin, int jobs)
       : plugin_(plugin),
-        claims_(claims_on_steps(plugin.description)),
-        of_plugin_(properties::worker_program(), plugin.library, plugin.limits),
-        of_built_in_(properties::worker_program(), std::nullopt,
-                     {.seconds = plugin.limits.seconds}) {}
+        claims_(plugin.detector.claims),
+        jobs_(jobs),
+        of_plugin_(plugin.process()),
+        of_built_in_(plugin.worker, std::nullopt, {.seconds = plugin.limits.seconds}) {}
 
   // Adds a line to `wrong` for a broken claim of the plug-in, for two runs that differ although it
   // claims to be deterministic, and for anything that the built-in detector has wrong. `tick` is
@@ -42,7 +42,7 @@ class ComparedWorkers {
     out.name = family.name;
     out.kind = family.kind;
     out.triangles = static_cast<std::uint64_t>(timed.c.triangles.rows());
-    const auto& contract = plugin_.description.contract;
+    const auto& contract = plugin_.detector.contract;
     const auto seen = properties::contracted(timed.c, contract);
     out.steps = seen ? corpus::steps_of(*seen).size() : 0;
     out.left_out = corpus::steps_of(timed.c).size() - out.steps;
@@ -56,14 +56,16 @@ class ComparedWorkers {
     const auto start = vouches ? timed.start : detector::Start::verified;
     const auto pairs =
         claims_.has(properties::Claim::all_pairs) ? detector::Pairs::all : detector::Pairs::first;
-    const WorkerSubject subjects[] = {
-        {&of_plugin_, {plugin_.description.name, {}, {}, true}},
-        {&of_built_in_, {"built-in", {detector::Options{}.culling, start, pairs}, {}, true}}};
+    detector::Options options = {detector::Options{}.culling, start, pairs};
+    if (contract.separation > 0) options.culling = detector::Culling::bvh;
+    options.separation = contract.separation;
+    const WorkerSubject subjects[] = {{&of_plugin_, {plugin_.description.name, {}, {}, true}},
+                                      {&of_built_in_, {"built-in", options, {}, true}}};
     const auto runs = sweep_workers(*seen, subjects, family.rounds, tick);
     tick();
-    const auto truth = properties::judge_case(*seen, contract, plugin_.jobs);
+    const auto truth = properties::judge_case(*seen, contract, jobs_);
     judge_plugin(*seen, runs[0], truth, wrong, out);
-    judge_built_in(runs[1], truth, subjects[1].configuration.options, out.name, wrong);
+    judge_built_in(*seen, runs[1], truth, options, wrong);
     if (out.ended.empty()) {
       out.step = compared(runs[0].ms_a_step, runs[1].ms_a_step);
       out.create = compared(runs[0].create_ms, runs[1].create_ms);
@@ -71,15 +73,12 @@ class ComparedWorkers {
     return out;
   }
 
-  // How the plug-in's process is isolated. Known once it has run.
-  const properties::Isolation& isolation() const { return of_plugin_.isolation(); }
-
  private:
   void judge_plugin(const corpus::Case& seen, const WorkerRuns& runs,
                     const std::vector<oracle::StepJudgement>& truth,
                     std::vector<std::string>& wrong, ComparedSequence& out) const {
     out.ended = runs.ended;
-    const auto judged = judge_run(seen, *runs.first, truth, claims_, plugin_.description.contract);
+    const auto judged = judge_run(seen, *runs.first, truth, claims_, plugin_.detector.contract);
     for (const auto& diff : judged.steps) out.errors += errors_of(diff);
     // A run that broke off has no steps.
     if (judged.steps.empty()) out.errors.steps = out.errors.undecided = truth.size();
@@ -90,23 +89,24 @@ class ComparedWorkers {
       wrong.push_back(fmt::format("{}: {} breaks {}", out.name, plugin_.description.name, claim));
   }
 
-  static void judge_built_in(const WorkerRuns& runs,
+  static void judge_built_in(const corpus::Case& seen, const WorkerRuns& runs,
                              const std::vector<oracle::StepJudgement>& truth,
-                             const detector::Options& options, const std::string& name,
-                             std::vector<std::string>& wrong) {
+                             const detector::Options& options, std::vector<std::string>& wrong) {
     if (!runs.ended.empty())
-      wrong.push_back(fmt::format("{}: the built-in detector's run {}", name, runs.ended));
+      wrong.push_back(fmt::format("{}: the built-in detector's run {}", seen.id, runs.ended));
     const auto& answers = runs.first->steps;
     for (std::size_t s = 0; s < answers.size(); ++s) {
-      const auto diff = properties::compare(answers[s], truth[s], properties::claims_of(options));
+      const auto diff = properties::compare(answers[s], truth[s], properties::claims_of(options),
+                                            properties::contract_of(options), seen.triangles);
       if (diff.outcome == Outcome::holds) continue;
-      wrong.push_back(fmt::format("{}, step {}: the built-in detector: {}", name, s + 1,
+      wrong.push_back(fmt::format("{}, step {}: the built-in detector: {}", seen.id, s + 1,
                                   name_of(diff.outcome)));
     }
   }
 
-  const BenchedPlugin& plugin_;
-  const properties::Claims claims_;
+  const properties::Subject& plugin_;
+  const properties::Claims& claims_;
+  const int jobs_;
   properties::WorkerProcess of_plugin_, of_built_in_;
 };
 
@@ -162,12 +162,12 @@ void to_json(Json& json, const ComparedTime& time) {
       json_object("plugin_ms", time.plugin_ms, "built_in_ms", time.built_in_ms, "over", time.over);
 }
 
-BenchReport detector_suite(const BenchSettings& settings, const BenchedPlugin& plugin,
+BenchReport detector_suite(const BenchSettings& settings, const properties::Subject& plugin,
                            const BenchProgress& progress,
                            std::vector<ComparedSequence>* sequences) {
   constexpr Eigen::Index most_triangles_when_quick = 10'000;
   BenchReport report("detector");
-  ComparedWorkers workers(plugin);
+  ComparedWorkers workers(plugin, settings.jobs);
   std::vector<ComparedSequence> done;
   std::vector<std::string> missing;
   auto families = scene_families(settings);
@@ -187,15 +187,14 @@ BenchReport detector_suite(const BenchSettings& settings, const BenchedPlugin& p
   }
   for (const auto& file : missing) report.add_no_data("public sequence", file);
   const auto& about = plugin.description;
-  const auto claims = claims_on_steps(about);
+  const auto& claims = plugin.detector.claims;
   std::vector<const char*> claim_names;
   for (const auto claim : properties::list_of(claims)) claim_names.push_back(name_of(claim));
-  report.above = plugin_text(about.name + " " + about.version, claims, about.contract,
-                             workers.isolation(), plugin.limits.threads) +
-                 "\n" + sequences_text(done, claims.has(properties::Claim::all_pairs));
+  report.above =
+      plugin_text(plugin) + "\n" + sequences_text(done, claims.has(properties::Claim::all_pairs));
   report.figures["detector"] =
-      json_object("name", about.name, "version", about.version, "library", plugin.library, "claims",
-                  claim_names, "isolation", text_of(workers.isolation()), "threads",
+      json_object("name", about.name, "version", about.version, "library", plugin.plugin->string(),
+                  "claims", claim_names, "isolation", text_of(plugin.limits.least), "threads",
                   plugin.limits.threads, "contract", properties::json_of(about.contract));
   if (sequences) *sequences = std::move(done);
   return report;

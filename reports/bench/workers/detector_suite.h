@@ -7,19 +7,10 @@
 #include <vector>
 
 #include "properties/judging/step_errors.h"
-#include "properties/worker/worker_process.h"
+#include "properties/judging/subject.h"
 #include "reports/bench/suites.h"
 
 namespace assay::reports {
-
-// The plug-in that is timed. REQUIRES that it has steps.
-struct BenchedPlugin {
-  std::string library;
-  properties::PluginDescription description;
-  // `limits.seconds` is the processor time that one run of a sequence may take.
-  properties::WorkerLimits limits;
-  int jobs = 1;  // threads of the oracle
-};
 
 // One time of both, measured in turn.
 struct ComparedTime {
@@ -52,7 +43,10 @@ struct ComparedSequence {
 // are no times for a sequence that the contract does not take, or on which the plug-in's run ends
 // early; the row says so. With a scale below 1, public sequences of more than 10,000 triangles are
 // left out. `sequences`, if given, gets what the rows tell.
-BenchReport detector_suite(const BenchSettings& settings, const BenchedPlugin& plugin,
+//
+// REQUIRES a plug-in that has steps. `limits.seconds` of it is the processor time that one run of a
+// sequence may take.
+BenchReport detector_suite(const BenchSettings& settings, const properties::Subject& plugin,
                            const BenchProgress& progress,
                            std::vector<ComparedSequence>* sequences = nullptr);
 

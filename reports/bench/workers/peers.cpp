@@ -38,33 +38,30 @@ constexpr KnownPeer known_peers[] = {{"cubic_double", nullptr},
 
 PeerSubject built_in(Arithmetic arithmetic, Culling culling) {
   PeerSubject subject;
+  subject.worker = properties::worker_program();
   subject.name = fmt::format("built-in, {}, {}", name_of(arithmetic), name_of(culling));
   subject.options = {culling, detector::Start::verified, detector::Pairs::all, arithmetic};
-  subject.claims = properties::claims_of(subject.options);
+  subject.detector.claims = properties::claims_of(subject.options);
   return subject;
 }
 
 void add_library(const std::filesystem::path& file, Peers& peers) {
-  properties::WorkerProcess worker(properties::worker_program(), file);
-  const auto described = worker.describe();
-  const std::string name = file.stem().string();
-  if (!described) {
-    peers.absent.push_back({name, described.error().message});
+  auto opened = properties::Subject::open(properties::worker_program(), file.string(),
+                                          properties::DetectorPart::by_library, {});
+  const std::string file_name = file.stem().string();
+  const auto why = !opened                                           ? opened.error().message
+                   : !opened.value().description.parts.steps         ? "it holds no steps"
+                   : opened.value().detector.contract.separation > 0 ? "it is asked for a distance"
+                                                                     : "";
+  if (!why.empty()) {
+    peers.absent.push_back({file_name, why});
     return;
   }
-  const auto& d = described.value();
-  if (!d.parts.steps) {
-    peers.absent.push_back({name, "it holds no steps"});
-    return;
-  }
-  PeerSubject subject;
-  const bool is_taken = std::any_of(peers.subjects.begin(), peers.subjects.end(),
-                                    [&](const PeerSubject& other) { return other.name == d.name; });
-  subject.name = is_taken ? fmt::format("{} ({})", d.name, name) : d.name;
-  subject.version = d.version;
-  subject.library = file.string();
-  subject.claims = claims_on_steps(d);
-  subject.contract = d.contract;
+  PeerSubject subject{std::move(opened.value()), "", {}};
+  subject.name = subject.description.name;
+  if (std::any_of(peers.subjects.begin(), peers.subjects.end(),
+                  [&](const PeerSubject& other) { return other.name == subject.name; }))
+    subject.name += fmt::format(" ({})", file_name);
   peers.subjects.push_back(std::move(subject));
 }
 
@@ -78,13 +75,12 @@ std::size_t place_of(const std::filesystem::path& file) {
 }  // namespace
 
 properties::WorkerProcess PeerSubject::make_worker(double seconds) const {
-  std::optional<std::filesystem::path> plugin;
-  if (!is_built_in()) plugin = library;
-  return {properties::worker_program(), plugin, {.seconds = seconds}};
+  return {worker, plugin, {.seconds = seconds}};
 }
 
 properties::Claims PeerSubject::asked() const {
-  return is_built_in() ? properties::claims_of({}).only(properties::claims_from_outside) : claims;
+  return detector.built_in ? properties::claims_of({}).only(properties::claims_from_outside)
+                           : detector.claims;
 }
 
 Peers find_peers(const std::string& folder) {
@@ -117,7 +113,16 @@ namespace {
 constexpr double longest_repeated_step = 5;  // s
 
 bool same_steps(const corpus::Case& a, const corpus::Case& b) {
-  return a.frames == b.frames && corpus::steps_of(a) == corpus::steps_of(b);
+  const auto *counted = corpus::counted_of(a), *other = corpus::counted_of(b);
+  return a.frames == b.frames && corpus::steps_of(a) == corpus::steps_of(b) &&
+         (counted && other ? *counted == *other : counted == other);
+}
+
+// Whether one judgement of the oracle serves both contracts, neither of which has a separation.
+bool asks_alike(const properties::Contract& a, const properties::Contract& b) {
+  const auto judged_slack = [](const auto& c) { return c.judges_alarms() ? c.margin : 0; };
+  return a.features == b.features && a.counts == b.counts && a.rings == b.rings &&
+         a.rest_distance == b.rest_distance && judged_slack(a) == judged_slack(b);
 }
 
 }  // namespace
@@ -135,7 +140,7 @@ PeerCounts counts_of(const PeerSubject& subject, const corpus::Case& seen,
                      const std::vector<oracle::StepJudgement>& truth,
                      std::vector<UnsafeAnswer>& unsafe) {
   PeerCounts counts;
-  const auto verdict = judge_run(seen, run, truth, subject.asked(), subject.contract);
+  const auto verdict = judge_run(seen, run, truth, subject.asked(), subject.detector.contract);
   // A run that broke off has no steps.
   if (verdict.steps.empty()) counts.errors.steps = counts.errors.undecided = truth.size();
   for (std::size_t s = 0; s < verdict.steps.size(); ++s) {
@@ -146,7 +151,7 @@ PeerCounts counts_of(const PeerSubject& subject, const corpus::Case& seen,
     const bool is_timed = result.first.lo > 0 || result.first.hi < 1;
     counts.timed_collisions += result.answer == detector::Answer::collision && is_timed ? 1 : 0;
     if (errors.unsafe == 0) continue;
-    const bool confirmed = is_confirmed(seen, s, diff, result, subject.contract);
+    const bool confirmed = is_confirmed(seen, s, diff, result, subject.detector.contract);
     counts.confirmed += confirmed ? 1 : 0;
     const char* defect = diff.answered_free ? "missed" : diff.late_first ? "late" : "pairs missing";
     unsafe.push_back({subject.name, seen.id, s, defect, confirmed});
@@ -179,7 +184,7 @@ std::vector<PeerRow> peer_rows(std::span<const PeerFamily> families,
     }
     row.families = over.size();
     row.answers = row.counts.timed_collisions > 0 ? "answer, time" : "answer";
-    if (subject.contract.reports_pairs) row.answers += ", pairs";
+    if (subject.detector.contract.reports_pairs) row.answers += ", pairs";
     if (!over.empty()) row.over = bootstrap_median(std::move(over));
     if (!create_over.empty()) row.create_over = median_of(std::move(create_over)).value;
     rows.push_back(std::move(row));
@@ -207,12 +212,11 @@ std::vector<PeerRuns::Group> PeerRuns::groups_of(const corpus::Case& c) const {
   std::vector<Group> groups;
   const auto planned = corpus::steps_of(c).size();
   for (std::size_t i = 0; i < subjects_.size(); ++i) {
-    const auto& contract = subjects_[i].contract;
+    const auto& contract = subjects_[i].detector.contract;
     auto seen = properties::contracted(c, contract);
     if (!seen) continue;
     const auto same = std::find_if(groups.begin(), groups.end(), [&](const Group& group) {
-      return asked_features(group.contract) == asked_features(contract) &&
-             same_steps(group.c, *seen);
+      return asks_alike(group.contract, contract) && same_steps(group.c, *seen);
     });
     if (same != groups.end()) {
       same->subjects.push_back(i);
@@ -281,8 +285,9 @@ void PeerRuns::run_group(const CaseFamily& family, const TimedCase& timed, const
       add_times(runs[k], one.ms, one.create_ms);
       add_times(runs[0], one.reference_ms, one.reference_create_ms);
     }
-    if (!subject.is_built_in()) continue;
-    const auto own = judge_run(group.c, *runs[k].first, truth, subject.claims, subject.contract);
+    if (!subject.detector.built_in) continue;
+    const auto own = judge_run(group.c, *runs[k].first, truth, subject.detector.claims,
+                               subject.detector.contract);
     if (own.outcome != properties::Outcome::holds)
       wrong.push_back(fmt::format("{}, case {}, {}: {}", family.name, timed.c.id, subject.name,
                                   name_of(own.outcome)));

@@ -13,21 +13,17 @@
 #include "oracle/mesh/step.h"
 #include "properties/claims/claims.h"
 #include "properties/judging/step_errors.h"
-#include "properties/worker/worker_process.h"
+#include "properties/judging/subject.h"
 #include "reports/bench/cases.h"
 #include "reports/estimate.h"
 
 namespace assay::reports {
 
 // Who takes part in the suite.
-struct PeerSubject {
-  std::string name, version;
-  std::string library;        // empty: the built-in detector
+struct PeerSubject : properties::Subject {
+  std::string name;
   detector::Options options;  // of the built-in detector
-  properties::Claims claims;  // what it claims itself
-  properties::Contract contract;
 
-  bool is_built_in() const { return library.empty(); }
   // A worker that runs it, not yet started.
   properties::WorkerProcess make_worker(double seconds) const;
   // The claims by which its errors are counted. Every form of the built-in detector is asked for
@@ -46,8 +42,9 @@ struct Peers {
   std::vector<AbsentPeer> absent;
 };
 
-// The peers in the folder: each library NAME.so, by name. A library that cannot be loaded, or has
-// no steps, is absent. So is a known peer whose library is not there; `why` says what it needs.
+// The peers in the folder: each library NAME.so, by name. A library that cannot be loaded, has no
+// steps, or is asked for a distance and not for contact, is absent. So is a known peer whose
+// library is not there; `why` says what it needs.
 Peers find_peers(const std::string& folder);
 
 struct PeerCounts {

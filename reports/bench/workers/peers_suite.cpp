@@ -21,7 +21,7 @@ std::string row_text(std::span<const int> widths, const PeerRow& row) {
   letters += row.answers.find("pairs") == std::string::npos ? "" : " p";
   // A count stands in brackets if the detector promised nothing about it.
   const auto asked = [&](std::uint64_t count) {
-    return row.subject.claims.has(properties::Claim::free_sound) || count == 0
+    return row.subject.detector.claims.has(properties::Claim::free_sound) || count == 0
                ? std::to_string(count)
                : fmt::format("({})", count);
   };
@@ -46,13 +46,14 @@ Json json_of(const PeerCounts& counts) {
 Json json_of(const PeerRow& row) {
   const auto& subject = row.subject;
   std::vector<const char*> claims;
-  for (const auto claim : properties::list_of(subject.claims)) claims.push_back(name_of(claim));
-  return json_object("detector", subject.name, "version", subject.version, "is_built_in",
-                     subject.is_built_in(), "claims", claims, "contract",
-                     phrases_of(subject.contract), "answers", row.answers, "time_over_reference",
-                     row.over, "create_over_reference", row.create_over, "families_timed",
-                     row.families, "slow", row.slow, "ended_early", row.ended, "bytes_a_triangle",
-                     row.bytes_a_triangle, "counts", json_of(row.counts));
+  for (const auto claim : properties::list_of(subject.detector.claims))
+    claims.push_back(name_of(claim));
+  return json_object("detector", subject.name, "version", subject.description.version,
+                     "is_built_in", subject.detector.built_in, "claims", claims, "contract",
+                     phrases_of(subject.detector.contract), "answers", row.answers,
+                     "time_over_reference", row.over, "create_over_reference", row.create_over,
+                     "families_timed", row.families, "slow", row.slow, "ended_early", row.ended,
+                     "bytes_a_triangle", row.bytes_a_triangle, "counts", json_of(row.counts));
 }
 
 Json json_of(const PeerFamily& f) {
@@ -71,10 +72,11 @@ std::string look_of(const PeerRow& row, std::size_t place) {
   constexpr std::array colours = {colour::vermilion, colour::orange, colour::green,
                                   colour::purple,    colour::sky,    colour::grey};
   constexpr std::array hollow = {4, 6, 8, 10, 12, 14};
-  return fmt::format("pointtype {} pointsize 1.2 linewidth 1.2 linecolor '{}'",
-                     hollow[(place + place / hollow.size()) % hollow.size()] +
-                         (row.subject.claims.has(properties::Claim::free_sound) ? 1 : 0),
-                     row.subject.is_built_in() ? colour::blue : colours[place % colours.size()]);
+  return fmt::format(
+      "pointtype {} pointsize 1.2 linewidth 1.2 linecolor '{}'",
+      hollow[(place + place / hollow.size()) % hollow.size()] +
+          (row.subject.detector.claims.has(properties::Claim::free_sound) ? 1 : 0),
+      row.subject.detector.built_in ? colour::blue : colours[place % colours.size()]);
 }
 
 }  // namespace
@@ -88,7 +90,7 @@ std::string peers_text(std::span<const PeerRow> rows, std::span<const PeerFamily
   PeerCounts peers, built_in;
   for (const auto& row : rows) {
     text += row_text(widths, row);
-    (row.subject.is_built_in() ? built_in : peers) += row.counts;
+    (row.subject.detector.built_in ? built_in : peers) += row.counts;
   }
   text +=
       "answers: a collision or not, t when first, p which pairs; each in its own contract\n"

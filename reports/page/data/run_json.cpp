@@ -11,7 +11,6 @@
 #include "reports/campaign/failure_text.h"
 #include "reports/certificate/statement.h"
 #include "reports/pictures/case_scene.h"
-#include "reports/pictures/contact_point.h"
 #include "reports/pictures/mesh_svg.h"
 #include "reports/steps/step_json.h"
 #include "reports/terminal/words.h"
@@ -30,7 +29,10 @@ std::string why_text(const properties::Judgement& judgement) {
                      reasons.size() > 1 ? fmt::format("; and {} more", reasons.size() - 1) : "");
 }
 
-Json point_json(const detector::Point& p) { return {p[0], p[1], p[2]}; }
+template <class Point>
+Json point_json(const Point& p) {
+  return {p[0], p[1], p[2]};
+}
 
 Json moving_json(const detector::MovingPoint& p) { return {point_json(p.t0), point_json(p.t1)}; }
 
@@ -42,13 +44,12 @@ Json frame_json(const detector::Positions& x) {
 
 Json pairs_json(const CaseScene& scene, const SceneStep& step,
                 const std::vector<detector::PairContact>& pairs) {
-  const auto &x_t0 = start_of(scene.c, step.span), &x_t1 = end_of(scene.c, step.span);
   Json list = Json::array();
   for (const auto& contact : pairs) {
-    const double t = contact.time.lo + (contact.time.hi - contact.time.lo) / 2;
-    const auto point = contact_point(contact, scene.c.triangles, x_t0, x_t1, t);
+    const auto nearest = scene.nearest_points(step, contact);
     Json json = to_json(contact);
-    json["point"] = point ? point_json(*point) : Json();
+    json["places"] = nearest ? Json({point_json(nearest->a), point_json(nearest->b)}) : Json();
+    json["distance"] = nearest ? Json(nearest->distance()) : Json();
     list.push_back(std::move(json));
   }
   return list;
@@ -109,8 +110,18 @@ Json candidates_json(const properties::CandidatePairs& candidates) {
   return list;
 }
 
-// The scene of a case in `assay-report/2`: what the viewer draws (reports/README.md, `scene`).
-Json scene_json(const CaseScene& scene) {
+// By triangle; null if the case has no bodies. A detector may not have been told of them.
+Json bodies_json(const corpus::Case& c) {
+  const auto* counted = corpus::counted_of(c);
+  if (!counted || counted->body.empty()) return nullptr;
+  Json list = Json::array();
+  for (Eigen::Index t = 0; t < c.triangles.rows(); ++t)
+    list.push_back(counted->body[detector::at(c.triangles(t, 0))]);
+  return list;
+}
+
+// The scene of a case in `assay-report/3`: what the viewer draws (reports/README.md, `scene`).
+Json scene_json(const CaseScene& scene, const corpus::Case& stored) {
   Json triangles = Json::array(), frames = Json::array(), steps = Json::array();
   for (Eigen::Index t = 0; t < scene.c.triangles.rows(); ++t) {
     const auto row = scene.c.triangles.row(t);
@@ -134,10 +145,13 @@ Json scene_json(const CaseScene& scene) {
          {"views", step.has_views() ? views_json(scene, *step.answered) : Json()}});
   }
   const auto pair = scene.shown_pair();
+  const auto asked = scene.asked_distance();
   return {{"triangles", std::move(triangles)},
+          {"bodies", bodies_json(stored)},
           {"frames", std::move(frames)},
           {"steps", std::move(steps)},
           {"reports_pairs", scene.reports_pairs},
+          {"asked", asked.empty() ? Json() : Json(asked)},
           {"ended", scene.ended.empty() ? Json() : Json(scene.ended)},
           {"shown",
            {{"step", scene.shown_step()}, {"pair", pair ? Json({pair->a, pair->b}) : Json()}}}};
@@ -171,7 +185,7 @@ std::string show(Json& json, SceneMaker& scenes, const properties::StoredFailure
     json["stage"] = scene->failure->stage.empty() ? Json() : Json(scene->failure->stage);
     json["now"] = scene->failure->explanation;
   }
-  json["scene"] = scene_json(*scene);
+  json["scene"] = scene_json(*scene, mesh.value());
   json["svg"] = mesh_svg(*scene, failure.signature);
   return "";
 }

@@ -1,4 +1,4 @@
-// A run as the page shows it: `runs[]` of assay-report/2, documented in reports/README.md; and the
+// A run as the page shows it: `runs[]` of assay-report/3, documented in reports/README.md; and the
 // page as one file.
 #pragma once
 
@@ -21,7 +21,7 @@ nlohmann::ordered_json run_json(const properties::RunFindings& findings,
                                 const nlohmann::ordered_json& statement = nullptr,
                                 const std::string& unverified = "");
 
-// `failures` of assay-report/2: one mesh of each signature is run again. For each failure of the
+// `failures` of assay-report/3: one mesh of each signature is run again. For each failure of the
 // predicate, in their order, it is the scene and the picture of its smallest mesh, and the others
 // with its signature.
 nlohmann::ordered_json failure_scenes(const properties::RunFindings& findings);

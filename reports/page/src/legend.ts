@@ -43,8 +43,8 @@ export function legend(scene: Scene): { element: HTMLElement; show: (time: numbe
       ...items,
       ...(ghosts ? [swatch("ghost", `ghosts that close the mesh: ${ghosts}`)] : []),
       swatch("pair", "the pair"),
-      swatch("exact", "exact contact"),
-      ...(scene.steps.some((s) => s.detector?.pairs.some((c) => c.point)) ? [swatch("detector", "the detector's")] : []),
+      swatch("exact", scene.asked ? `nearest points when first near; ${scene.asked}` : "exact contact"),
+      ...(scene.steps.some((s) => s.detector?.pairs.some((c) => c.places)) ? [swatch("detector", "the detector's")] : []),
     );
   };
   return { element: list, show };

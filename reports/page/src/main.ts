@@ -28,7 +28,7 @@ function runView(run: Run): { element: HTMLElement; failures: FailuresView } {
 function read(): Report | null {
   try {
     const stored = JSON.parse(document.getElementById("assay-report")?.textContent ?? "") as Report;
-    return stored.schema === "assay-report/2" ? stored : null;
+    return stored.schema === "assay-report/3" ? stored : null;
   } catch {
     return null;
   }

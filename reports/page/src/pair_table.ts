@@ -49,6 +49,7 @@ function reported(row: Row, scene: Scene): string {
 export function pairTable(scene: Scene, choose: (step: number, pair: [number, number]) => void): HTMLElement {
   const rows = rowsOf(scene);
   if (rows.length === 0) return html("p", { class: "note" }, "No pair is in contact, by the oracle or by the detector.");
+  const { bodies } = scene;
   const gives = rows.some((r) => r.candidate !== null);
   return table(
     "Pairs in contact",
@@ -59,6 +60,7 @@ export function pairTable(scene: Scene, choose: (step: number, pair: [number, nu
         cell: (r: Row) =>
           html("button", { type: "button", class: "plain", click: () => choose(r.step, r.pair) }, `${r.pair[0]} and ${r.pair[1]}`),
       },
+      ...(bodies ? [{ head: "bodies", cell: (r: Row) => `${bodies[r.pair[0]]} and ${bodies[r.pair[1]]}`, short: true }] : []),
       { head: "step", cell: (r: Row) => String(r.step + 1), number: true },
       { head: "feature", cell: (r: Row) => r.exact?.feature ?? "\u2013", short: true },
       { head: "exact time", cell: (r: Row) => (r.exact ? time(r.exact.time) : "no contact") },

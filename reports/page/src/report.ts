@@ -1,4 +1,4 @@
-// The data of the page: schema assay-report/2, documented in reports/README.md. What a run came to is
+// The data of the page: schema assay-report/3, documented in reports/README.md. What a run came to is
 // the predicate of a certificate, whose types are made from its schema (types.mjs).
 import type { Statement } from "../made/certificate";
 
@@ -12,7 +12,8 @@ export interface Contact {
   time: Interval;
   feature: string;
   vertices: number[];
-  point: Point | null;
+  places: [Point, Point] | null; // the nearest points of the two; in a contact they coincide
+  distance: number | null; // of these
 }
 
 export interface Answer {
@@ -43,9 +44,11 @@ export interface Step {
 
 export interface Scene {
   triangles: [number, number, number][];
+  bodies: number[] | null; // by triangle; null: the case has none
   frames: Point[][];
   steps: Step[];
   reports_pairs: boolean;
+  asked: string | null; // what the contract wants of distances: "d 0.01, slack 0.002"
   ended: string | null;
   shown: { step: number; pair: [number, number] | null };
 }

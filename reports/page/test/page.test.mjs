@@ -1,5 +1,6 @@
 // The page in a headless browser. ASSAY_PAGE: a page of two runs, of which the second, of a plug-in
-// whose times are wrong, has failures; see tests/page/run.
+// whose times are wrong, has failures. ASSAY_NEAR_PAGE: a page of a plug-in that is asked for pairs
+// within 0.01 and answers which pairs touch. See tests/page/run.
 import assert from "node:assert/strict";
 import { after, before, describe, test } from "node:test";
 import { open, state } from "./browser.mjs";
@@ -60,6 +61,8 @@ describe("the page", () => {
     const differences = await at.page.locator(".detail table tbody tr td:last-child").allTextContents();
     assert.ok(differences.some((d) => ["missing", "spurious", "late", "early"].includes(d)), differences.join());
     assert.ok((await at.page.locator(".mark-exact, .mark-detector").count()) === 2);
+    assert.equal(await at.page.locator(".mark-exact line").count(), 0, "the places of a contact coincide");
+    assert.equal(await at.page.locator(".mark-distance").textContent(), "");
     assert.ok((await at.page.locator(".tick").count()) >= 1);
     assert.ok((await at.page.locator(".legend li").count()) >= 3);
   });
@@ -167,6 +170,36 @@ describe("the page", () => {
     assert.equal(await at.page.locator(".verdict .word").textContent(), "Defect");
     assert.equal(await at.page.locator("canvas").count(), 1);
   });
+});
+
+test("under a distance: nearest points, the segment between them, how near, and the bodies", async (t) => {
+  const at = await open(process.env.ASSAY_NEAR_PAGE);
+  t.after(() => at.close());
+  const buttons = at.page.locator(".failures .list button");
+  let bodies = 0;
+  for (let i = 0; i < (await buttons.count()); ++i) {
+    await buttons.nth(i).click();
+    const label = await at.page.locator(".mark-distance").textContent();
+    assert.match(label, /^distance (0|0\.0\d+), d 0\.01$/);
+    const items = await at.page.locator(".legend li").allTextContents();
+    assert.ok(items.includes("nearest points when first near; d 0.01"), items.join());
+    // Whoever comes closer, comes closer to the pair.
+    for (let k = 0; k < 50; ++k) await at.page.locator("canvas").press("+");
+    if (!label.startsWith("distance 0,")) {
+      assert.equal(await at.page.locator(".mark-exact circle").count(), 2, label);
+      const frame = await at.page.locator("canvas").boundingBox();
+      const segment = await at.page.locator(".mark-exact line").boundingBox();
+      assert.ok(Math.hypot(segment.width, segment.height) > 5, JSON.stringify(segment));
+      assert.ok(Math.abs(segment.x + segment.width / 2 - frame.x - frame.width / 2) < 2);
+      assert.ok(Math.abs(segment.y + segment.height / 2 - frame.y - frame.height / 2) < 2);
+    }
+    const heads = await at.page.locator(".detail table th").allTextContents();
+    if (!heads.includes("bodies")) continue;
+    assert.match(await at.page.locator(".detail table tbody td").nth(1).textContent(), /^\d+ and \d+$/);
+    ++bodies;
+  }
+  assert.ok(bodies > 0);
+  assert.deepEqual(at.seen.problems, []);
 });
 
 test("the page itself forbids every request", async () => {

@@ -11,7 +11,20 @@ reports/python/README.md has an example of everything.
 from .detector import OPTIONS, Detector, State, edge_edge, vertex_face
 from .errors import AssayError, InputError
 from .frames import Frames, read_frames
-from .judging import CheckedStep, CheckReport, Contact, StepDiff, WrongTime, check, judge
+from .judging import (
+    CheckedStep,
+    CheckReport,
+    Contact,
+    LeastDistance,
+    SeparationReport,
+    SeparationStep,
+    StepDiff,
+    WrongTime,
+    check,
+    first_time_within,
+    judge,
+    least_distance,
+)
 from .hosting import Refused
 from .programs import Outcome, Page, certify, replay, report, run
 from .results import (

@@ -6,8 +6,17 @@ import numpy.typing as npt
 Listener = Optional[Callable[[str], None]]
 
 def judge(
-    triangles: npt.ArrayLike, x_t0: npt.ArrayLike, x_t1: npt.ArrayLike, jobs: int
+    triangles: npt.ArrayLike,
+    x_t0: npt.ArrayLike,
+    x_t1: npt.ArrayLike,
+    within: Optional[float],
+    jobs: int,
 ) -> Dict[str, Any]: ...
+def least_distance(
+    triangles: npt.ArrayLike, x_t0: npt.ArrayLike, x_t1: npt.ArrayLike, jobs: int
+) -> Optional[
+    Tuple[float, Tuple[int, int], Tuple[float, float], str, Tuple[int, ...]]
+]: ...
 def check_arrays(
     triangles: npt.ArrayLike,
     frames: List[npt.ArrayLike],

@@ -34,6 +34,8 @@ class Detector:
     triangles: integers (m, 3), vertices of each, counter-clockwise seen from outside.
     positions: real numbers (n, 3), in your units: the first frame is best.
     culling, start, pairs, arithmetic: words of assay.OPTIONS, explained in detector/README.md.
+    separation: 0 looks for contacts, a distance for pairs of triangles without a common vertex that
+    come within it; culling "bvh" or "none" then.
     threads: how many a step may use; 0: all cores. What comes out does not depend on it.
 
     int32 and float64 in rows of three adjacent numbers are not copied. Other integers and floats are
@@ -57,9 +59,12 @@ class Detector:
         start: str = "verified",
         pairs: str = "all",
         arithmetic: str = "exact",
+        separation: float = 0.0,
         threads: int = 1,
     ):
         options = {"culling": culling, "start": start, "pairs": pairs, "arithmetic": arithmetic}
+        if separation != 0:
+            options["separation"] = repr(float(separation))
         if not 0 <= threads <= 1024:
             raise ValueError("threads: 0 (all cores) to 1024 are wanted")
         self._detector = _detector.Detector(triangles, positions, options, threads)

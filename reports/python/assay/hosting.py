@@ -57,7 +57,9 @@ class Hosted:
                 raise ValueError(f"contract: {member!r} is none of its members")
             words = members[member]
             self.contract[member] = (
-                _place(value, words, f"contract: {member}") if words else float(value)
+                _place(value, words, f"contract: {member}")
+                if words
+                else int(value) if member == "rings" else float(value)
             )
 
     def has(self, part):

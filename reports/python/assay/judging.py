@@ -1,10 +1,12 @@
 """The oracle, and a detector's steps against it."""
 
 import json
+import math
 import os
 from dataclasses import dataclass
-from typing import Any, Callable, Dict, List, Optional, Tuple
+from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, Union, overload
 
+import numpy as np
 import numpy.typing as npt
 
 from .frames import Frames, as_frames
@@ -68,8 +70,18 @@ class CheckedStep:
     diff: Optional[StepDiff]
 
 
+class _Report:
+    text: str
+
+    def __str__(self) -> str:
+        return self.text
+
+    def __bool__(self) -> bool:
+        raise TypeError("a report is no verdict: compare its outcome with a word")
+
+
 @dataclass(frozen=True)
-class CheckReport:
+class CheckReport(_Report):
     """What `assay check` says of the steps of a mesh.
 
     outcome: "holds", "defect", "undecided"; steps: a CheckedStep each; text: as it is printed;
@@ -82,11 +94,50 @@ class CheckReport:
     json: Dict[str, Any]
     code: int
 
-    def __str__(self) -> str:
-        return self.text
 
-    def __bool__(self) -> bool:
-        raise TypeError("a report is no verdict: compare its outcome with 'holds' or 'defect'")
+@dataclass(frozen=True)
+class LeastDistance:
+    """How near two triangles that share no vertex come during a step.
+
+    distance: the least double that some two come within; it is 0 where they touch. contact: the
+    first pair, by its triangles, that comes within it, when first, and by which features.
+    """
+
+    distance: float
+    contact: Contact
+
+
+@dataclass(frozen=True)
+class SeparationStep:
+    """A step: what comes within the separation, when first, and how near any two triangles come.
+
+    answer: "near", "apart" or "undecided"; first: None unless near; near_at_start: the number of
+    pairs that are near at t = 0; pairs: each with its first time within the separation; least:
+    None where no two triangles count, or a limit was reached.
+    """
+
+    answer: str
+    first: Optional[Interval]
+    near_at_start: int
+    pairs: Tuple[Contact, ...]
+    least: Optional[LeastDistance]
+
+
+@dataclass(frozen=True)
+class SeparationReport(_Report):
+    """What `assay check --separation` says of the steps of a mesh.
+
+    outcome: "near", "apart", "undecided"; least_distance: over all steps, None where no two
+    triangles count; steps: a SeparationStep each; text, json, code: as of CheckReport.
+    """
+
+    outcome: str
+    separation: float
+    least_distance: Optional[float]
+    steps: Tuple[SeparationStep, ...]
+    text: str
+    json: Dict[str, Any]
+    code: int
 
 
 def judge(
@@ -94,23 +145,73 @@ def judge(
     x_t0: npt.ArrayLike,
     x_t1: npt.ArrayLike,
     *,
+    separation: float = 0,
     jobs: Optional[int] = None,
 ) -> Judgement:
     """The oracle's answer of a step: all pairs in contact, by exact arithmetic.
 
-    Arguments and errors are those of Detector; jobs: threads, all cores if None. Ctrl-C ends it.
+    separation: above 0, all pairs of triangles that share no vertex and come within this distance,
+    each with its first time within it; "collision" says that there are some. Arguments and errors
+    are those of Detector; jobs: threads, all cores if None. Ctrl-C ends it.
     """
     from . import _judge
 
-    return Judgement(
-        **_judge.judge(triangles, x_t0, x_t1, _jobs(jobs)), triangles=triangles, x_t0=x_t0, x_t1=x_t1
-    )
+    within = _length(separation) or None
+    answer = _judge.judge(triangles, x_t0, x_t1, within, _jobs(jobs))
+    return Judgement(**answer, triangles=triangles, x_t0=x_t0, x_t1=x_t1)
 
 
+def _length(separation: float) -> float:
+    if not (math.isfinite(separation) and separation >= 0):
+        raise ValueError("separation: a length is wanted, finite and not below 0")
+    return separation
+
+
+def first_time_within(
+    triangles: npt.ArrayLike,
+    x_t0: npt.ArrayLike,
+    x_t1: npt.ArrayLike,
+    separation: float,
+    *,
+    jobs: Optional[int] = None,
+) -> Optional[Interval]:
+    """When two triangles that share no vertex first come within the distance; None: never.
+
+    The time is both ends of the interval, or lies strictly between them: two adjacent doubles.
+    """
+    from . import _judge
+
+    first: Optional[Interval] = _judge.judge(
+        triangles, x_t0, x_t1, _length(separation), _jobs(jobs)
+    )["first"]
+    return first
+
+
+def least_distance(
+    triangles: npt.ArrayLike,
+    x_t0: npt.ArrayLike,
+    x_t1: npt.ArrayLike,
+    *,
+    jobs: Optional[int] = None,
+) -> Optional[LeastDistance]:
+    """The least distance over a step, exactly; None if no two triangles share no vertex."""
+    from . import _judge
+
+    found = _judge.least_distance(triangles, x_t0, x_t1, _jobs(jobs))
+    return found and LeastDistance(found[0], Contact(*found[1:]))
+
+
+@overload
+def check(
+    frames: Any, detector: Any = None, *, separation: None = None, **options: Any
+) -> CheckReport: ...
+@overload
+def check(frames: Any, *, separation: float, **options: Any) -> SeparationReport: ...
 def check(
     frames: Any,
     detector: Any = None,
     *,
+    separation: Optional[float] = None,
     culling: Optional[str] = None,
     start: Optional[str] = None,
     pairs: Optional[str] = None,
@@ -120,8 +221,10 @@ def check(
     time: Optional[float] = None,
     memory: Optional[str] = None,
     isolation: Optional[str] = None,
+    bodies: Optional[npt.ArrayLike] = None,
+    apart: Sequence[Tuple[int, int]] = (),
     progress: Optional[Callable[[str], None]] = None,
-) -> CheckReport:
+) -> Union[CheckReport, SeparationReport]:
     """Each step through the detector and the oracle, and the diff: `assay check`.
 
     frames: Frames, a pair of triangles (m, 3) and positions (frames, n, 3), or the name of a case
@@ -129,6 +232,10 @@ def check(
     plug-in's library; "python:MODULE:CLASS"; or a class, which another process imports by its
     module. jobs: threads of the oracle; threads: of the detector, 0: all cores, and a plug-in is
     told 1. time, memory, isolation: as on the command line. progress: called with what is printed.
+    bodies: (n,) the number of each vertex's body, from 0 on; apart: pairs of bodies that do not
+    meet, or a body paired with itself: neither is of a case file, which says itself what counts.
+    separation: the oracle alone says which triangles that share no vertex come within this distance,
+    when first, and how near any two come; the answer is then a SeparationReport.
 
     ValueError: input that is refused, with the line that says why. Ctrl-C ends it, but for a
     plug-in's process, which ends with its step or at `time`.
@@ -137,7 +244,11 @@ def check(
 
     if detector is not None and (culling or start or pairs or arithmetic):
         raise ValueError("culling, start, pairs and arithmetic are of the built-in detector")
+    of_a_detector = detector is not None or culling or start or pairs or arithmetic
+    if separation is not None and of_a_detector:
+        raise ValueError("separation asks the oracle, and no detector")
     asked = {
+        "separation": None if separation is None else _length(separation),
         "culling": culling,
         "start": start,
         "pairs": pairs,
@@ -148,16 +259,20 @@ def check(
         "time": time,
         "memory": memory,
         "isolation": isolation,
+        "bodies": None if bodies is None else np.asarray(bodies, np.int32).tolist(),
+        "apart": [list(pair) for pair in apart],
     }
     worker = str(program("assay-worker")) if detector is not None else ""
     with surroundings(detector):
         if isinstance(frames, (str, os.PathLike)):
+            if bodies is not None or apart:
+                raise ValueError("bodies and apart are of meshes, and not of a case file")
             answer = _judge.check_files([os.fspath(frames)], asked, worker, progress)
         else:
             mesh: Frames = as_frames(frames)
             asked["files"] = mesh.files
             answer = _judge.check_arrays(mesh.triangles, mesh.positions, asked, worker, progress)
-    return _report(*answer)
+    return _report(*answer) if separation is None else _separation_report(*answer)
 
 
 def _jobs(jobs: Optional[int]) -> int:
@@ -165,6 +280,13 @@ def _jobs(jobs: Optional[int]) -> int:
     if not 1 <= jobs <= 1024:
         raise ValueError("jobs: 1 to 1024 are wanted")
     return jobs
+
+
+def _separation_report(text: str, printed: str, code: int) -> SeparationReport:
+    report = json.loads(text)
+    steps = tuple(map(_separation_step, report["steps"]))
+    known = (report["outcome"], report["separation"], report["least_distance"])
+    return SeparationReport(*known, steps, printed, report, code)
 
 
 def _report(text: str, printed: str, code: int) -> CheckReport:
@@ -182,6 +304,14 @@ def _step(raw: Dict[str, Any]) -> CheckedStep:
         oracle["answer"],
         _interval(oracle["first_time"]),
         _diff(raw["diff"]) if raw["diff"] else None,
+    )
+
+
+def _separation_step(raw: Dict[str, Any]) -> SeparationStep:
+    least = raw["least_at"] and LeastDistance(raw["least_distance"], _contact(raw["least_at"]))
+    pairs = tuple(map(_contact, raw["pairs"]))
+    return SeparationStep(
+        raw["answer"], _interval(raw["first_time"]), raw["near_at_start"], pairs, least
     )
 
 

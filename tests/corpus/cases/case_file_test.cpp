@@ -108,6 +108,78 @@ TEST_F(CaseFile, AScriptNamesItsSteps) {
   EXPECT_FALSE(parse_case(case_text(c), "x"));
 }
 
+// Everything that a relation may say, of triangles.
+Case related_case() {
+  Case c = full_case();
+  CaseRelation relation;
+  relation.pairs.body = {0, 0, 0, 0};
+  relation.pairs.apart = {{0, 0}};
+  relation.pairs.rings = 2;
+  relation.pairs.rest_distance = 1.0 / 3;
+  relation.pairs.rest.assign(4, {0.1, -0.0, 5e-324});
+  relation.pairs.triangle_pairs = {{1, 0}};
+  ExpectedStep step = c.expected.steps[0];
+  step.view_signs.reset();
+  step.ghost_view_signs.reset();
+  relation.steps = {step, ExpectedStep{}};
+  c.counted = relation;
+  return c;
+}
+
+TEST_F(CaseFile, ARelationIsKeptAsItIs) {
+  Case c = related_case();
+  auto read = parse_case(case_text(c), "x");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read.value().counted->pairs, c.counted->pairs);
+  ASSERT_EQ(read.value().counted->steps.size(), 2U);
+  EXPECT_EQ(read.value().counted->steps[0].pairs, c.counted->steps[0].pairs);
+  EXPECT_EQ(case_text(read.value()), case_text(c));
+
+  // Places at rest that are those of frame 0 are not written.
+  c.counted->pairs.rest = points_of(c.frames[0]);
+  EXPECT_EQ(case_text(c).find("\"rest\""), std::string::npos);
+  read = parse_case(case_text(c), "x");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read.value().counted->pairs, c.counted->pairs);
+
+  c.counted->pairs = {};
+  c.counted->pairs.level = detector::CountedLevel::features;
+  c.counted->pairs.vertex_faces = {{3, 0}, {2, 1}};
+  c.counted->pairs.edge_pairs = {{{2, 0}, {3, 1}}};
+  c.counted->steps.clear();
+  read = parse_case(case_text(c), "x");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read.value().counted->pairs, c.counted->pairs);
+  EXPECT_TRUE(read.value().counted->steps.empty());
+  EXPECT_EQ(case_text(read.value()), case_text(c));
+}
+
+TEST_F(CaseFile, AWrongRelationIsRefusedByName) {
+  const auto refusal = [](const auto& change) {
+    Case c = related_case();
+    change(*c.counted);
+    const auto read = parse_case(case_text(c), "x");
+    EXPECT_FALSE(read);
+    return read ? std::string() : read.error().message;
+  };
+  const auto names = [&](const auto& change, const std::string& words) {
+    const std::string message = refusal(change);
+    EXPECT_NE(message.find(words), std::string::npos) << message;
+  };
+  names([](auto& r) { r.pairs.body = {0, 0}; }, "counted: wrong_frame_size");
+  names([](auto& r) { r.pairs.body = {0, 0, 0, 1, 1}; }, "counted.bodies: more than 4 vertices");
+  names([](auto& r) { r.pairs.body = {0, 0, 0, 1}; }, "counted: triangle_of_two_bodies");
+  names([](auto& r) { r.pairs.apart = {{0, 4}}; }, "counted.apart[0][1]: 4 is not in [0, 4)");
+  names([](auto& r) { r.pairs.apart = {{0, 3}}; }, "counted: index_out_of_range");
+  names([](auto& r) { r.pairs.rings = -1; }, "counted.rings: -1 is not in");
+  names([](auto& r) { r.pairs.rest_distance = -0.5; }, "counted: wrong_relation");
+  names([](auto& r) { r.pairs.rest.pop_back(); }, "counted: wrong_frame_size");
+  names([](auto& r) { r.pairs.triangle_pairs = {{0, 2}}; }, "counted.triangle_pairs[0][1]");
+  names([](auto& r) { r.pairs.triangle_pairs = {{1, 1}}; }, "counted: wrong_relation");
+  names([](auto& r) { r.pairs.vertex_faces = {{3, 0}}; }, "counted: wrong_relation");
+  names([](auto& r) { r.steps.pop_back(); }, "counted.steps: 2 items expected, not 1");
+}
+
 TEST_F(CaseFile, SmallestCase) {
   Case c;
   c.triangles.resize(1, 3);

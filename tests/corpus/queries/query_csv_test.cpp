@@ -29,22 +29,37 @@ TEST_F(QueryCsv, VertexFaceRowsInOrder) {
   ASSERT_EQ(queries.value().size(), 2U);
   EXPECT_EQ(queries.value()[0].truth, true);
   EXPECT_EQ(queries.value()[1].truth, false);
-  const auto& query = std::get<detector::VertexFace>(queries.value()[0].query);
-  EXPECT_EQ(query.vertex.t0, (detector::Point{0, -0.75, 0.625}));
-  EXPECT_EQ(query.face[0].t0[0], 0.5);
-  EXPECT_EQ(query.face[2].t0[0], 1.5);
-  EXPECT_EQ(query.vertex.t1[0], 2);
-  EXPECT_EQ(query.face[2].t1[0], 3.5);
+  const auto& query = queries.value()[0].query;
+  EXPECT_EQ(query.first_group, 1);
+  EXPECT_EQ(query.points[0].t0, (detector::Point{0, -0.75, 0.625}));
+  EXPECT_EQ(query.points[1].t0[0], 0.5);
+  EXPECT_EQ(query.points[3].t0[0], 1.5);
+  EXPECT_EQ(query.points[0].t1[0], 2);
+  EXPECT_EQ(query.points[3].t1[0], 3.5);
 }
 
 TEST_F(QueryCsv, EdgeEdgeRowsInOrderWithoutLabels) {
   const auto queries = read_queries(write("3036ee.csv", rows("")));
   ASSERT_TRUE(queries) << queries.error().message;
   EXPECT_EQ(queries.value()[0].truth, std::nullopt);
-  const auto& query = std::get<detector::EdgeEdge>(queries.value()[0].query);
-  EXPECT_EQ(query.a[1].t0[0], 0.5);
-  EXPECT_EQ(query.b[0].t0[0], 1);
-  EXPECT_EQ(query.b[1].t1[0], 3.5);
+  const auto& query = queries.value()[0].query;
+  EXPECT_EQ(query.first_group, 2);
+  EXPECT_EQ(query.points[1].t0[0], 0.5);
+  EXPECT_EQ(query.points[2].t0[0], 1);
+  EXPECT_EQ(query.points[3].t1[0], 3.5);
+}
+
+TEST_F(QueryCsv, ASeparationIsADecimalBehindALabelOrNone) {
+  const auto queries =
+      read_queries(write("xvf.csv", rows(",1,0.1") + rows(",, 1e-3 ") + rows(",0,0") + rows("")));
+  ASSERT_TRUE(queries) << queries.error().message;
+  ASSERT_EQ(queries.value().size(), 4U);
+  EXPECT_EQ(queries.value()[0].truth, true);
+  EXPECT_EQ(queries.value()[0].separation, 0.1);
+  EXPECT_EQ(queries.value()[1].truth, std::nullopt);
+  EXPECT_EQ(queries.value()[1].separation, 1e-3);
+  EXPECT_EQ(queries.value()[2].separation, 0);
+  EXPECT_EQ(queries.value()[3].separation, std::nullopt);
 }
 
 TEST_F(QueryCsv, CompressedCrlfAndBlanks) {
@@ -66,7 +81,7 @@ TEST_F(QueryCsv, KindIsToldByThePathOrNamed) {
   // The nearest folder rules.
   const auto near = read_queries(write("edge-edge/vertex-face/q.csv", rows("")));
   ASSERT_TRUE(near);
-  EXPECT_TRUE(std::holds_alternative<detector::VertexFace>(near.value()[0].query));
+  EXPECT_TRUE(near.value()[0].query.first_group == 1);
 }
 
 TEST_F(QueryCsv, Problems) {
@@ -76,11 +91,14 @@ TEST_F(QueryCsv, Problems) {
   expect_problem("is not a whole number", "line 1", "1.5,1,3,4,5,8\n" + rows("", 7));
   expect_problem("the label is neither 0 nor 1", "line 1", "1,1,3,4,5,8,2\n" + rows(",1", 7));
   expect_problem("is not a whole number", "line 1", "1,1,3,4,5,\n" + rows("", 7));
-  expect_problem("columns, where 6 or 7 are expected", "line 2: 5 columns",
+  expect_problem("the label is neither 0 nor 1", "line 1", rows(","));
+  expect_problem("columns, where 6 to 8 are expected", "line 2: 5 columns",
                  rows("", 1) + "1,1,3,4,5\n");
-  expect_problem("columns, where 6 or 7 are expected", "line 2: 8 columns",
-                 rows("", 1) + "1,1,3,4,5,8,1,1\n");
-  expect_problem("columns, where 6 or 7 are expected", "line 9", rows("") + "\n" + rows(""));
+  expect_problem("columns, where 6 to 8 are expected", "line 2: 9 columns",
+                 rows("", 1) + "1,1,3,4,5,8,1,1,1\n");
+  expect_problem("columns, where 6 to 8 are expected", "line 9", rows("") + "\n" + rows(""));
+  for (const std::string none : {"", "x", "-1", "nan", "inf", "1e999", "1 2"})
+    expect_problem("the separation is no length", "line 1", rows(",1," + none));
   expect_problem("denominator 0", "line 1: y", "1,1,3,0,5,8\n" + rows("", 7));
   expect_problem("no double has this value", "line 1: z", "1,1,3,4,5,7\n" + rows("", 7));
   expect_problem("no double has this value", "line 1: x",
@@ -89,6 +107,10 @@ TEST_F(QueryCsv, Problems) {
                  rows(",1", 2) + rows(",0", 6));
   expect_problem("label is not that of its query's first row", "line 8",
                  rows(",1", 7) + rows("", 1));
+  expect_problem("separation is not that of its query's first row", "line 4",
+                 rows(",1,2", 3) + rows(",1,3", 5));
+  expect_problem("separation is not that of its query's first row", "line 4",
+                 rows(",1,2", 3) + rows(",1", 5));
   expect_problem("the file is empty", "q.csv", "");
   EXPECT_TRUE(says(read_queries(folder() / "absent-vf.csv").error(), "cannot be read"));
 }

@@ -161,5 +161,32 @@ TEST(RealRoot, BracketedRootIsTheSameFromAnyGuess) {
   }
 }
 
+// Signs of polynomials of any degree at a root that is no double, from far to within the same gap
+// of doubles, and of one that vanishes there, with other roots and multiple ones beside it.
+TEST(RealRoot, SignsOfAnyDegree) {
+  const Polynomial third = factor(1, 3), square = polynomial({1, 0, -2});  // 1/sqrt(2)
+  // a / b differs from 1/3 by about 1e-18, and both are in one gap of doubles.
+  const Polynomial just_below = factor(333333333333333333, 1000000000000000000);
+  for (const Polynomial& f :
+       {third, third * square * polynomial({1, 1, 1}), third * square * square}) {
+    const auto roots = roots_in_unit_interval(f);
+    const RealRoot& root = roots.front();
+    ASSERT_LT(root.enclosure().lo, root.enclosure().hi);
+    EXPECT_EQ(root.sign_of(polynomial({1, 0, 0, 0, 1})), 1);
+    EXPECT_EQ(root.sign_of(polynomial({-1, 2, 0, 1})), -1);
+    EXPECT_EQ(root.sign_of(third * polynomial({1, 0, 1})), 0);
+    EXPECT_EQ(root.sign_of(third * third * just_below * factor(1, 2)), 0);
+    EXPECT_EQ(root.sign_of(just_below * polynomial({1, 0, 1})), -1);
+    EXPECT_EQ(root.sign_of(just_below * just_below * factor(1, 2)), 1);
+    EXPECT_EQ(root.sign_of(-(just_below * just_below * just_below)), 1);
+    EXPECT_EQ(root.sign_of(just_below * third * factor(1, 2)), 0);
+  }
+  // Quadratic and quartic numbers.
+  const RealRoot half_root = roots_in_unit_interval(square).front();
+  EXPECT_EQ(half_root.sign_of(polynomial({1, 0, 0, 0, -4})), 0);
+  EXPECT_EQ(half_root.sign_of(polynomial({1, 0, 0, 0, -4}) * factor(2, 3)), 0);
+  EXPECT_EQ(half_root.sign_of(polynomial({1, 0, 0, -3})), -1);
+}
+
 }  // namespace
 }  // namespace assay::detector

@@ -46,7 +46,10 @@ TEST_F(BuiltinDetector, NumbersAreThoseOfTheLists) {
                               {"damaged_state", ASSAY_BUILTIN_DAMAGED_STATE},
                               {"other_state_version", ASSAY_BUILTIN_OTHER_STATE_VERSION},
                               {"mesh_too_large", ASSAY_BUILTIN_MESH_TOO_LARGE},
-                              {"stopped", ASSAY_BUILTIN_STOPPED}});
+                              {"stopped", ASSAY_BUILTIN_STOPPED},
+                              {"triangle_of_two_bodies", ASSAY_BUILTIN_TRIANGLE_OF_TWO_BODIES},
+                              {"wrong_relation", ASSAY_BUILTIN_WRONG_RELATION},
+                              {"wrong_separation", ASSAY_BUILTIN_WRONG_SEPARATION}});
 }
 
 TEST_F(BuiltinDetector, EveryOptionReachesTheDetector) {
@@ -70,8 +73,8 @@ TEST_F(BuiltinDetector, EveryOptionReachesTheDetector) {
     for (const auto start : all_values<Start>) {
       for (const auto pairs : all_values<Pairs>) {
         for (const auto arithmetic : all_values<Arithmetic>) {
-          const assay_builtin_options c = {sizeof c,      number(culling),    number(start),
-                                           number(pairs), number(arithmetic), 1};
+          const assay_builtin_options c = {
+              sizeof c, number(culling), number(start), number(pairs), number(arithmetic), 1, 0};
           EXPECT_EQ(in_c(c), in_cpp({culling, start, pairs, arithmetic}));
         }
       }
@@ -79,6 +82,13 @@ TEST_F(BuiltinDetector, EveryOptionReachesTheDetector) {
   }
   const assay_builtin_options defaults = ASSAY_BUILTIN_DEFAULTS;
   EXPECT_EQ(in_c(defaults), in_cpp({}));
+  assay_builtin_options within = ASSAY_BUILTIN_DEFAULTS;
+  within.culling = ASSAY_CULLING_BVH;
+  within.separation = 0.25;
+  EXPECT_EQ(in_c(within), in_cpp({.culling = Culling::bvh, .separation = 0.25}));
+  within.culling = ASSAY_CULLING_AUTO;
+  EXPECT_FALSE(make(&within));
+  EXPECT_EQ(error.code, ASSAY_BUILTIN_WRONG_SEPARATION);
 }
 
 // Out through a hole, and on: the sets of each step.
@@ -86,7 +96,7 @@ TEST_F(BuiltinDetector, SetsAreThoseOfTheDetector) {
   Positions x_out = in;
   x_out.row(5) << 1.5, 1.5, 1.5;
   const Positions& out = x_out;
-  const assay_builtin_options c = {sizeof c, ASSAY_CULLING_VIEW_POINT, 0, 0, 0, 2};
+  const assay_builtin_options c = {sizeof c, ASSAY_CULLING_VIEW_POINT, 0, 0, 0, 2, 0};
   const auto handle = make(&c, 7);
   auto made = Detector::create(triangles.bottomRows(7), in, {Culling::view_point});
   const Positions* from = &in;
@@ -128,6 +138,9 @@ TEST_F(BuiltinDetector, WrongOptionsAreRefusedByName) {
   options.struct_size = 0;
   EXPECT_FALSE(make(&options));
   EXPECT_EQ(error.code, ASSAY_BUILTIN_WRONG_OPTIONS);
+  options.struct_size = offsetof(assay_builtin_options, separation);
+  options.separation = -1;  // not read
+  EXPECT_TRUE(make(&options));
   EXPECT_TRUE(make(nullptr));
 }
 
@@ -171,7 +184,7 @@ TEST_F(BuiltinDetector, EveryErrorHasItsName) {
   std::map<std::string, int> names;
   for (std::int32_t code = -3; code < 300; ++code) ++names[assay_builtin_error_name(code)];
   EXPECT_EQ(names["no_error"], 1);
-  EXPECT_EQ(names.size(), 19u) << "13 of the detector, 4 of the interface, none, unknown";
+  EXPECT_EQ(names.size(), 22u) << "16 of the detector, 4 of the interface, none, unknown";
   EXPECT_STREQ(assay_builtin_error_name(ASSAY_BUILTIN_FOREIGN_STATE), "foreign_state");
   EXPECT_STREQ(assay_builtin_error_name(ASSAY_BUILTIN_SMALL_BUFFER), "small_buffer");
 }

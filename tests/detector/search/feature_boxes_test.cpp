@@ -50,7 +50,7 @@ TEST(FeatureBoxes, L3_ApartAlongDiagonalsIsOrderedExactly) {
     }
     const FeaturePoints points({x[0], x[1]});
     const FeatureBox a = feature_box(points[0]), b = feature_box(points[1]);
-    const bool is_apart = apart_along_diagonals(a.diagonals, b.diagonals);
+    const bool is_apart = apart(a.diagonals, b.diagonals, FeatureMargin().diagonals);
     const bool is_ordered = ordered(x[0], x[1], 0, 1);
     EXPECT_TRUE(!is_apart || is_ordered);
     told_apart += is_apart;

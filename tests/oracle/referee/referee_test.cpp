@@ -194,20 +194,20 @@ TEST(Referee, AgreesAndLeavesLittleOpen) {
   }
 }
 
-TEST(Separation, ADirectionThatTurnsAndOneThatStays) {
+TEST(SeparationProof, ADirectionThatTurnsAndOneThatStays) {
   // A vertex that passes over a face at a distance of 1: separated in one piece.
   const VertexFace over = {{{0, 0, 1}, {4, 4, 1}},
                            {rest(resting_face[0]), rest(resting_face[1]), rest(resting_face[2])}};
-  EXPECT_EQ(separated_in_double(double_hull(over), 0, 1), Separation::separated);
+  EXPECT_EQ(separated_in_double(double_hull(over), 0, 1), SeparationProof::separated);
   EXPECT_TRUE(separated_in_integers(integer_hull(over), 0, 0));
   const VertexFace through = {{{1, 1, 1}, {1, 1, -1}}, over.face};
-  EXPECT_EQ(separated_in_double(double_hull(through), 0, 1), Separation::not_found);
+  EXPECT_EQ(separated_in_double(double_hull(through), 0, 1), SeparationProof::not_found);
   EXPECT_FALSE(separated_in_integers(integer_hull(through), 0, 0));
   EXPECT_FALSE(separated_in_integers(integer_hull(through), 1, 1));  // touches at 1/2
   EXPECT_TRUE(separated_in_integers(integer_hull(through), 3, 2));
 }
 
-TEST(Separation, DoublesDoNotClaimWhatTheyCannotTell) {
+TEST(SeparationProof, DoublesDoNotClaimWhatTheyCannotTell) {
   // One unit in the last place above the plane of a far face: only integers can tell.
   const double z = std::nextafter(1e6, 2e6);
   const VertexFace q = {rest({1e6 + 1, 1e6 + 1, z}),

@@ -2,6 +2,7 @@
 // every call of malloc, by which operator new and Eigen get their memory.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
@@ -12,8 +13,10 @@
 #include "detector/contact/contact_filter.h"
 #include "detector/contact/contact_fixed.h"
 #include "detector/detector.h"
+#include "detector/distance/nearness.h"
 #include "detector/view/view_anchor.h"
 #include "detector/view/view_signs.h"
+#include "oracle/distance/feature_distance.h"
 
 namespace {
 std::atomic<std::uint64_t> allocations{0}, allocated_bytes{0};
@@ -113,24 +116,53 @@ TEST(Allocation, NoneInElementaryTestsBeforeIntegersWithoutBound) {
   }
 }
 
-// A later free step asks for as much memory of a large mesh as of a small one.
-TEST(Allocation, OfAFreeStepDoesNotGrowWithTheMesh) {
-  std::uint64_t of_small = 0;
-  for (const int size : {320, 5120}) {
-    const auto made = scene("breathing-sphere", size);
-    auto detector = Detector::create(made.triangles, made.frames[0], {});
-    ASSERT_TRUE(detector);
-    ASSERT_EQ(detector.value().step(made.frames[0], made.frames[1]).answer, Answer::free);
-    std::uint64_t count = 0;
+// A vertex that goes by a corner of a face, where no axis tells that the two are apart. It is 0.7
+// away from the face when it is nearest, and 2.2 at the start.
+TEST(Allocation, NoneInTheDistanceOfFeaturesThatStayApartOrBeginNear) {
+  const auto still = [](double x, double y) { return MovingPoint{{x, y, 0}, {x, y, 0}}; };
+  const FourPoints query{
+      {MovingPoint{{3, -1, 0}, {-1, 3, 0}}, still(0, 0), still(1, 0), still(0, 1)}, 1};
+  for (const double d : {.5, 2.5}) {
+    oracle::FirstNear ours;
+    ContactResult detected;
+    EXPECT_EQ(allocations_of([&] { ours = oracle::first_time_within(query, {d, 0}); }), 0u) << d;
+    EXPECT_EQ(allocations_of([&] { detected = test_near(query, d, Want::first_time); }), 0u) << d;
+    EXPECT_EQ(ours.near, d > 1);
+    EXPECT_EQ(ours.rung, oracle::Rung::interval);
+    EXPECT_EQ(detected.contact, d > 1);
+    EXPECT_EQ(detected.rung, ContactRung::filter);
+  }
+}
+
+// How often a later free step of two sizes of a mesh, one 16 times the other, asks for memory.
+std::array<std::uint64_t, 2> allocations_of_free_steps(const Options& options) {
+  std::array<std::uint64_t, 2> counts{};
+  for (const int i : {0, 1}) {
+    const auto made = scene("breathing-sphere", i == 0 ? 320 : 5120);
+    auto detector = Detector::create(made.triangles, made.frames[0], options);
+    if (!detector) ADD_FAILURE() << detector.error().message;
+    EXPECT_EQ(detector.value().step(made.frames[0], made.frames[1]).answer, Answer::free);
     Answer answer = Answer::error;
-    count = allocations_of(
+    counts[static_cast<std::size_t>(i)] = allocations_of(
         [&] { answer = detector.value().step(made.frames[1], made.frames[2]).answer; });
     EXPECT_EQ(answer, Answer::free);
     std::printf("%ld triangles: %lu allocations in a free step\n",
-                static_cast<long>(made.triangles.rows()), static_cast<unsigned long>(count));
-    if (size == 320) of_small = count;
-    EXPECT_EQ(count, of_small);
+                static_cast<long>(made.triangles.rows()),
+                static_cast<unsigned long>(counts[static_cast<std::size_t>(i)]));
   }
+  return counts;
+}
+
+TEST(Allocation, OfAFreeStepDoesNotGrowWithTheMesh) {
+  const auto [of_small, of_large] = allocations_of_free_steps({});
+  EXPECT_EQ(of_large, of_small);
+}
+
+// Lists of the search double where they are full, so that 16 times the mesh takes four times more.
+TEST(Allocation, OfAFreeStepWithASeparationGrowsByDoublingAlone) {
+  const auto [of_small, of_large] =
+      allocations_of_free_steps({.culling = Culling::bvh, .separation = 1e-6});
+  EXPECT_LE(of_large, of_small + 4);
 }
 
 // Triangles that share nothing, each a component.

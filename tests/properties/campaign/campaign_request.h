@@ -22,6 +22,14 @@ inline CampaignRequest request_of(std::uint64_t cases, int jobs = 1, Shard shard
   return request;
 }
 
+// Puts the steps of a plug-in in the place of the built-in detector.
+inline void set_plugin(CampaignRequest& request, const std::filesystem::path& library) {
+  auto subject =
+      Subject::open(request.worker, library.string(), DetectorPart::steps, request.limits);
+  ASSERT_TRUE(subject) << subject.error().message;
+  static_cast<Subject&>(request) = std::move(subject.value());
+}
+
 // The built-in detector with a fault in it, in the first configuration.
 inline CampaignRequest faulty(std::string_view name, std::uint64_t cases) {
   auto request = request_of(cases);
@@ -33,8 +41,8 @@ inline CampaignRequest faulty(std::string_view name, std::uint64_t cases) {
   return request;
 }
 
-inline RunDeadline in_a_minute() {
-  return std::chrono::steady_clock::now() + std::chrono::minutes(1);
+inline RunDeadline in_ten_minutes() {
+  return std::chrono::steady_clock::now() + std::chrono::minutes(10);
 }
 
 }  // namespace assay::properties::test

@@ -79,7 +79,7 @@ TEST(CleanStarts, OfATrialAreStoredWithItsFailures) {
   auto opened = Store::open(scratch / "store", "b");
   ASSERT_TRUE(opened) << opened.error().message;
   Store* const store = &opened.value();
-  ASSERT_TRUE(run_trials(request, *store, test::in_a_minute(), {}).complete);
+  ASSERT_TRUE(run_trials(request, *store, test::in_ten_minutes(), {}).complete);
   std::map<std::string, bool> vouched;
   store->for_each_trial([&](const TrialRecord& r) {
     for (const auto& family : families()) {

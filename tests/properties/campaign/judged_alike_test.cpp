@@ -33,18 +33,11 @@ class JudgedAlike : public testing::Test {
     return request;
   }
   static CampaignRequest as_plugin(CampaignRequest request, const std::string& name) {
-    request.plugin = test::plugin(name);
-    WorkerProcess worker(request.worker, request.plugin);
-    const auto description = worker.describe();
-    EXPECT_TRUE(description) << description.error().message;
-    if (!description) return request;
-    EXPECT_EQ(description.value().contract, Contract{}) << "the defaults leave nothing out";
-    EXPECT_EQ(list_of(description.value().claims), list_of(claims_of({})));
-    request.detector = {description.value().name,
-                        false,
-                        description.value().claims,
-                        description.value().contract,
-                        {{"plug-in", {}}}};
+    test::set_plugin(request, test::plugin(name));
+    EXPECT_EQ(request.detector.contract, Contract{.takes_relations = false})
+        << "the defaults leave nothing out but what takes a function";
+    EXPECT_EQ(list_of(request.detector.claims), list_of(claims_of({})));
+    request.detector.configurations = {{"plug-in", {}}};
     return request;
   }
 

@@ -41,11 +41,8 @@ class LastingWorkers : public testing::Test {
     request.plan.fault_cases = 0;
     request.plan.tetrahedron_seconds = 0.01;
     request.plan.policy.repeated_triangles = 60;
-    request.plugin = test::plugin("steps_and_query");
-    request.isolation = IsolationMode::none;  // so that it sees the file
-    WorkerProcess worker(request.worker, request.plugin);
-    const auto told = worker.describe().value();
-    request.detector = {told.name, false, told.claims, told.contract, {{told.name, {}}}};
+    request.limits.isolation = IsolationMode::none;  // so that it sees the file
+    test::set_plugin(request, test::plugin("steps_and_query"));
     MakesFile observer(late);
     auto store = Store::open(scratch / "store.sqlite", binding_of(request));
     ASSERT_TRUE(store);

@@ -46,7 +46,7 @@ class Peers : public testing::Test {
     CampaignRequest request = request_of();
     auto store = Store::open(scratch_ / name, "peer");
     ASSERT_TRUE(store) << store.error().message;
-    const auto end = run_trials(request, store.value(), test::in_a_minute(), {});
+    const auto end = run_trials(request, store.value(), test::in_ten_minutes(), {});
     ASSERT_TRUE(end.complete);
     ASSERT_EQ(end.harness_problem, "");
     // By calls alone, so that no clock decides how small a mesh becomes.
@@ -147,14 +147,8 @@ class Peers : public testing::Test {
     request.plan.laws_every = 0;
     request.jobs = 2;
     request.worker = ASSAY_WORKER;
-    request.plugin = peer_.library;
-    WorkerProcess worker(request.worker, request.plugin);
-    const auto described = worker.describe();
-    EXPECT_TRUE(described) << described.error().message;
-    if (!described) return request;
-    const auto& d = described.value();
-    peer_.detector = {d.name, false, d.claims, d.contract, {{d.name, {}}}};
-    request.detector = peer_.detector;
+    test::set_plugin(request, peer_.library);
+    peer_.detector = request.detector;
     return request;
   }
 

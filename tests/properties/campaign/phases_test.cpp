@@ -53,10 +53,7 @@ class Phases : public testing::Test {
     request.plan.fault_cases = 4;
     request.plan.tetrahedron_seconds = 0.1;
     request.plan.policy.repeated_triangles = 100;
-    request.plugin = test::plugin("always_free");
-    WorkerProcess worker(request.worker, request.plugin);
-    const auto told = worker.describe().value();
-    request.detector = {told.name, false, told.claims, told.contract, {{told.name, {}}}};
+    test::set_plugin(request, test::plugin("always_free"));
     return request;
   }
   const tests::Scratch scratch;

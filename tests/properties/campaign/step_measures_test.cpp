@@ -102,7 +102,9 @@ TEST(NotJudged, NamesWhatTheContractOrTheTimesMakeVoid) {
   };
   using Names = std::vector<std::string>;
   detector.contract.margin = 0.1;
-  EXPECT_EQ(names(counts), Names{"no-spurious"});
+  EXPECT_EQ(names(counts), (Names{"first-time", "no-spurious"}));
+  detector.contract.adjacency = Adjacency::no_shared_vertex;
+  EXPECT_EQ(names(counts), Names{"first-time"});
   detector.contract = {.reports_pairs = false};
   EXPECT_EQ(names(counts), Names{"first-pairs"});
   detector.contract = {};

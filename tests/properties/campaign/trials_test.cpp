@@ -17,7 +17,7 @@
 namespace assay::properties {
 namespace {
 
-using test::faulty, test::in_a_minute, test::request_of, tests::Scratch;
+using test::faulty, test::in_ten_minutes, test::request_of, tests::Scratch;
 
 class Trials : public testing::Test {
  protected:
@@ -38,7 +38,7 @@ class Trials : public testing::Test {
   }
   std::vector<std::string> run(const std::string& name, const CampaignRequest& request) const {
     Store store = open(name);
-    const auto end = run_trials(request, store, in_a_minute(), {});
+    const auto end = run_trials(request, store, in_ten_minutes(), {});
     EXPECT_TRUE(end.complete);
     EXPECT_EQ(end.harness_problem, "");
     return lines(store);
@@ -71,7 +71,7 @@ TEST_F(Trials, GoOnWhereARunEnded) {
   EXPECT_EQ(none.trials, 0u);
   std::uint64_t calls = 0;
   TrialProgress last;
-  const auto whole = run_trials(request, store, in_a_minute(), [&](const TrialProgress& p) {
+  const auto whole = run_trials(request, store, in_ten_minutes(), [&](const TrialProgress& p) {
     ++calls;
     EXPECT_GT(p.done, last.done);
     last = p;
@@ -81,7 +81,7 @@ TEST_F(Trials, GoOnWhereARunEnded) {
   EXPECT_EQ(calls, 12u);
   EXPECT_EQ(last.done, last.planned);
   EXPECT_EQ(last.defects, 0u);
-  const auto again = run_trials(request, store, in_a_minute(), {});
+  const auto again = run_trials(request, store, in_ten_minutes(), {});
   EXPECT_TRUE(again.complete);
   EXPECT_EQ(again.trials, 0u);
 }
@@ -89,7 +89,7 @@ TEST_F(Trials, GoOnWhereARunEnded) {
 TEST_F(Trials, AreMadeAgainByTheirId) {
   const auto request = request_of(6);
   Store store = open("store");
-  run_trials(request, store, in_a_minute(), {});
+  run_trials(request, store, in_ten_minutes(), {});
   std::uint64_t compared = 0;
   store.for_each_trial([&](const TrialRecord& r) {
     EXPECT_EQ(r.id, trial_id(request.plan, request.seed, r.family, r.index));
@@ -113,7 +113,7 @@ TEST_F(Trials, WithoutAWorkerNothingIsJudged) {
   auto request = request_of(4, 2);
   request.worker = "/nowhere/assay-worker";
   Store store = open("store");
-  const auto end = run_trials(request, store, in_a_minute(), {});
+  const auto end = run_trials(request, store, in_ten_minutes(), {});
   EXPECT_FALSE(end.complete);
   EXPECT_EQ(end.trials, 0u);
   EXPECT_EQ(end.harness_problem, "");
@@ -125,7 +125,7 @@ TEST_F(Trials, WithoutAWorkerNothingIsJudged) {
 TEST_F(Trials, AFaultIsFoundKeptThriceAndReplays) {
   const auto request = faulty("pair/zero-zero-dropped", 150);
   Store store = open("store");
-  const auto end = run_trials(request, store, in_a_minute(), {});
+  const auto end = run_trials(request, store, in_ten_minutes(), {});
   ASSERT_TRUE(end.complete);
   Tally tally;
   store.for_each_trial([&](const TrialRecord& r) { tally.add(r); });
@@ -177,11 +177,11 @@ TEST_F(Trials, AFaultIsFoundKeptThriceAndReplays) {
 TEST_F(Trials, FailuresShrinkAndGoOnShrinking) {
   const auto request = faulty("pair/zero-zero-dropped", 60);
   Store store = open("store");
-  run_trials(request, store, in_a_minute(), {});
+  run_trials(request, store, in_ten_minutes(), {});
   ASSERT_FALSE(store.failures().empty());
   constexpr std::uint64_t few = 40, many = 400;
   constexpr double seconds = 1000;  // beyond the deadline: more than a failure will have had
-  shrink_failures(request, store, {seconds, few}, in_a_minute(), {});
+  shrink_failures(request, store, {seconds, few}, in_ten_minutes(), {});
   std::set<std::string> signatures, shrunk;
   std::map<std::string, std::size_t> triangles;
   for (const auto& failure : store.failures()) {
@@ -195,7 +195,7 @@ TEST_F(Trials, FailuresShrinkAndGoOnShrinking) {
   }
   EXPECT_EQ(shrunk, signatures);  // one each, of laws as of claims
   // Each had few calls only: the same again goes on from there, and never gets larger.
-  shrink_failures(request, store, {seconds, many}, in_a_minute(), {});
+  shrink_failures(request, store, {seconds, many}, in_ten_minutes(), {});
   bool smaller = false;
   for (const auto& failure : store.failures()) {
     if (failure.smallest.empty()) continue;
@@ -212,15 +212,13 @@ TEST_F(Trials, FailuresShrinkAndGoOnShrinking) {
 TEST_F(Trials, AFailureOfAPlugInKeepsWhatItsPairSharesAndWhen) {
   auto request = request_of(60, 2);
   request.plan.laws_every = 0;
-  request.plugin = test::plugin("always_free");
-  WorkerProcess worker(ASSAY_WORKER, request.plugin);
-  const auto told = worker.describe().value();
-  request.detector = {told.name, false, told.claims, told.contract, {{told.name, {}}}};
+  test::set_plugin(request, test::plugin("always_free"));
+  auto worker = request.process();
   Store store = open("store");
-  ASSERT_TRUE(run_trials(request, store, in_a_minute(), {}).complete);
+  ASSERT_TRUE(run_trials(request, store, in_ten_minutes(), {}).complete);
   constexpr double hour = 3600;
   constexpr std::uint64_t calls = 300;
-  shrink_failures(request, store, {hour, calls}, in_a_minute(), {});
+  shrink_failures(request, store, {hour, calls}, in_ten_minutes(), {});
   const auto judge =
       judge_of_detector(request.detector, request.detector.configurations[0], worker);
   using Shown = std::pair<int, bool>;  // vertices shared, in the first thousandth of the step

@@ -31,7 +31,7 @@ struct QueryScore {
 };
 
 void judge(const Query& query, QueryScore& score) {
-  const auto truth = ask_oracle(query, Want::first_time);
+  const auto truth = oracle::contact_of(query, Want::first_time);
   const auto contact = [&](Arithmetic arithmetic) {
     return test_contact(query, Want::first_time, arithmetic);
   };
@@ -98,9 +98,7 @@ TEST(ArithmeticQueries, PublicLabelledQueries) {
     const auto queries = corpus::read_queries(entry.path());
     ASSERT_TRUE(queries.has_value()) << queries.error().message;
     for (const auto& q : queries.value()) {
-      const auto points =
-          std::visit([](const auto& x) { return detector::four_points(x); }, q.query);
-      ASSERT_NO_FATAL_FAILURE(judge(points, score)) << entry.path();
+      ASSERT_NO_FATAL_FAILURE(judge(q.query, score)) << entry.path();
     }
   }
   print("labelled", score);

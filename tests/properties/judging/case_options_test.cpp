@@ -38,9 +38,24 @@ TEST(CaseOptions, DefaultsAreNotStatedButForTheFirstThree) {
   EXPECT_EQ(options_text({.arithmetic = Arithmetic::single_precision}).at("arithmetic"), "float");
 }
 
+TEST(CaseOptions, ASeparationSurvivesItsText) {
+  for (const double d : {0x1p-1074, 1e-4, 0.1, 3.0, std::numeric_limits<double>::max()}) {
+    corpus::Case c;
+    c.options = options_text({.culling = Culling::bvh, .separation = d});
+    const auto read = read_options(c);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read.value().separation, d);
+  }
+  for (const std::string word : {"-1", "inf", "nan", "1e400", "0.1m", ""}) {
+    corpus::Case c;
+    c.options["separation"] = word;
+    EXPECT_FALSE(read_options(c)) << word;
+  }
+}
+
 TEST(CaseOptions, UnknownWordsAreNamed) {
-  for (const std::string name :
-       {"culling", "start", "pairs", "arithmetic", "release", "ghost_test", "speed"}) {
+  for (const std::string name : {"culling", "start", "pairs", "arithmetic", "separation", "release",
+                                 "ghost_test", "speed"}) {
     corpus::Case c;
     c.options[name] = "fast";
     const auto options = read_options(c);

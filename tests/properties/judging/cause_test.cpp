@@ -125,6 +125,26 @@ TEST(Cause, OfAPairThatDoesNotMeet) {
             "moving");
 }
 
+TEST(Cause, OfADistanceSaysWhereTheNearestPointsLie) {
+  Fall fall;
+  const auto cause_at = [&](double x, double y) {
+    for (auto* at : {&fall.x_t0, &fall.x_t1}) at->row(3).head(2) << x, y;
+    const detector::PairContact contact{
+        {0, 1}, {0.25, 0.25}, {detector::FeatureKind::vertex_face, {3, 0, 1, 2, -1}}};
+    return text_of(cause_of(fall.triangles, {fall.x_t0, fall.x_t1}, contact, true));
+  };
+  const auto& corner = fall.x_t0;
+  const auto middle = [&](int axis) {
+    return (corner(0, axis) + corner(1, axis) + corner(2, axis)) / 3;
+  };
+  EXPECT_EQ(cause_at(middle(0), middle(1)), "t inside, moving, distance to a face");
+  EXPECT_EQ(cause_at(corner(0, 0) - 1, corner(0, 1) - 1),
+            "t inside, moving, distance of two vertices");
+  EXPECT_EQ(
+      text_of(cause_of(fall.triangles, {fall.x_t0, fall.x_t1}, detector::TrianglePair{0, 1}, true)),
+      "moving, beyond the distance");
+}
+
 TEST(Cause, TheMostOrdinaryIsTheLeastOdd) {
   const char* ascending[] = {
       "free-sound: answered free, vertex-face, t inside, moving, generic",

@@ -104,6 +104,40 @@ TEST(Claims, CollisionAgainstNoneIsSpurious) {
   EXPECT_EQ(with_margin.outcome, Outcome::holds);
 }
 
+// The features of a query share no vertex, so that its alarms are judged under every margin.
+TEST(Claims, AMarginVoidsAlarmsOfStepsThatTestNeighbours) {
+  const Contract margin = {.margin = .1};
+  EXPECT_FALSE(judged_claims(claimable, margin).has(Claim::no_spurious));
+  EXPECT_TRUE(judged_claims(claimable, margin, true).has(Claim::no_spurious));
+  EXPECT_FALSE(judged_claims(claimable, margin, true).has(Claim::first_time));
+}
+
+// Triangles 3 and 4 come within the slack at .25, and within the separation at .5 or not at all.
+TEST(Claims, ASlackExcusesWhatComesWithinIt) {
+  const Contract slack = {.adjacency = Adjacency::no_shared_vertex, .margin = .1, .separation = .1};
+  const auto within = [](std::vector<PairContact> pairs) {
+    auto step = truth(std::move(pairs));
+    step.within_slack = {pair_at(3, 4, .25)};
+    return step;
+  };
+  const auto near_miss = within({}), near = within({pair_at(3, 4, .5)});
+  const auto broken_by = [&](const oracle::StepJudgement& step, double t) {
+    return judged(collision({t, t}, {pair_at(3, 4, t)}), step, claimable, slack).broken;
+  };
+  EXPECT_EQ(broken_by(near_miss, .25), List{});
+  EXPECT_EQ(broken_by(near_miss, .75), List{});
+  EXPECT_EQ(broken_by(near_miss, .125), List{Claim::no_spurious});  // before it is within the slack
+  EXPECT_EQ(broken_by(near, .25), List{});
+  EXPECT_EQ(broken_by(near, .75), (List{Claim::not_late, Claim::all_pairs}));
+  EXPECT_EQ(judged(answer(Answer::free), near_miss, claimable, slack).broken, List{});
+  // Pairs have their right times here, and the first time is before them all.
+  EXPECT_EQ(judged(collision({.125, .125}, {pair_at(3, 4, .25)}), near, claimable, slack).broken,
+            List{Claim::no_spurious});
+  auto nowhere = near_miss;
+  nowhere.within_slack.emplace();
+  EXPECT_EQ(broken_by(nowhere, .25), List{Claim::no_spurious});
+}
+
 TEST(Claims, ATimeIsAnIntervalThatMustHoldTheOracles) {
   const double half_up = std::nextafter(.5, 1);
   const auto step = truth({pair_at(3, 4, .5, half_up)});  // strictly between the two

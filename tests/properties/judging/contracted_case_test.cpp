@@ -50,6 +50,49 @@ TEST(ContractedCase, LeavesOutStepsThatStartTooNear) {
   EXPECT_FALSE(contracted(at_heights({1.25, 0}), apart));
 }
 
+TEST(JudgedUnder, ASeparationAsksWhatComesWithinIt) {
+  const Contract contact, within = {.adjacency = Adjacency::no_shared_vertex, .separation = 2};
+  const auto falling = at_heights({3, 1});
+  const auto judge = [](const corpus::Case& c, const Contract& contract) {
+    const auto judgement = judge_case(c, contract).front();
+    return truth_of(c, judgement, contract);
+  };
+  EXPECT_EQ(judge(falling, contact).answer(), detector::Answer::free);
+  const auto near = judge(falling, within);
+  ASSERT_EQ(near.answer(), detector::Answer::collision);
+  EXPECT_EQ(near.first->time, (detector::TimeEnclosure{0.5, 0.5}));
+  EXPECT_FALSE(near.starts_near);
+  EXPECT_EQ(judge(at_heights({4, 3}), within).answer(), detector::Answer::free);
+  // What is near when the step starts is named, at a distance of exactly d, too.
+  EXPECT_TRUE(judge(at_heights({2, 5}), within).starts_near);
+  EXPECT_FALSE(judge(at_heights({std::nextafter(2, 3), 5}), within).starts_near);
+  EXPECT_FALSE(judge(at_heights({0, 5}), contact).starts_near);
+  // The separation of the contract decides on a query, too.
+  const auto query = case_of_query({{{{{1, 1, 3}, {1, 1, 1}},
+                                      {{0, 0, 0}, {0, 0, 0}},
+                                      {{4, 0, 0}, {4, 0, 0}},
+                                      {{0, 4, 0}, {0, 4, 0}}}},
+                                    1},
+                                   "query");
+  EXPECT_EQ(judge(query, contact).answer(), detector::Answer::free);
+  ASSERT_EQ(judge(query, within).answer(), detector::Answer::collision);
+  EXPECT_EQ(judge(query, within).first->time, (detector::TimeEnclosure{0.5, 0.5}));
+}
+
+TEST(JudgedUnder, AMarginIsWhatComesWithinTheSum) {
+  Contract slack = {.adjacency = Adjacency::no_shared_vertex, .margin = 1, .separation = 1};
+  const auto judgement = judge_case(at_heights({3, 1.5}), slack).front();
+  EXPECT_EQ(judgement.answer, detector::Answer::free);
+  ASSERT_TRUE(judgement.within_slack);
+  ASSERT_EQ(judgement.within_slack->size(), 1u);
+  // The double 2. / 3 lies below two thirds, so it is the lower end.
+  EXPECT_EQ(judgement.within_slack->front().time.lo, 2. / 3);
+  EXPECT_EQ(judgement.within_slack->front().time.hi, std::nextafter(2. / 3, 1));
+  // Neighbours are within every margin, so nothing is said of alarms.
+  slack = {.margin = 1};
+  EXPECT_FALSE(judge_case(at_heights({3, 1.5}), slack).front().within_slack);
+}
+
 TEST(ContractedCase, IsNoneBeyondTheRange) {
   const Contract range = {.least_nonzero = 0.5, .largest = 4};
   EXPECT_TRUE(contracted(at_heights({0.5, 0}), range));

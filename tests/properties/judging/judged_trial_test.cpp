@@ -3,6 +3,7 @@
 #include "properties/judging/case_check.h"
 #include "properties/judging/cause.h"
 #include "tests/properties/small_case.h"
+#include "tests/sinking_corner.h"
 
 namespace assay::properties {
 namespace {
@@ -148,6 +149,46 @@ TEST_F(JudgedTrials, ASpuriousPair) {
   ASSERT_TRUE(failure);
   EXPECT_EQ(failure->kind, "answered collision");
   EXPECT_EQ(failure->pair, (detector::TrianglePair{0, 1}));
+}
+
+// A failure names what was asked of the triangles.
+TEST_F(JudgedTrials, UnderASeparation) {
+  plugin.contract = {.adjacency = Adjacency::no_shared_vertex, .separation = 2};
+  const auto told = [&](const CaseRun& run) {
+    truth = judge_case(c, plugin.contract);
+    const auto failure = judge(run, plugin).failure;
+    return failure ? failure->explanation : "";
+  };
+  CaseRun run;
+  run.steps.resize(1);
+  run.steps[0].answer = Answer::free;
+  c = tests::sinking_corner(1);
+  EXPECT_EQ(told(run),
+            "triangles 0 and 1 come within 2 at t = 0.5 (vertex-face); answered free, exact "
+            "collision at 0.5");
+  c = tests::sinking_corner(2.75);
+  run.steps[0].answer = Answer::collision;
+  const std::string answered = "; answered collision at [0, 1], exact free";
+  run.steps[0].first = {0, 1};
+  EXPECT_EQ(told(run), "no two triangles come within 2" + answered);
+  run.steps[0].pairs = {{{0, 1}, {0, 1}, {}}};
+  EXPECT_EQ(told(run), "triangles 0 and 1 do not come within 2" + answered);
+  plugin.contract.margin = 0.5;
+  EXPECT_EQ(told(run), "triangles 0 and 1 do not come within 2 + 0.5" + answered);
+}
+
+// The stage that lost a pair is that of a detector which is asked the same.
+TEST_F(JudgedTrials, TheStageUnderASeparation) {
+  configuration.options.separation = 2;
+  c = tests::sinking_corner(1);
+  built_in = built_in.in(configuration);
+  truth = judge_case(c, built_in.contract);
+  auto wrong = run_case(c, configuration);
+  ASSERT_EQ(judge(wrong, built_in).outcome, Outcome::holds);
+  wrong.steps[0].pairs.clear();
+  const auto failure = judge(wrong, built_in).failure;
+  ASSERT_TRUE(failure);
+  EXPECT_EQ(failure->stage, "view sets");
 }
 
 TEST_F(JudgedTrials, TwoRunsThatDiffer) {

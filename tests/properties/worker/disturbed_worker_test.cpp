@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "properties/judging/judged_run.h"
+#include "properties/worker/plugin/query_case.h"
 #include "properties/worker/processor_time.h"
 #include "properties/worker/worker_process.h"
 #include "tests/properties/small_case.h"
@@ -88,6 +89,69 @@ TEST(DisturbedWorker, ThreeTimesInARowIsTheDetectorsDoing) {
     EXPECT_EQ(worker.disturbances(), 0u);
     EXPECT_EQ(worker.starts(), 7u);
   }
+}
+
+// Small cases that go to the worker together: query i has its first contact at (i + 1) / 1024, or
+// at 0 if it is one of `special`, where query_alone.cpp is in trouble.
+class Batch : public testing::Test {
+ protected:
+  void ask(int count, std::set<int> special, const std::string& words,
+           const WorkerLimits& limits = {}) {
+    std::vector<corpus::Case> cases;
+    for (int i = 0; i < count; ++i) {
+      const double from = special.contains(i) ? 0 : i + 1, to = from - 1024;
+      cases.push_back(case_of_query({{{{{1, 1, from}, {1, 1, to}},
+                                       {{0, 0, 0}, {0, 0, 0}},
+                                       {{4, 0, 0}, {4, 0, 0}},
+                                       {{0, 4, 0}, {0, 4, 0}}}},
+                                     1},
+                                    "query"));
+    }
+    ::setenv("ASSAY_QUERY", words.c_str(), 1);
+    worker.emplace(ASSAY_WORKER, plugin("query_alone"), limits);
+    runs = worker->run(cases, plugin_alone);
+    ::unsetenv("ASSAY_QUERY");
+    ASSERT_EQ(runs.size(), cases.size());
+    for (int i = 0; i < count; ++i) {
+      if (special.contains(i)) continue;
+      const auto& run = runs[static_cast<std::size_t>(i)];
+      ASSERT_EQ(run.end, RunEnd::completed) << i << ": " << run.explanation;
+      const double t = (i + 1) / 1024.;
+      EXPECT_EQ(run.steps[0].first, (detector::TimeEnclosure{t, t})) << i;
+      EXPECT_EQ(run.disturbances, 0u) << i;
+    }
+  }
+
+  std::optional<WorkerProcess> worker;
+  std::vector<CaseRun> runs;
+};
+
+TEST_F(Batch, ACrashIsThatOfItsCase) {
+  const std::set<int> fatal = {150, 151, 400};
+  ask(600, fatal, "abort-at-start");
+  for (const int i : fatal) {
+    EXPECT_EQ(runs[static_cast<std::size_t>(i)].end, RunEnd::crashed) << i;
+    EXPECT_EQ(runs[static_cast<std::size_t>(i)].explanation, "killed by signal 6 (Aborted)");
+  }
+  EXPECT_EQ(worker->starts(), 1 + fatal.size());
+  EXPECT_EQ(worker->disturbances(), 0u);
+}
+
+TEST_F(Batch, AHangIsThatOfItsCase) {
+  ask(300, {130}, "burn-at-start=60", {.seconds = .3});
+  EXPECT_EQ(runs[130].end, RunEnd::hung);
+  EXPECT_EQ(worker->starts(), 2u);
+}
+
+TEST_F(Batch, ANeighbourDisturbsOneCaseAndIsNoCrash) {
+  auto killer = neighbour(SIGKILL, 1, .2);
+  ask(300, {130}, "burn-at-start=.6");
+  killer.join();
+  EXPECT_EQ(runs[130].end, RunEnd::completed) << runs[130].explanation;
+  EXPECT_EQ(runs[130].steps[0].first, (detector::TimeEnclosure{0, 0}));
+  EXPECT_EQ(runs[130].disturbances, 1u);
+  EXPECT_EQ(worker->disturbances(), 1u);
+  EXPECT_EQ(worker->starts(), 2u);
 }
 
 // As `assay run` does, and a shell that starts it in the background.

@@ -1,4 +1,5 @@
 // What a plug-in says of a call that failed is told, whichever call it was, and of every step.
+#include "properties/worker/plugin/query_case.h"
 #include "properties/worker/worker_process.h"
 #include "tests/properties/worker/worker_cases.h"
 
@@ -68,14 +69,15 @@ TEST_F(ErrorTexts, OfCandidates) {
 }
 
 TEST_F(ErrorTexts, OfQueries) {
-  const detector::FourPoints query = {};
-  const std::vector<detector::FourPoints> two(2, query);
-  for (const auto& run : worker("query").ask(two)) {
+  const auto query = case_of_query({}, "query");
+  auto asked = worker("query");
+  for (int repetition = 0; repetition < 2; ++repetition) {
+    const auto run = asked.run(query, plugin_alone).front();
     ASSERT_EQ(run.steps.size(), 1u) << run.explanation;
     EXPECT_EQ(run.steps[0].answer, Answer::error);
     EXPECT_EQ(run.explanation, "query returned 3: no query today, 0");
   }
-  const auto said = worker("query-error").ask(two).front();
+  const auto said = worker("query-error").run(query, plugin_alone).front();
   EXPECT_EQ(said.explanation, "said by its result");
 }
 

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "properties/worker/isolation/scratch_folder.h"
+#include "properties/worker/plugin/query_case.h"
 #include "properties/worker/worker_process.h"
 #include "tests/problem_words.h"
 #include "tests/properties/worker/worker_cases.h"
@@ -114,22 +115,23 @@ TEST_F(Hostile, ForgedRepliesAreCrashes) {
 }
 
 TEST_F(Hostile, ForgedAnswersToQueriesAreCrashesOfTheseQueries) {
-  const std::vector<detector::FourPoints> three(3);
+  const auto query = case_of_query({}, "query");
   for (const auto& [mode, rule] : std::map<std::string, std::string>{
-           {"forge-query-count", "2 answers to 1 queries"},
-           {"forge-query-none", "0 answers to 1 queries"},
+           {"forge-query-count", "2 results for 1 steps"},
+           {"forge-query-none", "0 results for 1 steps"},
            {"forge-query-nan", "a first time that is no interval in [0, 1]"},
            {"forge-query-time", "a first time that is no interval in [0, 1]"},
            {"forge-query-answer", "bytes that are none"},
            {"forge-query-text", "a text that is no line"},
-           {"forge-query-long", "longer than any reply to these queries"},
+           {"forge-query-long", "longer than any reply to this case"},
            {"forge-query-number", "to another request"},
+           {"forge-query-pairs", "a pair that is none of the mesh"},
+           {"forge-query-candidates", "candidates that it does not claim"},
        }) {
     setenv("ASSAY_HOSTILE", mode.c_str(), 1);
     WorkerProcess worker(ASSAY_WORKER, plugin("hostile"), {.seconds = .2});
-    const auto runs = worker.ask(three);
-    ASSERT_EQ(runs.size(), three.size()) << mode;
-    for (const auto& run : runs) {
+    for (int repetition = 0; repetition < 3; ++repetition) {
+      const auto run = worker.run(query, plugin_alone).front();
       EXPECT_EQ(run.end, RunEnd::crashed) << mode;
       EXPECT_EQ(run.explanation, "sent a reply that is none: " + rule) << mode;
       EXPECT_TRUE(run.steps.empty()) << mode;
@@ -137,7 +139,8 @@ TEST_F(Hostile, ForgedAnswersToQueriesAreCrashesOfTheseQueries) {
   }
   setenv("ASSAY_HOSTILE", "forge-query-lies", 1);
   WorkerProcess liar(ASSAY_WORKER, plugin("hostile"), {.seconds = .2});
-  for (const auto& run : liar.ask(three)) {
+  for (int repetition = 0; repetition < 3; ++repetition) {
+    const auto run = liar.run(query, plugin_alone).front();
     EXPECT_EQ(run.end, RunEnd::completed) << run.explanation;
     EXPECT_EQ(run.steps.at(0).answer, detector::Answer::free);
   }

@@ -198,7 +198,7 @@ TEST(Plugins, WhatIsNoPlugInIsRefusedInOneLine) {
       {plugin("nowhere"), "no such file"},
       {std::string(ASSAY_SOURCE_DIR) + "/README.md", "not a detector plug-in"},
       {plugin("without_entry"), "it exports no assay_detector()"},
-      {plugin("wrong_abi"), "built for ABI version 99, this program takes 1 to 2"}};
+      {plugin("wrong_abi"), "built for ABI version 99, this program takes 1 to 3"}};
   for (const auto& [library, why] : refused) {
     WorkerProcess worker(ASSAY_WORKER, library);
     const auto description = worker.describe();

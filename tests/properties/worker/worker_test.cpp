@@ -74,11 +74,11 @@ TEST(Worker, ExpectedFactsStayWithTheHost) {
   c.expected.answer = Answer::error;
   c.expected.steps.resize(1);
   RunRequest arrived;
-  ASSERT_TRUE(decode(encode(std::uint64_t{7}, c, four), arrived));
-  EXPECT_EQ(arrived.c.frames, c.frames);
-  EXPECT_EQ(arrived.c.triangles, c.triangles);
-  EXPECT_EQ(arrived.c.expected.answer, std::nullopt);
-  EXPECT_TRUE(arrived.c.expected.steps.empty());
+  ASSERT_TRUE(decode(encode(std::uint64_t{7}, std::vector{c}, four), arrived));
+  EXPECT_EQ(arrived.cases.at(0).frames, c.frames);
+  EXPECT_EQ(arrived.cases.at(0).triangles, c.triangles);
+  EXPECT_EQ(arrived.cases.at(0).expected.answer, std::nullopt);
+  EXPECT_TRUE(arrived.cases.at(0).expected.steps.empty());
 }
 
 TEST(Worker, ACutMessageIsNoMessage) {

@@ -22,11 +22,10 @@ struct Benched {
 };
 
 Benched bench(const std::string& name, double seconds = 60) {
-  BenchedPlugin plugin;
-  plugin.library = library(name);
-  plugin.limits.seconds = seconds;
-  properties::WorkerProcess worker(ASSAY_WORKER, plugin.library, plugin.limits);
-  plugin.description = worker.describe().value();
+  const auto plugin =
+      properties::Subject::open(ASSAY_WORKER, library(name), properties::DetectorPart::by_library,
+                                {.seconds = seconds})
+          .value();
   Benched out;
   out.report = detector_suite({"/nowhere", 0.01}, plugin, {}, &out.sequences);
   return out;

@@ -80,7 +80,7 @@ TEST(PeersBench, ThoseOfAFolderStandBesideTheBuiltIn) {
   EXPECT_EQ(exact.answers, "answer, time, pairs");
   std::uint64_t missed = 0, confirmed = 0;
   for (const auto& row : run.rows) {
-    if (row.subject.is_built_in()) continue;
+    if (row.subject.detector.built_in) continue;
     const bool is_free = row.counts.errors.missed > 0;
     EXPECT_EQ(row.counts.errors.false_alarms, is_free ? 0u : 1u);
     missed += row.counts.errors.missed;
@@ -110,9 +110,21 @@ TEST(PeersBench, OneThatHangsOrCrashesEndsNothingElse) {
   EXPECT_NE(text.find("absent: fcl_elementary: libfcl-dev was not there"), std::string::npos);
 }
 
+TEST(PeersBench, OneThatIsAskedForADistanceTakesNoPart) {
+  const tests::Scratch scratch;
+  put_peers(scratch, {"keeps_distance"});
+  setenv("ASSAY_KEEPS_DISTANCE", "ours separation=0.01", 1);
+  const Peers peers = find_peers(scratch / "");
+  unsetenv("ASSAY_KEEPS_DISTANCE");
+  EXPECT_EQ(peers.subjects.size(), 6u) << "the built-in ones alone";
+  ASSERT_FALSE(peers.absent.empty());
+  EXPECT_EQ(peers.absent.front().name, "plugin_keeps_distance");
+  EXPECT_EQ(peers.absent.front().why, "it is asked for a distance");
+}
+
 TEST(PeersBench, WhatNobodyPromisedStandsInBrackets) {
   SmallRun run({"always_free"});
-  run.rows.back().subject.claims.set(properties::Claim::free_sound, false);
+  run.rows.back().subject.detector.claims.set(properties::Claim::free_sound, false);
   const auto text = run.text();
   EXPECT_NE(text.find("(1)"), std::string::npos) << text;
   BenchReport report("peers");
@@ -181,19 +193,20 @@ TEST(PeersBench, EachPeerThatIsPresentMissesItsStoredMesh) {
   const Peers peers = find_peers(ASSAY_PEER_DIR);
   std::size_t present = 0;
   for (const auto& subject : peers.subjects) {
+    if (subject.detector.built_in) continue;
     const auto file = fs::path(ASSAY_SOURCE_DIR) / "corpus/peers/meshes" /
-                      (fs::path(subject.library).stem().string() + ".json");
-    if (subject.is_built_in() || !fs::exists(file)) continue;
+                      (subject.plugin->stem().string() + ".json");
+    if (!fs::exists(file)) continue;
     ++present;
     const auto c = corpus::read_case(file).value();
-    const auto seen = properties::contracted(c, subject.contract);
+    const auto seen = properties::contracted(c, subject.detector.contract);
     ASSERT_TRUE(seen) << subject.name;
-    properties::WorkerProcess worker(ASSAY_WORKER, subject.library);
+    auto worker = subject.process();
     const properties::Configuration configuration = {subject.name, {}, {}, true};
     const auto run = worker.run(*seen, {&configuration, 1}).front();
     std::vector<UnsafeAnswer> answers;
-    const auto counts =
-        counts_of(subject, *seen, run, properties::judge_case(*seen, subject.contract), answers);
+    const auto counts = counts_of(
+        subject, *seen, run, properties::judge_case(*seen, subject.detector.contract), answers);
     EXPECT_EQ(counts.errors.missed, 1u) << subject.name;
     EXPECT_EQ(counts.confirmed, 1u) << subject.name;
     EXPECT_GT(run.times->peak_bytes, 100'000u) << subject.name;

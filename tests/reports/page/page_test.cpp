@@ -1,4 +1,4 @@
-// The data of the page, assay-report/2, and the file that it is put into.
+// The data of the page, assay-report/3, and the file that it is put into.
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/ledger/merge.h"
 #include "properties/faults/fault.h"
@@ -36,7 +36,7 @@ TEST(PageFile, TheTemplateIsTheBuiltPageToTheByte) {
 }
 
 TEST(PageFile, DataStandsWhereTheTemplateHasItsMark) {
-  const Json data = {{"schema", "assay-report/2"}, {"runs", Json::array()}};
+  const Json data = {{"schema", "assay-report/3"}, {"runs", Json::array()}};
   const auto page = reports::page_text(reports::page_template(), data);
   const std::string open = R"(<script id="assay-report" type="application/json">)";
   const auto begin = page.find(open) + open.size();
@@ -206,7 +206,7 @@ TEST_F(Runs, BoundsAreThoseOfTheTerminal) {
   EXPECT_GT(findings["strata"][1]["bounds"][0]["bound"], row["bound"]);
 }
 
-// Every field of assay-report/2, `runs[].strata[].n` as "n".
+// Every field of assay-report/3, `runs[].strata[].n` as "n".
 void names_of(const Json& json, std::set<std::string>& names) {
   // Those of the predicate stand in the certificate's table, which its schema holds them to.
   const std::set<std::string> free_keys = {"findings"};
@@ -234,10 +234,10 @@ TEST_F(Runs, EveryFieldIsDocumented) {
   EXPECT_EQ(json["findings"]["failures"].size(), 1u);
   EXPECT_EQ(json["failures"][0]["others"].size(), 1u);
   std::set<std::string> names;
-  names_of({{"schema", "assay-report/2"}, {"version", ""}, {"runs", {json}}}, names);
+  names_of({{"schema", "assay-report/3"}, {"version", ""}, {"runs", {json}}}, names);
   EXPECT_GT(names.size(), 40u);
   const auto readme = read_text(std::string(ASSAY_SOURCE_DIR) + "/reports/README.md");
-  const auto begin = readme.find("schema `assay-report/2`");
+  const auto begin = readme.find("schema `assay-report/3`");
   ASSERT_NE(begin, std::string::npos);
   const auto documented = readme.substr(begin, readme.find("\n## ", begin) - begin);
   for (const auto& name : names)
@@ -257,11 +257,14 @@ TEST_F(Runs, ASceneHoldsWhatTheOracleFound) {
     EXPECT_EQ(pairs[i]["triangles"][1], expected[i].pair.b);
     EXPECT_EQ(pairs[i]["time"][0].get<double>(), expected[i].time.lo);
     EXPECT_EQ(pairs[i]["time"][1].get<double>(), expected[i].time.hi);
-    EXPECT_EQ(pairs[i]["point"].size(), 3u);
+    EXPECT_EQ(pairs[i]["places"].size(), 2u);
+    EXPECT_EQ(pairs[i]["places"][0].size(), 3u);
   }
   EXPECT_EQ(scene["steps"][0]["detector"]["pairs"], pairs) << "the built-in detector is right";
   EXPECT_EQ(scene["steps"][0]["views"]["sets"].size(), 12u);
   EXPECT_EQ(scene["steps"][0]["views"]["primitives"][0]["q1"], nullptr) << "a view-point";
+  EXPECT_TRUE(scene["asked"].is_null());
+  EXPECT_TRUE(scene["bodies"].is_null());
   EXPECT_EQ(scene["triangles"].size(), 12u);
   EXPECT_EQ(scene["frames"].size(), 2u);
 }
@@ -284,6 +287,26 @@ TEST_F(Runs, ASceneObeysThePlugInsContract) {
   EXPECT_EQ(counts["missing"], 1u);
   EXPECT_EQ(counts["left out by the contract"], step["left_out"].size());
   EXPECT_TRUE(step["views"].is_null()) << "of a plug-in nobody knows them";
+}
+
+TEST_F(Runs, ASceneUnderADistanceHasTheNearestPointsAndTheBodies) {
+  setenv("ASSAY_KEEPS_DISTANCE", "separation=0.5 ignores-it", 1);
+  RunToStore run;
+  run.request.plugin = std::string(ASSAY_PLUGIN_DIR) + "/plugin_keeps_distance.so";
+  run.request.detector.built_in = false;
+  run.fail(one_above_another(1, 0), "not-late: late", "a line");
+  const auto scene = reports::failure_scenes(read_run(run.store(scratch / "near")))[0]["scene"];
+  unsetenv("ASSAY_KEEPS_DISTANCE");
+  EXPECT_EQ(scene["asked"], "d 0.5");
+  EXPECT_EQ(scene["bodies"], Json::array({0, 1}));
+  const auto& step = scene["steps"][0];
+  const auto& exact = step["oracle"]["pairs"][0];
+  EXPECT_EQ(exact["distance"], 0.5);
+  EXPECT_EQ(exact["places"], Json::parse("[[1.0, 1.0, 0.5], [1.0, 1.0, 0.0]]"));
+  const auto& late = step["detector"]["pairs"][0];
+  EXPECT_EQ(late["time"][0], 1.0);
+  EXPECT_EQ(late["distance"], 0.0);
+  EXPECT_EQ(late["places"], Json::parse("[[1.0, 1.0, 0.0], [1.0, 1.0, 0.0]]"));
 }
 
 }  // namespace

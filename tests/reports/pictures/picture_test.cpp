@@ -1,13 +1,17 @@
-// Contact points, scenes and pictures of failing cases.
+// Contact points, nearest points, scenes and pictures of failing cases.
+#include <fmt/format.h>
+
+#include "properties/worker/plugin/query_case.h"
 #include "reports/pictures/case_scene.h"
-#include "reports/pictures/contact_point.h"
+#include "reports/pictures/contact_places.h"
 #include "reports/pictures/mesh_svg.h"
 #include "tests/reports/stored_run.h"
+#include "tests/sinking_corner.h"
 
 namespace assay::tests {
 namespace {
 
-using detector::Positions, detector::Triangles, reports::contact_point, reports::ViewSet;
+using detector::Positions, detector::Triangles, reports::contact_places, reports::ViewSet;
 using Vector = Eigen::Vector3d;
 
 std::size_t count_of(const std::string& text, const std::string& word) {
@@ -42,7 +46,7 @@ TEST(NearestPoints, OfATriangle) {
   EXPECT_EQ(reports::nearest_of_triangle({3, 2, 0}, needle).b, Vector(3, 0, 0));
 }
 
-TEST(ContactPoint, IsTheVertexAtItsTimeAndWithoutFeatureWhereTheTrianglesAreClosest) {
+TEST(ContactPlaces, AreOfTheFeatureAndWithoutOneWhereTheTrianglesAreClosest) {
   Triangles triangles(2, 3);
   triangles << 0, 1, 2, 3, 4, 5;
   Positions x_t0(6, 3), x_t1(6, 3);
@@ -52,12 +56,24 @@ TEST(ContactPoint, IsTheVertexAtItsTimeAndWithoutFeatureWhereTheTrianglesAreClos
   detector::PairContact contact;
   contact.pair = {0, 1};
   contact.feature = {detector::FeatureKind::vertex_face, {3, 0, 1, 2, -1}};
-  EXPECT_EQ(contact_point(contact, triangles, x_t0, x_t1, 0.5), (detector::Point{1, 1, 0}));
+  const auto expect_at = [&](double t, const Vector& a, const Vector& b) {
+    const auto places = contact_places(contact, triangles, x_t0, x_t1, t);
+    ASSERT_TRUE(places);
+    EXPECT_EQ(places->a, a);
+    EXPECT_EQ(places->b, b);
+  };
+  expect_at(0.5, {1, 1, 0}, {1, 1, 0});
+  expect_at(0.25, {1, 1, 1}, {1, 1, 0});
   contact.feature.vertices = {-1, -1, -1, -1, -1};
-  EXPECT_EQ(contact_point(contact, triangles, x_t0, x_t1, 0), (detector::Point{1, 1, 1}));
+  expect_at(0, {1, 1, 2}, {1, 1, 0});
+  // Edges pierce the face, far from all vertices and edges of it.
+  const auto pierced = contact_places(contact, triangles, x_t0, x_t1, 1);
+  ASSERT_TRUE(pierced);
+  EXPECT_LE(pierced->distance(), 1e-15);
+  EXPECT_LE(std::abs(pierced->a[2]), 1e-15);
 }
 
-TEST(ContactPoint, OfEveryCuratedPairLiesInBothTrianglesBoxes) {
+TEST(ContactPlaces, OfEveryCuratedPairLiesInBothTrianglesBoxes) {
   std::size_t pairs = 0;
   const auto files = corpus::case_files(std::string(ASSAY_SOURCE_DIR) + "/corpus/curated");
   ASSERT_TRUE(files);
@@ -70,18 +86,19 @@ TEST(ContactPoint, OfEveryCuratedPairLiesInBothTrianglesBoxes) {
       const auto& x_t1 = c.frames[static_cast<std::size_t>(step.span.to)];
       for (const auto& contact : step.truth.pairs) {
         const double t = contact.time.lo;
-        const auto point = contact_point(contact, c.triangles, x_t0, x_t1, t);
-        ASSERT_TRUE(point) << c.id;
+        const auto places = contact_places(contact, c.triangles, x_t0, x_t1, t);
+        ASSERT_TRUE(places) << c.id;
         const Positions x = (1 - t) * x_t0 + t * x_t1;
         const double size = x.cwiseAbs().maxCoeff();
         for (const auto triangle : {contact.pair.a, contact.pair.b}) {
           std::array<Vector, 3> corners;
           for (int k = 0; k < 3; ++k)
             corners[static_cast<std::size_t>(k)] = x.row(c.triangles(triangle, k)).transpose();
-          const Vector place((*point)[0], (*point)[1], (*point)[2]);
           // Rounding of times and places, times the slope of slender triangles.
-          EXPECT_LE(reports::nearest_of_triangle(place, corners).distance(), 1e-6 * size)
-              << c.id << " pair " << contact.pair.a << ", " << contact.pair.b;
+          for (const auto& place : {places->a, places->b}) {
+            EXPECT_LE(reports::nearest_of_triangle(place, corners).distance(), 1e-6 * size)
+                << c.id << " pair " << contact.pair.a << ", " << contact.pair.b;
+          }
         }
         ++pairs;
       }
@@ -168,12 +185,74 @@ TEST(Scene, OfAPlugInObeysItsClaimsAndItsContract) {
   EXPECT_EQ(differences("claims=1 late=1 drop-last").count("late"), 0u);
 }
 
+double shown_distance(const reports::CaseScene& scene) {
+  const auto& step = scene.steps[0];
+  EXPECT_EQ(step.truth.pairs.size(), 1u);
+  if (step.truth.pairs.empty()) return -1;
+  const auto nearest = scene.nearest_points(step, step.truth.pairs[0]);
+  return nearest ? nearest->distance() : -1;
+}
+
+TEST(Scene, UnderADistanceHasTheNearestPointsOfTheTwoTriangles) {
+  for (const double start : {1.0, 0.25, -0.125}) {
+    auto c = one_above_another(start, start - 1);
+    c.options = {{"culling", "bvh"}, {"separation", "0.5"}};
+    const auto scene = scene_of(c);
+    EXPECT_EQ(scene.asked_distance(), "d 0.5");
+    EXPECT_FALSE(scene.failure);
+    EXPECT_EQ(scene.steps[0].answered->pairs.size(), 1u);
+    // At 0.25 more than one vertex is within 0.5, and at -0.125 edges pierce the face.
+    const double nearest = start == 1 ? 0.5 : std::max(start, 0.0);
+    EXPECT_NEAR(shown_distance(scene), nearest, 1e-15) << start;
+    const auto svg = reports::mesh_svg(scene, "x");
+    EXPECT_EQ(count_of(svg, fmt::format(">distance {}, d 0.5<", nearest)), 1u) << svg;
+    EXPECT_EQ(count_of(svg, "<line"), nearest > 0 ? 2u : 0u) << "exact and the detector's";
+    EXPECT_EQ(count_of(svg, "<circle"), nearest > 0 ? 4u : 2u);
+  }
+}
+
+TEST(Scene, ADetectorThatIgnoresTheDistanceShowsHowNearThePairIs) {
+  setenv("ASSAY_KEEPS_DISTANCE", "separation=0.5 margin=0.125 ignores-it", 1);
+  reports::SceneMaker maker{
+      reports::DetectorWords{std::string(ASSAY_PLUGIN_DIR) + "/plugin_keeps_distance.so", {}}};
+  const auto scene = maker.scene_of(one_above_another(1, 0.25), "x");
+  unsetenv("ASSAY_KEEPS_DISTANCE");
+  ASSERT_TRUE(scene);
+  ASSERT_TRUE(scene->failure);
+  EXPECT_EQ(scene->failure->kind, "answered free");
+  EXPECT_NEAR(shown_distance(*scene), 0.5, 1e-15);
+  const auto svg = reports::mesh_svg(*scene, "x");
+  EXPECT_EQ(count_of(svg, ">distance 0.5, d 0.5, slack 0.125<"), 1u) << svg;
+  EXPECT_EQ(count_of(svg, "<line"), 1u);
+  EXPECT_EQ(count_of(svg, "<circle"), 2u);
+}
+
+// Vertex 3 is 0.5 away from the triangle of the other edge, which nobody asked about.
+TEST(Scene, OfAQueryHasTheNearestPointsOfItsTwoFeatures) {
+  detector::FourPoints edges{{}, 2};
+  const std::array<detector::Point, 4> at = {
+      detector::Point{0, 0, 0}, {1, 0, 0}, {0.5, 0, 2}, {0.5, 0.5, 1}};
+  for (std::size_t k = 0; k < at.size(); ++k) edges.points[k] = {at[k], at[k]};
+  reports::CaseScene scene;
+  scene.c = properties::case_of_query(edges, "edges");
+  scene.contract.separation = 2;
+  reports::SceneStep step;
+  detector::PairContact contact;
+  contact.pair = {0, 1};
+  const auto nearest = scene.nearest_points(step, contact);
+  ASSERT_TRUE(nearest);
+  EXPECT_EQ(nearest->a, Vector(0.5, 0, 0));
+  EXPECT_EQ(nearest->b, Vector(0.5, 0.5, 1));
+}
+
 TEST(Picture, HasEveryTriangleThePairAndTheContact) {
   const auto scene = scene_of(curated_case("D8_release_arm_sequence"));
   const auto svg = reports::mesh_svg(scene, "free-sound: <missing> & more");
   EXPECT_EQ(count_of(svg, "<polygon"), 36u + 4u + 2u);
   EXPECT_EQ(count_of(svg, "stroke-dasharray"), 4u);
   EXPECT_EQ(count_of(svg, "<circle"), 2u) << "exact and the detector's";
+  EXPECT_EQ(count_of(svg, "<line"), 0u) << "two places that coincide";
+  EXPECT_EQ(count_of(svg, "distance"), 0u) << "nobody asks for one";
   EXPECT_EQ(count_of(svg, "&lt;missing&gt; &amp; more"), 2u);
   EXPECT_EQ(count_of(svg, "<missing>"), 0u);
   EXPECT_EQ(svg, reports::mesh_svg(scene, "free-sound: <missing> & more"));
@@ -194,6 +273,13 @@ TEST(Picture, CoordinatesOfAnySizeStayOnIt) {
 TEST(Picture, StandsBesideItsCaseFile) {
   EXPECT_EQ(reports::picture_file("out/mesh.json"), "out/mesh.svg");
   EXPECT_EQ(reports::picture_file("mesh.small"), "mesh.small.svg");
+}
+
+TEST(CaseScenes, AskForTheSeparationOfTheCase) {
+  const auto scene = scene_of(sinking_corner(1, {{"culling", "bvh"}, {"separation", "2"}}));
+  EXPECT_FALSE(scene.failure);
+  ASSERT_TRUE(scene.steps[0].truth.first);
+  EXPECT_EQ(scene.steps[0].truth.first->time, (detector::TimeEnclosure{0.5, 0.5}));
 }
 
 }  // namespace

@@ -53,6 +53,83 @@ def test_the_oracle_agrees_with_the_detector(cloud):
     assert judgement.feature_candidates > len(judgement.pairs)
 
 
+def falling():
+    """A triangle falls towards another one, from 3 to 1 above it."""
+    x_t0 = np.array([[0, 0, 0], [4, 0, 0], [0, 4, 0], [1, 1, 3], [2, 1, 4], [1, 2, 4]], float)
+    x_t1 = x_t0.copy()
+    x_t1[3:, 2] -= 2
+    return np.array([[0, 1, 2], [3, 4, 5]]), x_t0, x_t1
+
+
+def test_the_oracle_tells_what_comes_within_a_distance():
+    triangles, x_t0, x_t1 = falling()
+    assert assay.judge(triangles, x_t0, x_t1).answer == "free"
+    near = assay.judge(triangles, x_t0, x_t1, separation=2)
+    assert (near.answer, near.first, near.pairs.tolist()) == ("collision", (0.5, 0.5), [[0, 1]])
+    assert assay.first_time_within(triangles, x_t0, x_t1, 2) == (0.5, 0.5)
+    assert assay.first_time_within(triangles, x_t0, x_t1, 0.5) is None
+    least = assay.least_distance(triangles, x_t0, x_t1)
+    assert least.distance == 1
+    assert least.contact == assay.Contact((0, 1), (1, 1), "vertex-face", (3, 0, 1, 2))
+    assert assay.least_distance(triangles[:1], x_t0, x_t1) is None
+    with pytest.raises(ValueError, match="separation"):
+        assay.judge(triangles, x_t0, x_t1, separation=-1)
+
+
+def test_check_within_a_distance_has_a_report_of_its_own(tmp_path):
+    triangles, x_t0, x_t1 = falling()
+    frames = (triangles, [x_t0, x_t1, x_t1 + 1])
+    told = []
+    report = assay.check(frames, separation=2, progress=told.append)
+    assert isinstance(report, assay.SeparationReport)
+    assert (report.outcome, report.separation, report.least_distance) == ("near", 2, 1)
+    assert "".join(told) == str(report) and "near at t = 0.5 of step 1" in report.text
+    assert report.json["schema"] == "assay-check/1" and report.code == 0
+    first, second = report.steps
+    meets = assay.Contact((0, 1), (0.5, 0.5), "vertex-face", (3, 0, 1, 2))
+    assert first == assay.SeparationStep(
+        "near",
+        (0.5, 0.5),
+        0,
+        (meets,),
+        assay.LeastDistance(1, assay.Contact((0, 1), (1, 1), "vertex-face", (3, 0, 1, 2))),
+    )
+    assert (second.answer, second.first, second.near_at_start) == ("near", (0, 0), 1)
+    apart = assay.check(frames, separation=0.5)
+    assert (apart.outcome, apart.steps[0].first, apart.steps[0].pairs) == ("apart", None, ())
+    alone = assay.check((triangles[:1], [x_t0, x_t1]), separation=2)
+    assert (alone.outcome, alone.least_distance, alone.steps[0].least) == ("apart", None, None)
+    assert assay.check(frames, bodies=[0] * 6, apart=[(0, 0)], separation=2).outcome == "apart"
+    # Frames from files, and 0 for what touches.
+    x_t1[3:, 2] -= 1
+    for k, x in enumerate([x_t0, x_t1]):
+        write_ply(tmp_path / f"{k}.ply", triangles, x)
+    touch = assay.check(assay.read_frames(tmp_path / "*.ply"), separation=0)
+    assert (touch.outcome, touch.least_distance) == ("near", 0)
+    for more in ({"culling": "bvh"}, {"detector": "libmine.so"}):
+        with pytest.raises(ValueError, match="no detector"):
+            assay.check(frames, separation=2, **more)
+    for wrong in (-1, np.nan, np.inf):
+        with pytest.raises(ValueError, match="separation"):
+            assay.check(frames, separation=wrong)
+    with pytest.raises(TypeError, match="no verdict"):
+        bool(report)
+
+
+def test_bodies_that_are_apart_do_not_meet(pair):
+    frames = (pair.triangles, [pair.x_t0, pair.x_t1])
+    bodies = [0] * 4 + [1] * 4
+    assert assay.check(frames).steps[0].answer == "collision"
+    report = assay.check(frames, bodies=bodies)
+    assert (report.outcome, report.steps[0].answer) == ("holds", "collision")
+    assert report.json["bodies"] == [{"triangles": 4, "vertices": 4}] * 2
+    report = assay.check(frames, bodies=bodies, apart=[(1, 0)])
+    assert (report.outcome, report.steps[0].answer) == ("holds", "free")
+    for wrong, why in [([0], "given for 1 vertices"), ([0] * 7 + [1], "is of two bodies")]:
+        with pytest.raises(ValueError, match=why):
+            assay.check(frames, bodies=wrong, apart=[(0, 0)])
+
+
 def test_the_oracle_refuses_what_the_detector_refuses(pair):
     for triangles, x_t1, name in [
         (pair.triangles + 1, pair.x_t1, "index_out_of_range"),

@@ -1,5 +1,6 @@
 // What `assay replay --export` writes compiles against the detector alone, and passes.
 #include "tests/reports/tiny_campaign.h"
+#include "tests/sinking_corner.h"
 
 namespace assay::tests {
 namespace {
@@ -44,6 +45,30 @@ TEST_F(ExportedCase, CompilesAndPasses) {
       contains(read_text(scratch / "case/case.cpp"), "unsigned claims = deterministic | total;"));
   // With a line as its view, given, and several steps.
   expect_passes(std::string(ASSAY_SOURCE_DIR) + "/corpus/curated/B1_one_vertex_own_nearest.json");
+}
+
+TEST_F(ExportedCase, SaysWhichPairsCount) {
+  expect_passes(curated("F_ignored_contact"));
+  // A relation of every part, whose lists name what counts anyway.
+  std::string text = read_text(curated("F_ignored_contact"));
+  const std::string level = "\"level\": \"";
+  const auto begin = text.find(level);
+  ASSERT_NE(begin, std::string::npos);
+  const auto end = text.find("\"", begin + level.size());
+  text.replace(begin, end - begin, level + "features");
+  text.insert(text.find(",", begin),
+              ", \"bodies\": [[9, 0]], \"rest_distance\": 0.5, \"vertex_faces\": [[0, 1], [0, 2]], "
+              "\"edge_pairs\": [[0, 1, 1, 2]]");
+  text.erase(text.find(",\n    \"steps\"", begin), std::string::npos);
+  text += "\n  },\n  \"pending\": {}\n}\n";
+  expect_passes(scratch.write("every_part.json", text));
+}
+
+TEST_F(ExportedCase, AsksForTheSeparationOfTheCase) {
+  const auto c = sinking_corner(1, {{"culling", "bvh"}, {"separation", "2"}});
+  expect_passes(scratch.write("within.json", corpus::case_text(c)));
+  EXPECT_TRUE(contains(read_text(scratch / "case/case.cpp"),
+                       "// Contract: neighbours no-shared-vertex, within 2.\n"));
 }
 
 TEST_F(ExportedCase, FailsWhereTheDetectorDiffers) {
@@ -116,6 +141,18 @@ TEST_F(ExportedPlugIn, IsPlainArrays) {
   EXPECT_EQ(status_of(scratch / "program ./none.so >/dev/null"), 2);
 }
 
+TEST_F(ExportedPlugIn, IsToldWhichPairsCount) {
+  const auto exported =
+      export_case(curated("F_ignored_contact"), "takes_relations", "ASSAY_TAKES_RELATIONS=ignores");
+  ASSERT_EQ(exported.exit_code, 1) << exported.out << exported.err;
+  compile_plugin();
+  EXPECT_EQ(judged("takes_relations", "ASSAY_TAKES_RELATIONS="), 0) << printed();
+  EXPECT_EQ(judged("takes_relations", "ASSAY_TAKES_RELATIONS=ignores"), 1) << printed();
+  // One that cannot be told has no answer.
+  EXPECT_EQ(judged("wrapped_builtin", ""), 1) << printed();
+  EXPECT_TRUE(contains(printed(), "no answer: ")) << printed();
+}
+
 // For each claim alone: a plug-in that breaks it, and one that keeps it.
 TEST_F(ExportedPlugIn, AsksForEachClaim) {
   struct Wrong {
@@ -157,6 +194,24 @@ TEST_F(ExportedPlugIn, WhoClaimsLittleDoesNotFailByItsOwnTest) {
   EXPECT_EQ(filled_in("  found.collision = true;"), 0) << printed();
   compile_plugin();
   EXPECT_EQ(judged("by_contract", words), 0) << printed();
+}
+
+// It reports what comes within 0.5, and may report what comes within 0.25 and the margin.
+TEST_F(ExportedPlugIn, MayReportWhatComesWithinItsSlack) {
+  const auto words = [](const std::string& margin) {
+    return "ASSAY_KEEPS_DISTANCE='separation=0.25 squares-it margin=" + margin + "'";
+  };
+  for (const double z : {0.4, 0.1}) {
+    SCOPED_TRACE(z);
+    const auto file = scratch.write("case.json", corpus::case_text(sinking_corner(z)));
+    ASSERT_EQ(export_case(file, "keeps_distance", words("0.3")).exit_code, 0);
+    compile_plugin();
+    EXPECT_EQ(judged("keeps_distance", words("0.3")), 0) << printed();
+    ASSERT_EQ(export_case(file, "keeps_distance", words("0.1")).exit_code, 1);
+    compile_plugin();
+    EXPECT_EQ(judged("keeps_distance", words("0.1")), 1) << printed();
+    EXPECT_TRUE(contains(printed(), "breaks no-spurious\n")) << printed();
+  }
 }
 
 TEST_F(ExportedPlugIn, LeavesOutWhatTheContractDoes) {

@@ -178,6 +178,28 @@ TEST_F(Parts, LabelledQueriesAreScoredAndJudged) {
   EXPECT_EQ(asked("undecided", check).exit_code, 3);
 }
 
+TEST_F(Parts, TheSeparationOfAContractIsThatOfItsQueries) {
+  // All of them come within 3, and two have no contact.
+  const std::string check = "check-queries " + queries + " --json " + (scratch / "report.json");
+  const std::string within = "separation=3 adjacency=2";
+  // Labels of contact are no truth of it, unless the user says what they are.
+  const auto unlabelled = asked(within, check);
+  EXPECT_EQ(unlabelled.exit_code, 0) << unlabelled.out << unlabelled.err;
+  EXPECT_TRUE(contains(unlabelled.out, "5 queries (5 within 3), 5 yes, 5 without a label"))
+      << unlabelled.out;
+  EXPECT_TRUE(contains(unlabelled.out, "all claims hold in 5 queries")) << unlabelled.out;
+  const auto labelled = asked(within, check + " --separation 3");
+  EXPECT_EQ(labelled.exit_code, 0) << labelled.out << labelled.err;
+  EXPECT_TRUE(contains(labelled.out, "5 yes, 0 without a label")) << labelled.out;
+  EXPECT_TRUE(contains(labelled.out, "2 disputed labels")) << labelled.out;
+  EXPECT_EQ(Json::parse(read_text(scratch / "report.json"))["separation"], Json::array({3.0, 3.0}));
+  const auto missed = asked(within + " miss-inside miss-at-start", check);
+  EXPECT_EQ(missed.exit_code, 1) << missed.out << missed.err;
+  EXPECT_TRUE(contains(missed.out, "broken: free-sound, by 5 queries")) << missed.out;
+  expect_refused(asked(within, check + " --separation 2"),
+                 "--separation 2: query alone 1 answers by that of its contract, 3");
+}
+
 TEST_F(Parts, TheSelfTestsFamiliesFindAFaultAndItsLineReplaysIt) {
   const auto right = asked("", "self-test --queries 300");
   EXPECT_EQ(right.exit_code, 0) << right.out << right.err;

@@ -118,16 +118,10 @@ TEST_F(PublicQueries, CoplanarThroughoutAreSettled) {
     ASSERT_TRUE(queries.has_value()) << queries.error().message;
     for (std::size_t i = 0; i < queries.value().size(); ++i) {
       const auto& q = queries.value()[i];
-      const auto points =
-          std::visit([](const auto& query) { return detector::four_points(query); }, q.query);
-      if (!detector::coplanar_throughout(points)) continue;
+      if (!detector::coplanar_throughout(q.query)) continue;
       ++coplanar;
-      const auto ours = detector::exact_contact(points);
-      const auto judged = std::holds_alternative<detector::VertexFace>(q.query)
-                              ? oracle::vertex_face_contact(std::get<detector::VertexFace>(q.query),
-                                                            detector::Want::first_time)
-                              : oracle::edge_edge_contact(std::get<detector::EdgeEdge>(q.query),
-                                                          detector::Want::first_time);
+      const auto ours = detector::exact_contact(q.query);
+      const auto judged = oracle::contact_of(q.query, detector::Want::first_time);
       EXPECT_EQ(ours.contact, judged.contact) << entry.path() << " query " << i;
       if (ours.contact && judged.contact) {
         EXPECT_EQ(ours.time, judged.first) << entry.path() << " query " << i;

@@ -128,6 +128,41 @@ TEST(Replay, WhyTellsOfAPair) {
                  "--why");
 }
 
+// Triangle 1 sinks from 3 to 1 above triangle 0; triangle 2 lies beside that, beyond an edge.
+TEST(Replay, WhyTellsOfADistanceWhereTheCaseHasASeparation) {
+  corpus::Case c;
+  c.id = "above";
+  c.triangles.resize(3, 3);
+  c.triangles << 0, 1, 2, 3, 4, 5, 1, 6, 2;
+  for (const double z : {3, 1}) {
+    auto& x = c.frames.emplace_back(7, 3);
+    x << 0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, z, 2, 1, 4, 1, 2, 4, 9, 9, 0;
+  }
+  const Scratch scratch;
+  const auto why = [&](const std::string& separation, const std::string& pair) {
+    c.options = {{"culling", "bvh"}, {"separation", separation}};
+    EXPECT_TRUE(corpus::write_case(scratch / "above.json", c));
+    const auto outcome = run_assay("replay " + (scratch / "above.json") + " --why " + pair);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+    return outcome.out;
+  };
+  const auto near = why("2", "0,1");
+  EXPECT_TRUE(says(near, "oracle collision at t = 0.5, 2 pairs within 2\n"));
+  EXPECT_TRUE(says(near, "moving boxes grown by 2 meet\n"));
+  EXPECT_TRUE(says(near, "oracle: within 2 at t = 0.5 (vertex-face)\n"));
+  EXPECT_TRUE(says(near, "detector: reported\n"));
+  const auto far = why("0.5", "0,1");
+  EXPECT_TRUE(says(far, "moving boxes grown by 0.5 are apart: never tested\n"));
+  EXPECT_TRUE(says(far, "oracle: never within 0.5; least distance 1\n"));
+  EXPECT_TRUE(says(far, "detector: not reported\n"));
+  const auto beside = why("1.5", "1,2");
+  EXPECT_TRUE(says(beside, "moving boxes grown by 1.5 meet\n"));
+  EXPECT_TRUE(says(beside, "oracle: never within 1.5; least distance 1.7320508075688774\n"));
+  const auto neighbours = why("1.5", "0,2");
+  EXPECT_TRUE(says(neighbours, "a common vertex: not asked with a separation; "));
+  EXPECT_TRUE(says(neighbours, "oracle: not asked\n"));
+}
+
 TEST(Replay, EveryPairOfACaseHasAStoryThatAgreesWithTheOracle) {
   // All pairs of a small mesh in contact: those that the oracle has are reported, the others not.
   const auto file = curated("A4_endpoints_only");

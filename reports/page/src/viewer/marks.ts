@@ -1,6 +1,8 @@
-// Marks over the 3D picture: contact points, numbers of the pair, places of the view primitive.
+// Marks over the 3D picture: where the pair meets or is nearest, and how near; its numbers; places of
+// the view primitive.
 import { svg } from "../dom";
 import type { Contact, Point } from "../report";
+import { shortTime } from "../words";
 import type { Motion } from "./motion";
 import type { Stage } from "./stage";
 
@@ -17,13 +19,14 @@ export const timeOf = (step: number, contact: Contact): number => step + middle(
 
 export class Marks {
   readonly element = svg("svg", { class: "marks", "aria-hidden": "true" });
-  private readonly detector = svg("circle", { class: "mark-detector", r: 10 });
-  private readonly exact = svg("circle", { class: "mark-exact", r: 5 });
+  private readonly detector = svg("g", { class: "mark-detector" });
+  private readonly exact = svg("g", { class: "mark-exact" });
+  private readonly distance = svg("text", { class: "mark-distance", dy: -18 });
   private readonly numbers = [svg("text"), svg("text")] as const;
   private readonly primitive = svg("g", { class: "mark-primitive" });
 
   constructor(private readonly motion: Motion) {
-    this.element.append(this.primitive, ...this.numbers, this.detector, this.exact);
+    this.element.append(this.primitive, ...this.numbers, this.detector, this.exact, this.distance);
   }
 
   show(
@@ -33,8 +36,11 @@ export class Marks {
     contacts: MarkedContacts | null,
     primitive: boolean,
   ): void {
-    this.mark(this.exact, stage, time, contacts?.step ?? 0, contacts?.exact ?? null);
-    this.mark(this.detector, stage, time, contacts?.step ?? 0, contacts?.detector ?? null);
+    const { step, exact, detector } = contacts ?? { step: 0, exact: null, detector: null };
+    const isNow = (c: Contact | null): boolean => c !== null && Math.abs(time - timeOf(step, c)) < 0.004;
+    this.mark(this.exact, 5, stage, exact, isNow(exact));
+    this.mark(this.detector, 10, stage, detector, isNow(detector));
+    this.label(stage, isNow(detector) && !isNow(exact) ? detector : (exact ?? detector));
     const places = this.motion.places(time);
     this.numbers.forEach((label, k) => {
       const triangle = pair ? this.motion.scene.triangles[pair[k]!] : undefined;
@@ -44,12 +50,25 @@ export class Marks {
     this.primitive.replaceChildren(...(primitive ? this.primitiveMarks(stage, time) : []));
   }
 
-  private mark(circle: SVGCircleElement, stage: Stage, time: number, step: number, contact: Contact | null): void {
-    const point = contact?.point;
-    circle.style.display = point ? "" : "none";
-    if (!contact || !point) return;
-    put(circle, stage, this.motion.place(point));
-    circle.classList.toggle("now", Math.abs(time - timeOf(step, contact)) < 0.004);
+  // A circle if the two places are one in the picture, else two smaller ones and the segment.
+  private mark(group: SVGGElement, radius: number, stage: Stage, contact: Contact | null, isNow: boolean): void {
+    const [a, b] = contact?.places?.map((p) => stage.project(this.motion.place(p))) ?? [];
+    group.classList.toggle("now", isNow);
+    group.replaceChildren();
+    if (!a || !b) return;
+    const isOne = Math.hypot(a.x - b.x, a.y - b.y) < 0.5;
+    for (const { x, y } of isOne ? [a] : [a, b])
+      group.append(svg("circle", { cx: x, cy: y, r: isOne ? radius : radius - 2 }));
+    if (!isOne) group.append(svg("line", { x1: a.x, y1: a.y, x2: b.x, y2: b.y }));
+  }
+
+  // Above the higher of the two places.
+  private label(stage: Stage, contact: Contact | null): void {
+    const { asked } = this.motion.scene;
+    const height = (p: Point): number => stage.project(p)?.y ?? 0;
+    const [p, q] = asked ? (contact?.places?.map((place) => this.motion.place(place)) ?? []) : [];
+    this.distance.textContent = p ? `distance ${shortTime(contact!.distance!)}, ${asked}` : "";
+    if (p && q) put(this.distance, stage, height(p) < height(q) ? p : q);
   }
 
   private primitiveMarks(stage: Stage, time: number): Node[] {
@@ -75,7 +94,8 @@ function put(element: SVGElement, stage: Stage, place: Point): void {
   if (at) element.setAttribute("transform", `translate(${at.x.toFixed(1)} ${at.y.toFixed(1)})`);
 }
 
-function centre(points: Point[]): Point {
-  const mean = (k: 0 | 1 | 2): number => points.reduce((sum, p) => sum + p[k], 0) / points.length;
+// The origin, if there is no point.
+export function centre(points: Point[]): Point {
+  const mean = (k: 0 | 1 | 2): number => points.reduce((sum, p) => sum + p[k], 0) / (points.length || 1);
   return [mean(0), mean(1), mean(2)];
 }

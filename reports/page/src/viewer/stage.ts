@@ -37,9 +37,10 @@ export class Stage {
     new ResizeObserver(() => this.fit()).observe(canvas.parentElement!);
   }
 
-  lookFrom(direction: Point): void {
-    this.camera.position.set(...direction).setLength(distance);
-    this.controls.target.set(0, 0, 0);
+  // Whoever comes closer then comes closer to `at`.
+  lookFrom(direction: Point, at: Point): void {
+    const target = this.controls.target.set(...at);
+    this.camera.position.set(...direction).setLength(distance * (1 + target.length())).add(target);
     this.controls.update();
     this.draw();
   }

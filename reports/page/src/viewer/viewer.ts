@@ -2,7 +2,7 @@
 import { html } from "../dom";
 import type { Contact, Failure, Scene } from "../report";
 import { shortTime } from "../words";
-import { Marks, timeOf, type MarkedContacts } from "./marks";
+import { centre, Marks, timeOf, type MarkedContacts } from "./marks";
 import { Motion } from "./motion";
 import { onSchemeChange, Palette } from "./palette";
 import { bestSide } from "./side";
@@ -70,7 +70,9 @@ export class Viewer {
       const f = this.scene.triangles[i];
       return f ? [[places[f[0]]!, places[f[1]]!, places[f[2]]!] as [never, never, never]] : [];
     });
-    this.stage.lookFrom(bestSide(shown));
+    // Nearest points may be seen apart only from close by.
+    const nearest = this.scene.asked ? (exact ?? detector)?.places : null;
+    this.stage.lookFrom(bestSide(shown), centre((nearest ?? []).map((p) => this.motion.place(p))));
     this.refresh();
   }
 

@@ -1,0 +1,163 @@
+#include "detector/distance/near_filter.h"
+
+#include <limits>
+
+#include "detector/distance/nearest_places.h"
+
+namespace assay::detector {
+namespace {
+
+double length(const Vector& v) { return std::sqrt(dot(v, v)); }
+
+// What one vector n says of the corners at an instant: n.x for each point, that of the first is 0.
+using Heights = std::array<double, 4>;
+
+// The filter of one query; FirstGroup is its first_group.
+template <int FirstGroup>
+class NearFilter {
+ public:
+  NearFilter(const FourPoints& query, double d) : d_(d) {
+    Vector magnitude = {0, 0, 0};
+    for (std::size_t j = 0; j < 3; ++j) {
+      const auto x = difference<double>(query.points[j + 1], query.points[0]);
+      grow(magnitude, x);
+      at_start_[j] = x.t0;
+      at_end_[j] = x.t1;
+    }
+    const double m = std::max({magnitude[0], magnitude[1], magnitude[2]});
+    is_in_range_ = m > least_magnitude && m < greatest_magnitude;
+    gap_bound_ = gap_error * m;
+    place_bound_ = place_error * m;
+  }
+
+  NearResult run() {
+    if (!is_in_range_) return {};
+    Instant now = instant(0, at_start_);
+    if (is_surely_near(now.size)) return {Decision::yes, 0, 0, 0};
+    double fall = 0;  // of the distance since the instant before, by time
+    for (int i = 0; i < max_advances; ++i) {
+      const Heights from = heights(now.n, now.x), to = heights(now.n, at_end_);
+      const double gap = least_gap(from);
+      if (!(gap > now.level)) return {};
+      if (least_gap(to) > now.level) return {Decision::no};
+      const Descent descent = first_descent(from, to, now.level + gap_bound_);
+      // Nearly there: both gap and place are known up to their bounds only.
+      constexpr double nearly = 16;
+      if (gap - now.level <= nearly * (gap_bound_ + place_bound_))
+        return near_after(now, fall > 0 ? fall : descent.rate / (1 - now.time));
+      const double safe = now.time + descent.share * (1 - now.time);
+      Instant next = instant(i > 0 ? foreseen(now, fall) : safe);
+      if (!keeps_apart(now, next)) {
+        next = instant(safe);
+        if (!(safe > now.time) || !(least_gap(heights(now.n, next.x)) > now.level)) return {};
+      } else if (next.time == 1) {
+        return {Decision::no};
+      }
+      fall = (now.size - next.size) / (next.time - now.time);
+      now = next;
+    }
+    return {};
+  }
+
+ private:
+  // The points at a time, the vector n of that time with length 1, and the distance there. A gap
+  // along n above the level keeps apart by d.
+  struct Instant {
+    double time;
+    SeenPoints x;
+    Vector n;
+    double size, level;
+  };
+  // Of the pairs of corners one whose gap first falls to a level: at which share of the piece, and
+  // how fast, by the piece.
+  struct Descent {
+    double share = 1, rate = 0;
+  };
+
+  Instant instant(double time, const SeenPoints& x) const {
+    const Vector n = between_nearest(x, FirstGroup);
+    const double size = length(n);
+    const Vector unit = {n[0] / size, n[1] / size, n[2] / size};
+    return {time, x, unit, size, length(unit) * (length_slack * d_ + gap_bound_)};
+  }
+  Instant instant(double time) const { return instant(time, time == 1 ? at_end_ : at(time)); }
+
+  bool is_surely_near(double size) const { return length_slack * size + place_bound_ <= d_; }
+
+  // The time at which the distance comes to d if it falls on as before, less what bounds take. The
+  // end of the step if it does not fall.
+  double foreseen(const Instant& now, double fall) const {
+    constexpr double bounds = 8;
+    const double left = now.size - d_ - bounds * (gap_bound_ + place_bound_);
+    return left < fall * (1 - now.time) ? now.time + left / fall : 1;
+  }
+
+  // Whether the features are proved to be farther apart than d between two instants, by the n that
+  // goes from that of the one to that of the other. REQUIRES that n proves it at the first.
+  bool keeps_apart(const Instant& from, const Instant& to) const {
+    if (!(to.time > from.time) || !(least_gap(heights(to.n, to.x)) > to.level)) return false;
+    const Heights a = heights(from.n, to.x), b = heights(to.n, from.x);
+    const Heights middle = {0, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2, (a[3] + b[3]) / 2};
+    return least_gap(middle) > (from.level + to.level) / 2;
+  }
+
+  SeenPoints at(double time) const {
+    const double before = 1 - time;
+    SeenPoints x;
+    for (std::size_t j = 0; j < 3; ++j) {
+      for (std::size_t k = 0; k < 3; ++k) x[j][k] = before * at_start_[j][k] + time * at_end_[j][k];
+    }
+    return x;
+  }
+
+  static Heights heights(const Vector& n, const SeenPoints& x) {
+    return {0, dot(n, x[0]), dot(n, x[1]), dot(n, x[2])};
+  }
+
+  static double least_gap(const Heights& h) {
+    if constexpr (FirstGroup == 1) return h[0] - std::max({h[1], h[2], h[3]});
+    return std::min(h[0], h[1]) - std::max(h[2], h[3]);
+  }
+
+  static Descent first_descent(const Heights& from, const Heights& to, double level) {
+    Descent first;
+    for (std::size_t i = 0; i < FirstGroup; ++i) {
+      for (std::size_t j = FirstGroup; j < 4; ++j) {
+        const double above = (from[i] - from[j]) - level,
+                     rate = (from[i] - from[j]) - (to[i] - to[j]);
+        if (above >= first.share * rate) continue;
+        first = {above / rate, rate};
+      }
+    }
+    return first;
+  }
+
+  // The features are farther apart than d up to `now`, and by little more than d there; their
+  // distance falls by about `fall`. Looks for a time soon after at which they are within d.
+  NearResult near_after(const Instant& now, double fall) const {
+    if (!(fall > 0)) return {};
+    const double above = now.size - d_;
+    double reach = (std::abs(above) + 4 * place_bound_) / fall + 0x1p-52;
+    constexpr int attempts = 3;
+    for (int i = 0; i < attempts; ++i, reach *= 8) {
+      const double later = std::min(now.time + reach, 1.0);
+      if (!(later > now.time)) return {};
+      if (is_surely_near(instant(later).size))
+        return {Decision::yes, now.time, later, now.time + above / fall};
+    }
+    return {};
+  }
+
+  double d_;
+  SeenPoints at_start_, at_end_;
+  bool is_in_range_;
+  double gap_bound_, place_bound_;
+};
+
+}  // namespace
+
+NearResult filter_near(const FourPoints& query, double d) {
+  return query.first_group == 1 ? NearFilter<1>(query, d).run() : NearFilter<2>(query, d).run();
+}
+
+}  // namespace assay::detector

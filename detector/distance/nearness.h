@@ -1,0 +1,20 @@
+// The elementary test of a separation: whether two features come within d during a step, and when
+// first (L16). It is a ladder like that of a contact (contact/elementary.h): axis order, doubles
+// with proved bounds, integers. The rungs of ContactRung are axis, filter and unbounded.
+//
+// Guarantee: for every finite input and every finite d > 0 the answer is that of exact arithmetic
+// on the doubles given. A distance of exactly d is within d, and t=0 and t=1 count. The first two
+// rungs allocate nothing; integers, which every first time after t=0 takes, do.
+#pragma once
+
+#include "detector/contact/elementary.h"
+
+namespace assay::detector {
+
+// 0.1 us for a candidate that stays apart or begins near; a first time after t=0 costs 30 us more.
+ContactResult test_near(const FourPoints& query, double d, Want want);
+
+// The stage of the detector.
+std::shared_ptr<const ElementaryTest> make_near_test(double d);
+
+}  // namespace assay::detector

@@ -1,0 +1,129 @@
+// The regions of L16: when are two features within a distance, as signs of polynomials.
+//
+// The two features are within d at t exactly when one of these regions has f <= 0 with all its
+// conditions at t. There is a region for each closed face of the one and of the other.
+//
+//   region          | f                       | g >= 0                           | > 0
+//   points p, a     | |p-a|^2 - d^2           | none                             | none
+//   p, edge ab      | |w x e|^2 - d^2 |e|^2   | w.e, |e|^2 - w.e                 | |e|^2
+//   p, face abc     | ((p-a).N)^2 - d^2 |N|^2 | N.((b-a) x (p-a)), cyclic        | |N|^2
+//   edges ab, ce    | (w.N)^2 - d^2 |N|^2     | s, |N|^2 - s, t, |N|^2 - t       | |N|^2
+//
+//   p, edge ab:     e = b-a, w = p-a
+//   p, face abc:    N = (b-a) x (c-a)
+//   edges ab, ce:   u = b-a, v = e-c, w = c-a, N = u x v, s = (w x v).N, t = (w x u).N
+//
+// f compares the distance of the points, lines and planes with d. The conditions say that the feet
+// of the perpendicular lie in the faces, and the strict one that the edge, the face or the pair of
+// edges is not degenerate. Where it is, f vanishes, and lower faces tell the distance.
+//
+// The first time within d is the least of the regions' times: 0, if f <= 0 with the conditions at
+// t=0, and the zeros of f at which the conditions hold, unless f is identically zero. Let tau > 0
+// be the first time, in a region of least dimension. Nothing is near before, so the distance at tau
+// is d, and f vanishes there. If f is identically zero, some condition fails just before tau, so
+// its g vanishes at tau: the foot is on a lower face, and the region was not of least dimension.
+//
+// The table is written once, over the numbers that it is asked in: integers at an instant,
+// polynomials over the step, balls over a piece of it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace assay::detector {
+
+template <class Number>
+struct NearRegion {
+  Number f;
+  std::array<Number, 4> not_negative;
+  std::size_t conditions = 0;  // how many of these there are
+  Number positive;             // the strict condition; there is one if there are others
+};
+
+template <class Number>
+class NearRegions {
+ public:
+  using Place = std::array<Number, 3>;
+
+  NearRegions(const std::array<Place, 4>& points, int first_group, const Number& squared_distance)
+      : x_(points), first_group_(first_group), squared_(squared_distance) {}
+
+  std::size_t size() const { return first_group_ == 1 ? 7 : 9; }
+
+  // The regions by number, those of the highest dimension first: the face or the two edges, a point
+  // and an edge, two points.
+  NearRegion<Number> operator[](std::size_t i) const {
+    if (first_group_ == 1) {
+      if (i == 0) return point_face(x_[0], x_[1], x_[2], x_[3]);
+      if (i < 4) return point_edge(x_[0], x_[i], x_[i % 3 + 1]);
+      return points(x_[0], x_[i - 3]);
+    }
+    if (i == 0) return edges(x_[0], x_[1], x_[2], x_[3]);
+    if (i < 3) return point_edge(x_[i - 1], x_[2], x_[3]);
+    if (i < 5) return point_edge(x_[i - 1], x_[0], x_[1]);
+    return points(x_[(i - 5) / 2], x_[2 + (i - 5) % 2]);
+  }
+
+ private:
+  static Place minus(const Place& p, const Place& q) {
+    return {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
+  }
+  static Number dot(const Place& p, const Place& q) {
+    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+  }
+  static Place cross(const Place& p, const Place& q) {
+    return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
+  }
+
+  NearRegion<Number> points(const Place& p, const Place& a) const {
+    const Place w = minus(p, a);
+    return {dot(w, w) - squared_, {}, 0, {}};
+  }
+
+  NearRegion<Number> point_edge(const Place& p, const Place& a, const Place& b) const {
+    const Place e = minus(b, a), w = minus(p, a), area = cross(w, e);
+    const Number length = dot(e, e), along = dot(w, e);
+    return {dot(area, area) - squared_ * length, {along, length - along}, 2, length};
+  }
+
+  NearRegion<Number> point_face(const Place& p, const Place& a, const Place& b,
+                                const Place& c) const {
+    const Place n = cross(minus(b, a), minus(c, a));
+    const Number height = dot(minus(p, a), n), length = dot(n, n);
+    const auto beside = [&](const Place& from, const Place& to) {
+      return dot(n, cross(minus(to, from), minus(p, from)));
+    };
+    return {
+        height * height - squared_ * length, {beside(a, b), beside(b, c), beside(c, a)}, 3, length};
+  }
+
+  NearRegion<Number> edges(const Place& a, const Place& b, const Place& c, const Place& e) const {
+    const Place u = minus(b, a), v = minus(e, c), w = minus(c, a), n = cross(u, v);
+    const Number height = dot(w, n), length = dot(n, n);
+    const Number s = dot(cross(w, v), n), t = dot(cross(w, u), n);
+    return {height * height - squared_ * length, {s, length - s, t, length - t}, 4, length};
+  }
+
+  const std::array<Place, 4>& x_;
+  int first_group_;
+  const Number& squared_;
+};
+
+enum class Near { within, nearer };  // at most the distance, or less than it
+
+// Whether the features are so near at the instant that the numbers are of: whether some region
+// holds there. The cheap ones are asked first.
+template <class Number>
+bool some_region_holds(const NearRegions<Number>& regions, Near near) {
+  for (std::size_t i = regions.size(); i-- > 0;) {
+    const auto region = regions[i];
+    bool holds = region.f.sign() <= (near == Near::within ? 0 : -1) &&
+                 (region.conditions == 0 || region.positive.sign() > 0);
+    for (std::size_t g = 0; holds && g < region.conditions; ++g)
+      holds = region.not_negative[g].sign() >= 0;
+    if (holds) return true;
+  }
+  return false;
+}
+
+}  // namespace assay::detector

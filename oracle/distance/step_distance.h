@@ -1,0 +1,56 @@
+// Which triangles of a mesh come within a distance of each other during a step, when, and how near
+// any two of them come.
+//
+// It is built as the exact pair set (mesh/step.h) is: boxes, grown by the distance, find candidate
+// pairs of features; feature_distance.h judges them as they are found; and features within d count
+// for all pairs of triangles that hold them. Two triangles are within d at t when two of their
+// closed faces that share no vertex are, or, at t=0 alone, an edge of one pierces the other. Later
+// than that no edge begins to pierce a face without a contact of two features.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "detector/mesh/step_types.h"
+#include "oracle/distance/feature_distance.h"
+#include "oracle/instant/nearness.h"
+#include "oracle/mesh/step.h"
+
+namespace assay::oracle {
+
+struct DistanceOptions : JudgeOptions {
+  // Whether triangles that share a vertex or an edge count: they are as near as the faces that they
+  // do not share.
+  bool neighbours = false;
+  WantedPair also_asked{};  // says of a pair whether it counts; empty: every pair does
+  // By vertex. If it is not empty, the distance asked for is not one for all: it is the exact sum
+  // of the offsets of the two features, whatever `d` is. REQUIRES finite ones of 0 or more, the
+  // same for all vertices of a triangle.
+  std::vector<double> offsets{};
+};
+
+// As of judge_step, with `within d` in place of `in contact`: collision says that a counted pair
+// comes within d, and feature_candidates are the feature pairs whose boxes do, of triangles that
+// may count by their bodies and their vertices. REQUIRES indices in range, finite positions, equal
+// row counts. Triangles with the same three vertices, which are neighbours, are within every d at
+// t=0. 3 us a candidate in the mean.
+StepJudgement judge_distance(const detector::SteppedMesh& motion,
+                             const detector::TrianglesView& triangles, const Separation& d,
+                             const DistanceOptions& options = {});
+
+struct LeastDistance {
+  bool complete = false;  // false: stopped, and nothing is known
+  // The least double that some counted pair comes within, as in feature_distance.h; infinity if
+  // none.
+  double distance = std::numeric_limits<double>::infinity();
+  // Of the pairs that come within it the first by their triangles, with the time and the features.
+  std::optional<detector::PairContact> where;
+};
+
+// Takes the options but for the offsets.
+LeastDistance least_distance(const detector::SteppedMesh& motion,
+                             const detector::TrianglesView& triangles,
+                             const DistanceOptions& options = {});
+
+}  // namespace assay::oracle

@@ -1,0 +1,24 @@
+// Whether features and faces at rest are nearer to each other than a distance, compared exactly in
+// rational numbers: 5 to 20 us for two features whose boxes are not apart.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "detector/mesh/step_types.h"
+#include "oracle/mesh/mesh_features.h"
+
+namespace assay::oracle {
+
+// Whether two features, each given by its vertices, are nearer to each other than `distance` at
+// these places, compared exactly. A vertex and a face that holds it have distance 0.
+// REQUIRES distance finite and greater than 0.
+bool vertex_nearer_than(const std::vector<detector::Point>& places, std::int32_t vertex,
+                        const Face& face, double distance);
+bool edges_nearer_than(const std::vector<detector::Point>& places, const Edge& a, const Edge& b,
+                       double distance);
+// The same of two whole faces, which are at distance 0 if they share a vertex or pierce each other.
+bool faces_nearer_than(const std::vector<detector::Point>& places, const Face& a, const Face& b,
+                       double distance);
+
+}  // namespace assay::oracle

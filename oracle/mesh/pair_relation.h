@@ -1,0 +1,51 @@
+// Which pairs count (detector/mesh/counted_pairs.h says what that means), as the oracle decides it:
+// by its own code, in rational numbers.
+#pragma once
+
+#include <optional>
+#include <set>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "detector/mesh/counted_pairs.h"
+#include "oracle/mesh/mesh_features.h"
+
+namespace assay::oracle {
+
+// Answers for features and faces of one mesh, faces by their numbers. Both references must outlive
+// it. Several threads may ask at the same time. It keeps nothing of what it was asked: 1 us, and 5
+// to 20 us for each two features whose places at rest are compared.
+class PairRelation {
+ public:
+  // REQUIRES a relation without errors (detector/mesh/mesh_checks.h).
+  PairRelation(const detector::CountedPairs& counted, const MeshFeatures& features);
+
+  bool is_of_features() const { return counted_.level == detector::CountedLevel::features; }
+  // Whether the bodies of two vertices meet. This is cheap, and needs no triangle that holds them.
+  bool bodies_meet(std::int32_t u, std::int32_t v) const;
+  // Whether a pair of faces counts; of features, whether some feature pair of theirs does.
+  bool counts_faces(std::int32_t a, std::int32_t b) const;
+  // REQUIRES a relation of features, and two that share no vertex.
+  bool counts_vertex_face(std::int32_t vertex, std::size_t face) const;
+  bool counts_edges(const Edge& a, const Edge& b) const;
+
+ private:
+  using Vertices = std::vector<std::int32_t>;
+  bool are_joined(std::span<const std::int32_t> a, std::span<const std::int32_t> b) const;
+  bool faces_count(std::int32_t a, std::int32_t b) const;
+  bool some_feature_pair_counts(std::int32_t a, std::int32_t b) const;
+
+  const detector::CountedPairs& counted_;
+  const MeshFeatures& features_;
+  std::set<std::pair<std::int32_t, std::int32_t>> apart_;  // both ways
+  std::set<std::pair<std::int32_t, std::int32_t>> faces_, vertex_faces_;
+  std::set<std::pair<Edge, Edge>> edges_;
+  std::vector<Vertices> neighbours_;  // by vertex
+};
+
+// Keeps those pairs of triangles that count by a relation of triangles, if there is one.
+void keep_counted(const std::optional<PairRelation>& relation,
+                  std::vector<detector::PairContact>& pairs);
+
+}  // namespace assay::oracle

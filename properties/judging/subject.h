@@ -1,0 +1,69 @@
+// A detector that is judged: what it claims, and how the processes are started that run it. All
+// verbs that run cases in a worker have one.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "corpus/cases/case_file.h"
+#include "properties/claims/claims.h"
+#include "properties/problem.h"
+#include "properties/worker/case_run.h"
+#include "properties/worker/plugin/judged_library.h"
+#include "properties/worker/worker_process.h"
+
+namespace assay::properties {
+
+// A detector, its claims, and the configurations in which it is certified.
+struct DetectorUnderTest {
+  std::string name;
+  bool built_in = true;
+  Claims claims;  // of a plug-in; for the built-in detector see claims_in
+  Contract contract;
+  std::vector<Configuration> configurations;
+  bool of_queries = false;  // only the elementary query of a plug-in is judged
+  // What a plug-in claims of its elementary query; nothing if that is not judged.
+  Claims query_claims{};
+  // The parts that the library holds and that are not judged, in words: "elementary query".
+  std::vector<std::string> unjudged_parts{};
+
+  Claims claims_in(const Configuration& configuration) const;
+  // What it claims of this case, which may be a query (query_case.h).
+  Claims claims_on(const corpus::Case& c, const Configuration& configuration) const;
+  // The same detector in this configuration alone. What the built-in one is asked, and so its
+  // contract, goes by its options; those of built_in_detector() ask it for contacts.
+  DetectorUnderTest in(const Configuration& configuration) const;
+};
+
+// The built-in detector with every culling and pairs all, and the view cullings with pairs first
+// and in bounded arithmetic.
+DetectorUnderTest built_in_detector();
+
+// Which part of a plug-in is judged. `by_library`: all that it holds, its steps or candidates and
+// its query.
+enum class DetectorPart : std::uint8_t { by_library, steps, query };
+
+struct Subject {
+  DetectorUnderTest detector;
+  std::filesystem::path worker;                 // the program assay-worker
+  std::optional<std::filesystem::path> plugin;  // nothing: the built-in detector
+  std::shared_ptr<const JudgedLibrary> judged;  // its file, kept for all of its processes
+  PluginDescription description;                // what the plug-in says of itself
+  // Of its processes. `least` is the isolation that the first of them had.
+  WorkerLimits limits;
+
+  // The detector in this library; the built-in one, if it is empty. Fails if it cannot serve, does
+  // not hold the part that is asked for, or cannot be isolated although that is required.
+  static Expected<Subject> open(std::filesystem::path worker, const std::string& library,
+                                DetectorPart part, const WorkerLimits& limits);
+
+  // A process that runs its cases, not yet started. `variation` and `asks_twice` are those of
+  // WorkerLimits.
+  WorkerProcess process(std::uint32_t variation = 0, bool asks_twice = false) const;
+};
+
+}  // namespace assay::properties

@@ -1,0 +1,232 @@
+#include "properties/judging/trial.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "properties/judging/body_names.h"
+#include "properties/judging/case_check.h"
+#include "properties/judging/case_options.h"
+#include "properties/judging/cause.h"
+#include "properties/worker/plugin/query_case.h"
+
+namespace assay::properties {
+
+namespace {
+
+// Adds the stage that lost the pair, which tells one failure of this kind from another.
+void find_stage(Failure& failure, const corpus::Case& c, const corpus::CaseStep& step,
+                const StepDiff& diff, detector::Options options) {
+  const bool is_lost = std::any_of(diff.missing.begin(), diff.missing.end(),
+                                   [&](const auto& lost) { return lost.pair == failure.pair; });
+  options.counted = corpus::counted_of(c);
+  if (is_lost)
+    failure.stage =
+        stage_that_lost(c.triangles, start_of(c, step), end_of(c, step), *failure.pair, options);
+}
+
+// Does the same for a plug-in. Nobody knows its stages, so it adds what is special about the
+// contact.
+void find_cause(Failure& failure, const corpus::Case& c, const corpus::CaseStep& step,
+                const oracle::StepJudgement& truth, const Contract& contract) {
+  if (!failure.pair) return;
+  const auto &x_t0 = start_of(c, step), &x_t1 = end_of(c, step);
+  const auto pairs = truth_of(c, truth, contract).pairs;
+  const auto contact = std::find_if(pairs.begin(), pairs.end(),
+                                    [&](const auto& exact) { return exact.pair == *failure.pair; });
+  const bool of_distance = contract.separation > 0;
+  const detector::SteppedMesh motion{x_t0, x_t1};
+  failure.cause =
+      text_of(contact == pairs.end() ? cause_of(c.triangles, motion, *failure.pair, of_distance)
+              : says_query(c)        ? cause_of_query(c.triangles, motion, *contact, of_distance)
+                                     : cause_of(c.triangles, motion, *contact, of_distance));
+}
+
+// Rewrites the explanation of a failed query in terms of features, because the two triangles of a
+// query only hold the features that were asked.
+void name_features(Failure& failure, const detector::FourPoints& query) {
+  if (failure.feature.empty()) failure.feature = query_word(query);
+  constexpr std::string_view pair = "triangles 0 and 1 ";
+  if (failure.explanation.starts_with(pair))
+    failure.explanation.replace(0, pair.size(), "the two features ");
+}
+
+}  // namespace
+
+JudgedTrial judge_trial(const corpus::Case& c, std::span<const oracle::StepJudgement> truth,
+                        const CaseRun& run, const Configuration& configuration,
+                        const DetectorUnderTest& detector, const CaseRun* again) {
+  JudgedTrial judged{
+      judge_run(c, run, truth, detector.claims_on(c, configuration), detector.contract, again), {}};
+  if (judged.outcome != Outcome::defect) return judged;
+  Failure& failure = judged.failure.emplace();
+  const auto is_defect = [](const StepDiff& diff) { return diff.outcome == Outcome::defect; };
+  const auto diff = std::find_if(judged.steps.begin(), judged.steps.end(), is_defect);
+  if (diff == judged.steps.end()) {
+    failure.claim = judged.broken.front();
+    failure.kind = failure.claim == Claim::deterministic ? "two runs differ" : name_of(run.end);
+    failure.explanation = judged.explanation.empty() ? failure.kind : judged.explanation;
+  } else {
+    const auto s = static_cast<std::size_t>(diff - judged.steps.begin());
+    const auto step = corpus::steps_of(c)[s];
+    failure = failure_of(*diff, run.steps[s], detector.contract);
+    if (failure.kind == "error") {
+      const auto error = error_of(run, s);
+      failure.explanation = error.empty() ? judged.explanation : error;
+    }
+    if (detector.built_in) {
+      find_stage(failure, c, step, *diff, configuration.options);
+    } else {
+      find_cause(failure, c, step, truth[s], detector.contract);
+    }
+    failure.step = s;
+  }
+  failure.configuration = configuration.name;
+  if (failure.pair)
+    failure.explanation += bodies_text(corpus::counted_of(c), c.triangles, *failure.pair);
+  if (const auto query = query_of(c)) name_features(failure, *query);
+  return judged;
+}
+
+std::string Failure::signature() const {
+  std::string text = fmt::format("{}: {}", name_of(claim), kind);
+  if (!stage.empty()) text += " at " + stage;
+  for (const auto& part : {feature, cause}) {
+    if (!part.empty()) text += ", " + part;
+  }
+  return text;
+}
+
+namespace {
+
+std::string enclosure_text(const detector::TimeEnclosure& t) {
+  return t.lo == t.hi ? fmt::format("{}", t.lo) : fmt::format("[{}, {}]", t.lo, t.hi);
+}
+
+// Gives "collision at 0.5" or "free", for example.
+std::string answer_text(detector::Answer answer, const detector::TimeEnclosure& first) {
+  return answer == detector::Answer::collision
+             ? fmt::format("collision at {}", enclosure_text(first))
+             : name_of(answer);
+}
+
+// What the contract asks of two triangles: to "meet", or to "come within 0.5"; with the slack
+// "within 0.5 + 0.125".
+std::string asked_text(const Contract& contract, double slack = 0) {
+  if (contract.separation == 0 && slack == 0) return "meet";
+  return fmt::format("come within {}{}", contract.separation,
+                     slack > 0 ? fmt::format(" + {}", slack) : "");
+}
+
+// t* may lie between two adjacent doubles, of which the lower one alone does not hold it.
+std::string share_text(double share) {
+  return share > 0 ? fmt::format("{:.3g}", share) : "less than an ulp";
+}
+
+// Makes a failure of a step: it finds the kind that fits the broken claim, and the pair.
+class FailureOfStep {
+ public:
+  FailureOfStep(const StepDiff& diff, const Contract& contract) : diff_(diff), contract_(contract) {
+    failure_.claim = diff.broken.front();
+    switch (failure_.claim) {
+      case Claim::free_sound:
+        at("answered free", *diff.first_contact);
+        break;
+      case Claim::not_late:
+      case Claim::first_time:
+        off_first_time();
+        break;
+      case Claim::first_pairs:
+      case Claim::all_pairs:
+        lost_pair();
+        break;
+      case Claim::no_spurious:
+        too_much();
+        break;
+      case Claim::candidates:
+        at("missing candidate", diff.missing_candidates.front());
+        failure_.explanation +=
+            fmt::format(", and are none of {} candidates", diff.candidates->given);
+        break;
+      default:
+        failure_.kind = "error";
+    }
+  }
+
+  Failure take() { return std::move(failure_); }
+
+ private:
+  void at(const char* kind, const detector::PairContact& contact) {
+    failure_.kind = kind;
+    failure_.pair = contact.pair;
+    failure_.feature = name_of(contact.feature.kind);
+    failure_.explanation = contact_text(contact, " " + asked_text(contract_));
+  }
+
+  void of_pair(const char* kind, const WrongTime& wrong) {
+    failure_.kind = kind;
+    failure_.pair = wrong.pair;
+    failure_.explanation =
+        fmt::format("triangles {} and {} at {}, and not at {}", wrong.pair.a, wrong.pair.b,
+                    enclosure_text(wrong.detector), enclosure_text(wrong.oracle));
+  }
+
+  void off_first_time() {
+    at(diff_.late_first ? "late" : "early", *diff_.first_contact);
+    if (!diff_.first) return;  // the oracle was stopped
+    const double off = diff_.late_first ? diff_.first->off.late : diff_.first->off.early;
+    failure_.explanation += fmt::format(", {} by {}", failure_.kind, share_text(off));
+  }
+
+  void lost_pair() {
+    if (!diff_.missing.empty()) {
+      at("missing pair", diff_.missing.front());
+    } else {
+      of_pair("late pair", diff_.late.front());
+    }
+  }
+
+  void too_much() {
+    if (!diff_.answered_collision && diff_.spurious.empty()) {
+      if (!diff_.early.empty()) return of_pair("early pair", diff_.early.front());
+      failure_.kind = "early alarm";
+      failure_.explanation =
+          contact_text(*diff_.first_in_slack, " " + asked_text(contract_, contract_.margin));
+      return;
+    }
+    failure_.kind = diff_.answered_collision ? "answered collision" : "spurious pair";
+    const auto allowed = asked_text(contract_, contract_.margin);
+    if (diff_.spurious.empty()) {
+      failure_.explanation = "no two triangles " + allowed;
+      return;
+    }
+    const auto& pair = diff_.spurious.front().pair;
+    failure_.pair = pair;
+    failure_.explanation = fmt::format("triangles {} and {} do not {}", pair.a, pair.b, allowed);
+  }
+
+  const StepDiff& diff_;
+  const Contract& contract_;
+  Failure failure_;
+};
+
+}  // namespace
+
+std::string contact_text(const detector::PairContact& contact, const std::string& what) {
+  return fmt::format("triangles {} and {}{} at t = {} ({})", contact.pair.a, contact.pair.b, what,
+                     enclosure_text(contact.time), name_of(contact.feature.kind));
+}
+
+Failure failure_of(const StepDiff& diff, const detector::StepResult& result,
+                   const Contract& contract) {
+  Failure failure = FailureOfStep(diff, contract).take();
+  if (failure.kind == "error" || failure.claim == Claim::candidates) return failure;
+  const auto exact = diff.first_contact
+                         ? answer_text(detector::Answer::collision, diff.first_contact->time)
+                         : answer_text(detector::Answer::free, {});
+  failure.explanation +=
+      fmt::format("; answered {}, exact {}", answer_text(result.answer, result.first), exact);
+  return failure;
+}
+
+}  // namespace assay::properties

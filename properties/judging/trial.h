@@ -1,0 +1,56 @@
+// One trial: a case through a detector's configurations, judged by the oracle once.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "corpus/cases/case_file.h"
+#include "properties/judging/agreement.h"
+#include "properties/judging/judged_run.h"
+#include "properties/judging/subject.h"
+
+namespace assay::properties {
+
+// A defect of a trial, described by what distinguishes it from other defects.
+struct Failure {
+  Claim claim = Claim::total;
+  // How the claim is broken. One of these, as fits the claim: "answered free", "late", "early",
+  // "missing pair", "late pair", "answered collision", "spurious pair", "early pair", "missing
+  // candidate", "error", "two runs differ", "crashed", "refused".
+  std::string kind;
+  std::size_t step = 0;                        // step of the script
+  std::optional<detector::TrianglePair> pair;  // the first wrong pair
+  std::string configuration;
+  std::string stage;        // the stage of the built-in detector that lost the pair
+  std::string feature;      // the feature of the pair
+  std::string cause;        // only of a plug-in, whose stages nobody knows (cause.h)
+  std::string explanation;  // one line for people: by how much, both answers and their times
+
+  // Claim, kind, stage, feature, cause: what a shrunk case must keep.
+  std::string signature() const;
+};
+
+// "triangles 3 and 8 at t = 0.5 (vertex-face)", with both ends of a time between two doubles;
+// `what` stands behind the triangles.
+std::string contact_text(const detector::PairContact& contact, const std::string& what = "");
+
+// What a step shows of the first claim that it breaks; configuration, stage and cause are left
+// empty. REQUIRES a diff of this result under this contract that breaks a claim.
+Failure failure_of(const StepDiff& diff, const detector::StepResult& result,
+                   const Contract& contract);
+
+struct JudgedTrial : JudgedRun {
+  std::optional<Failure> failure;  // for a defect: the first step that shows one
+};
+
+// Judges one run of a case. `truth` is the oracle's judgement of the same case, contracted
+// (judged_run.h); `again` is a second run, if there was one. In exact arithmetic the built-in
+// detector's times must be the oracle's in every bit; a plug-in is judged by its claims.
+JudgedTrial judge_trial(const corpus::Case& c, std::span<const oracle::StepJudgement> truth,
+                        const CaseRun& run, const Configuration& configuration,
+                        const DetectorUnderTest& detector, const CaseRun* again = nullptr);
+
+}  // namespace assay::properties

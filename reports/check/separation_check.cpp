@@ -1,0 +1,244 @@
+#include "reports/check/separation_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/outcome/try.hpp>
+#include <chrono>
+#include <new>
+#include <nlohmann/json.hpp>
+
+#include "detector/mesh/mesh_checks.h"
+#include "detector/mesh/topology.h"
+#include "oracle/distance/step_distance.h"
+#include "properties/judging/trial.h"
+#include "properties/numbering.h"
+#include "reports/steps/step_json.h"
+#include "reports/terminal/limits.h"
+#include "reports/terminal/progress.h"
+#include "reports/terminal/words.h"
+
+namespace assay::reports {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// What the oracle found in a step.
+struct StepDistance {
+  oracle::StepJudgement near;
+  oracle::LeastDistance least;
+  double milliseconds = 0;
+
+  bool complete() const { return near.complete && least.complete; }
+  bool is_near() const { return !near.pairs.empty(); }
+  std::size_t near_at_start() const {
+    return static_cast<std::size_t>(
+        std::count_if(near.pairs.begin(), near.pairs.end(),
+                      [](const auto& contact) { return contact.time.hi == 0; }));
+  }
+  const detector::PairContact& first() const {
+    return *std::min_element(near.pairs.begin(), near.pairs.end(),
+                             [](const auto& a, const auto& b) { return a.time < b.time; });
+  }
+};
+
+std::string text_of(std::size_t number, const StepDistance& step) {
+  std::string out = fmt::format("step {}: ", number);
+  if (!step.complete()) {
+    out += "undecided";
+    if (step.is_near()) out += fmt::format("; {} pairs near so far", step.near.pairs.size());
+    out += "\n";
+  } else if (!step.is_near()) {
+    out += "apart\n";
+  } else {
+    out += fmt::format("near at t = {}, {} pair{}", time_text(step.near.first),
+                       step.near.pairs.size(), step.near.pairs.size() == 1 ? "" : "s");
+    if (const auto count = step.near_at_start())
+      out += fmt::format(", {} near at the start", count);
+    out += fmt::format("\n  first: {}\n", properties::contact_text(step.first()));
+  }
+  if (step.least.complete && step.least.where) {
+    out += fmt::format("  least distance {}: {}\n", step.least.distance,
+                       properties::contact_text(*step.least.where));
+  } else if (step.least.complete) {
+    out += "  least distance: no two triangles count, or none within the greatest double\n";
+  }
+  return out + fmt::format("  ms:   oracle {:.1f}; {} feature candidates\n", step.milliseconds,
+                           step.near.feature_candidates);
+}
+
+Json json_of(const StepDistance& step) {
+  Json pairs = Json::array();
+  for (const auto& contact : step.near.pairs) pairs.push_back(to_json(contact));
+  const bool has_place = step.least.complete && step.least.where;
+  return {{"answer", !step.complete() ? "undecided"
+                     : step.is_near() ? "near"
+                                      : "apart"},
+          {"first_time", step.near.complete && step.is_near() ? to_json(step.near.first) : Json()},
+          {"near_at_start", step.near_at_start()},
+          {"pairs", std::move(pairs)},
+          // Null where nothing counts, or where it is not known.
+          {"least_distance", has_place ? Json(step.least.distance) : Json()},
+          {"least_at", has_place ? to_json(*step.least.where) : Json()},
+          {"feature_candidates", step.near.feature_candidates},
+          {"time_ms", step.milliseconds}};
+}
+
+// Both questions of a step. If memory fails, the step is undecided.
+StepDistance ask(const detector::SteppedMesh& motion, const detector::TrianglesView& triangles,
+                 double separation, const oracle::DistanceOptions& options, Limits& limits) {
+  const auto begin = std::chrono::steady_clock::now();
+  StepDistance step;
+  try {
+    step.near = oracle::judge_distance(motion, triangles, {separation, 0}, options);
+    step.least = oracle::least_distance(motion, triangles, options);
+  } catch (const std::bad_alloc&) {
+    limits.memory_failed();
+  }
+  step.milliseconds =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  return step;
+}
+
+class SeparationRun {
+ public:
+  SeparationRun(const CheckQuestion& question, const AskedDistance& d, CheckInput& input,
+                const CheckListener& listener)
+      : question_(question),
+        asked_(d),
+        steps_(*input.steps),
+        mesh_(detector::make_topology(steps_.triangles(), steps_.first_frame().rows())),
+        listener_(listener),
+        limits_(question.time_limit, question.memory_limit) {}
+
+  Expected<void> run() {
+    announce();
+    for (std::size_t s = 0; s < steps_.count(); ++s) {
+      BOOST_OUTCOME_TRY(run_step(s));
+    }
+    if (undecided_) least_.reset();
+    listener_.say(summary());
+    return outcome::success();
+  }
+
+  int exit_code(bool fail_when_near) const {
+    if (undecided_) return exit_undecided;
+    return fail_when_near && near_step_ ? exit_collision : exit_holds;
+  }
+
+  Json report() {
+    const auto or_null = [](const std::string& text) { return text.empty() ? Json() : Json(text); };
+    return {{"schema", "assay-check/1"},
+            {"version", version_text()},
+            {"files", question_.files},
+            {"triangles", mesh_.triangles.size()},
+            {"components", mesh_.components.size()},
+            {"separation", asked_.offsets.empty() ? Json(asked_.separation) : Json()},
+            {"offsets", asked_.offsets.empty() ? Json() : Json(asked_.offsets)},
+            {"outcome", undecided_   ? "undecided"
+                        : near_step_ ? "near"
+                                     : "apart"},
+            {"limit_reached", or_null(limits_.reached())},
+            {"least_distance", least_ ? Json(*least_) : Json()},
+            {"peak_memory_bytes", peak_resident_bytes()},
+            {"steps", std::move(entries_)}};
+  }
+
+ private:
+  std::string distance_text() const {
+    return asked_.offsets.empty() ? fmt::format("{}", asked_.separation)
+                                  : "the offsets of two bodies together";
+  }
+
+  std::vector<double> offsets_of_vertices() const {
+    if (asked_.offsets.empty()) return {};
+    const auto* counted = steps_.counted();
+    std::vector<double> offsets(static_cast<std::size_t>(steps_.first_frame().rows()),
+                                asked_.offsets.front());
+    for (std::size_t v = 0; counted && v < counted->body.size(); ++v)
+      offsets[v] = asked_.offsets[properties::at(counted->body[v])];
+    return offsets;
+  }
+
+  void announce() const {
+    const auto components = mesh_.components.size(), steps = steps_.count();
+    listener_.say(fmt::format(
+        "{} triangles, {} vertices, {} component{}; {} step{}; the oracle, within {}; pairs of "
+        "triangles that share no vertex\n",
+        mesh_.triangles.size(), steps_.first_frame().rows(), components, components == 1 ? "" : "s",
+        steps, steps == 1 ? "" : "s", distance_text()));
+    if (!question_.announced_file.empty())
+      listener_.say(fmt::format("writes {}\n", question_.announced_file));
+  }
+
+  Expected<void> run_step(std::size_t s) {
+    auto read = [&] {
+      const Limits::Pause pause(limits_);  // the limits are on work, and reading is none
+      return steps_.step(s);
+    }();
+    if (!read) return read.error();
+    Progress progress(fmt::format("step {}/{}", s + 1, steps_.count()));
+    progress.phase("oracle");
+    oracle::DistanceOptions options;
+    options.jobs = question_.jobs;
+    options.counted = steps_.counted();
+    options.stop = [&] {
+      progress.tick();
+      return limits_.exceeded() || (listener_.stop && listener_.stop());
+    };
+    options.offsets = offsets_of_vertices();
+    const auto step = ask({read.value().x_t0, read.value().x_t1}, steps_.triangles(),
+                          asked_.separation, options, limits_);
+    progress.finish();
+    undecided_ |= !step.complete();
+    if (step.near.complete && step.is_near() && !near_step_) {
+      near_step_ = s;
+      near_time_ = step.near.first;
+    }
+    if (step.least.complete && step.least.where)
+      least_ = std::min(least_.value_or(step.least.distance), step.least.distance);
+    listener_.say(text_of(s + 1, step));
+    if (question_.wants_report) entries_.push_back(json_of(step));
+    return outcome::success();
+  }
+
+  std::string summary() const {
+    std::string text =
+        undecided_ ? "not near so far" : fmt::format("apart: never within {}", distance_text());
+    if (near_step_)
+      text = fmt::format("near at t = {} of step {}", time_text(near_time_), *near_step_ + 1);
+    if (least_) text += fmt::format("; least distance {}", *least_);
+    if (undecided_)
+      text += fmt::format("; undecided: {} reached",
+                          limits_.reached().empty() ? "a limit" : limits_.reached());
+    return text + "\n";
+  }
+
+  const CheckQuestion& question_;
+  const AskedDistance asked_;
+  corpus::StepSource& steps_;
+  const detector::Topology mesh_;
+  const CheckListener& listener_;
+  Limits limits_;
+  Json entries_ = Json::array();
+  std::optional<std::size_t> near_step_;  // the first, from 0
+  detector::TimeEnclosure near_time_;
+  std::optional<double> least_;  // over all steps; at the end nothing if one is undecided
+  bool undecided_ = false;
+};
+
+}  // namespace
+
+Expected<SeparationAnswer> check_separation(const CheckQuestion& question, const AskedDistance& d,
+                                            bool fail_when_near, CheckInput& input,
+                                            const CheckListener& listener) {
+  const auto vertices = input.steps->first_frame().rows();
+  if (const auto bad = detector::check_triangles(input.steps->triangles(), vertices))
+    return Problem{fmt::format("{}: {}", input.file, bad->message)};
+  SeparationRun run(question, d, input, listener);
+  BOOST_OUTCOME_TRY(run.run());
+  return SeparationAnswer{run.exit_code(fail_when_near),
+                          question.wants_report ? run.report() : Json()};
+}
+
+}  // namespace assay::reports

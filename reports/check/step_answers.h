@@ -1,0 +1,102 @@
+// The detector that `check` runs and judges, and its answers: the built-in one, or a plug-in.
+#pragma once
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "corpus/formats/step_source.h"
+#include "detector/options.h"
+#include "detector/step_result.h"
+#include "properties/judging/judged_run.h"
+#include "properties/judging/subject.h"
+#include "reports/terminal/complaint.h"
+#include "reports/terminal/limits.h"
+
+namespace assay::reports {
+
+// The mesh and the steps that `check` is given.
+struct CheckInput {
+  std::string file;  // the first file
+  std::unique_ptr<corpus::StepSource> steps;
+};
+
+// The detector that `check` has before it, and its answers to the steps: those of the built-in one
+// are made in this process, one by one, and those of a plug-in in a worker, all at once.
+class StepAnswers {
+ public:
+  virtual ~StepAnswers() = default;
+
+  // For the line that announces the run: "culling view-point", "plug-in NAME VERSION".
+  virtual std::string title() const = 0;
+  // Fields of the JSON report: `culling` and `arithmetic` (null for a plug-in) and `detector`.
+  virtual nlohmann::ordered_json to_json() const = 0;
+
+  // Called before the first step. Returns what the run as a whole broke, without judging any step.
+  // If it does not hold, there may be no steps to ask for.
+  virtual properties::JudgedRun begin() { return {}; }
+  // The detector's answer to step s, which is `step`. Steps are asked for in order, each once.
+  virtual detector::StepResult answer(std::size_t s, const corpus::SourceStep& step,
+                                      const detector::StopFunction& stop) = 0;
+  // Why a step ended with an error.
+  virtual std::string error_of(std::size_t s, const detector::StepResult& result) const = 0;
+
+  bool is_plugin() const { return !under_test().built_in; }
+  // Its claims are those on steps.
+  const properties::DetectorUnderTest& under_test() const { return subject_.detector; }
+  // The detector is judged by its claims. If false, it must agree with the oracle in every bit.
+  bool judged_by_claims() const {
+    return is_plugin() || !under_test().claims.has(properties::Claim::times_unique);
+  }
+  // Whether the steps have answers. Those of a library of candidates alone have none.
+  bool has_answers() const { return subject_.description.parts.steps; }
+  // How many steps of the input the contract leaves out.
+  std::size_t steps_left_out() const { return steps_left_out_; }
+  // Milliseconds of preprocessing; nothing for a plug-in, which does it in a process of its own.
+  std::optional<double> create_ms() const { return create_ms_; }
+  // The run of a plug-in, over all steps; of the built-in detector it is empty.
+  const properties::CaseRun& run() const { return run_; }
+
+  properties::StepDiff judge(std::size_t s, const detector::StepResult& result,
+                             const oracle::StepJudgement& judgement,
+                             const detector::TrianglesView& triangles) const {
+    const auto& claims = under_test().claims;
+    const auto& contract = under_test().contract;
+    return s < run_.steps.size() ? compare_step(run_, s, judgement, claims, contract, triangles)
+                                 : compare(result, judgement, claims, contract, triangles);
+  }
+
+ protected:
+  explicit StepAnswers(properties::Subject subject) : subject_(std::move(subject)) {}
+  static detector::StepResult undecided() {
+    detector::StepResult result;
+    result.answer = detector::Answer::undecided;
+    return result;
+  }
+
+  properties::Subject subject_;
+  std::size_t steps_left_out_ = 0;
+  std::optional<double> create_ms_;
+  properties::CaseRun run_;
+};
+
+// The options of the built-in detector that the user states. The others are those of the case, or
+// else the defaults.
+struct BuiltInChoice {
+  std::optional<detector::Culling> culling;
+  std::optional<detector::Start> start;
+  std::optional<detector::Pairs> pairs;
+  std::optional<detector::Arithmetic> arithmetic;
+  std::uint32_t threads = 1;  // 0: all cores
+};
+
+// If `limits` end the built-in detector before it is made, each of its steps is undecided.
+Expected<std::unique_ptr<StepAnswers>> answers_of_built_in(const BuiltInChoice& choice,
+                                                           const CheckInput& input, Limits& limits);
+// The limits of the plug-in end whatever takes longer or more memory. REQUIRES a whole case,
+// because the worker is sent all of it. Then the steps of `input` are those that the plug-in's
+// contract takes, with coordinates rounded if it says so.
+Expected<std::unique_ptr<StepAnswers>> answers_of_plugin(properties::Subject plugin,
+                                                         CheckInput& input);
+
+}  // namespace assay::reports

@@ -1,0 +1,251 @@
+// When two features come within d (L16): each region by a case made by hand, and random steps
+// against distances in rational numbers.
+#include "detector/distance/nearness.h"
+
+#include "detector/distance/near_exact.h"
+#include "tests/detector/distance/rational_distance.h"
+#include "tests/detector/points.h"
+
+namespace assay::detector {
+namespace {
+
+using tests::Rational, tests::squared, tests::squared_distance, tests::still;
+
+constexpr double largest = std::numeric_limits<double>::max();
+constexpr double smallest = std::numeric_limits<double>::denorm_min();
+
+FourPoints vertex_face(MovingPoint p, MovingPoint a, MovingPoint b, MovingPoint c) {
+  return {{p, a, b, c}, 1};
+}
+FourPoints edge_edge(MovingPoint a, MovingPoint b, MovingPoint c, MovingPoint e) {
+  return {{a, b, c, e}, 2};
+}
+
+// The ladder and its last rung by itself.
+void expect_near(const FourPoints& q, double d, TimeEnclosure time) {
+  const ContactResult result = test_near(q, d, Want::first_time);
+  ASSERT_TRUE(result.contact);
+  EXPECT_EQ(result.time, time) << result.time.lo << ' ' << time.lo;
+  EXPECT_EQ(exact_near_time(q, d), time);
+  EXPECT_TRUE(test_near(q, d, Want::yes_no).contact);
+}
+void expect_near(const FourPoints& q, double d, double time) { expect_near(q, d, {time, time}); }
+void expect_apart(const FourPoints& q, double d) {
+  EXPECT_FALSE(test_near(q, d, Want::first_time).contact);
+  EXPECT_FALSE(test_near(q, d, Want::yes_no).contact);
+  EXPECT_FALSE(exact_near_time(q, d));
+}
+
+const MovingPoint a = still({0, 0, 0}), b = still({8, 0, 0}), c = still({0, 8, 0});
+
+// A vertex that falls from (x, y, 9) to (x, y, 1), 8 in a step.
+MovingPoint falling(double x, double y) { return {{x, y, 9}, {x, y, 1}}; }
+
+TEST(Near, L16_RegionsOfVertexAndFace) {
+  expect_near(vertex_face(falling(2, 2), a, b, c), 5, 0.5);     // the face
+  expect_near(vertex_face(falling(4, -3), a, b, c), 5, 0.625);  // an edge: 4 above, 3 beside
+  expect_near(vertex_face(falling(-3, 4), a, b, c), 5, 0.625);
+  expect_near(vertex_face(falling(7, 7), a, b, c), 4.5, 0.9375);  // 1.5 above, sqrt(18) beside
+  expect_near(vertex_face(falling(-2, -2), a, b, c), 3, 1.0);     // a point: 1 above, sqrt(8)
+  expect_apart(vertex_face(falling(2, 2), a, b, c), std::nextafter(1, 0));
+  expect_near(vertex_face(falling(2, 2), a, b, c), 1, 1.0);
+  expect_near(vertex_face(falling(2, 2), a, b, c), 9, 0.0);
+}
+
+TEST(Near, L16_RegionsOfTwoEdges) {
+  const auto over = [](double x0, double y0, double x1, double y1) {
+    return std::pair<MovingPoint, MovingPoint>{falling(x0, y0), falling(x1, y1)};
+  };
+  const auto query = [&](const auto& edge) { return edge_edge(a, b, edge.first, edge.second); };
+  expect_near(query(over(4, -4, 4, 4)), 5, 0.5);      // both feet inside
+  expect_near(query(over(4, 3, 4, 9)), 5, 0.625);     // its end, the edge ab
+  expect_near(query(over(-3, -5, -3, 4)), 5, 0.625);  // the end a
+  expect_near(query(over(-3, 0, -9, 1)), 5, 0.625);   // two ends
+  expect_near(query(over(2, 3, 6, 3)), 5, 0.625);     // parallel, side by side
+  expect_near(query(over(11, 0, 20, 0)), 5, 0.625);   // on parallel lines, beyond the end
+  expect_apart(query(over(4, 3, 4, 9)), 3);
+}
+
+// A foot on the line of an edge, but not in the edge, does not count.
+TEST(Near, L16_FeetHaveToBeInside) {
+  const MovingPoint beside = {{20, 3, 0}, {12, 3, 0}};
+  expect_near(vertex_face(beside, a, b, c), 5, 1.0);
+  expect_apart(vertex_face(beside, a, b, c), 4.5);
+  const MovingPoint p = {{12, -1, 1}, {20, -1, 1}}, q = {{12, 1, 1}, {20, 1, 1}};
+  expect_apart(edge_edge(a, b, p, q), 4);
+}
+
+// At t = 1/2 the face is a segment, its normal is zero, and so is f of the face.
+TEST(Near, L16_WhereAFaceCollapsesItsEdgesTell) {
+  const MovingPoint turning = {{0, 8, 0}, {0, -8, 0}};
+  expect_apart(vertex_face(still({-3, 0, 4}), a, b, turning), std::nextafter(5, 0));
+  expect_near(vertex_face(still({-3, 0, 4}), a, b, turning), 5, 0.0);
+  expect_apart(vertex_face(still({4, -6, 5}), a, b, {{0, 8, 0}, {0, -4, 0}}), 5);
+  // Edges that are parallel at t = 1/2 and far along their line.
+  expect_apart(edge_edge(a, b, still({20, 0, 1}), {{28, 4, 1}, {28, -4, 1}}), 11);
+  // A face of one point, a face of no area, an edge of no length.
+  expect_near(vertex_face(falling(3, 0), a, a, a), 5, 0.625);
+  expect_near(vertex_face(falling(4, 3), a, b, still({4, 0, 0})), 5, 0.625);
+  expect_near(edge_edge(a, b, falling(4, 3), falling(4, 3)), 5, 0.625);
+  expect_near(edge_edge(a, a, falling(3, 0), falling(3, 0)), 5, 0.625);
+}
+
+// The distance falls to exactly d at one instant: f has a zero of even order.
+TEST(Near, L16_TouchesOfEvenOrderCount) {
+  const MovingPoint by = {{-3, -4, 0}, {3, -4, 0}};
+  expect_near(vertex_face(by, a, still({0, 8, 0}), still({-1, 8, 0})), 4, 0.5);
+  expect_apart(vertex_face(by, a, still({0, 8, 0}), still({-1, 8, 0})), std::nextafter(4, 0));
+  const MovingPoint third = {{-1, -4, 0}, {2, -4, 0}};
+  expect_near(vertex_face(third, a, still({0, 8, 0}), still({-1, 8, 0})), 4,
+              {1.0 / 3, std::nextafter(1.0 / 3, 1)});
+}
+
+TEST(Near, L16_AtRestAtExactlyTheDistance) {
+  expect_near(vertex_face(still({2, 2, 5}), a, b, c), 5, 0.0);
+  expect_apart(vertex_face(still({2, 2, 5}), a, b, c), std::nextafter(5, 0));
+  expect_near(vertex_face(still({-3, -4, 0}), a, b, c), 5, 0.0);
+  expect_near(edge_edge(a, b, still({2, 3, 4}), still({6, 3, 4})), 5, 0.0);
+  // Moving along at exactly d.
+  expect_near(vertex_face({{2, 2, 5}, {20, 2, 5}}, a, b, c), 5, 0.0);
+  // Before, the foot is outside.
+  expect_near(vertex_face({{22, 2, 5}, {-10, 2, 5}}, a, b, c), 5, 0.5);
+}
+
+// d^2 in doubles would be another number.
+TEST(Near, L16_TheSquareIsExact) {
+  const double d = 1 + 0x1p-52;
+  expect_near(vertex_face(still({2, 2, d}), a, b, c), d, 0.0);
+  expect_apart(vertex_face(still({2, 2, d}), a, b, c), 1);
+  expect_apart(vertex_face(still({2, 2, std::nextafter(d, 2)}), a, b, c), d);
+  expect_near(vertex_face(still({-d, 0, 0}), a, b, c), d, 0.0);
+}
+
+TEST(Near, L16_DistancesOfAnySize) {
+  const FourPoints q = vertex_face(falling(2, 2), a, b, c);
+  for (const double d : {1e10, 1e200, largest}) expect_near(q, d, 0.0);
+  for (const double d : {1e-10, 1e-200, smallest}) expect_apart(q, d);
+  // Through the face: within the smallest distance just before the contact.
+  const FourPoints through = vertex_face({{2, 2, 1}, {2, 2, -1}}, a, b, c);
+  expect_near(through, smallest, {std::nextafter(0.5, 0), 0.5});
+  expect_near(through, 1e-200, {std::nextafter(0.5, 0), 0.5});
+  // Coordinates and distance at the ends of the range.
+  const double h = largest;
+  expect_near(
+      vertex_face({{0, 0, h}, {0, 0, -h}}, still({-h, -h, 0}), still({h, -h, 0}), still({0, h, 0})),
+      h / 2, 0.25);
+  expect_near(vertex_face({{0, 0, 3 * smallest}, {0, 0, smallest}}, a, b, c), 2 * smallest, 0.5);
+  expect_apart(vertex_face(still({0, 0, 3 * smallest}), a, b, c), 2 * smallest);
+  expect_near(vertex_face({{2, 2, h}, {2, 2, 0}}, a, b, c), smallest, {std::nextafter(1, 0), 1});
+}
+
+class NearSteps {
+ public:
+  explicit NearSteps(std::uint64_t seed) : engine_(seed) {}
+  int between(int lo, int hi) { return std::uniform_int_distribution<int>(lo, hi)(engine_); }
+
+  // Small integers: many degenerate features, a fifth at rest. One in four is off by a last place.
+  FourPoints query(bool off) {
+    FourPoints q;
+    q.first_group = between(1, 2);
+    const int reach = between(1, 6);
+    for (MovingPoint& p : q.points) {
+      for (std::size_t k = 0; k < 3; ++k) p.t0[k] = number(reach, off);
+      p.t1 = p.t0;
+      if (between(0, 4) == 0) continue;
+      for (std::size_t k = 0; k < 3; ++k) p.t1[k] = number(reach, off);
+    }
+    if (between(0, 4) == 0) q.points[3] = q.points[2];
+    return q;
+  }
+
+ private:
+  double number(int reach, bool off) {
+    const double x = between(-reach, reach);
+    return off && between(0, 3) == 0 ? std::nextafter(x, between(0, 1) ? 10.0 : -10.0) : x;
+  }
+  std::mt19937_64 engine_;
+};
+
+// Before the first time nothing is within d, at it something is, and where there is none nothing
+// is.
+void expect_first(const FourPoints& q, double d, const std::optional<TimeEnclosure>& first) {
+  const Rational within = squared(d);
+  constexpr int samples = 16;
+  for (int i = 0; i <= samples; ++i) {
+    const Rational t(i, samples);
+    if (first && t > Rational(first->lo)) break;
+    if (first && first->lo == first->hi && t == Rational(first->lo)) break;
+    ASSERT_GT(squared_distance(q, t), within) << "at sample " << i;
+  }
+  if (!first) return;
+  if (first->lo < first->hi) {
+    ASSERT_EQ(std::nextafter(first->lo, 2), first->hi);
+    EXPECT_GT(squared_distance(q, Rational(first->lo)), within);
+  } else if (first->lo > 0) {
+    EXPECT_EQ(squared_distance(q, Rational(first->lo)), within);
+  }
+  EXPECT_LE(squared_distance(q, Rational(first->hi)), within);
+}
+
+TEST(Near, L16_RandomStepsAgainstRationalDistances) {
+  NearSteps steps(351);
+  int near = 0, later = 0, inside_a_gap = 0, by_integers = 0;
+  for (int i = 0; i < 1600; ++i) {
+    const FourPoints q = steps.query(i % 4 == 1);
+    const double d = steps.between(1, 8) / 4.0;
+    const ContactResult result = test_near(q, d, Want::first_time);
+    const auto first = result.contact ? std::optional(result.time) : std::nullopt;
+    ASSERT_EQ(first, exact_near_time(q, d)) << "step " << i;
+    ASSERT_EQ(test_near(q, d, Want::yes_no).contact, result.contact);
+    ASSERT_NO_FATAL_FAILURE(expect_first(q, d, first)) << "step " << i;
+    near += result.contact;
+    later += first && first->hi > 0;
+    inside_a_gap += first && first->lo < first->hi;
+    by_integers += result.rung == ContactRung::unbounded;
+  }
+  std::printf(
+      "%d near, %d of them later than at the start, %d between two doubles; %d by integers\n", near,
+      later, inside_a_gap, by_integers);
+  EXPECT_GT(near, 500);
+  EXPECT_GT(inside_a_gap, 200);
+  EXPECT_GT(by_integers, 10);
+}
+
+// With d = 0 the regions are those of a contact.
+TEST(Near, L16_WithinZeroIsAContact) {
+  NearSteps steps(352);
+  int contacts = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const FourPoints q = steps.query(i % 4 == 1);
+    const ContactResult contact = test_contact(q, Want::first_time);
+    const auto near = exact_near_time(q, 0);
+    ASSERT_EQ(near.has_value(), contact.contact) << "step " << i;
+    if (near) {
+      ASSERT_EQ(*near, contact.time) << "step " << i;
+    }
+    contacts += contact.contact;
+  }
+  EXPECT_GT(contacts, 300);
+}
+
+TEST(Near, L16_ScaledByPowersOfTwoNothingChanges) {
+  NearSteps steps(353);
+  for (int i = 0; i < 300; ++i) {
+    const FourPoints q = steps.query(false);
+    const double d = steps.between(1, 8) / 4.0;
+    const auto first = exact_near_time(q, d);
+    for (const int exponent : {-600, -60, 60, 600}) {
+      FourPoints scaled = q;
+      for (MovingPoint& p : scaled.points) {
+        for (auto* x : {&p.t0, &p.t1}) {
+          for (double& coordinate : *x) coordinate = std::ldexp(coordinate, exponent);
+        }
+      }
+      const auto result = test_near(scaled, std::ldexp(d, exponent), Want::first_time);
+      ASSERT_EQ(result.contact ? std::optional(result.time) : std::nullopt, first) << "step " << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace assay::detector

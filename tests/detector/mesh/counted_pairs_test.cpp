@@ -1,0 +1,144 @@
+// What a relation between pairs may not say, and what a detector makes of one at its border.
+#include "detector/mesh/counted_pairs.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "detector/detector.h"
+#include "detector/mesh/mesh_checks.h"
+
+namespace assay::detector {
+namespace {
+
+// Two triangles that share an edge, and one apart from them.
+const Triangles triangles = (Triangles(3, 3) << 0, 1, 2, 1, 0, 3, 4, 5, 6).finished();
+constexpr Eigen::Index vertices = 7;
+
+Positions places() {
+  Positions x(vertices, 3);
+  x << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 2, 1, 0, 2, 0, 1, 2;
+  return x;
+}
+
+std::optional<InputError> error_of(const CountedPairs& counted) {
+  const auto problem = check_counted_pairs(counted, triangles, vertices);
+  Options options;
+  options.counted = &counted;
+  const auto made = Detector::create(triangles, places(), options);
+  EXPECT_EQ(made.has_value(), !problem);
+  if (!problem) return std::nullopt;
+  EXPECT_EQ(made.error().error, problem->error);
+  EXPECT_EQ(made.error().message, problem->message);
+  EXPECT_FALSE(problem->message.empty());
+  return problem->error;
+}
+
+CountedPairs features() {
+  CountedPairs counted;
+  counted.level = CountedLevel::features;
+  return counted;
+}
+
+TEST(CountedPairs, EveryKindMayBeGiven) {
+  EXPECT_TRUE(CountedPairs{}.count_all());
+  EXPECT_FALSE(error_of({}));
+  CountedPairs counted;
+  counted.body = {0, 0, 0, 0, 1, 1, 1};
+  counted.apart = {{1, 0}, {0, 0}};
+  counted.rings = std::numeric_limits<std::int32_t>::max();
+  counted.rest_distance = 1e-300;
+  counted.rest.assign(vertices, {0, 0, 0});
+  counted.triangle_pairs = {{2, 0}};
+  EXPECT_FALSE(counted.count_all());
+  EXPECT_FALSE(error_of(counted));
+  counted = features();
+  counted.vertex_faces = {{4, 0}};
+  counted.edge_pairs = {{{1, 0}, {4, 6}}};
+  EXPECT_FALSE(error_of(counted));
+}
+
+TEST(CountedPairs, WhatCannotBeSoIsRefusedByName) {
+  using enum InputError;
+  CountedPairs counted;
+  counted.body = {0, 0, 0};
+  EXPECT_EQ(error_of(counted), wrong_frame_size);
+  counted.body = {0, 0, 0, 0, 1, 1, -1};
+  EXPECT_EQ(error_of(counted), index_out_of_range);
+  counted.body = {0, 0, 0, 1, 2, 2, 2};
+  EXPECT_EQ(error_of(counted), triangle_of_two_bodies);
+  counted = {};
+  counted.apart = {{0, 1}};
+  EXPECT_EQ(error_of(counted), index_out_of_range);
+  counted = {};
+  counted.rings = -1;
+  EXPECT_EQ(error_of(counted), wrong_relation);
+  for (const double distance : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    counted = {};
+    counted.rest_distance = distance;
+    EXPECT_EQ(error_of(counted), wrong_relation) << distance;
+  }
+  counted = {};
+  counted.rest_distance = 1;
+  EXPECT_EQ(error_of(counted), wrong_frame_size);
+  counted.rest.assign(vertices, {0, 0, 0});
+  counted.rest[6][1] = std::nan("");
+  EXPECT_EQ(error_of(counted), non_finite_coordinate);
+}
+
+TEST(CountedPairs, WrongListsAreRefusedByName) {
+  using enum InputError;
+  CountedPairs counted;
+  counted.triangle_pairs = {{0, 3}};
+  EXPECT_EQ(error_of(counted), index_out_of_range);
+  counted.triangle_pairs = {{1, 1}};
+  EXPECT_EQ(error_of(counted), wrong_relation);
+  counted = {};
+  counted.vertex_faces = {{4, 0}};
+  EXPECT_EQ(error_of(counted), wrong_relation) << "triangles are what counts";
+  counted = features();
+  counted.triangle_pairs = {{0, 2}};
+  EXPECT_EQ(error_of(counted), wrong_relation) << "features are what counts";
+  counted = features();
+  counted.vertex_faces = {{7, 0}};
+  EXPECT_EQ(error_of(counted), index_out_of_range);
+  counted.vertex_faces = {{0, 3}};
+  EXPECT_EQ(error_of(counted), index_out_of_range);
+  counted = features();
+  counted.edge_pairs = {{{0, 1}, {4, 7}}};
+  EXPECT_EQ(error_of(counted), index_out_of_range);
+  counted.edge_pairs = {{{0, 1}, {3, 4}}};
+  EXPECT_EQ(error_of(counted), wrong_relation) << "no such edge";
+}
+
+// A state knows nothing of components that nothing is looked for in, and of the rest of a relation
+// it is independent.
+TEST(CountedPairs, AStateIsOfTheBodiesThatMeetThemselves) {
+  const auto made = [](const CountedPairs* counted) {
+    Options options;
+    options.counted = counted;
+    auto detector = Detector::create(triangles, places(), options);
+    EXPECT_TRUE(detector.has_value());
+    EXPECT_EQ(detector.value().step(places(), places()).answer, Answer::free);
+    return std::move(detector.value());
+  };
+  CountedPairs rings, cloth_alone, both_alone;
+  rings.rings = 2;
+  cloth_alone.body = {0, 0, 0, 0, 1, 1, 1};
+  cloth_alone.apart = {{0, 0}};
+  both_alone.apart = {{0, 0}};
+  Detector every = made(nullptr), ringed = made(&rings), alone = made(&cloth_alone);
+  EXPECT_FALSE(every.restore(ringed.state()));
+  EXPECT_FALSE(ringed.restore(every.state()));
+  for (Detector* other : {&every, &ringed}) {
+    ASSERT_TRUE(alone.restore(other->state()));
+    EXPECT_EQ(alone.restore(other->state())->error, InputError::foreign_state);
+    EXPECT_EQ(other->restore(alone.state())->error, InputError::foreign_state);
+  }
+  EXPECT_EQ(made(&both_alone).restore(alone.state())->error, InputError::foreign_state);
+  EXPECT_FALSE(made(&cloth_alone).restore(alone.state()));
+}
+
+}  // namespace
+}  // namespace assay::detector

@@ -1,0 +1,252 @@
+// Times and distances computed by hand, for each region and each way to get one wrong.
+#include "oracle/distance/feature_distance.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "oracle/distance/region_times.h"
+
+namespace assay::oracle {
+namespace {
+
+using detector::FourPoints;
+using detector::MovingPoint;
+using detector::Point;
+using detector::TimeEnclosure;
+
+constexpr TimeEnclosure half = {0.5, 0.5};
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+MovingPoint rest(const Point& p) { return {p, p}; }
+
+using Face = std::array<MovingPoint, 3>;
+const Face floor_face = {rest({0, 0, 0}), rest({4, 0, 0}), rest({0, 4, 0})};
+
+FourPoints vertex_face(const MovingPoint& p, const Face& f) { return {{p, f[0], f[1], f[2]}, 1}; }
+
+// Asked with the vertices of the face in every order.
+void expect_first(const MovingPoint& p, const Face& f, double d, const TimeEnclosure& first) {
+  for (int i = 0; i < 3; ++i) {
+    for (const int turn : {1, 2}) {
+      const Face turned = {f[i], f[(i + turn) % 3], f[(i + 2 * turn) % 3]};
+      const FirstNear answer = first_time_within(vertex_face(p, turned), {d, 0});
+      EXPECT_TRUE(answer.near) << d;
+      EXPECT_EQ(answer.first, first) << d << " " << answer.first.lo;
+    }
+  }
+}
+
+void expect_apart(const FourPoints& q, const Separation& d) {
+  EXPECT_FALSE(first_time_within(q, d).near);
+  EXPECT_FALSE(first_time_within(q, d, detector::Want::yes_no).near);
+}
+
+using Edge = std::array<MovingPoint, 2>;
+
+// Asked with the ends and the edges in every order.
+void expect_first(const Edge& a, const Edge& b, const Separation& d, const TimeEnclosure& first) {
+  for (const int i : {0, 1}) {
+    for (const int j : {0, 1}) {
+      for (const FourPoints& q : {FourPoints{{a[i], a[1 - i], b[j], b[1 - j]}, 2},
+                                  FourPoints{{b[j], b[1 - j], a[i], a[1 - i]}, 2}}) {
+        const FirstNear answer = first_time_within(q, d);
+        EXPECT_TRUE(answer.near);
+        EXPECT_EQ(answer.first, first) << answer.first.lo;
+      }
+    }
+  }
+}
+
+TimeEnclosure about(double t) { return {std::nextafter(t, 0), t}; }
+
+TEST(FeatureDistance, PointAboveTheInsideOfAFace) {
+  const MovingPoint falling = {{1, 1, 3}, {1, 1, -1}};  // at height 3 - 4t
+  expect_first(falling, floor_face, 1, half);
+  expect_first(falling, floor_face, 0.5, {0.625, 0.625});
+  expect_first(falling, floor_face, 0, {0.75, 0.75});
+  expect_first(falling, floor_face, 3, {0, 0});
+  expect_first(falling, floor_face, 100, {0, 0});
+}
+
+TEST(FeatureDistance, PointBesideAnEdgeOfAFace) {
+  expect_first({{2, -6, 8}, {2, 0, 0}}, floor_face, 5, half);  // 10 (1 - t) from the edge
+  // In the plane of the face, where the height is 0: only the foot tells.
+  expect_first({{2, -3, 0}, {2, 1, 0}}, floor_face, 1, half);
+  // (6 - 8t) / sqrt 2 from the long edge, and the double nearest to sqrt 2 is above it.
+  expect_first({{5, 5, 0}, {1, 1, 0}}, floor_face, std::sqrt(2.0), about(0.5));
+}
+
+TEST(FeatureDistance, PointBesideAVertexOfAFace) {
+  // 9 (1 - t) from the vertex 0. The line of the edge 0 1 is nearer, and is reached outside of it.
+  const MovingPoint coming = {{-6, -3, -6}, {0, 0, 0}};
+  expect_first(coming, floor_face, 4.5, half);
+  const FirstNear third = first_time_within(vertex_face(coming, floor_face), {3, 0});
+  EXPECT_EQ(third.first, (TimeEnclosure{2.0 / 3, std::nextafter(2.0 / 3, 1)}));
+}
+
+TEST(FeatureDistance, EdgesThatCross) {
+  const Edge along_x = {rest({-2, 0, 0}), rest({2, 0, 0})};
+  const Edge along_y = {MovingPoint{{0, -2, 3}, {0, -2, -1}}, MovingPoint{{0, 2, 3}, {0, 2, -1}}};
+  expect_first(along_x, along_y, {1, 0}, half);
+  expect_first(along_x, along_y, {0.75, 0.25}, half);
+  expect_first(along_x, along_y, {0, 0}, {0.75, 0.75});
+}
+
+TEST(FeatureDistance, EndOfAnEdgeBesideAnother) {
+  const Edge along_x = {rest({-2, 0, 0}), rest({2, 0, 0})};
+  const Edge above = {MovingPoint{{1, 5, 0}, {1, 1, 0}}, MovingPoint{{1, 9, 0}, {1, 5, 0}}};
+  expect_first(along_x, above, {3, 0}, half);
+}
+
+TEST(FeatureDistance, EndsOfTwoEdges) {
+  const Edge along_x = {rest({0, 0, 0}), rest({2, 0, 0})};
+  // The end is 9 (1 - t) from the origin; the lines are nearer.
+  const Edge coming = {MovingPoint{{-6, -3, -6}, {0, 0, 0}}, MovingPoint{{-7, -3, -6}, {-1, 0, 0}}};
+  expect_first(along_x, coming, {4.5, 0}, half);
+}
+
+TEST(FeatureDistance, EdgesThatStayParallel) {
+  const Edge along_x = {rest({-2, 0, 0}), rest({2, 0, 0})};
+  const Edge above = {MovingPoint{{-1, 0, 3}, {-1, 0, -1}}, MovingPoint{{5, 0, 3}, {5, 0, -1}}};
+  expect_first(along_x, above, {1, 0}, half);
+}
+
+// At 1/2 the edges are parallel, N is zero, f is zero, and all conditions but the strict one hold.
+TEST(FeatureDistance, NormalThatVanishesIsNoNearness) {
+  const MovingPoint a = rest({-20, 0, 0}), b = rest({20, 0, 0});
+  const FourPoints edges = {{a, b, {{-20, -20, 9}, {-20, 20, 9}}, {{20, 20, 9}, {20, -20, 9}}}, 2};
+  expect_apart(edges, {1, 0});
+  constexpr int both = 8, inside = 6;
+  const Region of_edges = Regions(edges, {1, 0})[both];
+  EXPECT_EQ(sign_at(of_edges.f, 0.5), 0);
+  EXPECT_FALSE(first_zero(of_edges, 0, 1));
+  // A face that is a segment at 1/2, and a point beside it.
+  const FourPoints face = {{rest({0, 0, 9}), a, b, {{0, -20, 0}, {0, 20, 0}}}, 1};
+  expect_apart(face, {1, 0});
+  const Region of_face = Regions(face, {1, 0})[inside];
+  EXPECT_EQ(sign_at(of_face.f, 0.5), 0);
+  EXPECT_FALSE(first_zero(of_face, 0, 1));
+}
+
+// Far at both ends, near in between.
+TEST(FeatureDistance, NearOnlyInBetween) {
+  // p = (24t - 10, 1, 1), within 2 of the edge x = 0 where |24t - 10| <= sqrt 3.
+  const FirstNear answer =
+      first_time_within(vertex_face({{-10, 1, 1}, {14, 1, 1}}, floor_face), {2, 0});
+  ASSERT_TRUE(answer.near);
+  EXPECT_NEAR(answer.first.lo, (10 - std::sqrt(3.0)) / 24, 1e-15);
+  EXPECT_EQ(answer.first.hi, std::nextafter(answer.first.lo, 1));
+}
+
+// A passing point is at d at one time only: a zero of even order.
+TEST(FeatureDistance, TouchAtExactlyD) {
+  const Face below = {rest({0, 0, 0}), rest({1, -5, 0}), rest({-1, -5, 0})};
+  const MovingPoint passing = {{-1, 3, 0}, {1, 3, 0}};
+  expect_first(passing, below, 3, half);
+  expect_apart(vertex_face(passing, below), {std::nextafter(3.0, 0), 0});
+  // At 1/3, which is no double.
+  const FirstNear third = first_time_within(vertex_face({{-1, 3, 0}, {2, 3, 0}}, below), {3, 0});
+  ASSERT_TRUE(third.near);
+  EXPECT_EQ(third.first, (TimeEnclosure{1.0 / 3, std::nextafter(1.0 / 3, 1)}));
+  // Past the edge below z = 0 and past another edge.
+  expect_first({{2, -3, -1}, {2, -3, 1}}, floor_face, 3, half);
+  const Edge along_x = {rest({-2, 0, 0}), rest({2, 0, 0})};
+  const Edge beside = {MovingPoint{{0, 3, -1}, {0, 3, 1}}, MovingPoint{{0, 7, -1}, {0, 7, 1}}};
+  expect_first(along_x, beside, {3, 0}, half);
+}
+
+// f of the face is zero at all times: the conditions begin to hold where the edge is met.
+TEST(FeatureDistance, SlidesInAtHeightD) {
+  expect_first({{-4, 1, 1}, {4, 1, 1}}, floor_face, 1, half);
+  const Edge along_x = {rest({0, 0, 0}), rest({4, 0, 0})};
+  const Edge sliding = {MovingPoint{{-4, -2, 1}, {4, -2, 1}}, MovingPoint{{-4, 2, 1}, {4, 2, 1}}};
+  expect_first(along_x, sliding, {1, 0}, half);
+}
+
+TEST(FeatureDistance, SquareOfDIsExact) {
+  const double d = 1 + 0x1p-52;
+  const Face below = {rest({0, 0, 0}), rest({1, 0, -5}), rest({0, 1, -5})};
+  const auto at = [&](double x, double y) { return vertex_face(rest({0, -y, x}), below); };
+  EXPECT_TRUE(first_time_within(at(d, 0), {d, 0}).near);
+  expect_apart(at(d, 0x1p-60), {d, 0});
+  // The sum of two doubles is no double.
+  EXPECT_TRUE(first_time_within(at(1, 0x1p-40), {1, 0x1p-60}).near);
+  expect_apart(at(1, 0x1p-40), {1, 0x1p-82});
+  EXPECT_TRUE(first_time_within(at(1, 0x1p-40), {1, 0x3p-82}).near);
+  // 2 - 2t = 1 + 2^-60.
+  const FirstNear falling =
+      first_time_within(vertex_face({{0, 0, 2}, {0, 0, 0}}, below), {1, 0x1p-60});
+  EXPECT_EQ(falling.first, about(0.5));
+}
+
+TEST(FeatureDistance, CollapsedFeatures) {
+  const MovingPoint coming = {{-3, 4, 12}, {3, 4, 12}};  // 13 from the origin at both ends
+  const Face point = {rest({0, 0, 0}), rest({0, 0, 0}), rest({0, 0, 0})};
+  expect_first(coming, point, 13, {0, 0});
+  const FirstNear in_between =
+      first_time_within(vertex_face({{-9, 4, 3}, {3, 4, 3}}, point), {5, 0});
+  EXPECT_EQ(in_between.first, (TimeEnclosure{0.75, 0.75}));
+  const Face segment = {rest({-9, 0, 0}), rest({9, 0, 0}), rest({0, 0, 0})};
+  expect_first({{0, 0, 8}, {0, 0, 0}}, segment, 4, half);
+  EXPECT_EQ(
+      first_time_within(
+          {{rest({1, 0, 8}), rest({1, 0, 8}), {{0, 0, 0}, {0, 0, 8}}, {{2, 0, 0}, {2, 0, 8}}}, 2},
+          {4, 0})
+          .first,
+      half);
+}
+
+TEST(FeatureDistance, LeastDistanceByHand) {
+  EXPECT_EQ(least_distance(vertex_face({{1, 1, 3}, {1, 1, -1}}, floor_face)), 0);
+  EXPECT_EQ(least_distance(vertex_face({{1, 1, 3}, {1, 1, 0.1}}, floor_face)), 0.1);
+  EXPECT_EQ(least_distance(vertex_face({{-1, -3, 0}, {3, -3, 0}}, floor_face)), 3);
+  // The distance is sqrt 2, which the nearest double is above; sqrt 3 is above its nearest double.
+  EXPECT_EQ(least_distance(vertex_face(rest({-1, -1, 0}), floor_face)), std::sqrt(2.0));
+  EXPECT_EQ(least_distance(vertex_face(rest({-1, -1, 1}), floor_face)),
+            std::nextafter(std::sqrt(3.0), 2));
+  // Closest at 2/3, in between all doubles: p = (3t - 2, ...) passes the vertex 0 at 5.
+  const Face below = {rest({0, 0, 0}), rest({1, -5, 0}), rest({-1, -5, 0})};
+  EXPECT_EQ(least_distance(vertex_face({{-2, 3, 4}, {1, 3, 4}}, below)), 5);
+}
+
+TEST(FeatureDistance, DenormalsAndGreatestDoubles) {
+  constexpr double least = std::numeric_limits<double>::denorm_min();
+  constexpr double most = std::numeric_limits<double>::max();
+  const auto falling = [](double from, double to) {
+    return vertex_face({{0, 0, from}, {0, 0, to}},
+                       {rest({-1, -1, 0}), rest({2, -1, 0}), rest({-1, 2, 0})});
+  };
+  EXPECT_EQ(first_time_within(falling(3 * least, -least), {least, 0}).first, half);
+  expect_apart(falling(3 * least, 2 * least), {least, 0});
+  EXPECT_TRUE(first_time_within(falling(3 * least, 2 * least), {least, least}).near);
+  EXPECT_EQ(least_distance(falling(3 * least, 2 * least)), 2 * least);
+  EXPECT_EQ(first_time_within(falling(most, 0), {most / 2, 0}).first, half);
+  EXPECT_EQ(first_time_within(falling(most, -most), {0, least}).first, about(0.5));
+  EXPECT_EQ(least_distance(falling(most, most / 2)), most / 2);
+  EXPECT_EQ(first_time_within(falling(least, most), {least, 0}).first, (TimeEnclosure{0, 0}));
+  EXPECT_EQ(first_time_within(falling(most, most), {most, least}).first, (TimeEnclosure{0, 0}));
+  const FourPoints farther_than_doubles = vertex_face(
+      rest({most, 0, 0}), {rest({-most, 0, 0}), rest({-most, 1, 0}), rest({-most, 0, 1})});
+  EXPECT_EQ(least_distance(farther_than_doubles), infinity);
+  EXPECT_TRUE(first_time_within(farther_than_doubles, {most, most}).near);
+}
+
+// Which rung decides.
+TEST(FeatureDistance, Rungs) {
+  const auto rung = [](const MovingPoint& p, double d) {
+    return first_time_within(vertex_face(p, floor_face), {d, 0}).rung;
+  };
+  EXPECT_EQ(rung({{1, 1, 3}, {1, 1, 2}}, 1), Rung::axis);
+  EXPECT_EQ(rung({{5, 5, 0}, {5, 5, 0}}, 0.5), Rung::axis);
+  EXPECT_EQ(rung({{5, 1, 0}, {5, 1, 0}}, 1), Rung::interval);
+  EXPECT_EQ(rung({{3, 3, 0}, {3, 4, 0}}, 1), Rung::interval);  // beside the long edge
+  EXPECT_EQ(rung({{1, 1, 3}, {1, 1, 2}}, 3.5), Rung::interval);
+  EXPECT_EQ(rung({{1, 1, 3}, {1, 1, 0.1}}, 1), Rung::interval);
+  EXPECT_EQ(rung({{2, -3, -1}, {2, -3, 2}}, 3), Rung::quadratic);  // passes at exactly d
+  EXPECT_EQ(rung({{1, 1, 0x1p251}, {1, 1, 0}}, 1), Rung::quadratic);
+}
+
+}  // namespace
+}  // namespace assay::oracle

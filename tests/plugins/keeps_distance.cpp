@@ -1,0 +1,143 @@
+// A detector of what comes within a distance, by the oracle's own answers, and such detectors with
+// a fault. ASSAY_KEEPS_DISTANCE holds words (told.h), and
+//
+//   separation=D
+//   ours           the steps are answered by the built-in detector
+//   or one of these faults:
+//   ignores-it     asks what touches
+//   squares-it     takes d for d^2
+//   half-boxes     grows the boxes of triangles by a quarter of d each, in place of half of it
+//   no-edges       forgets feet of the perpendicular on edges and at vertices
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "detector/detector.h"
+#include "detector/plugin/assay_detector.hpp"
+#include "oracle/distance/closest_places.h"
+#include "oracle/distance/step_distance.h"
+#include "tests/plugins/told.h"
+
+namespace {
+
+using namespace assay;
+using detector::FeatureKind;
+using detector::PairContact;
+using detector::SteppedMesh;
+using plugin::Result;
+
+const tests::Told& told() {
+  static const tests::Told words("ASSAY_KEEPS_DISTANCE");
+  return words;
+}
+
+double asked_distance() {
+  if (told().has("ignores-it")) return 0;
+  const double d = told().number_of("separation");
+  return told().has("squares-it") ? std::sqrt(d) : d;
+}
+
+// Whether the boxes of the two triangles over the step are farther apart than d/2 along an axis.
+bool are_boxes_apart(const SteppedMesh& motion, const detector::Triangles& triangles,
+                     detector::TrianglePair pair) {
+  const double most = told().number_of("separation") / 2;
+  for (int k = 0; k < 3; ++k) {
+    double lo[2], hi[2];
+    for (const int side : {0, 1}) {
+      lo[side] = INFINITY;
+      hi[side] = -INFINITY;
+      for (int i = 0; i < 3; ++i) {
+        const auto v = triangles(side == 0 ? pair.a : pair.b, i);
+        for (const double x : {motion.vertices_t0(v, k), motion.vertices_t1(v, k)}) {
+          lo[side] = std::min(lo[side], x);
+          hi[side] = std::max(hi[side], x);
+        }
+      }
+    }
+    if (lo[1] - hi[0] > most || lo[0] - hi[1] > most) return true;
+  }
+  return false;
+}
+
+bool has_foot_on_edge(const detector::FourPoints& q, double t) {
+  const auto places = oracle::closest_places(q, t);
+  const auto is_inside = [](double share) { return 0 < share && share < 1; };
+  const double third = q.first_group == 1 ? 1 - places.first - places.second : 0.5;
+  return !is_inside(places.first) || !is_inside(places.second) || !is_inside(third);
+}
+
+detector::FourPoints features_of(const SteppedMesh& motion, const detector::Feature& feature) {
+  const auto& v = feature.vertices;
+  return {{motion.path(v[0]), motion.path(v[1]), motion.path(v[2]), motion.path(v[3])},
+          feature.kind == FeatureKind::vertex_face ? 1 : 2};
+}
+
+class KeepsDistance {
+ public:
+  static plugin::Description describe() {
+    auto d = told().description(
+        "keeps distance", ASSAY_CLAIM_FREE_SOUND | ASSAY_CLAIM_NOT_LATE | ASSAY_CLAIM_FIRST_TIME |
+                              ASSAY_CLAIM_ALL_PAIRS | ASSAY_CLAIM_NO_SPURIOUS | ASSAY_CLAIM_TOTAL);
+    d.adjacency = ASSAY_ADJACENCY_NO_SHARED_VERTEX;
+    return d;
+  }
+
+  explicit KeepsDistance(const plugin::Mesh& mesh) : triangles_(mesh.triangles.size(), 3) {
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      for (int i = 0; i < 3; ++i)
+        triangles_(static_cast<Eigen::Index>(t), i) = mesh.triangles[t][i];
+    }
+    if (!told().has("ours")) return;
+    auto made = detector::Detector::create(
+        triangles_, read(mesh.positions),
+        {.culling = detector::Culling::bvh, .separation = told().number_of("separation")});
+    if (!made) throw plugin::Refused(made.error().message);
+    ours_ = std::move(made.value());
+  }
+
+  Result evaluate(plugin::Positions x_t0, plugin::Positions x_t1) {
+    const auto from = read(x_t0), to = read(x_t1);
+    const SteppedMesh motion{from, to};
+    auto pairs = ours_ ? ours_->evaluate(from, to).pairs
+                       : oracle::judge_distance(motion, triangles_, {asked_distance(), 0}).pairs;
+    std::erase_if(pairs, [&](const PairContact& contact) {
+      const bool has_places = contact.feature.kind == FeatureKind::vertex_face ||
+                              contact.feature.kind == FeatureKind::edge_edge;
+      return (told().has("half-boxes") && are_boxes_apart(motion, triangles_, contact.pair)) ||
+             (told().has("no-edges") && has_places &&
+              has_foot_on_edge(features_of(motion, contact.feature), contact.time.lo));
+    });
+    if (pairs.empty()) return Result::free();
+    Result result = Result::collision(1, 1);
+    for (const auto& [pair, time, feature] : pairs) {
+      result.add(pair.a, pair.b, time.lo, time.hi);
+      result.first = std::min(result.first, plugin::Interval{{time.lo, time.hi}});
+    }
+    return result;
+  }
+
+  static Result query(std::int32_t kind, plugin::Positions x_t0, plugin::Positions x_t1) {
+    const auto from = read(x_t0), to = read(x_t1);
+    const SteppedMesh motion{from, to};
+    const detector::FourPoints q = {
+        {motion.path(0), motion.path(1), motion.path(2), motion.path(3)},
+        kind == ASSAY_QUERY_VERTEX_FACE ? 1 : 2};
+    const auto answer = oracle::first_time_within(q, {asked_distance(), 0});
+    if (!answer.near) return Result::free();
+    if (told().has("no-edges") && has_foot_on_edge(q, answer.first.lo)) return Result::free();
+    return Result::collision(answer.first.lo, answer.first.hi);
+  }
+
+ private:
+  static detector::Positions read(plugin::Positions rows) {
+    return Eigen::Map<const detector::Positions>(rows.data(),
+                                                 static_cast<Eigen::Index>(rows.size()), 3);
+  }
+
+  detector::Triangles triangles_;
+  std::optional<detector::Detector> ours_;
+};
+
+}  // namespace
+
+ASSAY_EXPORT_DETECTOR(KeepsDistance);

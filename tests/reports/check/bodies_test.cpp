@@ -1,0 +1,84 @@
+// `check --body`: several meshes as bodies of one, which meet or do not.
+#include "tests/reports/tiny_campaign.h"
+
+namespace assay::tests {
+namespace {
+
+using nlohmann::json;
+
+class CheckedBodies : public testing::Test {
+ protected:
+  // A tetrahedron whose corner is here.
+  std::string tetrahedron(const std::string& name, double x) const {
+    const auto corner = [x](double dx, double y, double z) {
+      return "v " + std::to_string(x + dx) + " " + std::to_string(y) + " " + std::to_string(z) +
+             "\n";
+    };
+    return scratch.write(name, corner(0, 0, 0) + corner(1, 0, 0) + corner(0, 1, 0) +
+                                   corner(0, 0, 1) + "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+  }
+  void SetUp() override {
+    still = tetrahedron("still.obj", 0);
+    comes = tetrahedron("c0.obj", 3) + " " + tetrahedron("c1.obj", 0.5);
+  }
+  const Scratch scratch;
+  std::string still, comes;
+};
+
+TEST_F(CheckedBodies, MeetByDefault) {
+  const auto outcome = run_assay("check --body " + still + " --body " + comes + " --json " +
+                                 (scratch / "report.json"));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  EXPECT_TRUE(contains(outcome.out, "8 triangles, 8 vertices, 2 components, 2 bodies"))
+      << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "detector and oracle agree")) << outcome.out;
+  const auto report = json::parse(read_text(scratch / "report.json"));
+  EXPECT_EQ(report["steps"][0]["answer"], "collision");
+  EXPECT_EQ(report["files"].size(), 3u);
+  EXPECT_EQ(report["bodies"], json::parse(R"([{"triangles": 4, "vertices": 4},
+                                              {"triangles": 4, "vertices": 4}])"));
+}
+
+TEST_F(CheckedBodies, ApartDoNot) {
+  const auto bodies = "check --body " + still + " --body " + comes;
+  const auto outcome = run_assay(bodies + " --apart 1,0 --fail-on-collision");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  EXPECT_TRUE(contains(outcome.out, "no collision; detector and oracle agree")) << outcome.out;
+  // The oracle is asked for all pairs where other methods look at it.
+  const auto second = run_assay(bodies + " --apart 1,0 --second-opinion 1");
+  EXPECT_EQ(second.exit_code, 0) << second.out << second.err;
+  // A plug-in that cannot be told is asked about all pairs, and says so.
+  const auto plug_in = run_assay(bodies + " --apart 1,0 --detector " + plugin("wrapped_builtin"));
+  EXPECT_EQ(plug_in.exit_code, 0) << plug_in.out << plug_in.err;
+  EXPECT_TRUE(contains(plug_in.out, "it cannot be told which pairs count, so that all do"));
+  EXPECT_TRUE(contains(plug_in.out, "collision at t ="));
+  const auto told = run_assay(bodies + " --apart 1,0 --detector " + plugin("takes_relations"));
+  EXPECT_EQ(told.exit_code, 0) << told.out << told.err;
+  EXPECT_TRUE(contains(told.out, "no collision"));
+}
+
+TEST_F(CheckedBodies, NameTheTrianglesOfADefect) {
+  const auto wrong = run_assay("check --body " + comes + " --body " + still + " --apart 0,1 " +
+                                   "--detector " + plugin("takes_relations"),
+                               "ASSAY_TAKES_RELATIONS=ignores ");
+  EXPECT_EQ(wrong.exit_code, 1) << wrong.out << wrong.err;
+  EXPECT_TRUE(contains(wrong.out, " of body 0 and triangle ")) << wrong.out;
+  EXPECT_TRUE(contains(wrong.out, " of body 1) at t = ")) << wrong.out;
+}
+
+TEST_F(CheckedBodies, BadWordsAreOneLine) {
+  const auto expect_refused = [&](const std::string& arguments, const std::string& why) {
+    const auto refused = run_assay("check " + arguments);
+    EXPECT_EQ(refused.exit_code, 2) << arguments;
+    EXPECT_TRUE(contains(refused.err, why)) << refused.err;
+  };
+  expect_refused("", "frames is required");
+  expect_refused(comes + " --apart 0,0", "--apart is of bodies");
+  expect_refused(comes + " --body " + comes, "excludes");
+  expect_refused("--body " + comes + " --apart 0", "A,B: two bodies by number");
+  expect_refused("--body " + comes + " --apart 0,3", "a pair of bodies names 3 of 1");
+  expect_refused("--body " + still + " --body " + still, "one frame only");
+}
+
+}  // namespace
+}  // namespace assay::tests

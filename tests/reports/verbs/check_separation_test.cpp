@@ -1,0 +1,126 @@
+// assay check --separation, as a user runs it: two triangles whose distance is known.
+#include "reports/check/separation_check.h"
+#include "tests/reports/program.h"
+#include "tests/sinking_corner.h"
+
+namespace assay::tests {
+namespace {
+
+using nlohmann::json;
+
+// A triangle at rest in the plane z = 0 and one above it, whose corner moves from z = 3 to z = 1
+// above the inside of the first; its other two corners are at z = 4.
+class SeparationCommand : public testing::Test {
+ protected:
+  std::string frame(const std::string& name, const std::string& z) {
+    return scratch.write(
+        name, "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 1 " + z + "\nv 2 1 4\nv 1 2 4\nf 1 2 3\nf 4 5 6\n");
+  }
+  Outcome check(const std::string& options) {
+    return run_assay("check " + frame("a.obj", "3") + " " + frame("b.obj", "1") + " " + options);
+  }
+  const Scratch scratch;
+};
+
+TEST_F(SeparationCommand, SaysWhenFirstAndHowNear) {
+  const auto near = check("--separation 2 --json " + (scratch / "r.json"));
+  EXPECT_EQ(near.exit_code, 0) << near.err;
+  EXPECT_TRUE(says(near.out, "step 1: near at t = 0.5, 1 pair\n"));
+  EXPECT_TRUE(says(near.out, "least distance 1: triangles 0 and 1 at t = 1 (vertex-face)"));
+  EXPECT_TRUE(says(near.out, "near at t = 0.5 of step 1; least distance 1\n"));
+  const auto report = json::parse(read_text(scratch / "r.json"));
+  EXPECT_EQ(report["separation"], 2.0);
+  EXPECT_EQ(report["outcome"], "near");
+  const auto& step = report["steps"][0];
+  EXPECT_EQ(step["answer"], "near");
+  EXPECT_EQ(step["first_time"], json::array({0.5, 0.5}));
+  EXPECT_EQ(step["near_at_start"], 0);
+  EXPECT_EQ(step["least_distance"], 1.0);
+  EXPECT_EQ(step["pairs"].size(), 1u);
+}
+
+TEST_F(SeparationCommand, TellsADistanceFromTheDoubleBelowIt) {
+  EXPECT_TRUE(says(check("--separation 1").out, "near at t = 1 of step 1"));
+  EXPECT_TRUE(says(check("--separation 0.9999999999999999").out,
+                   "apart: never within 0.9999999999999999; least distance 1\n"));
+  EXPECT_TRUE(says(check("--separation 3").out, "1 near at the start"));
+}
+
+TEST_F(SeparationCommand, OffsetsOfTwoBodiesAddUp) {
+  const auto body = [&](const std::string& name, const std::string& z, const std::string& tip) {
+    return scratch.write(name, "v 0 0 " + z + "\nv 4 0 " + z + "\nv 1 1 " + tip + "\nf 1 2 3\n");
+  };
+  const std::string bodies = "check --body " + body("below.obj", "0", "0") + " --body " +
+                             body("high.obj", "4", "3") + " " + body("low.obj", "4", "1") + " ";
+  const auto near = run_assay(bodies + "--offset 0.5 --offset 1.5 --json " + (scratch / "r.json"));
+  EXPECT_EQ(near.exit_code, 0) << near.err;
+  EXPECT_TRUE(says(near.out, "step 1: near at t = 0.5, 1 pair\n"));
+  const auto report = json::parse(read_text(scratch / "r.json"));
+  EXPECT_EQ(report["offsets"], json::array({0.5, 1.5}));
+  EXPECT_TRUE(report["separation"].is_null());
+  EXPECT_TRUE(says(run_assay(bodies + "--offset 0 --offset 0.5").out,
+                   "apart: never within the offsets of two bodies together; least distance 1\n"));
+  EXPECT_TRUE(says(run_assay(bodies + "--offset 1").err, "1 offsets for 2 bodies"));
+  EXPECT_EQ(run_assay(bodies + "--offset 1 --offset 1 --separation 1").exit_code, 2);
+}
+
+TEST_F(SeparationCommand, TheExitCodeSaysWhatIsAskedFor) {
+  EXPECT_EQ(check("--separation 2 --fail-on-collision").exit_code, 5);
+  EXPECT_EQ(check("--separation 0.5 --fail-on-collision").exit_code, 0);
+  for (const char* wrong :
+       {"--separation -1", "--separation nan", "--separation 1e999", "--separation x",
+        "--separation 1 --culling bvh", "--separation 1 --no-oracle"}) {
+    const auto outcome = check(wrong);
+    EXPECT_EQ(outcome.exit_code, 2) << wrong;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  }
+}
+
+TEST_F(SeparationCommand, TheLeastDistanceOfAnUndecidedRunIsNotKnown) {
+  const std::vector<std::string> files = {frame("a.obj", "3"), frame("b.obj", "1"),
+                                          frame("c.obj", "0.5")};
+  for (const bool stops : {false, true}) {
+    auto input = std::move(reports::read_check_input(files).value());
+    reports::CheckQuestion question;
+    question.files = files;
+    question.wants_report = true;
+    std::string told;
+    const auto answer =
+        reports::check_separation(question, {2, {}}, false, input,
+                                  {[&](const std::string& text) { told += text; },
+                                   [&] { return stops && contains(told, "step 1: near"); }});
+    ASSERT_TRUE(answer) << answer.error().message;
+    EXPECT_EQ(answer.value().report["steps"][0]["least_distance"], 1.0);
+    EXPECT_EQ(answer.value().report["least_distance"], stops ? json() : json(0.5)) << told;
+    EXPECT_NE(contains(told, "of step 1; least distance"), stops) << told;
+    EXPECT_EQ(answer.value().exit_code, stops ? 3 : 0);
+  }
+}
+
+// A case may state a separation among its options: then all verbs ask for it.
+TEST_F(SeparationCommand, TheSeparationOfACaseIsWhatEveryVerbAsks) {
+  const std::map<std::string, std::string, std::less<>> bvh = {{"culling", "bvh"}};
+  auto within = bvh;
+  within["separation"] = "2";
+  const auto file = scratch.write("within.json", corpus::case_text(sinking_corner(1, within)));
+  const auto checked = run_assay("check " + file + " --json " + (scratch / "r.json"));
+  EXPECT_EQ(checked.exit_code, 0) << checked.out << checked.err;
+  EXPECT_TRUE(says(checked.out, "; culling bvh, within 2\n")) << checked.out;
+  EXPECT_TRUE(says(checked.out, "step 1: collision at t = 0.5, 1 pairs within 2; agree\n"));
+  EXPECT_TRUE(says(checked.out, "collision at t = 0.5 of step 1; detector and oracle agree"));
+  EXPECT_EQ(json::parse(read_text(scratch / "r.json"))["separation"], 2.0);
+  const auto replayed = run_assay("replay " + file);
+  EXPECT_EQ(replayed.exit_code, 0) << replayed.out << replayed.err;
+  EXPECT_TRUE(says(replayed.out, "oracle collision at t = 0.5, 1 pair within 2\n")) << replayed.out;
+  const auto shrunk = run_assay("shrink " + file + " --out " + (scratch / "small.json"));
+  EXPECT_EQ(shrunk.exit_code, 0) << shrunk.out << shrunk.err;
+  // Without one it is asked for contacts.
+  const auto contacts = scratch.write("contacts.json", corpus::case_text(sinking_corner(1, bvh)));
+  EXPECT_TRUE(says(run_assay("check " + contacts + " --json " + (scratch / "r.json")).out,
+                   "; culling bvh\n"));
+  EXPECT_EQ(json::parse(read_text(scratch / "r.json"))["separation"], 0.0);
+  EXPECT_TRUE(says(run_assay("replay " + contacts).out, "oracle free\n"));
+}
+
+}  // namespace
+}  // namespace assay::tests
