@@ -1,16 +1,19 @@
-// The agreement of a plain loop, the oracle and the detector on what counts (L19), up to its first
-// disagreement. Linked with the detector and the oracle as they are, and with one of them in which
-// one line is wrong (counted_*.fault). Exit code 0, or 4 on a disagreement.
+// The agreement of a plain loop, the oracle and the detector on what counts (L19), and on what
+// comes within a distance, up to their first disagreement. Linked with the detector and the oracle
+// as they are, and with one of them in which one line is wrong (counted_*.fault, and those that
+// forget what pierces). Exit code 0, or 4 on a disagreement.
 #include <cstdio>
 
 #include "tests/properties/worlds/counted_steps.h"
 
 int main() {
   using namespace assay::properties::test;
-  constexpr std::uint64_t seed = 20119, cases = 1000;
+  constexpr std::uint64_t seed = 20119, cases = 1000, cases_within = 100;
   CountedTally tally;
   for (std::uint64_t i = 0; i < cases; ++i) {
-    const auto wrong = disagreement(make_counted_steps(seed, i), tally);
+    const auto steps = make_counted_steps(seed, i);
+    auto wrong = disagreement(steps, tally);
+    if (!wrong && i < cases_within) wrong = disagreement_within(steps, 0x1p-30, tally);
     if (!wrong) continue;
     std::printf("disagreement after %llu steps\n%s\n", static_cast<unsigned long long>(tally.steps),
                 wrong->c_str());

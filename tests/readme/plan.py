@@ -185,5 +185,7 @@ NO_COMMAND = {
     },
     "reports/README.md": {
         "runs-on: ubuntu-latest": "a workflow of GitHub Actions",
+        "step 1: near at t = 0.5": "what `assay check --separation` prints",
+        "oracle: 5 queries (5 within": "what `assay check-queries --separation` prints",
     },
 }

@@ -574,6 +574,13 @@ std::optional<std::string> disagreement_within(const CountedSteps& steps, double
     const auto plain = within(separation);
     oracle::DistanceOptions options;
     const auto all = oracle::judge_distance(motion, steps.triangles, {separation, 0}, options);
+    // Without a distance, and with neighbours, it is the question of contacts.
+    oracle::DistanceOptions contacts;
+    contacts.neighbours = true;
+    const auto touching = oracle::judge_distance(motion, steps.triangles, {0, 0}, contacts);
+    const auto met = oracle::judge_step(motion, steps.triangles, {});
+    if (!same(touching.pairs, met.pairs))
+      return words("oracle, within 0", i, touching.pairs, met.pairs);
     options.counted = &steps.counted;
     const auto judged = oracle::judge_distance(motion, steps.triangles, {separation, 0}, options);
     if (!same(judged.pairs, plain)) return words("oracle, within", i, judged.pairs, plain);
