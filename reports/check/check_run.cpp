@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
-#include <new>
 #include <optional>
 
 #include "detector/mesh/mesh_checks.h"
@@ -33,27 +31,6 @@ namespace {
 
 // A week, because nobody waits longer for one mesh.
 constexpr double longest_check_seconds = 7 * 24 * 3600.0;
-
-template <class Answer>
-struct Timed {
-  Answer answer;
-  double milliseconds = 0;  // wall clock
-};
-
-// Returns what `ask` answers, or an empty answer if memory fails.
-template <class Ask>
-auto timed(Limits& limits, const Ask& ask) {
-  const auto begin = std::chrono::steady_clock::now();
-  Timed<decltype(ask())> timed;
-  try {
-    timed.answer = ask();
-  } catch (const std::bad_alloc&) {
-    limits.memory_failed();
-  }
-  timed.milliseconds =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-  return timed;
-}
 
 class CheckRun {
  public:

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <boost/outcome/try.hpp>
-#include <chrono>
-#include <new>
 #include <nlohmann/json.hpp>
 
 #include "detector/mesh/mesh_checks.h"
@@ -87,17 +85,11 @@ Json json_of(const StepDistance& step) {
 // Both questions of a step. If memory fails, the step is undecided.
 StepDistance ask(const detector::SteppedMesh& motion, const detector::TrianglesView& triangles,
                  double separation, const oracle::DistanceOptions& options, Limits& limits) {
-  const auto begin = std::chrono::steady_clock::now();
-  StepDistance step;
-  try {
-    step.near = oracle::judge_distance(motion, triangles, {separation, 0}, options);
-    step.least = oracle::least_distance(motion, triangles, options);
-  } catch (const std::bad_alloc&) {
-    limits.memory_failed();
-  }
-  step.milliseconds =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-  return step;
+  auto near = timed(limits, [&] {
+    return oracle::judge_distance(motion, triangles, {separation, 0}, options);
+  });
+  auto least = timed(limits, [&] { return oracle::least_distance(motion, triangles, options); });
+  return {std::move(near.answer), std::move(least.answer), near.milliseconds + least.milliseconds};
 }
 
 class SeparationRun {

@@ -2,7 +2,9 @@
 // processor time, so that what is decided does not depend on what else the machine does.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
+#include <new>
 #include <optional>
 #include <string>
 
@@ -48,6 +50,27 @@ class Limits {
   std::string reached_;
   bool is_out_of_memory_ = false;
 };
+
+template <class Answer>
+struct Timed {
+  Answer answer;
+  double milliseconds = 0;  // wall clock
+};
+
+// Returns what `ask` answers, or an empty answer if memory fails.
+template <class Ask>
+auto timed(Limits& limits, const Ask& ask) {
+  const auto begin = std::chrono::steady_clock::now();
+  Timed<decltype(ask())> timed;
+  try {
+    timed.answer = ask();
+  } catch (const std::bad_alloc&) {
+    limits.memory_failed();
+  }
+  timed.milliseconds =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  return timed;
+}
 
 // Resident memory of this process, and the most that it ever was.
 std::uint64_t resident_bytes();
