@@ -1,5 +1,5 @@
-// Random steps with a relation that says which pairs count (L19), and what a plain loop over all
-// pairs of triangles says of them.
+// Random steps with a relation that says which pairs count (L19), and whether a plain loop over all
+// pairs of triangles (plain_contacts.h), the oracle and the detector agree on them.
 //
 // Coordinates are small integers, so that degenerate contacts and distances that equal the limit
 // are frequent. A mesh has one to three parts, closed, a tube, open or a sheet; some of them stand
@@ -26,15 +26,6 @@ struct CountedSteps {
 // Case `index` of `seed`, which a hash of both makes alone. Every kind of relation, alone and with
 // others, at both levels.
 CountedSteps make_counted_steps(std::uint64_t seed, std::uint64_t index);
-
-// The contacts of a step that count, ascending, each with its first time: by loops over all pairs
-// of triangles and of their features, with the relation decided in a plain way of its own.
-// With a separation above 0 these are the pairs that share no vertex and come within it.
-// REQUIRES integer places at rest of at most 10 and a distance that is a multiple of a half.
-std::vector<detector::PairContact> plain_contacts(const detector::SteppedMesh& motion,
-                                                  const detector::Triangles& triangles,
-                                                  const detector::CountedPairs& counted,
-                                                  double separation = 0);
 
 // What was seen, beside agreement.
 struct CountedTally {
