@@ -34,10 +34,10 @@ inline constexpr bool is_one_of = (std::is_same_v<T, Other> || ...);
 template <class T>
 inline constexpr bool travels_as_bytes =
     std::is_arithmetic_v<T> || std::is_enum_v<T> ||
-    is_one_of<T, detector::Point, detector::MovingPoint, detector::TimeEnclosure, detector::TrianglePair,
-              detector::PairContact, detector::ViewPrimitive, detector::StepCounts,
-              detector::StepTimes, corpus::CaseStep, std::array<std::int32_t, 2>,
-              detector::VertexAndFace, detector::TwoEdges>;
+    is_one_of<T, detector::Point, detector::MovingPoint, detector::TimeEnclosure,
+              detector::TrianglePair, detector::PairContact, detector::ViewPrimitive,
+              detector::StepCounts, detector::StepTimes, corpus::CaseStep,
+              std::array<std::int32_t, 2>, detector::VertexAndFace, detector::TwoEdges>;
 
 // The greatest value of an enum, whose values count from 0; a message with another value is
 // invalid. An enum that lists its values needs no more; for another one that travels by itself it
