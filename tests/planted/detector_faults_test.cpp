@@ -2,6 +2,7 @@
 // passes; the equivalent ones are never found.
 #include "properties/campaign/phases/fault_hunt.h"
 #include "properties/worlds/small_steps.h"
+#include "tests/asked.h"
 #include "tests/curated_cases.h"
 #include "tests/test.h"
 
@@ -115,20 +116,14 @@ corpus::Case case_of(const SmallStep& step, detector::Culling culling) {
   return c;
 }
 
-// The number in this variable of the environment, or the one that stands here.
-std::uint64_t asked(const char* variable, std::uint64_t otherwise) {
-  const char* text = std::getenv(variable);
-  return text ? std::strtoull(text, nullptr, 10) : otherwise;
-}
-
 // How often small steps, seen from random places, show each fault: a cheap measure of what has to
 // be aimed at. Steps without a contact show none of them, because all of them lose pairs or times.
 // ASSAY_CASES says how many of the small steps every fault is run on, ASSAY_STEPS on how many of
 // them those are run that shall not show. The test planted_small_steps asks for more of both.
 TEST(PlantedFaults, SmallStepsShowThemAndNoEquivalentOne) {
   constexpr std::uint64_t seed = 20114;
-  const std::uint64_t steps = asked("ASSAY_STEPS", 4000);
-  const std::uint64_t steps_of_planted = std::min(steps, asked("ASSAY_CASES", 500));
+  const std::uint64_t steps = tests::asked("ASSAY_STEPS", 4000);
+  const std::uint64_t steps_of_planted = std::min(steps, tests::asked("ASSAY_CASES", 500));
   std::map<std::string_view, std::uint64_t> found;
   std::uint64_t colliding = 0;
   for (std::uint64_t i = 0; i < steps; ++i) {

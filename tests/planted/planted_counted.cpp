@@ -1,14 +1,16 @@
 // The agreement of a plain loop, the oracle and the detector on what counts (L19), and on what
 // comes within a distance, up to their first disagreement. Linked with the detector and the oracle
 // as they are, and with one of them in which one line is wrong (counted_*.fault, and those that
-// forget what pierces). Exit code 0, or 4 on a disagreement.
+// forget what pierces). An argument is the number of cases. Exit code 0, or 4 on a disagreement.
 #include <cstdio>
+#include <cstdlib>
 
 #include "tests/properties/worlds/counted_steps.h"
 
-int main() {
+int main(int argc, char** argv) {
   using namespace assay::properties::test;
-  constexpr std::uint64_t seed = 20119, cases = 1000, cases_within = 100;
+  constexpr std::uint64_t seed = 20119, cases_within = 100;
+  const std::uint64_t cases = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1000;
   CountedTally tally;
   for (std::uint64_t i = 0; i < cases; ++i) {
     const auto steps = make_counted_steps(seed, i);

@@ -71,7 +71,7 @@ TEST(DistanceFamilies, ConstructedOnesKeepTheirPromises) {
 TEST(DistanceFamilies, TheRefereeIsRightAndLeavesFewOpen) {
   for (const DistanceFamily& family : distance_families()) {
     DistanceTally tally;
-    const int queries = family.one_in == 1 ? 1000 : family.one_in < 100 ? 400 : 150;
+    const int queries = family.one_in == 1 ? 250 : family.one_in < 100 ? 100 : 50;
     for (int index = 0; index < queries; ++index) {
       SCOPED_TRACE(std::string(family.name) + ":" + std::to_string(seed) + ":" +
                    std::to_string(index));

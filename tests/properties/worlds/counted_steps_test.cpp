@@ -5,21 +5,18 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <cstdlib>
 
 #include "corpus/cases/case_file.h"
 #include "detector/assembly.h"
 #include "detector/search/pair_relation.h"
+#include "tests/asked.h"
 
 namespace assay::properties::test {
 namespace {
 
-// ASSAY_SEED and ASSAY_CASES replay other cases; ASSAY_CASE runs a single one.
-std::uint64_t asked(const char* variable, std::uint64_t otherwise) {
-  const char* text = std::getenv(variable);
-  return text ? std::strtoull(text, nullptr, 10) : otherwise;
-}
+using tests::asked;
 
+// ASSAY_SEED and ASSAY_CASES replay other cases; ASSAY_CASE runs a single one.
 template <class Disagreement>
 void expect_agreement(const char* test, std::uint64_t usual, const Disagreement& disagree) {
   const std::uint64_t seed = asked("ASSAY_SEED", 20119), cases = asked("ASSAY_CASES", usual),

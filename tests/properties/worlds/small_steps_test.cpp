@@ -5,6 +5,7 @@
 #include "detector/detector.h"
 #include "oracle/view/view_sign.h"
 #include "properties/judging/agreement.h"
+#include "tests/asked.h"
 #include "tests/test.h"
 
 namespace assay::properties {
@@ -13,11 +14,6 @@ namespace {
 using detector::Culling;
 
 // ASSAY_SEED and ASSAY_CASES replay other cases; ASSAY_CASE runs a single one.
-std::uint64_t number_from_environment(const char* name, std::uint64_t otherwise) {
-  const char* text = std::getenv(name);
-  return text ? std::strtoull(text, nullptr, 10) : otherwise;
-}
-
 struct Variant {
   const char* name;
   Culling culling;
@@ -92,9 +88,9 @@ void check(const SmallStep& step, Tally& tally) {
 }
 
 TEST(SmallSteps, L3_L7_L12_EveryCullingAgreesWithTheOracle) {
-  const std::uint64_t seed = number_from_environment("ASSAY_SEED", 20111);
-  const std::uint64_t cases = number_from_environment("ASSAY_CASES", 10000);
-  const std::uint64_t only = number_from_environment("ASSAY_CASE", cases);
+  const std::uint64_t seed = tests::asked("ASSAY_SEED", 20111);
+  const std::uint64_t cases = tests::asked("ASSAY_CASES", 10000);
+  const std::uint64_t only = tests::asked("ASSAY_CASE", cases);
   Tally tally;
   for (std::uint64_t i = 0; i < cases; ++i) {
     if (only != cases && i != only) continue;
@@ -128,7 +124,7 @@ TEST(SmallSteps, L3_L7_L12_EveryCullingAgreesWithTheOracle) {
 
 // Two steps with the state carried: what the first leaves dirty or clean serves the second.
 TEST(SmallSteps, L8_StateIsCarriedSoundly) {
-  const std::uint64_t seed = number_from_environment("ASSAY_SEED", 20112);
+  const std::uint64_t seed = tests::asked("ASSAY_SEED", 20112);
   const std::uint64_t cases = 2000;
   std::uint64_t second_collisions = 0, dirty = 0;
   for (std::uint64_t i = 0; i < cases; ++i) {

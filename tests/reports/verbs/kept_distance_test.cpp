@@ -15,8 +15,8 @@ class KeptDistance : public testing::Test {
   const std::string out = scratch / "out";
 
   Outcome run(const std::string& words, const std::string& more = "") const {
-    return run_assay("run --campaign " + scratch.write("plan.json", plan_text(60)) + " --out " +
-                         out + " --detector " + plugin("keeps_distance") + " " + more,
+    return run_assay("run --campaign " + scratch.write("plan.json", plan_text(16)) + " --out " +
+                         out + " --time 600 --detector " + plugin("keeps_distance") + " " + more,
                      "ASSAY_KEEPS_DISTANCE=\"separation=0.01 " + words + "\" ");
   }
 };
