@@ -17,7 +17,8 @@ using Vector = Eigen::Vector3d;
 using Corners = std::array<std::int32_t, 3>;
 
 // These are in pixels.
-constexpr double width = 360, picture = 300, margin = 24, caption = 44, row = 18;
+constexpr double width = 360, picture = 300, margin = 24, row = 18;
+constexpr std::size_t letters_in_a_row = 54;
 
 std::string escaped(const std::string& text) {
   static const std::map<char, std::string_view> written = {
@@ -91,9 +92,15 @@ class Picture {
   Vector unit(const Vector& point) const { return (point / scale_ - low_) / size_; }
 
   // Chooses one of four isometric sides: the one from which the triangle of the pair that covers
-  // the smaller area covers most. A triangle that is not shown does not count.
+  // the smaller area covers most. A triangle that is not shown does not count. Where the nearest
+  // points are apart, the side counts by as much as the segment between them appears in its length.
   void choose_side() {
     double most = -1;
+    const auto* contact = exact_ ? exact_ : answered_;
+    const auto places = contact ? scene_.nearest_points(step_, *contact) : std::nullopt;
+    Vector apart = places ? unit(places->b) - unit(places->a) : Vector(0, 0, 0);
+    const bool are_apart = apart.norm() > 0;
+    if (are_apart) apart.normalize();
     for (const auto& [sx, sy] : {std::pair(1, 1), {-1, 1}, {-1, -1}, {1, -1}}) {
       const Vector towards = Vector(sx, sy, 1).normalized();
       double least = 1e300;
@@ -103,6 +110,7 @@ class Picture {
         const Vector normal = (at(f[1]) - at(f[0])).cross(at(f[2]) - at(f[0]));
         least = std::min(least, std::abs(normal.dot(towards)));
       }
+      if (are_apart) least *= apart.cross(towards).norm();
       if (least <= most * (1 + 1e-9)) continue;
       most = least;
       towards_ = towards;
@@ -208,35 +216,57 @@ class Picture {
   Eigen::Vector2d flat_low_, shift_;
 };
 
-std::string line(int number, const std::string& text) {
-  return fmt::format(
-      "<text x=\"{:.0f}\" y=\"{:.0f}\" text-anchor=\"middle\" fill=\"#777\">{}</text>\n", width / 2,
-      picture + row * number, escaped(text));
-}
+// What stands below the picture: each text in a row, or in several where it is too long for one.
+class Caption {
+ public:
+  void add(std::string_view text) {
+    while (text.size() > letters_in_a_row) {
+      const auto space = text.rfind(' ', letters_in_a_row);
+      const auto length = space == std::string_view::npos ? letters_in_a_row : space;
+      add_row(text.substr(0, length));
+      text.remove_prefix(std::min(text.size(), length + (space == length)));
+    }
+    if (!text.empty()) add_row(text);
+  }
+  const std::string& rows() const { return rows_; }
+  double height() const { return 8 + row * count_; }
+
+ private:
+  void add_row(std::string_view text) {
+    rows_ += fmt::format(
+        "<text x=\"{:.0f}\" y=\"{:.0f}\" text-anchor=\"middle\" fill=\"#777\">{}</text>\n",
+        width / 2, picture + row * ++count_, escaped(std::string(text)));
+  }
+  std::string rows_;
+  int count_ = 0;
+};
 
 }  // namespace
 
 std::string mesh_svg(const CaseScene& scene, const std::string& title) {
-  std::string out = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
-      "viewBox=\"0 0 {0} {1}\" font-family=\"sans-serif\" font-size=\"12\">\n<title>{2}</title>\n",
-      width, picture + caption + (scene.asked_distance().empty() ? 0 : row), escaped(title));
-  std::string where, distance;
-  if (!scene.steps.empty()) {
-    const Picture shown(scene, scene.steps[scene.shown_step()]);
-    out += shown.body();
-    distance = shown.distance_text();
-  }
+  Caption caption;
+  caption.add(title);
   if (const auto pair = scene.shown_pair()) {
     const auto& step = scene.steps[scene.shown_step()];
     const auto* exact = contact_of(step.truth.pairs, pair);
-    where = fmt::format("step {}, triangles {} and {}: ", scene.shown_step() + 1, pair->a, pair->b);
-    where += exact ? fmt::format("t = {:.9g}", middle(exact->time))
-             : contact_of(step.truth.left_out, *pair) ? "left out by the contract"
-                                                      : "no contact by the oracle";
+    caption.add(fmt::format("step {}, triangles {} and {}: {}", scene.shown_step() + 1, pair->a,
+                            pair->b,
+                            exact ? fmt::format("t = {:.9g}", middle(exact->time))
+                            : contact_of(step.truth.left_out, *pair) ? "left out by the contract"
+                                                                     : "no contact by the oracle"));
   }
-  if (!distance.empty()) distance = line(3, distance);
-  return out + line(1, title) + line(2, where) + distance + "</svg>\n";
+  std::string body;
+  if (!scene.steps.empty()) {
+    const Picture shown(scene, scene.steps[scene.shown_step()]);
+    body = shown.body();
+    caption.add(shown.distance_text());
+  }
+  return fmt::format(
+             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
+             "viewBox=\"0 0 {0} {1}\" font-family=\"sans-serif\" font-size=\"12\">\n"
+             "<title>{2}</title>\n",
+             width, picture + caption.height(), escaped(title)) +
+         body + caption.rows() + "</svg>\n";
 }
 
 }  // namespace assay::reports

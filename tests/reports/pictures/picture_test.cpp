@@ -126,6 +126,21 @@ TEST(Scene, ShowsSetsDoubtsGhostsAndThePairOfTheFirstContact) {
   EXPECT_EQ(second[ViewSet::violated], 0);
 }
 
+TEST(Picture, ALongTitleTakesSeveralRows) {
+  const std::string title =
+      "free-sound: answered free, vertex-face, t inside, moving, distance to a face, <near> "
+      "contact";
+  const auto scene = scene_of(curated_case("D8_release_arm_sequence"));
+  const auto svg = reports::mesh_svg(scene, title);
+  EXPECT_EQ(count_of(svg, ">free-sound: answered free, vertex-face, t inside,</text>"), 1u) << svg;
+  EXPECT_EQ(count_of(svg, ">moving, distance to a face, &lt;near&gt; contact</text>"), 1u) << svg;
+  const auto height_with = [&](const std::string& of) {
+    const auto text = reports::mesh_svg(scene, of);
+    return std::stod(text.substr(text.find("height=") + 8));
+  };
+  EXPECT_EQ(height_with(title), height_with("x") + 18);
+}
+
 TEST(Scene, WithoutViewSetsThePairHasTwoColoursAndTheRestIsGrey) {
   auto c = curated_case("D8_release_arm_sequence");
   c.options["culling"] = "bvh";
