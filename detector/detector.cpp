@@ -1,5 +1,7 @@
 #include "detector/detector.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -63,6 +65,20 @@ std::optional<Problem> check_separation(const Options& options) {
     return wrong(std::string("arithmetic ") + name_of(options.arithmetic) +
                  " does not answer a separation; exact does");
   return std::nullopt;
+}
+
+// The place after this share of the way: between both ends, and where a vertex rests it stays.
+Positions partial_step(const PositionsView& x_t0, const PositionsView& x_t1, double share) {
+  Positions x(x_t0.rows(), 3);
+  for (Eigen::Index v = 0; v < x_t0.rows(); ++v) {
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const double from = x_t0(v, k), to = x_t1(v, k), way = to - from;
+      // The difference of the greatest doubles is none.
+      const double at = std::isfinite(way) ? from + share * way : (1 - share) * from + share * to;
+      x(v, k) = std::clamp(at, std::min(from, to), std::max(from, to));
+    }
+  }
+  return x;
 }
 
 }  // namespace
@@ -189,6 +205,46 @@ StepResult Detector::step(const PositionsView& x_t0, const PositionsView& x_t1,
   StepResult result = evaluate(x_t0, x_t1, primitives, stop);
   if (parts_->evaluated) commit();
   return result;
+}
+
+StepLimit Detector::limit(const PositionsView& x_t0, const PositionsView& x_t1,
+                          const StopFunction& stop) {
+  StepLimit limit;
+  limit.positions = x_t0;
+  const Arithmetic arithmetic = parts_->context.options.arithmetic;
+  if (arithmetic != Arithmetic::exact && arithmetic != Arithmetic::bounded) {
+    parts_->evaluated.reset();
+    limit.problem = {InputError::proves_nothing, std::string("arithmetic ") + name_of(arithmetic) +
+                                                     " proves no step free; exact and bounded do"};
+    return limit;
+  }
+  StepResult whole = evaluate(x_t0, x_t1, {}, stop);
+  limit.answer = whole.answer;
+  limit.problem = std::move(whole.problem);
+  limit.first = whole.first;
+  if (whole.answer == Answer::free) {
+    limit.share = 1;
+    limit.positions = x_t1;
+  }
+  if (whole.answer != Answer::collision) return limit;
+  // Rounding moves each place off the way, so a nearer one may be in contact where a farther one is
+  // not. Three are tried whose progress is above 0.9, then ever nearer ones.
+  for (double part = 0.95;; part = part > 0.91 ? part - 0.02 : part / 2) {
+    parts_->evaluated.reset();
+    const double share = part * whole.first.lo;
+    const Positions x = partial_step(x_t0, x_t1, share);
+    if (x == x_t0) return limit;
+    if (!(share < whole.first.lo)) continue;  // among the least of all doubles
+    const Answer answer = evaluate(x_t0, x, {}, stop).answer;
+    if (answer == Answer::collision) continue;
+    if (answer == Answer::free) {
+      limit.share = share;
+      limit.positions = x;
+    } else {
+      limit.answer = answer;  // stopped
+    }
+    return limit;
+  }
 }
 
 void Detector::reset() {

@@ -87,6 +87,25 @@ class Detector {
   StepResult step(const PositionsView& x_t0, const PositionsView& x_t1,
                   std::span<const ViewPrimitive> primitives = {}, const StopFunction& stop = {});
 
+  // How far the mesh may go from x_t0 towards x_t1: to positions to which the straight way is free,
+  // the rounding of these positions included. It is for line searches and step limiters:
+  //
+  //   const StepLimit limit = detector.limit(x, x + direction);
+  //   x = limit.positions;
+  //   detector.commit();
+  //
+  // A step that is free is taken whole. Of another one 0.95 of the first contact time is taken, and
+  // less if rounding brings that into contact: 0.9 at least, wherever 0.9 of that time moves some
+  // vertex by 2^10 units in its last place or more and no gap at the start is below 2^6 of them.
+  // With share 0 the mesh stays: it is in contact at the start, or the next place that numbers can
+  // express is. With a separation, read `within it` for `contact`.
+  // The state stays as it is, and commit() advances it to `positions` if share is above 0.
+  // Errors: those of evaluate; proves_nothing with arithmetic double_precision or single_precision.
+  // Cost: evaluate of the step and, unless that is free, evaluate once more for each share that is
+  // tried, mostly one.
+  StepLimit limit(const PositionsView& x_t0, const PositionsView& x_t1,
+                  const StopFunction& stop = {});
+
   // Everything that later steps rest on: the state of the last commit, and the rules that place
   // view primitives and apexes.
   SavedState state() const;

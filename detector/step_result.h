@@ -73,4 +73,18 @@ struct StepResult {
   StepTimes times;
 };
 
+// How far a caller may go in a step (L17).
+struct StepLimit {
+  // `free`: to the end of the step. `collision`: to `positions`, and no farther is promised.
+  // `undecided` (stopped) and `error`: nowhere.
+  Answer answer = Answer::error;
+  std::optional<Problem> problem;  // when answer is error
+  // The share of the step that was taken: 1 if it is free, else less than the first contact time.
+  double share = 0;
+  // Where the caller may go: x_t1 in every bit if the step is free, else x_t0 + share (x_t1 - x_t0)
+  // with its rounding. The straight way from x_t0 to here is free. Equal to x_t0 with share 0.
+  Positions positions;
+  TimeEnclosure first;  // the first contact time of the whole step, when answer is collision
+};
+
 }  // namespace assay::detector

@@ -28,6 +28,7 @@ enum class InputError : std::uint8_t {
   triangle_of_two_bodies = 14,  // its vertices are of two bodies (counted_pairs.h)
   wrong_relation = 15,          // what CountedPairs says of pairs cannot be so
   wrong_separation = 16,        // no distance, or with options that do not answer it
+  proves_nothing = 17,          // a limit is asked for in an arithmetic that promises nothing
 };
 constexpr auto names_of(InputError) {
   using enum InputError;
@@ -46,7 +47,8 @@ constexpr auto names_of(InputError) {
                                            {stopped, "stopped"},
                                            {triangle_of_two_bodies, "triangle_of_two_bodies"},
                                            {wrong_relation, "wrong_relation"},
-                                           {wrong_separation, "wrong_separation"}});
+                                           {wrong_separation, "wrong_separation"},
+                                           {proves_nothing, "proves_nothing"}});
 }
 
 struct Problem {

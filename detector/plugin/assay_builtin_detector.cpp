@@ -128,6 +128,21 @@ std::int32_t assay_builtin_evaluate(assay_handle* handle, const double* x_t0, co
   });
 }
 
+std::int32_t assay_builtin_limit(assay_handle* handle, const double* x_t0, const double* x_t1,
+                                 assay_limit* limit, std::int32_t (*stop)(void* stop_data),
+                                 void* stop_data, assay_builtin_error* error) {
+  return guarded(error, [&]() -> std::int32_t {
+    StopFunction stops;
+    if (stop) stops = [=] { return stop(stop_data) != 0; };
+    const Eigen::Index n = handle->vertex_count;
+    handle->limit =
+        handle->detector.limit(PositionsMap(x_t0, n, 3), PositionsMap(x_t1, n, 3), stops);
+    if (handle->limit.problem) return refuse(error, *handle->limit.problem);
+    *limit = {handle->limit.share, handle->limit.positions.data()};
+    return done(error);
+  });
+}
+
 std::int32_t assay_builtin_commit(assay_handle* handle, assay_builtin_error* error) {
   return guarded(error, [&]() -> std::int32_t {
     const auto problem = handle->detector.commit();

@@ -50,6 +50,7 @@ enum {
       14,                              /* (not met in C: nobody says there which pairs count) */
   ASSAY_BUILTIN_WRONG_RELATION = 15,   /* (likewise) */
   ASSAY_BUILTIN_WRONG_SEPARATION = 16, /* no distance, or with options that do not answer it */
+  ASSAY_BUILTIN_PROVES_NOTHING = 17,   /* a limit is asked for in double or float */
   ASSAY_BUILTIN_WRONG_OPTIONS = 64,    /* an option has no such value; struct_size is wrong */
   ASSAY_BUILTIN_SMALL_BUFFER = 65,     /* the state takes more bytes than the buffer has */
   ASSAY_BUILTIN_TOO_MANY = 66,         /* more than 2^31 - 1 triangles or vertices */
@@ -135,7 +136,16 @@ int32_t assay_builtin_evaluate(assay_handle* handle, const double* x_t0, const d
                                int32_t (*stop)(void* stop_data), void* stop_data,
                                assay_builtin_error* error);
 
-/* As the table's commit. */
+/* As the table's limit: how far the step may be gone, with its rounding. A free step has share 1.
+ * Another one has 0.95 of the first contact time, and less if rounding brings that into contact:
+ * 0.9 at least, wherever the numbers leave room (detector/detector.h). With share 0 the mesh stays:
+ * it is in contact at the start, or as near as numbers can tell, or stop() ended the work. A commit
+ * then goes to *limit, and is refused after share 0. stop may be NULL. */
+int32_t assay_builtin_limit(assay_handle* handle, const double* x_t0, const double* x_t1,
+                            assay_limit* limit, int32_t (*stop)(void* stop_data), void* stop_data,
+                            assay_builtin_error* error);
+
+/* As the table's commit. It goes to the end of what was asked for last, a step or a limit. */
 int32_t assay_builtin_commit(assay_handle* handle, assay_builtin_error* error);
 
 /* The view sets of the step evaluated last. If that step used no views, all sizes are 0 and doubts

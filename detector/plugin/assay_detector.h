@@ -28,9 +28,9 @@
  * one is a new start.
  *
  * PARTS. A library may hold less than a detector of whole steps: one elementary query
- * (vertex-face, edge-edge), or the candidate pairs of a broad phase. It fills in the functions
- * that it has and sets the others to NULL. evaluate, commit and result stand together; they and
- * candidates need create and destroy.
+ * (vertex-face, edge-edge), the candidate pairs of a broad phase, or a limiter, which says how far
+ * a step may be gone. It fills in the functions that it has and sets the others to NULL. evaluate,
+ * commit and result stand together; they, candidates and limit need create and destroy.
  *
  * VERSIONS. abi_version is the first member of the table in every version. Members are only ever
  * added at the end, and then the version goes up. This host loads tables of older versions too: of
@@ -77,8 +77,18 @@ enum {
   ASSAY_CLAIM_DETERMINISTIC = 1u << 6, /* the same calls give the same results */
   ASSAY_CLAIM_TOTAL = 1u << 7,         /* every valid input within the limits of time and memory is
                                           answered */
-  ASSAY_CLAIM_CANDIDATES = 1u << 8     /* every pair in contact is among those that the table's
+  ASSAY_CLAIM_CANDIDATES = 1u << 8,    /* every pair in contact is among those that the table's
                                           `candidates` gives */
+  /* Of the table's `limit`, in steps that start without a contact. With a separation, read `comes
+   * within it` for contact. */
+  ASSAY_CLAIM_COMMIT_FREE = 1u << 9, /* the straight step from x_t0 to the positions that it allows
+                                        has no contact */
+  ASSAY_CLAIM_PATH_FREE = 1u << 10,  /* the share of the step that it allows is below t* */
+  ASSAY_CLAIM_PROGRESS = 1u << 11,   /* that share is at least `progress` times t*, or times 1
+                                        where nothing is in contact. It is judged where that moves
+                                        some vertex by 2^10 units in its last place, and all gaps at
+                                        the start are 2^6 units of the largest coordinate or more */
+  ASSAY_CLAIM_WHOLE = 1u << 12       /* a step without a contact may be gone to its very end */
 };
 
 /* Which pairs of neighbouring triangles the detector tests. A contact of a pair that it does not
@@ -120,6 +130,15 @@ enum {
  * pairs; an edge that pierces a face at t = 0 counts where some feature pair of the two triangles
  * does. */
 enum { ASSAY_COUNTS_TRIANGLES = 0, ASSAY_COUNTS_FEATURES = 1 };
+
+/* Where a limiter that states a share of the step lets the caller stop: at positions that it gives
+ * itself, or where the caller's own code computes them from the share. The host computes them as
+ * that code does, in the contract's coordinates, one rounding an operation. */
+enum {
+  ASSAY_LIMIT_POSITIONS = 0,  /* it gives them */
+  ASSAY_LIMIT_START_PLUS = 1, /* x_t0 + share * (x_t1 - x_t0) */
+  ASSAY_LIMIT_BLEND = 2       /* (1 - share) * x_t0 + share * x_t1 */
+};
 
 #define ASSAY_WIDEST_TIME_TOLERANCE 1e-3
 
@@ -163,6 +182,8 @@ typedef struct assay_description {
   int32_t counts;       /* ASSAY_COUNTS_...: what rings and rest_distance are of */
   int32_t rings;        /* pairs joined by a path of fewer edges of the mesh; 0: none */
   double rest_distance; /* pairs nearer to each other at rest, user's units; 0: none */
+  int32_t limit_gives;  /* ASSAY_LIMIT_...: where the caller stops who is told a share alone */
+  double progress;      /* what ASSAY_CLAIM_PROGRESS promises: above 0, at most 1; else 0 */
 } assay_description;
 
 /* The detector's own data of one mesh. */
@@ -221,6 +242,15 @@ typedef struct assay_candidates {
   const int32_t* pairs; /* pair_count x 2 triangle indices; may be NULL when there are none */
 } assay_candidates;
 
+/* How far a caller may go in a step. The host sets share to -1 and positions to NULL before the
+ * call. Share 1 means x_t1 itself; share 0, or positions that are those of x_t0: the mesh stays. A
+ * limiter of each vertex by itself gives positions alone. */
+typedef struct assay_limit {
+  double share;            /* of the step, 0 to 1, or -1: not stated */
+  const double* positions; /* vertex_count x 3, finite: where the caller stops. NULL: where the
+                              description's limit_gives says */
+} assay_limit;
+
 typedef struct assay_detector_api {
   uint32_t abi_version; /* ASSAY_DETECTOR_ABI_VERSION */
 
@@ -272,11 +302,16 @@ typedef struct assay_detector_api {
    * ASSAY_OK, after an ASSAY_ERROR without a message, and after a describe() that returns NULL. */
   const char* (*error_text)(void);
 
-  /* Since version 3. It may be NULL. */
+  /* Since version 3. Each of these functions may be NULL. */
 
   /* Says which pairs count, once and before the first step, if not all do. What is needed of it
    * later must be copied. A library without this function is asked about all pairs. */
   int32_t (*count)(assay_handle* handle, const assay_counted_pairs* counted);
+
+  /* How far the step from x_t0 towards x_t1 may be gone. This is a part of its own (PARTS above).
+   * It carries nothing from step to step. */
+  int32_t (*limit)(assay_handle* handle, const double* x_t0, const double* x_t1,
+                   assay_limit* limit);
 } assay_detector_api;
 
 /* The one symbol that a plug-in exports. Returns a table that is valid as long as the library is

@@ -16,10 +16,11 @@
 // - static Result query(std::int32_t kind, Positions x_t0, Positions x_t1): an elementary query of
 //   four points, given as four rows at t=0 and at t=1; pairs in its result are not read;
 // - std::vector<Pair> candidates(Positions x_t0, Positions x_t1): a broad phase;
-// - void count(const CountedPairs& counted): which pairs count, called before the first step.
+// - void count(const CountedPairs& counted): which pairs count, called before the first step;
+// - Limit limit(Positions x_t0, Positions x_t1): how far the step may be gone.
 //
-// A library may hold a query or a broad phase alone. Such a class has no evaluate(), and one with
-// a query alone needs no constructor either.
+// A library may hold a query, a broad phase or a limiter alone. Such a class has no evaluate(), and
+// one with a query alone needs no constructor either.
 //
 // No exception gets past this header; each becomes a return code or a result:
 //
@@ -29,7 +30,7 @@
 //   has no handle. If evaluate() throws it, the answer of the step is ASSAY_ERROR. If another
 //   function throws it, the call returns ASSAY_FAILED and error_text() has the text.
 //
-// Results are kept until the next evaluate() or candidates() of the same handle. An evaluate()
+// Results are kept until the next call of the same function of the same handle. An evaluate()
 // that throws leaves no older result behind.
 //
 // If <Eigen/Core> is included before this header, eigen(rows) gives rows as an Eigen map.
@@ -117,6 +118,23 @@ struct Result {
     result.answer = answer;
     result.first = first;
     return result;
+  }
+};
+
+// How far a step may be gone: a share of it, positions, or both (assay_limit).
+struct Limit {
+  double share = -1;
+  std::vector<double> positions;  // three for each vertex, or none
+
+  static Limit of_share(double share) {
+    Limit limit;
+    limit.share = share;
+    return limit;
+  }
+  static Limit at(std::vector<double> positions, double share = -1) {
+    Limit limit = of_share(share);
+    limit.positions = std::move(positions);
+    return limit;
   }
 };
 

@@ -87,6 +87,8 @@ ASSAY_PLUGIN_FINDS(candidates,
                    std::vector<Pair>(std::declval<D&>().candidates(std::declval<Positions>(),
                                                                    std::declval<Positions>())));
 ASSAY_PLUGIN_FINDS(count, std::declval<D&>().count(std::declval<const CountedPairs&>()));
+ASSAY_PLUGIN_FINDS(limit, Limit(std::declval<D&>().limit(std::declval<Positions>(),
+                                                         std::declval<Positions>())));
 #undef ASSAY_PLUGIN_FINDS
 
 template <class D>
@@ -98,6 +100,7 @@ struct Handle {
   D detector;
   Result result;
   std::vector<Pair> candidates;
+  Limit limit;
   Line line;  // text of the exception that ended the last evaluate(); empty if none did
 };
 
@@ -206,6 +209,19 @@ std::int32_t count(assay_handle* handle, const assay_counted_pairs* counted) noe
   return guarded(last_line<D>(), [&] { Handle<D>::of(handle).detector.count(*counted); });
 }
 
+template <class D>
+std::int32_t limit(assay_handle* handle, const double* x_t0, const double* x_t1,
+                   assay_limit* out) noexcept {
+  auto& h = Handle<D>::of(handle);
+  return guarded(last_line<D>(), [&] {
+    h.limit = h.detector.limit({x_t0, h.vertices}, {x_t1, h.vertices});
+    if (!h.limit.positions.empty() && h.limit.positions.size() != 3 * h.vertices)
+      throw std::runtime_error("limit() gives positions of another number of vertices");
+    out->share = h.limit.share;
+    if (!h.limit.positions.empty()) out->positions = h.limit.positions.data();
+  });
+}
+
 // The table of a class. A member whose name is that of an optional function has to be callable as
 // such: else the function would be left out in silence.
 template <class D>
@@ -219,8 +235,11 @@ const assay_detector_api* table() {
                 "static Result query(std::int32_t kind, Positions x_t0, Positions x_t1)");
   static_assert(has_candidates<D>::value || !names_candidates<D>::value,
                 "std::vector<Pair> candidates(Positions x_t0, Positions x_t1)");
-  static_assert(has_evaluate<D>::value || has_query<D>::value || has_candidates<D>::value,
-                "a detector has evaluate(), query() or candidates()");
+  static_assert(has_limit<D>::value || !names_limit<D>::value,
+                "Limit limit(Positions x_t0, Positions x_t1)");
+  static_assert(has_evaluate<D>::value || has_query<D>::value || has_candidates<D>::value ||
+                    has_limit<D>::value,
+                "a detector has evaluate(), query(), candidates() or limit()");
   static_assert(has_count<D>::value || !names_count<D>::value,
                 "void count(const CountedPairs& counted)");
   static_assert(has_evaluate<D>::value || !has_commit<D>::value, "commit() goes with evaluate()");
@@ -229,7 +248,7 @@ const assay_detector_api* table() {
     made.abi_version = ASSAY_DETECTOR_ABI_VERSION;
     made.describe = &detail::describe<D>;
     made.error_text = &detail::error_text<D>;
-    if constexpr (has_evaluate<D>::value || has_candidates<D>::value) {
+    if constexpr (has_evaluate<D>::value || has_candidates<D>::value || has_limit<D>::value) {
       made.create = &detail::create<D>;
       made.destroy = &detail::destroy<D>;
     }
@@ -242,6 +261,7 @@ const assay_detector_api* table() {
     if constexpr (has_use_threads<D>::value) made.use_threads = &detail::use_threads<D>;
     if constexpr (has_query<D>::value) made.query = &detail::query<D>;
     if constexpr (has_candidates<D>::value) made.candidates = &detail::candidates<D>;
+    if constexpr (has_limit<D>::value) made.limit = &detail::limit<D>;
     return made;
   }();
   return &api;

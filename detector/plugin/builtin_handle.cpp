@@ -17,7 +17,9 @@ const assay_description* describe() {
     d.version = "1";
     d.claims = ASSAY_CLAIM_FREE_SOUND | ASSAY_CLAIM_NOT_LATE | ASSAY_CLAIM_FIRST_TIME |
                ASSAY_CLAIM_FIRST_PAIRS | ASSAY_CLAIM_ALL_PAIRS | ASSAY_CLAIM_NO_SPURIOUS |
-               ASSAY_CLAIM_DETERMINISTIC | ASSAY_CLAIM_TOTAL;
+               ASSAY_CLAIM_DETERMINISTIC | ASSAY_CLAIM_TOTAL | ASSAY_CLAIM_COMMIT_FREE |
+               ASSAY_CLAIM_PATH_FREE | ASSAY_CLAIM_PROGRESS | ASSAY_CLAIM_WHOLE;
+    d.progress = 0.9;
     return d;
   }();
   return &description;
@@ -77,6 +79,10 @@ std::int32_t result(assay_handle* h, assay_result* out) {
   return ASSAY_OK;
 }
 
+std::int32_t limit(assay_handle* h, const double* x_t0, const double* x_t1, assay_limit* out) {
+  return assay_builtin_limit(h, x_t0, x_t1, out, nullptr, nullptr, nullptr);
+}
+
 void destroy(assay_handle* h) { delete h; }
 
 }  // namespace
@@ -113,6 +119,7 @@ const assay_detector_api* assay_builtin_detector() {
     table.result = result;
     table.destroy = destroy;
     table.use_threads = use_threads;
+    table.limit = limit;
     return table;
   }();
   return &api;

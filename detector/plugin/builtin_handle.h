@@ -12,6 +12,7 @@ struct assay_handle {
   assay::detector::Detector detector;
   Eigen::Index vertex_count;
   assay::detector::StepResult result = {};
+  assay::detector::StepLimit limit = {};
   std::vector<std::int32_t> pairs = {};
   std::vector<double> times = {};
 

@@ -23,6 +23,11 @@ enum class Claim : std::uint8_t {
   deterministic,  // the same input gives the same result
   total,          // every valid input within the limits is answered
   candidates,     // every pair of the oracle is among the candidate pairs of its broad phase
+  // Of a limiter (L17), in steps that start without a contact.
+  commit_free,  // the step to the positions that it allows has no contact
+  path_free,    // the share that it allows is below t*
+  progress,     // that share is Contract::progress of what is possible or more (judge_limit)
+  whole,        // it allows a step without a contact to its very end
   // Every time is the enclosure of exact arithmetic, so it has to be the oracle's in every bit.
   // This is how the other claims on times are read of a detector that claims it. Only the built-in
   // detector does: nobody claims it from outside, and no list names it.
@@ -39,6 +44,10 @@ constexpr auto names_of(Claim) {
                                       {deterministic, "deterministic"},
                                       {total, "total"},
                                       {candidates, "candidates"},
+                                      {commit_free, "commit-free"},
+                                      {path_free, "path-free"},
+                                      {progress, "progress"},
+                                      {whole, "whole-when-safe"},
                                       {times_unique, "times-unique"}});
 }
 
@@ -73,6 +82,10 @@ class Claims {
   static constexpr std::uint32_t bit_of(Claim claim) { return 1u << static_cast<unsigned>(claim); }
   std::uint32_t bits_ = 0;
 };
+
+// Those that only a limiter can make.
+inline constexpr Claims claims_on_limits = {Claim::commit_free, Claim::path_free, Claim::progress,
+                                            Claim::whole};
 
 // Those that a detector may claim from outside. Their numbers are the bits of
 // assay_description::claims (detector/plugin/assay_detector.h).

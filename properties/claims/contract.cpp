@@ -36,6 +36,8 @@ std::string fault_of(const Contract& contract) {
            " to " + number_text(contract.largest);
   if (contract.rings < 0) return "its rings are below 0";
   if (!is_length(contract.rest_distance)) return "its rest_distance is no length";
+  if (!(contract.progress >= 0 && contract.progress <= 1))
+    return "its progress is no share from 0 to 1";
   if (!(contract.time_tolerance >= 0)) return "its time_tolerance is no time";
   if (contract.time_tolerance > widest_time_tolerance)
     return "its time_tolerance " + number_text(contract.time_tolerance) + " is above " +
@@ -68,6 +70,9 @@ std::vector<std::string> phrases_of(const Contract& contract) {
     list.push_back(std::string(level) + " from " + number_text(contract.rest_distance) +
                    " apart at rest");
   if (!contract.reports_pairs) list.emplace_back("no pairs");
+  if (contract.progress > 0) say("progress ", number_text(contract.progress));
+  if (contract.limit_gives != LimitGives::positions)
+    say("stops at ", name_of(contract.limit_gives));
   return list;
 }
 

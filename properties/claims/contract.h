@@ -56,6 +56,18 @@ constexpr auto names_of(TestedFeatures) {
       {{both, "both"}, {vertex_face, "vertex-face"}, {edge_edge, "edge-edge"}});
 }
 
+// Where a limiter that states a share of a step lets the caller stop (L17).
+enum class LimitGives : std::uint8_t {
+  positions,   // where it says itself
+  start_plus,  // x_t0 + share (x_t1 - x_t0), in the contract's coordinates
+  blend,       // (1 - share) x_t0 + share x_t1
+};
+constexpr auto names_of(LimitGives) {
+  using enum LimitGives;
+  return std::to_array<Named<LimitGives>>(
+      {{positions, "positions"}, {start_plus, "start-plus"}, {blend, "blend"}});
+}
+
 // A contract that asks for more is refused.
 inline constexpr double widest_time_tolerance = 1e-3;
 
@@ -88,6 +100,10 @@ struct Contract {
   double rest_distance = 0;
   // Whether the detector can be told which pairs count. One that cannot is asked about all pairs.
   bool takes_relations = true;
+  // Of a limiter: where the caller stops who is told a share alone, and what share of the first
+  // contact time it promises (Claim::progress); 0: none.
+  LimitGives limit_gives = LimitGives::positions;
+  double progress = 0;
   friend bool operator==(const Contract&, const Contract&) = default;
 
   bool has_range() const { return largest > 0; }
@@ -107,8 +123,8 @@ struct Contract {
 template <class Archive>
 void fields(Archive& archive, Contract& contract) {
   auto& [adjacency, coordinates, margin, start, start_distance, least_nonzero, largest, features,
-         time_tolerance, reports_pairs, separation, counts, rings, rest_distance, takes_relations] =
-      contract;
+         time_tolerance, reports_pairs, separation, counts, rings, rest_distance, takes_relations,
+         limit_gives, progress] = contract;
   archive("adjacency", adjacency, "coordinates", coordinates, "margin", margin);
   archive("start", start, "start_distance", start_distance);
   archive("least_nonzero", least_nonzero, "largest", largest, "features", features);
@@ -116,6 +132,7 @@ void fields(Archive& archive, Contract& contract) {
   archive("separation", separation);
   archive("counts", counts, "rings", rings, "rest_distance", rest_distance);
   archive("takes_relations", takes_relations);
+  archive("limit_gives", limit_gives, "progress", progress);
 }
 
 // The shortest decimal that reads back to the same double. It is made without libfmt, because the

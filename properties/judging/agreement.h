@@ -1,5 +1,5 @@
 // Compares one step of a detector with the oracle: the diff says how their answers differ, and
-// what the candidate pairs of a broad phase lack.
+// what the candidate pairs of a broad phase lack, and what a limiter allows too much or too little.
 #pragma once
 
 #include <cstdint>
@@ -53,6 +53,17 @@ struct CandidateCount {
   std::uint64_t given = 0, least = 0;
 };
 
+// What a limiter allowed in a step that starts without a contact (judge_limit).
+struct LimitDiff {
+  double share = -1;  // of the step; -1: not stated
+  double used = 0;    // the share, or else how much of the way the positions go
+  std::optional<detector::TimeEnclosure> ahead;  // the first contact time of the step, if any
+  // The first contact on the straight way to where the caller stops.
+  std::optional<detector::PairContact> hit;
+  bool is_cut = false;  // the step has no contact, and is not gone to its end
+  std::string stall;    // the caller stays although it could move: the cause of the contact ahead
+};
+
 struct StepDiff {
   Outcome outcome = Outcome::holds;
   std::vector<Claim> broken;  // claims of the detector that this step refutes
@@ -100,7 +111,8 @@ struct StepDiff {
   // them.
   std::optional<CandidateCount> candidates;
   std::vector<detector::PairContact> missing_candidates;
-  bool has_answer = true;  // false: the library gives candidates alone, no answers
+  std::optional<LimitDiff> limit;  // only of a limiter
+  bool has_answer = true;          // false: the library gives candidates or limits, no answers
 };
 
 // Judges a step by what its detector claims. Pairs of the oracle that lie outside of the
@@ -162,7 +174,31 @@ void judge_candidates(const CandidatePairs& candidates, const oracle::StepJudgem
                       const Claims& claims, const Contract& contract,
                       const detector::TrianglesView& triangles, StepDiff& diff);
 
-// The diff of a step of a library of candidates alone, which has no answer: it holds, or was an
+// The step that a limiter is asked about. `options` say which pairs count and are tested.
+struct LimitedStep {
+  detector::SteppedMesh motion;
+  const detector::TrianglesView& triangles;
+  const oracle::JudgeOptions& options;
+};
+
+// Adds to the diff of a step what its limit shows. Nothing is judged of a step that starts in
+// contact, or within the separation of the contract. `judgement` is of the whole step under the
+// contract. Where the limiter stops short of x_t1 the oracle is asked once more, about the step
+// from x_t0 to there. If it was stopped, a step that would hold is undecided.
+//
+// What breaks a claim; t* is the first contact time of the whole step:
+// - commit-free: a contact in the straight step from x_t0 to where the caller stops.
+// - path-free: a share that is not below t*.
+// - progress: a share below Contract::progress times the least of t* and 1, where rounding cannot
+//   be the reason: so much of the step moves some vertex by 2^10 units in its last place or more,
+//   and the gaps at the start, beyond the separation, are 2^6 units of the largest coordinate or
+//   more. Elsewhere it is only counted.
+// - whole-when-safe: x_t1 is not reached, and the step has no contact.
+void judge_limit(const std::optional<LimitAnswer>& answer, const LimitedStep& step,
+                 const oracle::StepJudgement& judgement, const Claims& claims,
+                 const Contract& contract, StepDiff& diff);
+
+// The diff of a step of a library without answers, of candidates or limits: it holds, or was an
 // error, which breaks `total`.
 StepDiff diff_without_answer(const detector::StepResult& result, const Claims& claims);
 

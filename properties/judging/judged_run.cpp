@@ -34,14 +34,22 @@ void not_answered(JudgedRun& judged, const Claims& claims) {
   }
 }
 
+// Which pairs of a case count, and which of them its contract tests, for the oracle.
+struct AskedPairs {
+  AskedPairs(const corpus::Case& c, const Contract& contract, int jobs)
+      : tested(tested_pairs(contract, c.frames.front())),
+        options{jobs, {}, {}, corpus::counted_of(c), &tested} {}
+  detector::CountedPairs tested;
+  oracle::JudgeOptions options;
+};
+
 std::vector<oracle::StepJudgement> judge_steps(const corpus::Case& c, const Contract& contract,
                                                int jobs) {
-  const auto tested = tested_pairs(contract, c.frames.front());
-  const oracle::JudgeOptions options = {jobs, {}, {}, corpus::counted_of(c), &tested};
+  const AskedPairs asked(c, contract, jobs);
   std::vector<oracle::StepJudgement> judgements;
   for (const auto& step : corpus::steps_of(c)) {
     judgements.push_back(
-        judge_under(contract, {start_of(c, step), end_of(c, step)}, c.triangles, options));
+        judge_under(contract, {start_of(c, step), end_of(c, step)}, c.triangles, asked.options));
   }
   return judgements;
 }
@@ -99,8 +107,16 @@ JudgedRun judge_run(const corpus::Case& c, const CaseRun& run,
       return judged;
   }
   const Contract of_case = says_query(c) ? on_queries(contract) : contract;
+  const auto script = corpus::steps_of(c);
+  std::optional<AskedPairs> asked;
   for (std::size_t s = 0; s < std::min(run.steps.size(), judgements.size()); ++s) {
     auto diff = compare_step(run, s, judgements[s], claims, of_case, c.triangles);
+    if (s < run.limits.size()) {
+      if (!asked) asked.emplace(c, contract, 1);
+      judge_limit(run.limits[s],
+                  {{start_of(c, script[s]), end_of(c, script[s])}, c.triangles, asked->options},
+                  judgements[s], claims, of_case, diff);
+    }
     judged.outcome = worse(judged.outcome, diff.outcome);
     for (const auto claim : diff.broken) add_broken(judged, claim);
     judged.left_out_misses += diff.left_out_missed ? 1 : 0;

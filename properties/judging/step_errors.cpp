@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "properties/json_fields.h"
 
@@ -17,17 +18,26 @@ void fields(Archive& archive, TimesOff& times) {
 }
 
 template <class Archive>
+void fields(Archive& archive, LimitUse& use) {
+  auto& [free, cut, contact, unused, stalls] = use;
+  archive("free", free, "cut", cut, "contact", contact, "unused", unused, "stalls", stalls);
+}
+
+template <class Archive>
 void fields(Archive& archive, StepErrors& errors) {
   auto& [steps, undecided, free, contact, missed, false_alarms, late, early, unsafe, alarming,
-         missing, spurious] = errors;
+         missing, spurious, limits] = errors;
   archive("steps", steps, "undecided", undecided, "free", free, "contact", contact);
   archive("missed", missed, "false_alarms", false_alarms, "late", late, "early", early);
   archive("unsafe", unsafe, "alarming", alarming, "missing", missing, "spurious", spurious);
+  archive("limits", limits);
 }
 
 namespace {
 
 double up_to_two_digits(double share) {
+  constexpr double least = 1e-300;  // below it the unit of the second digit is no double
+  if (share <= least) return least;
   const double unit = std::pow(10, std::floor(std::log10(share)) - 1);
   const double rounded = std::ceil(share / unit * (1 - 1e-12)) * unit;
   double shortest = rounded;
@@ -35,6 +45,8 @@ double up_to_two_digits(double share) {
   std::from_chars(text.data(), text.data() + text.size(), shortest);
   return shortest;
 }
+
+constexpr double least_positive = std::numeric_limits<double>::denorm_min();
 
 TimesOff one_off(double share, double ulps) {
   if (!(share > 0)) return {};
@@ -54,6 +66,22 @@ double TimesOff::quantile(double part) const {
   return 0;
 }
 
+double LimitUse::used(double part) const {
+  // The worst come first. What was used to the end stands in no list.
+  const auto at_least_so_good =
+      contact - static_cast<std::uint64_t>(part * static_cast<double>(contact - 1));
+  const auto used_up = contact - unused.steps;
+  if (at_least_so_good <= used_up) return 1;
+  return 1 - unused.quantile(static_cast<double>(at_least_so_good - used_up) /
+                             static_cast<double>(unused.steps));
+}
+
+std::uint64_t LimitUse::stalled() const {
+  std::uint64_t sum = 0;
+  for (const auto& [cause, count] : stalls) sum += count;
+  return sum;
+}
+
 TimesOff& TimesOff::operator+=(const TimesOff& other) {
   steps += other.steps;
   worst_share = std::max(worst_share, other.worst_share);
@@ -71,7 +99,30 @@ StepErrors& StepErrors::operator+=(const StepErrors& other) {
   }
   late += other.late;
   early += other.early;
+  limits += other.limits;
   return *this;
+}
+
+LimitUse& LimitUse::operator+=(const LimitUse& other) {
+  free += other.free;
+  cut += other.cut;
+  contact += other.contact;
+  unused += other.unused;
+  for (const auto& [cause, count] : other.stalls) stalls[cause] += count;
+  return *this;
+}
+
+LimitUse use_of(const LimitDiff& limit) {
+  LimitUse use;
+  if (!limit.ahead) {
+    use.free = 1;
+    use.cut = limit.is_cut ? 1 : 0;
+    return use;
+  }
+  use.contact = 1;
+  use.unused = one_off(1 - limit.used / std::max(limit.ahead->lo, least_positive), 0);
+  if (!limit.stall.empty()) use.stalls[limit.stall] = 1;
+  return use;
 }
 
 StepErrors errors_of(const StepDiff& diff) {
@@ -79,6 +130,7 @@ StepErrors errors_of(const StepDiff& diff) {
   StepErrors errors;
   if (!diff.oracle_complete) return errors;
   errors.steps = 1;
+  if (diff.limit) errors.limits = use_of(*diff.limit);
   if (diff.answer != Answer::free && diff.answer != Answer::collision) {
     errors.undecided = 1;
     return errors;

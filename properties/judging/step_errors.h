@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 
 #include "properties/judging/agreement.h"
 
@@ -25,6 +26,23 @@ struct TimesOff {
 
   TimesOff& operator+=(const TimesOff& other);
   friend bool operator==(const TimesOff&, const TimesOff&) = default;
+};
+
+// How a limiter uses what is possible, over the steps that start without a contact.
+struct LimitUse {
+  std::uint64_t free = 0;     // steps without any contact
+  std::uint64_t cut = 0;      // of `free`: not gone to their end
+  std::uint64_t contact = 0;  // steps with a contact ahead
+  TimesOff unused;            // of `contact`: the share of the time until it that was not used
+  std::map<std::string, std::uint64_t> stalls;  // of `contact`, by their cause (LimitDiff::stall)
+
+  // The share that was used of the time until the contact, at this part of the steps in ascending
+  // order: 0 is the worst, 0.5 the median. REQUIRES contact > 0.
+  double used(double part) const;
+  std::uint64_t stalled() const;
+
+  LimitUse& operator+=(const LimitUse& other);
+  friend bool operator==(const LimitUse&, const LimitUse&) = default;
 };
 
 // Steps that the oracle did not finish are not counted at all. A step without an answer is counted
@@ -48,6 +66,7 @@ struct StepErrors {
   // Pairs. Missing: in contact, asked for by the claims, and not reported. Spurious: reported, and
   // not in contact.
   std::uint64_t missing = 0, spurious = 0;
+  LimitUse limits;  // counted whatever is claimed, and for steps without an answer too
 
   std::uint64_t answered() const { return steps - undecided; }
   std::uint64_t collisions() const { return contact - missed; }  // of `contact`

@@ -53,6 +53,7 @@ std::vector<std::string> unjudged_parts(const PluginDescription& plugin,
   if (plugin.parts.steps && detector.of_queries) parts.emplace_back("whole steps");
   if (plugin.parts.candidates && (detector.of_queries || !detector.claims.has(Claim::candidates)))
     parts.emplace_back("broad phase");
+  if (plugin.parts.limit && detector.of_queries) parts.emplace_back("limiter");
   if (plugin.parts.query && detector.query_claims == Claims())
     parts.emplace_back("elementary query");
   return parts;
@@ -77,7 +78,7 @@ Expected<Subject> Subject::open(std::filesystem::path worker, const std::string&
   // The words of the plug-in go into ids, files and pages, so they must be printable.
   plugin.name = printable(plugin.name);
   plugin.version = printable(plugin.version);
-  const bool has_steps = plugin.parts.steps || plugin.parts.candidates;
+  const bool has_steps = plugin.parts.steps || plugin.parts.candidates || plugin.parts.limit;
   const bool of_queries =
       part == DetectorPart::query || (part == DetectorPart::by_library && !has_steps);
   if (of_queries && !plugin.parts.query)

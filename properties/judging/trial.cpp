@@ -76,6 +76,9 @@ JudgedTrial judge_trial(const corpus::Case& c, std::span<const oracle::StepJudge
     }
     if (detector.built_in) {
       find_stage(failure, c, step, *diff, configuration.options);
+    } else if (failure.claim == Claim::commit_free) {
+      failure.cause = text_of(cause_of(c.triangles, {start_of(c, step), run.limits[s]->positions},
+                                       *diff->limit->hit, detector.contract.separation > 0));
     } else {
       find_cause(failure, c, step, truth[s], detector.contract);
     }
@@ -143,6 +146,20 @@ class FailureOfStep {
       case Claim::no_spurious:
         too_much();
         break;
+      case Claim::commit_free:
+        at("contact on the way", *diff.limit->hit);
+        at_limit();
+        break;
+      case Claim::path_free:
+        at("share too large", *diff.first_contact);
+        at_limit();
+        break;
+      case Claim::progress:
+        too_short("share too small");
+        break;
+      case Claim::whole:
+        too_short("free step cut");
+        break;
       case Claim::candidates:
         at("missing candidate", diff.missing_candidates.front());
         failure_.explanation +=
@@ -176,6 +193,26 @@ class FailureOfStep {
     if (!diff_.first) return;  // the oracle was stopped
     const double off = diff_.late_first ? diff_.first->off.late : diff_.first->off.early;
     failure_.explanation += fmt::format(", {} by {}", failure_.kind, share_text(off));
+  }
+
+  // How far the limiter goes, and how far it might.
+  void at_limit() {
+    const auto& limit = *diff_.limit;
+    failure_.explanation += limit.share >= 0
+                                ? fmt::format("; allowed a share of {}", limit.share)
+                                : fmt::format("; allowed {:.3g} of the way", limit.used);
+    if (contract_.progress > 0 && failure_.claim == Claim::progress)
+      failure_.explanation += fmt::format(", promised {} of what is free", contract_.progress);
+  }
+
+  void too_short(const char* kind) {
+    if (diff_.first_contact) {
+      at(kind, *diff_.first_contact);
+    } else {
+      failure_.kind = kind;
+      failure_.explanation = "no two triangles " + asked_text(contract_);
+    }
+    at_limit();
   }
 
   void lost_pair() {
@@ -220,7 +257,9 @@ std::string contact_text(const detector::PairContact& contact, const std::string
 Failure failure_of(const StepDiff& diff, const detector::StepResult& result,
                    const Contract& contract) {
   Failure failure = FailureOfStep(diff, contract).take();
-  if (failure.kind == "error" || failure.claim == Claim::candidates) return failure;
+  Claims without_answer = claims_on_limits;
+  without_answer.set(Claim::candidates);
+  if (failure.kind == "error" || without_answer.has(failure.claim)) return failure;
   const auto exact = diff.first_contact
                          ? answer_text(detector::Answer::collision, diff.first_contact->time)
                          : answer_text(detector::Answer::free, {});

@@ -19,7 +19,8 @@ struct Failure {
   Claim claim = Claim::total;
   // How the claim is broken. One of these, as fits the claim: "answered free", "late", "early",
   // "missing pair", "late pair", "answered collision", "spurious pair", "early pair", "missing
-  // candidate", "error", "two runs differ", "crashed", "refused".
+  // candidate", "contact on the way", "share too large", "share too small", "free step cut",
+  // "error", "two runs differ", "crashed", "refused".
   std::string kind;
   std::size_t step = 0;                        // step of the script
   std::optional<detector::TrianglePair> pair;  // the first wrong pair

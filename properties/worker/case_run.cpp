@@ -60,6 +60,11 @@ bool same_contact(const detector::PairContact& a, const detector::PairContact& b
          a.feature.vertices == b.feature.vertices;
 }
 
+bool same_limit(const std::optional<LimitAnswer>& a, const std::optional<LimitAnswer>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  return a->share == b->share && a->positions == b->positions;
+}
+
 bool same_result(const StepResult& a, const StepResult& b) {
   const auto equal = [](const auto& x, const auto& y, auto same) {
     return std::equal(x.begin(), x.end(), y.begin(), y.end(), same);
@@ -98,6 +103,8 @@ CaseRun run_case(const corpus::Case& c, const Configuration& configuration) try 
 bool same_answers(const CaseRun& a, const CaseRun& b) {
   return a.end == b.end && a.explanation == b.explanation && a.has_answers == b.has_answers &&
          a.errors == b.errors && a.candidates == b.candidates &&
+         std::equal(a.limits.begin(), a.limits.end(), b.limits.begin(), b.limits.end(),
+                    same_limit) &&
          std::equal(a.steps.begin(), a.steps.end(), b.steps.begin(), b.steps.end(), same_result);
 }
 

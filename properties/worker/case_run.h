@@ -54,6 +54,12 @@ constexpr auto names_of(RunEnd) {
 // The candidate pairs of one step; nothing if the detector failed to give them.
 using CandidatePairs = std::optional<std::vector<detector::TrianglePair>>;
 
+// How far a limiter lets the caller go in one step (L17).
+struct LimitAnswer {
+  double share = -1;              // of the step; -1: not stated
+  detector::Positions positions;  // where the caller stops
+};
+
 struct CaseRun {
   RunEnd end = RunEnd::completed;
   // One line: the signal, the refusal, or the first step's error. Empty if nothing is wrong.
@@ -63,6 +69,8 @@ struct CaseRun {
   std::vector<detector::StepResult> steps;
   // Only for a plug-in that claims candidates: one list for each step, ascending, each pair once.
   std::vector<CandidatePairs> candidates = {};
+  // Only of a limiter: what it allows in each step; nothing where it failed to say.
+  std::vector<std::optional<LimitAnswer>> limits = {};
   // For each step why it has no answer ("step 2: ..."), or an empty text if it has one. The list
   // is empty if all steps have answers.
   std::vector<std::string> errors = {};

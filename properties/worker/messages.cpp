@@ -89,16 +89,37 @@ std::string broken_rule(const CandidatePairs& candidates, const StepResult& resu
   return ascend ? "" : "candidates that do not ascend";
 }
 
+std::string broken_rule(const std::optional<LimitAnswer>& limit, const StepResult& result,
+                        Eigen::Index vertices, const Claims& claims) {
+  if (!limit) {
+    const bool is_answered = result.answer == Answer::free || result.answer == Answer::collision;
+    return is_answered ? "no limit beside an answer" : "";
+  }
+  const bool is_unstated =
+      limit->share == -1 && !claims.has_any({Claim::path_free, Claim::progress});
+  if (!is_unstated && !(limit->share >= 0 && limit->share <= 1)) return "a share that is none";
+  const auto& x = limit->positions;
+  return x.rows() == vertices && x.allFinite() ? "" : "positions that are none of the mesh";
+}
+
 // Says which rule is broken about the parts that the description names. The run has a result for
 // each step.
 std::string broken_rule_of_parts(const CaseRun& run, const PluginParts& parts,
-                                 Eigen::Index triangles) {
+                                 Eigen::Index triangles, Eigen::Index vertices,
+                                 const Claims& claims) {
   if (run.has_answers != parts.steps) return "answers of another kind of detector";
   const std::size_t lists = parts.candidates ? run.steps.size() : 0;
   if (lists == 0 && !run.candidates.empty()) return "candidates that it does not claim";
   if (run.candidates.size() != lists)
     return fmt::format("{} lists of candidates for {} steps", run.candidates.size(),
                        run.steps.size());
+  const std::size_t limits = parts.limit ? run.steps.size() : 0;
+  if (run.limits.size() != limits)
+    return fmt::format("{} limits for {} steps", run.limits.size(), limits);
+  for (std::size_t s = 0; s < limits; ++s) {
+    if (auto broken = broken_rule(run.limits[s], run.steps[s], vertices, claims); !broken.empty())
+      return broken;
+  }
   for (std::size_t s = 0; s < run.steps.size(); ++s) {
     const auto& result = run.steps[s];
     const bool is_answered = result.answer == Answer::free || result.answer == Answer::collision;
@@ -119,6 +140,7 @@ std::uint64_t longest_reply(const corpus::Case& c) {
   const std::uint64_t steps = corpus::steps_of(c).size();
   return longest_reply_text + bytes_of_a_result +
          steps * (bytes_of_a_result + longest_reply_text +
+                  static_cast<std::uint64_t>(c.frames.front().size()) * sizeof(double) +
                   pairs * (sizeof(PairContact) + sizeof(detector::TrianglePair)));
 }
 
@@ -130,7 +152,8 @@ std::string broken_rule(const corpus::Case& c, const CaseRun& run,
       break;
     case RunEnd::refused:
     case RunEnd::out_of_memory:
-      return run.steps.empty() && run.candidates.empty() && run.errors.empty() && !run.times
+      return run.steps.empty() && run.candidates.empty() && run.limits.empty() &&
+                     run.errors.empty() && !run.times
                  ? ""
                  : "steps of a case that was not run";
     default:
@@ -156,7 +179,8 @@ std::string broken_rule(const corpus::Case& c, const CaseRun& run,
       return "times that are none";
     }
   }
-  return broken_rule_of_parts(run, is_query ? PluginParts{} : description.parts, triangles);
+  return broken_rule_of_parts(run, is_query ? PluginParts{} : description.parts, triangles,
+                              c.frames.front().rows(), description.claims);
 }
 
 std::string broken_rule(const PluginDescription& description) {
@@ -166,11 +190,15 @@ std::string broken_rule(const PluginDescription& description) {
     if (auto fault = fault_of_name(text); !fault.empty()) return fault;
   }
   const auto& parts = description.parts;
-  if (!parts.steps && !parts.query && !parts.candidates) return "no part that can be judged";
+  if (!parts.steps && !parts.query && !parts.candidates && !parts.limit)
+    return "no part that can be judged";
   if (!description.claims.without(claims_from_outside).empty())
     return "claims that no plug-in can make";
   if (description.claims.has(Claim::candidates) != parts.candidates)
     return "candidates without a claim, or a claim on none";
+  if (auto fault = fault_of_limits(description.claims, description.contract, parts.limit);
+      !fault.empty())
+    return fault;
   return fault_of(description.contract);
 }
 

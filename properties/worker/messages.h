@@ -32,14 +32,15 @@ ASSAY_FIELDS(detector::StepResult, answer, problem, first, pairs, view_positive,
              view_zero, against_all, violated, dirty, views, doubts, signs, primitives, apexes,
              counts, times)
 ASSAY_FIELDS(RunTimes, create, steps, peak_bytes)
+ASSAY_FIELDS(LimitAnswer, share, positions)
 
 template <class Wire>
 void fields(Wire& wire, CaseRun& run) {
   // The last three are the host's to say.
-  auto& [end, explanation, steps, candidates, errors, has_answers, times, disturbances,
+  auto& [end, explanation, steps, candidates, limits, errors, has_answers, times, disturbances,
          processor_seconds, printed] = run;
-  wire("end", end, "explanation", explanation, "steps", steps, "candidates", candidates, "errors",
-       errors, "has_answers", has_answers, "times", times);
+  wire("end", end, "explanation", explanation, "steps", steps, "candidates", candidates, "limits",
+       limits, "errors", errors, "has_answers", has_answers, "times", times);
 }
 
 ASSAY_FIELDS(Configuration, name, options, fault, is_timed)
@@ -69,7 +70,7 @@ void fields(Wire& wire, Claims& claims) {
 
 ASSAY_FIELDS(Isolation, files, processes, calls)
 ASSAY_FIELDS(KeeperHello, wire_version, isolation, process, has_copies)
-ASSAY_FIELDS(PluginParts, steps, query, candidates, takes_threads)
+ASSAY_FIELDS(PluginParts, steps, query, candidates, limit, takes_threads)
 ASSAY_FIELDS(PluginDescription, name, version, claims, contract, parts)
 
 // The worker's first message: who it is, or why it cannot serve.
@@ -133,7 +134,7 @@ constexpr std::uint64_t wire_version() {
 inline constexpr std::size_t longest_reply_text = 4096;
 
 // The most bytes that a reply to this case may have: that of a reply with every pair of triangles
-// in contact in each step.
+// in contact in each step, and with positions.
 std::uint64_t longest_reply(const corpus::Case& c);
 // The most bytes that the first message of a worker may have.
 inline constexpr std::uint64_t longest_hello = 4 * longest_reply_text;
@@ -148,15 +149,17 @@ inline constexpr std::uint64_t longest_hello = 4 * longest_reply_text;
 // - A result states nothing that plug-ins are not asked for, such as views.
 // - If the description claims candidates, there is a list of such pairs for each step, and else
 //   none.
-// - A run of a query (query_case.h) states neither pairs nor candidates, and has an answer.
+// - The same of limits: each has a share from 0 to 1, or -1 where no claim speaks of it, and finite
+//   positions of all vertices.
+// - A run of a query (query_case.h) states neither pairs, candidates nor limits, and has an answer.
 // - Otherwise there are answers if and only if the plug-in has the part of steps.
 // - Times, if there are any, are finite and not negative, one for each step.
 std::string broken_rule(const corpus::Case& c, const CaseRun& run,
                         const PluginDescription& description);
 
 // The same for a description: a name and a version in one printable line each that may be such
-// (fault_of_name), a margin that is a length, at least one part that can be judged, and a claim on
-// candidates if and only if it has them.
+// (fault_of_name), a margin that is a length, at least one part that can be judged, and claims on
+// candidates and limits if and only if it has them.
 std::string broken_rule(const PluginDescription& description);
 
 // The same for the reason why a plug-in cannot be loaded: a message of PluginHost::open, in one

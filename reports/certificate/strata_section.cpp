@@ -154,6 +154,19 @@ Json times_off_json(const properties::TimesOff& off) {
           {"worst", off.quantile(1)}};
 }
 
+Json limits_json(const properties::LimitUse& use) {
+  Json stalls = Json::array(), used = nullptr;
+  for (const auto& [cause, steps] : use.stalls)
+    stalls.push_back({{"cause", cause}, {"steps", steps}});
+  if (use.contact > 0)
+    used = {{"median", use.used(0.5)}, {"p1", use.used(0.01)}, {"worst", use.used(0)}};
+  return {{"free", use.free},
+          {"cut", use.cut},
+          {"contact", use.contact},
+          {"used", used},
+          {"stalls", stalls}};
+}
+
 }  // namespace
 
 Json not_judged_json(const properties::RunFindings& findings) {
@@ -185,6 +198,7 @@ Json measures_json(const properties::StepMeasures& m) {
             {"given", m.candidates},
             {"least", m.least_candidates},
             {"over_least", candidates_over_least(m)}}},
+          {"limits", limits_json(m.errors.limits)},
           {"near_at_start", m.starts_near},
           {"left_out",
            {{"cases_redrawn", m.redrawn},

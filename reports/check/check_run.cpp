@@ -186,15 +186,17 @@ class CheckRun {
 
     progress.phase("oracle");
     JudgedByOracle oracle;
+    const detector::SteppedMesh motion{step.x_t0, step.x_t1};
+    const oracle::JudgeOptions options = {question_.jobs, stop, {}, steps_.counted(), &tested_};
     auto judged = timed(limits_, [&] {
-      return properties::judge_under(answers_.under_test().contract, {step.x_t0, step.x_t1},
-                                     steps_.triangles(),
-                                     {question_.jobs, stop, {}, steps_.counted(), &tested_});
+      return properties::judge_under(answers_.under_test().contract, motion, steps_.triangles(),
+                                     options);
     });
     oracle.judgement = std::move(judged.answer);
     oracle.milliseconds = judged.milliseconds;
     oracle.truth = truth_of(oracle.judgement, answers_.under_test().contract, steps_.triangles());
-    oracle.diff = answers_.judge(s, result, oracle.judgement, steps_.triangles());
+    oracle.diff =
+        answers_.judge(s, result, oracle.judgement, {motion, steps_.triangles(), options});
     const auto& diff = oracle.diff;
     progress.finish();
     outcome_.defect |= diff.outcome == Outcome::defect;

@@ -48,7 +48,7 @@ class StepAnswers {
   bool judged_by_claims() const {
     return is_plugin() || !under_test().claims.has(properties::Claim::times_unique);
   }
-  // Whether the steps have answers. Those of a library of candidates alone have none.
+  // Whether the steps have answers. Those of a library of candidates or limits alone have none.
   bool has_answers() const { return subject_.description.parts.steps; }
   // How many steps of the input the contract leaves out.
   std::size_t steps_left_out() const { return steps_left_out_; }
@@ -59,11 +59,14 @@ class StepAnswers {
 
   properties::StepDiff judge(std::size_t s, const detector::StepResult& result,
                              const oracle::StepJudgement& judgement,
-                             const detector::TrianglesView& triangles) const {
+                             const properties::LimitedStep& step) const {
     const auto& claims = under_test().claims;
     const auto& contract = under_test().contract;
-    return s < run_.steps.size() ? compare_step(run_, s, judgement, claims, contract, triangles)
-                                 : compare(result, judgement, claims, contract, triangles);
+    if (s >= run_.steps.size()) return compare(result, judgement, claims, contract, step.triangles);
+    auto diff = compare_step(run_, s, judgement, claims, contract, step.triangles);
+    if (s < run_.limits.size())
+      judge_limit(run_.limits[s], step, judgement, claims, contract, diff);
+    return diff;
   }
 
  protected:

@@ -108,6 +108,19 @@ std::string end_text(const properties::CaseRun& run) {
              : std::string(properties::name_of(run.end)) + ": " + run.explanation;
 }
 
+// Lets the step that fails end where the limiter lets the caller stop: the contact is on that way.
+void show_way(CaseScene& scene, const detector::Positions& stop,
+              std::vector<oracle::StepJudgement>& truth) {
+  auto& c = scene.c;
+  const std::size_t s = scene.failure->step;
+  c.script = corpus::steps_of(c);
+  c.script[s].to = static_cast<std::int32_t>(c.frames.size());
+  c.frames.push_back(stop);
+  c.view.reset();
+  const auto alone = properties::with_steps(c, {s}, scene.contract);
+  truth[s] = properties::judge_case(alone, scene.contract).front();
+}
+
 }  // namespace
 
 std::optional<CaseScene> make_scene(const corpus::Case& c,
@@ -118,18 +131,20 @@ std::optional<CaseScene> make_scene(const corpus::Case& c,
   if (!seen) return std::nullopt;
   CaseScene scene;
   scene.c = std::move(*seen);
-  const auto truth = properties::judge_case(scene.c, detector.contract);
+  auto truth = properties::judge_case(scene.c, detector.contract);
   properties::CaseRun run{RunEnd::not_run, "the detector is not at hand", {}};
   if (worker) run = worker->run(scene.c, {&configuration, 1}).front();
   properties::JudgedTrial judged;
   if (run.end != RunEnd::not_run)
     judged = properties::judge_trial(scene.c, truth, run, configuration, detector);
   scene.failure = judged.failure;
+  scene.contract = detector.contract;
   if (run.end != RunEnd::completed) scene.ended = end_text(run);
   scene.reports_pairs =
       run.has_answers && detector.contract.reports_pairs && !properties::says_query(scene.c);
   scene.claims = properties::judged_claims(detector.claims_in(configuration), detector.contract);
-  scene.contract = detector.contract;
+  if (scene.failure && scene.failure->claim == properties::Claim::commit_free)
+    show_way(scene, run.limits[scene.failure->step]->positions, truth);
   const auto script = corpus::steps_of(scene.c);
   for (std::size_t s = 0; s < script.size(); ++s) {
     SceneStep step{script[s], truth_of(scene.c, truth[s], detector.contract), {}, {}};

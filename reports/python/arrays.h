@@ -65,6 +65,17 @@ pybind11::array array_of(std::vector<Element> elements) {
   return array;
 }
 
+// Makes an array of the numbers of a matrix. The array owns the matrix.
+template <class Matrix>
+pybind11::array owning_array(Matrix matrix) {
+  auto kept = std::make_unique<Matrix>(std::move(matrix));
+  const auto* data = kept->data();
+  const pybind11::ssize_t rows = kept->rows(), columns = kept->cols();
+  const pybind11::capsule owner(kept.release(),
+                                [](void* gone) { delete static_cast<Matrix*>(gone); });
+  return pybind11::array_t<typename Matrix::Scalar>({rows, columns}, data, owner);
+}
+
 // Answers by the names of the fields of assay.StepResult: `answer`, `first` (none without a
 // collision), `pairs` int32 k x 2, `times` float64 k x 2, `features` int32 k x 6: the kind of the
 // feature pair that has the first time (FeatureKind), and its vertices.

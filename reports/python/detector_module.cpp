@@ -66,6 +66,19 @@ class PythonDetector {
     });
   }
 
+  py::tuple limit(const py::object& x_t0, const py::object& x_t1) {
+    const PositionsArgument from(x_t0, "x_t0"), to(x_t1, "x_t1");
+    threads_in_this_process(threads_);
+    const OneAtATime alone(busy_);
+    auto limit = interruptible(
+        [&](const auto& stop) { return detector_.limit(from.view(), to.view(), stop); });
+    if (limit.problem) raise(*limit.problem);
+    const auto& first = limit.first;
+    py::object time = py::none();
+    if (limit.answer == detector::Answer::collision) time = py::make_tuple(first.lo, first.hi);
+    return py::make_tuple(limit.share, owning_array(std::move(limit.positions)), time);
+  }
+
   void commit() {
     const OneAtATime alone(busy_);
     if (const auto problem = detector_.commit()) raise(*problem);
@@ -198,6 +211,7 @@ PYBIND11_MODULE(_detector, module) {
       .def("evaluate", &PythonDetector::evaluate)
       .def("commit", &PythonDetector::commit)
       .def("step", &PythonDetector::step)
+      .def("limit", &PythonDetector::limit)
       .def("state", &PythonDetector::state)
       .def("restore", &PythonDetector::restore)
       .def("reset", &PythonDetector::reset);

@@ -240,16 +240,6 @@ py::array contact_points(const py::object& triangles, const py::object& x_t0,
   return points;
 }
 
-// Makes an array of the numbers of a matrix. The array owns the matrix.
-template <class Matrix>
-py::array owning_array(Matrix matrix) {
-  auto kept = std::make_unique<Matrix>(std::move(matrix));
-  const auto* data = kept->data();
-  const py::ssize_t rows = kept->rows(), columns = kept->cols();
-  const py::capsule owner(kept.release(), [](void* gone) { delete static_cast<Matrix*>(gone); });
-  return py::array_t<typename Matrix::Scalar>({rows, columns}, data, owner);
-}
-
 // Returns the triangles, and a list of the positions of each frame.
 py::tuple read_sequence(const std::vector<std::string>& files) {
   const std::vector<std::filesystem::path> paths(files.begin(), files.end());

@@ -138,7 +138,9 @@ std::vector<ContractMember> contract_members() {
           {"time_tolerance", &Description::time_tolerance, {}},
           {"counts", &Description::counts, words_of<detector::CountedLevel>()},
           {"rings", &Description::rings, {}},
-          {"rest_distance", &Description::rest_distance, {}}};
+          {"rest_distance", &Description::rest_distance, {}},
+          {"limit_gives", &Description::limit_gives, words_of<properties::LimitGives>()},
+          {"progress", &Description::progress, {}}};
 }
 
 py::tuple claim_words() {
@@ -264,6 +266,15 @@ class PythonDetector {
     in_python([&] { detector_.attr("commit")(); });
   }
 
+  plugin::Limit limit(Positions x_t0, Positions x_t1) {
+    return in_python([&] {
+      const auto [share, positions] =
+          detector_.attr("limit")(array_of(x_t0), array_of(x_t1))
+              .cast<std::pair<double, py::array_t<double, py::array::c_style>>>();
+      return plugin::Limit::at({positions.data(), positions.data() + positions.size()}, share);
+    });
+  }
+
   std::vector<Pair> candidates(Positions x_t0, Positions x_t1) {
     return in_python([&] {
       return rows_of<Pair>(detector_.attr("candidates")(array_of(x_t0), array_of(x_t1)));
@@ -284,6 +295,7 @@ assay_detector_api made_table() {
     if (!has("evaluate")) made.evaluate = nullptr, made.commit = nullptr, made.result = nullptr;
     if (!has("candidates")) made.candidates = nullptr;
     if (!has("query")) made.query = nullptr;
+    if (!has("limit")) made.limit = nullptr;
     if (!has("use_threads")) made.use_threads = nullptr;
   } catch (const std::exception&) {
     // describe() will say why.

@@ -148,6 +148,7 @@ enum Claim : unsigned {{
 }};
 static const unsigned claims = {};
 static const double time_tolerance = {};
+static const double promised = {};  // of a limiter: its progress
 )";
 
 // "free_sound | total", in the words of the exported file.
@@ -197,7 +198,8 @@ std::string case_text(const corpus::Case& c, const properties::DetectorUnderTest
                              c.triangles.rows(), c.frames[0].rows());
   out += fmt::format(fmt::runtime(lists_text), c.frames[0].rows(), frames, rows.steps,
                      script.size(), rows.pairs, rows.allowed, all_claims_text(),
-                     claims_text(detector, query.has_value()), detector.contract.time_tolerance);
+                     claims_text(detector, query.has_value()), detector.contract.time_tolerance,
+                     detector.contract.progress);
   return out + judging_program;
 }
 

@@ -10,6 +10,8 @@ struct Found {
   double lo = 0, hi = 1;         // the interval of its first time; [0, 1] states none
   std::vector<Pair> pairs;       // that meet, each with the interval of its first time
   std::vector<Pair> candidates;  // of a broad phase; their times do not matter
+  double share = -1;             // of a limiter: of the step; -1: not stated
+  std::vector<double> stop;      // of a limiter: where the caller stops; else empty
   bool is_answered = true;       // false: undecided, or a broad phase alone
   std::string error;             // why it has no answer
 };
@@ -22,6 +24,11 @@ static const Pair* find(const Pair* list, std::size_t count, const Pair& pair) {
 
 static bool begins_after(double lo, double exact) { return lo > exact + time_tolerance; }
 static bool ends_before(double hi, double exact) { return hi < exact - time_tolerance; }
+
+static bool ends_at(const std::vector<double>& stop, int frame) {
+  const double* const x = &frames[frame][0][0];
+  return std::equal(stop.begin(), stop.end(), x);
+}
 
 static const char* word(bool collision) { return collision ? "collision" : "free"; }
 
@@ -76,7 +83,21 @@ static bool is_wrong(int s, const Found& found) {
     has_candidates =
         has_candidates && find(found.candidates.data(), found.candidates.size(), met[i]);
   ask(candidates, "candidates", has_candidates);
+  if (!found.stop.empty() && !(step.collision && step.hi == 0)) {
+    const double ahead = step.collision ? step.lo : 1;
+    const bool is_whole = ends_at(found.stop, step.to);
+    // That the way to other positions is free, `assay replay` alone can tell.
+    ask(commit_free, "commit-free", !(is_whole && step.collision));
+    ask(whole_when_safe, "whole-when-safe", step.collision || is_whole);
+    if (found.share >= 0) {
+      const bool is_before =
+          step.lo == step.hi ? found.share < step.lo : found.share <= step.lo;
+      ask(path_free, "path-free", !step.collision || is_before);
+      ask(progress, "progress", found.share >= promised * ahead * (1 - 1e-15));
+    }
+  }
   if (!wrong) return false;
+  if (!found.stop.empty()) std::printf("  allowed a share of %.17g\n", found.share);
   std::printf("  answered %s", found.is_answered ? word(found.collision) : "nothing");
   if (found.collision) std::printf(" at [%.17g, %.17g]", found.lo, found.hi);
   std::printf(", exact %s", word(step.collision));
@@ -112,6 +133,8 @@ static std::string text_of(const Found& found) {
       add(pair.lo, pair.hi);
     }
   }
+  add(found.share, found.share);
+  for (const double x : found.stop) add(x, x);
   return text + "; " + found.error + "\n";
 }
 
@@ -225,7 +248,21 @@ static bool succeeded(const assay_detector_api* api, const char* function,
 const char* const mesh_program = R"text(
 static const char* lacking(const assay_detector_api* api) {
   const bool has_candidates = api->abi_version >= 2 && api->candidates;
-  return api->create && (api->evaluate || has_candidates) ? "" : "it takes no steps";
+  const bool has_limit = api->abi_version >= 3 && api->limit;
+  return api->create && (api->evaluate || has_candidates || has_limit) ? "" : "it takes no steps";
+}
+
+static void ask_limit(const assay_detector_api* api, assay_handle* handle, const Step& step,
+                      Found& found) {
+  assay_limit raw = {};
+  raw.share = -1;
+  const double *x_t0 = &frames[step.from][0][0], *x_t1 = &frames[step.to][0][0];
+  if (!succeeded(api, "limit", api->limit(handle, x_t0, x_t1, &raw), found)) return;
+  found.share = raw.share;
+  if (raw.share != -1 && !(raw.share >= 0 && raw.share <= 1)) found.error = "its share is none";
+  // Where it says no positions, only whether they are the end is asked here.
+  const double* const stop = raw.positions ? raw.positions : raw.share == 1 ? x_t1 : x_t0;
+  found.stop.assign(stop, stop + 3 * vertex_count);
 }
 
 static void ask_candidates(const assay_detector_api* api, assay_handle* handle, const Step& step,
@@ -275,7 +312,10 @@ static std::vector<Found> run(const assay_detector_api* api) {
     Found broad;
     if (api->abi_version >= 2 && api->candidates) ask_candidates(api, handle, steps[s], broad);
     if (api->evaluate) ask_step(api, handle, steps[s], found);
+    if (api->abi_version >= 3 && api->limit) ask_limit(api, handle, steps[s], broad);
     found.candidates = broad.candidates;
+    found.share = broad.share;
+    found.stop = broad.stop;
     if (found.error.empty()) found.error = broad.error;
   }
   if (handle) api->destroy(handle);

@@ -56,6 +56,21 @@ std::string repeated_text(const std::vector<properties::Repetition>& repeated) {
       repeated.size(), most, steps, differing, judged, wrong, lines);
 }
 
+// How a limiter used what was possible; empty for none.
+std::string limits_text(const properties::LimitUse& use) {
+  if (use.free + use.contact == 0) return "";
+  std::string text = fmt::format("limits: {} of {} free steps cut", use.cut, use.free);
+  if (use.contact == 0) return text + "\n";
+  text += fmt::format(
+      "; of the time until the contact in {} others used {:.3g} in the median, {:.3g} in 99 of "
+      "100, "
+      "{:.3g} at worst; {} stalls\n",
+      use.contact, use.used(0.5), use.used(0.01), use.used(0), use.stalled());
+  for (const auto& [cause, count] : use.stalls)
+    text += fmt::format("  stalled {} time{}: {}\n", count, count == 1 ? "" : "s", cause);
+  return text;
+}
+
 }  // namespace
 
 std::string sizes_text(const std::vector<properties::JudgedSize>& judged_up_to) {
@@ -120,7 +135,8 @@ std::string measures_sentence(const properties::StepMeasures& m) {
   if (m.left_out_misses > 0)
     parts.push_back(fmt::format("{} step{} would be a miss if the contract left nothing out",
                                 m.left_out_misses, m.left_out_misses == 1 ? "" : "s"));
-  return parts.empty() ? "" : fmt::format("whatever it claims: {}\n", joined(parts, "; "));
+  return (parts.empty() ? "" : fmt::format("whatever it claims: {}\n", joined(parts, "; "))) +
+         limits_text(e.limits);
 }
 
 std::string measures_text(const properties::RunFindings& findings) {
@@ -138,7 +154,7 @@ std::string measures_text(const properties::RunFindings& findings) {
   if (all.left_out_misses > 0)
     out += fmt::format("the contract leaves out what would have been a miss in {} steps\n",
                        all.left_out_misses);
-  out += repeated_text(findings.evidence.repeated);
+  out += limits_text(all.errors.limits) + repeated_text(findings.evidence.repeated);
   for (const auto& [claim, reason] : properties::not_judged(findings))
     out += fmt::format("not judged: {}, for {}\n", claim, reason);
   return out;

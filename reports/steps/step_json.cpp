@@ -36,6 +36,17 @@ Json candidates_json(const properties::StepDiff& diff) {
           {"missing", pairs_json(diff.missing_candidates)}};
 }
 
+Json limit_json(const properties::StepDiff& diff) {
+  if (!diff.limit) return nullptr;
+  const auto& limit = *diff.limit;
+  return {{"share", limit.share < 0 ? Json() : Json(limit.share)},
+          {"used", limit.used},
+          {"ahead", limit.ahead ? to_json(*limit.ahead) : Json()},
+          {"contact_on_the_way", limit.hit ? to_json(limit.hit->time) : Json()},
+          {"cut", limit.is_cut},
+          {"stall", limit.stall.empty() ? Json() : Json(limit.stall)}};
+}
+
 Json times_json(const std::vector<properties::WrongTime>& times) {
   Json out = Json::array();
   for (const auto& t : times) {
@@ -72,6 +83,7 @@ Json to_json(const properties::StepDiff& diff) {
           {"late", times_json(diff.late)},
           {"early", times_json(diff.early)},
           {"candidates", candidates_json(diff)},
+          {"limit", limit_json(diff)},
           {"left_out", diff.left_out.size()},
           {"left_out_missed", diff.left_out_missed}};
 }

@@ -83,6 +83,18 @@ std::string times_text(const properties::StepDiff& diff, bool is_built_in) {
                                                : "");
 }
 
+// "  limit: 0.71 of the step, contact ahead at t = 0.75; contact on the way at t = 0.9".
+std::string limit_text(const properties::LimitDiff& limit) {
+  std::string out = fmt::format("  limit: {:.9g} of the {}", limit.used,
+                                limit.share < 0 ? "way, as positions" : "step");
+  out += limit.ahead ? fmt::format(", contact ahead at t = {}", time_text(*limit.ahead))
+                     : ", which has no contact";
+  if (limit.hit)
+    out += fmt::format("; contact on the way at t = {} of it", time_text(limit.hit->time));
+  if (!limit.stall.empty()) out += "; stalls, " + limit.stall;
+  return out + "\n";
+}
+
 // Tells the view sets. A step without views has none, so the reason why takes their place.
 std::string sets_text(const detector::StepResult& result) {
   if (result.views != detector::ViewUse::used)
@@ -152,6 +164,7 @@ std::string step_text(std::size_t number, const detector::StepResult& result,
     out += fmt::format("  candidates: {} pairs, at least {} needed, {} lost\n",
                        diff->candidates->given, diff->candidates->least,
                        diff->missing_candidates.size());
+  if (diff->limit) out += limit_text(*diff->limit);
   out += times_text(*diff, shown.has_stages);
   if (diff->outcome != Outcome::holds || differs(*diff)) out += diff_text(*diff, shown);
   return out;

@@ -1,7 +1,7 @@
 // The self-test up to its first contradiction, in one thread so that the count is always the same.
 // Linked with the oracle as it is, and with an oracle in which one line is wrong (*.fault).
-// An argument is how the names of the families to run begin. Exit code as of `assay self-test`: 0, or 4 on a
-// contradiction.
+// An argument is how the names of the families to run begin. Exit code as of `assay self-test`: 0,
+// or 4 on a contradiction.
 #include <cstdio>
 
 #include "properties/queries/self_check.h"

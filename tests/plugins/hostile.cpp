@@ -101,6 +101,17 @@ Forgery with_candidates(const std::vector<assay::detector::TrianglePair>& pairs)
   return changed([pairs](RunReply& r) { r.run.candidates = {pairs}; });
 }
 
+Eigen::Index vertices_asked = 0;  // of the mesh of the last request
+
+// With positions at `place` of all vertices, of which there are `more` than the mesh has.
+Forgery with_limit(double share, double place, int more = 0) {
+  return [=](RunReply reply) {
+    reply.run.limits = {
+        {{share, assay::detector::Positions::Constant(vertices_asked + more, 3, place)}}};
+    return encode(reply);
+  };
+}
+
 const std::map<std::string, Forgery>& forgeries() {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   static const std::map<std::string, Forgery> all = {
@@ -160,6 +171,14 @@ const std::map<std::string, Forgery>& forgeries() {
       {"forge-candidate-negative", with_candidates({{-1, 1}})},
       {"forge-candidate-twice", with_candidates({{0, 1}, {0, 1}})},
       {"forge-candidate-lies", with_candidates({{0, 1}})},
+      // Of one that claims limits.
+      {"forge-limit-none", changed([](RunReply&) {})},
+      {"forge-limit-missing", changed([](RunReply& r) { r.run.limits.resize(1); })},
+      {"forge-limit-share", with_limit(1.5, 0)},
+      {"forge-limit-no-share", with_limit(-1, 0)},
+      {"forge-limit-not-a-number", with_limit(nan, 0)},
+      {"forge-limit-short", with_limit(0.5, 0, -1)},
+      {"forge-limit-infinite", with_limit(0.5, std::numeric_limits<double>::infinity())},
       // Of a query.
       {"forge-query-count", changed([](RunReply& r) { r.run.steps.resize(2); })},
       {"forge-query-none", changed([](RunReply& r) { r.run.steps.clear(); })},
@@ -192,9 +211,12 @@ const std::map<std::string, Forgery>& forgeries() {
   hello.wire_version = wire_version();
   hello.description = {"forger", mode, {}, {}};
   const bool has_candidates = mode.starts_with("forge-candidate-");
+  const bool has_limit = mode.starts_with("forge-limit-");
   auto& claims = hello.description.claims;
-  claims = claims_from_outside;
+  claims = has_limit ? claims_from_outside : claims_from_outside.without(claims_on_limits);
   claims.set(Claim::candidates, has_candidates);
+  hello.description.parts.limit = has_limit;
+  if (has_limit) hello.description.contract.progress = 0.5;
   hello.description.parts.query = mode.starts_with("forge-query");
   hello.description.parts.candidates = has_candidates;
   channel.send(encode(hello));
@@ -202,6 +224,7 @@ const std::map<std::string, Forgery>& forgeries() {
   while (channel.receive(message) == Transfer::done) {
     RunRequest request;
     if (!decode(message, request)) break;
+    vertices_asked = request.cases.front().frames.front().rows();
     for (std::uint64_t i = 0; i < request.configurations.size(); ++i) {
       channel.send(forgery(all_free(request, i)));
     }

@@ -182,6 +182,7 @@ const assay_detector_api* assay_detector() {
     table.evaluate = evaluate;
     table.commit = commit;
     table.use_threads = use_threads;
+    table.limit = nullptr;
 #else
     table = {};
     table.abi_version = ASSAY_DETECTOR_ABI_VERSION;

@@ -162,6 +162,7 @@ NO_COMMAND = {
     },
     "detector/README.md": {
         '#include "detector/detector.h"': "C++; tests/consumer compiles a whole program like it",
+        "Positions direction = descent(x);": "C++; tests/detector/limit_test.cpp runs such a loop",
     },
     "detector/plugin/README.md": {
         "/* A detector by boxes": "C, the plug-in that is compiled above; a test compares the two",

@@ -34,6 +34,12 @@ std::string reason_against(Claim claim, const Contract& contract, const StepMeas
       break;
     case Claim::candidates:
       return m.least_candidates == 0 ? no_contact : "";
+    case Claim::commit_free:
+    case Claim::path_free:
+    case Claim::progress:
+      return m.errors.limits.contact == 0 ? no_contact : "";
+    case Claim::whole:
+      return m.errors.limits.free == 0 ? "no step was without a contact" : "";
     case Claim::deterministic:
     case Claim::total:
       return "";

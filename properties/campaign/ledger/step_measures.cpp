@@ -31,8 +31,12 @@ constexpr NamedNumber numbers[] = {
 Json difference_from(const Json& none, const Json& json) {
   Json rest = Json::object();
   for (const auto& [name, value] : json.items()) {
-    if (value != none.at(name))
-      rest[name] = value.is_object() ? difference_from(none.at(name), value) : value;
+    const auto known = none.find(name);  // a count by its cause has no name in `none`
+    if (known == none.end()) {
+      rest[name] = value;
+    } else if (value != *known) {
+      rest[name] = value.is_object() ? difference_from(*known, value) : value;
+    }
   }
   return rest;
 }
@@ -107,6 +111,7 @@ bool has_judged_contact(std::span<const StepDiff> diffs) {
   return std::any_of(diffs.begin(), diffs.end(), [](const StepDiff& diff) {
     if (diff.starts_near) return false;
     return diff.has_answer ? diff.first_contact.has_value() && !diff.partial
+           : diff.limit    ? diff.limit->ahead && !diff.partial
                            : diff.candidates && diff.candidates->least > 0;
   });
 }

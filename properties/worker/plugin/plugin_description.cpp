@@ -55,13 +55,26 @@ std::string fault_of_name(std::string_view name) {
   return "";
 }
 
+std::string fault_of_limits(const Claims& claims, const Contract& contract, bool has_limit) {
+  if (claims.has_any(claims_on_limits) != has_limit)
+    return has_limit ? "a function limit, and no claim on what it allows"
+                     : "claims on limits, and no such function";
+  if (claims.has(Claim::progress) != (contract.progress > 0))
+    return "a claim on progress without a number, or a number without the claim";
+  return "";
+}
+
 Claims claims_on_steps(const PluginDescription& description) {
   if (description.parts.steps) return description.claims;
-  return description.claims.only({Claim::deterministic, Claim::total, Claim::candidates});
+  Claims claims = claims_on_limits;
+  for (const Claim claim : {Claim::deterministic, Claim::total, Claim::candidates})
+    claims.set(claim);
+  return description.claims.only(claims);
 }
 
 Claims claims_on_queries(const PluginDescription& description) {
-  return description.claims.without({Claim::first_pairs, Claim::all_pairs, Claim::candidates});
+  return description.claims.without(claims_on_limits)
+      .without({Claim::first_pairs, Claim::all_pairs, Claim::candidates});
 }
 
 }  // namespace assay::properties

@@ -41,6 +41,16 @@ class PluginRun {
     return candidate_pairs(raw, triangle_count_);
   }
 
+  // What the limiter allows in a step, or why it allows nothing.
+  Expected<LimitAnswer> limit(const detector::Positions& x_t0, const detector::Positions& x_t1,
+                              const PluginDescription& description) {
+    assay_limit raw = {};
+    raw.share = -1;
+    const auto asked = called("limit", api_.limit(handle_.get(), x_t0.data(), x_t1.data(), &raw));
+    if (!asked) return asked.error();
+    return limit_answer(raw, description.claims, description.contract, x_t0, x_t1);
+  }
+
   // The result of a step, or why it has none: the same reasons.
   Expected<StepResult> step(const detector::Positions& x_t0, const detector::Positions& x_t1,
                             bool commit) {
@@ -191,7 +201,8 @@ CaseRun PluginHost::run(const corpus::Case& c, bool is_timed) const {
     if (!parts.query) return {RunEnd::refused, "it answers no queries", {}};
     return ask(*query, is_timed);
   }
-  if (!parts.steps && !parts.candidates) return {RunEnd::refused, "it takes no steps", {}};
+  if (!parts.steps && !parts.candidates && !parts.limit)
+    return {RunEnd::refused, "it takes no steps", {}};
   std::vector<detector::Positions> frames;
   for (const auto& frame : c.frames) {
     frames.push_back(contracted(frame, description_.contract.coordinates));
@@ -234,18 +245,19 @@ CaseRun PluginHost::run(const corpus::Case& c, bool is_timed) const {
           problem.kind == ProblemKind::out_of_memory ? Answer::undecided : Answer::error;
       note_error(run, run.steps.size() - 1, line_of(problem.message.c_str()));
     };
-    // The candidates are asked for before the step is evaluated, because nothing may stand between
-    // that and its commit.
-    std::optional<Problem> without_candidates;
-    if (parts.candidates) {
-      auto pairs = plugin.candidates(x_t0, x_t1);
-      run.candidates.emplace_back();
-      if (pairs) {
-        run.candidates.back() = std::move(pairs.value());
+    // Candidates and limits are asked for before the step is evaluated, because nothing may stand
+    // between that and its commit.
+    std::optional<Problem> problem;
+    const auto ask = [&](auto& list, auto&& given) {
+      list.emplace_back();
+      if (given) {
+        list.back() = std::move(given.value());
       } else {
-        without_candidates = pairs.error();
+        problem = given.error();
       }
-    }
+    };
+    if (parts.candidates) ask(run.candidates, plugin.candidates(x_t0, x_t1));
+    if (parts.limit) ask(run.limits, plugin.limit(x_t0, x_t1, description_));
     clock.begin();
     if (parts.steps) {
       auto answered = plugin.step(x_t0, x_t1, step.commit);
@@ -256,7 +268,7 @@ CaseRun PluginHost::run(const corpus::Case& c, bool is_timed) const {
       }
     }
     clock.answered();
-    if (without_candidates) fail(*without_candidates);
+    if (problem) fail(*problem);
   }
   run.times = clock.take();
   return run;

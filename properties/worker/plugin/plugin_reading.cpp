@@ -36,8 +36,9 @@ std::string gap_in(const assay_detector_api& table) {
   const bool any = table.evaluate || table.commit || table.result;
   const bool all = table.evaluate && table.commit && table.result;
   if (any != all) return "a function is missing in its table: evaluate, commit and result are one";
-  if (!all && !table.query && !table.candidates) return "its table holds nothing to judge";
-  const bool needs_handle = all || table.candidates;
+  if (!all && !table.query && !table.candidates && !table.limit)
+    return "its table holds nothing to judge";
+  const bool needs_handle = all || table.candidates || table.limit;
   if (needs_handle && !(table.create && table.destroy))
     return "a function is missing in its table: create or destroy";
   if (table.count && !needs_handle) return "its table counts pairs, and takes no steps";
@@ -70,6 +71,9 @@ std::string read_contract(const assay_description& raw, Contract& contract) {
   if (raw.reports < 0 || raw.reports > ASSAY_REPORTS_NO_PAIRS)
     return unknown("reports", raw.reports);
   if (!read_number(raw.counts, contract.counts)) return unknown("counts", raw.counts);
+  if (!read_number(raw.limit_gives, contract.limit_gives))
+    return unknown("limit_gives", raw.limit_gives);
+  contract.progress = raw.progress;
   contract.rings = raw.rings;
   contract.rest_distance = raw.rest_distance;
   contract.margin = raw.margin;
@@ -124,6 +128,7 @@ Expected<PluginDescription> read_description(const assay_detector_api& table) {
   std::memcpy(&raw, given, bytes_of(table.abi_version).description);
   Claims known = claims_from_outside;
   if (table.abi_version == first_version) known.set(Claim::candidates, false);
+  if (table.abi_version < ASSAY_DETECTOR_ABI_VERSION) known = known.without(claims_on_limits);
   if (raw.claims & ~known.bits()) return broken("unknown bits in its claims");
 
   PluginDescription description;
@@ -138,11 +143,16 @@ Expected<PluginDescription> read_description(const assay_detector_api& table) {
   }
   description.claims = Claims::of_bits(raw.claims);
   description.parts = {table.evaluate != nullptr, table.query != nullptr,
-                       table.candidates != nullptr, table.use_threads != nullptr};
+                       table.candidates != nullptr, table.limit != nullptr,
+                       table.use_threads != nullptr};
   if (description.claims.has(Claim::candidates) && !description.parts.candidates)
     return broken("it claims candidates, and has no such function");
   if (description.parts.candidates && !description.claims.has(Claim::candidates))
     return broken("it has a function for candidates, and does not claim candidates");
+  if (const auto fault =
+          fault_of_limits(description.claims, description.contract, description.parts.limit);
+      !fault.empty())
+    return broken("it has " + fault);
   if (description.parts.query && description.claims.empty())
     return broken("it has a query function, and claims nothing");
   return description;
@@ -195,6 +205,21 @@ std::string read_pairs(const assay_result& raw, std::int32_t triangle_count,
   return "";
 }
 
+// Where a caller stops who computes in this format, one rounding an operation. Share 1 is x_t1.
+template <class Real>
+void stop_at(double share, LimitGives gives, const detector::Positions& x_t0,
+             const detector::Positions& x_t1, detector::Positions& stop) {
+  if (share == 1) return;
+  const auto part = static_cast<Real>(share);
+  for (Eigen::Index i = 0; i < x_t0.size(); ++i) {
+    const auto from = static_cast<Real>(x_t0.data()[i]), to = static_cast<Real>(x_t1.data()[i]);
+    const Real at = gives == LimitGives::blend
+                        ? static_cast<Real>(static_cast<Real>(1 - part) * from) + part * to
+                        : from + part * (to - from);
+    stop.data()[i] = static_cast<double>(at);
+  }
+}
+
 // REQUIRES that the plug-in does not call it an error. Says which rule is broken; empty if none
 // is.
 std::string read_result(const assay_result& raw, std::int32_t triangle_count,
@@ -232,6 +257,28 @@ Expected<detector::StepResult> step_result(const assay_result& raw, std::int32_t
   std::string broken = read_result(raw, triangle_count, result);
   if (!broken.empty()) return Problem{std::move(broken)};
   return result;
+}
+
+Expected<LimitAnswer> limit_answer(const assay_limit& raw, const Claims& claims,
+                                   const Contract& contract, const detector::Positions& x_t0,
+                                   const detector::Positions& x_t1) {
+  const bool has_share = raw.share != -1;
+  if (has_share && !(raw.share >= 0 && raw.share <= 1))
+    return Problem{"its share " + number_text(raw.share) + " is none from 0 to 1"};
+  if (!has_share && claims.has_any({Claim::path_free, Claim::progress}))
+    return Problem{"it states no share, and claims path-free or progress"};
+  LimitAnswer limit{raw.share, x_t1};
+  if (raw.positions) {
+    limit.positions = Eigen::Map<const detector::Positions>(raw.positions, x_t0.rows(), 3);
+  } else if (!has_share || contract.limit_gives == LimitGives::positions) {
+    return Problem{"it gives no positions, and no share from which they could be computed"};
+  } else if (contract.coordinates == Coordinates::float32) {
+    stop_at<float>(raw.share, contract.limit_gives, x_t0, x_t1, limit.positions);
+  } else {
+    stop_at<double>(raw.share, contract.limit_gives, x_t0, x_t1, limit.positions);
+  }
+  if (!limit.positions.allFinite()) return Problem{"it allows positions that are not finite"};
+  return limit;
 }
 
 Expected<std::vector<detector::TrianglePair>> candidate_pairs(const assay_candidates& raw,

@@ -8,6 +8,7 @@
 #include "detector/plugin/assay_detector.h"
 #include "detector/step_result.h"
 #include "properties/problem.h"
+#include "properties/worker/case_run.h"
 #include "properties/worker/plugin/plugin_description.h"
 
 namespace assay::properties {
@@ -35,6 +36,14 @@ Expected<PluginDescription> read_description(const assay_detector_api& table);
 // plug-in reports none, pairs break the rules.
 Expected<detector::StepResult> step_result(const assay_result& raw, std::int32_t triangle_count,
                                            bool reports_pairs = true);
+
+// What a limiter with these claims allows: its share, or -1, and where the caller stops, by its
+// positions or as Contract::limit_gives says. Fails if the share is none, if there are neither
+// positions nor a share to compute them from, if they are not finite, and if a claim speaks of a
+// share that is not stated.
+Expected<LimitAnswer> limit_answer(const assay_limit& raw, const Claims& claims,
+                                   const Contract& contract, const detector::Positions& x_t0,
+                                   const detector::Positions& x_t1);
 
 // The candidate pairs a < b, ascending, each once. Fails if an index is none of a
 // triangle.

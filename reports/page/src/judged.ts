@@ -86,12 +86,23 @@ const off = ({ steps, median, p99, worst }: TimesOff): string =>
 const candidatesText = ({ steps, given, least, over_least }: NonNullable<Stratum["measures"]>["candidates"]): string =>
   steps === 0 ? "\u2013" : `${count(given)} of ${count(least)}` + (least === 0 ? "" : `: ${over_least.toPrecision(3)} times`);
 
+// How much of the time until a contact a limiter uses, and where it stays although it could go.
+const limitsText = ({ free, cut, contact, used, stalls }: NonNullable<Stratum["measures"]>["limits"]): string =>
+  free + contact === 0
+    ? "\u2013"
+    : [
+        `${count(cut)} of ${count(free)} cut`,
+        ...(used === null ? [] : [`${[used.median, used.p1, used.worst].map((x) => x.toPrecision(2)).join(", ")} of ${count(contact)}`]),
+        ...stalls.map(({ cause, steps }) => `stalled ${count(steps)}: ${cause}`),
+      ].join("; ");
+
 // What a plug-in does, be it claimed or not.
 function measures(f: Findings): HTMLElement[] {
   const rows = f.strata.flatMap(({ family, measures }) => (measures === null ? [] : [{ family, measures }]));
   if (rows.length === 0) return [];
   type Row = (typeof rows)[number];
   const gives = rows.some(({ measures }) => measures.candidates.steps > 0);
+  const limits = rows.some(({ measures }) => measures.limits.free + measures.limits.contact > 0);
   return [
     html("p", {}, "Counted whatever is claimed. Intervals have a confidence of 95 %. Late and early: how many steps, and of these the median, 99 of 100 and the worst, in shares of the step."),
     table(
@@ -104,6 +115,7 @@ function measures(f: Findings): HTMLElement[] {
         { head: "late", cell: (r: Row) => off(r.measures.late), number: true },
         { head: "early", cell: (r: Row) => off(r.measures.early), number: true },
         ...(gives ? [{ head: "candidates, of at least", cell: (r: Row) => candidatesText(r.measures.candidates), number: true }] : []),
+        ...(limits ? [{ head: "limits: free steps cut; used until a contact: median, 99 of 100, worst", cell: (r: Row) => limitsText(r.measures.limits) }] : []),
         { head: "left out: cases, steps", cell: (r: Row) => `${count(r.measures.left_out.cases_redrawn)}, ${count(r.measures.left_out.steps)}`, number: true },
       ],
       rows,

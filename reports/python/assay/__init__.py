@@ -33,6 +33,7 @@ from .results import (
     VIOLATED,
     Contacts,
     Judgement,
+    Limit,
     StepCounts,
     StepResult,
     StepTimes,

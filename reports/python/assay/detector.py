@@ -3,7 +3,7 @@
 import numpy.typing as npt
 
 from . import _detector
-from .results import Contacts, StepResult, step_result
+from .results import Contacts, Limit, StepResult, step_result
 
 OPTIONS = _detector.OPTIONS  # the words of each option
 
@@ -75,12 +75,22 @@ class Detector:
         return step_result(self._detector.evaluate(x_t0, x_t1), self._triangles, x_t0, x_t1)
 
     def commit(self) -> None:
-        """Advances the state to the end of the step evaluated last. InputError without one."""
+        """Advances the state to the end of the step or limit asked for last. InputError without one."""
         self._detector.commit()
 
     def step(self, x_t0: npt.ArrayLike, x_t1: npt.ArrayLike) -> StepResult:
         """evaluate() and commit()."""
         return step_result(self._detector.step(x_t0, x_t1), self._triangles, x_t0, x_t1)
+
+    def limit(self, x_t0: npt.ArrayLike, x_t1: npt.ArrayLike) -> Limit:
+        """How far the step may be gone; the state stays as it is.
+
+        To limit.positions the straight way is free, rounding included; commit() then goes there. A
+        step that is free is taken whole; else 0.9 of the time until the contact or more, as far as
+        numbers leave room. Share 0: the mesh is in contact at the start, or as near as they can be.
+        InputError: arithmetic "double" or "float", which prove nothing.
+        """
+        return Limit(*self._detector.limit(x_t0, x_t1))
 
     def state(self) -> State:
         """What later steps rest on, as a value to keep."""

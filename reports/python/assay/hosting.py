@@ -16,12 +16,14 @@ evaluate() answers with None (free) or a result: any object, or dict, with
 so what assay.Detector answers is one. Beside these a class may have name, version, commit(self) and
 
     def candidates(self, x_t0, x_t1): ...                 # (k, 2) pairs: its broad phase
+    def limit(self, x_t0, x_t1): ...                      # how far the step may be gone
     @staticmethod
     def query(kind, x_t0, x_t1): ...                      # "vertex-face" or "edge-edge", (4, 3) each
     @staticmethod
     def use_threads(count): ...
 
-Exceptions are errors of their step; Refused, of create(), is a mesh that is not taken.
+limit() answers with a share (a number), with positions (n, 3), with both (a tuple), or with what has
+`share` or `positions`, as assay.Limit has. Exceptions are errors of their step; Refused, of create(), is a mesh that is not taken.
 """
 
 import importlib
@@ -92,6 +94,25 @@ class Created:
 
     def candidates(self, x_t0, x_t1):
         return _pairs(self.detector.candidates(x_t0, x_t1))
+
+    def limit(self, x_t0, x_t1):
+        """The share, -1 if it is not told, and positions, none if they are not."""
+        told = self.detector.limit(x_t0, x_t1)
+        if isinstance(told, tuple):
+            share, positions = told
+        elif np.ndim(told) == 0 and isinstance(told, (int, float, np.number)):
+            share, positions = told, None
+        elif isinstance(told, np.ndarray):
+            share, positions = None, told
+        else:
+            get = told.get if isinstance(told, dict) else lambda name: getattr(told, name, None)
+            share, positions = get("share"), get("positions")
+        if positions is None:
+            return float(share), np.zeros(0)
+        positions = np.asarray(positions, np.float64)
+        if positions.shape != np.shape(x_t0):
+            raise ValueError(f"positions of shape {positions.shape}: {np.shape(x_t0)} is wanted")
+        return -1.0 if share is None else float(share), positions.reshape(-1)
 
 
 def parts_of(result):

@@ -162,6 +162,19 @@ def step_result(raw: Mapping[str, Any], triangles: Any, x_t0: Any, x_t1: Any) ->
 
 
 @dataclass(frozen=True, eq=False)
+class Limit:
+    """How far a caller may go in a step.
+
+    share: of the step, 0 (stay) to 1 (whole); positions: float64 (n, 3), where the caller stops.
+    first: (lo, hi), the first contact time of the whole step; None if it has no contact.
+    """
+
+    share: float
+    positions: Float64Array
+    first: Optional[Tuple[float, float]]
+
+
+@dataclass(frozen=True, eq=False)
 class Contacts:
     """Answers of k elementary queries.
 

@@ -49,7 +49,8 @@ TEST_F(BuiltinDetector, NumbersAreThoseOfTheLists) {
                               {"stopped", ASSAY_BUILTIN_STOPPED},
                               {"triangle_of_two_bodies", ASSAY_BUILTIN_TRIANGLE_OF_TWO_BODIES},
                               {"wrong_relation", ASSAY_BUILTIN_WRONG_RELATION},
-                              {"wrong_separation", ASSAY_BUILTIN_WRONG_SEPARATION}});
+                              {"wrong_separation", ASSAY_BUILTIN_WRONG_SEPARATION},
+                              {"proves_nothing", ASSAY_BUILTIN_PROVES_NOTHING}});
 }
 
 TEST_F(BuiltinDetector, EveryOptionReachesTheDetector) {

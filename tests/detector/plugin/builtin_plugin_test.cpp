@@ -34,7 +34,8 @@ class Plugin : public testing::Test {
 TEST_F(Plugin, SaysWhatItClaims) {
   EXPECT_EQ(api.abi_version, ASSAY_DETECTOR_ABI_VERSION);
   const assay_description& d = *api.describe();
-  EXPECT_EQ(d.claims, 255u) << "everything";
+  EXPECT_EQ(d.claims, 255u | 15u << 9) << "everything but candidates";
+  EXPECT_EQ(d.progress, 0.9);
   EXPECT_EQ(d.adjacency, ASSAY_ADJACENCY_ALL);
   EXPECT_EQ(d.coordinates, ASSAY_COORDINATES_FLOAT64);
   EXPECT_EQ(d.margin, 0);

@@ -60,7 +60,9 @@ StepDiff judged(const detector::StepResult& result, const oracle::StepJudgement&
 
 TEST(Claims, TheBuiltInClaimsAllButAllPairsWhenItIsAskedForTheFirst) {
   auto all = all_claims();
-  std::erase(all, Claim::candidates);  // of a broad phase by itself
+  // Those of a broad phase and of a limiter are theirs alone.
+  std::erase_if(
+      all, [](Claim claim) { return claim == Claim::candidates || claims_on_limits.has(claim); });
   EXPECT_EQ(list_of(claims_of({})), all);
   const auto first = claims_of({.pairs = detector::Pairs::first});
   for (const auto claim : all) EXPECT_EQ(first.has(claim), claim != Claim::all_pairs);
@@ -71,7 +73,11 @@ TEST(Claims, AreTheBitsOfThePluginInterface) {
   EXPECT_EQ(Claims{Claim::all_pairs}.bits(), ASSAY_CLAIM_ALL_PAIRS);
   EXPECT_EQ(Claims{Claim::total}.bits(), ASSAY_CLAIM_TOTAL);
   EXPECT_EQ(Claims{Claim::candidates}.bits(), ASSAY_CLAIM_CANDIDATES);
-  EXPECT_EQ(all_claims().back(), Claim::candidates);
+  EXPECT_EQ(Claims{Claim::commit_free}.bits(), ASSAY_CLAIM_COMMIT_FREE);
+  EXPECT_EQ(Claims{Claim::path_free}.bits(), ASSAY_CLAIM_PATH_FREE);
+  EXPECT_EQ(Claims{Claim::progress}.bits(), ASSAY_CLAIM_PROGRESS);
+  EXPECT_EQ(Claims{Claim::whole}.bits(), ASSAY_CLAIM_WHOLE);
+  EXPECT_EQ(all_claims().back(), Claim::whole);
 }
 
 TEST(Claims, FollowTheArithmetic) {

@@ -81,6 +81,17 @@ TEST(StepErrors, TimesAreCountedInDoublesToo) {
   EXPECT_EQ(errors.late.quantile(1), 1.2e-16);  // rounded upward
 }
 
+// Late by the least double: also that share is a number in every report.
+TEST(StepErrors, TheLeastShareIsANumber) {
+  const std::vector<PairContact> at_start = {meeting(0, 1, 0)};
+  const double least = std::numeric_limits<double>::denorm_min();
+  const auto late = errors_of_step(Answer::collision, {least, least}, at_start, at_start);
+  EXPECT_EQ(late.late.steps, 1u);
+  EXPECT_GE(late.late.quantile(1), least);
+  EXPECT_LT(late.late.quantile(1), 1e-299);
+  EXPECT_EQ(nlohmann::json(late).get<StepErrors>(), late);
+}
+
 TEST(StepErrors, SumsAndQuantiles) {
   StepErrors sum;
   for (int i = 1; i <= 60; ++i)

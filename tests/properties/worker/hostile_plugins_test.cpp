@@ -104,6 +104,11 @@ TEST_F(Hostile, ForgedRepliesAreCrashes) {
            {"a candidate that is none of the mesh",
             "forge-candidate-beyond forge-candidate-of-one forge-candidate-negative"},
            {"candidates that do not ascend", "forge-candidate-twice"},
+           {"0 limits for 1 steps", "forge-limit-none"},
+           {"no limit beside an answer", "forge-limit-missing"},
+           {"a share that is none",
+            "forge-limit-share forge-limit-no-share forge-limit-not-a-number"},
+           {"positions that are none of the mesh", "forge-limit-short forge-limit-infinite"},
        }) {
     for (const auto& mode : tests::words(modes)) {
       const auto run = this->run(mode);

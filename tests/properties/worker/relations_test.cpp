@@ -132,6 +132,7 @@ TEST(Relations, AnOlderTableLeavesNothingOut) {
   description.counts = 99;
   description.rings = -1;
   assay_detector_api table = *assay_builtin_detector();
+  table.limit = nullptr;
   table.describe = [] { return static_cast<const assay_description*>(&description); };
   table.count = [](assay_handle*, const assay_counted_pairs*) -> std::int32_t { return ASSAY_OK; };
   for (const std::uint32_t version : {1u, 2u}) {

@@ -63,7 +63,8 @@ def test_a_wrong_detector_is_found(way, tmp_path, monkeypatch):
 def test_one_that_differs_from_process_to_process_is_found(detector, tmp_path, monkeypatch, pair):
     monkeypatch.setenv("ASSAY_TEST_WRONG", str(len(WAYS)))
     campaign = tmp_path / "wrong.json"
-    campaign.write_text(json.dumps(CAMPAIGN))
+    more = [dict(stratum, cases=60) for stratum in CAMPAIGN["strata"]]  # some are asked twice
+    campaign.write_text(json.dumps(dict(CAMPAIGN, strata=more)))
     run = assay.run(str(campaign), detector, out=tmp_path / "run")
     assert run.outcome == "defect", run.text
     assert "deterministic" in run.text and "two runs differ" in run.text

@@ -40,7 +40,7 @@ TEST_F(Plugin, TheBuiltInHoldsAsAPlugIn) {
   EXPECT_EQ(check("wrapped_builtin", true, "--fail-on-collision").exit_code, 5);
   EXPECT_EQ(report()["outcome"], "holds");
   EXPECT_EQ(report()["culling"], nullptr);
-  EXPECT_EQ(report()["detector"]["claims"].size(), 8u);
+  EXPECT_EQ(report()["detector"]["claims"].size(), 12u);
   EXPECT_EQ(report()["detector"]["contract"]["adjacency"], "all");
 }
 

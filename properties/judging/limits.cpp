@@ -1,0 +1,146 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "oracle/instant/nearness.h"
+#include "properties/judging/agreement.h"
+#include "properties/judging/cause.h"
+#include "properties/judging/step_truth.h"
+
+namespace assay::properties {
+namespace {
+
+using detector::Positions;
+
+// What a limiter that promises no progress is compared with.
+constexpr double usual_progress = 0.9;
+// One that stays although a vertex could move by so many units in its last place stalls (L17).
+constexpr double ulps_of_a_stall = 16;
+// Where the way is shorter than this, or the gap ahead is narrower, rounding may be what keeps a
+// limiter from its progress, and no claim is broken.
+constexpr double ulps_of_a_way = 1024, ulps_of_a_gap = 64;
+
+double ulp(double x) {
+  const double a = std::abs(x);
+  return std::nextafter(a, std::numeric_limits<double>::infinity()) - a;
+}
+
+// The length of the way to x over that of the whole step, both over all vertices together.
+double share_gone(const detector::SteppedMesh& motion, const Positions& x) {
+  const Positions from = motion.vertices_t0, whole = motion.vertices_t1 - from, gone = x - from;
+  const double unit = std::max(whole.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
+  const double length = (whole / unit).norm();
+  return length > 0 ? (gone / unit).norm() / length : 1;
+}
+
+// Whether this share of the step moves some coordinate by so many units in its last place.
+bool could_move(const detector::SteppedMesh& motion, double share, double ulps) {
+  const Positions from = motion.vertices_t0, way = share * (motion.vertices_t1 - from);
+  for (Eigen::Index i = 0; i < from.size(); ++i) {
+    if (std::abs(way.data()[i]) >= ulps * ulp(from.data()[i])) return true;
+  }
+  return false;
+}
+
+// Whether the share is below the time. A time between two adjacent doubles is above the lower one.
+bool is_before(double share, const detector::TimeEnclosure& time) {
+  return time.lo == time.hi ? share < time.lo : share <= time.lo;
+}
+
+class LimitComparison {
+ public:
+  LimitComparison(const LimitAnswer& answer, const LimitedStep& step, const StepTruth& truth,
+                  const Claims& claims, const Contract& contract)
+      : answer_(answer), step_(step), truth_(truth), claims_(claims), contract_(contract) {}
+
+  void judge(StepDiff& diff) {
+    LimitDiff& limit = diff.limit.emplace();
+    const Positions from = step_.motion.vertices_t0, to = step_.motion.vertices_t1;
+    const auto& first = truth_.first;
+    const bool is_whole = answer_.positions == to, stays = answer_.positions == from;
+    limit.share = answer_.share;
+    if (first) limit.ahead = first->time;
+    const double possible = first ? first->time.lo : 1;
+    limit.used = answer_.share >= 0 ? answer_.share : share_gone(step_.motion, answer_.positions);
+    limit.is_cut = !first && !is_whole;
+    if (is_whole) {
+      limit.hit = first;
+    } else if (!stays) {
+      look_at_the_way(limit);
+    }
+    const double promised = contract_.progress > 0 ? contract_.progress : usual_progress;
+    if (stays && could_move(step_.motion, promised * possible, ulps_of_a_stall))
+      limit.stall = cause_of_stall();
+    const auto breaks = [&](Claim claim, bool is_broken) {
+      if (is_broken && claims_.has(claim)) diff.broken.push_back(claim);
+    };
+    breaks(Claim::commit_free, limit.hit.has_value());
+    if (answer_.share >= 0) {
+      breaks(Claim::path_free, first && !is_before(answer_.share, first->time));
+      // The sign of this is exact but for the least of all doubles.
+      breaks(Claim::progress,
+             std::fma(promised, possible, -answer_.share) > 0 && has_room(promised * possible));
+    }
+    breaks(Claim::whole, limit.is_cut);
+    if (!diff.broken.empty()) {
+      diff.outcome = Outcome::defect;
+    } else if (was_stopped_ && diff.outcome == Outcome::holds) {
+      diff.partial = true;
+      diff.outcome = Outcome::undecided;
+    }
+  }
+
+ private:
+  void look_at_the_way(LimitDiff& limit) {
+    Contract asked = contract_;
+    asked.margin = 0;  // what comes within a slack is no contact
+    const auto judgement = judge_under(asked, {step_.motion.vertices_t0, answer_.positions},
+                                       step_.triangles, step_.options);
+    limit.hit = truth_of(judgement, asked, step_.triangles).first;
+    was_stopped_ = !judgement.complete;
+  }
+
+  bool has_room(double share) const {
+    const Positions from = step_.motion.vertices_t0;
+    const double largest =
+        std::max(from.cwiseAbs().maxCoeff(), step_.motion.vertices_t1.cwiseAbs().maxCoeff());
+    return could_move(step_.motion, share, ulps_of_a_way) &&
+           !oracle::any_nearer_than(from, step_.triangles,
+                                    contract_.separation + ulps_of_a_gap * ulp(largest),
+                                    [](std::int32_t, std::int32_t) { return true; });
+  }
+
+  std::string cause_of_stall() const {
+    if (!truth_.first) return "nothing is in the way";
+    return text_of(
+        cause_of(step_.triangles, step_.motion, *truth_.first, contract_.separation > 0));
+  }
+
+  const LimitAnswer& answer_;
+  const LimitedStep& step_;
+  const StepTruth& truth_;
+  const Claims& claims_;
+  const Contract& contract_;
+  bool was_stopped_ = false;
+};
+
+}  // namespace
+
+void judge_limit(const std::optional<LimitAnswer>& answer, const LimitedStep& step,
+                 const oracle::StepJudgement& judgement, const Claims& claims,
+                 const Contract& contract, StepDiff& diff) {
+  if (!answer || diff.outcome == Outcome::error) return;
+  const StepTruth truth = truth_of(judgement, contract, step.triangles);
+  if (truth.first && truth.first->time.hi == 0) {
+    diff.starts_near |= !diff.has_answer && !diff.candidates;
+    return;
+  }
+  if (judgement.complete) {
+    LimitComparison(*answer, step, truth, claims, contract).judge(diff);
+  } else if (diff.outcome == Outcome::holds) {
+    diff.partial = true;
+    diff.outcome = Outcome::undecided;
+  }
+}
+
+}  // namespace assay::properties

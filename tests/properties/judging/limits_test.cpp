@@ -1,0 +1,168 @@
+// L17: what a limiter allows. Each of its claims is broken once, alone; what numbers leave no room
+// for is counted and breaks nothing.
+#include "properties/judging/agreement.h"
+#include "properties/judging/judged_run.h"
+#include "properties/judging/step_errors.h"
+#include "properties/judging/trial.h"
+#include "tests/sinking_corner.h"
+#include "tests/test.h"
+
+namespace assay::properties {
+namespace {
+
+using detector::Positions;
+
+// The corner sinks from z = 3 to -1, so it is at the plane at t = 3/4.
+constexpr double first_time = 0.75;
+
+CaseRun run_of(const LimitAnswer& answer) {
+  CaseRun run;
+  run.has_answers = false;
+  run.steps.resize(1);
+  run.steps[0].answer = detector::Answer::undecided;
+  run.limits = {answer};
+  return run;
+}
+
+Positions at(const corpus::Case& c, double share) {
+  return c.frames[0] + share * (c.frames[1] - c.frames[0]);
+}
+LimitAnswer stop_at(const corpus::Case& c, double share) { return {share, at(c, share)}; }
+
+Contract limiter(double separation = 0) {
+  Contract contract;
+  contract.progress = 0.5;
+  contract.separation = separation;
+  if (separation > 0) contract.adjacency = Adjacency::no_shared_vertex;
+  return contract;
+}
+
+JudgedRun judged(const corpus::Case& c, const LimitAnswer& answer,
+                 const Contract& contract = limiter(), const Claims& claims = claims_on_limits) {
+  return judge_run(c, run_of(answer), judge_case(c, contract), claims, contract);
+}
+using List = std::vector<Claim>;
+List broken_by(const corpus::Case& c, const LimitAnswer& answer,
+               const Contract& contract = limiter(), const Claims& claims = claims_on_limits) {
+  return judged(c, answer, contract, claims).broken;
+}
+
+TEST(Limits, L17_EachClaimIsBrokenAlone) {
+  const auto c = tests::sinking_corner(-1), free = tests::sinking_corner(1);
+  EXPECT_EQ(broken_by(c, stop_at(c, 0.5)), List{});
+  EXPECT_EQ(broken_by(free, stop_at(free, 1)), List{});
+  // Another place than the share says.
+  EXPECT_EQ(broken_by(c, {0.5, at(c, 0.8)}), List{Claim::commit_free});
+  EXPECT_EQ(broken_by(c, {0.8, at(c, 0.5)}), List{Claim::path_free});
+  EXPECT_EQ(broken_by(c, stop_at(c, 0.25)), List{Claim::progress});
+  EXPECT_EQ(broken_by(free, stop_at(free, 0.75)), List{Claim::whole});
+  EXPECT_EQ(broken_by(free, stop_at(free, 0.25)), (List{Claim::progress, Claim::whole}));
+  for (const Claim claim : list_of(claims_on_limits)) {
+    auto others = claims_on_limits;
+    others.set(claim, false);
+    for (const auto& broken : broken_by(c, stop_at(c, 0.8), limiter(), others))
+      EXPECT_NE(broken, claim);
+  }
+}
+
+TEST(Limits, L17_AShareIsBelowTheTimeToTheLastBit) {
+  const auto c = tests::sinking_corner(-1);
+  const double before = std::nextafter(first_time, 0);
+  EXPECT_EQ(broken_by(c, {before, at(c, 0.5)}), List{});
+  EXPECT_EQ(broken_by(c, {first_time, at(c, 0.5)}), List{Claim::path_free});
+  // A time that is no double: 3/(3+2), between two of them.
+  const auto between = tests::sinking_corner(-2);
+  const auto first = judge_case(between, limiter())[0].first;
+  ASSERT_LT(first.lo, first.hi);
+  EXPECT_EQ(broken_by(between, {first.lo, at(between, 0.5)}), List{});
+  EXPECT_EQ(broken_by(between, {first.hi, at(between, 0.5)}), List{Claim::path_free});
+}
+
+TEST(Limits, L17_PositionsAloneAreJudgedByTheStepToThem) {
+  const auto c = tests::sinking_corner(-1);
+  EXPECT_EQ(broken_by(c, {-1, at(c, 0.7)}), List{});
+  EXPECT_EQ(broken_by(c, {-1, at(c, 0.75)}), List{Claim::commit_free}) << "touching counts";
+  // The straight way to beyond the plane, beside the triangle, is free.
+  Positions beside = c.frames[1];
+  beside(3, 0) = -9;
+  EXPECT_EQ(broken_by(c, {-1, beside}), List{});
+  EXPECT_EQ(broken_by(c, {-1, c.frames[1]}), List{Claim::commit_free}) << "the whole step";
+}
+
+TEST(Limits, L17_WithASeparationTheContactIsWhatComesWithinIt) {
+  const auto c = tests::sinking_corner(0.5);
+  // It comes within 1 when it has sunk by 2 of 2.5.
+  EXPECT_EQ(broken_by(c, stop_at(c, 0.75), limiter(1)), List{});
+  EXPECT_EQ(broken_by(c, stop_at(c, 0.9), limiter(1)),
+            (List{Claim::commit_free, Claim::path_free}));
+  EXPECT_EQ(broken_by(c, stop_at(c, 1), limiter()), List{});
+}
+
+TEST(Limits, L17_NothingIsJudgedOfAStepThatStartsInContact) {
+  auto c = tests::sinking_corner(-1);
+  c.frames[0](3, 2) = 0;
+  const auto verdict = judged(c, stop_at(c, 1));
+  EXPECT_EQ(verdict.broken, List{});
+  EXPECT_FALSE(verdict.steps[0].limit);
+  EXPECT_TRUE(verdict.steps[0].starts_near) << "it counts for no n";
+}
+
+TEST(Limits, L17_WhereNumbersLeaveNoRoomNoProgressIsOwed) {
+  // At z = 1 +- a few ulps of 4, the largest coordinate, above the plane z = 1.
+  auto c = tests::sinking_corner(-1);
+  const double ulp = 0x1p-50;
+  for (auto& frame : c.frames) frame.topRows(3).col(2).array() = 1;
+  const auto stays_at = [&](double gap) {
+    c.frames[0](3, 2) = 1 + gap * ulp;
+    return broken_by(c, stop_at(c, 0));
+  };
+  EXPECT_EQ(stays_at(63), List{});
+  EXPECT_EQ(stays_at(65), List{}) << "the way until the contact is as short";
+  EXPECT_EQ(stays_at(8192), List{Claim::progress});
+}
+
+TEST(Limits, L17_UseAndStallsAreCountedWhateverIsClaimed) {
+  const auto c = tests::sinking_corner(-1), free = tests::sinking_corner(1);
+  const auto use_of = [](const corpus::Case& of, const LimitAnswer& answer) {
+    return errors_of(judged(of, answer, limiter(), {Claim::total}).steps[0]).limits;
+  };
+  LimitUse all = use_of(c, stop_at(c, 0.375));
+  EXPECT_EQ(all.used(0), 0.5);
+  EXPECT_EQ(all.stalled(), 0u);
+  all += use_of(c, stop_at(c, 0));
+  all += use_of(c, {-1, at(c, 0.6)});
+  all += use_of(free, stop_at(free, 0.75));
+  all += use_of(free, stop_at(free, 1));
+  EXPECT_EQ(all.free, 2u);
+  EXPECT_EQ(all.cut, 1u);
+  EXPECT_EQ(all.contact, 3u);
+  EXPECT_EQ(all.used(0), 0);
+  EXPECT_EQ(all.used(0.5), 0.5);
+  EXPECT_NEAR(all.used(1), 0.8, 0.01);
+  EXPECT_EQ(all.stalls, (std::map<std::string, std::uint64_t>{{"t inside, moving, generic", 1}}));
+}
+
+TEST(Limits, L17_AFailureTellsHowFarItWouldHaveBeenFree) {
+  const auto c = tests::sinking_corner(-1);
+  DetectorUnderTest detector;
+  detector.built_in = false;
+  detector.claims = claims_on_limits;
+  detector.contract = limiter();
+  const auto failure_of = [&](const LimitAnswer& answer) {
+    const auto verdict =
+        judge_trial(c, judge_case(c, detector.contract), run_of(answer), {"limiter", {}}, detector);
+    EXPECT_TRUE(verdict.failure);
+    return verdict.failure.value_or(Failure{});
+  };
+  const auto hit = failure_of(stop_at(c, 0.8));
+  EXPECT_EQ(hit.signature(),
+            "commit-free: contact on the way, vertex-face, t inside, moving, generic");
+  EXPECT_NE(hit.explanation.find("allowed a share of 0.8"), std::string::npos) << hit.explanation;
+  EXPECT_EQ(failure_of({0.8, at(c, 0.5)}).kind, "share too large");
+  const auto small = failure_of(stop_at(c, 0.25));
+  EXPECT_EQ(small.kind, "share too small");
+  EXPECT_NE(small.explanation.find("promised 0.5"), std::string::npos) << small.explanation;
+}
+
+}  // namespace
+}  // namespace assay::properties

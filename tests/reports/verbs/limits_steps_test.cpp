@@ -1,0 +1,103 @@
+// Limiters: the right ones hold, of each wrong one a campaign finds a case, names the claim and
+// shrinks it to two or three triangles; the texts tell how much of what was possible was used.
+#include <nlohmann/json.hpp>
+
+#include "corpus/cases/case_file.h"
+#include "tests/reports/tiny_campaign.h"
+
+namespace assay::tests {
+namespace {
+
+// tests/plugins/limits_steps.cpp says what the words are.
+class LimitsSteps : public testing::Test {
+ protected:
+  const Scratch scratch;
+  const std::string out = scratch / "out";
+
+  std::string words(const std::string& said) const {
+    return "ASSAY_LIMITS_STEPS=\"" + said + "\" ";
+  }
+  // With edges that are parallel, and neighbouring doubles.
+  Outcome run(const std::string& said) const {
+    std::filesystem::remove_all(out);
+    const auto plan = scratch.write(
+        "plan.json",
+        R"({"schema": "assay-campaign/1", "name": "tiny", "seconds": null, "strata": [)"
+        R"({"family": "closed-generic", "cases": 30}, {"family": "unclosed-generic", "cases": 20},)"
+        R"({"family": "unclosed-degenerate", "cases": 120}, {"family": "broken", "cases": 20}]})");
+    return run_assay(
+        "run --campaign " + plan + " --out " + out + " --detector " + plugin("limits_steps"),
+        words(said));
+  }
+};
+
+TEST_F(LimitsSteps, TheRightOnesHold) {
+  for (const std::string said : {"", "positions", "share-alone", "separation=0.01"}) {
+    const auto ran = run(said);
+    EXPECT_EQ(ran.exit_code, 0) << said << ran.out << ran.err;
+    EXPECT_TRUE(contains(ran.out, "used 0.95 in the median")) << ran.out;
+    EXPECT_TRUE(contains(ran.out, "limits: 0 of ")) << ran.out;
+  }
+}
+
+TEST_F(LimitsSteps, EachFaultIsFoundWithTheRightClaimAndShrunk) {
+  const std::vector<std::pair<std::string, std::string>> faults = {
+      {"rounds-up", "path-free"},     {"nearest-vertex", "commit-free"},
+      {"forgets-one", "commit-free"}, {"ignores-it separation=0.01", "commit-free"},
+      {"last-pair", "commit-free"},   {"float-end", "commit-free"},
+      {"stale-start", "commit-free"}, {"at-contact", "commit-free"},
+      {"parallel-zero", "progress"},  {"by-order", "commit-free"}};
+  for (const auto& [said, claim] : faults) {
+    const auto ran = run(said);
+    EXPECT_EQ(ran.exit_code, 1) << said << ran.out << ran.err;
+    EXPECT_TRUE(contains(ran.out, "DEFECT " + claim + ": ")) << said << ran.out;
+    std::size_t least = 1000;
+    for (const auto& file : std::filesystem::directory_iterator(out + "/failures")) {
+      if (!contains(file.path().filename().string(), "-smallest.json")) continue;
+      const auto c = corpus::read_case(file.path());
+      if (c) least = std::min(least, static_cast<std::size_t>(c.value().triangles.rows()));
+    }
+    EXPECT_LE(least, 3u) << said;
+  }
+}
+
+// One step of two triangles: what check, its report, replay and the picture say of it.
+TEST_F(LimitsSteps, AFailureIsShownWithTheWayThatWasAllowed) {
+  const auto folder = scratch / "frames";
+  std::filesystem::create_directory(folder);
+  const auto frame = [&](double z) {
+    const auto file = folder + "/" + std::to_string(z) + ".obj";
+    std::ofstream(file) << "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 1 " << z
+                        << "\nv 2 1 4\nv 1 2 4\nf 1 2 3\nf 4 5 6\n";
+    return file;
+  };
+  const std::string asked = "check " + frame(3) + " " + frame(-1) + " --detector " +
+                            plugin("limits_steps") + " --json " + (scratch / "report.json");
+  const auto right = run_assay(asked, words(""));
+  EXPECT_EQ(right.exit_code, 0) << right.out << right.err;
+  EXPECT_TRUE(contains(right.out, "limit: 0.7125 of the step, contact ahead at t = 0.75"))
+      << right.out;
+  const auto wrong = run_assay(asked, words("at-contact"));
+  EXPECT_EQ(wrong.exit_code, 1);
+  EXPECT_TRUE(contains(wrong.out, "contact on the way at t = 1 of it")) << wrong.out;
+  EXPECT_TRUE(contains(wrong.out, "broken: commit-free path-free")) << wrong.out;
+  const auto report = nlohmann::json::parse(read_text(scratch / "report.json"));
+  const auto& limit = report["steps"][0]["diff"]["limit"];
+  EXPECT_EQ(limit["share"], 0.75);
+  EXPECT_EQ(limit["contact_on_the_way"], nlohmann::json::parse("[1, 1]")) << limit;
+
+  ASSERT_EQ(run("at-contact").exit_code, 1);
+  std::string smallest;
+  for (const auto& file : std::filesystem::directory_iterator(out + "/failures")) {
+    if (contains(file.path().filename().string(), "-smallest.json")) smallest = file.path();
+  }
+  const auto replayed = run_assay("replay " + smallest + " --detector " + plugin("limits_steps"),
+                                  words("at-contact"));
+  EXPECT_EQ(replayed.exit_code, 1) << replayed.out << replayed.err;
+  EXPECT_TRUE(contains(replayed.out, "commit-free")) << replayed.out;
+  const auto svg = read_text(std::filesystem::path(smallest).replace_extension(".svg").string());
+  EXPECT_TRUE(contains(svg, "t = 1<")) << "the contact is at the end of the way\n" << svg;
+}
+
+}  // namespace
+}  // namespace assay::tests
