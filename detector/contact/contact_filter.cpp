@@ -34,7 +34,11 @@ struct FilterSearch {
 
 }  // namespace
 
-bool separated_along_an_axis(const FourPoints& query, double by) {
+namespace {
+
+// `is_below` says of two numbers whether the first is below the other, by as much as is asked.
+template <class IsBelow>
+bool are_separated(const FourPoints& query, const IsBelow& is_below) {
   const int split = query.first_group;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto sense_at = [&](const Point MovingPoint::*end) {
@@ -48,12 +52,20 @@ bool separated_along_an_axis(const FourPoints& query, double by) {
           hi[group] = std::max(hi[group], x);
         }
       }
-      return lo[1] - hi[0] > by ? -1 : lo[0] - hi[1] > by ? 1 : 0;
+      return is_below(hi[0], lo[1]) ? -1 : is_below(hi[1], lo[0]) ? 1 : 0;
     };
     const int sense = sense_at(&MovingPoint::t0);
     if (sense != 0 && sense_at(&MovingPoint::t1) == sense) return true;
   }
   return false;
+}
+
+}  // namespace
+
+bool separated_along_an_axis(const FourPoints& query, double by) {
+  // A plain comparison is faster than a difference, and most questions are of contact.
+  if (by == 0) return are_separated(query, [](double a, double b) { return a < b; });
+  return are_separated(query, [by](double a, double b) { return b - a > by; });
 }
 
 FilterResult filter_contact(const FourPoints& query, Want want) {

@@ -12,6 +12,7 @@
 #include "oracle/mesh/pair_relation.h"
 #include "properties/campaign/ledger/evidence.h"
 #include "properties/campaign/ledger/store_problem.h"
+#include "properties/campaign/phases/walks.h"
 #include "properties/campaign/plan.h"
 #include "properties/campaign/trials/trials.h"
 #include "properties/judging/judged_run.h"
@@ -162,6 +163,7 @@ CaseRun step_alone(const CaseRun& run, std::size_t s) {
   CaseRun one;
   one.steps = {run.steps[s]};
   if (s < run.candidates.size()) one.candidates = {run.candidates[s]};
+  if (s < run.limits.size()) one.limits = {run.limits[s]};
   one.has_answers = run.has_answers;
   return one;
 }
@@ -274,6 +276,13 @@ class Repetitions {
         built_in_(request.worker, std::nullopt, {}),
         lasting_(lasting) {}
 
+  // Where the limiter lets a step stop, by itself, in the process of the first run.
+  std::optional<detector::Positions> limit_of(const corpus::Case& step) {
+    const auto run = run_once(step, 0);
+    if (run.limits.empty() || !run.limits[0]) return std::nullopt;
+    return run.limits[0]->positions;
+  }
+
   void put(const corpus::Case& c, JudgedSteps judged) {
     Repetition row;
     row.input = c.id;
@@ -368,7 +377,7 @@ class Repetitions {
           {s + 1, facts.starts_near ? 0 : facts.pairs.size(), judged.outcome == Outcome::holds});
       if (!judged.failure) continue;
       auto failure = *judged.failure;
-      failure.cause = "large mesh";
+      if (!c.id.starts_with(walk_in_id)) failure.cause = "large mesh";
       if (kept[failure.signature()]++ < most_kept) keep(c, s, run, failure);
     }
   }
@@ -458,6 +467,14 @@ void repeat_large_meshes(const CampaignRequest& request, Store& store, LastingWo
       put(name_of_form(scene, form), JudgedSteps::some, [&] {
         return repeated_scene(scene, request.plan.policy.repeated_triangles, request.seed, form);
       });
+  }
+  if (request.description.parts.limit) {
+    for (const auto kind : all_values<WalkKind>) {
+      put(name_of_walk(kind), JudgedSteps::all, [&] {
+        return walk(kind, request.seed, steps_of_a_walk, detector.contract,
+                    [&](const corpus::Case& step) { return repetitions.limit_of(step); });
+      });
+    }
   }
   for (const auto& c : request.repeated) put(c.id, JudgedSteps::none, [&] { return c; });
 }

@@ -62,6 +62,8 @@ corpus::Case long_sequence(std::uint64_t seed);
 // it, the scene up to this step. Of the long sequence the oracle judges every step, and the first
 // four steps of each signature are kept.
 //
+// A limiter is walked besides, in each WalkKind (walks.h), and the oracle judges every step.
+//
 // Throws StoreProblem; so it is for campaign/ alone.
 void repeat_large_meshes(const CampaignRequest& request, Store& store, LastingWorker& lasting,
                          RunDeadline deadline,
