@@ -131,6 +131,11 @@ enum {
  * does. */
 enum { ASSAY_COUNTS_TRIANGLES = 0, ASSAY_COUNTS_FEATURES = 1 };
 
+/* How a detector is told where a step goes. With displacements, every function that has an x_t1 is
+ * given x_t1 - x_t0 in its place, and vertex i moves from x to x + d, the exact sum of two float32
+ * numbers. Its coordinates are float32. A limiter's share 1 means the float32 nearest to that sum. */
+enum { ASSAY_MOTION_ENDS = 0, ASSAY_MOTION_DISPLACEMENT = 1 };
+
 /* Where a limiter that states a share of the step lets the caller stop: at positions that it gives
  * itself, or where the caller's own code computes them from the share. The host computes them as
  * that code does, in the contract's coordinates, one rounding an operation. */
@@ -184,6 +189,7 @@ typedef struct assay_description {
   double rest_distance; /* pairs nearer to each other at rest, user's units; 0: none */
   int32_t limit_gives;  /* ASSAY_LIMIT_...: where the caller stops who is told a share alone */
   double progress;      /* what ASSAY_CLAIM_PROGRESS promises: above 0, at most 1; else 0 */
+  int32_t motion;       /* ASSAY_MOTION_... */
 } assay_description;
 
 /* The detector's own data of one mesh. */

@@ -38,6 +38,10 @@ std::string fault_of(const Contract& contract) {
   if (!is_length(contract.rest_distance)) return "its rest_distance is no length";
   if (!(contract.progress >= 0 && contract.progress <= 1))
     return "its progress is no share from 0 to 1";
+  if (contract.motion == MotionGiven::displacement && contract.coordinates != Coordinates::float32)
+    return "its motion is a displacement, and its coordinates are not float32";
+  if (contract.motion == MotionGiven::displacement && contract.limit_gives == LimitGives::blend)
+    return "it stops at a blend of both ends, and is given a displacement";
   if (!(contract.time_tolerance >= 0)) return "its time_tolerance is no time";
   if (contract.time_tolerance > widest_time_tolerance)
     return "its time_tolerance " + number_text(contract.time_tolerance) + " is above " +
@@ -53,6 +57,7 @@ std::vector<std::string> phrases_of(const Contract& contract) {
   if (contract.adjacency != Adjacency::all) say("neighbours ", name_of(contract.adjacency));
   if (contract.coordinates != Coordinates::float64)
     say("coordinates ", name_of(contract.coordinates));
+  if (contract.motion != MotionGiven::ends) say("motion ", name_of(contract.motion));
   if (contract.separation > 0) say("within ", number_text(contract.separation));
   if (contract.margin > 0) say("margin ", number_text(contract.margin));
   if (contract.start == StartRule::free) list.emplace_back("starts free");
@@ -103,6 +108,11 @@ bool leaves_out(const Contract& contract, const detector::TrianglesView& triangl
 detector::Positions contracted(const detector::PositionsView& x, Coordinates coordinates) {
   if (coordinates == Coordinates::float64) return x;
   return x.cast<float>().cast<double>();
+}
+
+detector::Positions displacement(const detector::PositionsView& x_t0,
+                                 const detector::PositionsView& x_t1) {
+  return contracted(x_t1 - x_t0, Coordinates::float32);
 }
 
 double length_of(const detector::PositionsView& x, const Edge& edge) {

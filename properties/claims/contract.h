@@ -56,6 +56,16 @@ constexpr auto names_of(TestedFeatures) {
       {{both, "both"}, {vertex_face, "vertex-face"}, {edge_edge, "edge-edge"}});
 }
 
+// How a detector is told where a step goes.
+enum class MotionGiven : std::uint8_t {
+  ends,          // by the positions at its end
+  displacement,  // by what is added to those at its start; the exact sum is the end
+};
+constexpr auto names_of(MotionGiven) {
+  return std::to_array<Named<MotionGiven>>(
+      {{MotionGiven::ends, "ends"}, {MotionGiven::displacement, "displacement"}});
+}
+
 // Where a limiter that states a share of a step lets the caller stop (L17).
 enum class LimitGives : std::uint8_t {
   positions,   // where it says itself
@@ -104,6 +114,9 @@ struct Contract {
   // contact time it promises (Claim::progress); 0: none.
   LimitGives limit_gives = LimitGives::positions;
   double progress = 0;
+  // Displacements are in float32 alone: the end of a step is then a double, in which the oracle
+  // holds it.
+  MotionGiven motion = MotionGiven::ends;
   friend bool operator==(const Contract&, const Contract&) = default;
 
   bool has_range() const { return largest > 0; }
@@ -124,7 +137,7 @@ template <class Archive>
 void fields(Archive& archive, Contract& contract) {
   auto& [adjacency, coordinates, margin, start, start_distance, least_nonzero, largest, features,
          time_tolerance, reports_pairs, separation, counts, rings, rest_distance, takes_relations,
-         limit_gives, progress] = contract;
+         limit_gives, progress, motion] = contract;
   archive("adjacency", adjacency, "coordinates", coordinates, "margin", margin);
   archive("start", start, "start_distance", start_distance);
   archive("least_nonzero", least_nonzero, "largest", largest, "features", features);
@@ -132,7 +145,7 @@ void fields(Archive& archive, Contract& contract) {
   archive("separation", separation);
   archive("counts", counts, "rings", rings, "rest_distance", rest_distance);
   archive("takes_relations", takes_relations);
-  archive("limit_gives", limit_gives, "progress", progress);
+  archive("limit_gives", limit_gives, "progress", progress, "motion", motion);
 }
 
 // The shortest decimal that reads back to the same double. It is made without libfmt, because the
@@ -159,6 +172,10 @@ bool leaves_out(const Contract& contract, const detector::TrianglesView& triangl
 // The positions that the detector and the oracle are both given. A coordinate that has no float32
 // becomes infinite.
 detector::Positions contracted(const detector::PositionsView& x, Coordinates coordinates);
+
+// The displacement of a step that a detector of float32 is given: the nearest to its way.
+detector::Positions displacement(const detector::PositionsView& x_t0,
+                                 const detector::PositionsView& x_t1);
 
 using Edge = std::array<std::int32_t, 2>;
 

@@ -56,6 +56,32 @@ std::string why_no_frame(const detector::PositionsView& x, const std::vector<Edg
   return beyond_range(x, edges, contract);
 }
 
+// Gives each step a start and an end of its own: the end is the exact sum of the start and of the
+// displacement that leads nearest to the end that was given. False if a sum is no double.
+bool hold_displacements(corpus::Case& c, const corpus::Case& given) {
+  const auto steps = corpus::steps_of(c);
+  std::vector<detector::Positions> frames;
+  std::vector<corpus::CaseStep> script;
+  for (const auto& step : steps) {
+    const auto& x = start_of(c, step);
+    const detector::Positions way = displacement(x, end_of(given, step)), end = x + way;
+    // What is rounded is not the same when either part is taken away again.
+    if (!end.allFinite() || end - x != way || end - way != x) return false;
+    const auto place = static_cast<std::int32_t>(frames.size());
+    script.push_back({place, place + 1, step.commit});
+    frames.push_back(x);
+    frames.push_back(end);
+  }
+  if (frames == c.frames && script == steps) return true;
+  c.frames = std::move(frames);
+  c.script = std::move(script);
+  if (c.script == corpus::consecutive_steps(c.frames.size())) c.script.clear();
+  c.view.reset();
+  c.ghosts.reset();
+  if (c.expected.answer != detector::Answer::error) c.expected = {};
+  return true;
+}
+
 // From a list with an entry for each frame, takes the entries of these frames. An empty list stays
 // empty.
 template <class List>
@@ -131,6 +157,8 @@ std::optional<corpus::Case> contracted(const corpus::Case& c, const Contract& co
     frame = std::move(taken);
     if (!why_no_frame(frame, edges, contract).empty()) return std::nullopt;
   }
+  if (contract.motion == MotionGiven::displacement && !hold_displacements(out, c))
+    return std::nullopt;
   if (says_query(out)) {
     const auto query = query_of(out);
     return query && takes(contract, *query) ? std::optional(out) : std::nullopt;
@@ -171,9 +199,12 @@ std::string why_left_out(const corpus::Case& c, const Contract& contract) {
                          query_word(*query));
     return fmt::format("start {}: the two features start {}", start, distance);
   }
+  corpus::Case seen = c;
+  if (contract.motion == MotionGiven::displacement && !hold_displacements(seen, c))
+    return "motion displacement: the end of a step is no double";
   const auto steps = corpus::steps_of(c);
   const auto x = contracted(start_of(c, steps.front()), contract.coordinates);
-  corpus::Case seen = c;
+  seen = c;
   for (auto& frame : seen.frames) frame = contracted(frame, contract.coordinates);
   if (!contract_relation(seen, contract)) return "a place at rest has no float32";
   const auto pair = pair_too_near(x, seen, contract);

@@ -57,13 +57,15 @@ class LimitComparison {
     LimitDiff& limit = diff.limit.emplace();
     const Positions from = step_.motion.vertices_t0, to = step_.motion.vertices_t1;
     const auto& first = truth_.first;
-    const bool is_whole = answer_.positions == to, stays = answer_.positions == from;
+    // The end of a displacement is where the caller's own numbers place it.
+    const bool is_whole = answer_.positions == contracted(to, contract_.coordinates);
+    const bool stays = answer_.positions == from;
     limit.share = answer_.share;
     if (first) limit.ahead = first->time;
     const double possible = first ? first->time.lo : 1;
     limit.used = answer_.share >= 0 ? answer_.share : share_gone(step_.motion, answer_.positions);
     limit.is_cut = !first && !is_whole;
-    if (is_whole) {
+    if (answer_.positions == to) {
       limit.hit = first;
     } else if (!stays) {
       look_at_the_way(limit);

@@ -140,7 +140,8 @@ std::vector<ContractMember> contract_members() {
           {"rings", &Description::rings, {}},
           {"rest_distance", &Description::rest_distance, {}},
           {"limit_gives", &Description::limit_gives, words_of<properties::LimitGives>()},
-          {"progress", &Description::progress, {}}};
+          {"progress", &Description::progress, {}},
+          {"motion", &Description::motion, words_of<properties::MotionGiven>()}};
 }
 
 py::tuple claim_words() {

@@ -149,6 +149,7 @@ enum Claim : unsigned {{
 static const unsigned claims = {};
 static const double time_tolerance = {};
 static const double promised = {};  // of a limiter: its progress
+static const bool takes_displacements = {};  // in place of ends
 )";
 
 // "free_sound | total", in the words of the exported file.
@@ -199,7 +200,8 @@ std::string case_text(const corpus::Case& c, const properties::DetectorUnderTest
   out += fmt::format(fmt::runtime(lists_text), c.frames[0].rows(), frames, rows.steps,
                      script.size(), rows.pairs, rows.allowed, all_claims_text(),
                      claims_text(detector, query.has_value()), detector.contract.time_tolerance,
-                     detector.contract.progress);
+                     detector.contract.progress,
+                     detector.contract.motion == properties::MotionGiven::displacement);
   return out + judging_program;
 }
 

@@ -190,6 +190,17 @@ const char* const reading_program =
 
 static bool is_time(double lo, double hi) { return 0 <= lo && lo <= hi && hi <= 1; }
 
+// Where a step goes, as the detector is told it: by its end or by its displacement.
+static const double* told(const Step& step) {
+  const double *x_t0 = &frames[step.from][0][0], *x_t1 = &frames[step.to][0][0];
+  if (!takes_displacements) return x_t1;
+  static std::vector<double> way;
+  way.clear();
+  for (std::size_t i = 0; i < sizeof frames[0] / sizeof(double); ++i)
+    way.push_back(static_cast<float>(x_t1[i] - x_t0[i]));
+  return way.data();
+}
+
 // Returns what breaks the rules of the interface; empty if nothing does.
 static std::string read_pairs(std::uint64_t count, const std::int32_t* raw,
                               const double* times, std::vector<Pair>& list) {
@@ -257,7 +268,7 @@ static void ask_limit(const assay_detector_api* api, assay_handle* handle, const
   assay_limit raw = {};
   raw.share = -1;
   const double *x_t0 = &frames[step.from][0][0], *x_t1 = &frames[step.to][0][0];
-  if (!succeeded(api, "limit", api->limit(handle, x_t0, x_t1, &raw), found)) return;
+  if (!succeeded(api, "limit", api->limit(handle, x_t0, told(step), &raw), found)) return;
   found.share = raw.share;
   if (raw.share != -1 && !(raw.share >= 0 && raw.share <= 1)) found.error = "its share is none";
   // Where it says no positions, only whether they are the end is asked here.
@@ -269,7 +280,7 @@ static void ask_candidates(const assay_detector_api* api, assay_handle* handle, 
                            Found& found) {
   assay_candidates raw = {};
   const std::int32_t code =
-      api->candidates(handle, &frames[step.from][0][0], &frames[step.to][0][0], &raw);
+      api->candidates(handle, &frames[step.from][0][0], told(step), &raw);
   if (!succeeded(api, "candidates", code, found)) return;
   found.error = read_pairs(raw.pair_count, raw.pairs, nullptr, found.candidates);
 }
@@ -277,7 +288,7 @@ static void ask_candidates(const assay_detector_api* api, assay_handle* handle, 
 static void ask_step(const assay_detector_api* api, assay_handle* handle, const Step& step,
                      Found& found) {
   assay_result raw = {};
-  const std::int32_t code = api->evaluate(handle, &frames[step.from][0][0], &frames[step.to][0][0]);
+  const std::int32_t code = api->evaluate(handle, &frames[step.from][0][0], told(step));
   if (!succeeded(api, "evaluate", code, found)) return;
   if (!succeeded(api, "result", api->result(handle, &raw), found)) return;
   const bool reports_none =
@@ -333,7 +344,7 @@ static std::vector<Found> run(const assay_detector_api* api) {
   assay_query_result raw = {};
   const std::int32_t code =
       api->query(is_vertex_face ? ASSAY_QUERY_VERTEX_FACE : ASSAY_QUERY_EDGE_EDGE,
-                 &frames[steps[0].from][0][0], &frames[steps[0].to][0][0], &raw);
+                 &frames[steps[0].from][0][0], told(steps[0]), &raw);
   assay_result alike = {};
   alike.answer = raw.answer;
   alike.first_lo = raw.first_lo;

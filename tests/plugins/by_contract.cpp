@@ -16,6 +16,7 @@
 //   drop-last                                does not report its last pair
 //   no-interval                              its first time is none
 //   changing                                 the interval of every second first time ends at 1
+//   rounds-end                               rounds the end of a displacement to float32
 //   print=N                                  prints N lines a step, with an escape character
 #include <algorithm>
 #include <atomic>
@@ -64,6 +65,7 @@ class ByContract {
   Result evaluate(assay::plugin::Positions start, assay::plugin::Positions end) {
     x_t0 = start.data();
     x_t1 = end.data();
+    if (told.has("displacement")) x_t1 = end_of_displacement(end);
     Result found = Result::collision();
     TimeEnclosure first{2, 2};
     const double shift = told.number_of("late") - told.number_of("early");
@@ -107,6 +109,16 @@ class ByContract {
   }
 
  private:
+  const double* end_of_displacement(assay::plugin::Positions way) {
+    ends.assign(way.data(), way.data() + 3 * way.size());
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+      ends[i] += x_t0[i];  // exact, in doubles
+      if (told.has("rounds-end")) ends[i] = static_cast<float>(ends[i]);
+    }
+    return ends.data();
+  }
+
+  std::vector<double> ends;
   std::vector<std::array<std::int32_t, 3>> triangles;
   std::size_t vertices;
   const double *x_t0 = nullptr, *x_t1 = nullptr;  // of the step under way

@@ -2,7 +2,8 @@
 // Those that describe a detector are the same for all plug-ins:
 //
 //   start=free, start=apart:D, range=LO:HI, features=vertex-face, features=edge-edge, tolerance=T,
-//   margin=D, separation=D, no-pairs, adjacency=NUMBER, float32, claims=BITS
+//   margin=D, separation=D, no-pairs, adjacency=NUMBER, float32,
+//   displacement, claims=BITS
 #pragma once
 
 #include <cstdlib>
@@ -48,6 +49,7 @@ class Told {
     d.adjacency = static_cast<std::int32_t>(number_of("adjacency"));
     if (has("no-pairs")) d.reports = ASSAY_REPORTS_NO_PAIRS;
     if (has("float32")) d.coordinates = ASSAY_COORDINATES_FLOAT32;
+    if (has("displacement")) d.motion = ASSAY_MOTION_DISPLACEMENT;
     if (is("features", "vertex-face")) d.features = ASSAY_FEATURES_VERTEX_FACE;
     if (is("features", "edge-edge")) d.features = ASSAY_FEATURES_EDGE_EDGE;
     if (is("start", "free")) d.start = ASSAY_START_FREE;

@@ -1,6 +1,6 @@
-// Walks of a mesh under a limiter: each step starts where the limiter let the last one stop, as in a
-// simulator. So it comes to lie nearer and nearer to itself, which cases that are known beforehand
-// do not show.
+// Walks of a mesh under a limiter: each step starts where the limiter let the last one stop, as in
+// a simulator. So it comes to lie nearer and nearer to itself, which cases that are known
+// beforehand do not show.
 #pragma once
 
 #include <cstdint>
@@ -47,10 +47,9 @@ inline constexpr int steps_of_a_walk = 1000;
 using AskedLimit = std::function<std::optional<detector::Positions>(const corpus::Case& one_step)>;
 
 // The walk as a case, with a step from each place to its goal: whoever knows nothing of the limiter
-// can play it again. Goals are rounded as the contract says. If the limiter
-// does not say where to stop, or moves off what numbers can hold, the walk ends there. The seed
-// draws shapes, pushes and lifts. At the start the bodies are farther apart than the contract's
-// separation.
+// can play it again. Goals are rounded as the contract says. If the limiter does not say where to
+// stop, or stops where numbers cannot express it, the walk ends there. The seed draws shapes, pushes
+// and lifts. At the start the bodies are farther apart than the contract's separation.
 corpus::Case walk(WalkKind kind, std::uint64_t seed, int steps, const Contract& contract,
                   const AskedLimit& ask);
 

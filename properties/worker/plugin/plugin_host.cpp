@@ -42,13 +42,15 @@ class PluginRun {
   }
 
   // What the limiter allows in a step, or why it allows nothing.
+  // `told` is x_t1, or the displacement to it, as the contract has it.
   Expected<LimitAnswer> limit(const detector::Positions& x_t0, const detector::Positions& x_t1,
+                              const detector::Positions& told,
                               const PluginDescription& description) {
     assay_limit raw = {};
     raw.share = -1;
-    const auto asked = called("limit", api_.limit(handle_.get(), x_t0.data(), x_t1.data(), &raw));
+    const auto asked = called("limit", api_.limit(handle_.get(), x_t0.data(), told.data(), &raw));
     if (!asked) return asked.error();
-    return limit_answer(raw, description.claims, description.contract, x_t0, x_t1);
+    return limit_answer(raw, description.claims, description.contract, x_t0, x_t1, told);
   }
 
   // The result of a step, or why it has none: the same reasons.
@@ -161,6 +163,8 @@ CaseRun PluginHost::ask(const detector::FourPoints& query, bool is_timed) const 
     for (std::size_t k = 0; k < axes; ++k) {
       x_t0[axes * i + k] = query.points[i].t0[k];
       x_t1[axes * i + k] = query.points[i].t1[k];
+      if (description_.contract.motion == MotionGiven::displacement)
+        x_t1[axes * i + k] -= x_t0[axes * i + k];  // exact in a contracted query
     }
   }
   assay_query_result raw = {};
@@ -237,6 +241,8 @@ CaseRun PluginHost::run(const corpus::Case& c, bool is_timed) const {
   for (const auto& step : corpus::steps_of(c)) {
     const auto& x_t0 = frames[static_cast<std::size_t>(step.from)];
     const auto& x_t1 = frames[static_cast<std::size_t>(step.to)];
+    const bool is_displaced = description_.contract.motion == MotionGiven::displacement;
+    const auto told = is_displaced ? displacement(x_t0, end_of(c, step)) : x_t1;
     StepResult& result = run.steps.emplace_back();
     result.answer = Answer::undecided;
     const auto fail = [&](const Problem& problem) {
@@ -256,11 +262,11 @@ CaseRun PluginHost::run(const corpus::Case& c, bool is_timed) const {
         problem = given.error();
       }
     };
-    if (parts.candidates) ask(run.candidates, plugin.candidates(x_t0, x_t1));
-    if (parts.limit) ask(run.limits, plugin.limit(x_t0, x_t1, description_));
+    if (parts.candidates) ask(run.candidates, plugin.candidates(x_t0, told));
+    if (parts.limit) ask(run.limits, plugin.limit(x_t0, x_t1, told, description_));
     clock.begin();
     if (parts.steps) {
-      auto answered = plugin.step(x_t0, x_t1, step.commit);
+      auto answered = plugin.step(x_t0, told, step.commit);
       if (answered) {
         result = std::move(answered.value());
       } else {

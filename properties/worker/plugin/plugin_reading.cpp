@@ -73,6 +73,7 @@ std::string read_contract(const assay_description& raw, Contract& contract) {
   if (!read_number(raw.counts, contract.counts)) return unknown("counts", raw.counts);
   if (!read_number(raw.limit_gives, contract.limit_gives))
     return unknown("limit_gives", raw.limit_gives);
+  if (!read_number(raw.motion, contract.motion)) return unknown("motion", raw.motion);
   contract.progress = raw.progress;
   contract.rings = raw.rings;
   contract.rest_distance = raw.rest_distance;
@@ -208,14 +209,16 @@ std::string read_pairs(const assay_result& raw, std::int32_t triangle_count,
 // Where a caller stops who computes in this format, one rounding an operation. Share 1 is x_t1.
 template <class Real>
 void stop_at(double share, LimitGives gives, const detector::Positions& x_t0,
-             const detector::Positions& x_t1, detector::Positions& stop) {
+             const detector::Positions& x_t1, const detector::Positions* displacement,
+             detector::Positions& stop) {
   if (share == 1) return;
   const auto part = static_cast<Real>(share);
   for (Eigen::Index i = 0; i < x_t0.size(); ++i) {
     const auto from = static_cast<Real>(x_t0.data()[i]), to = static_cast<Real>(x_t1.data()[i]);
+    const Real way = displacement ? static_cast<Real>(displacement->data()[i]) : to - from;
     const Real at = gives == LimitGives::blend
                         ? static_cast<Real>(static_cast<Real>(1 - part) * from) + part * to
-                        : from + part * (to - from);
+                        : from + part * way;
     stop.data()[i] = static_cast<double>(at);
   }
 }
@@ -261,7 +264,8 @@ Expected<detector::StepResult> step_result(const assay_result& raw, std::int32_t
 
 Expected<LimitAnswer> limit_answer(const assay_limit& raw, const Claims& claims,
                                    const Contract& contract, const detector::Positions& x_t0,
-                                   const detector::Positions& x_t1) {
+                                   const detector::Positions& x_t1,
+                                   const detector::Positions& way) {
   const bool has_share = raw.share != -1;
   if (has_share && !(raw.share >= 0 && raw.share <= 1))
     return Problem{"its share " + number_text(raw.share) + " is none from 0 to 1"};
@@ -273,9 +277,10 @@ Expected<LimitAnswer> limit_answer(const assay_limit& raw, const Claims& claims,
   } else if (!has_share || contract.limit_gives == LimitGives::positions) {
     return Problem{"it gives no positions, and no share from which they could be computed"};
   } else if (contract.coordinates == Coordinates::float32) {
-    stop_at<float>(raw.share, contract.limit_gives, x_t0, x_t1, limit.positions);
+    stop_at<float>(raw.share, contract.limit_gives, x_t0, x_t1,
+                   contract.motion == MotionGiven::displacement ? &way : nullptr, limit.positions);
   } else {
-    stop_at<double>(raw.share, contract.limit_gives, x_t0, x_t1, limit.positions);
+    stop_at<double>(raw.share, contract.limit_gives, x_t0, x_t1, nullptr, limit.positions);
   }
   if (!limit.positions.allFinite()) return Problem{"it allows positions that are not finite"};
   return limit;

@@ -38,12 +38,12 @@ Expected<detector::StepResult> step_result(const assay_result& raw, std::int32_t
                                            bool reports_pairs = true);
 
 // What a limiter with these claims allows: its share, or -1, and where the caller stops, by its
-// positions or as Contract::limit_gives says. Fails if the share is none, if there are neither
-// positions nor a share to compute them from, if they are not finite, and if a claim speaks of a
-// share that is not stated.
+// positions or as Contract::limit_gives says; `way` is the displacement from x_t0 to x_t1. Fails if
+// the share is none, if there are neither positions nor a share to compute them from, if they are
+// not finite, and if a claim speaks of a share that is not stated.
 Expected<LimitAnswer> limit_answer(const assay_limit& raw, const Claims& claims,
                                    const Contract& contract, const detector::Positions& x_t0,
-                                   const detector::Positions& x_t1);
+                                   const detector::Positions& x_t1, const detector::Positions& way);
 
 // The candidate pairs a < b, ascending, each once. Fails if an index is none of a
 // triangle.

@@ -177,5 +177,39 @@ TEST(ContractedCase, OfEveryFamilyThereIsOneWithinEveryContract) {
   }
 }
 
+// A step of a displacement ends at the exact sum; one whose sum is no double is left out.
+TEST(Contracted, ADisplacementEndsAtTheExactSum) {
+  Contract contract;
+  contract.coordinates = Coordinates::float32;
+  contract.motion = MotionGiven::displacement;
+  corpus::Case c;
+  c.triangles = detector::Triangles(1, 3);
+  c.triangles << 0, 1, 2;
+  detector::Positions x(3, 3), y(3, 3);
+  x << 0, 0, 0, 1, 0, 0, 0, 1, 0;
+  y << 1, 0, 0, 1.1, 0, 1e-7, 0, 1, 0;
+  c.frames = {x, y, x};
+  const auto seen = contracted(c, contract);
+  ASSERT_TRUE(seen);
+  ASSERT_EQ(seen->frames.size(), 4u);
+  EXPECT_EQ(corpus::steps_of(*seen).size(), 2u);
+  // 1 + 0.1f is no float32; the next step begins at its rounding.
+  EXPECT_EQ(seen->frames[1](1, 0), 1 + static_cast<double>(static_cast<float>(1.1 - 1)));
+  EXPECT_EQ(seen->frames[2](1, 0), static_cast<double>(1.1f));
+  EXPECT_EQ(displacement(seen->frames[0], seen->frames[1]), seen->frames[1] - seen->frames[0]);
+  const auto again = contracted(*seen, contract);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->frames, seen->frames);
+  c.frames[1](0, 0) = 1e-30;  // 0 + 1e-30f is a double, 1 + 1e-30f is none
+  EXPECT_TRUE(contracted(c, contract));
+  c.frames[1](1, 0) = 1;
+  c.frames[0](1, 0) = 1e-30;
+  EXPECT_FALSE(contracted(c, contract));
+  EXPECT_NE(why_left_out(c, contract).find("no double"), std::string::npos);
+  EXPECT_EQ(fault_of(contract), "");
+  contract.coordinates = Coordinates::float64;
+  EXPECT_NE(fault_of(contract), "");
+}
+
 }  // namespace
 }  // namespace assay::properties

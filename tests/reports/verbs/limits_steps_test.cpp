@@ -99,5 +99,37 @@ TEST_F(LimitsSteps, AFailureIsShownWithTheWayThatWasAllowed) {
   EXPECT_TRUE(contains(svg, "t = 1<")) << "the contact is at the end of the way\n" << svg;
 }
 
+// A detector of displacements in float32 is judged on the path that it was given: exact in its own
+// terms it is accused of nothing; one that rounds the end first is, by an ulp.
+TEST(Displacements, AreJudgedOnThePathThatWasGiven) {
+  const Scratch scratch;
+  const std::string out = scratch / "out";
+  const auto run = [&](const std::string& said) {
+    std::filesystem::remove_all(out);
+    return run_assay(
+        "run --campaign " + scratch.write("plan.json", plan_text(60)) + " --out " + out +
+            " --time 600 --detector " + plugin("by_contract"),
+        "ASSAY_BY_CONTRACT=\"strangers start=free float32 displacement " + said + "\" ");
+  };
+  const auto exact = run("");
+  EXPECT_EQ(exact.exit_code, 0) << exact.out << exact.err;
+  EXPECT_TRUE(contains(exact.out, "motion displacement")) << exact.out;
+  const auto rounded = run("rounds-end");
+  EXPECT_EQ(rounded.exit_code, 1) << rounded.out << rounded.err;
+  EXPECT_TRUE(contains(rounded.out, "DEFECT first-time: ") ||
+              contains(rounded.out, "DEFECT not-late: "))
+      << rounded.out;
+  // The case holds the exact end, which is no float32.
+  bool shows_it = false;
+  for (const auto& file : std::filesystem::directory_iterator(out + "/failures")) {
+    if (!contains(file.path().filename().string(), "-smallest.json")) continue;
+    const auto c = corpus::read_case(file.path());
+    ASSERT_TRUE(c);
+    for (const auto& frame : c.value().frames)
+      shows_it |= frame != frame.cast<float>().cast<double>();
+  }
+  EXPECT_TRUE(shows_it);
+}
+
 }  // namespace
 }  // namespace assay::tests
