@@ -48,8 +48,8 @@ using AskedLimit = std::function<std::optional<detector::Positions>(const corpus
 
 // The walk as a case, with a step from each place to its goal: whoever knows nothing of the limiter
 // can play it again. Goals are rounded as the contract says. If the limiter does not say where to
-// stop, or stops where numbers cannot express it, the walk ends there. The seed draws shapes, pushes
-// and lifts. At the start the bodies are farther apart than the contract's separation.
+// stop, or stops where numbers cannot express it, the walk ends there. The seed draws shapes,
+// pushes and lifts. At the start the bodies are farther apart than the separation of the contract.
 corpus::Case walk(WalkKind kind, std::uint64_t seed, int steps, const Contract& contract,
                   const AskedLimit& ask);
 
