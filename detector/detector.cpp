@@ -228,8 +228,9 @@ StepLimit Detector::limit(const PositionsView& x_t0, const PositionsView& x_t1,
   }
   if (whole.answer != Answer::collision) return limit;
   // Rounding moves each place off the way, so a nearer one may be in contact where a farther one is
-  // not. Three are tried whose progress is above 0.9, then ever nearer ones.
-  for (double part = 0.95;; part = part > 0.91 ? part - 0.02 : part / 2) {
+  // not. Where the way passes something closely, each place is free by chance: 50 are tried whose
+  // progress is above 0.9, then ever nearer ones.
+  for (double part = 0.95;; part = part > 0.902 ? part - 0.001 : part / 2) {
     parts_->evaluated.reset();
     const double share = part * whole.first.lo;
     const Positions x = partial_step(x_t0, x_t1, share);

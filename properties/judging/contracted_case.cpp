@@ -56,17 +56,36 @@ std::string why_no_frame(const detector::PositionsView& x, const std::vector<Edg
   return beyond_range(x, edges, contract);
 }
 
+// The exact end of a displacement; nothing if it is no double.
+std::optional<detector::Positions> exact_end(const detector::Positions& x,
+                                             const detector::Positions& to) {
+  const detector::Positions way = displacement(x, to), end = x + way;
+  // What is rounded is not the same when either part is taken away again.
+  if (!end.allFinite() || end - x != way || end - way != x) return std::nullopt;
+  return end;
+}
+
 // Gives each step a start and an end of its own: the end is the exact sum of the start and of the
-// displacement that leads nearest to the end that was given. False if a sum is no double.
-bool hold_displacements(corpus::Case& c, const corpus::Case& given) {
-  const auto steps = corpus::steps_of(c);
+// displacement that leads nearest to the end that was `given`. Steps whose sum is no double are
+// left out. False if all are. A mesh at rest stays the first frame where the contract goes by it.
+bool hold_displacements(corpus::Case& c, corpus::Case given, const Contract& contract) {
+  std::vector<std::size_t> exact;
+  auto steps = corpus::steps_of(c);
+  for (std::size_t s = 0; s < steps.size(); ++s) {
+    if (exact_end(start_of(c, steps[s]), end_of(given, steps[s]))) exact.push_back(s);
+  }
+  if (exact.empty()) return false;
+  if (exact.size() < steps.size()) {
+    c = with_steps(c, exact, contract);
+    given = with_steps(given, exact, contract);
+    steps = corpus::steps_of(c);
+  }
   std::vector<detector::Positions> frames;
   std::vector<corpus::CaseStep> script;
+  if (contract.rest_distance > 0) frames.push_back(c.frames.front());
   for (const auto& step : steps) {
     const auto& x = start_of(c, step);
-    const detector::Positions way = displacement(x, end_of(given, step)), end = x + way;
-    // What is rounded is not the same when either part is taken away again.
-    if (!end.allFinite() || end - x != way || end - way != x) return false;
+    const auto end = *exact_end(x, end_of(given, step));
     const auto place = static_cast<std::int32_t>(frames.size());
     script.push_back({place, place + 1, step.commit});
     frames.push_back(x);
@@ -157,7 +176,7 @@ std::optional<corpus::Case> contracted(const corpus::Case& c, const Contract& co
     frame = std::move(taken);
     if (!why_no_frame(frame, edges, contract).empty()) return std::nullopt;
   }
-  if (contract.motion == MotionGiven::displacement && !hold_displacements(out, c))
+  if (contract.motion == MotionGiven::displacement && !hold_displacements(out, c, contract))
     return std::nullopt;
   if (says_query(out)) {
     const auto query = query_of(out);
@@ -200,7 +219,8 @@ std::string why_left_out(const corpus::Case& c, const Contract& contract) {
     return fmt::format("start {}: the two features start {}", start, distance);
   }
   corpus::Case seen = c;
-  if (contract.motion == MotionGiven::displacement && !hold_displacements(seen, c))
+  for (auto& frame : seen.frames) frame = contracted(frame, contract.coordinates);
+  if (contract.motion == MotionGiven::displacement && !hold_displacements(seen, c, contract))
     return "motion displacement: the end of a step is no double";
   const auto steps = corpus::steps_of(c);
   const auto x = contracted(start_of(c, steps.front()), contract.coordinates);

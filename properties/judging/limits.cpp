@@ -1,8 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <vector>
 
 #include "oracle/instant/nearness.h"
+#include "oracle/mesh/pair_relation.h"
 #include "properties/judging/agreement.h"
 #include "properties/judging/cause.h"
 #include "properties/judging/step_truth.h"
@@ -58,12 +61,16 @@ class LimitComparison {
     const Positions from = step_.motion.vertices_t0, to = step_.motion.vertices_t1;
     const auto& first = truth_.first;
     // The end of a displacement is where the caller's own numbers place it.
-    const bool is_whole = answer_.positions == contracted(to, contract_.coordinates);
+    const bool is_whole =
+        answer_.positions == to || answer_.positions == contracted(to, contract_.coordinates);
     const bool stays = answer_.positions == from;
     limit.share = answer_.share;
     if (first) limit.ahead = first->time;
     const double possible = first ? first->time.lo : 1;
-    limit.used = answer_.share >= 0 ? answer_.share : share_gone(step_.motion, answer_.positions);
+    // A share counts for no more than the positions beside it go. They may be rounded.
+    constexpr double beside_rounding = 1.001;
+    const double gone = share_gone(step_.motion, answer_.positions);
+    limit.used = answer_.share >= 0 ? std::min(answer_.share, gone * beside_rounding) : gone;
     limit.is_cut = !first && !is_whole;
     if (answer_.positions == to) {
       limit.hit = first;
@@ -81,7 +88,7 @@ class LimitComparison {
       breaks(Claim::path_free, first && !is_before(answer_.share, first->time));
       // The sign of this is exact but for the least of all doubles.
       breaks(Claim::progress,
-             std::fma(promised, possible, -answer_.share) > 0 && has_room(promised * possible));
+             std::fma(promised, possible, -limit.used) > 0 && has_room(promised * possible));
     }
     breaks(Claim::whole, limit.is_cut);
     if (!diff.broken.empty()) {
@@ -106,10 +113,24 @@ class LimitComparison {
     const Positions from = step_.motion.vertices_t0;
     const double largest =
         std::max(from.cwiseAbs().maxCoeff(), step_.motion.vertices_t1.cwiseAbs().maxCoeff());
-    return could_move(step_.motion, share, ulps_of_a_way) &&
-           !oracle::any_nearer_than(from, step_.triangles,
-                                    contract_.separation + ulps_of_a_gap * ulp(largest),
-                                    [](std::int32_t, std::int32_t) { return true; });
+    const double gap = contract_.separation + ulps_of_a_gap * ulp(largest);
+    return could_move(step_.motion, share, ulps_of_a_way) && std::isfinite(gap) &&
+           !oracle::any_nearer_than(from, step_.triangles, gap, counted_pairs());
+  }
+
+  // Whether a pair may be one that the question is about.
+  oracle::WantedPair counted_pairs() const {
+    std::vector<std::shared_ptr<oracle::PairRelation>> relations;
+    for (const auto* pairs : {step_.options.counted, step_.options.tested}) {
+      if (pairs && !pairs->count_all())
+        relations.push_back(
+            std::make_shared<oracle::PairRelation>(*pairs, oracle::mesh_features(step_.triangles)));
+    }
+    return [this, relations](std::int32_t a, std::int32_t b) {
+      return !leaves_out(contract_, step_.triangles, {a, b}) &&
+             std::all_of(relations.begin(), relations.end(),
+                         [&](const auto& relation) { return relation->counts_faces(a, b); });
+    };
   }
 
   std::string cause_of_stall() const {
@@ -131,13 +152,14 @@ class LimitComparison {
 void judge_limit(const std::optional<LimitAnswer>& answer, const LimitedStep& step,
                  const oracle::StepJudgement& judgement, const Claims& claims,
                  const Contract& contract, StepDiff& diff) {
-  if (!answer || diff.outcome == Outcome::error) return;
+  if (diff.outcome == Outcome::error) return;
   const StepTruth truth = truth_of(judgement, contract, step.triangles);
-  if (truth.first && truth.first->time.hi == 0) {
+  if (!diff.first_contact) diff.first_contact = truth.first;
+  if (answer && truth.first && truth.first->time.hi == 0) {
     diff.starts_near |= !diff.has_answer && !diff.candidates;
     return;
   }
-  if (judgement.complete) {
+  if (answer && judgement.complete) {
     LimitComparison(*answer, step, truth, claims, contract).judge(diff);
   } else if (diff.outcome == Outcome::holds) {
     diff.partial = true;

@@ -148,6 +148,7 @@ class FailureOfStep {
         break;
       case Claim::commit_free:
         at("contact on the way", *diff.limit->hit);
+        failure_.explanation = "on the way that is allowed, " + failure_.explanation;
         at_limit();
         break;
       case Claim::path_free:

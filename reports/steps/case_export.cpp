@@ -83,6 +83,7 @@ void add_step(const corpus::CaseStep& step, const properties::StepTruth& truth,
 }
 
 constexpr const char* head = R"(#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <string>
 #include <vector>

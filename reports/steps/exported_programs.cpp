@@ -27,7 +27,19 @@ static bool ends_before(double hi, double exact) { return hi < exact - time_tole
 
 static bool ends_at(const std::vector<double>& stop, int frame) {
   const double* const x = &frames[frame][0][0];
-  return std::equal(stop.begin(), stop.end(), x);
+  const auto is_near = [](double at, double end) {
+    return at == end || (takes_displacements && at == static_cast<float>(end));
+  };
+  return std::equal(stop.begin(), stop.end(), x, is_near);
+}
+
+// Whether numbers leave room for a share of a step: it moves some coordinate by 2^10 units in its
+// last place.
+static bool has_room(const Step& step, double share) {
+  const double *x_t0 = &frames[step.from][0][0], *x_t1 = &frames[step.to][0][0];
+  for (std::size_t i = 0; i < sizeof frames[0] / sizeof(double); ++i)
+    if (std::fabs(share * (x_t1[i] - x_t0[i])) >= 0x1p-42 * std::fabs(x_t0[i])) return true;
+  return false;
 }
 
 static const char* word(bool collision) { return collision ? "collision" : "free"; }
@@ -93,7 +105,8 @@ static bool is_wrong(int s, const Found& found) {
       const bool is_before =
           step.lo == step.hi ? found.share < step.lo : found.share <= step.lo;
       ask(path_free, "path-free", !step.collision || is_before);
-      ask(progress, "progress", found.share >= promised * ahead * (1 - 1e-15));
+      ask(progress, "progress",
+          found.share >= promised * ahead * (1 - 1e-15) || !has_room(step, promised * ahead));
     }
   }
   if (!wrong) return false;
@@ -322,8 +335,8 @@ static std::vector<Found> run(const assay_detector_api* api) {
     found.is_answered = api->evaluate != nullptr;
     Found broad;
     if (api->abi_version >= 2 && api->candidates) ask_candidates(api, handle, steps[s], broad);
-    if (api->evaluate) ask_step(api, handle, steps[s], found);
     if (api->abi_version >= 3 && api->limit) ask_limit(api, handle, steps[s], broad);
+    if (api->evaluate) ask_step(api, handle, steps[s], found);
     found.candidates = broad.candidates;
     found.share = broad.share;
     found.stop = broad.stop;

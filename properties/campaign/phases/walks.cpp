@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "properties/judging/contracted_case.h"
 #include "properties/random.h"
 
 namespace assay::properties {
@@ -175,11 +176,12 @@ corpus::Case walk(WalkKind kind, std::uint64_t seed, int steps, const Contract& 
   for (int step = 0; step < steps; ++step) {
     one.frames[0] = c.frames.back();
     one.frames[1] = contracted(driver.goal(one.frames[0], step), contract.coordinates);
-    const auto stop = ask(one);
-    if (!stop || !contracted(*stop, contract.coordinates).allFinite()) break;
+    if (!contracted(one, contract)) continue;  // such a step is put to no detector
     const auto from = static_cast<std::int32_t>(c.frames.size() - 1);
     c.script.push_back({from, from + 1, true});
     c.frames.push_back(one.frames[1]);
+    const auto stop = ask(one);
+    if (!stop || !contracted(*stop, contract.coordinates).allFinite()) return c;
     c.frames.push_back(contracted(*stop, contract.coordinates));
   }
   // The last place is where nothing begins.

@@ -47,9 +47,10 @@ inline constexpr int steps_of_a_walk = 1000;
 using AskedLimit = std::function<std::optional<detector::Positions>(const corpus::Case& one_step)>;
 
 // The walk as a case, with a step from each place to its goal: whoever knows nothing of the limiter
-// can play it again. Goals are rounded as the contract says. If the limiter does not say where to
-// stop, or stops where numbers cannot express it, the walk ends there. The seed draws shapes,
-// pushes and lifts. At the start the bodies are farther apart than the separation of the contract.
+// can play it again. Goals are rounded as the contract says, and a step that it does not take is
+// none of the walk. If the limiter does not say where to stop, or stops where numbers cannot
+// express it, that step is the last. The seed draws shapes, pushes and lifts. At the start the
+// bodies are farther apart than the separation of the contract.
 corpus::Case walk(WalkKind kind, std::uint64_t seed, int steps, const Contract& contract,
                   const AskedLimit& ask);
 

@@ -185,7 +185,7 @@ TEST_F(BuiltinDetector, EveryErrorHasItsName) {
   std::map<std::string, int> names;
   for (std::int32_t code = -3; code < 300; ++code) ++names[assay_builtin_error_name(code)];
   EXPECT_EQ(names["no_error"], 1);
-  EXPECT_EQ(names.size(), 22u) << "16 of the detector, 4 of the interface, none, unknown";
+  EXPECT_EQ(names.size(), 23u) << "17 of the detector, 4 of the interface, none, unknown";
   EXPECT_STREQ(assay_builtin_error_name(ASSAY_BUILTIN_FOREIGN_STATE), "foreign_state");
   EXPECT_STREQ(assay_builtin_error_name(ASSAY_BUILTIN_SMALL_BUFFER), "small_buffer");
 }
@@ -208,6 +208,41 @@ TEST_F(BuiltinDetector, IsViewedFromWhereTheCallerSays) {
   EXPECT_EQ(view_positive({0, 0, 0}, {0, 0, 0}), 8u);
   EXPECT_EQ(view_positive({0, 0, 0}, {1, 1, 1}), 7u) << "out through one triangle";
   EXPECT_EQ(view_positive({1, 1, 1}, {1, 1, 1}), 7u);
+}
+
+TEST_F(BuiltinDetector, L17_LimitsAStepAsTheDetectorDoes) {
+  const auto handle = make(Culling::bvh);
+  assay_limit limit = {-1, nullptr};
+  const auto ask = [&](const Positions& to) {
+    EXPECT_EQ(
+        assay_builtin_limit(handle.get(), in.data(), to.data(), &limit, nullptr, nullptr, &error),
+        ASSAY_OK);
+    return Positions(Eigen::Map<const Positions>(limit.positions, in.rows(), 3));
+  };
+  auto direct = std::move(Detector::create(triangles, in, {Culling::bvh}).value());
+  const StepLimit expected = direct.limit(in, hit);
+  ASSERT_LT(expected.share, 1);
+  EXPECT_EQ(ask(hit), expected.positions);
+  EXPECT_EQ(limit.share, expected.share);
+  EXPECT_EQ(assay_builtin_commit(handle.get(), &error), ASSAY_OK) << "to where it stops";
+  EXPECT_EQ(ask(in), in);
+  EXPECT_EQ(limit.share, 1);
+  // The table has the same, and what it claims of it.
+  assay_limit by_table = {-1, nullptr};
+  EXPECT_EQ(table().limit(handle.get(), in.data(), hit.data(), &by_table), ASSAY_OK);
+  EXPECT_EQ(by_table.share, expected.share);
+
+  const auto stop = [](void*) -> std::int32_t { return 1; };
+  EXPECT_EQ(assay_builtin_limit(handle.get(), in.data(), hit.data(), &limit, stop, nullptr, &error),
+            ASSAY_OK);
+  EXPECT_EQ(limit.share, 0);
+  expect_refused(assay_builtin_commit(handle.get(), &error), ASSAY_BUILTIN_NOTHING_TO_COMMIT);
+  assay_builtin_options plain = ASSAY_BUILTIN_DEFAULTS;
+  plain.arithmetic = ASSAY_ARITHMETIC_DOUBLE;
+  const auto unproved = make(&plain);
+  expect_refused(
+      assay_builtin_limit(unproved.get(), in.data(), hit.data(), &limit, nullptr, nullptr, &error),
+      ASSAY_BUILTIN_PROVES_NOTHING);
 }
 
 TEST_F(BuiltinDetector, StopsWhenToldTo) {

@@ -118,7 +118,10 @@ TEST(Walks, AreOfTheirSeedAlone) {
     const auto ended = walk(kind, 3, 10, {}, [&, n = 0](const corpus::Case& step) mutable {
       return ++n < 4 ? stays(step) : std::nullopt;
     });
-    EXPECT_EQ(ended.script.size(), 3u);
+    EXPECT_EQ(ended.script.size(), 4u) << "the step that has no answer is one of it";
+    Contract small;
+    small.largest = 1;
+    EXPECT_EQ(walk(kind, 3, 10, small, stays).script.size(), 0u) << "beyond the contract";
   }
 }
 

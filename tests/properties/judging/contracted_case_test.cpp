@@ -202,8 +202,14 @@ TEST(Contracted, ADisplacementEndsAtTheExactSum) {
   EXPECT_EQ(again->frames, seen->frames);
   c.frames[1](0, 0) = 1e-30;  // 0 + 1e-30f is a double, 1 + 1e-30f is none
   EXPECT_TRUE(contracted(c, contract));
+  // Such a step is left out alone, also where it is the only one.
   c.frames[1](1, 0) = 1;
   c.frames[0](1, 0) = 1e-30;
+  const auto second = contracted(c, contract);
+  ASSERT_TRUE(second);
+  EXPECT_EQ(corpus::steps_of(*second).size(), 1u);
+  EXPECT_EQ(second->frames[0](1, 0), 1);
+  c.frames.pop_back();
   EXPECT_FALSE(contracted(c, contract));
   EXPECT_NE(why_left_out(c, contract).find("no double"), std::string::npos);
   EXPECT_EQ(fault_of(contract), "");

@@ -121,6 +121,58 @@ TEST(Limits, L17_WhereNumbersLeaveNoRoomNoProgressIsOwed) {
   EXPECT_EQ(stays_at(8192), List{Claim::progress});
 }
 
+TEST(Limits, L17_TheRoomIsThatOfPairsThatCount) {
+  // Two resting neighbours, far away and nearer to each other than any gap that is wanted.
+  auto c = tests::sinking_corner(-1);
+  const auto with_needles = [&](double height) {
+    auto more = c;
+    more.triangles = tests::triangles({{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {7, 6, 9}});
+    for (auto& frame : more.frames) {
+      frame.conservativeResize(10, 3);
+      frame.bottomRows(4) =
+          tests::positions({{90, 0, 0}, {91, 0, 0}, {90.5, height, 0}, {90.5, -height, 0}});
+    }
+    return broken_by(more, stop_at(more, 0), limiter(0.001));
+  };
+  EXPECT_EQ(with_needles(1), List{Claim::progress});
+  EXPECT_EQ(with_needles(0.0005), List{Claim::progress});
+  // The greatest double has no unit in its last place that could be multiplied.
+  auto greatest = tests::sinking_corner(-1);
+  for (auto& frame : greatest.frames) frame(1, 0) = std::numeric_limits<double>::max();
+  EXPECT_EQ(broken_by(greatest, stop_at(greatest, 0)), List{});
+}
+
+TEST(Limits, L17_AShareBesidePositionsThatStayIsNoProgress) {
+  const auto c = tests::sinking_corner(-1);
+  EXPECT_EQ(broken_by(c, {0.7, c.frames[0]}), List{Claim::progress});
+  EXPECT_EQ(broken_by(c, {0.7, at(c, 0.1)}), List{Claim::progress});
+  const auto use = errors_of(judged(c, {0.7, c.frames[0]}).steps[0]).limits;
+  EXPECT_EQ(use.used(0), 0);
+  EXPECT_EQ(use.stalled(), 1u);
+}
+
+TEST(Limits, L17_WithoutALimitNothingHolds) {
+  const auto c = tests::sinking_corner(-1);
+  auto run = run_of(stop_at(c, 0.5));
+  run.limits[0].reset();
+  const auto verdict = judge_run(c, run, judge_case(c, limiter()), claims_on_limits, limiter());
+  EXPECT_EQ(verdict.outcome, Outcome::undecided);
+}
+
+TEST(Limits, L17_TheEndOfADisplacementIsTheExactOneOrItsRounding) {
+  auto free = tests::sinking_corner(1);
+  free.frames[1](3, 0) = 1 + 0x1p-30;  // no float32
+  auto contract = limiter();
+  contract.coordinates = Coordinates::float32;
+  contract.motion = MotionGiven::displacement;
+  EXPECT_EQ(broken_by(free, {1, free.frames[1]}, contract), List{});
+  EXPECT_EQ(broken_by(free, {1, contracted(free.frames[1], contract.coordinates)}, contract),
+            List{});
+  Positions other = free.frames[1];
+  other(3, 0) = 1 + 0x1p-20;
+  EXPECT_EQ(broken_by(free, {1, other}, contract), List{Claim::whole});
+}
+
 TEST(Limits, L17_UseAndStallsAreCountedWhateverIsClaimed) {
   const auto c = tests::sinking_corner(-1), free = tests::sinking_corner(1);
   const auto use_of = [](const corpus::Case& of, const LimitAnswer& answer) {
@@ -158,7 +210,11 @@ TEST(Limits, L17_AFailureTellsHowFarItWouldHaveBeenFree) {
   EXPECT_EQ(hit.signature(),
             "commit-free: contact on the way, vertex-face, t inside, moving, generic");
   EXPECT_NE(hit.explanation.find("allowed a share of 0.8"), std::string::npos) << hit.explanation;
-  EXPECT_EQ(failure_of({0.8, at(c, 0.5)}).kind, "share too large");
+  const auto large = failure_of({0.8, at(c, 0.5)});
+  EXPECT_EQ(large.kind, "share too large");
+  EXPECT_EQ(large.pair, (detector::TrianglePair{0, 1}));
+  EXPECT_NE(large.explanation.find("triangles 0 and 1 meet at t = 0.75"), std::string::npos)
+      << large.explanation;
   const auto small = failure_of(stop_at(c, 0.25));
   EXPECT_EQ(small.kind, "share too small");
   EXPECT_NE(small.explanation.find("promised 0.5"), std::string::npos) << small.explanation;

@@ -25,6 +25,20 @@ def same(a, b):
     )
 
 
+def test_a_limit_stops_before_the_contact(pair):
+    detector = assay.Detector(pair.triangles, pair.x_t0)
+    limit = detector.limit(pair.x_t0, pair.x_t1)
+    assert limit.first == detector.evaluate(pair.x_t0, pair.x_t1).first
+    assert 0.9 * limit.first[0] <= limit.share < limit.first[0]
+    assert detector.evaluate(pair.x_t0, limit.positions).answer == "free"
+    whole = detector.limit(pair.x_t0, limit.positions)
+    assert (whole.share, whole.first) == (1, None)
+    assert np.array_equal(whole.positions, limit.positions)
+    detector.commit()
+    with pytest.raises(assay.InputError, match="arithmetic double proves no step free"):
+        assay.Detector(pair.triangles, pair.x_t0, "bvh", arithmetic="double").limit(pair.x_t0, pair.x_t1)
+
+
 def test_a_step_has_its_pairs_times_and_sets(pair):
     result = assay.Detector(pair.triangles, pair.x_t0).step(pair.x_t0, pair.x_t1)
     assert result.answer == "collision"

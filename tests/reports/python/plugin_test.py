@@ -67,6 +67,24 @@ SOURCE = """
         def candidates(self, x_t0, x_t1):
             return np.argwhere(np.triu(np.ones((self.count, self.count)), 1))
 
+    class Limits:
+        claims = ["commit-free", "path-free", "progress", "whole-when-safe", "total"]
+        contract = {"progress": 0.9}
+        def create(self, triangles, positions):
+            self.detector = assay.Detector(triangles, positions, "bvh")
+        def limit(self, x_t0, x_t1):
+            return self.detector.limit(x_t0, x_t1)
+
+    class Halves(Limits):
+        def limit(self, x_t0, x_t1):
+            return 0.5, x_t0 + 0.5 * (x_t1 - x_t0)
+
+    class PositionsAlone(Limits):
+        claims = ["commit-free"]
+        contract = {}
+        def limit(self, x_t0, x_t1):
+            return {"positions": x_t0.copy()}
+
     class Queries:
         claims = ["free-sound", "not-late", "first-time", "no-spurious", "total"]
         @staticmethod
@@ -164,6 +182,18 @@ def test_a_broad_phase_alone_is_judged(mine, frames):
     assert report.outcome == "holds"
     assert report.json["detector"]["contract"]["margin"] == 0.5
     assert report.json["steps"][0]["diff"]["candidates"]["given"] == 28
+
+
+def test_a_limiter_alone_is_judged(mine, frames):
+    report = assay.check(frames, "python:mine:Limits")
+    assert report.outcome == "holds", report.text
+    limit = report.json["steps"][0]["diff"]["limit"]
+    assert 0.9 * limit["ahead"][0] <= limit["share"] < limit["ahead"][0]
+    halves = assay.check(frames, "python:mine:Halves")
+    share = halves.json["steps"][0]["diff"]["limit"]["share"]
+    assert share == 0.5 and halves.outcome == "defect", halves.text
+    stays = assay.check(frames, "python:mine:PositionsAlone")
+    assert stays.outcome == "holds" and "stalls" in stays.text
 
 
 def test_queries_alone_are_judged(mine):
