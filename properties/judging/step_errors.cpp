@@ -25,12 +25,12 @@ void fields(Archive& archive, LimitUse& use) {
 
 template <class Archive>
 void fields(Archive& archive, StepErrors& errors) {
+  // Limits are written by themselves (write_json).
   auto& [steps, undecided, free, contact, missed, false_alarms, late, early, unsafe, alarming,
          missing, spurious, limits] = errors;
   archive("steps", steps, "undecided", undecided, "free", free, "contact", contact);
   archive("missed", missed, "false_alarms", false_alarms, "late", late, "early", early);
   archive("unsafe", unsafe, "alarming", alarming, "missing", missing, "spurious", spurious);
-  archive("limits", limits);
 }
 
 namespace {
@@ -151,12 +151,24 @@ StepErrors errors_of(const StepDiff& diff) {
   return errors;
 }
 
-void to_json(nlohmann::json& json, const StepErrors& errors) {
-  json = json_of_fields<nlohmann::json>(errors);
+namespace {
+
+// Most detectors are no limiters, and have no object for it.
+template <class Json>
+void write_json(Json& json, const StepErrors& errors) {
+  json = json_of_fields<Json>(errors);
+  if (errors.limits != LimitUse{}) json["limits"] = json_of_fields<Json>(errors.limits);
 }
-void to_json(nlohmann::ordered_json& json, const StepErrors& errors) {
-  json = json_of_fields<nlohmann::ordered_json>(errors);
+
+}  // namespace
+
+void to_json(nlohmann::json& json, const StepErrors& errors) { write_json(json, errors); }
+void to_json(nlohmann::ordered_json& json, const StepErrors& errors) { write_json(json, errors); }
+void from_json(const nlohmann::json& json, StepErrors& errors) {
+  read_fields(json, errors);
+  errors.limits = {};
+  const auto limits = json.find("limits");
+  if (limits != json.end()) read_fields(*limits, errors.limits);
 }
-void from_json(const nlohmann::json& json, StepErrors& errors) { read_fields(json, errors); }
 
 }  // namespace assay::properties

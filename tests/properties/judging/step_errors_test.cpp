@@ -112,6 +112,10 @@ TEST(StepErrors, AsJsonAndBack) {
   EXPECT_EQ(json.at("late").at("worst_share"), 0.125);
   EXPECT_EQ(nlohmann::json::parse(json.dump()).get<StepErrors>(), errors);
   EXPECT_EQ(nlohmann::ordered_json(errors).begin().key(), "steps");
+  EXPECT_FALSE(json.contains("limits")) << "it is no limiter";
+  errors.limits.free = 3;
+  errors.limits.stalls["t inside"] = 2;
+  EXPECT_EQ(nlohmann::json(errors).get<StepErrors>(), errors);
   EXPECT_THROW(nlohmann::json::object().get<StepErrors>(), nlohmann::json::exception);
 }
 
