@@ -228,8 +228,8 @@ StepLimit Detector::limit(const PositionsView& x_t0, const PositionsView& x_t1,
   }
   if (whole.answer != Answer::collision) return limit;
   // Rounding moves each place off the way, so a nearer one may be in contact where a farther one is
-  // not. Where the way passes something closely, each place is free by chance: 50 are tried whose
-  // progress is above 0.9, then ever nearer ones.
+  // not. Where the way passes something closely, each place is free by chance: about 50 are tried
+  // above 0.9 of the time, then ever nearer ones.
   for (double part = 0.95;; part = part > 0.902 ? part - 0.001 : part / 2) {
     parts_->evaluated.reset();
     const double share = part * whole.first.lo;

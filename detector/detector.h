@@ -94,15 +94,16 @@ class Detector {
   //   x = limit.positions;
   //   detector.commit();
   //
-  // A step that is free is taken whole. Of another one 0.95 of the first contact time is taken, and
-  // less if rounding brings that into contact: 0.9 at least, wherever 0.9 of that time moves some
-  // vertex by 2^10 units in its last place or more and no gap at the start is below 2^6 of them.
-  // With share 0 the mesh stays: it is in contact at the start, or the next place that numbers can
-  // express is. With a separation, read `within it` for `contact`.
+  // A step that is free is taken whole. Of another one 0.95 of the first contact time is taken. If
+  // rounding brings that into contact, up to 50 nearer places are tried, and the last of them is
+  // still above 0.9 of that time. Only then, where the way passes something within a few units in
+  // the last place of its coordinates, is less taken. With share 0 the mesh stays: it is in contact
+  // at the start, or the next place that numbers can express is. With a separation, read `within
+  // it` for `contact`.
   // The state stays as it is, and commit() advances it to `positions` if share is above 0.
   // Errors: those of evaluate; proves_nothing with arithmetic double_precision or single_precision.
-  // Cost: evaluate of the step and, unless that is free, evaluate once more for each share that is
-  // tried, mostly one.
+  // Cost: evaluate of the step and, unless that is free, evaluate once more for each place that is
+  // tried. That is one nearly always; on public sequences it took 1.0 to 1.9 times evaluate.
   StepLimit limit(const PositionsView& x_t0, const PositionsView& x_t1,
                   const StopFunction& stop = {});
 

@@ -32,10 +32,6 @@ struct FilterSearch {
   FilterResult result{Decision::no};
 };
 
-}  // namespace
-
-namespace {
-
 // `is_below` says of two numbers whether the first is below the other, by as much as is asked.
 template <class IsBelow>
 bool are_separated(const FourPoints& query, const IsBelow& is_below) {

@@ -137,8 +137,8 @@ int32_t assay_builtin_evaluate(assay_handle* handle, const double* x_t0, const d
                                assay_builtin_error* error);
 
 /* As the table's limit: how far the step may be gone, with its rounding. A free step has share 1.
- * Another one has 0.95 of the first contact time, and less if rounding brings that into contact:
- * 0.9 at least, wherever the numbers leave room (detector/detector.h). With share 0 the mesh stays:
+ * Another one has 0.95 of the first contact time, and less if rounding brings that into contact
+ * (detector/detector.h says how much). With share 0 the mesh stays:
  * it is in contact at the start, or as near as numbers can tell, or stop() ended the work. A commit
  * then goes to *limit, and is refused after share 0. stop may be NULL. */
 int32_t assay_builtin_limit(assay_handle* handle, const double* x_t0, const double* x_t1,

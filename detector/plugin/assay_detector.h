@@ -87,7 +87,8 @@ enum {
   ASSAY_CLAIM_PROGRESS = 1u << 11,   /* that share is at least `progress` times t*, or times 1
                                         where nothing is in contact. It is judged where that moves
                                         some vertex by 2^10 units in its last place, and all gaps at
-                                        the start are 2^6 units of the largest coordinate or more */
+                                        the start are 2^6 units of the largest coordinate or more;
+                                        units are those of the contract's coordinates */
   ASSAY_CLAIM_WHOLE = 1u << 12       /* a step without a contact may be gone to its very end */
 };
 

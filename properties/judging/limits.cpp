@@ -23,26 +23,16 @@ constexpr double ulps_of_a_stall = 16;
 // limiter from its progress, and no claim is broken.
 constexpr double ulps_of_a_way = 1024, ulps_of_a_gap = 64;
 
-double ulp(double x) {
-  const double a = std::abs(x);
-  return std::nextafter(a, std::numeric_limits<double>::infinity()) - a;
+template <class Real>
+double unit_in_last_place(double x) {
+  const auto a = static_cast<Real>(std::abs(x));
+  return static_cast<double>(std::nextafter(a, std::numeric_limits<Real>::infinity())) -
+         static_cast<double>(a);
 }
-
-// The length of the way to x over that of the whole step, both over all vertices together.
-double share_gone(const detector::SteppedMesh& motion, const Positions& x) {
-  const Positions from = motion.vertices_t0, whole = motion.vertices_t1 - from, gone = x - from;
-  const double unit = std::max(whole.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
-  const double length = (whole / unit).norm();
-  return length > 0 ? (gone / unit).norm() / length : 1;
-}
-
-// Whether this share of the step moves some coordinate by so many units in its last place.
-bool could_move(const detector::SteppedMesh& motion, double share, double ulps) {
-  const Positions from = motion.vertices_t0, way = share * (motion.vertices_t1 - from);
-  for (Eigen::Index i = 0; i < from.size(); ++i) {
-    if (std::abs(way.data()[i]) >= ulps * ulp(from.data()[i])) return true;
-  }
-  return false;
+// In the numbers that the limiter and its caller compute in.
+double ulp(double x, Coordinates coordinates) {
+  return coordinates == Coordinates::float32 ? unit_in_last_place<float>(x)
+                                             : unit_in_last_place<double>(x);
 }
 
 // Whether the share is below the time. A time between two adjacent doubles is above the lower one.
@@ -67,10 +57,9 @@ class LimitComparison {
     limit.share = answer_.share;
     if (first) limit.ahead = first->time;
     const double possible = first ? first->time.lo : 1;
-    // A share counts for no more than the positions beside it go. They may be rounded.
-    constexpr double beside_rounding = 1.001;
-    const double gone = share_gone(step_.motion, answer_.positions);
-    limit.used = answer_.share >= 0 ? std::min(answer_.share, gone * beside_rounding) : gone;
+    // A share counts for no more than the positions beside it go, each rounded by an ulp at most.
+    limit.used =
+        answer_.share >= 0 && !stays ? std::min(answer_.share, share_gone(1)) : share_gone(0);
     limit.is_cut = !first && !is_whole;
     if (answer_.positions == to) {
       limit.hit = first;
@@ -78,8 +67,7 @@ class LimitComparison {
       look_at_the_way(limit);
     }
     const double promised = contract_.progress > 0 ? contract_.progress : usual_progress;
-    if (stays && could_move(step_.motion, promised * possible, ulps_of_a_stall))
-      limit.stall = cause_of_stall();
+    if (stays && could_move(promised * possible, ulps_of_a_stall)) limit.stall = cause_of_stall();
     const auto breaks = [&](Claim claim, bool is_broken) {
       if (is_broken && claims_.has(claim)) diff.broken.push_back(claim);
     };
@@ -109,12 +97,37 @@ class LimitComparison {
     was_stopped_ = !judgement.complete;
   }
 
+  // The length of the way to where the caller stops over that of the whole step, both over all
+  // vertices together. Each coordinate may have gone so many units in its last place farther.
+  double share_gone(double ulps) const {
+    const Positions from = step_.motion.vertices_t0, to = step_.motion.vertices_t1;
+    const Positions whole = to - from;
+    Positions gone = (answer_.positions - from).cwiseAbs();
+    for (Eigen::Index i = 0; i < gone.size() && ulps > 0; ++i) {
+      const double larger = std::max(std::abs(from.data()[i]), std::abs(to.data()[i]));
+      gone.data()[i] += ulps * ulp(larger, contract_.coordinates);
+    }
+    const double unit = std::max(whole.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
+    const double length = (whole / unit).norm();
+    return length > 0 ? (gone / unit).norm() / length : 1;
+  }
+
+  // Whether this share of the step moves some coordinate by so many units in its last place.
+  bool could_move(double share, double ulps) const {
+    const Positions from = step_.motion.vertices_t0,
+                    way = share * (step_.motion.vertices_t1 - from);
+    for (Eigen::Index i = 0; i < from.size(); ++i) {
+      if (std::abs(way.data()[i]) >= ulps * ulp(from.data()[i], contract_.coordinates)) return true;
+    }
+    return false;
+  }
+
   bool has_room(double share) const {
     const Positions from = step_.motion.vertices_t0;
     const double largest =
         std::max(from.cwiseAbs().maxCoeff(), step_.motion.vertices_t1.cwiseAbs().maxCoeff());
-    const double gap = contract_.separation + ulps_of_a_gap * ulp(largest);
-    return could_move(step_.motion, share, ulps_of_a_way) && std::isfinite(gap) &&
+    const double gap = contract_.separation + ulps_of_a_gap * ulp(largest, contract_.coordinates);
+    return could_move(share, ulps_of_a_way) && std::isfinite(gap) &&
            !oracle::any_nearer_than(from, step_.triangles, gap, counted_pairs());
   }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 
 #include "corpus/atomic_file.h"
@@ -150,6 +151,7 @@ enum Claim : unsigned {{
 static const unsigned claims = {};
 static const double time_tolerance = {};
 static const double promised = {};  // of a limiter: its progress
+static const double unit = {};  // in the last place of 1, in the detector's numbers
 static const bool takes_displacements = {};  // in place of ends
 )";
 
@@ -202,6 +204,9 @@ std::string case_text(const corpus::Case& c, const properties::DetectorUnderTest
                      script.size(), rows.pairs, rows.allowed, all_claims_text(),
                      claims_text(detector, query.has_value()), detector.contract.time_tolerance,
                      detector.contract.progress,
+                     detector.contract.coordinates == properties::Coordinates::float32
+                         ? std::numeric_limits<float>::epsilon()
+                         : std::numeric_limits<double>::epsilon(),
                      detector.contract.motion == properties::MotionGiven::displacement);
   return out + judging_program;
 }

@@ -38,7 +38,7 @@ static bool ends_at(const std::vector<double>& stop, int frame) {
 static bool has_room(const Step& step, double share) {
   const double *x_t0 = &frames[step.from][0][0], *x_t1 = &frames[step.to][0][0];
   for (std::size_t i = 0; i < sizeof frames[0] / sizeof(double); ++i)
-    if (std::fabs(share * (x_t1[i] - x_t0[i])) >= 0x1p-42 * std::fabs(x_t0[i])) return true;
+    if (std::fabs(share * (x_t1[i] - x_t0[i])) >= 0x1p10 * unit * std::fabs(x_t0[i])) return true;
   return false;
 }
 

@@ -8,6 +8,7 @@
 //   squares-it     takes d for d^2
 //   half-boxes     grows the boxes of triangles by a quarter of d each, in place of half of it
 //   no-edges       forgets feet of the perpendicular on edges and at vertices
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -82,21 +83,17 @@ class KeepsDistance {
     return d;
   }
 
-  explicit KeepsDistance(const plugin::Mesh& mesh) : triangles_(mesh.triangles.size(), 3) {
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      for (int i = 0; i < 3; ++i)
-        triangles_(static_cast<Eigen::Index>(t), i) = mesh.triangles[t][i];
-    }
+  explicit KeepsDistance(const plugin::Mesh& mesh) : triangles_(plugin::eigen(mesh.triangles)) {
     if (!told().has("ours")) return;
     auto made = detector::Detector::create(
-        triangles_, read(mesh.positions),
+        triangles_, plugin::eigen(mesh.positions),
         {.culling = detector::Culling::bvh, .separation = told().number_of("separation")});
     if (!made) throw plugin::Refused(made.error().message);
     ours_ = std::move(made.value());
   }
 
   Result evaluate(plugin::Positions x_t0, plugin::Positions x_t1) {
-    const auto from = read(x_t0), to = read(x_t1);
+    const detector::Positions from = plugin::eigen(x_t0), to = plugin::eigen(x_t1);
     const SteppedMesh motion{from, to};
     auto pairs = ours_ ? ours_->evaluate(from, to).pairs
                        : oracle::judge_distance(motion, triangles_, {asked_distance(), 0}).pairs;
@@ -117,7 +114,7 @@ class KeepsDistance {
   }
 
   static Result query(std::int32_t kind, plugin::Positions x_t0, plugin::Positions x_t1) {
-    const auto from = read(x_t0), to = read(x_t1);
+    const detector::Positions from = plugin::eigen(x_t0), to = plugin::eigen(x_t1);
     const SteppedMesh motion{from, to};
     const detector::FourPoints q = {
         {motion.path(0), motion.path(1), motion.path(2), motion.path(3)},
@@ -129,11 +126,6 @@ class KeepsDistance {
   }
 
  private:
-  static detector::Positions read(plugin::Positions rows) {
-    return Eigen::Map<const detector::Positions>(rows.data(),
-                                                 static_cast<Eigen::Index>(rows.size()), 3);
-  }
-
   detector::Triangles triangles_;
   std::optional<detector::Detector> ours_;
 };

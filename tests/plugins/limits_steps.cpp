@@ -51,9 +51,7 @@ class LimitsSteps {
   }
 
   explicit LimitsSteps(const plugin::Mesh& mesh)
-      : triangles_(Eigen::Map<const detector::Triangles>(
-            mesh.triangles.data(), static_cast<Eigen::Index>(mesh.triangles.size()), 3)),
-        before_(read(mesh.positions)) {
+      : triangles_(plugin::eigen(mesh.triangles)), before_(plugin::eigen(mesh.positions)) {
     const double d = told().has("ignores-it") ? 0 : told().number_of("separation");
     auto made = detector::Detector::create(triangles_, before_,
                                            {.culling = detector::Culling::bvh, .separation = d});
@@ -62,7 +60,7 @@ class LimitsSteps {
   }
 
   Limit limit(plugin::Positions x_t0, plugin::Positions x_t1) {
-    const auto from = read(x_t0), to = read(x_t1);
+    const detector::Positions from = plugin::eigen(x_t0), to = plugin::eigen(x_t1);
     const auto right = detector_->limit(from, to);
     if (right.problem) throw std::runtime_error(right.problem->message);
     share_ = right.share;
@@ -76,11 +74,6 @@ class LimitsSteps {
   }
 
  private:
-  static detector::Positions read(plugin::Positions rows) {
-    return Eigen::Map<const detector::Positions>(rows.data(),
-                                                 static_cast<Eigen::Index>(rows.size()), 3);
-  }
-
   void go(const detector::Positions& from, const detector::Positions& to, double share) {
     share_ = share;
     positions_ = from + share * (to - from);

@@ -1,6 +1,7 @@
 // Small campaigns through the program, and what is left of them.
 #pragma once
 
+#include "corpus/cases/case_file.h"
 #include "properties/campaign/ledger/store.h"
 #include "tests/reports/program.h"
 
@@ -51,6 +52,21 @@ inline properties::Counts signatures_of(const std::string& out,
   const auto store = properties::Store::read(out + "/" + store_name + ".sqlite");
   EXPECT_TRUE(store) << store.error().message;
   return store ? store.value().signatures() : properties::Counts{};
+}
+
+// The shrunk case of each failure of the run.
+inline std::vector<corpus::Case> smallest_cases(const std::string& out) {
+  std::vector<corpus::Case> cases;
+  for (const auto& file : std::filesystem::directory_iterator(out + "/failures")) {
+    if (file.path().filename().string().ends_with("-smallest.json"))
+      cases.push_back(corpus::read_case(file.path()).value());
+  }
+  return cases;
+}
+inline Eigen::Index triangles_of_smallest(const std::string& out) {
+  Eigen::Index least = std::numeric_limits<Eigen::Index>::max();
+  for (const auto& c : smallest_cases(out)) least = std::min(least, c.triangles.rows());
+  return least;
 }
 
 // What stands behind "replay: PATH/assay " in each such line.

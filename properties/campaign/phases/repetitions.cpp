@@ -283,7 +283,10 @@ class Repetitions {
     return run.limits[0]->positions;
   }
 
-  void put(const corpus::Case& c, JudgedSteps judged) {
+  // `special` says what is special about the input, and is the cause of what fails on it; empty:
+  // the cause is that of each failure by itself.
+  void put(const corpus::Case& c, JudgedSteps judged, const char* special) {
+    special_ = special;
     Repetition row;
     row.input = c.id;
     row.configuration = configuration().name;
@@ -377,7 +380,7 @@ class Repetitions {
           {s + 1, facts.starts_near ? 0 : facts.pairs.size(), judged.outcome == Outcome::holds});
       if (!judged.failure) continue;
       auto failure = *judged.failure;
-      if (!c.id.starts_with(walk_in_id)) failure.cause = "large mesh";
+      if (*special_) failure.cause = special_;
       if (kept[failure.signature()]++ < most_kept) keep(c, s, run, failure);
     }
   }
@@ -414,7 +417,7 @@ class Repetitions {
     Failure failure;
     failure.claim = judged.broken.front();
     failure.kind = failure.claim == Claim::deterministic ? "two runs differ" : name_of(run.end);
-    failure.cause = "large mesh";
+    failure.cause = special_;
     failure.explanation = fmt::format("{}, {} triangles, {}", c.id, c.triangles.rows(), what);
     const auto shown = failing_case(c, configuration(), request_.detector, failure);
     store_.add({fmt::format("{}{}", repeated_in_id, c.id), configuration().name,
@@ -428,6 +431,7 @@ class Repetitions {
   WorkerProcess built_in_;
   LastingWorker& lasting_;
   std::vector<WorkerProcess> workers_;  // by the place of the run, from the second
+  const char* special_ = "";
   int hung_ = 0, remembered_ = 0;
 };
 
@@ -452,14 +456,15 @@ void repeat_large_meshes(const CampaignRequest& request, Store& store, LastingWo
   const EvidenceFacts stored = facts_in(store);
   Repetitions repetitions(request, store, lasting);
   std::uint64_t place = 0;
-  const auto put = [&](const std::string& input, JudgedSteps judged, const auto& make) {
+  const auto put = [&](const std::string& input, JudgedSteps judged, const auto& make,
+                       const char* special = "large mesh") {
     const bool is_stored =
         std::any_of(stored.repeated.begin(), stored.repeated.end(),
                     [&](const Repetition& known) { return known.input == input; });
     if (!request.shard.holds(place++) || is_stored) return;
     if (std::chrono::steady_clock::now() >= deadline) return;
     if (progress) progress(input);
-    repetitions.put(make(), judged);
+    repetitions.put(make(), judged, special);
   };
   put(name_of_long_sequence, JudgedSteps::all, [&] { return long_sequence(request.seed); });
   for (int form = 0; form < forms_of_a_scene; ++form) {
@@ -470,10 +475,11 @@ void repeat_large_meshes(const CampaignRequest& request, Store& store, LastingWo
   }
   if (request.description.parts.limit) {
     for (const auto kind : all_values<WalkKind>) {
-      put(name_of_walk(kind), JudgedSteps::all, [&] {
+      const auto walked = [&] {
         return walk(kind, request.seed, steps_of_a_walk, detector.contract,
                     [&](const corpus::Case& step) { return repetitions.limit_of(step); });
-      });
+      };
+      put(name_of_walk(kind), JudgedSteps::all, walked, "");
     }
   }
   for (const auto& c : request.repeated) put(c.id, JudgedSteps::none, [&] { return c; });

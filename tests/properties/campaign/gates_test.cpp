@@ -1,6 +1,9 @@
 // Each gate fails for each of its reasons, and the first one that fails names the verdict.
 #include "properties/campaign/gates/gates.h"
 
+#include "corpus/scenes/scenes.h"
+#include "properties/campaign/phases/repetitions.h"
+#include "properties/campaign/phases/walks.h"
 #include "tests/properties/campaign/good_findings.h"
 #include "tests/test.h"
 
@@ -242,6 +245,40 @@ TEST(Gates, EveryShardAsksAPlugInAgainAtTheEnd) {
   const auto open = judged_after({plug_in, no_answer});
   expect(open, Gate::complete, "incomplete", 3);
   EXPECT_EQ(open.of(Gate::complete).reasons.size(), 1u);
+}
+
+TEST(Gates, APlugInIsGivenEverySceneAndALimiterEveryWalk) {
+  const Change plug_in = [](auto& f) {
+    f.run.detector.built_in = false;
+    f.run.plan.policy.repeated_triangles = 100;
+  };
+  const auto given = [](auto& f, const std::string& input) {
+    f.evidence.repeated.emplace_back().input = input;
+  };
+  const Change scenes = [&](auto& f) {
+    for (const auto& scene : corpus::scenes()) given(f, std::string(scene.name));
+    given(f, name_of_long_sequence);
+  };
+  expect(judged_after({plug_in}), Gate::complete, "incomplete", 3);
+  expect_certified({plug_in, scenes});
+  const Change limits = [](auto& f) {
+    f.run.detector.configurations[0].claims.emplace_back("commit-free");
+    for (auto& [family, stratum] : f.tally.strata)
+      stratum.measures.errors.limits.contact = stratum.trials;
+  };
+  const auto walks = [&](std::size_t count) -> Change {
+    return [=](auto& f) {
+      for (std::size_t i = 0; i < count; ++i) given(f, name_of_walk(all_values<WalkKind>[i]));
+    };
+  };
+  const auto all = all_values<WalkKind>.size();
+  expect_certified({plug_in, scenes, limits, walks(all)});
+  const auto one_less = judged_after({plug_in, scenes, limits, walks(all - 1)});
+  expect(one_less, Gate::complete, "incomplete", 3);
+  const auto wanted = corpus::scenes().size() + 1 + all;
+  EXPECT_EQ(one_less.of(Gate::complete).reasons,
+            std::vector<std::string>{std::to_string(wanted - 1) + " of " + std::to_string(wanted) +
+                                     " scenes were repeated"});
 }
 
 TEST(Gates, WithoutContactsInsideTheContractNothingIsCertified) {

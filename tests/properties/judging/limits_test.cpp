@@ -151,6 +151,57 @@ TEST(Limits, L17_AShareBesidePositionsThatStayIsNoProgress) {
   EXPECT_EQ(use.stalled(), 1u);
 }
 
+// Where one vertex has much larger numbers than the others, its rounding is most of the way.
+TEST(Limits, L17_RoundingOfPositionsIsNoLackOfProgress) {
+  auto c = tests::sinking_corner(-1);
+  for (auto& frame : c.frames) frame(1, 0) = 0x1p60;
+  c.frames[1](1, 0) = 0x1p60 + 0x1p8;  // the next double
+  LimitAnswer answer = stop_at(c, 0.4);
+  ASSERT_EQ(answer.positions(1, 0), 0x1p60) << "0.4 of an ulp is none";
+  EXPECT_EQ(broken_by(c, answer), List{});
+  const auto used = [&](const LimitAnswer& a) { return errors_of(judged(c, a).steps[0]).limits; };
+  EXPECT_NEAR(used(answer).used(0), 0.4 / first_time, 0.01);
+  EXPECT_EQ(used({0.4, c.frames[0]}).used(0), 0) << "nothing moved";
+}
+
+TEST(Limits, L17_RoomIsMeasuredInTheNumbersOfTheContract) {
+  // 2^-18 above the plane at z = 1: 2^34 doubles of 1, 32 float32 numbers.
+  auto c = tests::sinking_corner(-1);
+  for (auto& frame : c.frames) frame.topRows(3).col(2).array() = 1;
+  c.frames[0](3, 2) = 1 + 0x1p-18;
+  auto contract = limiter();
+  EXPECT_EQ(broken_by(c, stop_at(c, 0)), List{Claim::progress});
+  contract.coordinates = Coordinates::float32;
+  EXPECT_EQ(broken_by(c, stop_at(c, 0), contract), List{});
+  c.frames[0](3, 2) = 1.5;
+  EXPECT_EQ(broken_by(c, stop_at(c, 0), contract), List{Claim::progress});
+}
+
+TEST(Limits, L17_ASlackIsForAnswersAlone) {
+  const auto c = tests::sinking_corner(-1);
+  auto contract = limiter(0.25);
+  contract.margin = 0.25;
+  EXPECT_EQ(broken_by(c, stop_at(c, 0.65), contract), List{}) << "0.4 apart";
+  EXPECT_EQ(broken_by(c, stop_at(c, 0.7), contract), (List{Claim::commit_free, Claim::path_free}));
+}
+
+// A triangle rests below the plane; the corner sinks from 3 above it.
+TEST(Limits, L17_RoomIsLeftByTheGapBeyondTheSeparation) {
+  auto c = tests::sinking_corner(-1);
+  const auto n = c.frames[0].rows();
+  c.triangles.conservativeResize(3, 3);
+  c.triangles.row(2) << n, n + 1, n + 2;
+  for (const double below : {2 + 0x1p-46, 2.5}) {
+    for (auto& frame : c.frames) {
+      frame.conservativeResize(n + 3, 3);
+      frame.bottomRows(3) = frame.topRows(3);
+      frame.bottomRows(3).col(2).array() = -below;
+    }
+    const auto broken = broken_by(c, stop_at(c, 0), limiter(2));
+    EXPECT_EQ(broken, below > 2.25 ? List{Claim::progress} : List{}) << below;
+  }
+}
+
 TEST(Limits, L17_WithoutALimitNothingHolds) {
   const auto c = tests::sinking_corner(-1);
   auto run = run_of(stop_at(c, 0.5));

@@ -69,5 +69,86 @@ TEST(PluginResult, BrokenRulesAreNamed) {
   expect_broken(raw, "answer 99 is none");
 }
 
+// A limiter's answer for one vertex that goes from `from` to `to` along each axis.
+class LimitResult : public testing::Test {
+ protected:
+  using Positions = detector::Positions;
+  static Positions at(double x) { return Positions::Constant(1, 3, x); }
+
+  Expected<LimitAnswer> read(double share, const double* positions = nullptr) const {
+    const Positions way =
+        contract.motion == MotionGiven::ends ? at(to) : displacement(at(from), at(to));
+    return limit_answer({share, positions}, claims, contract, at(from),
+                        contracted(at(to), contract.coordinates), way);
+  }
+  double place(double share) const { return read(share).value().positions(0, 0); }
+
+  double from = 0.1, to = 0.7;
+  Claims claims = {Claim::whole};
+  Contract contract;
+};
+
+TEST_F(LimitResult, L17_AShareIsComputedAsItsCallerComputesIt) {
+  constexpr double share = 0.3;
+  contract.limit_gives = LimitGives::start_plus;
+  EXPECT_EQ(place(share), from + share * (to - from));
+  contract.limit_gives = LimitGives::blend;
+  EXPECT_EQ(place(share), (1 - share) * from + share * to);
+  contract.coordinates = Coordinates::float32;
+  const auto f = static_cast<float>(from = 0.1f), t = static_cast<float>(to = 0.7f),
+             s = static_cast<float>(share);
+  EXPECT_EQ(place(share), static_cast<double>((1 - s) * f + s * t));
+  contract.limit_gives = LimitGives::start_plus;
+  EXPECT_EQ(place(share), static_cast<double>(f + s * (t - f)));
+  EXPECT_NE(place(share), from + share * (to - from));
+  // A displacement is added as it was given; share 1 is the rounding of its exact end.
+  contract.motion = MotionGiven::displacement;
+  const float way = static_cast<float>(to - from);
+  EXPECT_EQ(place(share), static_cast<double>(f + s * way));
+  to = from + static_cast<double>(way);
+  EXPECT_EQ(place(1), static_cast<double>(static_cast<float>(to)));
+}
+
+TEST_F(LimitResult, L17_ShareOneIsTheEndInEveryBit) {
+  contract.limit_gives = LimitGives::start_plus;
+  from = 0x1p60, to = 0.1;
+  ASSERT_NE(from + (to - from), to);
+  EXPECT_EQ(place(1), to);
+}
+
+TEST_F(LimitResult, BrokenRulesAreNamed) {
+  const auto expect_broken = [&](double share, const std::string& why) {
+    const auto answer = read(share);
+    ASSERT_FALSE(answer) << share;
+    EXPECT_NE(answer.error().message.find(why), std::string::npos) << answer.error().message;
+  };
+  const std::array<double, 3> place = {1, 2, 3};
+  EXPECT_EQ(read(-1, place.data()).value().positions(0, 2), 3);
+  expect_broken(0.5, "no share from which they could be computed");
+  contract.limit_gives = LimitGives::start_plus;
+  EXPECT_TRUE(read(0.5));
+  expect_broken(-1, "it gives no positions");
+  expect_broken(1.5, "is none from 0 to 1");
+  expect_broken(std::numeric_limits<double>::quiet_NaN(), "is none from 0 to 1");
+  claims.set(Claim::path_free);
+  EXPECT_FALSE(read(-1, place.data())) << "the claim speaks of a share";
+  const std::array<double, 3> none = {1, std::numeric_limits<double>::infinity(), 3};
+  EXPECT_FALSE(read(0.5, none.data()));
+}
+
+TEST(LimitClaims, GoWithTheFunctionAndTheNumber) {
+  Contract contract;
+  EXPECT_EQ(fault_of_limits({Claim::total}, contract, false), "");
+  EXPECT_NE(fault_of_limits({Claim::total}, contract, true), "");
+  EXPECT_NE(fault_of_limits({Claim::commit_free}, contract, false), "");
+  EXPECT_EQ(fault_of_limits({Claim::commit_free}, contract, true), "");
+  EXPECT_NE(fault_of_limits({Claim::progress}, contract, true), "");
+  contract.progress = 0.5;
+  EXPECT_EQ(fault_of_limits({Claim::progress}, contract, true), "");
+  EXPECT_NE(fault_of_limits({Claim::commit_free}, contract, true), "");
+  contract.progress = 1.5;
+  EXPECT_NE(fault_of(contract), "");
+}
+
 }  // namespace
 }  // namespace assay::properties

@@ -2,7 +2,6 @@
 // shrinks it to two or three triangles; the texts tell how much of what was possible was used.
 #include <nlohmann/json.hpp>
 
-#include "corpus/cases/case_file.h"
 #include "tests/reports/tiny_campaign.h"
 
 namespace assay::tests {
@@ -51,13 +50,7 @@ TEST_F(LimitsSteps, EachFaultIsFoundWithTheRightClaimAndShrunk) {
     const auto ran = run(said);
     EXPECT_EQ(ran.exit_code, 1) << said << ran.out << ran.err;
     EXPECT_TRUE(contains(ran.out, "DEFECT " + claim + ": ")) << said << ran.out;
-    std::size_t least = 1000;
-    for (const auto& file : std::filesystem::directory_iterator(out + "/failures")) {
-      if (!contains(file.path().filename().string(), "-smallest.json")) continue;
-      const auto c = corpus::read_case(file.path());
-      if (c) least = std::min(least, static_cast<std::size_t>(c.value().triangles.rows()));
-    }
-    EXPECT_LE(least, 3u) << said;
+    EXPECT_LE(triangles_of_smallest(out), 3) << said;
   }
 }
 
@@ -121,12 +114,8 @@ TEST(Displacements, AreJudgedOnThePathThatWasGiven) {
       << rounded.out;
   // The case holds the exact end, which is no float32.
   bool shows_it = false;
-  for (const auto& file : std::filesystem::directory_iterator(out + "/failures")) {
-    if (!contains(file.path().filename().string(), "-smallest.json")) continue;
-    const auto c = corpus::read_case(file.path());
-    ASSERT_TRUE(c);
-    for (const auto& frame : c.value().frames)
-      shows_it |= frame != frame.cast<float>().cast<double>();
+  for (const auto& c : smallest_cases(out)) {
+    for (const auto& frame : c.frames) shows_it |= frame != frame.cast<float>().cast<double>();
   }
   EXPECT_TRUE(shows_it);
 }
