@@ -1,0 +1,787 @@
+/* Records what a simulator does: its mesh, each of its steps, and what its own collision detector
+ * answered, in a log that `assay judge` reads. C99 or C++11; this header and assay_detector.h
+ * beside it are all that is needed, and nothing is linked.
+ *
+ *   assay_recorder recorder;
+ *   assay_record_settings settings = {"steps.log", 1, 0, 0};
+ *   assay_record_begin(&recorder, &settings, &description, triangles, m, positions, n, NULL);
+ *   for each step: assay_record_step(&recorder, &step);
+ *   assay_record_end(&recorder);
+ *
+ * The form of the log is told in corpus/README.md (Step logs). Numbers are recorded as they are,
+ * those that are not finite too: what a simulator did is not mended.
+ *
+ * MEMORY. The caller owns the recorder, about 17 KB, and all arrays; none is needed once the call
+ * has returned. The recorder allocates the begin record if there is a ring, and the positions of
+ * one frame if there is a ring, if steps are left out, or if a write failed. assay_record_end
+ * frees them.
+ *
+ * THREADS. A recorder is used by one thread at a time; different recorders know nothing of each
+ * other.
+ *
+ * ERRORS. Each function that returns int32_t returns ASSAY_OK, or one of the numbers below;
+ * assay_record_error tells one line about it. After a call that was refused nothing is written,
+ * and the recorder is as before. After a write that failed the record is lost, perhaps in its
+ * middle, its step and record are counted, and later records are tried all the same.
+ *
+ * COST. Arrays are written from the caller's memory at once, without a buffer between: a process
+ * that is killed loses at most the record that it was writing. A step costs at most about twice
+ * what it costs to write its arrays with fwrite. */
+#ifndef ASSAY_RECORD_H
+#define ASSAY_RECORD_H
+
+#include <errno.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "assay_detector.h"
+
+/* What may be wrong, besides ASSAY_OK and ASSAY_OUT_OF_MEMORY. A number keeps its meaning. */
+enum {
+  ASSAY_RECORD_WRONG_ARGUMENT = 16, /* refused: an argument is missing or has no such value */
+  ASSAY_RECORD_NO_START = 17,       /* refused: x0 is absent, and where the last step ended is not
+                                       known */
+  ASSAY_RECORD_NOT_BEGUN = 18,      /* refused: begin did not succeed, or end was called */
+  ASSAY_RECORD_FILE_EXISTS = 19,    /* refused: a file is there that would be overwritten */
+  ASSAY_RECORD_NOT_OPENED = 20,     /* the file could not be opened */
+  ASSAY_RECORD_NOT_WRITTEN = 21,    /* the record could not be written, or not wholly */
+  ASSAY_RECORD_NOT_RENAMED = 22     /* a file could not be renamed. Of a step: it was recorded all
+                                       the same, in a file that goes on growing */
+};
+
+/* Where a log goes, and how much of it is kept. */
+typedef struct assay_record_settings {
+  const char* path;
+  uint64_t every;    /* one step of so many is recorded, the first one included; 0 and 1: each */
+  uint64_t ring;     /* 0: the file holds all steps. K: it holds the newest ones. The step behind
+                        its K-th one renames it to path.before, in place of an older one, and begins
+                        a new file. Each of the two is a log by itself, and together they hold at
+                        least the last K recorded steps */
+  int32_t overwrite; /* 0: files that are there and not empty are refused; else they are lost */
+} assay_record_settings;
+
+/* An array of vertex_count x 3 numbers, double or float. data NULL: it is absent. */
+typedef struct assay_record_array {
+  const void* data;
+  int32_t is_float32; /* 0: double */
+} assay_record_array;
+
+/* A step, in the user's units. Set it to 0 as a whole, then the members that there are. */
+typedef struct assay_record_step_data {
+  assay_record_array x0;        /* where it starts. Absent: where the last step ended, which are its
+                                   committed positions, or else its x1 */
+  assay_record_array x1, dx;    /* exactly one of them: where it would go, or by how much */
+  assay_record_array committed; /* where the simulator really went, or absent */
+  const assay_result* result;   /* what its detector answered, or NULL */
+  const assay_limit* limit;     /* how far its limiter let it go, or NULL */
+} assay_record_step_data;
+
+/* A log that is being written. Its members are the recorder's own. */
+typedef struct assay_recorder {
+  uint32_t crc_tables[16][256];
+  char error[256];
+  /* The record that is being written. */
+  unsigned char staged[256]; /* small pieces, until a large one or the end of the record */
+  size_t staged_size;
+  unsigned char* memory; /* where a record is put together that goes to no file, or NULL */
+  uint64_t body_size, keys;
+  int32_t is_counted; /* it is gone through a first time, to learn body_size and keys */
+  int32_t has_failed; /* something of it could not be written, for this reason (errno) */
+  int32_t reason;
+  uint32_t crc;
+  /* The log. */
+  int32_t is_begun, overwrite, no_begin_record;
+  uint64_t every, ring, vertex_count;
+  char *path, *other_path;
+  FILE* file;
+  unsigned char* begin_record;
+  size_t begin_size;
+  uint64_t next_step, next_record, steps_in_file, first_in_file;
+  int32_t keeps_file; /* assay_record_keep was told of the file that is being written */
+  int32_t has_before; /* path.before is of this recording */
+  uint64_t first_before;
+  /* Where the last step ended. */
+  int32_t end_is_known, end_is_in_file, end_is_float32;
+  void* end;
+} assay_recorder;
+
+/* Opens the file and records the mesh and what its detector claims. A recorder that records must
+ * be ended before it begins anew; otherwise its contents do not matter.
+ *
+ * description: as of a detector that is certified. triangles: triangle_count x 3 vertex indices.
+ * positions: those that the detector was made from. counted: which pairs count, or NULL: all. */
+static inline int32_t assay_record_begin(assay_recorder* recorder,
+                                         const assay_record_settings* settings,
+                                         const assay_description* description,
+                                         const int32_t* triangles, uint64_t triangle_count,
+                                         assay_record_array positions, uint64_t vertex_count,
+                                         const assay_counted_pairs* counted);
+
+/* Records the next step, or counts it if it is one of those that `every` leaves out. Where x0 is
+ * absent and the step before is not in the file, the recorder writes it from a copy of its own. A
+ * step whose x0 is absent is refused if it is the first one, or follows one that has a dx and no
+ * committed positions. */
+static inline int32_t assay_record_step(assay_recorder* recorder,
+                                        const assay_record_step_data* step);
+
+/* Records a line of text before the next step. Bytes that are no UTF-8 become question marks. */
+static inline int32_t assay_record_note(assay_recorder* recorder, const char* text);
+
+/* Saves the newest steps of a ring from being replaced, when something was seen that is worth it.
+ * path.before is renamed to path.kept-F at once, and the file that is being written when it is
+ * full, where F is the number of the file's first step. Without a ring nothing is lost anyway. */
+static inline int32_t assay_record_keep(assay_recorder* recorder);
+
+/* Records how many steps there were, closes the file and frees what the recorder allocated, even
+ * if it could not write. A recorder that was begun is ended once. */
+static inline int32_t assay_record_end(assay_recorder* recorder);
+
+/* One line about the call that failed last, or "". Valid until the next call. */
+static inline const char* assay_record_error(const assay_recorder* recorder);
+
+/* What follows is the recorder's own; its names end with an underscore. */
+
+static inline int32_t assay_record_fail_(assay_recorder* r, int32_t code, const char* what,
+                                         const char* name, int32_t reason) {
+  (void)snprintf(r->error, sizeof r->error, "%.60s%s%.120s%s%.60s", what, *name ? " " : "", name,
+                 reason ? ": " : "", reason ? strerror(reason) : "");
+  return code;
+}
+
+static inline void assay_record_make_tables_(assay_recorder* r) {
+  uint32_t byte, k;
+  for (byte = 0; byte < 256; ++byte) {
+    uint32_t c = byte;
+    for (k = 0; k < 8; ++k) c = (c >> 1) ^ (0xEDB88320u & (0u - (c & 1u)));
+    r->crc_tables[0][byte] = c;
+  }
+  for (k = 1; k < 16; ++k)
+    for (byte = 0; byte < 256; ++byte) {
+      const uint32_t c = r->crc_tables[k - 1][byte];
+      r->crc_tables[k][byte] = (c >> 8) ^ r->crc_tables[0][c & 255u];
+    }
+}
+
+/* Four bytes of the stream, the first one lowest, whatever the order of bytes of the machine. */
+static inline uint32_t assay_record_four_(const unsigned char* p) {
+  return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
+}
+
+static inline uint32_t assay_record_four_at_(uint32_t (*tables)[256], uint32_t x) {
+  return tables[3][x & 255u] ^ tables[2][x >> 8 & 255u] ^ tables[1][x >> 16 & 255u] ^
+         tables[0][x >> 24];
+}
+
+/* The CRC-32 of zlib, 16 bytes at a time. */
+static inline void assay_record_sum_(assay_recorder* r, const unsigned char* p, size_t n) {
+  uint32_t(*const t)[256] = r->crc_tables;
+  uint32_t c = r->crc;
+  for (; n >= 16; n -= 16, p += 16) {
+    c = assay_record_four_at_(t + 12, c ^ assay_record_four_(p)) ^
+        assay_record_four_at_(t + 8, assay_record_four_(p + 4)) ^
+        assay_record_four_at_(t + 4, assay_record_four_(p + 8)) ^
+        assay_record_four_at_(t, assay_record_four_(p + 12));
+  }
+  for (; n > 0; --n, ++p) c = (c >> 8) ^ t[0][(c ^ *p) & 255u];
+  r->crc = c;
+}
+
+static inline void assay_record_to_file_(assay_recorder* r, const void* data, size_t n) {
+  if (r->has_failed || n == 0) return;
+  errno = 0;
+  if (fwrite(data, 1, n, r->file) == n) return;
+  r->has_failed = 1;
+  r->reason = errno;
+  clearerr(r->file);
+}
+
+static inline void assay_record_flush_(assay_recorder* r) {
+  assay_record_to_file_(r, r->staged, r->staged_size);
+  r->staged_size = 0;
+}
+
+/* Bytes outside of a body, or whose sum is taken. */
+static inline void assay_record_raw_(assay_recorder* r, const void* data, size_t n) {
+  if (r->memory) {
+    memcpy(r->memory, data, n);
+    r->memory += n;
+    return;
+  }
+  if (n > sizeof r->staged - r->staged_size) assay_record_flush_(r);
+  if (n > sizeof r->staged) {
+    assay_record_to_file_(r, data, n);
+  } else {
+    memcpy(r->staged + r->staged_size, data, n);
+    r->staged_size += n;
+  }
+}
+
+/* Bytes of a body. A part is written while the sum has left it in the processor's caches. */
+static inline void assay_record_put_(assay_recorder* r, const void* data, uint64_t size) {
+  const unsigned char* p = (const unsigned char*)data;
+  if (r->is_counted) {
+    r->body_size += size;
+    return;
+  }
+  while (size > 0) {
+    const size_t part = size < 131072u ? (size_t)size : 131072u;
+    assay_record_sum_(r, p, part);
+    assay_record_raw_(r, p, part);
+    p += part;
+    size -= part;
+  }
+}
+
+static inline void assay_record_big_endian_(unsigned char* out, uint64_t value, int bytes) {
+  for (; bytes > 0; --bytes, value >>= 8) out[bytes - 1] = (unsigned char)(value & 255u);
+}
+
+/* The head of a CBOR item, in as few bytes as it takes; major: its type, 0 to 7. */
+static inline size_t assay_record_head_bytes_(unsigned char* out, unsigned major, uint64_t n) {
+  const int log = n < 256u ? 0 : n < 65536u ? 1 : n <= 0xFFFFFFFFu ? 2 : 3;
+  if (n < 24u) {
+    out[0] = (unsigned char)(major << 5 | (unsigned)n);
+    return 1;
+  }
+  out[0] = (unsigned char)(major << 5 | (24u + (unsigned)log));
+  assay_record_big_endian_(out + 1, n, 1 << log);
+  return (size_t)1 + ((size_t)1 << log);
+}
+
+static inline void assay_record_head_(assay_recorder* r, unsigned major, uint64_t n) {
+  unsigned char bytes[9];
+  assay_record_put_(r, bytes, assay_record_head_bytes_(bytes, major, n));
+}
+
+/* How many bytes from p on are one character of UTF-8, or 0. */
+static inline size_t assay_record_utf8_(const unsigned char* p) {
+  const size_t n = *p < 0x80u ? 1 : *p < 0xC2u ? 0 : *p < 0xE0u ? 2 : *p < 0xF0u ? 3 : 4;
+  size_t i;
+  if (*p > 0xF4u) return 0;
+  for (i = 1; i < n; ++i)
+    if ((p[i] & 0xC0u) != 0x80u) return 0;
+  if ((*p == 0xE0u && p[1] < 0xA0u) || (*p == 0xEDu && p[1] > 0x9Fu)) return 0;
+  return (*p == 0xF0u && p[1] < 0x90u) || (*p == 0xF4u && p[1] > 0x8Fu) ? 0 : n;
+}
+
+static inline void assay_record_text_(assay_recorder* r, const char* text) {
+  const unsigned char* p = (const unsigned char*)text;
+  assay_record_head_(r, 3, strlen(text));
+  while (*p) {
+    const size_t n = assay_record_utf8_(p);
+    assay_record_put_(r, n ? (const void*)p : (const void*)"?", n ? n : 1);
+    p += n ? n : 1;
+  }
+}
+
+static inline void assay_record_key_(assay_recorder* r, const char* key) {
+  ++r->keys;
+  assay_record_text_(r, key);
+}
+
+static inline void assay_record_integer_(assay_recorder* r, const char* key, int64_t value) {
+  assay_record_key_(r, key);
+  if (value < 0)
+    assay_record_head_(r, 1, (uint64_t)(-(value + 1)));
+  else
+    assay_record_head_(r, 0, (uint64_t)value);
+}
+
+static inline void assay_record_count_(assay_recorder* r, const char* key, uint64_t value) {
+  assay_record_key_(r, key);
+  assay_record_head_(r, 0, value);
+}
+
+static inline void assay_record_words_(assay_recorder* r, const char* key, const char* text) {
+  assay_record_key_(r, key);
+  assay_record_text_(r, text);
+}
+
+static inline void assay_record_real_(assay_recorder* r, const char* key, double value) {
+  unsigned char bytes[9];
+  uint64_t bits;
+  memcpy(&bits, &value, sizeof bits);
+  bytes[0] = 0xFBu;
+  assay_record_big_endian_(bytes + 1, bits, 8);
+  assay_record_key_(r, key);
+  assay_record_put_(r, bytes, sizeof bytes);
+}
+
+/* A typed array of RFC 8746. big: its tag on a machine whose first byte is the highest; each tag
+ * is 4 more where it is the lowest. */
+static inline void assay_record_typed_(assay_recorder* r, const char* key, unsigned big,
+                                       const void* data, uint64_t bytes) {
+  const uint16_t one = 1;
+  assay_record_key_(r, key);
+  assay_record_head_(r, 6, big + (*(const unsigned char*)&one == 1 ? 4u : 0u));
+  assay_record_head_(r, 2, bytes);
+  assay_record_put_(r, data, bytes);
+}
+
+static inline void assay_record_int32s_(assay_recorder* r, const char* key, const int32_t* data,
+                                        uint64_t count) {
+  assay_record_typed_(r, key, 74, data, 4 * count);
+}
+
+static inline void assay_record_doubles_(assay_recorder* r, const char* key, const double* data,
+                                         uint64_t count) {
+  assay_record_typed_(r, key, 82, data, 8 * count);
+}
+
+static inline void assay_record_vertices_(assay_recorder* r, const char* key,
+                                          assay_record_array array) {
+  if (array.data)
+    assay_record_typed_(r, key, array.is_float32 ? 81 : 82, array.data,
+                        (array.is_float32 ? 12u : 24u) * r->vertex_count);
+}
+
+/* A map within the body: its keys are not those of the body. */
+static inline void assay_record_counted_(assay_recorder* r, const assay_counted_pairs* c) {
+  const uint64_t outside = r->keys;
+  assay_record_head_(r, 5,
+                     3u + (c->body ? 1u : 0u) + (c->apart_count ? 1u : 0u) + (c->rest ? 1u : 0u) +
+                         (c->triangle_pair_count ? 1u : 0u) + (c->vertex_face_count ? 1u : 0u) +
+                         (c->edge_pair_count ? 1u : 0u));
+  assay_record_integer_(r, "level", c->level);
+  assay_record_integer_(r, "rings", c->rings);
+  assay_record_real_(r, "rest_distance", c->rest_distance);
+  if (c->body) assay_record_int32s_(r, "body", c->body, r->vertex_count);
+  if (c->apart_count) assay_record_int32s_(r, "apart", c->apart, 2 * c->apart_count);
+  if (c->rest) assay_record_doubles_(r, "rest", c->rest, 3 * r->vertex_count);
+  if (c->triangle_pair_count)
+    assay_record_int32s_(r, "triangle_pairs", c->triangle_pairs, 2 * c->triangle_pair_count);
+  if (c->vertex_face_count)
+    assay_record_int32s_(r, "vertex_faces", c->vertex_faces, 2 * c->vertex_face_count);
+  if (c->edge_pair_count)
+    assay_record_int32s_(r, "edge_pairs", c->edge_pairs, 4 * c->edge_pair_count);
+  r->keys = outside;
+}
+
+/* What the bodies of records are made of. */
+typedef struct assay_record_content_ {
+  const assay_description* description;
+  const int32_t* triangles;
+  uint64_t triangle_count;
+  assay_record_array positions;
+  const assay_counted_pairs* counted;
+  assay_record_array x0;
+  const assay_record_step_data* step;
+  const char* text;
+} assay_record_content_;
+
+static inline void assay_record_begin_body_(assay_recorder* r, const assay_record_content_* c) {
+  const assay_description* d = c->description;
+  assay_record_words_(r, "type", "begin");
+  assay_record_count_(r, "log", 1);
+  assay_record_count_(r, "record", 0);
+  assay_record_words_(r, "name", d->name);
+  assay_record_words_(r, "version", d->version ? d->version : "");
+  assay_record_count_(r, "claims", d->claims);
+  assay_record_integer_(r, "adjacency", d->adjacency);
+  assay_record_integer_(r, "coordinates", d->coordinates);
+  assay_record_real_(r, "margin", d->margin);
+  assay_record_integer_(r, "start", d->start);
+  assay_record_real_(r, "start_distance", d->start_distance);
+  assay_record_real_(r, "least_nonzero", d->least_nonzero);
+  assay_record_real_(r, "largest", d->largest);
+  assay_record_integer_(r, "features", d->features);
+  assay_record_real_(r, "time_tolerance", d->time_tolerance);
+  assay_record_integer_(r, "reports", d->reports);
+  assay_record_real_(r, "separation", d->separation);
+  assay_record_integer_(r, "counts", d->counts);
+  assay_record_integer_(r, "rings", d->rings);
+  assay_record_real_(r, "rest_distance", d->rest_distance);
+  assay_record_integer_(r, "limit_gives", d->limit_gives);
+  assay_record_real_(r, "progress", d->progress);
+  assay_record_integer_(r, "motion", d->motion);
+  assay_record_count_(r, "vertices", r->vertex_count);
+  assay_record_int32s_(r, "triangles", c->triangles, 3 * c->triangle_count);
+  assay_record_vertices_(r, "positions", c->positions);
+  if (c->counted) {
+    assay_record_key_(r, "counted");
+    assay_record_counted_(r, c->counted);
+  }
+}
+
+static inline void assay_record_answer_(assay_recorder* r, const assay_result* result) {
+  assay_record_integer_(r, "answer", result->answer);
+  if (result->answer == ASSAY_COLLISION) {
+    assay_record_real_(r, "first_lo", result->first_lo);
+    assay_record_real_(r, "first_hi", result->first_hi);
+  }
+  if (result->pair_count) {
+    assay_record_int32s_(r, "pairs", result->pairs, 2 * result->pair_count);
+    if (result->pair_times)
+      assay_record_doubles_(r, "pair_times", result->pair_times, 2 * result->pair_count);
+  }
+  if (result->message) assay_record_words_(r, "message", result->message);
+}
+
+static inline void assay_record_step_body_(assay_recorder* r, const assay_record_content_* c) {
+  const assay_record_step_data* s = c->step;
+  assay_record_words_(r, "type", "step");
+  assay_record_count_(r, "record", r->next_record);
+  assay_record_count_(r, "step", r->next_step);
+  assay_record_vertices_(r, "x0", c->x0);
+  assay_record_vertices_(r, "x1", s->x1);
+  assay_record_vertices_(r, "dx", s->dx);
+  assay_record_vertices_(r, "committed", s->committed);
+  if (s->result) assay_record_answer_(r, s->result);
+  if (s->limit && s->limit->share != -1) /* which says that it is not stated */
+    assay_record_real_(r, "share", s->limit->share);
+  if (s->limit && s->limit->positions)
+    assay_record_doubles_(r, "positions", s->limit->positions, 3 * r->vertex_count);
+}
+
+static inline void assay_record_note_body_(assay_recorder* r, const assay_record_content_* c) {
+  assay_record_words_(r, "type", "note");
+  assay_record_count_(r, "record", r->next_record);
+  assay_record_count_(r, "step", r->next_step);
+  assay_record_words_(r, "text", c->text);
+}
+
+static inline void assay_record_end_body_(assay_recorder* r, const assay_record_content_* c) {
+  (void)c;
+  assay_record_words_(r, "type", "end");
+  assay_record_count_(r, "record", r->next_record);
+  assay_record_count_(r, "steps", r->next_step);
+}
+
+typedef void (*assay_record_body_)(assay_recorder*, const assay_record_content_*);
+
+/* Goes through a body once without writing it. Returns the size of the whole record. */
+static inline uint64_t assay_record_measure_(assay_recorder* r, assay_record_body_ body,
+                                             const assay_record_content_* content) {
+  unsigned char head[9];
+  r->is_counted = 1;
+  r->body_size = 0;
+  r->keys = 0;
+  body(r, content);
+  r->is_counted = 0;
+  r->body_size += assay_record_head_bytes_(head, 5, r->keys);
+  return 17u + r->body_size + 5u;
+}
+
+/* Writes the record that was measured. */
+static inline void assay_record_compose_(assay_recorder* r, assay_record_body_ body,
+                                         const assay_record_content_* content) {
+  unsigned char frame[17] = {0x83, 0x44, 'A', 'S', 'R', '1', 0xD8, 0x18, 0x5B};
+  assay_record_big_endian_(frame + 9, r->body_size, 8);
+  r->crc = 0xFFFFFFFFu;
+  assay_record_raw_(r, frame, sizeof frame);
+  assay_record_head_(r, 5, r->keys);
+  body(r, content);
+  frame[0] = 0x1A;
+  assay_record_big_endian_(frame + 1, r->crc ^ 0xFFFFFFFFu, 4);
+  assay_record_raw_(r, frame, 5);
+}
+
+/* r->other_path becomes the name of a file beside the log: .before, or .kept-FIRST. */
+static inline const char* assay_record_before_(assay_recorder* r) {
+  (void)snprintf(r->other_path, strlen(r->path) + 32, "%s.before", r->path);
+  return r->other_path;
+}
+
+static inline const char* assay_record_kept_(assay_recorder* r, uint64_t first) {
+  (void)snprintf(r->other_path, strlen(r->path) + 32, "%s.kept-%llu", r->path,
+                 (unsigned long long)first);
+  return r->other_path;
+}
+
+static inline int32_t assay_record_is_there_(const char* path) {
+  FILE* file = fopen(path, "rb");
+  const int32_t is_there = file && fgetc(file) != EOF;
+  if (file) (void)fclose(file);
+  return is_there;
+}
+
+/* Not every system renames to the name of a file that is there. */
+static inline int32_t assay_record_move_(assay_recorder* r, const char* from, const char* to) {
+  (void)remove(to);
+  errno = 0;
+  if (rename(from, to) == 0) return ASSAY_OK;
+  return assay_record_fail_(r, ASSAY_RECORD_NOT_RENAMED, "cannot rename to", to, errno);
+}
+
+static inline int32_t assay_record_open_(assay_recorder* r, const char* mode) {
+  errno = 0;
+  r->file = fopen(r->path, mode);
+  if (!r->file)
+    return assay_record_fail_(r, ASSAY_RECORD_NOT_OPENED, "cannot open", r->path, errno);
+  (void)setvbuf(r->file, NULL, _IONBF, 0);
+  return ASSAY_OK;
+}
+
+/* What is wrong after writing, if anything is. */
+static inline int32_t assay_record_told_(assay_recorder* r) {
+  if (!r->has_failed) return ASSAY_OK;
+  r->has_failed = 0;
+  return assay_record_fail_(r, ASSAY_RECORD_NOT_WRITTEN, "cannot write to", r->path, r->reason);
+}
+
+/* Opens the file and writes its begin record, where an earlier call could not. */
+static inline int32_t assay_record_ready_(assay_recorder* r) {
+  int32_t code = r->file ? ASSAY_OK : assay_record_open_(r, "wb");
+  if (code != ASSAY_OK || !r->no_begin_record) return code;
+  assay_record_to_file_(r, r->begin_record, r->begin_size);
+  code = assay_record_told_(r);
+  r->no_begin_record = code != ASSAY_OK;
+  if (code != ASSAY_OK) {
+    (void)fclose(r->file);
+    r->file = NULL;
+  }
+  return code;
+}
+
+static inline int32_t assay_record_write_(assay_recorder* r, assay_record_body_ body,
+                                          const assay_record_content_* content) {
+  int32_t code = assay_record_ready_(r);
+  if (code == ASSAY_OK) {
+    (void)assay_record_measure_(r, body, content);
+    assay_record_compose_(r, body, content);
+    assay_record_flush_(r);
+    code = assay_record_told_(r);
+  }
+  ++r->next_record;
+  return code;
+}
+
+/* The file is full: it goes out of the way, and the next record begins another one. */
+static inline int32_t assay_record_turn_(assay_recorder* r) {
+  int32_t code = ASSAY_OK;
+  if (r->file) (void)fclose(r->file);
+  r->file = NULL;
+  code = assay_record_move_(
+      r, r->path,
+      r->keeps_file ? assay_record_kept_(r, r->first_in_file) : assay_record_before_(r));
+  if (code != ASSAY_OK) {
+    (void)assay_record_open_(r, "ab");
+    return code;
+  }
+  if (!r->keeps_file) {
+    r->has_before = 1;
+    r->first_before = r->first_in_file;
+  }
+  r->keeps_file = 0;
+  r->no_begin_record = 1;
+  r->next_record = 1;
+  r->steps_in_file = 0;
+  r->end_is_in_file = 0;
+  return ASSAY_OK;
+}
+
+/* Copies where a step ended. Without memory for it, the next step has to say where it starts. */
+static inline int32_t assay_record_copy_end_(assay_recorder* r, assay_record_array end) {
+  if (!r->end) r->end = malloc((size_t)(24u * r->vertex_count));
+  r->end_is_float32 = end.is_float32;
+  if (r->end) memcpy(r->end, end.data, (size_t)((end.is_float32 ? 12u : 24u) * r->vertex_count));
+  return r->end != NULL;
+}
+
+static inline void assay_record_free_(assay_recorder* r) {
+  if (r->file) (void)fclose(r->file);
+  free(r->path);
+  free(r->other_path);
+  free(r->begin_record);
+  free(r->end);
+  r->file = NULL;
+  r->path = r->other_path = NULL;
+  r->begin_record = NULL;
+  r->end = NULL;
+  r->is_begun = 0;
+}
+
+static inline int32_t assay_record_wrong_(assay_recorder* r, const char* what) {
+  return assay_record_fail_(r, ASSAY_RECORD_WRONG_ARGUMENT, what, "", 0);
+}
+
+static inline int32_t assay_record_check_mesh_(assay_recorder* r, const assay_record_content_* c,
+                                               uint64_t vertex_count) {
+  uint64_t i;
+  if (!c->description || !c->description->name)
+    return assay_record_wrong_(r, "the description or its name is missing");
+  if (!c->positions.data || vertex_count == 0 || vertex_count > INT32_MAX)
+    return assay_record_wrong_(r, "a mesh has positions of 1 to 2^31 - 1 vertices");
+  if (c->triangle_count > INT32_MAX || (!c->triangles && c->triangle_count))
+    return assay_record_wrong_(r, "the triangles are missing, or above 2^31 - 1");
+  for (i = 0; i < 3 * c->triangle_count; ++i)
+    if (c->triangles[i] < 0 || (uint64_t)c->triangles[i] >= vertex_count)
+      return assay_record_wrong_(r, "a triangle names a vertex that does not exist");
+  if (c->counted && ((c->counted->apart_count && !c->counted->apart) ||
+                     (c->counted->rest_distance > 0 && !c->counted->rest) ||
+                     (c->counted->triangle_pair_count && !c->counted->triangle_pairs) ||
+                     (c->counted->vertex_face_count && !c->counted->vertex_faces) ||
+                     (c->counted->edge_pair_count && !c->counted->edge_pairs)))
+    return assay_record_wrong_(r, "a list of the pairs that count is missing");
+  return ASSAY_OK;
+}
+
+/* What may be refused before the file is touched, and what has to be allocated. */
+static inline int32_t assay_record_prepare_(assay_recorder* r, const assay_record_settings* s,
+                                            const assay_record_content_* content) {
+  const size_t length = strlen(s->path);
+  uint64_t size;
+  r->every = s->every ? s->every : 1;
+  r->ring = s->ring;
+  r->overwrite = s->overwrite;
+  r->path = (char*)malloc(length + 1);
+  r->other_path = (char*)malloc(length + 32);
+  size = assay_record_measure_(r, assay_record_begin_body_, content);
+  r->begin_size = (size_t)size;
+  r->begin_record = r->begin_size == size ? (unsigned char*)malloc(r->begin_size) : NULL;
+  if (r->every > 1 || r->ring) r->end = malloc((size_t)(24u * r->vertex_count));
+  if (!r->path || !r->other_path || !r->begin_record || ((r->every > 1 || r->ring) && !r->end))
+    return assay_record_fail_(r, ASSAY_OUT_OF_MEMORY, "out of memory", "", 0);
+  memcpy(r->path, s->path, length + 1);
+  if (!r->overwrite && assay_record_is_there_(r->path))
+    return assay_record_fail_(r, ASSAY_RECORD_FILE_EXISTS, "there is a file", r->path, 0);
+  if (r->ring && !r->overwrite && assay_record_is_there_(assay_record_before_(r)))
+    return assay_record_fail_(r, ASSAY_RECORD_FILE_EXISTS, "there is a file", r->other_path, 0);
+  assay_record_make_tables_(r);
+  r->memory = r->begin_record;
+  assay_record_compose_(r, assay_record_begin_body_, content);
+  r->memory = NULL;
+  r->no_begin_record = 1;
+  return ASSAY_OK;
+}
+
+static inline int32_t assay_record_begin(assay_recorder* recorder,
+                                         const assay_record_settings* settings,
+                                         const assay_description* description,
+                                         const int32_t* triangles, uint64_t triangle_count,
+                                         assay_record_array positions, uint64_t vertex_count,
+                                         const assay_counted_pairs* counted) {
+  assay_record_content_ content;
+  int32_t code;
+  memset(recorder, 0, sizeof *recorder);
+  memset(&content, 0, sizeof content);
+  content.description = description;
+  content.triangles = triangles;
+  content.triangle_count = triangle_count;
+  content.positions = positions;
+  content.counted = counted;
+  if (!settings || !settings->path || !*settings->path)
+    return assay_record_wrong_(recorder, "the path is missing");
+  code = assay_record_check_mesh_(recorder, &content, vertex_count);
+  if (code != ASSAY_OK) return code;
+  recorder->vertex_count = vertex_count;
+  code = assay_record_prepare_(recorder, settings, &content);
+  if (code == ASSAY_OK) code = assay_record_ready_(recorder);
+  if (code != ASSAY_OK) {
+    assay_record_free_(recorder);
+    return code;
+  }
+  if (recorder->ring) {
+    (void)remove(assay_record_before_(recorder));
+  } else {
+    free(recorder->begin_record);
+    recorder->begin_record = NULL;
+  }
+  recorder->next_record = 1;
+  recorder->is_begun = 1;
+  return ASSAY_OK;
+}
+
+static inline int32_t assay_record_check_step_(assay_recorder* r,
+                                               const assay_record_step_data* step) {
+  const assay_result* result = step ? step->result : NULL;
+  if (!r->is_begun)
+    return assay_record_fail_(r, ASSAY_RECORD_NOT_BEGUN, "nothing is being recorded", "", 0);
+  if (!step || !step->x1.data == !step->dx.data)
+    return assay_record_wrong_(r, "a step has either x1 or dx");
+  if (result && (result->answer < ASSAY_FREE || result->answer > ASSAY_ERROR))
+    return assay_record_wrong_(r, "there is no such answer");
+  if (result && result->pair_count && !result->pairs)
+    return assay_record_wrong_(r, "the pairs are missing");
+  if (!step->x0.data && !r->end_is_known)
+    return assay_record_fail_(r, ASSAY_RECORD_NO_START,
+                              "x0 is missing: it is not known where the last step ended", "", 0);
+  return ASSAY_OK;
+}
+
+static inline int32_t assay_record_step(assay_recorder* recorder,
+                                        const assay_record_step_data* step) {
+  assay_recorder* const r = recorder;
+  assay_record_content_ content;
+  assay_record_array end;
+  int32_t code = assay_record_check_step_(r, step), turned = ASSAY_OK, is_recorded;
+  if (code != ASSAY_OK) return code;
+  is_recorded = r->next_step % r->every == 0;
+  end = step->committed.data ? step->committed : step->x1;
+  if (is_recorded) {
+    memset(&content, 0, sizeof content);
+    content.step = step;
+    content.x0 = step->x0;
+    if (r->ring && r->steps_in_file >= r->ring) turned = assay_record_turn_(r);
+    if (!step->x0.data && !r->end_is_in_file) {
+      content.x0.data = r->end;
+      content.x0.is_float32 = r->end_is_float32;
+    }
+    code = assay_record_write_(r, assay_record_step_body_, &content);
+    if (code == ASSAY_OK && r->steps_in_file++ == 0) r->first_in_file = r->next_step;
+  }
+  ++r->next_step;
+  r->end_is_in_file = is_recorded && code == ASSAY_OK;
+  r->end_is_known = end.data != NULL;
+  if (end.data && r->next_step % r->every == 0 &&
+      (!r->end_is_in_file || (r->ring && r->steps_in_file >= r->ring)))
+    r->end_is_known = assay_record_copy_end_(r, end);
+  return code == ASSAY_OK ? turned : code;
+}
+
+static inline int32_t assay_record_note(assay_recorder* recorder, const char* text) {
+  assay_record_content_ content;
+  memset(&content, 0, sizeof content);
+  content.text = text;
+  if (!recorder->is_begun)
+    return assay_record_fail_(recorder, ASSAY_RECORD_NOT_BEGUN, "nothing is being recorded", "", 0);
+  if (!text) return assay_record_wrong_(recorder, "the text is missing");
+  return assay_record_write_(recorder, assay_record_note_body_, &content);
+}
+
+static inline int32_t assay_record_keep(assay_recorder* recorder) {
+  assay_recorder* const r = recorder;
+  int32_t code = ASSAY_OK;
+  char* before;
+  if (!r->is_begun)
+    return assay_record_fail_(r, ASSAY_RECORD_NOT_BEGUN, "nothing is being recorded", "", 0);
+  if (!r->ring) return ASSAY_OK;
+  if (!r->overwrite &&
+      ((r->has_before && assay_record_is_there_(assay_record_kept_(r, r->first_before))) ||
+       (r->steps_in_file && assay_record_is_there_(assay_record_kept_(r, r->first_in_file)))))
+    return assay_record_fail_(r, ASSAY_RECORD_FILE_EXISTS, "there is a file", r->other_path, 0);
+  if (r->has_before) {
+    before = (char*)malloc(strlen(r->path) + 32);
+    if (!before) return assay_record_fail_(r, ASSAY_OUT_OF_MEMORY, "out of memory", "", 0);
+    (void)strcpy(before, assay_record_before_(r));
+    code = assay_record_move_(r, before, assay_record_kept_(r, r->first_before));
+    free(before);
+    if (code == ASSAY_OK) r->has_before = 0;
+  }
+  if (r->steps_in_file) r->keeps_file = 1;
+  return code;
+}
+
+static inline int32_t assay_record_end(assay_recorder* recorder) {
+  assay_record_content_ content;
+  int32_t code;
+  if (!recorder->is_begun)
+    return assay_record_fail_(recorder, ASSAY_RECORD_NOT_BEGUN, "nothing is being recorded", "", 0);
+  memset(&content, 0, sizeof content);
+  code = assay_record_write_(recorder, assay_record_end_body_, &content);
+  if (recorder->file && fclose(recorder->file) != 0 && code == ASSAY_OK)
+    code = assay_record_fail_(recorder, ASSAY_RECORD_NOT_WRITTEN, "cannot close", recorder->path,
+                              errno);
+  recorder->file = NULL;
+  assay_record_free_(recorder);
+  return code;
+}
+
+static inline const char* assay_record_error(const assay_recorder* recorder) {
+  return recorder->error;
+}
+
+#endif
