@@ -12,12 +12,11 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "detector/plugin/assay_detector.hpp"
-#include "properties/claims/claims.h"
 #include "properties/worker/plugin/python_word.h"
+#include "reports/python/contract_members.h"
 
 namespace assay::python {
 namespace {
@@ -107,61 +106,6 @@ auto in_python(const Work& work) {
   }
 }
 
-// A member of the contract by its name in Python: a choice of words, or a number.
-struct ContractMember {
-  const char* name;
-  std::variant<std::int32_t plugin::Description::*, double plugin::Description::*> place;
-  std::vector<std::string> words;
-};
-
-// In the order of their numbers.
-template <class Enum>
-std::vector<std::string> words_of() {
-  std::vector<std::string> words;
-  for (std::size_t number = 0; number < all_values<Enum>.size(); ++number)
-    words.emplace_back(name_of(*from_number<Enum>(static_cast<std::int64_t>(number))));
-  return words;
-}
-
-std::vector<ContractMember> contract_members() {
-  using plugin::Description;
-  return {{"adjacency", &Description::adjacency, words_of<properties::Adjacency>()},
-          {"coordinates", &Description::coordinates, words_of<properties::Coordinates>()},
-          {"start", &Description::start, words_of<properties::StartRule>()},
-          {"features", &Description::features, words_of<properties::TestedFeatures>()},
-          {"reports", &Description::reports, {"pairs", "no-pairs"}},
-          {"margin", &Description::margin, {}},
-          {"separation", &Description::separation, {}},
-          {"start_distance", &Description::start_distance, {}},
-          {"least_nonzero", &Description::least_nonzero, {}},
-          {"largest", &Description::largest, {}},
-          {"time_tolerance", &Description::time_tolerance, {}},
-          {"counts", &Description::counts, words_of<detector::CountedLevel>()},
-          {"rings", &Description::rings, {}},
-          {"rest_distance", &Description::rest_distance, {}},
-          {"limit_gives", &Description::limit_gives, words_of<properties::LimitGives>()},
-          {"progress", &Description::progress, {}},
-          {"motion", &Description::motion, words_of<properties::MotionGiven>()}};
-}
-
-py::tuple claim_words() {
-  py::list words;
-  for (const auto& row : names_of(properties::Claim{})) {
-    if (properties::claims_from_outside.has(row.value)) words.append(row.name);
-  }
-  return words;
-}
-
-py::dict words_of_members() {
-  py::dict members;
-  for (const auto& member : contract_members()) {
-    py::list words;
-    for (const auto& word : member.words) words.append(word);
-    members[member.name] = py::tuple(words);
-  }
-  return members;
-}
-
 // The class, as assay/hosting.py wraps it. It stays as long as the process does.
 const py::object& hosted() {
   static const py::object* const host = [] {
@@ -223,15 +167,7 @@ class PythonDetector {
       d.name = name.c_str();
       d.version = version.c_str();
       d.claims = host.attr("claims").cast<std::uint32_t>();
-      for (const auto& member : contract_members()) {
-        const auto given = host.attr("contract")[member.name];
-        std::visit(
-            [&](const auto place) {
-              using Number = std::remove_reference_t<decltype(d.*place)>;
-              d.*place = given.template cast<Number>();
-            },
-            member.place);
-      }
+      set_contract(d, host.attr("contract"));
       return d;
     });
   }

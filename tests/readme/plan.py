@@ -157,6 +157,9 @@ NO_COMMAND = {
         "canary pair/zero-zero-dropped": "what `assay run` prints",
         "frames, cases, queries, scenes": "a drawing of the rooms",
     },
+    "corpus/README.md": {
+        "83                      an array": "the bytes of a record; tests/detector/plugin reads them",
+    },
     "corpus/peers/README.md": {
         "built-in, exact, bvh": "rows of the table of `assay bench --suite peers`",
     },
@@ -170,6 +173,7 @@ NO_COMMAND = {
         "find_package(assay 0.2": "CMake; tests/consumer/plugin builds plug-ins so",
         'assay="$ASSAY/build/release/assay"': "a job; a test runs it, and compares the two",
         "assay_builtin_save(handle": "C; tests/consumer compiles a whole program like it",
+        '#include "detector/plugin/assay_record.h"': "C; tests/recording compiles and runs it",
     },
     "properties/README.md": {
         "WorkerProcess worker(": "C++; the tests of the worker are made of such lines",
@@ -181,6 +185,7 @@ NO_COMMAND = {
         "face = [[": PYTHON,
         "judgement = assay.judge": PYTHON,
         "import meshio": PYTHON,
+        'words = {"name": "mine"': PYTHON,
         "import textbook": PYTHON,
         'print(assay.run("campaign.json"': PYTHON,
     },

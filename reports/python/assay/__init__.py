@@ -27,6 +27,7 @@ from .judging import (
 )
 from .hosting import Refused
 from .programs import Outcome, Page, certify, replay, report, run
+from .recorder import Recorder
 from .results import (
     DIRTY,
     FEATURE_KINDS,

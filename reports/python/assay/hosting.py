@@ -52,17 +52,8 @@ class Hosted:
         self.kind = getattr(importlib.import_module(module), name)
         self.name = str(getattr(self.kind, "name", name))
         self.version = str(getattr(self.kind, "version", "0"))
-        self.claims = sum(1 << _place(claim, claims, "claims") for claim in set(self.kind.claims))
-        self.contract = dict.fromkeys(members, 0)
-        for member, value in getattr(self.kind, "contract", {}).items():
-            if member not in members:
-                raise ValueError(f"contract: {member!r} is none of its members")
-            words = members[member]
-            self.contract[member] = (
-                _place(value, words, f"contract: {member}")
-                if words
-                else int(value) if member == "rings" else float(value)
-            )
+        contract = getattr(self.kind, "contract", {})
+        self.claims, self.contract = described(self.kind.claims, contract, claims, members)
 
     def has(self, part):
         return hasattr(self.kind, part)
@@ -79,6 +70,21 @@ class Hosted:
         self.kind.use_threads(count)
 
 
+def described(claims, contract, claim_words, members):
+    """Words of claims and of a contract in numbers of the plug-in interface; ValueError: no such word."""
+    numbers = dict.fromkeys(members, 0)
+    for member, value in contract.items():
+        if member not in members:
+            raise ValueError(f"contract: {member!r} is none of its members")
+        words = members[member]
+        numbers[member] = (
+            _place(value, words, f"contract: {member}")
+            if words
+            else int(value) if member == "rings" else float(value)
+        )
+    return sum(1 << _place(claim, claim_words, "claims") for claim in set(claims)), numbers
+
+
 class Created:
     """A detector of one mesh."""
 
@@ -93,7 +99,7 @@ class Created:
             self.detector.commit()
 
     def candidates(self, x_t0, x_t1):
-        return _pairs(self.detector.candidates(x_t0, x_t1))
+        return pairs_of(self.detector.candidates(x_t0, x_t1))
 
     def limit(self, x_t0, x_t1):
         """The share, -1 if it is not told, and positions, none if they are not."""
@@ -115,15 +121,15 @@ class Created:
         return -1.0 if share is None else float(share), positions.reshape(-1)
 
 
-def parts_of(result):
+def parts_of(result, answers=ANSWERS):
     """Of an answer: its number, lo, hi, pairs, times or None."""
     if result is None:
-        return 0, 0.0, 0.0, _pairs(None), None
+        return 0, 0.0, 0.0, pairs_of(None), None
     get = result.get if isinstance(result, dict) else lambda name: getattr(result, name, None)
     told = get("answer")
-    answer = _place("collision" if told is None else told, ANSWERS, "answer")
+    answer = _place("collision" if told is None else told, answers, "answer")
     lo, hi = _interval(get("first")) if answer == 1 else (0.0, 0.0)
-    pairs, times = _pairs(get("pairs")), get("times")
+    pairs, times = pairs_of(get("pairs")), get("times")
     if times is not None:
         times = np.asarray(times, np.float64)
         times = np.stack([times, times], axis=1) if times.ndim == 1 else times
@@ -158,7 +164,8 @@ def _interval(first):
     return float(lo), float(hi)
 
 
-def _pairs(pairs):
+def pairs_of(pairs):
+    """Pairs as int32, (k, 2)."""
     if pairs is None:
         return np.zeros((0, 2), np.int32)
     given = np.asarray(pairs)

@@ -33,7 +33,7 @@ def test_every_example_runs_as_pasted(tmp_path, monkeypatch, capsys):
     ):
         assert line in printed
         printed = printed[printed.index(line) + len(line) :]
-    assert Path("step.vtu").exists()
+    assert Path("step.vtu").exists() and Path("steps.log").exists()
 
 
 def test_the_detector_of_the_readme_is_as_long_as_it_says():

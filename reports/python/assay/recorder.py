@@ -1,0 +1,144 @@
+"""What a simulator does, recorded for `assay judge`."""
+
+import os
+from typing import Any, Dict, Iterable, Optional, Sequence, Tuple, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _recorder, arrays, hosting
+
+
+class Recorder:
+    """A log of a simulator's steps and of what its own collision detector answered.
+
+    path: the file. triangles: integers (m, 3). positions: real numbers (n, 3), those that the
+    detector was made from. name, version, claims, contract: of that detector, in the words of a
+    detector in Python (assay/hosting.py); without claims, what is wrong is counted and not held
+    against it. bodies: (n,) the number of each vertex's body, from 0 on; apart: pairs of bodies that
+    do not meet, or a body paired with itself.
+
+    every: one step of so many is recorded. ring: 0, or the number of newest steps that two files,
+    path and path.before, hold at least. overwrite: whether files that are there may be lost.
+
+    Arrays of float32 are recorded as float32, others as float64 where that is exact; numbers that
+    are not finite are recorded too. Calls write at once: a process that is killed loses at most the
+    record that it was writing. A recorder is of one thread at a time.
+
+    ValueError: an argument that is refused; TypeError: no numbers; FileExistsError, OSError: a file
+    that is there, or cannot be written. After ValueError and TypeError nothing is written; after an
+    OSError of a step the next ones are tried all the same.
+    """
+
+    def __init__(
+        self,
+        path: Union[str, "os.PathLike[str]"],
+        triangles: npt.ArrayLike,
+        positions: npt.ArrayLike,
+        *,
+        name: str,
+        version: str = "0",
+        claims: Iterable[str] = (),
+        contract: Optional[Dict[str, Any]] = None,
+        every: int = 1,
+        ring: int = 0,
+        overwrite: bool = False,
+        bodies: Optional[npt.ArrayLike] = None,
+        apart: Sequence[Tuple[int, int]] = (),
+    ):
+        if every < 0 or ring < 0:
+            raise ValueError("every and ring are numbers of steps")
+        rest = _frame(positions, "positions", True)
+        self._vertices = len(rest)
+        body = None if bodies is None else np.ascontiguousarray(bodies, np.int32)
+        if body is not None and body.shape != (self._vertices,):
+            raise ValueError(f"bodies: shape {body.shape} is not ({self._vertices},)")
+        self._recorder = _recorder.Recorder(
+            os.fsencode(path),
+            (np.ascontiguousarray(arrays.triangles(triangles, "triangles")), rest),
+            (name, version),
+            hosting.described(claims, contract or {}, _recorder.CLAIMS, _recorder.MEMBERS),
+            every,
+            ring,
+            overwrite,
+            (body, hosting.pairs_of(list(apart))),
+        )
+
+    def step(
+        self,
+        x0: Optional[npt.ArrayLike] = None,
+        x1: Optional[npt.ArrayLike] = None,
+        *,
+        dx: Optional[npt.ArrayLike] = None,
+        committed: Optional[npt.ArrayLike] = None,
+        answer: Any = None,
+        first: Any = None,
+        pairs: Optional[npt.ArrayLike] = None,
+        pair_times: Optional[npt.ArrayLike] = None,
+        message: Optional[str] = None,
+        share: Optional[float] = None,
+        positions: Optional[npt.ArrayLike] = None,
+    ) -> None:
+        """Records the next step, real numbers (n, 3) each.
+
+        x0: where it starts; None: where the last step ended, its `committed` or else its `x1`.
+        x1 or dx: where it would go, or by how much. committed: where the simulator really went.
+        answer: "free", "collision", "undecided" or "error"; first, pairs, pair_times: (lo, hi) or a
+        number, (k, 2) triangles, their times (k, 2) or (k,); message: a line. Or answer is what a
+        detector in Python answers, such as the result of assay.Detector, which has all of these.
+        None: no answer is recorded. share, positions: how far a limiter let the step go.
+        """
+        told = None
+        if answer is not None:
+            if isinstance(answer, str):
+                answer = {"answer": answer, "first": first, "pairs": pairs, "times": pair_times}
+            elif first is not None or pairs is not None or pair_times is not None:
+                raise ValueError("first, pairs and pair_times: the answer has its own")
+            told = hosting.parts_of(answer, hosting.ANSWERS + ("error",))
+        elif any(part is not None for part in (first, pairs, pair_times, message)):
+            raise ValueError("first, pairs, pair_times and message are of an answer")
+        self._recorder.step(
+            self._frame(x0, "x0"),
+            self._frame(x1, "x1"),
+            self._frame(dx, "dx"),
+            self._frame(committed, "committed"),
+            told,
+            message,
+            -1.0 if share is None else float(share),
+            self._frame(positions, "positions", False),
+        )
+
+    def note(self, text: str) -> None:
+        """Records a line of text before the next step."""
+        self._recorder.note(text)
+
+    def keep(self) -> None:
+        """Saves the newest steps of a ring: its files will be path.kept-F, F their first step."""
+        self._recorder.keep()
+
+    def end(self) -> None:
+        """Records how many steps there were, and closes the file."""
+        self._recorder.end()
+
+    def __enter__(self) -> "Recorder":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._recorder.is_recording:
+            self.end()
+
+    def _frame(self, given: Optional[npt.ArrayLike], name: str, may_be_float32: bool = True) -> Any:
+        if given is None:
+            return None
+        frame = _frame(given, name, may_be_float32)
+        if len(frame) != self._vertices:
+            raise ValueError(f"{name}: shape {frame.shape} is not ({self._vertices}, 3)")
+        return frame
+
+
+def _frame(given: npt.ArrayLike, name: str, may_be_float32: bool) -> npt.NDArray[Any]:
+    """Adjacent rows of three numbers, of float32 if they are that already and may be."""
+    if may_be_float32 and type(given) is np.ndarray and given.dtype == np.float32:
+        if given.ndim == 2 and given.shape[1] == 3:
+            return np.ascontiguousarray(given)
+    return np.ascontiguousarray(arrays.positions(given, name))
