@@ -26,6 +26,9 @@ class StepSource {
   virtual ~StepSource() = default;
 
   virtual std::size_t count() const = 0;
+  // Whether there is a step s, which comes after those that were asked for. An input that still
+  // grows may wait for it.
+  virtual Expected<bool> has(std::size_t s) { return s < count(); }
   // The number of frames, in memory or not.
   virtual std::size_t frames() const = 0;
   virtual const detector::Triangles& triangles() const = 0;

@@ -42,9 +42,10 @@ std::string CheckOutcome::summary() const {
                                           : !ended.empty() ? ended
                                                            : "detector and oracle differ");
   } else if (undecided) {
-    text += fmt::format("; undecided: {}\n", !ended.empty()          ? ended
-                                             : limit_reached.empty() ? "a limit reached"
-                                                                     : limit_reached + " reached");
+    text += fmt::format("; undecided: {}\n", !ended.empty()           ? ended
+                                             : !limit_reached.empty() ? limit_reached + " reached"
+                                             : !lost.empty() ? "a part of the input is lost"
+                                                             : "a limit reached");
   } else if (!is_judged) {
     text += "; not judged\n";
   } else if (!judged_by_claims) {
@@ -92,6 +93,7 @@ Json check_report(const std::vector<std::string>& files, const detector::Topolog
           {"judged", outcome.is_judged},
           {"outcome", outcome.word()},
           {"limit_reached", or_null(outcome.limit_reached)},
+          {"lost", outcome.lost},
           {"peak_memory_bytes", peak_resident_bytes()},
           {"times_ms", {{"create", create_ms ? Json(*create_ms) : Json()}}},
           {"steps", std::move(steps)}};

@@ -23,6 +23,7 @@ struct CheckOutcome {
   bool has_answers = true;  // false: a library of candidates alone
   std::string ended;        // how a plug-in's run ended; empty: it went through
   std::string limit_reached;
+  std::vector<std::string> lost;  // of the input
   // Only for a plug-in: the claims that hold, those of which nothing is known, and what the
   // plug-in does whatever it claims.
   std::vector<std::string> held;

@@ -16,6 +16,7 @@
 #include "properties/numbering.h"
 #include "reports/check/check_outcome.h"
 #include "reports/check/detector_choice.h"
+#include "reports/check/recorded_answers.h"
 #include "reports/steps/step_json.h"
 #include "reports/steps/step_text.h"
 #include "reports/terminal/limits.h"
@@ -52,18 +53,28 @@ class CheckRun {
     announce();
     nlohmann::ordered_json steps = nlohmann::ordered_json::array();
     if (begin()) {
-      for (std::size_t s = 0; s < step_count(); ++s) {
+      for (std::size_t s = 0;; ++s) {
+        BOOST_OUTCOME_TRY(is_there, has_step(s));
+        if (!is_there) break;
         BOOST_OUTCOME_TRY(step, read_step(s));
-        auto json = run_step(s, step);
-        if (question_.wants_report) steps.push_back(std::move(json));
+        auto json = leave_out(s);
+        const bool is_left_out = json.has_value();
+        if (!is_left_out) json = run_step(s, step);
+        if (question_.wants_report && !json->is_null()) steps.push_back(std::move(*json));
         if (refused_) return Problem{*refused_};
         if (outcome_.unsound) break;
       }
       if (has_facts() && !outcome_.undecided) check_facts();
     }
     outcome_.limit_reached = limits_.reached();
-    if (answers_.is_plugin() && !question_.no_oracle)
+    outcome_.lost = answers_.lost();
+    outcome_.undecided |= !outcome_.lost.empty();
+    for (const auto& line : outcome_.lost) say(fmt::format("lost: {}\n", line));
+    for (const auto& line : answers_.remarks()) say(line + "\n");
+    if (answers_.is_plugin() && !question_.no_oracle) {
       outcome_.judge_claims(answers_.under_test(), answers_.steps_left_out());
+      for (auto& claim : answers_.beyond_reach()) outcome_.not_judged.push_back(std::move(claim));
+    }
     if (outcome_.defect || outcome_.undecided) say(printed_text(answers_.run().printed));
     say(outcome_.summary());
     CheckAnswer answer{std::move(outcome_), nullptr};
@@ -89,7 +100,7 @@ class CheckRun {
       say(fmt::format(", {} bod{}", bodies, bodies == 1 ? "y" : "ies"));
     if (unclosed) {
       say(fmt::format(" ({} unclosed{})", unclosed,
-                      question_.detector.library.empty() ? ": closed with ghosts" : ""));
+                      answers_.is_plugin() ? "" : ": closed with ghosts"));
     }
     say(fmt::format(
         "; {} step{}; {}{}{}\n", step_count(), step_count() == 1 ? "" : "s", answers_.title(),
@@ -105,7 +116,7 @@ class CheckRun {
     if (judged.disturbances > 0)
       say(fmt::format("the detector's process was killed from outside {} times, and began anew\n",
                       judged.disturbances));
-    if (answers_.is_plugin())
+    if (answers_.is_plugin() && !answers_.is_recorded())
       say(fmt::format("the detector took {:.3g} s of processor time for {} step{}\n",
                       answers_.run().processor_seconds, step_count(),
                       step_count() == 1 ? "" : "s"));
@@ -154,7 +165,24 @@ class CheckRun {
     return steps_.step(s);
   }
 
+  corpus::Expected<bool> has_step(std::size_t s) {
+    const Limits::Pause pause(limits_);
+    return steps_.has(s);
+  }
+
+  // What the report says of a step that is not judged, or null if it says nothing. Nothing if it is
+  // to be judged.
+  std::optional<nlohmann::ordered_json> leave_out(std::size_t s) {
+    const auto why = answers_.left_out();
+    if (!why) return std::nullopt;
+    if (why->empty()) return nlohmann::ordered_json();
+    const auto number = answers_.number_of(s);
+    say(fmt::format("step {}: left out: {}\n", number + 1, *why));
+    return nlohmann::ordered_json{{"step", number + 1}, {"left_out", *why}};
+  }
+
   nlohmann::ordered_json run_step(std::size_t s, const corpus::SourceStep& step) {
+    const auto shown_number = static_cast<std::size_t>(answers_.number_of(s)) + 1;
     Progress progress(fmt::format("step {}/{}", s + 1, step_count()));
     const detector::StopFunction stop = [&] {
       progress.tick();
@@ -167,20 +195,20 @@ class CheckRun {
       const auto error = answers_.error_of(s, result);
       // The built-in detector has errors for input alone.
       if (!answers_.is_plugin()) {
-        refused_ = fmt::format("step {}: {}", s + 1, error);
+        refused_ = fmt::format("step {}: {}", shown_number, error);
         return {};
       }
       if (outcome_.ended.empty()) outcome_.ended = error;
       told_error = fmt::format("  {}\n", error);
     }
     if (result.answer == Answer::collision && !outcome_.collision_step) {
-      outcome_.collision_step = s;
+      outcome_.collision_step = shown_number - 1;
       outcome_.collision_time = result.first;
     }
     outcome_.undecided |= answers_.has_answers() && result.answer == Answer::undecided;
     if (question_.no_oracle) {
       progress.finish();
-      say(step_text(s + 1, result, nullptr, shown_work(s)) + told_error);
+      say(step_text(shown_number, result, nullptr, shown_work(s)) + told_error);
       return json_of(result, nullptr);
     }
 
@@ -202,8 +230,14 @@ class CheckRun {
     outcome_.defect |= diff.outcome == Outcome::defect;
     outcome_.undecided |= diff.outcome == Outcome::undecided || diff.outcome == Outcome::error;
     if (answers_.is_plugin()) outcome_.count(diff, result);
-    say(step_text(s + 1, result, &oracle, shown_work(s)) + told_error);
-    if (diff.outcome == Outcome::defect) print_defect(step, diff);
+    say(step_text(shown_number, result, &oracle, shown_work(s)) + told_error);
+    if (diff.outcome == Outcome::defect) {
+      print_defect(step, diff);
+      if (const auto told =
+              tell_failed({shown_number - 1, steps_, step, result, diff, answers_.under_test()});
+          !told)
+        refused_ = told.error().message;
+    }
     auto json = json_of(result, &oracle);
     if (question_.second_opinion) {
       progress.phase("second opinion");
@@ -266,6 +300,13 @@ class CheckRun {
                        *question_.second_opinion);
   }
 
+  Expected<void> tell_failed(const FailedStep& failed) const {
+    if (!listener_.failed) return outcome::success();
+    BOOST_OUTCOME_TRY(text, listener_.failed(failed));
+    say(text);
+    return outcome::success();
+  }
+
   void print_defect(const corpus::SourceStep& step, const properties::StepDiff& diff) const {
     // Nobody knows the stages of a plug-in.
     if (diff.missing.empty() || answers_.is_plugin()) return;
@@ -281,7 +322,8 @@ class CheckRun {
   // Whether the facts of the case are to be checked. They are facts of the built-in detector; a
   // plug-in is judged by the oracle alone.
   bool has_facts() const {
-    return steps_.case_file() && !question_.no_oracle && question_.detector.library.empty();
+    return !answers_.is_recorded() && steps_.case_file() && !question_.no_oracle &&
+           question_.detector.library.empty();
   }
 
   // A case states what is true of it, so an answer that differs is a defect.
@@ -337,6 +379,8 @@ Expected<CheckAnswer> check_mesh(const CheckQuestion& question, CheckInput& inpu
   }
   Limits limits(question.time_limit, question.memory_limit);
   const auto begin = [&]() -> Expected<std::unique_ptr<StepAnswers>> {
+    if (!question.answers.empty())
+      return answers_of_table(question.answers, input, question.adjacency);
     if (!is_plugin) {
       BuiltInChoice choice = question.built_in;
       choice.threads = static_cast<std::uint32_t>(question.threads);
@@ -351,8 +395,14 @@ Expected<CheckAnswer> check_mesh(const CheckQuestion& question, CheckInput& inpu
     return answers_of_plugin(std::move(plugin), input);
   };
   BOOST_OUTCOME_TRY(answers, begin());
-  auto mesh = detector::make_topology(input.steps->triangles(), vertices);
-  return CheckRun(question, *input.steps, std::move(mesh), *answers, limits, listener).run();
+  return check_answers(question, input, *answers, limits, listener);
+}
+
+Expected<CheckAnswer> check_answers(const CheckQuestion& question, CheckInput& input,
+                                    StepAnswers& answers, Limits& limits,
+                                    const CheckListener& listener) {
+  auto mesh = detector::make_topology(input.steps->triangles(), input.steps->first_frame().rows());
+  return CheckRun(question, *input.steps, std::move(mesh), answers, limits, listener).run();
 }
 
 }  // namespace assay::reports

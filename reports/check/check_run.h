@@ -31,6 +31,8 @@ struct CheckQuestion {
   BuiltInChoice built_in;
   DetectorWords detector;     // its `threads` is not used; the one below is
   std::uint64_t threads = 0;  // 0: all cores; a plug-in is told 1
+  std::string answers;  // a table of answers (recorded_answers.h), in place of a detector; or empty
+  properties::Adjacency adjacency = properties::Adjacency::all;  // of these
   bool no_oracle = false;
   // The share in (0,1] of the oracle's questions that get a second opinion. REQUIRES the oracle.
   std::optional<double> second_opinion;
@@ -41,9 +43,21 @@ struct CheckQuestion {
   std::string announced_file;                 // the file of the report, to be named to the user
 };
 
+// A step that breaks a claim, or differs from the oracle.
+struct FailedStep {
+  std::uint64_t number = 0;  // in its input, from 0
+  const corpus::StepSource& source;
+  const corpus::SourceStep& step;
+  const detector::StepResult& result;
+  const properties::StepDiff& diff;
+  const properties::DetectorUnderTest& detector;
+};
+
 struct CheckListener {
   std::function<void(const std::string& text)> say;  // what is printed, as it becomes known
-  detector::StopFunction stop;                       // may be empty; what it leaves is undecided
+  detector::StopFunction stop = {};                  // may be empty; what it leaves is undecided
+  // What is to be done with a step that fails; the text is printed. May be empty.
+  std::function<Expected<std::string>(const FailedStep&)> failed = {};
 };
 
 struct CheckAnswer {
@@ -57,5 +71,9 @@ struct CheckAnswer {
 Expected<CheckAnswer> check_mesh(const CheckQuestion& question, CheckInput& input,
                                  const std::filesystem::path& worker,
                                  const CheckListener& listener);
+// The same of answers that are there already.
+Expected<CheckAnswer> check_answers(const CheckQuestion& question, CheckInput& input,
+                                    StepAnswers& answers, Limits& limits,
+                                    const CheckListener& listener);
 
 }  // namespace assay::reports

@@ -20,13 +20,17 @@ Expected<properties::Subject> choose_detector(const DetectorWords& words,
   return properties::Subject::open(worker, words.library, words.part, limits);
 }
 
-std::string plugin_text(const properties::Subject& plugin) {
+std::string detector_text(const properties::DetectorUnderTest& detector) {
   std::vector<const char*> claims;
-  for (const auto claim : list_of(plugin.detector.claims)) claims.push_back(name_of(claim));
-  const std::string left_out = joined(phrases_of(plugin.detector.contract), ", ");
-  return fmt::format("plug-in {}\nclaims: {}\ncontract: {}\nisolation: {}\nthreads: {}",
-                     plugin.detector.name, claims.empty() ? "nothing" : joined(claims, ", "),
-                     left_out.empty() ? "leaves nothing out" : left_out,
+  for (const auto claim : list_of(detector.claims)) claims.push_back(name_of(claim));
+  const std::string left_out = joined(phrases_of(detector.contract), ", ");
+  return fmt::format("{}\nclaims: {}\ncontract: {}", detector.name,
+                     claims.empty() ? "nothing" : joined(claims, ", "),
+                     left_out.empty() ? "leaves nothing out" : left_out);
+}
+
+std::string plugin_text(const properties::Subject& plugin) {
+  return fmt::format("plug-in {}\nisolation: {}\nthreads: {}", detector_text(plugin.detector),
                      text_of(plugin.limits.least), plugin.limits.threads);
 }
 

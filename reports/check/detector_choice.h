@@ -20,6 +20,8 @@ Expected<properties::Subject> choose_detector(
     const DetectorWords& words, properties::WorkerLimits limits = {},
     const std::filesystem::path& worker = properties::worker_program());
 
+// Its name, its claims and its contract: one line each, without a newline at the end.
+std::string detector_text(const properties::DetectorUnderTest& detector);
 // "plug-in NAME VERSION", its claims, its contract, its isolation, and the threads that it may
 // use: one line each, without a newline at the end.
 std::string plugin_text(const properties::Subject& plugin);

@@ -93,20 +93,10 @@ class Plugin : public StepAnswers {
   }
 
   nlohmann::ordered_json to_json() const override {
-    nlohmann::ordered_json claims = nlohmann::ordered_json::array();
-    for (const auto claim : properties::list_of(under_test().claims))
-      claims.push_back(name_of(claim));
-    return {{"culling", nullptr},
-            {"arithmetic", nullptr},
-            {"detector",
-             {{"name", subject_.description.name},
-              {"version", subject_.description.version},
-              {"library", subject_.plugin->string()},
-              {"claims", std::move(claims)},
-              {"disturbances", worker_.disturbances() + second_.disturbances()},
-              {"isolation", text_of(subject_.limits.least)},
-              {"printed", run_.printed},
-              {"contract", properties::json_of(under_test().contract)}}}};
+    return detector_json({{"library", subject_.plugin->string()},
+                          {"disturbances", worker_.disturbances() + second_.disturbances()},
+                          {"isolation", text_of(subject_.limits.least)},
+                          {"printed", run_.printed}});
   }
 
   // Runs all steps at once, because the worker carries the state of the detector from one to the
@@ -137,6 +127,18 @@ class Plugin : public StepAnswers {
 };
 
 }  // namespace
+
+nlohmann::ordered_json StepAnswers::detector_json(const nlohmann::ordered_json& of_process) const {
+  nlohmann::ordered_json claims = nlohmann::ordered_json::array();
+  for (const auto claim : properties::list_of(under_test().claims))
+    claims.push_back(name_of(claim));
+  nlohmann::ordered_json detector = {{"name", subject_.description.name},
+                                     {"version", subject_.description.version},
+                                     {"claims", std::move(claims)},
+                                     {"contract", properties::json_of(under_test().contract)}};
+  detector.update(of_process);
+  return {{"culling", nullptr}, {"arithmetic", nullptr}, {"detector", std::move(detector)}};
+}
 
 Expected<std::unique_ptr<StepAnswers>> answers_of_built_in(const BuiltInChoice& choice,
                                                            const CheckInput& input,

@@ -8,6 +8,7 @@
 #include "corpus/formats/step_source.h"
 #include "detector/options.h"
 #include "detector/step_result.h"
+#include "properties/campaign/gates/not_judged.h"
 #include "properties/judging/judged_run.h"
 #include "properties/judging/subject.h"
 #include "reports/terminal/complaint.h"
@@ -22,7 +23,8 @@ struct CheckInput {
 };
 
 // The detector that `check` has before it, and its answers to the steps: those of the built-in one
-// are made in this process, one by one, and those of a plug-in in a worker, all at once.
+// are made in this process, one by one, those of a plug-in in a worker, all at once, and those of a
+// log are read (recorded_answers.h).
 class StepAnswers {
  public:
   virtual ~StepAnswers() = default;
@@ -42,6 +44,20 @@ class StepAnswers {
   virtual std::string error_of(std::size_t s, const detector::StepResult& result) const = 0;
 
   bool is_plugin() const { return !under_test().built_in; }
+  // The answers were recorded, and nothing runs here.
+  virtual bool is_recorded() const { return false; }
+  // Why the step that was read last is not judged; an empty text: it was not chosen. Asked before
+  // its answer, once.
+  virtual std::optional<std::string> left_out() { return std::nullopt; }
+  // The number of step s in its input, from 0.
+  virtual std::uint64_t number_of(std::size_t s) const { return s; }
+  // What of the input is lost, a line each, so that nothing is known of it. Asked after all steps.
+  virtual std::vector<std::string> lost() const { return {}; }
+  // What else is to be said of the input. Asked after all steps.
+  virtual std::vector<std::string> remarks() const { return {}; }
+  // Claims of the detector that this kind of input cannot show, and why. They are not among those
+  // of under_test().
+  virtual std::vector<properties::NotJudged> beyond_reach() const { return {}; }
   // Its claims are those on steps.
   const properties::DetectorUnderTest& under_test() const { return subject_.detector; }
   // The detector is judged by its claims. If false, it must agree with the oracle in every bit.
@@ -54,7 +70,8 @@ class StepAnswers {
   std::size_t steps_left_out() const { return steps_left_out_; }
   // Milliseconds of preprocessing; nothing for a plug-in, which does it in a process of its own.
   std::optional<double> create_ms() const { return create_ms_; }
-  // The run of a plug-in, over all steps; of the built-in detector it is empty.
+  // The run of a plug-in, over all steps; of a log, over the step that was read last; of the
+  // built-in detector it is empty.
   const properties::CaseRun& run() const { return run_; }
 
   properties::StepDiff judge(std::size_t s, const detector::StepResult& result,
@@ -62,15 +79,20 @@ class StepAnswers {
                              const properties::LimitedStep& step) const {
     const auto& claims = under_test().claims;
     const auto& contract = under_test().contract;
-    if (s >= run_.steps.size()) return compare(result, judgement, claims, contract, step.triangles);
-    auto diff = compare_step(run_, s, judgement, claims, contract, step.triangles);
-    if (s < run_.limits.size())
-      judge_limit(run_.limits[s], step, judgement, claims, contract, diff);
+    const auto place = s - first_of_run_;
+    if (place >= run_.steps.size())
+      return compare(result, judgement, claims, contract, step.triangles);
+    auto diff = compare_step(run_, place, judgement, claims, contract, step.triangles);
+    if (place < run_.limits.size())
+      judge_limit(run_.limits[place], step, judgement, claims, contract, diff);
     return diff;
   }
 
  protected:
   explicit StepAnswers(properties::Subject subject) : subject_(std::move(subject)) {}
+  // Fields of the JSON report for a detector that is judged by its claims; `of_process` is what is
+  // known of the process that ran it.
+  nlohmann::ordered_json detector_json(const nlohmann::ordered_json& of_process) const;
   static detector::StepResult undecided() {
     detector::StepResult result;
     result.answer = detector::Answer::undecided;
@@ -81,6 +103,7 @@ class StepAnswers {
   std::size_t steps_left_out_ = 0;
   std::optional<double> create_ms_;
   properties::CaseRun run_;
+  std::size_t first_of_run_ = 0;  // the step that run_ begins with
 };
 
 // The options of the built-in detector that the user states. The others are those of the case, or

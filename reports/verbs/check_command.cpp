@@ -6,8 +6,11 @@
 
 #include "properties/judging/case_options.h"
 #include "properties/worker/worker_process.h"
+#include "reports/check/detector_choice.h"
 #include "reports/check/separation_check.h"
+#include "reports/judge/kept_failures.h"
 #include "reports/terminal/text_file.h"
+#include "reports/terminal/words.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {
@@ -21,7 +24,28 @@ struct CheckRequest {
   std::vector<double> offsets;
   bool fail_on_collision = false;
   std::string json_file;  // empty: not written
+  std::string keep;       // where failing steps are kept; empty: nowhere
 };
+
+// Keeps what fails where the user wants that; a plug-in shrinks it.
+Expected<std::unique_ptr<KeptFailures>> kept_failures(const CheckRequest& request) {
+  if (request.keep.empty()) return std::unique_ptr<KeptFailures>();
+  const auto& words = request.question.detector;
+  std::optional<properties::Subject> again;
+  if (!words.library.empty()) {
+    BOOST_OUTCOME_TRY(subject, choose_detector(words));
+    again = std::move(subject);
+  }
+  const auto replay = [&request](std::uint64_t number) {
+    const auto file = std::filesystem::path(request.keep) / fmt::format("step-{}", number);
+    const auto& of = request.question.detector;
+    return fmt::format("{} replay {}{}", this_program(true),
+                       shell_word((file / "case.json").string()),
+                       detector_words(of.library, of.threads));
+  };
+  return std::make_unique<KeptFailures>(request.keep, joined(request.files, " "), replay,
+                                        std::move(again));
+}
 
 Expected<int> run_check(const CheckRequest& request) {
   CheckQuestion question = request.question;
@@ -42,11 +66,12 @@ Expected<int> run_check(const CheckRequest& request) {
                                                    : read_bodies(question.bodies, question.apart));
   question.wants_report = !request.json_file.empty();
   question.announced_file = request.json_file;
-  const CheckListener terminal{[](const std::string& text) {
-                                 fmt::print("{}", text);
-                                 std::fflush(stdout);
-                               },
-                               {}};
+  CheckListener terminal{[](const std::string& text) {
+    fmt::print("{}", text);
+    std::fflush(stdout);
+  }};
+  BOOST_OUTCOME_TRY(kept, kept_failures(request));
+  if (kept) terminal.failed = [&](const FailedStep& failed) { return kept->keep(failed); };
   if (request.separation || !request.offsets.empty()) {
     const AskedDistance d = {request.separation.value_or(0), request.offsets};
     BOOST_OUTCOME_TRY(near,
@@ -77,6 +102,13 @@ void add_options(Verb& verb, CheckRequest& request) {
       add_detector_alone(verb, request.question.detector,
                          "A plug-in's library, or python:MODULE:CLASS (default: the built-in)");
   add_threads(verb, request.question.threads);
+  const auto answers =
+      verb.add("--answers", request.question.answers,
+               "Judge the answers of this table (step,answer,time) in place of a detector")
+          .excludes(plugin);
+  add_choice(verb, "--adjacency", request.question.adjacency, all_names<properties::Adjacency>(),
+             from_name<properties::Adjacency>,
+             "Which neighbours --answers are about (default all)");
   auto& built_in = request.question.built_in;
   const std::array of_built_in = {
       add_choice(verb, "--culling", built_in.culling, all_names<detector::Culling>(),
@@ -100,6 +132,7 @@ void add_options(Verb& verb, CheckRequest& request) {
                "distance, when first, and how near any two come")
           .with(length())
           .excludes(plugin)
+          .excludes(answers)
           .excludes(no_oracle)
           .excludes(second_opinion);
   auto offset = verb.add("--offset", request.offsets,
@@ -125,6 +158,10 @@ void add_options(Verb& verb, CheckRequest& request) {
              "Limit of resident memory, such as 6GB or 512MB (MB: 2^20 bytes)");
   verb.add_flag("--fail-on-collision", request.fail_on_collision,
                 "Exit code 5 when they agree on a collision, or a step comes within --separation");
+  verb.add(
+      "--keep", request.keep,
+      "Keep failing steps here: the part of the mesh that shows each, as case, OBJ and C++; of "
+      "a plug-in shrunk");
   verb.add("--json", request.json_file, "Write the report here (assay-check/1)");
 }
 

@@ -17,6 +17,7 @@
 #include "properties/worker/plugin/query_case.h"
 #include "properties/worker/worker_process.h"
 #include "reports/check/detector_choice.h"
+#include "reports/judge/log_check.h"
 #include "reports/steps/case_export.h"
 #include "reports/steps/pair_story.h"
 #include "reports/steps/step_text.h"
@@ -165,7 +166,19 @@ std::string misspelt(const std::string& id) {
                : "";
 }
 
+// A step of a log, judged again.
+Expected<int> replay_log(const LogName& log, const ReplayRequest& request) {
+  if (request.why) return Problem{"--why is of the built-in detector, and this is a log"};
+  LogQuestion question;
+  question.out = request.export_folder;
+  if (!request.export_folder.empty()) question.again = request.detector;
+  BOOST_OUTCOME_TRY(
+      answer, judge_log(log, question, {[](const std::string& text) { fmt::print("{}", text); }}));
+  return answer.outcome.exit_code(false);
+}
+
 Expected<int> run_replay(const ReplayRequest& request) {
+  if (const auto log = log_name(request.id_or_file); log.step) return replay_log(log, request);
   auto made = case_of(request.id_or_file);
   if (!made) {
     return Problem{made.error().message +
@@ -258,7 +271,9 @@ std::optional<detector::TrianglePair> parse_pair(const std::string& word) {
 }
 
 void add_options(Verb& verb, ReplayRequest& request) {
-  verb.add("case", request.id_or_file, "Its id, CAMPAIGN:SEED:FAMILY:INDEX, or a file").required();
+  verb.add("case", request.id_or_file,
+           "Its id, CAMPAIGN:SEED:FAMILY:INDEX, or a file; LOG#N: step N of a log")
+      .required();
   verb.add("--export", request.export_folder,
            "Write frames as OBJ and a test in C++ into this folder: plain arrays beside a "
            "GoogleTest, or of a plug-in beside a program that loads it");

@@ -13,6 +13,7 @@ Action add_bench(CLI::App& app);
 Action add_certify(CLI::App& app);
 Action add_check(CLI::App& app);
 Action add_check_queries(CLI::App& app);
+Action add_judge(CLI::App& app);
 Action add_list(CLI::App& app);
 Action add_merge(CLI::App& app);
 Action add_replay(CLI::App& app);

@@ -132,10 +132,19 @@ Expected<PluginDescription> read_description(const assay_detector_api& table) {
   if (table.abi_version < ASSAY_DETECTOR_ABI_VERSION) known = known.without(claims_on_limits);
   if (raw.claims & ~known.bits()) return broken("unknown bits in its claims");
 
+  const PluginParts parts = {table.evaluate != nullptr, table.query != nullptr,
+                             table.candidates != nullptr, table.limit != nullptr,
+                             table.use_threads != nullptr};
+  auto description = described(raw, parts);
+  if (description) description.value().contract.takes_relations = table.count != nullptr;
+  return description;
+}
+
+Expected<PluginDescription> described(const assay_description& raw, const PluginParts& parts) {
+  if (raw.claims & ~claims_from_outside.bits()) return broken("unknown bits in its claims");
   PluginDescription description;
   if (auto fault = read_contract(raw, description.contract); !fault.empty())
     return broken(std::move(fault));
-  description.contract.takes_relations = table.count != nullptr;
   description.name = line_of(raw.name);
   description.version = line_of(raw.version);
   if (description.name.empty()) return broken("it has no name");
@@ -143,9 +152,7 @@ Expected<PluginDescription> read_description(const assay_detector_api& table) {
     if (const auto fault = fault_of_name(text); !fault.empty()) return broken("it has " + fault);
   }
   description.claims = Claims::of_bits(raw.claims);
-  description.parts = {table.evaluate != nullptr, table.query != nullptr,
-                       table.candidates != nullptr, table.limit != nullptr,
-                       table.use_threads != nullptr};
+  description.parts = parts;
   if (description.claims.has(Claim::candidates) && !description.parts.candidates)
     return broken("it claims candidates, and has no such function");
   if (description.parts.candidates && !description.claims.has(Claim::candidates))

@@ -29,6 +29,8 @@ Expected<assay_detector_api> read_table(const assay_detector_api* api);
 // The plug-in's description. Refuses one that makes no sense; the problem does not name the
 // library.
 Expected<PluginDescription> read_description(const assay_detector_api& table);
+// What a detector with these parts says of itself. Refuses it likewise.
+Expected<PluginDescription> described(const assay_description& raw, const PluginParts& parts);
 
 // The result of a step. Its pairs are a < b, ascending, each once with its least time ([0, 1] if
 // none is stated). Fails if it breaks the header's rules, and, with the plug-in's own words, if it

@@ -1,0 +1,121 @@
+// Logs of steps, as a simulator recorded them (detector/plugin/assay_record.h; the format is in
+// corpus/README.md): a mesh, what its detector claims, and steps with the detector's answers.
+//
+// A log may be cut anywhere, and any of its bytes may be wrong. Whatever record is whole is read,
+// and what lies between such records is named.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "corpus/file_bytes.h"
+#include "corpus/problem.h"
+#include "detector/mesh/counted_pairs.h"
+#include "detector/plugin/assay_detector.h"
+
+namespace assay::corpus {
+
+class CborMap;
+
+// What holds for all steps.
+struct LogHead {
+  std::string name, version;      // of the detector
+  assay_description description;  // its name and version are NULL
+  detector::Triangles triangles;
+  detector::Positions positions;  // the detector was made from these
+  std::optional<detector::CountedPairs> counted;
+};
+
+// What the detector answered, as in assay_result.
+struct LoggedAnswer {
+  std::int32_t answer = ASSAY_UNDECIDED;
+  double first_lo = 0, first_hi = 0;
+  std::vector<std::int32_t> pairs;  // two of each
+  std::vector<double> pair_times;   // two of each; or empty
+  std::string message;
+};
+
+// How far the detector let the caller go, as in assay_limit.
+struct LoggedLimit {
+  double share = -1;
+  std::optional<detector::Positions> positions;
+};
+
+struct LogStep {
+  std::uint64_t number = 0;  // of all steps of the run, from 0
+  detector::Positions x_t0, x_t1;
+  std::optional<LoggedAnswer> answer;
+  std::optional<LoggedLimit> limit;
+  // Why it is not known which step this is; empty if it is known. Then the positions mean nothing.
+  std::string why_unknown;
+};
+
+// Bytes that are no record, or records that are not there.
+struct LogDamage {
+  std::uint64_t from = 0, to = 0;  // bytes of the file; equal if records are missing in between
+  std::string what;
+};
+
+class StepLog {
+ public:
+  // Reads the whole file once, to find its records. Refuses a file whose first record is not whole,
+  // or holds no mesh.
+  static Expected<StepLog> open(const std::filesystem::path& path);
+
+  const LogHead& head() const { return head_; }
+  std::size_t count() const { return steps_.size(); }
+  std::uint64_t number_of(std::size_t i) const { return steps_[i].number; }
+  std::optional<std::size_t> place_of(std::uint64_t number) const;
+  // Step i < count(). Its cost is that of one step, if steps are asked for in order.
+  Expected<LogStep> step(std::size_t i);
+
+  const std::vector<LogDamage>& damages() const { return damages_; }
+  // What stands behind the last whole record: a record that was cut, or is being written. Its
+  // `what` is empty if there is nothing.
+  LogDamage rest() const;
+  // The recorder was told to end.
+  bool is_ended() const { return is_ended_; }
+  // What the caller noted before each step.
+  const std::multimap<std::uint64_t, std::string>& notes() const { return notes_; }
+
+  // Reads what was appended since.
+  Expected<void> go_on();
+
+ private:
+  struct Place {
+    std::uint64_t offset, number;
+  };
+  struct Record {
+    std::string body;
+    std::uint64_t end = 0;  // behind it
+  };
+
+  explicit StepLog(std::filesystem::path path) : path_(std::move(path)) {}
+  std::optional<Record> record_at(std::uint64_t offset);
+  std::optional<std::uint64_t> next_record(std::uint64_t offset);
+  bool read(std::uint64_t offset, std::size_t count, std::string& bytes);
+  Expected<void> begin();
+  void take(const Record& record, std::uint64_t offset);
+  std::optional<detector::Positions> places(const CborMap& body, const char* key) const;
+  // Where the step of this record ended, for the next one that starts there.
+  std::optional<detector::Positions> end_of(const CborMap& body) const;
+  std::string read_motion(const CborMap& body, std::size_t i, LogStep& step);
+
+  std::filesystem::path path_;
+  OpenFile file_;
+  std::uint64_t size_ = 0, scanned_ = 0, next_record_ = 0;
+  bool is_ended_ = false;
+  LogHead head_{};
+  std::vector<Place> steps_;
+  std::vector<LogDamage> damages_;
+  std::multimap<std::uint64_t, std::string> notes_;
+  // The end of the step that was read last, so that the next one need not read it again.
+  std::optional<std::size_t> ended_step_;
+  std::optional<detector::Positions> end_;
+};
+
+}  // namespace assay::corpus

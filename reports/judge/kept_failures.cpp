@@ -1,0 +1,146 @@
+#include "reports/judge/kept_failures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "properties/campaign/phases/shrink.h"
+#include "properties/judging/contracted_case.h"
+#include "properties/judging/judged_run.h"
+#include "properties/judging/trial.h"
+#include "properties/reducer/case_edits.h"
+#include "properties/reducer/mesh_size.h"
+#include "reports/pictures/case_scene.h"
+#include "reports/steps/case_export.h"
+#include "reports/terminal/words.h"
+
+namespace assay::reports {
+namespace {
+
+using detector::TrianglePair;
+
+// A step that fails as many others do shows nothing new.
+constexpr int most_of_a_kind = 10;
+
+corpus::Case case_of(const FailedStep& failed) {
+  corpus::Case c;
+  c.triangles = failed.source.triangles();
+  c.frames = {failed.step.x_t0, failed.step.x_t1};
+  if (failed.source.counted()) c.counted = corpus::CaseRelation{*failed.source.counted(), {}};
+  if (failed.detector.contract.rest_distance > 0) {
+    c.frames.insert(c.frames.begin(), failed.source.first_frame());
+    c.script = {{1, 2, true}};
+  }
+  return c;
+}
+
+// Marks the triangles that have a vertex of those that are marked.
+void add_neighbours(const detector::Triangles& triangles, Eigen::Index vertices,
+                    std::vector<std::uint8_t>& marked) {
+  std::vector<std::uint8_t> near(static_cast<std::size_t>(vertices), 0);
+  const auto each = [&](const auto& change) {
+    for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+      for (int k = 0; k < 3; ++k)
+        change(marked[static_cast<std::size_t>(t)], near[properties::at(triangles(t, k))]);
+    }
+  };
+  each([](std::uint8_t& triangle, std::uint8_t& vertex) { vertex |= triangle; });
+  each([](std::uint8_t& triangle, std::uint8_t& vertex) { triangle |= vertex; });
+}
+
+// The two triangles with their neighbours, if these show the same of the pair as the whole mesh
+// does; else the whole mesh.
+corpus::Case part_that_shows(const corpus::Case& whole, TrianglePair pair,
+                             const properties::Contract& contract) {
+  std::vector<std::uint8_t> marked(static_cast<std::size_t>(whole.triangles.rows()), 0);
+  marked[properties::at(pair.a)] = marked[properties::at(pair.b)] = 1;
+  const int relation_rings =
+      std::max(contract.rings, whole.counted ? whole.counted->pairs.rings : 0);
+  for (int ring = 0; ring <= relation_rings; ++ring)
+    add_neighbours(whole.triangles, whole.frames.front().rows(), marked);
+  auto part = properties::keep_triangles(whole, marked);
+  const auto number = [&](std::int32_t t) {
+    return static_cast<std::int32_t>(
+        std::count(marked.begin(), marked.begin() + t, std::uint8_t{1}));
+  };
+  // Which contact counts, and when it is, may depend on more of the mesh than this.
+  const auto contact_of = [&](const corpus::Case& c,
+                              TrianglePair at) -> std::optional<std::string> {
+    const auto judged = properties::judge_case(c, contract);
+    const auto truth = properties::truth_of(c, judged.front(), contract);
+    for (const auto& contact : truth.pairs) {
+      if (contact.pair == at) return fmt::format("{} {}", contact.time.lo, contact.time.hi);
+    }
+    return std::nullopt;
+  };
+  if (!properties::contracted(part, contract)) return whole;
+  const bool shows = contact_of(part, {number(pair.a), number(pair.b)}) == contact_of(whole, pair);
+  return shows ? part : whole;
+}
+
+}  // namespace
+
+KeptFailures::KeptFailures(std::filesystem::path folder, std::string origin,
+                           std::function<std::string(std::uint64_t)> replay,
+                           std::optional<properties::Subject> again, double shrink_seconds)
+    : folder_(std::move(folder)),
+      origin_(std::move(origin)),
+      replay_(std::move(replay)),
+      again_(std::move(again)),
+      shrink_seconds_(shrink_seconds) {
+  if (again_) worker_ = std::make_unique<properties::WorkerProcess>(again_->process());
+}
+
+Expected<std::string> KeptFailures::keep(const FailedStep& failed) {
+  if (failed.diff.broken.empty()) return std::string();
+  const auto& contract = failed.detector.contract;
+  const auto failure = properties::failure_of(failed.diff, failed.result, contract);
+  const auto number = failed.number + 1;
+  const std::string replay = fmt::format("  again: {}\n", replay_(number));
+  if (kept_[failure.signature()]++ >= most_of_a_kind)
+    return fmt::format("  not kept, {} of its kind are: {}\n{}", most_of_a_kind,
+                       failure.signature(), replay);
+  const auto whole = case_of(failed);
+  auto c = failure.pair ? part_that_shows(whole, *failure.pair, contract) : whole;
+  c.id = fmt::format("step-{}", number);
+  c.about = fmt::format("{}: {}", failure.signature(), failure.explanation);
+  c.source = fmt::format("step {} of {}", number, origin_);
+  const auto folder = folder_ / c.id;
+  BOOST_OUTCOME_TRYV(export_case(folder, c, failed.detector, properties::judge_case(c, contract)));
+  SceneMaker scenes(std::nullopt);
+  BOOST_OUTCOME_TRYV(scenes.write_picture(folder / "case.json", c, "", failure.signature()));
+  std::string text =
+      fmt::format("  {}: {}\n  kept in {} ({})\n{}", failure.signature(), failure.explanation,
+                  folder.string(), properties::size_text(properties::size_of(c)), replay);
+  if (!again_) return text;
+  BOOST_OUTCOME_TRY(told, ask_again(c, folder));
+  if (told.empty() && c.triangles.rows() < whole.triangles.rows()) {
+    c.triangles = whole.triangles;
+    c.frames = whole.frames;
+    c.script = whole.script;
+    c.counted = whole.counted;
+    BOOST_OUTCOME_TRY(of_whole, ask_again(c, folder));
+    told = std::move(of_whole);
+  }
+  return text +
+         (told.empty() ? "  not reproduced: asked again, the detector is right here\n" : told);
+}
+
+// Asks the plug-in about the case, and shrinks it if it fails. An empty text: it is right.
+Expected<std::string> KeptFailures::ask_again(corpus::Case c, const std::filesystem::path& folder) {
+  const auto& detector = again_->detector;
+  const auto& configuration = detector.configurations.front();
+  if (!properties::contracted(c, detector.contract)) return std::string();
+  if (!properties::judge_of_detector(detector, configuration, *worker_)(c)) return std::string();
+  constexpr std::uint64_t most_calls = 100'000;
+  const auto reduction =
+      properties::shrink_case(c, detector, configuration, *worker_, {shrink_seconds_, most_calls});
+  const auto file = folder / "smallest.json";
+  auto smallest = reduction.smallest;
+  smallest.id = "smallest";
+  BOOST_OUTCOME_TRYV(corpus::write_case(file, smallest));
+  return fmt::format("  reproduced; smallest: {} ({})\n", file.string(),
+                     properties::size_text(properties::size_of(smallest)));
+}
+
+}  // namespace assay::reports

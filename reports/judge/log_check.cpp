@@ -1,0 +1,54 @@
+#include "reports/judge/log_check.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "properties/printable.h"
+#include "reports/check/detector_choice.h"
+#include "reports/judge/kept_failures.h"
+#include "reports/terminal/limits.h"
+#include "reports/terminal/words.h"
+
+namespace assay::reports {
+
+LogName log_name(const std::string& word) {
+  std::error_code ignored;
+  const auto mark = word.rfind('#');
+  if (mark == std::string::npos || std::filesystem::exists(word, ignored)) return {word, {}};
+  const auto number = whole_number_of<std::uint64_t>(word.substr(mark + 1));
+  if (!number || *number == 0) return {word, {}};
+  return {word.substr(0, mark), *number - 1};
+}
+
+Expected<CheckAnswer> judge_log(const LogName& name, const LogQuestion& question,
+                                const CheckListener& listener) {
+  BOOST_OUTCOME_TRY(log, corpus::StepLog::open(name.file));
+  auto selection = question.selection;
+  if (name.step) selection.step = name.step;
+  BOOST_OUTCOME_TRY(recorded, recorded_input(log, name.file, selection));
+  std::optional<properties::Subject> again;
+  if (!question.again.library.empty()) {
+    BOOST_OUTCOME_TRY(subject, choose_detector(question.again));
+    again = std::move(subject);
+  }
+  std::unique_ptr<KeptFailures> kept;
+  CheckListener with_files = listener;
+  if (!question.out.empty()) {
+    const auto replay = [&](std::uint64_t number) {
+      return fmt::format("{} replay {}", this_program(true),
+                         shell_word(fmt::format("{}#{}", name.file, number)));
+    };
+    kept = std::make_unique<KeptFailures>(question.out, name.file, replay, std::move(again),
+                                          question.shrink_seconds);
+    with_files.failed = [&](const FailedStep& failed) { return kept->keep(failed); };
+  }
+  auto check = question.check;
+  check.files = {name.file};
+  for (const auto& [step, text] : log.notes())
+    listener.say(fmt::format("noted before step {}: {}\n", step + 1, properties::printable(text)));
+  Limits limits(check.time_limit, check.memory_limit);
+  return check_answers(check, recorded.input, *recorded.answers, limits, with_files);
+}
+
+}  // namespace assay::reports

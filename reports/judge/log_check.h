@@ -1,0 +1,31 @@
+// `judge`: the recorded answers of logs, judged as those of a plug-in are.
+#pragma once
+
+#include <string>
+
+#include "reports/check/check_run.h"
+#include "reports/check/recorded_answers.h"
+
+namespace assay::reports {
+
+struct LogQuestion {
+  LogSelection selection;
+  CheckQuestion check;         // jobs, limits, second opinion; whether a report is wanted
+  std::string out;             // where failing steps are kept; empty: nowhere
+  DetectorWords again;         // a plug-in of the same code, which is asked again; or none
+  double shrink_seconds = 20;  // for each failing step that it fails on again
+};
+
+// A log's file, and "#N" behind it for step N alone, counted from 1.
+struct LogName {
+  std::string file;
+  std::optional<std::uint64_t> step;  // counted from 0
+};
+LogName log_name(const std::string& word);
+
+// Judges one log. Fails if it cannot be read, if nothing of it can be judged, or if a file cannot
+// be written.
+Expected<CheckAnswer> judge_log(const LogName& log, const LogQuestion& question,
+                                const CheckListener& listener);
+
+}  // namespace assay::reports

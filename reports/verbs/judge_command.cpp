@@ -1,0 +1,101 @@
+// `assay judge` judges the answers that a simulator recorded, without its detector.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "reports/judge/log_check.h"
+#include "reports/terminal/text_file.h"
+#include "reports/verbs/verbs.h"
+
+namespace assay::reports {
+namespace {
+
+struct JudgeRequest {
+  std::vector<std::string> logs;
+  LogQuestion question;
+  std::optional<double> share;
+  bool fail_on_collision = false;
+  std::string json_file;  // empty: not written
+};
+
+// The worse of two exit codes of this verb.
+int worse(int a, int b) {
+  constexpr std::array from_best = {exit_holds, exit_collision, exit_undecided, exit_defect,
+                                    exit_unsound};
+  const auto rank = [&](int code) { return std::ranges::find(from_best, code); };
+  return rank(a) < rank(b) ? b : a;
+}
+
+Expected<int> run_judge(const JudgeRequest& request) {
+  auto question = request.question;
+  question.selection.share = request.share.value_or(1);
+  question.check.wants_report = !request.json_file.empty();
+  question.check.announced_file = request.json_file;
+  if (question.check.wants_report && request.logs.size() > 1)
+    return Problem{"--json is of one log: name them one by one"};
+  if (question.selection.follow && request.logs.size() > 1)
+    return Problem{"--follow is of one log"};
+  if (!question.again.library.empty() && question.out.empty())
+    return Problem{"--detector asks again about what is kept: --out says where"};
+  BOOST_OUTCOME_TRY(may_write(request.json_file, request.logs));
+  const CheckListener terminal{[](const std::string& text) {
+    fmt::print("{}", text);
+    std::fflush(stdout);
+  }};
+  int code = exit_holds;
+  for (const auto& word : request.logs) {
+    if (request.logs.size() > 1) fmt::print("{}\n", word);
+    auto of_log = question;
+    // Step 3 of one log is not that of another.
+    if (request.logs.size() > 1 && !question.out.empty())
+      of_log.out = (std::filesystem::path(question.out) /
+                    std::filesystem::path(log_name(word).file).filename())
+                       .string();
+    BOOST_OUTCOME_TRY(answer, judge_log(log_name(word), of_log, terminal));
+    if (question.check.wants_report) {
+      BOOST_OUTCOME_TRY(write_json_file(request.json_file, answer.report));
+    }
+    code = worse(code, answer.outcome.exit_code(request.fail_on_collision));
+  }
+  return code;
+}
+
+void add_options(Verb& verb, JudgeRequest& request) {
+  auto& question = request.question;
+  verb.add("logs", request.logs,
+           "Logs that a recorder wrote (assay_record.h, assay.Recorder); LOG#N: step N alone")
+      .required();
+  verb.add("--share", request.share, "Judge this share of the steps").with(reports::share());
+  verb.add_flag("--follow", question.selection.follow,
+                "Wait for steps until the recorder ends the log");
+  verb.add("--out", question.out,
+           "Keep failing steps here: the part of the mesh that shows each, as case, OBJ and C++");
+  add_detector(verb, question.again,
+               "A plug-in of the same code: it is asked again about what is kept, and that is "
+               "shrunk");
+  verb.add("--shrink-time", question.shrink_seconds, "Seconds at most for each")
+      .with(positive())
+      .shows_default();
+  verb.add("--second-opinion", question.check.second_opinion,
+           "Check the oracle itself by other methods, on this share of its questions")
+      .with(reports::share());
+  add_jobs(verb, question.check.jobs);
+  verb.add("--time", question.check.time_limit,
+           "Limit in seconds of processor time for each log; what is left is undecided")
+      .with(positive());
+  add_choice(verb, "--memory", question.check.memory_limit,
+             "a whole number above 0, alone or with K, M or G", memory_size,
+             "Limit of resident memory, such as 6GB or 512MB (MB: 2^20 bytes)");
+  verb.add_flag("--fail-on-collision", request.fail_on_collision,
+                "Exit code 5 when a recorded collision is right");
+  verb.add("--json", request.json_file, "Write the report of one log here (assay-check/1)");
+}
+
+}  // namespace
+
+Action add_judge(CLI::App& app) {
+  return make_verb(app, "judge", "The recorded answers of a simulator against oracle", add_options,
+                   run_judge);
+}
+
+}  // namespace assay::reports

@@ -1,0 +1,252 @@
+// Logs of steps: what a recorder wrote is read as it was, and whatever happened to the bytes, each
+// record that is whole is read, and all else is named.
+#include "corpus/formats/step_log.h"
+
+#include <signal.h>
+#include <sys/wait.h>
+
+#include "tests/corpus/scratch.h"
+#include "tests/meshes.h"
+#include "tests/recorded_log.h"
+
+namespace assay::corpus {
+namespace {
+
+using detector::Positions;
+
+constexpr int steps_written = 12;
+
+class StepLogs : public Scratch {
+ protected:
+  const detector::Triangles triangles_ = tests::triangles({{0, 1, 2}, {3, 4, 5}});
+
+  static Positions places(int frame) {
+    Positions x(6, 3);
+    for (Eigen::Index i = 0; i < x.size(); ++i) x.data()[i] = std::sqrt(2. + frame) * double(i);
+    return x;
+  }
+
+  static detector::StepResult answer(int step) {
+    detector::StepResult result;
+    result.answer = step % 3 == 0 ? detector::Answer::collision : detector::Answer::free;
+    if (step % 3 == 0) {
+      result.first = {0.25, 0.5};
+      result.pairs.push_back({});
+      result.pairs.back().pair = {0, 1};
+      result.pairs.back().time = {0.25, 0.5};
+    }
+    return result;
+  }
+
+  // Steps whose start stands in the log only where the number is even.
+  std::filesystem::path write_log(bool ends = true) const {
+    const auto path = folder() / "steps.log";
+    tests::LogWriter log(path.string(), triangles_, places(0));
+    for (int s = 0; s < steps_written; ++s) {
+      if (s == 5) log.note("the sheet touches the floor");
+      const auto start = places(s);
+      log.step(s % 2 == 0 ? &start : nullptr, places(s + 1), answer(s));
+    }
+    if (ends) log.end();
+    return path;
+  }
+
+  static std::string bytes_of(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  // Every step that is read is that of its number, and every step that is not is accounted for.
+  void check_steps(const std::string& bytes, const std::vector<std::size_t>& ends) const {
+    auto read = StepLog::open(write("damaged.log", bytes));
+    if (!read) {
+      EXPECT_FALSE(read.error().message.empty());
+      return;
+    }
+    auto& log = read.value();
+    std::set<std::uint64_t> numbers;
+    for (std::size_t i = 0; i < log.count(); ++i) {
+      const auto step = log.step(i);
+      ASSERT_TRUE(step) << step.error().message;
+      const auto& s = step.value();
+      numbers.insert(s.number);
+      ASSERT_LT(s.number, std::uint64_t{steps_written});
+      if (!s.why_unknown.empty()) {
+        EXPECT_EQ(s.number % 2, 1u) << "only steps without a start hang on others";
+        EXPECT_FALSE(log.damages().empty());
+        continue;
+      }
+      const auto n = static_cast<int>(s.number);
+      EXPECT_EQ(s.x_t0, places(n));
+      EXPECT_EQ(s.x_t1, places(n + 1));
+      EXPECT_EQ(s.answer->pairs.size(), n % 3 == 0 ? 2u : 0u);
+    }
+    // What was whole is read: steps whose records lie wholly before a cut.
+    for (std::size_t s = 0; s < ends.size(); ++s) {
+      if (ends[s] <= bytes.size() && bytes.compare(0, ends[s], good_, 0, ends[s]) == 0) {
+        EXPECT_TRUE(numbers.contains(s)) << s;
+      }
+    }
+    const bool is_all = numbers.size() == steps_written && log.is_ended();
+    EXPECT_TRUE(is_all || !log.damages().empty() || !log.rest().what.empty() || !log.is_ended());
+  }
+
+  // Behind the record of each step: the marks of records, but for those of begin, note and end.
+  std::vector<std::size_t> ends_of_steps() const {
+    std::vector<std::size_t> begins, ends;
+    for (auto at = good_.find("ASR1"); at != std::string::npos; at = good_.find("ASR1", at + 1))
+      begins.push_back(at - 2);
+    begins.push_back(good_.size());
+    for (std::size_t r = 1; r + 1 < begins.size(); ++r) {
+      const auto record = std::string_view(good_).substr(begins[r], begins[r + 1] - begins[r]);
+      if (record.find("answer") != std::string_view::npos) ends.push_back(begins[r + 1]);
+    }
+    return ends;
+  }
+
+  std::string good_;
+};
+
+TEST_F(StepLogs, AreReadAsTheyWereWritten) {
+  auto read = StepLog::open(write_log());
+  ASSERT_TRUE(read) << read.error().message;
+  auto& log = read.value();
+  EXPECT_EQ(log.head().name, "recorded");
+  EXPECT_EQ(log.head().description.claims, tests::all_claims_description().claims);
+  EXPECT_EQ(log.head().triangles, triangles_);
+  EXPECT_EQ(log.head().positions, places(0));
+  EXPECT_FALSE(log.head().counted);
+  EXPECT_EQ(log.count(), std::size_t{steps_written});
+  EXPECT_TRUE(log.is_ended());
+  EXPECT_TRUE(log.damages().empty());
+  EXPECT_EQ(log.notes().begin()->first, 5u);
+  EXPECT_EQ(log.notes().begin()->second, "the sheet touches the floor");
+  // In any order, though every second one starts where the one before it ended.
+  for (const std::size_t i : {11, 3, 4, 5, 0, 1, 10}) {
+    const auto step = log.step(i).value();
+    EXPECT_EQ(step.why_unknown, "");
+    EXPECT_EQ(step.x_t0, places(static_cast<int>(i)));
+    EXPECT_EQ(step.x_t1, places(static_cast<int>(i) + 1));
+    EXPECT_EQ(step.answer->answer, i % 3 == 0 ? ASSAY_COLLISION : ASSAY_FREE);
+  }
+}
+
+TEST_F(StepLogs, CutAnywhereTheyLoseWhatWasCut) {
+  good_ = bytes_of(write_log());
+  const auto ends = ends_of_steps();
+  ASSERT_EQ(ends.size(), std::size_t{steps_written});
+  for (std::size_t cut = 0; cut <= good_.size(); cut += 13) check_steps(good_.substr(0, cut), ends);
+}
+
+TEST_F(StepLogs, WithAnyByteChangedTheyLoseOneRecord) {
+  good_ = bytes_of(write_log());
+  const auto ends = ends_of_steps();
+  std::mt19937 random(7);
+  for (int n = 0; n < 1000; ++n) {
+    auto bad = good_;
+    const auto at = random() % bad.size();
+    bad[at] = static_cast<char>(bad[at] ^ static_cast<char>(1 + random() % 255));
+    SCOPED_TRACE(at);
+    check_steps(bad, ends);
+    const auto log = StepLog::open(folder() / "damaged.log");
+    if (log) {
+      EXPECT_GE(log.value().count() + 1, std::size_t{steps_written});
+    }
+  }
+}
+
+TEST_F(StepLogs, BytesTakenOutOrPutInAreNamed) {
+  good_ = bytes_of(write_log());
+  const auto ends = ends_of_steps();
+  auto missing = good_;
+  missing.erase(ends[3], ends[5] - ends[3]);  // two whole steps, and the note between them
+  check_steps(missing, {});
+  auto log = StepLog::open(folder() / "damaged.log").value();
+  ASSERT_EQ(log.damages().size(), 1u);
+  EXPECT_TRUE(says(log.damages()[0].what, "3 records are missing"));
+  auto more = good_;
+  more.insert(ends[3],
+              "\x83\x44"
+              "ASR1 and so on");
+  check_steps(more, {});
+  EXPECT_EQ(StepLog::open(folder() / "damaged.log").value().count(), std::size_t{steps_written});
+}
+
+TEST_F(StepLogs, WhatIsKilledWhileItWritesLosesOneRecordAtMost) {
+  const auto path = folder() / "killed.log";
+  int opened = 0;
+  for (int n = 0; n < 200; ++n) {
+    const auto child = fork();
+    if (child == 0) {
+      tests::LogWriter log(path.string(), triangles_, places(0));
+      const auto start = places(0);
+      for (int s = 0;; ++s) log.step(s == 0 ? &start : nullptr, places(s + 1), answer(s));
+    }
+    ASSERT_GT(child, 0);
+    std::this_thread::sleep_for(std::chrono::microseconds(2000 + 37 * n));
+    kill(child, SIGKILL);
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    const auto log = StepLog::open(path);
+    if (!log) {
+      std::error_code absent;
+      const auto size = std::filesystem::file_size(path, absent);
+      EXPECT_TRUE(absent || size < 1000) << log.error().message;
+      continue;
+    }
+    ++opened;
+    EXPECT_TRUE(log.value().damages().empty());
+    EXPECT_FALSE(log.value().is_ended());
+  }
+  EXPECT_GT(opened, 100);
+}
+
+TEST_F(StepLogs, GrowWhileTheyAreRead) {
+  const auto path = folder() / "grows.log";
+  tests::LogWriter writer(path.string(), triangles_, places(0));
+  auto log = StepLog::open(path).value();
+  for (int s = 0; s < 3; ++s) {
+    const auto start = places(s);
+    writer.step(&start, places(s + 1), answer(s));
+    ASSERT_TRUE(log.go_on());
+    EXPECT_EQ(log.count(), std::size_t(s) + 1);
+    EXPECT_EQ(log.step(std::size_t(s)).value().x_t1, places(s + 1));
+  }
+  writer.end();
+  ASSERT_TRUE(log.go_on());
+  EXPECT_TRUE(log.is_ended());
+}
+
+TEST_F(StepLogs, DisplacementsAreExactSums) {
+  const auto path = folder() / "moved.log";
+  tests::LogWriter writer(path.string(), triangles_, places(0));
+  std::vector<float> x(18, 1), far(18, 0x1p-60F), near(18, 0x1p-30F);
+  const auto step = [&](const std::vector<float>& way) {
+    assay_record_step_data data = {};
+    data.x0 = {x.data(), 1};
+    data.dx = {way.data(), 1};
+    writer.step(data);
+  };
+  step(near);
+  step(far);
+  writer.end();
+  auto log = StepLog::open(path).value();
+  EXPECT_EQ(log.step(0).value().x_t1(0, 0), 1 + 0x1p-30);
+  EXPECT_TRUE(says(log.step(1).value().why_unknown, "no double"));
+}
+
+TEST_F(StepLogs, RefuseWhatIsNone) {
+  const auto told = [&](std::string_view bytes) {
+    const auto log = StepLog::open(write("none.log", bytes));
+    return log ? std::string("none") : log.error().message;
+  };
+  EXPECT_TRUE(says(told("v 0 0 0\n"), "it is no log of steps"));
+  EXPECT_TRUE(says(told(""), "it is no log of steps"));
+  good_ = bytes_of(write_log());
+  EXPECT_TRUE(says(told(good_.substr(0, 100)), "its first record is damaged"));
+  EXPECT_FALSE(StepLog::open(folder() / "absent.log"));
+  EXPECT_FALSE(StepLog::open(folder()));
+}
+
+}  // namespace
+}  // namespace assay::corpus

@@ -1,0 +1,225 @@
+// `judge`: recorded answers are judged as those of a plug-in are, what fails comes home as a small
+// mesh, and what is lost of a log is said.
+#include <nlohmann/json.hpp>
+
+#include "corpus/formats/mesh_writer.h"
+#include "corpus/scenes/scenes.h"
+#include "detector/detector.h"
+#include "tests/recorded_log.h"
+#include "tests/reports/run_fixture.h"
+
+namespace assay::tests {
+namespace {
+
+class JudgeCommand : public testing::Test {
+ protected:
+  void SetUp() override {
+    sequence_ = corpus::make_scene("crumpling-sphere", {400, 8, {}}).value();
+    auto made = detector::Detector::create(sequence_.triangles, sequence_.frames.front(),
+                                           detector::Options());
+    auto& detector = made.value();
+    for (std::size_t f = 0; f + 1 < sequence_.frames.size(); ++f)
+      answers_.push_back(detector.step(sequence_.frames[f], sequence_.frames[f + 1]));
+    collision_ = std::size_t(
+        std::ranges::find(answers_, detector::Answer::collision, &detector::StepResult::answer) -
+        answers_.begin());
+    ASSERT_LT(collision_, answers_.size());
+  }
+
+  std::string record(const std::vector<detector::StepResult>& answers, bool ends = true,
+                     const assay_description& description = all_claims_description()) const {
+    const auto path = scratch_ / "steps.log";
+    LogWriter log(path, sequence_.triangles, sequence_.frames.front(), description);
+    for (std::size_t s = 0; s < answers.size(); ++s) {
+      if (s == 2) log.note("two steps done");
+      log.step(s == 0 ? sequence_.frames.data() : nullptr, sequence_.frames[s + 1], answers[s]);
+    }
+    if (ends) log.end();
+    return path;
+  }
+
+  // The frames as files.
+  std::string frames() const {
+    std::string files;
+    for (std::size_t f = 0; f < sequence_.frames.size(); ++f) {
+      const auto file = scratch_ / fmt::format("{:03}.obj", f);
+      EXPECT_TRUE(corpus::write_mesh(file, sequence_.frames[f], sequence_.triangles));
+      files += " " + file;
+    }
+    return files;
+  }
+
+  // In one step with a contact, it says that there is none.
+  std::vector<detector::StepResult> with_a_miss() const {
+    auto wrong = answers_;
+    wrong[collision_] = {};
+    wrong[collision_].answer = detector::Answer::free;
+    return wrong;
+  }
+
+  static nlohmann::json steps_of(const std::string& file) {
+    auto report = nlohmann::json::parse(read_text(file));
+    for (auto& step : report["steps"]) {
+      step["diff"].erase("limit");  // which the log does not have
+      if (step.contains("oracle")) step["oracle"].erase("time_ms");
+    }
+    return report["steps"];
+  }
+
+  const Scratch scratch_;
+  corpus::Sequence sequence_;
+  std::vector<detector::StepResult> answers_;
+  std::size_t collision_ = 0;
+};
+
+TEST_F(JudgeCommand, RightAnswersHold) {
+  const auto judged = run_assay("judge " + record(answers_));
+  EXPECT_EQ(judged.exit_code, 0) << judged.out << judged.err;
+  EXPECT_TRUE(says(judged.out, "recorded of recorded 1"));
+  EXPECT_TRUE(says(judged.out, "noted before step 3: two steps done"));
+  EXPECT_TRUE(says(judged.out, "all claims hold"));
+}
+
+// Frames with a table of answers need no recorder.
+TEST_F(JudgeCommand, ATableOfAnswersIsJudgedBesideFrames) {
+  std::string rows = "step,answer,time\n";
+  for (std::size_t s = 0; s < answers_.size(); ++s) {
+    const bool hits = answers_[s].answer == detector::Answer::collision;
+    rows += hits ? fmt::format("{},collision,{}\n", s + 1, answers_[s].first.lo)
+                 : fmt::format("{},free,\n", s + 1);
+  }
+  const auto check = [&](const std::string& table, const std::string& more = "") {
+    return run_assay("check" + frames() + " --answers " + scratch_.write("t.csv", table) + more);
+  };
+  const auto right = check(rows);
+  EXPECT_EQ(right.exit_code, 0) << right.out << right.err;
+  EXPECT_TRUE(says(right.out, "claims: free-sound, not-late"));
+  auto wrong = rows;
+  const auto row = wrong.find(fmt::format("\n{},collision", collision_ + 1));
+  wrong.replace(row, wrong.find('\n', row + 1) - row, fmt::format("\n{},free,", collision_ + 1));
+  const auto kept = scratch_ / "kept";
+  const auto missed = check(wrong, " --keep " + kept);
+  EXPECT_EQ(missed.exit_code, 1) << missed.out << missed.err;
+  const auto file = fmt::format("{}/step-{}/case.json", kept, collision_ + 1);
+  EXPECT_EQ(run_assay("replay " + file).exit_code, 0) << "the built-in detector is right there";
+  const auto some = check(rows.substr(0, rows.find("\n3,") + 1));
+  EXPECT_EQ(some.exit_code, 0);
+  EXPECT_TRUE(says(some.out, "step 3: left out: the table has no row of it"));
+  for (const char* bad : {"", "x", "0,free,", "1,maybe,", "1,collision,2", "1,free,\n1,free,"}) {
+    const auto refused = check(bad);
+    EXPECT_EQ(refused.exit_code, 2) << bad << refused.out;
+  }
+}
+
+TEST_F(JudgeCommand, CheckKeepsWhatAPluginFailsOnShrunk) {
+  const auto kept = scratch_ / "kept";
+  const auto checked =
+      run_assay("check" + frames() + " --detector " + plugin("always_free") + " --keep " + kept);
+  EXPECT_EQ(checked.exit_code, 1) << checked.err;
+  EXPECT_TRUE(says(checked.out, "reproduced; smallest: "));
+  const auto file = fmt::format("{}/step-{}/smallest.json", kept, collision_ + 1);
+  EXPECT_EQ(run_assay("replay " + file + " --detector " + plugin("always_free")).exit_code, 1);
+}
+
+TEST_F(JudgeCommand, ReportsWhatCheckReportsOfTheSameSteps) {
+  const auto checked = run_assay("check" + frames() + " --detector " + plugin("wrapped_builtin") +
+                                 " --json " + (scratch_ / "check.json"));
+  EXPECT_EQ(checked.exit_code, 0) << checked.out << checked.err;
+  const auto judged =
+      run_assay("judge " + record(answers_) + " --json " + (scratch_ / "judge.json"));
+  EXPECT_EQ(judged.exit_code, 0) << judged.out << judged.err;
+  EXPECT_TRUE(steps_of(scratch_ / "judge.json") == steps_of(scratch_ / "check.json"));
+}
+
+TEST_F(JudgeCommand, AMissComesHomeAsTwoTrianglesAndTheirNeighbours) {
+  const auto log = record(with_a_miss()), out = scratch_ / "out";
+  const auto judged = run_assay("judge " + log + " --out " + out);
+  EXPECT_EQ(judged.exit_code, 1) << judged.out << judged.err;
+  EXPECT_TRUE(says(judged.out, "broken: free-sound"));
+  const auto step = fmt::format("step-{}", collision_ + 1);
+  const auto c = nlohmann::json::parse(read_text(out + "/" + step + "/case.json"));
+  EXPECT_LT(c["triangles"].size(), 60u);
+  for (const auto* file : {"frame_0000.obj", "frame_0001.obj", "case.cpp", "case.svg"})
+    EXPECT_TRUE(std::filesystem::exists(out + "/" + step + "/" + file)) << file;
+  // The part shows a contact by itself, and the whole step is one command away.
+  EXPECT_EQ(run_assay("check " + out + "/" + step + "/case.json --fail-on-collision").exit_code, 5);
+  const auto again = fmt::format("replay '{}#{}'", log, collision_ + 1);
+  EXPECT_TRUE(says(judged.out, again));
+  const auto replayed = run_assay(again);
+  EXPECT_EQ(replayed.exit_code, 1) << replayed.out << replayed.err;
+  EXPECT_TRUE(says(replayed.out, fmt::format("step {}: ", collision_ + 1)));
+  EXPECT_EQ(run_assay(fmt::format("replay '{}#1'", log)).exit_code, 0);
+  EXPECT_EQ(run_assay(fmt::format("replay '{}#99'", log)).exit_code, 2);
+}
+
+TEST_F(JudgeCommand, APluginOfTheSameCodeIsAskedAgain) {
+  const auto log = record(with_a_miss()), out = scratch_ / "out";
+  const auto same = run_assay("judge " + log + " --out " + out + " --detector " +
+                              plugin("always_free") + " --shrink-time 20");
+  EXPECT_TRUE(says(same.out, "reproduced; smallest: ")) << same.err;
+  const auto smallest = nlohmann::json::parse(
+      read_text(fmt::format("{}/step-{}/smallest.json", out, collision_ + 1)));
+  EXPECT_LE(smallest["triangles"].size(), 3u);
+  std::filesystem::remove_all(out);
+  const auto other =
+      run_assay("judge " + log + " --out " + out + " --detector " + plugin("wrapped_builtin"));
+  EXPECT_TRUE(says(other.out, "not reproduced"));
+}
+
+TEST_F(JudgeCommand, WhatIsLostIsSaid) {
+  const auto log = record(answers_);
+  const auto good = read_text(log);
+  auto bad = good;
+  bad[bad.size() / 2] ^= 1;
+  const auto damaged = run_assay("judge " + scratch_.write("bad.log", bad));
+  EXPECT_EQ(damaged.exit_code, 3) << damaged.out;
+  EXPECT_TRUE(says(damaged.out, "lost: bytes "));
+  EXPECT_TRUE(says(damaged.out, "that one is lost"));
+  EXPECT_TRUE(says(damaged.out, "undecided: a part of the input is lost"));
+  const auto cut =
+      run_assay("judge " + scratch_.write("cut.log", good.substr(0, good.size() - 99)));
+  EXPECT_EQ(cut.exit_code, 0) << cut.out;
+  EXPECT_TRUE(says(cut.out, "it was cut, or is being written"));
+  EXPECT_EQ(run_assay("judge " + scratch_.write("none.log", "no log")).exit_code, 2);
+}
+
+TEST_F(JudgeCommand, AShareOfTheStepsIsTheSameInEveryRun) {
+  const auto log = record(answers_);
+  const auto run = [&] {
+    const auto file = scratch_ / "share.json";
+    EXPECT_EQ(run_assay("judge " + log + " --share 0.5 --json " + file).exit_code, 0);
+    return steps_of(file);
+  };
+  const auto steps = run();
+  EXPECT_LT(steps.size(), answers_.size());
+  EXPECT_GT(steps.size(), 0u);
+  EXPECT_TRUE(run() == steps);
+}
+
+TEST_F(JudgeCommand, FollowsALogUntilItEnds) {
+  const auto path = scratch_ / "grows.log";
+  LogWriter log(path, sequence_.triangles, sequence_.frames.front());
+  Outcome judged;
+  std::thread reader([&] { judged = run_assay("judge " + path + " --follow"); });
+  for (std::size_t s = 0; s < answers_.size(); ++s) {
+    log.step(sequence_.frames.data() + s, sequence_.frames[s + 1], answers_[s]);
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  log.end();
+  reader.join();
+  EXPECT_EQ(judged.exit_code, 0) << judged.out << judged.err;
+  EXPECT_TRUE(says(judged.out, fmt::format("step {}: ", answers_.size())));
+}
+
+TEST_F(JudgeCommand, WhatALogCannotShowIsNotJudged) {
+  auto description = all_claims_description();
+  description.claims |= ASSAY_CLAIM_DETERMINISTIC;
+  const auto judged = run_assay("judge " + record(answers_, true, description));
+  EXPECT_EQ(judged.exit_code, 0) << judged.out;
+  EXPECT_TRUE(says(judged.out, "not judged: deterministic, for a log holds each step once"));
+  description.claims = ASSAY_CLAIM_DETERMINISTIC;
+  EXPECT_EQ(run_assay("judge " + record(answers_, true, description)).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace assay::tests
