@@ -240,7 +240,7 @@ static inline void assay_record_sum_many_(assay_recorder* r, const unsigned char
 
 /* The CRC-32 of zlib, without its first and last step. */
 static inline void assay_record_sum_(assay_recorder* r, const unsigned char* p, size_t n) {
-  if (n < 16 * ASSAY_RECORD_LEFT_)
+  if (n < (size_t)16 * ASSAY_RECORD_LEFT_)
     assay_record_sum_few_(r, p, n);
   else
     assay_record_sum_many_(r, p, n);

@@ -155,10 +155,11 @@ struct Simulator {
 
   Simulator() {
     for (int i = 0; i < sheet; ++i) {
-      const double s = spacing * (i % side), t = spacing * (i / side);
+      const int column = i % side, row = i / side;
+      const double s = spacing * column, t = spacing * row;
       x.push_back({s, 0.3 * t + 0.02 * std::sin(9 * s), 0.1 + 0.95 * t});
       const int here = i, right = i + 1, above = i + side;
-      if (i % side + 1 < side && above < sheet)
+      if (column + 1 < side && above < sheet)
         corners.insert(corners.end(), {here, right, above, above, right, above + 1});
     }
     for (const double s : {-3., 3.})
