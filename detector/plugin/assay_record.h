@@ -240,7 +240,7 @@ static inline void assay_record_sum_many_(assay_recorder* r, const unsigned char
 
 /* The CRC-32 of zlib, without its first and last step. */
 static inline void assay_record_sum_(assay_recorder* r, const unsigned char* p, size_t n) {
-  if (n < 16 * ASSAY_RECORD_LEFT_)
+  if (n < (size_t)16 * ASSAY_RECORD_LEFT_)
     assay_record_sum_few_(r, p, n);
   else
     assay_record_sum_many_(r, p, n);
@@ -602,8 +602,9 @@ static inline int32_t assay_record_write_(assay_recorder* r, assay_record_body_ 
 
 /* The file is full: it goes out of the way, and the next record begins another one. */
 static inline int32_t assay_record_turn_(assay_recorder* r) {
-  int32_t code = ASSAY_OK;
-  if (r->file) (void)fclose(r->file);
+  int32_t code = ASSAY_OK, closed = ASSAY_OK;
+  if (r->file && fclose(r->file) != 0)
+    closed = assay_record_fail_(r, ASSAY_RECORD_NOT_WRITTEN, "cannot close", r->path, errno);
   r->file = NULL;
   code = assay_record_move_(
       r, r->path,
@@ -621,7 +622,7 @@ static inline int32_t assay_record_turn_(assay_recorder* r) {
   r->next_record = 1;
   r->steps_in_file = 0;
   r->end_is_in_file = 0;
-  return ASSAY_OK;
+  return closed;
 }
 
 /* Copies where a step ended. Without memory for it, the next step has to say where it starts. */
