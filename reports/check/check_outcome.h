@@ -2,6 +2,7 @@
 // claims that hold and what it does whatever it claims.
 #pragma once
 
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -23,7 +24,9 @@ struct CheckOutcome {
   bool has_answers = true;  // false: a library of candidates alone
   std::string ended;        // how a plug-in's run ended; empty: it went through
   std::string limit_reached;
-  std::vector<std::string> lost;  // of the input
+  std::vector<std::string> lost;                            // of the input
+  std::map<properties::Claim, std::uint64_t> first_broken;  // of each claim: its step, from 0
+  std::size_t judged_steps = 0;
   // Only for a plug-in: the claims that hold, those of which nothing is known, and what the
   // plug-in does whatever it claims.
   std::vector<std::string> held;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 
 #include "detector/mesh/mesh_checks.h"
 #include "detector/mesh/topology.h"
@@ -76,6 +77,8 @@ class CheckRun {
       for (auto& claim : answers_.beyond_reach()) outcome_.not_judged.push_back(std::move(claim));
     }
     if (outcome_.defect || outcome_.undecided) say(printed_text(answers_.run().printed));
+    if (!question_.shows_all_steps)
+      say(fmt::format("{} of {} steps judged\n", outcome_.judged_steps, step_count()));
     say(outcome_.summary());
     CheckAnswer answer{std::move(outcome_), nullptr};
     if (question_.wants_report)
@@ -177,7 +180,11 @@ class CheckRun {
     if (!why) return std::nullopt;
     if (why->empty()) return nlohmann::ordered_json();
     const auto number = answers_.number_of(s);
-    say(fmt::format("step {}: left out: {}\n", number + 1, *why));
+    // Many steps are left out for the same reason, in other words at most by other numbers.
+    const bool is_new = reasons_.insert(why->substr(0, why->find(':'))).second;
+    if (is_new || question_.shows_all_steps)
+      say(fmt::format("step {}: left out: {}{}\n", number + 1, *why,
+                      question_.shows_all_steps ? "" : "; others like it are only counted"));
     return nlohmann::ordered_json{{"step", number + 1}, {"left_out", *why}};
   }
 
@@ -230,7 +237,11 @@ class CheckRun {
     outcome_.defect |= diff.outcome == Outcome::defect;
     outcome_.undecided |= diff.outcome == Outcome::undecided || diff.outcome == Outcome::error;
     if (answers_.is_plugin()) outcome_.count(diff, result);
-    say(step_text(shown_number, result, &oracle, shown_work(s)) + told_error);
+    ++outcome_.judged_steps;
+    for (const auto claim : diff.broken)
+      outcome_.first_broken.emplace(claim, answers_.number_of(s));
+    if (question_.shows_all_steps || diff.outcome != Outcome::holds)
+      say(step_text(shown_number, result, &oracle, shown_work(s)) + told_error);
     if (diff.outcome == Outcome::defect) {
       print_defect(step, diff);
       if (const auto told =
@@ -343,6 +354,7 @@ class CheckRun {
   const CheckListener& listener_;
   std::optional<std::string> refused_;
   const detector::CountedPairs tested_;  // under the contract
+  std::set<std::string> reasons_;        // why steps were left out, as far as these were told
   CheckOutcome outcome_;
 };
 

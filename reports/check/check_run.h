@@ -41,6 +41,7 @@ struct CheckQuestion {
   std::optional<std::uint64_t> memory_limit;  // bytes
   bool wants_report = false;                  // without it no report is built, which saves memory
   std::string announced_file;                 // the file of the report, to be named to the user
+  bool shows_all_steps = true;                // false: only those that are not as claimed
 };
 
 // A step that breaks a claim, or differs from the oracle.

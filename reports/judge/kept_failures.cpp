@@ -48,15 +48,13 @@ void add_neighbours(const detector::Triangles& triangles, Eigen::Index vertices,
   each([](std::uint8_t& triangle, std::uint8_t& vertex) { triangle |= vertex; });
 }
 
-// The two triangles with their neighbours, if these show the same of the pair as the whole mesh
-// does; else the whole mesh.
-corpus::Case part_that_shows(const corpus::Case& whole, TrianglePair pair,
-                             const properties::Contract& contract) {
+// The two triangles with so many rings of neighbours, if these show the same of the pair as the
+// whole mesh does; else nothing.
+std::optional<corpus::Case> part_that_shows(const corpus::Case& whole, TrianglePair pair,
+                                            const properties::Contract& contract, int rings) {
   std::vector<std::uint8_t> marked(static_cast<std::size_t>(whole.triangles.rows()), 0);
   marked[properties::at(pair.a)] = marked[properties::at(pair.b)] = 1;
-  const int relation_rings =
-      std::max(contract.rings, whole.counted ? whole.counted->pairs.rings : 0);
-  for (int ring = 0; ring <= relation_rings; ++ring)
+  for (int ring = 0; ring < rings; ++ring)
     add_neighbours(whole.triangles, whole.frames.front().rows(), marked);
   auto part = properties::keep_triangles(whole, marked);
   const auto number = [&](std::int32_t t) {
@@ -73,9 +71,9 @@ corpus::Case part_that_shows(const corpus::Case& whole, TrianglePair pair,
     }
     return std::nullopt;
   };
-  if (!properties::contracted(part, contract)) return whole;
+  if (!properties::contracted(part, contract)) return std::nullopt;
   const bool shows = contact_of(part, {number(pair.a), number(pair.b)}) == contact_of(whole, pair);
-  return shows ? part : whole;
+  return shows ? std::optional(std::move(part)) : std::nullopt;
 }
 
 }  // namespace
@@ -101,14 +99,26 @@ Expected<std::string> KeptFailures::keep(const FailedStep& failed) {
     return fmt::format("  not kept, {} of its kind are: {}\n{}", most_of_a_kind,
                        failure.signature(), replay);
   const auto whole = case_of(failed);
-  auto c = failure.pair ? part_that_shows(whole, *failure.pair, contract) : whole;
-  c.id = fmt::format("step-{}", number);
-  c.about = fmt::format("{}: {}", failure.signature(), failure.explanation);
-  c.source = fmt::format("step {} of {}", number, origin_);
+  const auto part = [&](int rings) {
+    return failure.pair ? part_that_shows(whole, *failure.pair, contract, rings) : std::nullopt;
+  };
+  const auto name = [&](corpus::Case& c, std::string id) {
+    c.id = std::move(id);
+    c.about = fmt::format("{}: {}", failure.signature(), failure.explanation);
+    c.source = fmt::format("step {} of {}", number, origin_);
+  };
+  const int relation_rings =
+      std::max(contract.rings, whole.counted ? whole.counted->pairs.rings : 0);
+  auto c = part(1 + relation_rings).value_or(whole);
+  name(c, fmt::format("step-{}", number));
   const auto folder = folder_ / c.id;
   BOOST_OUTCOME_TRYV(export_case(folder, c, failed.detector, properties::judge_case(c, contract)));
   SceneMaker scenes(std::nullopt);
   BOOST_OUTCOME_TRYV(scenes.write_picture(folder / "case.json", c, "", failure.signature()));
+  if (auto pair = part(0)) {
+    name(*pair, "pair");
+    BOOST_OUTCOME_TRYV(corpus::write_case(folder / "pair.json", *pair));
+  }
   std::string text =
       fmt::format("  {}: {}\n  kept in {} ({})\n{}", failure.signature(), failure.explanation,
                   folder.string(), properties::size_text(properties::size_of(c)), replay);

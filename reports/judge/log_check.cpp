@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "properties/printable.h"
+#include "reports/certificate/summary.h"
 #include "reports/check/detector_choice.h"
 #include "reports/judge/kept_failures.h"
 #include "reports/terminal/limits.h"
@@ -49,6 +51,45 @@ Expected<CheckAnswer> judge_log(const LogName& name, const LogQuestion& question
     listener.say(fmt::format("noted before step {}: {}\n", step + 1, properties::printable(text)));
   Limits limits(check.time_limit, check.memory_limit);
   return check_answers(check, recorded.input, *recorded.answers, limits, with_files);
+}
+
+std::string junit_suite(const std::string& log, const CheckOutcome& outcome) {
+  struct Line {
+    std::string claim, element, text;
+  };
+  std::vector<Line> lines;
+  for (const auto& claim : outcome.held) {
+    const auto broken = std::ranges::find_if(
+        outcome.first_broken, [&](const auto& one) { return name_of(one.first) == claim; });
+    if (broken != outcome.first_broken.end()) {
+      lines.push_back({claim, "failure", fmt::format("first in step {}", broken->second + 1)});
+    } else if (outcome.undecided) {
+      lines.push_back({claim, "skipped", "undecided"});
+    } else {
+      lines.push_back({claim, "", ""});
+    }
+  }
+  for (const auto& [claim, reason] : outcome.not_judged)
+    lines.push_back({claim, "skipped", reason});
+  const auto count = [&](const char* element) {
+    return std::ranges::count(lines, element, &Line::element);
+  };
+  const auto name = xml_escaped(log);
+  std::string text =
+      fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n", name,
+                  lines.size(), count("failure"), count("skipped"));
+  for (const auto& line : lines) {
+    text += fmt::format("    <testcase classname=\"{}\" name=\"{}\"", name, line.claim);
+    text += line.element.empty() ? "/>\n"
+                                 : fmt::format("><{} message=\"{}\"/></testcase>\n", line.element,
+                                               xml_escaped(line.text));
+  }
+  return text + "  </testsuite>\n";
+}
+
+std::string junit_text(const std::string& suites) {
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"assay\">\n" + suites +
+         "</testsuites>\n";
 }
 
 }  // namespace assay::reports

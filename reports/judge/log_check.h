@@ -28,4 +28,9 @@ LogName log_name(const std::string& word);
 Expected<CheckAnswer> judge_log(const LogName& log, const LogQuestion& question,
                                 const CheckListener& listener);
 
+// What each claim of a log came to, as a suite of JUnit XML, and a file of suites. A claim that is
+// broken fails, and one of which the log tells nothing, or not enough, is skipped.
+std::string junit_suite(const std::string& log, const CheckOutcome& outcome);
+std::string junit_text(const std::string& suites);
+
 }  // namespace assay::reports

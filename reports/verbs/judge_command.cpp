@@ -15,7 +15,9 @@ struct JudgeRequest {
   LogQuestion question;
   std::optional<double> share;
   bool fail_on_collision = false;
-  std::string json_file;  // empty: not written
+  std::string json_file;   // empty: not written
+  std::string junit_file;  // empty: not written
+  bool all_steps = false;
 };
 
 // The worse of two exit codes of this verb.
@@ -31,6 +33,7 @@ Expected<int> run_judge(const JudgeRequest& request) {
   question.selection.share = request.share.value_or(1);
   question.check.wants_report = !request.json_file.empty();
   question.check.announced_file = request.json_file;
+  question.check.shows_all_steps = request.all_steps;
   if (question.check.wants_report && request.logs.size() > 1)
     return Problem{"--json is of one log: name them one by one"};
   if (question.selection.follow && request.logs.size() > 1)
@@ -38,11 +41,13 @@ Expected<int> run_judge(const JudgeRequest& request) {
   if (!question.again.library.empty() && question.out.empty())
     return Problem{"--detector asks again about what is kept: --out says where"};
   BOOST_OUTCOME_TRY(may_write(request.json_file, request.logs));
+  BOOST_OUTCOME_TRY(may_write(request.junit_file, request.logs));
   const CheckListener terminal{[](const std::string& text) {
     fmt::print("{}", text);
     std::fflush(stdout);
   }};
   int code = exit_holds;
+  std::string suites;
   for (const auto& word : request.logs) {
     if (request.logs.size() > 1) fmt::print("{}\n", word);
     auto of_log = question;
@@ -55,7 +60,11 @@ Expected<int> run_judge(const JudgeRequest& request) {
     if (question.check.wants_report) {
       BOOST_OUTCOME_TRY(write_json_file(request.json_file, answer.report));
     }
+    suites += junit_suite(word, answer.outcome);
     code = worse(code, answer.outcome.exit_code(request.fail_on_collision));
+  }
+  if (!request.junit_file.empty()) {
+    BOOST_OUTCOME_TRY(write_text_file(request.junit_file, junit_text(suites)));
   }
   return code;
 }
@@ -88,6 +97,9 @@ void add_options(Verb& verb, JudgeRequest& request) {
              "Limit of resident memory, such as 6GB or 512MB (MB: 2^20 bytes)");
   verb.add_flag("--fail-on-collision", request.fail_on_collision,
                 "Exit code 5 when a recorded collision is right");
+  verb.add_flag("--all-steps", request.all_steps,
+                "Print every step, not only those that are not as claimed");
+  verb.add("--junit", request.junit_file, "Write what each claim came to here, as JUnit XML");
   verb.add("--json", request.json_file, "Write the report of one log here (assay-check/1)");
 }
 

@@ -132,7 +132,7 @@ TEST(ContractedCase, OfAQueryTheEdgesOfItsFeaturesCount) {
 
 TEST(ContractedCase, WhyNoStepIsLeftNamesThePair) {
   EXPECT_EQ(why_left_out(at_heights({0, 1}), free_start),
-            "start free: triangles 0 and 1 are in contact where step 1 starts");
+            "start free: triangles 0 and 1 are in contact where the step starts");
   const Contract apart = {.start = StartRule::apart, .start_distance = 1.5};
   EXPECT_EQ(
       why_left_out(at_heights({1.25, 1, 2}), apart),

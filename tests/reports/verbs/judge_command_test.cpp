@@ -141,6 +141,9 @@ TEST_F(JudgeCommand, AMissComesHomeAsTwoTrianglesAndTheirNeighbours) {
   EXPECT_LT(c["triangles"].size(), 60u);
   for (const auto* file : {"frame_0000.obj", "frame_0001.obj", "case.cpp", "case.svg"})
     EXPECT_TRUE(std::filesystem::exists(out + "/" + step + "/" + file)) << file;
+  const auto pair = nlohmann::json::parse(read_text(out + "/" + step + "/pair.json"));
+  EXPECT_EQ(pair["triangles"].size(), 2u);
+  EXPECT_EQ(run_assay("check " + out + "/" + step + "/pair.json --fail-on-collision").exit_code, 5);
   // The part shows a contact by itself, and the whole step is one command away.
   EXPECT_EQ(run_assay("check " + out + "/" + step + "/case.json --fail-on-collision").exit_code, 5);
   const auto again = fmt::format("replay '{}#{}'", log, collision_ + 1);
@@ -150,6 +153,15 @@ TEST_F(JudgeCommand, AMissComesHomeAsTwoTrianglesAndTheirNeighbours) {
   EXPECT_TRUE(says(replayed.out, fmt::format("step {}: ", collision_ + 1)));
   EXPECT_EQ(run_assay(fmt::format("replay '{}#1'", log)).exit_code, 0);
   EXPECT_EQ(run_assay(fmt::format("replay '{}#99'", log)).exit_code, 2);
+}
+
+TEST_F(JudgeCommand, JUnitHasEachClaim) {
+  const auto file = scratch_ / "junit.xml";
+  EXPECT_EQ(run_assay("judge " + record(with_a_miss()) + " --junit " + file).exit_code, 1);
+  const auto xml = read_text(file);
+  EXPECT_TRUE(says(xml, fmt::format("name=\"free-sound\"><failure message=\"first in step {}\"/>",
+                                    collision_ + 1)));
+  EXPECT_TRUE(says(xml, "name=\"no-spurious\"/>"));
 }
 
 TEST_F(JudgeCommand, APluginOfTheSameCodeIsAskedAgain) {
@@ -208,7 +220,7 @@ TEST_F(JudgeCommand, FollowsALogUntilItEnds) {
   log.end();
   reader.join();
   EXPECT_EQ(judged.exit_code, 0) << judged.out << judged.err;
-  EXPECT_TRUE(says(judged.out, fmt::format("step {}: ", answers_.size())));
+  EXPECT_TRUE(says(judged.out, fmt::format("{0} of {0} steps judged", answers_.size())));
 }
 
 TEST_F(JudgeCommand, WhatALogCannotShowIsNotJudged) {
