@@ -82,4 +82,15 @@ std::vector<std::int32_t> BodiesReader::bodies() const {
   return list;
 }
 
+std::string BodiesReader::remark() const {
+  std::size_t lines = 0, points = 0;
+  for (const auto& reader : readers_) {
+    lines += reader.lines();
+    points += reader.points();
+  }
+  if (lines + points == 0) return "";
+  return fmt::format("not looked at: {} line{} (l) and {} point{} (p) of the OBJ files", lines,
+                     lines == 1 ? "" : "s", points, points == 1 ? "" : "s");
+}
+
 }  // namespace assay::corpus

@@ -19,6 +19,8 @@ namespace assay::corpus {
 struct Mesh {
   detector::Positions positions;
   detector::Triangles triangles;
+  // Statements l and p of an OBJ file, which are no part of the mesh.
+  std::size_t lines = 0, points = 0;
 };
 
 // The content tells the format if it has a signature (PLY, OFF, gzip), otherwise the extension

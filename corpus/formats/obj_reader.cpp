@@ -14,12 +14,11 @@ namespace {
 using Words = std::vector<std::string_view>;
 
 // Statements of the format that have no bearing on vertices and faces.
-constexpr std::array<std::string_view, 38> passed_over = {
-    "vt",        "vn",     "vp",     "g",    "o",     "s",        "mg",       "usemtl",
-    "mtllib",    "usemap", "maplib", "l",    "p",     "cstype",   "deg",      "bmat",
-    "step",      "curv",   "curv2",  "surf", "parm",  "trim",     "hole",     "scrv",
-    "sp",        "end",    "con",    "lod",  "bevel", "c_interp", "d_interp", "shadow_obj",
-    "trace_obj", "ctech",  "stech",  "cdc",  "cdp",   "res"};
+constexpr std::array<std::string_view, 36> passed_over = {
+    "vt",       "vn",       "vp",         "g",         "o",     "s",     "mg",   "usemtl", "mtllib",
+    "usemap",   "maplib",   "cstype",     "deg",       "bmat",  "step",  "curv", "curv2",  "surf",
+    "parm",     "trim",     "hole",       "scrv",      "sp",    "end",   "con",  "lod",    "bevel",
+    "c_interp", "d_interp", "shadow_obj", "trace_obj", "ctech", "stech", "cdc",  "cdp",    "res"};
 
 Expected<void> read_vertex(const Words& words, const Place& place, MeshBuilder& builder) {
   std::array<double, 3> x{};
@@ -79,6 +78,7 @@ Expected<Mesh> read_obj(std::string_view text, const std::filesystem::path& file
   Lines lines(text, '#', true);
   Words words;
   std::vector<std::int64_t> vertices;
+  std::size_t line_statements = 0, point_statements = 0;
   while (const auto line = lines.next()) {
     split_words(*line, words);
     const Place place = {"line", lines.number()};
@@ -86,11 +86,18 @@ Expected<Mesh> read_obj(std::string_view text, const std::filesystem::path& file
       BOOST_OUTCOME_TRY(read_vertex(words, place, builder));
     } else if (words[0] == "f") {
       BOOST_OUTCOME_TRY(read_face(words, place, builder, vertices));
+    } else if (words[0] == "l") {
+      ++line_statements;
+    } else if (words[0] == "p") {
+      ++point_statements;
     } else if (std::find(passed_over.begin(), passed_over.end(), words[0]) == passed_over.end()) {
       return builder.problem(place, excerpt(words[0]) + " is no statement of an OBJ file");
     }
   }
-  return builder.finish();
+  BOOST_OUTCOME_TRY(mesh, builder.finish());
+  mesh.lines = line_statements;
+  mesh.points = point_statements;
+  return mesh;
 }
 
 }  // namespace assay::corpus

@@ -20,6 +20,8 @@ Expected<detector::Positions> SequenceReader::next() {
   if (next_ == 0) {
     triangles_ = std::move(mesh.triangles);
     vertices_ = mesh.positions.rows();
+    lines_ = mesh.lines;
+    points_ = mesh.points;
   } else if (mesh.positions.rows() != vertices_) {
     return problem_in(file, fmt::format("{} vertices, but {} has {}", mesh.positions.rows(),
                                         files_[0].string(), vertices_));

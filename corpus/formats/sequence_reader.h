@@ -38,12 +38,16 @@ class SequenceReader {
 
   // Those of every frame. REQUIRES that a frame was read.
   const detector::Triangles& triangles() const { return triangles_; }
+  // The statements l and p of the first frame, if it is an OBJ file.
+  std::size_t lines() const { return lines_; }
+  std::size_t points() const { return points_; }
 
  private:
   std::vector<std::filesystem::path> files_;
   std::size_t next_ = 0;
   detector::Triangles triangles_;
   Eigen::Index vertices_ = 0;
+  std::size_t lines_ = 0, points_ = 0;
 };
 
 // Reads all frames. Fails when `paths` is empty.

@@ -62,6 +62,7 @@ class StepsOfFiles : public StepSource {
   const detector::Triangles& triangles() const override { return reader_.triangles(); }
   const Positions& first_frame() const override { return x_t0_; }
   const detector::CountedPairs* counted() const override { return counted_ ? &*counted_ : nullptr; }
+  std::string remark() const override { return reader_.remark(); }
 
   Expected<SourceStep> step(std::size_t s) override {
     if (s > step_) {

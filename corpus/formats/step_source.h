@@ -29,6 +29,8 @@ class StepSource {
   // Whether there is a step s, which comes after those that were asked for. An input that still
   // grows may wait for it.
   virtual Expected<bool> has(std::size_t s) { return s < count(); }
+  // What the input holds that is no part of the question, in words; empty for nothing.
+  virtual std::string remark() const { return ""; }
   // The number of frames, in memory or not.
   virtual std::size_t frames() const = 0;
   virtual const detector::Triangles& triangles() const = 0;

@@ -98,7 +98,11 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
   request.jobs = words.jobs;
   if (!words.own_cases.empty()) {
     BOOST_OUTCOME_TRY(own, read_own_cases(words.own_cases));
-    request.own_cases = std::move(own);
+    if (own.cases.empty()) {
+      fmt::print("{}: there is no case in it yet\n", words.own_cases);
+    } else {
+      request.own_cases = std::move(own);
+    }
   }
   request.worker = properties::worker_program();  // of which a proof speaks, too
   // The proof is read before the first code of a plug-in runs.

@@ -73,10 +73,12 @@ std::string digest_of_files(const std::vector<std::filesystem::path>& files) {
 }
 
 Expected<properties::OwnCases> read_own_cases(const std::filesystem::path& folder) {
+  // A folder is named before the first case is put there.
+  std::error_code ignored;
+  if (!std::filesystem::exists(folder, ignored))
+    return properties::OwnCases{{}, digest_of_files({})};
   BOOST_OUTCOME_TRY(files, corpus::case_files(folder));
   std::erase_if(files, [](const auto& file) { return file.filename() == waivers_of_owner; });
-  if (files.empty())
-    return Problem{fmt::format("{}: there is no case file in it", folder.string())};
   BOOST_OUTCOME_TRY(cases, read_cases(files));
   return properties::OwnCases{std::move(cases), digest_of_files(files)};
 }

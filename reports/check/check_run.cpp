@@ -96,8 +96,8 @@ class CheckRun {
   void announce() const {
     std::size_t unclosed = 0;
     for (const auto& component : mesh_.components) unclosed += component.is_cycle ? 0 : 1;
-    say(fmt::format("{} triangles, {} vertices, {} component{}", mesh_.triangles.size(),
-                    steps_.first_frame().rows(), mesh_.components.size(),
+    say(fmt::format("{} triangles, {} vertices{}, {} component{}", mesh_.triangles.size(),
+                    steps_.first_frame().rows(), loose_vertices_text(), mesh_.components.size(),
                     mesh_.components.size() == 1 ? "" : "s"));
     if (const auto bodies = question_.bodies.size(); bodies > 0)
       say(fmt::format(", {} bod{}", bodies, bodies == 1 ? "y" : "ies"));
@@ -109,8 +109,19 @@ class CheckRun {
         "; {} step{}; {}{}{}\n", step_count(), step_count() == 1 ? "" : "s", answers_.title(),
         question_.no_oracle ? "; no oracle: not judged" : "",
         question_.time_limit ? fmt::format("; at most {} s", *question_.time_limit) : ""));
+    if (const auto remark = steps_.remark(); !remark.empty()) say(remark + "\n");
     if (!question_.announced_file.empty())
       say(fmt::format("writes {}\n", question_.announced_file));
+  }
+
+  // Vertices that belong to no triangle, if there are any.
+  std::string loose_vertices_text() const {
+    std::vector<std::uint8_t> used(static_cast<std::size_t>(steps_.first_frame().rows()), 0);
+    const auto& triangles = steps_.triangles();
+    for (Eigen::Index i = 0; i < triangles.size(); ++i)
+      used[properties::at(triangles.data()[i])] = 1;
+    const auto loose = std::count(used.begin(), used.end(), 0);
+    return loose == 0 ? "" : fmt::format(" ({} of no triangle)", loose);
   }
 
   // Lets the detector begin. Returns whether there are steps to go through.

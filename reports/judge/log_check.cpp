@@ -23,6 +23,30 @@ LogName log_name(const std::string& word) {
   return {word.substr(0, mark), *number - 1};
 }
 
+corpus::Expected<corpus::Case> read_case_of(const std::vector<std::string>& words) {
+  const auto name = log_name(words.front());
+  if (words.size() > 1 || !name.step) {
+    if (words.size() == 1) return corpus::read_case(words.front());
+    BOOST_OUTCOME_TRY(steps, corpus::read_steps({words.begin(), words.end()}));
+    BOOST_OUTCOME_TRY(whole, steps->read_whole());
+    auto c = *whole->whole();
+    c.id = std::filesystem::path(words.front()).stem().string();
+    return c;
+  }
+  BOOST_OUTCOME_TRY(log, corpus::StepLog::open(name.file));
+  const auto place = log.place_of(*name.step);
+  if (!place) return corpus::problem_in(name.file, "there is no whole record of this step");
+  BOOST_OUTCOME_TRY(step, log.step(*place));
+  if (!step.why_unknown.empty()) return corpus::problem_in(words.front(), step.why_unknown);
+  corpus::Case c;
+  c.id = fmt::format("step-{}", *name.step + 1);
+  c.source = words.front();
+  c.triangles = log.head().triangles;
+  c.frames = {step.x_t0, step.x_t1};
+  if (log.head().counted) c.counted = corpus::CaseRelation{*log.head().counted, {}};
+  return c;
+}
+
 Expected<CheckAnswer> judge_log(const LogName& name, const LogQuestion& question,
                                 const CheckListener& listener) {
   BOOST_OUTCOME_TRY(log, corpus::StepLog::open(name.file));

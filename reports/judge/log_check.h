@@ -23,6 +23,9 @@ struct LogName {
 };
 LogName log_name(const std::string& word);
 
+// The case that the words name: a case file, frames of one mesh, or LOG#N.
+corpus::Expected<corpus::Case> read_case_of(const std::vector<std::string>& words);
+
 // Judges one log. Fails if it cannot be read, if nothing of it can be judged, or if a file cannot
 // be written.
 Expected<CheckAnswer> judge_log(const LogName& log, const LogQuestion& question,

@@ -73,7 +73,7 @@ corpus::Expected<ReplayedCase> case_of(const std::string& id_or_file) {
       return ReplayedCase{corpus::Case{}, trial};
     }
   }
-  BOOST_OUTCOME_TRY(read, corpus::read_case(id_or_file));
+  BOOST_OUTCOME_TRY(read, read_case_of({id_or_file}));
   return ReplayedCase{std::move(read), std::nullopt};
 }
 
@@ -171,14 +171,14 @@ Expected<int> replay_log(const LogName& log, const ReplayRequest& request) {
   if (request.why) return Problem{"--why is of the built-in detector, and this is a log"};
   LogQuestion question;
   question.out = request.export_folder;
-  if (!request.export_folder.empty()) question.again = request.detector;
   BOOST_OUTCOME_TRY(
       answer, judge_log(log, question, {[](const std::string& text) { fmt::print("{}", text); }}));
   return answer.outcome.exit_code(false);
 }
 
 Expected<int> run_replay(const ReplayRequest& request) {
-  if (const auto log = log_name(request.id_or_file); log.step) return replay_log(log, request);
+  const auto log = log_name(request.id_or_file);
+  if (log.step && request.detector.library.empty()) return replay_log(log, request);
   auto made = case_of(request.id_or_file);
   if (!made) {
     return Problem{made.error().message +

@@ -7,6 +7,7 @@
 #include "properties/reducer/mesh_size.h"
 #include "properties/worker/plugin/query_case.h"
 #include "reports/check/detector_choice.h"
+#include "reports/judge/log_check.h"
 #include "reports/pictures/case_scene.h"
 #include "reports/terminal/progress.h"
 #include "reports/terminal/text_file.h"
@@ -17,7 +18,8 @@ namespace assay::reports {
 namespace {
 
 struct ShrinkRequest {
-  std::string file, out;
+  std::vector<std::string> files;  // a case file, frames, or LOG#N
+  std::string out;
   double seconds = 60;
   DetectorWords detector;
 };
@@ -55,25 +57,25 @@ std::optional<Failing> find_failure(const corpus::Case& c,
 
 Expected<int> run_shrink(const ShrinkRequest& request) {
   end_when_interrupted("interrupted: the smallest so far is in " + request.out, exit_undecided);
-  BOOST_OUTCOME_TRY(may_write(request.out, {request.file}));
-  BOOST_OUTCOME_TRY(read, corpus::read_case(request.file));
+  BOOST_OUTCOME_TRY(may_write(request.out, request.files));
+  BOOST_OUTCOME_TRY(read, read_case_of(request.files));
+  const auto& file = request.files.front();
   const corpus::Case& c = read;
   auto words = request.detector;
   const bool is_query = properties::says_query(c);
   if (is_query && words.library.empty())
-    return Problem{
-        fmt::format("{}: a query of a plug-in: name its library by --detector", request.file)};
+    return Problem{fmt::format("{}: a query of a plug-in: name its library by --detector", file)};
   words.part = is_query ? DetectorPart::query : DetectorPart::steps;
   BOOST_OUTCOME_TRY(subject, choose_detector(words));
   const auto options = properties::read_options(is_query ? corpus::Case() : c);
-  if (!options) return Problem{fmt::format("{}: {}", request.file, options.error().message)};
+  if (!options) return Problem{fmt::format("{}: {}", file, options.error().message)};
   if (subject.detector.built_in && !c.options.empty()) {
     subject.detector = subject.detector.in({"the case's own", options.value()});
   }
   auto worker = subject.process();
   const auto failing = find_failure(c, subject.detector, worker);
   if (!failing) {
-    fmt::print("{}: holds in every configuration; there is nothing to shrink\n", request.file);
+    fmt::print("{}: holds in every configuration; there is nothing to shrink\n", file);
     return exit_holds;
   }
   fmt::print("{} ({}); at most {} s; writes {}\n", failing->signature, failing->configuration.name,
@@ -110,7 +112,9 @@ Expected<int> run_shrink(const ShrinkRequest& request) {
 }
 
 void add_options(Verb& verb, ShrinkRequest& request) {
-  verb.add("file", request.file, "A case file (.json)").required();
+  verb.add("files", request.files,
+           "A case file (.json), frames of one mesh, or LOG#N: step N of a log")
+      .required();
   verb.add("--out", request.out, "Where the smallest case goes").required();
   verb.add("--time", request.seconds, "Seconds at most").with(positive()).shows_default();
   add_detector(verb, request.detector);

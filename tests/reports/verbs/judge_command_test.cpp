@@ -155,6 +155,27 @@ TEST_F(JudgeCommand, AMissComesHomeAsTwoTrianglesAndTheirNeighbours) {
   EXPECT_EQ(run_assay(fmt::format("replay '{}#99'", log)).exit_code, 2);
 }
 
+TEST_F(JudgeCommand, ShrinkAndReplayTakeStepsOfLogsAndFrames) {
+  const auto log = record(with_a_miss()), small = scratch_ / "small.json";
+  const auto step = fmt::format(" '{}#{}'", log, collision_ + 1);
+  const std::string detector = " --detector " + plugin("always_free");
+  EXPECT_EQ(run_assay("replay" + step + detector).exit_code, 1);
+  for (const auto& input : {step, frames()}) {
+    const auto shrunk = run_assay("shrink" + input + detector + " --time 20 --out " + small);
+    EXPECT_EQ(shrunk.exit_code, 1) << shrunk.out << shrunk.err;
+    EXPECT_LE(nlohmann::json::parse(read_text(small))["triangles"].size(), 3u);
+  }
+}
+
+TEST_F(JudgeCommand, LinesPointsAndLooseVerticesAreCounted) {
+  const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 5 5\nf 1 2 3\nl 1 2\nl 2 3\np 4\n";
+  const auto file = scratch_.write("a.obj", mesh);
+  const auto checked = run_assay("check " + file + " " + file);
+  EXPECT_EQ(checked.exit_code, 0) << checked.err;
+  EXPECT_TRUE(says(checked.out, "4 vertices (1 of no triangle)"));
+  EXPECT_TRUE(says(checked.out, "not looked at: 2 lines (l) and 1 point (p) of the OBJ files"));
+}
+
 TEST_F(JudgeCommand, JUnitHasEachClaim) {
   const auto file = scratch_ / "junit.xml";
   EXPECT_EQ(run_assay("judge " + record(with_a_miss()) + " --junit " + file).exit_code, 1);
