@@ -35,8 +35,8 @@ struct Step {
   ipc::LBVH broad_phase;
   ipc::ogc::TrustRegion region{dhat};
 
-  Step(const ipc::CollisionMesh& of, plugin::Positions x_t0, plugin::Positions x_t1)
-      : mesh(of), x(plugin::eigen(x_t0)), y(plugin::eigen(x_t1)) {
+  Step(const ipc::CollisionMesh& of, Eigen::MatrixXd from, Eigen::MatrixXd to)
+      : mesh(of), x(std::move(from)), y(std::move(to)) {
     collisions.set_collision_set_type(ipc::NormalCollisions::CollisionSetType::OGC);
     region.trust_region_inflation_radius = std::max(2 * dhat, (y - x).rowwise().norm().maxCoeff());
   }
@@ -87,9 +87,10 @@ struct IpcFilter : IpcMesh {
   explicit IpcFilter(const plugin::Mesh& mesh) : IpcMesh(mesh) {}
 
   plugin::Limit limit(plugin::Positions x_t0, plugin::Positions x_t1) {
-    Step step(mesh_, x_t0, x_t1);
+    Step step(mesh_, rows_of(x_t0), rows_of(x_t1));
     ASSAY_PEER_FILTER::go(step);
-    const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> rows = step.x;
+    Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> rows = plugin::eigen(x_t1);
+    rows(used_, Eigen::all) = step.x;
     return plugin::Limit::at({rows.data(), rows.data() + rows.size()});
   }
 

@@ -44,23 +44,42 @@ class IpcMesh {
   }
 
  protected:
-  explicit IpcMesh(const plugin::Mesh& mesh) : mesh_(made(mesh)) {}
+  explicit IpcMesh(const plugin::Mesh& mesh) : used_(used_of(mesh)), mesh_(made(mesh)) {}
 
+  // The rows of the vertices that triangles have. The toolkit takes the others for points that
+  // collide, and its own choice of vertices (build_from_full_mesh) rounds their positions.
+  Eigen::MatrixXd rows_of(plugin::Positions positions) const {
+    return plugin::eigen(positions)(used_, Eigen::all);
+  }
+
+  std::vector<int> used_;
   ipc::CollisionMesh mesh_;
 
  private:
-  static ipc::CollisionMesh made(const plugin::Mesh& mesh) {
+  static std::vector<int> used_of(const plugin::Mesh& mesh) {
+    const auto all = plugin::eigen(mesh.triangles).reshaped();
+    const std::set<int> used(all.begin(), all.end());
+    return {used.begin(), used.end()};
+  }
+
+  ipc::CollisionMesh made(const plugin::Mesh& mesh) const {
+    std::vector<int> row_of(mesh.positions.size());
+    for (std::size_t row = 0; row < used_.size(); ++row)
+      row_of[static_cast<std::size_t>(used_[row])] = static_cast<int>(row);
+    const Eigen::MatrixXi faces = plugin::eigen(mesh.triangles).unaryExpr([&](std::int32_t v) {
+      return row_of[static_cast<std::size_t>(v)];
+    });
     std::set<std::array<int, 2>> edges;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      const std::int32_t* v = mesh.triangles[t];
-      for (int k = 0; k < 3; ++k)
-        edges.insert({{std::min(v[k], v[(k + 1) % 3]), std::max(v[k], v[(k + 1) % 3])}});
+    for (const auto& face : faces.rowwise()) {
+      for (int k = 0; k < 3; ++k) {
+        const int a = face[k], b = face[(k + 1) % 3];
+        edges.insert({{std::min(a, b), std::max(a, b)}});
+      }
     }
     Eigen::MatrixXi rows(static_cast<Eigen::Index>(edges.size()), 2);
     Eigen::Index row = 0;
     for (const auto& edge : edges) rows.row(row++) << edge[0], edge[1];
-    const Eigen::MatrixXi faces = plugin::eigen(mesh.triangles).template cast<int>();
-    return ipc::CollisionMesh(plugin::eigen(mesh.positions), rows, faces);
+    return ipc::CollisionMesh(rows_of(mesh.positions), rows, faces);
   }
 };
 

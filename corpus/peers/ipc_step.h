@@ -23,7 +23,7 @@ class IpcStep : public IpcMesh {
   plugin::Result evaluate(plugin::Positions x_t0, plugin::Positions x_t1) {
     ipc::LBVH broad_phase;
     const double size = ipc::compute_collision_free_stepsize(
-        mesh_, plugin::eigen(x_t0), plugin::eigen(x_t1), separation, &broad_phase, narrow_phase_);
+        mesh_, rows_of(x_t0), rows_of(x_t1), separation, &broad_phase, narrow_phase_);
     return size < 1 ? plugin::Result::collision(size, 1) : plugin::Result::free();
   }
 
