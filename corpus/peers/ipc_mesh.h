@@ -2,8 +2,8 @@
 // contract: no contact at the start, and coordinates of usual sizes, because the toolkit's
 // tolerances are lengths. It tells no pairs.
 //
-// Version: 1.6.0, commit b40e9c07 of its public sources. All but the planar filter (ipc_filter.cpp) is
-// the same in 1.5.0.
+// Version: 1.6.0, commit b40e9c07 of its public sources. Version 1.5.0 has no planar filter
+// (ipc_filter.cpp).
 #pragma once
 
 #include <tbb/global_control.h>

@@ -1,5 +1,5 @@
-// A step of the IPC Toolkit (ipc_mesh.h): the broad phase LBVH, and the largest part of the step that
-// is free of collisions by one of its narrow phases.
+// A step of the IPC Toolkit (ipc_mesh.h): the broad phase LBVH, and the largest part of the step
+// that is free of collisions by one of its narrow phases.
 //
 // Functions: ipc::CollisionMesh and ipc::compute_collision_free_stepsize of ipc/ipc.hpp, as its
 // tutorial "Getting started" calls them. Settings: the defaults of each, and min_distance
