@@ -1,6 +1,6 @@
 // Tight-Inclusion, a conservative test by inclusion functions (Wang et al. 2021), put to all pairs
-// of features of triangles whose swept boxes meet. It is built twice: with ASSAY_PEER_SEPARATION 0,
-// and with 1e-3, its minimum separation ms.
+// of features of triangles whose swept boxes meet. It is built with ASSAY_PEER_SEPARATION 0, and
+// with 1e-3, its minimum separation ms; and each of these again as a limiter (limiter.h).
 //
 // Version: tag v1.0.6 of its public sources, which calls itself 1.0.4. Functions:
 // ticcd::vertexFaceCCD and ticcd::edgeEdgeCCD of tight_inclusion/ccd.hpp. Settings, those that its
@@ -20,10 +20,17 @@
 // evaluate_bbox_one_dimension_vector), so it is the greatest difference along an axis, and the
 // slack is given for that: sqrt(3) (ms + tolerance + err) - ms. What ends by max_itr is excepted
 // there ("the solving precision may not reach the target precision"), and is not told apart here.
+//
+// As a limiter its share is toi. Claim: path-free, because toi is the time of a conservative test
+// (README.md: "it will return the earliest collision time"). Not commit-free: that a step of a
+// simulator is "intersection-free" it says only of those that take ms above 0 to keep clear, and
+// nothing of the rounding of positions. Not progress, nor whole-when-safe, for what comes within
+// tolerance, ms and err may stop it.
 #include <cmath>
 #include <tight_inclusion/ccd.hpp>
 
 #include "corpus/peers/feature_pairs.h"
+#include "corpus/peers/limiter.h"
 
 namespace assay::peers {
 namespace {
@@ -60,6 +67,9 @@ struct TightInclusionTests {
 };
 
 struct TightInclusion : FeaturePairs<TightInclusionTests> {
+  static constexpr double part_of_time = 1;
+  static constexpr std::uint32_t limit_claims = ASSAY_CLAIM_PATH_FREE;
+
   explicit TightInclusion(const plugin::Mesh& mesh) : FeaturePairs(mesh, separation) {}
   static plugin::Description describe() {
     plugin::Description d;
@@ -84,4 +94,4 @@ struct TightInclusion : FeaturePairs<TightInclusionTests> {
 }  // namespace
 }  // namespace assay::peers
 
-ASSAY_EXPORT_DETECTOR(assay::peers::TightInclusion);
+ASSAY_EXPORT_DETECTOR(assay::peers::AsBuilt<assay::peers::TightInclusion>);

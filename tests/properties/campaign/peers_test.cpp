@@ -37,7 +37,7 @@ class Peers : public testing::Test {
   // Judges the peer, or skips where its library was not there when this was built. A machine that
   // has to pass all tests has it.
   void judge(const std::string& name) {
-    peer_.library = std::string(ASSAY_PEER_DIR) + "/" + name + ".so";
+    peer_.library = library_of(name);
     if (!std::filesystem::exists(peer_.library)) {
       const char* ci = std::getenv("CI");
       ASSERT_STRNE(ci ? ci : "", "true") << name << " was not built";
@@ -64,6 +64,28 @@ class Peers : public testing::Test {
     peer_.met = kept.value().times_met;
     expect_the_contract_kept();
     expect_causes_kept();
+  }
+
+  static std::filesystem::path library_of(const std::string& name) {
+    return std::string(ASSAY_PEER_DIR) + "/" + name + ".so";
+  }
+
+  // Which claim the limiter breaks in the mesh of corpus/peers/meshes, or none.
+  static std::optional<Claim> broken_by(const std::string& name, const std::string& mesh) {
+    CampaignRequest request;
+    request.worker = ASSAY_WORKER;
+    test::set_plugin(request, library_of(name));
+    const auto& detector = request.detector;
+    const auto c =
+        corpus::read_case(std::string(ASSAY_SOURCE_DIR) + "/corpus/peers/meshes/" + mesh + ".json");
+    const auto seen = contracted(c.value(), detector.contract);
+    if (!seen) throw std::runtime_error(mesh + " is not within the contract of " + name);
+    WorkerProcess worker(ASSAY_WORKER, library_of(name), {.seconds = 20});
+    const auto run = worker.run(*seen, detector.configurations)[0];
+    const auto verdict = judge_trial(*seen, judge_case(*seen, detector.contract), run,
+                                     detector.configurations[0], detector);
+    if (!verdict.failure) return std::nullopt;
+    return verdict.failure->claim;
   }
 
   // What holds of every one of them.
@@ -163,6 +185,24 @@ TEST_F(Peers, TheCubicMissesMotionWithinAPlane) {
   EXPECT_GT(peer_.met_with("without area"), 0u);
   EXPECT_GT(peer_.met_with("edge-edge"), 0u);
   EXPECT_GT(peer_.met_with("vertex-face"), 0u);
+}
+
+TEST_F(Peers, TheCubicAsALimiterLetsPassWhatItMisses) {
+  ASSERT_NO_FATAL_FAILURE(judge("cubic_double_limit"));
+  if (IsSkipped()) return;
+  EXPECT_GT(peer_.met_with("commit-free: contact on the way"), 0u);
+  EXPECT_GT(peer_.met_with("coplanar throughout"), 0u);
+  EXPECT_GT(peer_.met_with("without area"), 0u);
+}
+
+// Those that need no library are always there.
+TEST_F(Peers, ALimiterGoesThroughItsStoredMesh) {
+  EXPECT_EQ(broken_by("cubic_double_limit", "cubic_double"), Claim::commit_free);
+  for (const std::string name : {"ipc_trust_region", "ipc_tutorial", "ipc_planar"}) {
+    if (!std::filesystem::exists(library_of(name))) continue;
+    EXPECT_EQ(broken_by(name, name), Claim::commit_free) << name;
+    EXPECT_EQ(broken_by("ipc_warm_start", name), std::nullopt) << "it stays free on the same mesh";
+  }
 }
 
 TEST_F(Peers, TheCubicInFloatsMissesMore) {

@@ -1,0 +1,116 @@
+// The step filters of the IPC Toolkit (ipc_mesh.h), which stop each vertex by itself: trust regions
+// of Offset Geometric Contact (Chen et al. 2025), and planes of Divide and Truncate (Chen et al.
+// 2026). They are limiters that give positions.
+//
+// Functions: those of ipc::ogc::TrustRegion, ipc/ogc/trust_region.hpp, one target each
+// (ASSAY_PEER_FILTER), with min_distance ASSAY_PEER_SEPARATION, 0 or 1e-3:
+//
+//   warm_start    warm_start_time_step, which moves the vertices itself
+//   trust_region  update, then filter_step
+//   planar        update, then planar_filter_step ("a drop-in replacement for filter_step")
+//   tutorial      update_if_needed, given dhat as the tutorial "Offset Geometric Contact" writes it
+//                 in the place of min_distance, then filter_step; only with distance 0
+//
+// Settings: the defaults; dhat 1e-3; the radius of the query is what warm_start_time_step makes it,
+// 2 dhat or the longest way of a vertex, for the tutorial calls that one first. Claims:
+// commit-free, because the tutorial says that it is "designed to guarantee penetration-free
+// simulation" and of the filtered step "Now dx is safe to apply: x += dx", the header of the planar
+// filter "while retaining the penetration-free guarantee", and the header of all "Minimum distance
+// between elements"; deterministic and total, because they are functions of their arguments. They
+// leave the path, so nothing is claimed of it, nor of how far they go. A start at which
+// features of neighbours are nearer than min_distance, which compute_per_vertex_safe_distances
+// refuses in an assertion, is not put to them: the mesh stays.
+#include <ipc/ogc/trust_region.hpp>
+
+#include "corpus/peers/ipc_mesh.h"
+
+namespace assay::peers {
+namespace {
+
+constexpr double dhat = 1e-3;
+
+// A step from x to y, as the filters take it.
+struct Step {
+  const ipc::CollisionMesh& mesh;
+  Eigen::MatrixXd x, y;
+  ipc::NormalCollisions collisions;
+  ipc::LBVH broad_phase;
+  ipc::ogc::TrustRegion region{dhat};
+
+  Step(const ipc::CollisionMesh& of, Eigen::MatrixXd from, Eigen::MatrixXd to)
+      : mesh(of), x(std::move(from)), y(std::move(to)) {
+    collisions.set_collision_set_type(ipc::NormalCollisions::CollisionSetType::OGC);
+    region.trust_region_inflation_radius = std::max(2 * dhat, (y - x).rowwise().norm().maxCoeff());
+  }
+
+  bool starts_apart() {
+    if (IpcMesh::separation == 0) return true;
+    region.update(mesh, x, collisions, IpcMesh::separation, &broad_phase);
+    return region.trust_region_radii.minCoeff() >= 0;
+  }
+
+  using Filter = void (ipc::ogc::TrustRegion::*)(const ipc::CollisionMesh&,
+                                                 Eigen::ConstRef<Eigen::MatrixXd>,
+                                                 Eigen::Ref<Eigen::MatrixXd>);
+  void go_by(Filter filter) {
+    Eigen::MatrixXd dx = y - x;
+    (region.*filter)(mesh, x, dx);
+    x += dx;
+  }
+};
+
+struct warm_start {
+  static constexpr const char* name = "IPC Toolkit, warm start of a trust region";
+  static void go(Step& s) {
+    s.region.warm_start_time_step(s.mesh, s.x, s.y, s.collisions, dhat, IpcMesh::separation,
+                                  &s.broad_phase);
+  }
+};
+
+struct trust_region {
+  static constexpr const char* name = "IPC Toolkit, trust region";
+  static void go(Step& s) {
+    s.region.update(s.mesh, s.x, s.collisions, IpcMesh::separation, &s.broad_phase);
+    s.go_by(&ipc::ogc::TrustRegion::filter_step);
+  }
+};
+
+struct planar {
+  static constexpr const char* name = "IPC Toolkit, planar filter";
+  static void go(Step& s) {
+    s.region.update(s.mesh, s.x, s.collisions, IpcMesh::separation, &s.broad_phase);
+    s.go_by(&ipc::ogc::TrustRegion::planar_filter_step);
+  }
+};
+
+struct tutorial {
+  static constexpr const char* name = "IPC Toolkit, trust region as its tutorial calls it";
+  static void go(Step& s) {
+    s.region.update_if_needed(s.mesh, s.x, s.collisions, dhat, &s.broad_phase);
+    s.go_by(&ipc::ogc::TrustRegion::filter_step);
+  }
+};
+
+struct IpcFilter : IpcMesh {
+  explicit IpcFilter(const plugin::Mesh& mesh) : IpcMesh(mesh) {}
+
+  plugin::Limit limit(plugin::Positions x_t0, plugin::Positions x_t1) {
+    Step step(mesh_, rows_of(x_t0), rows_of(x_t1));
+    if (step.starts_apart()) ASSAY_PEER_FILTER::go(step);
+    Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> rows = plugin::eigen(x_t1);
+    rows(used_, Eigen::all) = step.x;
+    return plugin::Limit::at({rows.data(), rows.data() + rows.size()});
+  }
+
+  static plugin::Description describe() {
+    plugin::Description d = description();
+    d.name = ASSAY_PEER_FILTER::name;
+    d.claims = ASSAY_CLAIM_COMMIT_FREE | ASSAY_CLAIM_DETERMINISTIC | ASSAY_CLAIM_TOTAL;
+    return d;
+  }
+};
+
+}  // namespace
+}  // namespace assay::peers
+
+ASSAY_EXPORT_DETECTOR(assay::peers::IpcFilter);

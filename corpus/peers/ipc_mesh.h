@@ -1,0 +1,86 @@
+// What the peers of the IPC Toolkit share: its collision mesh, how many threads it uses, and their
+// contract: no contact at the start, and coordinates of usual sizes, because the toolkit's
+// tolerances are lengths. It tells no pairs.
+//
+// Version: 1.6.0, commit b40e9c07 of its public sources. Version 1.5.0 has no planar filter
+// (ipc_filter.cpp).
+#pragma once
+
+#include <tbb/global_control.h>
+
+#include <ipc/broad_phase/lbvh.hpp>
+#include <ipc/collision_mesh.hpp>
+#include <ipc/config.hpp>
+#include <ipc/utils/logger.hpp>
+#include <memory>
+#include <set>
+
+#include "detector/plugin/assay_detector.hpp"
+
+namespace assay::peers {
+
+class IpcMesh {
+ public:
+  static constexpr double separation = ASSAY_PEER_SEPARATION;
+
+  // The toolkit works in threads of TBB, so their number is limited there.
+  static void use_threads(std::uint32_t count) {
+    static std::unique_ptr<tbb::global_control> limit;
+    limit =
+        std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, count);
+    ipc::logger().set_level(spdlog::level::err);  // a warning a pair would be read by nobody
+  }
+
+  static plugin::Description description() {
+    plugin::Description d;
+    d.version = IPC_TOOLKIT_VER;
+    d.start = ASSAY_START_FREE;
+    d.least_nonzero = 1e-6;
+    d.largest = 1e6;
+    d.reports = ASSAY_REPORTS_NO_PAIRS;
+    d.separation = separation;
+    if (separation > 0) d.adjacency = ASSAY_ADJACENCY_NO_SHARED_VERTEX;
+    return d;
+  }
+
+ protected:
+  explicit IpcMesh(const plugin::Mesh& mesh) : used_(used_of(mesh)), mesh_(made(mesh)) {}
+
+  // The rows of the vertices that triangles have. The toolkit takes the others for points that
+  // collide, and its own choice of vertices (build_from_full_mesh) rounds their positions.
+  Eigen::MatrixXd rows_of(plugin::Positions positions) const {
+    return plugin::eigen(positions)(used_, Eigen::all);
+  }
+
+  std::vector<int> used_;
+  ipc::CollisionMesh mesh_;
+
+ private:
+  static std::vector<int> used_of(const plugin::Mesh& mesh) {
+    const auto all = plugin::eigen(mesh.triangles).reshaped();
+    const std::set<int> used(all.begin(), all.end());
+    return {used.begin(), used.end()};
+  }
+
+  ipc::CollisionMesh made(const plugin::Mesh& mesh) const {
+    std::vector<int> row_of(mesh.positions.size());
+    for (std::size_t row = 0; row < used_.size(); ++row)
+      row_of[static_cast<std::size_t>(used_[row])] = static_cast<int>(row);
+    const Eigen::MatrixXi faces = plugin::eigen(mesh.triangles).unaryExpr([&](std::int32_t v) {
+      return row_of[static_cast<std::size_t>(v)];
+    });
+    std::set<std::array<int, 2>> edges;
+    for (const auto& face : faces.rowwise()) {
+      for (int k = 0; k < 3; ++k) {
+        const int a = face[k], b = face[(k + 1) % 3];
+        edges.insert({{std::min(a, b), std::max(a, b)}});
+      }
+    }
+    Eigen::MatrixXi rows(static_cast<Eigen::Index>(edges.size()), 2);
+    Eigen::Index row = 0;
+    for (const auto& edge : edges) rows.row(row++) << edge[0], edge[1];
+    return ipc::CollisionMesh(rows_of(mesh.positions), rows, faces);
+  }
+};
+
+}  // namespace assay::peers

@@ -1,0 +1,45 @@
+// A peer that tells when a step touches first, as a limiter: one that says how far the step may be
+// gone. Each such peer is built twice: NAME with ASSAY_PEER_LIMIT 0, and NAME_limit with 1.
+#pragma once
+
+#include <type_traits>
+
+#include "detector/plugin/assay_detector.hpp"
+
+namespace assay::peers {
+
+// `Peer` is a detector that has, besides, `static constexpr double part_of_time`, the part of the
+// first time that a caller goes, and `static constexpr std::uint32_t limit_claims`. The caller
+// stops at x_t0 + share (x_t1 - x_t0), as the IPC Toolkit's Getting started writes it.
+template <class Peer>
+class LimiterOf {
+ public:
+  explicit LimiterOf(const plugin::Mesh& mesh) : peer_(mesh) {}
+
+  static plugin::Description describe() {
+    plugin::Description d = Peer::describe();
+    d.claims = Peer::limit_claims | ASSAY_CLAIM_DETERMINISTIC | ASSAY_CLAIM_TOTAL;
+    d.limit_gives = ASSAY_LIMIT_START_PLUS;
+    d.margin = 0;  // it is a slack of what is reported
+    return d;
+  }
+
+  template <class P = Peer, class = decltype(P::use_threads(0))>
+  static void use_threads(std::uint32_t count) {
+    Peer::use_threads(count);
+  }
+
+  plugin::Limit limit(plugin::Positions x_t0, plugin::Positions x_t1) {
+    const plugin::Result result = peer_.evaluate(x_t0, x_t1);
+    const bool is_whole = result.answer == ASSAY_FREE;
+    return plugin::Limit::of_share(is_whole ? 1 : Peer::part_of_time * result.first[0]);
+  }
+
+ private:
+  Peer peer_;
+};
+
+template <class Peer>
+using AsBuilt = std::conditional_t<ASSAY_PEER_LIMIT, LimiterOf<Peer>, Peer>;
+
+}  // namespace assay::peers
