@@ -1,6 +1,7 @@
 #include "corpus/formats/step_log.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <boost/outcome/try.hpp>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "corpus/formats/cbor_map.h"
 #include "detector/mesh/mesh_checks.h"
@@ -25,6 +27,7 @@ constexpr std::string_view mark(
 constexpr std::string_view before_length("\xD8\x18\x5B", 3);
 constexpr char before_checksum = '\x1A';
 constexpr std::size_t head_bytes = 17, length_bytes = 8, tail_bytes = 5;
+constexpr std::size_t piece_bytes = std::size_t{1} << 20;
 
 template <class Number>
 Number big_endian(const char* bytes) {
@@ -83,7 +86,9 @@ class Members {
 };
 
 std::string read_description(const CborMap& body, assay_description& d) {
-  d.claims = static_cast<std::uint32_t>(body.integer("claims").value_or(0));
+  const auto claims = body.integer("claims");
+  if (!claims || *claims != static_cast<std::uint32_t>(*claims)) return "claims";
+  d.claims = static_cast<std::uint32_t>(*claims);
   return Members(body)("adjacency", d.adjacency)("coordinates", d.coordinates)("margin", d.margin)(
              "start", d.start)("start_distance", d.start_distance)(
              "least_nonzero", d.least_nonzero)("largest", d.largest)("features", d.features)(
@@ -155,22 +160,34 @@ std::optional<StepLog::Record> StepLog::record_at(std::uint64_t offset) {
   std::string tail;
   if (!read(offset + head_bytes + length, tail_bytes, tail) || tail[0] != before_checksum)
     return std::nullopt;
-  if (!read(offset + head_bytes, length, record.body)) return std::nullopt;
-  const auto sum = ::crc32_z(0, reinterpret_cast<const Bytef*>(record.body.data()), length);
+  // A length that is wrong may be any, so the body is summed before it is kept as a whole.
+  uLong sum = 0;
+  std::string piece;
+  for (std::uint64_t done = 0; done < length; done += piece.size()) {
+    const auto count = std::min<std::uint64_t>(length - done, piece_bytes);
+    if (!read(offset + head_bytes + done, count, piece)) return std::nullopt;
+    sum = ::crc32_z(sum, reinterpret_cast<const Bytef*>(piece.data()), piece.size());
+  }
+  summed_ += length;
   if (sum != big_endian<std::uint32_t>(tail.data() + 1)) return std::nullopt;
+  if (length <= piece_bytes) {
+    record.body = std::move(piece);
+  } else if (!read(offset + head_bytes, length, record.body)) {
+    return std::nullopt;
+  }
   record.end = offset + head_bytes + length + tail_bytes;
   return record;
 }
 
 // Where the next whole record begins, behind this place.
 std::optional<std::uint64_t> StepLog::next_record(std::uint64_t offset) {
-  constexpr std::size_t piece_bytes = std::size_t{1} << 20;
   std::string piece;
   for (std::uint64_t from = offset + 1; from + head_bytes <= size_;) {
     const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(piece_bytes, size_ - from));
     if (!read(from, count, piece)) return std::nullopt;
     for (auto at = piece.find(mark); at != std::string::npos; at = piece.find(mark, at + 1)) {
       if (record_at(from + at)) return from + at;
+      if (summed_ > most_summed()) return std::nullopt;
     }
     if (count < piece_bytes) break;
     from += count - mark.size();  // a mark may lie across both pieces
@@ -185,6 +202,9 @@ std::optional<Positions> StepLog::places(const CborMap& body, const char* key) c
 
 Expected<StepLog> StepLog::open(const std::filesystem::path& path) {
   StepLog log(path);
+  std::error_code error;
+  if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
+    return problem_in(path, "it is no regular file");
   log.file_.reset(std::fopen(path.c_str(), "rb"));
   if (!log.file_)
     return problem_in(path, std::error_code(errno, std::generic_category()).message());
@@ -220,15 +240,19 @@ Expected<void> StepLog::begin() {
   const auto vertices = body->integer("vertices");
   const auto triangles = body->integers("triangles");
   const auto positions = body->doubles("positions");
-  if (!vertices || !triangles || !positions || triangles->size() % 3 != 0 || *vertices < 0)
+  if (!vertices || !triangles || !positions || triangles->size() % 3 != 0 || *vertices < 0 ||
+      *vertices > std::numeric_limits<std::int32_t>::max())
     return wrong("vertices, triangles or positions are missing");
   head_.triangles = Eigen::Map<const detector::Triangles>(
       triangles->data(), static_cast<Eigen::Index>(triangles->size() / 3), 3);
   const auto placed = positions_of(*positions, *vertices);
   if (!placed) return wrong(fmt::format("positions are not those of {} vertices", *vertices));
   head_.positions = *placed;
+  if (const auto bad = detector::check_positions(head_.positions, *vertices))
+    return wrong(bad->message);
   if (const auto bad = detector::check_triangles(head_.triangles, *vertices))
     return wrong(bad->message);
+  if (body->has("counted") && !body->map("counted")) return wrong("counted is none");
   if (const auto* map = body->map("counted")) {
     if (const auto field = read_counted(*map, head_.counted.emplace()); !field.empty())
       return wrong(fmt::format("counted.{} is none", field));
@@ -240,10 +264,22 @@ Expected<void> StepLog::begin() {
   return boost::outcome_v2::success();
 }
 
+// What is whole is summed once. Where many heads are damaged, each with a length that fits, the
+// search for the next record would take time by the square of their number.
+std::uint64_t StepLog::most_summed() const {
+  constexpr std::uint64_t times = 20, least = std::uint64_t{1} << 30;
+  return times * size_ + least;
+}
+
 Expected<void> StepLog::go_on() {
   std::error_code error;
   size_ = std::filesystem::file_size(path_, error);
   if (error) return problem_in(path_, error.message());
+  struct stat named {
+  }, opened{};
+  if (::stat(path_.c_str(), &named) != 0 || ::fstat(::fileno(file_.get()), &opened) != 0 ||
+      named.st_ino != opened.st_ino)
+    return problem_in(path_, "another file is in its place now, as where a ring turns");
   if (size_ < scanned_) return problem_in(path_, "it was cut while it was read");
   while (scanned_ < size_) {
     if (const auto record = record_at(scanned_)) {
@@ -253,6 +289,10 @@ Expected<void> StepLog::go_on() {
       continue;
     }
     const auto next = next_record(scanned_);
+    if (!next && summed_ > most_summed()) {
+      damages_.push_back({scanned_, size_, "so many lengths are wrong that it is not searched"});
+      scanned_ = size_;
+    }
     if (!next) break;
     damages_.push_back({scanned_, *next, "no record"});
     scanned_ = *next;
@@ -325,7 +365,8 @@ std::string StepLog::read_motion(const CborMap& body, std::size_t i, LogStep& st
     return "it starts where the step before it ended, and that one is lost";
   }
   const auto end = places(body, "x1"), way = places(body, "dx");
-  if (!start || (!end && !way)) return "its positions are not those of the mesh";
+  if (!start || end.has_value() == way.has_value())
+    return "its positions are not those of the mesh";
   step.x_t0 = *start;
   if (end) {
     step.x_t1 = *end;
@@ -349,13 +390,15 @@ Expected<LogStep> StepLog::step(std::size_t i) {
   step.why_unknown = read_motion(*body, i, step);
   end_ = end_of(*body);
   ended_step_ = i;
-  if (const auto answer = body->integer("answer")) {
+  if (body->has("answer")) {
     LoggedAnswer& logged = step.answer.emplace();
+    const auto answer = body->integer("answer").value_or(-1);
     // What is no int32 is no answer either.
     logged.answer =
-        *answer == static_cast<std::int32_t>(*answer) ? static_cast<std::int32_t>(*answer) : -1;
-    logged.first_lo = body->number("first_lo").value_or(0);
-    logged.first_hi = body->number("first_hi").value_or(0);
+        answer == static_cast<std::int32_t>(answer) ? static_cast<std::int32_t>(answer) : -1;
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    logged.first_lo = body->number("first_lo").value_or(none);
+    logged.first_hi = body->number("first_hi").value_or(none);
     const auto pairs = body->integers("pairs");
     const auto times = body->doubles("pair_times");
     if ((!pairs && body->has("pairs")) || (!times && body->has("pair_times"))) logged.answer = -1;
@@ -367,8 +410,11 @@ Expected<LogStep> StepLog::step(std::size_t i) {
     LoggedLimit& limit = step.limit.emplace();
     limit.share = body->number("share").value_or(-1);
     limit.positions = places(*body, "positions");
-    if (body->has("positions") && !limit.positions)
-      step.why_unknown = "the positions of its limit are not those of the mesh";
+    // What are no positions are none that a limiter may give.
+    if (body->has("positions") && !limit.positions) {
+      constexpr double none = std::numeric_limits<double>::quiet_NaN();
+      limit.positions = Positions::Constant(head_.positions.rows(), 3, none);
+    }
   }
   return step;
 }

@@ -97,6 +97,7 @@ class StepLog {
   explicit StepLog(std::filesystem::path path) : path_(std::move(path)) {}
   std::optional<Record> record_at(std::uint64_t offset);
   std::optional<std::uint64_t> next_record(std::uint64_t offset);
+  std::uint64_t most_summed() const;
   bool read(std::uint64_t offset, std::size_t count, std::string& bytes);
   Expected<void> begin();
   void take(const Record& record, std::uint64_t offset);
@@ -108,6 +109,7 @@ class StepLog {
   std::filesystem::path path_;
   OpenFile file_;
   std::uint64_t size_ = 0, scanned_ = 0, next_record_ = 0;
+  std::uint64_t summed_ = 0;  // bytes of bodies, so far
   bool is_ended_ = false;
   LogHead head_{};
   std::vector<Place> steps_;

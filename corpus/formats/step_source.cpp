@@ -5,6 +5,7 @@
 #include <boost/outcome/try.hpp>
 #include <utility>
 
+#include "corpus/file_bytes.h"
 #include "corpus/formats/bodies_reader.h"
 #include "detector/mesh/mesh_checks.h"
 
@@ -131,7 +132,16 @@ Expected<std::unique_ptr<StepSource>> steps_of_bodies(const BodyFiles& bodies) {
 }
 
 Expected<std::unique_ptr<StepSource>> read_steps(const std::vector<std::filesystem::path>& files) {
-  if (files.size() > 1 || files[0].extension() != ".json") return steps_of_files(files);
+  if (files.size() > 1 || files[0].extension() != ".json") {
+    constexpr std::string_view mark_of_log(
+        "\x83\x44"
+        "ASR1",
+        6);
+    const auto start = read_start(files[0], mark_of_log.size());
+    if (start && start.value() == mark_of_log)
+      return problem_in(files[0], "it is a log of steps: assay judge");
+    return steps_of_files(files);
+  }
   BOOST_OUTCOME_TRY(c, read_case(files[0]));
   if (c.frames.size() < 2) return one_frame_only();
   return steps_of_case(std::make_shared<const Case>(std::move(c)), true);

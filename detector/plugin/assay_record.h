@@ -575,7 +575,7 @@ static inline int32_t assay_record_told_(assay_recorder* r) {
 
 /* Opens the file and writes its begin record, where an earlier call could not. */
 static inline int32_t assay_record_ready_(assay_recorder* r) {
-  int32_t code = r->file ? ASSAY_OK : assay_record_open_(r, "wb");
+  int32_t code = r->file ? ASSAY_OK : assay_record_open_(r, r->no_begin_record ? "wb" : "ab");
   if (code != ASSAY_OK || !r->no_begin_record) return code;
   assay_record_to_file_(r, r->begin_record, r->begin_size);
   code = assay_record_told_(r);

@@ -146,4 +146,13 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
   return request;
 }
 
+std::optional<properties::Shard> shard_of(const std::string& word) {
+  const auto slash = word.find('/');
+  if (slash == std::string::npos) return std::nullopt;
+  const auto index = whole_number_of<std::uint64_t>(word.substr(0, slash));
+  const auto count = whole_number_of<std::uint64_t>(word.substr(slash + 1));
+  const bool is_shard = index && count && *index >= 1 && *index <= *count;
+  return is_shard ? std::optional(properties::Shard{*index, *count}) : std::nullopt;
+}
+
 }  // namespace assay::reports

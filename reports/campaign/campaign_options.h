@@ -34,4 +34,7 @@ void add_campaign_options(Verb& verb, CampaignWords& words);
 // leaves with what is stored. Fails if a name, a file or a library is wrong.
 Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& words);
 
+// The shard in words such as "2/8"; nothing for other words.
+std::optional<properties::Shard> shard_of(const std::string& word);
+
 }  // namespace assay::reports

@@ -15,9 +15,9 @@
 #include "properties/judging/case_check.h"
 #include "properties/judging/case_options.h"
 #include "properties/numbering.h"
+#include "reports/check/answer_table.h"
 #include "reports/check/check_outcome.h"
 #include "reports/check/detector_choice.h"
-#include "reports/check/recorded_answers.h"
 #include "reports/steps/step_json.h"
 #include "reports/steps/step_text.h"
 #include "reports/terminal/limits.h"
@@ -58,6 +58,7 @@ class CheckRun {
         BOOST_OUTCOME_TRY(is_there, has_step(s));
         if (!is_there) break;
         BOOST_OUTCOME_TRY(step, read_step(s));
+        for (const auto& line : answers_.notes()) tell_note(s, line);
         auto json = leave_out(s);
         const bool is_left_out = json.has_value();
         if (!is_left_out) json = run_step(s, step);
@@ -70,7 +71,15 @@ class CheckRun {
     outcome_.limit_reached = limits_.reached();
     outcome_.lost = answers_.lost();
     outcome_.undecided |= !outcome_.lost.empty();
-    for (const auto& line : outcome_.lost) say(fmt::format("lost: {}\n", line));
+    constexpr std::size_t most_told = 20;
+    for (std::size_t i = 0; i < std::min(outcome_.lost.size(), most_told); ++i)
+      say(fmt::format("lost: {}\n", outcome_.lost[i]));
+    if (outcome_.lost.size() > most_told) {
+      const auto more = fmt::format("and {} more", outcome_.lost.size() - most_told);
+      outcome_.lost.resize(most_told);
+      outcome_.lost.push_back(more);
+      say(fmt::format("lost: {}\n", more));
+    }
     for (const auto& line : answers_.remarks()) say(line + "\n");
     if (answers_.is_plugin() && !question_.no_oracle) {
       outcome_.judge_claims(answers_.under_test(), answers_.steps_left_out());
@@ -182,6 +191,14 @@ class CheckRun {
   corpus::Expected<bool> has_step(std::size_t s) {
     const Limits::Pause pause(limits_);
     return steps_.has(s);
+  }
+
+  // Somebody may have noted a million.
+  void tell_note(std::size_t s, const std::string& note) {
+    constexpr std::size_t most_told = 100;
+    if (++notes_told_ <= most_told)
+      say(fmt::format("noted before step {}: {}\n", answers_.number_of(s) + 1, note));
+    if (notes_told_ == most_told) say("further notes are not shown\n");
   }
 
   // What the report says of a step that is not judged, or null if it says nothing. Nothing if it is
@@ -365,7 +382,8 @@ class CheckRun {
   const CheckListener& listener_;
   std::optional<std::string> refused_;
   const detector::CountedPairs tested_;  // under the contract
-  std::set<std::string> reasons_;        // why steps were left out, as far as these were told
+  std::size_t notes_told_ = 0;
+  std::set<std::string> reasons_;  // why steps were left out, as far as these were told
   CheckOutcome outcome_;
 };
 

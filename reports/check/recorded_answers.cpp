@@ -5,11 +5,10 @@
 #include <chrono>
 #include <thread>
 
-#include "corpus/formats/text_lines.h"
 #include "properties/judging/contracted_case.h"
 #include "properties/worker/plugin/plugin_reading.h"
 #include "reports/check/detector_choice.h"
-#include "reports/terminal/option_words.h"
+#include "reports/check/given_answers.h"
 
 namespace assay::reports {
 namespace {
@@ -20,8 +19,13 @@ using properties::Contract;
 // The steps of a log, each as the contract takes it.
 class RecordedSteps : public corpus::StepSource {
  public:
-  RecordedSteps(corpus::StepLog& log, Contract contract, LogSelection selection)
-      : log_(log), contract_(std::move(contract)), selection_(selection) {}
+  RecordedSteps(corpus::StepLog& log, const properties::PluginDescription& detector,
+                LogSelection selection)
+      : log_(log),
+        contract_(detector.contract),
+        asks_answers_(detector.parts.steps),
+        asks_limits_(detector.parts.limit),
+        selection_(selection) {}
 
   std::size_t count() const override { return log_.count(); }
   std::size_t frames() const override { return log_.count() + 1; }
@@ -33,7 +37,11 @@ class RecordedSteps : public corpus::StepSource {
 
   corpus::Expected<bool> has(std::size_t s) override {
     constexpr std::chrono::milliseconds pause(200);
-    while (selection_.follow && s >= log_.count() && !log_.is_ended()) {
+    const auto is_there = [&] {
+      return s < log_.count() || (selection_.step && log_.count() > 0 &&
+                                  log_.number_of(log_.count() - 1) >= *selection_.step);
+    };
+    while (selection_.follow && !is_there() && !log_.is_ended()) {
       std::this_thread::sleep_for(pause);
       BOOST_OUTCOME_TRYV(log_.go_on());
     }
@@ -43,15 +51,18 @@ class RecordedSteps : public corpus::StepSource {
   corpus::Expected<corpus::SourceStep> step(std::size_t s) override {
     is_chosen_ = chooses(log_.number_of(s));
     why_left_out_.clear();
+    is_beyond_contract_ = false;
     if (!is_chosen_) return corpus::SourceStep{now_.x_t0, now_.x_t1};
     BOOST_OUTCOME_TRY(read, log_.step(s));
     now_ = std::move(read);
     if (!now_.why_unknown.empty()) {
+      unknown_.push_back(fmt::format("step {}: {}", now_.number + 1, now_.why_unknown));
       why_left_out_ = now_.why_unknown;
       return corpus::SourceStep{now_.x_t0, now_.x_t1};
     }
-    if (!now_.answer && !now_.limit) {
-      why_left_out_ = "nothing was recorded that the detector said";
+    if (!(asks_answers_ && now_.answer) && !(asks_limits_ && now_.limit)) {
+      ++unanswered_;
+      why_left_out_ = "nothing was recorded that its claims are about";
       return corpus::SourceStep{now_.x_t0, now_.x_t1};
     }
     auto c = as_case();
@@ -61,6 +72,7 @@ class RecordedSteps : public corpus::StepSource {
       now_.x_t1 = end_of(*seen, script.front());
     } else {
       why_left_out_ = properties::why_left_out(c, contract_);
+      is_beyond_contract_ = true;
     }
     return corpus::SourceStep{now_.x_t0, now_.x_t1};
   }
@@ -74,11 +86,16 @@ class RecordedSteps : public corpus::StepSource {
   const corpus::LogStep& now() const { return now_; }
   bool is_chosen() const { return is_chosen_; }
   const std::string& why_left_out() const { return why_left_out_; }
+  bool is_beyond_contract() const { return is_beyond_contract_; }
+  // Of all steps so far.
+  const std::vector<std::string>& unknown() const { return unknown_; }
+  std::size_t unanswered() const { return unanswered_; }
 
  private:
   // Spreads the numbers evenly, and goes by them alone, so that every run chooses the same steps.
   bool chooses(std::uint64_t number) const {
     if (selection_.step) return number == *selection_.step;
+    if (number < selection_.from || !selection_.shard.holds(number)) return false;
     constexpr std::uint64_t golden = 0x9E3779B97F4A7C15;
     return static_cast<double>((number * golden) >> 11) * 0x1p-53 < selection_.share;
   }
@@ -98,69 +115,14 @@ class RecordedSteps : public corpus::StepSource {
 
   corpus::StepLog& log_;
   const Contract contract_;
+  const bool asks_answers_, asks_limits_;
   const LogSelection selection_;
   corpus::LogStep now_;
   bool is_chosen_ = true;
   std::string why_left_out_;
-};
-
-// Answers that are not asked for here, but were given before.
-class GivenAnswers : public StepAnswers {
- public:
-  bool is_recorded() const override { return true; }
-
-  nlohmann::ordered_json to_json() const override { return detector_json({{"library", nullptr}}); }
-
-  std::string error_of(std::size_t, const detector::StepResult&) const override {
-    const auto error = properties::error_of(run_, 0);
-    return error.empty() ? run_.explanation : error;
-  }
-
- protected:
-  GivenAnswers(properties::Subject subject, const corpus::StepSource& steps)
-      : StepAnswers(std::move(subject)), triangles_(steps.triangles()) {}
-
-  // Begins the run of step s.
-  void begin_run(std::size_t s) {
-    first_of_run_ = s;
-    run_ = {};
-    run_.has_answers = has_answers();
-    run_.steps.push_back(undecided());
-  }
-  void take(const std::optional<corpus::LoggedAnswer>& logged) {
-    if (!has_answers() || !logged) return;
-    auto result = result_of(*logged);
-    if (result) {
-      run_.steps.front() = std::move(result.value());
-    } else {
-      take_error(result.error().message);
-    }
-  }
-  void take_error(const std::string& text) {
-    run_.steps.front().answer = detector::Answer::error;
-    note_error(run_, 0, properties::line_of(text.c_str()));
-  }
-
- private:
-  Expected<detector::StepResult> result_of(const corpus::LoggedAnswer& logged) const {
-    assay_result raw = {};
-    raw.answer = logged.answer;
-    raw.first_lo = logged.first_lo;
-    raw.first_hi = logged.first_hi;
-    raw.message = logged.message.c_str();
-    raw.pair_count = logged.pairs.size() / 2;
-    raw.pairs = logged.pairs.data();
-    if (logged.pairs.size() % 2 != 0) return Problem{"its pairs are not two triangles each"};
-    if (!logged.pair_times.empty()) {
-      if (logged.pair_times.size() != logged.pairs.size())
-        return Problem{"its times of pairs are not two for each pair"};
-      raw.pair_times = logged.pair_times.data();
-    }
-    const auto triangles = static_cast<std::int32_t>(triangles_.rows());
-    return properties::step_result(raw, triangles, under_test().contract.reports_pairs);
-  }
-
-  const detector::Triangles& triangles_;
+  bool is_beyond_contract_ = false;
+  std::vector<std::string> unknown_;
+  std::size_t unanswered_ = 0;
 };
 
 class Recorded : public GivenAnswers {
@@ -175,7 +137,7 @@ class Recorded : public GivenAnswers {
   std::optional<std::string> left_out() override {
     if (!steps_.is_chosen()) return "";
     if (steps_.why_left_out().empty()) return std::nullopt;
-    ++steps_left_out_;
+    steps_left_out_ += steps_.is_beyond_contract() ? 1 : 0;
     return steps_.why_left_out();
   }
 
@@ -186,11 +148,23 @@ class Recorded : public GivenAnswers {
                           ? fmt::format("bytes {} to {}: {}", damage.from, damage.to, damage.what)
                           : fmt::format("before byte {}: {}", damage.from, damage.what));
     }
+    lines.insert(lines.end(), steps_.unknown().begin(), steps_.unknown().end());
+    return lines;
+  }
+
+  std::vector<std::string> notes() const override {
+    std::vector<std::string> lines;
+    const auto [begin, end] = steps_.log().notes().equal_range(steps_.now().number);
+    for (auto note = begin; steps_.is_chosen() && note != end; ++note)
+      lines.push_back(properties::line_of(note->second.c_str()));
     return lines;
   }
 
   std::vector<std::string> remarks() const override {
     const auto rest = steps_.log().rest();
+    const auto unanswered = steps_.unanswered();
+    if (unanswered > 0)
+      return {fmt::format("{} step{} without an answer", unanswered, unanswered == 1 ? "" : "s")};
     if (!rest.what.empty())
       return {
           fmt::format("bytes {} to {}, the last of the log, are {}: it was cut, or is being "
@@ -238,65 +212,6 @@ class Recorded : public GivenAnswers {
   RecordedSteps& steps_;
 };
 
-// A row of a table of answers.
-class Table : public GivenAnswers {
- public:
-  Table(properties::Subject subject, const corpus::StepSource& steps,
-        std::map<std::size_t, corpus::LoggedAnswer> rows, bool has_times)
-      : GivenAnswers(std::move(subject), steps), rows_(std::move(rows)), has_times_(has_times) {}
-
-  std::string title() const override { return "answers of " + detector_text(subject_.detector); }
-
-  // Asked of each step in turn.
-  std::optional<std::string> left_out() override {
-    if (rows_.contains(next_++)) return std::nullopt;
-    ++steps_left_out_;
-    return "the table has no row of it";
-  }
-
-  std::vector<properties::NotJudged> beyond_reach() const override {
-    if (has_times_) return {};
-    return {{name_of(Claim::not_late), "the table has no times"}};
-  }
-
-  detector::StepResult answer(std::size_t s, const corpus::SourceStep&,
-                              const detector::StopFunction&) override {
-    begin_run(s);
-    take(rows_.at(s));
-    return run_.steps.front();
-  }
-
- private:
-  const std::map<std::size_t, corpus::LoggedAnswer> rows_;
-  const bool has_times_;
-  std::size_t next_ = 0;
-};
-
-// Reads a row "3,collision,0.25". Says what is wrong with it; empty if nothing is.
-std::string read_row(std::string_view line, std::size_t steps, std::size_t& step,
-                     corpus::LoggedAnswer& answer) {
-  const auto first = line.find(','), second = line.find(',', first + 1);
-  if (second == std::string_view::npos) return "step,answer,time expected";
-  const auto number = whole_number_of<std::size_t>(std::string(line.substr(0, first)));
-  if (!number || *number < 1 || *number > steps)
-    return fmt::format("a step from 1 to {} expected", steps);
-  step = *number - 1;
-  const auto word = line.substr(first + 1, second - first - 1);
-  const auto said = from_name<detector::Answer>(word);
-  if (!said) return fmt::format("'{}' is no answer: {}", word, all_names<detector::Answer>());
-  constexpr std::array raw = {ASSAY_FREE, ASSAY_COLLISION, ASSAY_UNDECIDED, ASSAY_ERROR};
-  answer.answer = raw[static_cast<std::size_t>(*said)];
-  const auto time = line.substr(second + 1);
-  if (time.empty()) {
-    answer.first_hi = 1;
-    return "";
-  }
-  const auto t = corpus::parse_double(time);
-  if (!t || !(*t >= 0 && *t <= 1)) return fmt::format("'{}' is no time from 0 to 1", time);
-  answer.first_lo = answer.first_hi = *t;
-  return "";
-}
-
 }  // namespace
 
 Expected<RecordedDetector> recorded_detector(const corpus::StepLog& log, const std::string& file) {
@@ -339,46 +254,12 @@ Expected<RecordedInput> recorded_input(corpus::StepLog& log, const std::string& 
   if (judged_claims(detector.claims, detector.contract).empty())
     return Problem{fmt::format(
         "{}: its detector claims nothing that its contract leaves to be judged by a log", file)};
-  if (selection.step && !log.place_of(*selection.step))
-    return Problem{fmt::format("{}: there is no whole record of step {}", file, *selection.step)};
-  auto steps = std::make_unique<RecordedSteps>(log, detector.contract, selection);
+  if (selection.step && !selection.follow && !log.place_of(*selection.step))
+    return Problem{
+        fmt::format("{}: there is no whole record of step {}", file, *selection.step + 1)};
+  auto steps = std::make_unique<RecordedSteps>(log, recorded.subject.description, selection);
   auto answers = std::make_unique<Recorded>(std::move(recorded), *steps);
   return RecordedInput{{file, std::move(steps)}, std::move(answers)};
-}
-
-Expected<std::unique_ptr<StepAnswers>> answers_of_table(const std::string& file,
-                                                        const CheckInput& input,
-                                                        properties::Adjacency adjacency) {
-  BOOST_OUTCOME_TRY(bytes, corpus::read_bytes(file));
-  std::map<std::size_t, corpus::LoggedAnswer> rows;
-  bool has_times = false;
-  std::size_t number = 0;
-  for (std::size_t begin = 0; begin < bytes.size();) {
-    const auto end = std::min(bytes.find('\n', begin), bytes.size());
-    std::string_view line(bytes.data() + begin, end - begin);
-    begin = end + 1;
-    ++number;
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    if (line.empty() || (number == 1 && line == "step,answer,time")) continue;
-    std::size_t step = 0;
-    corpus::LoggedAnswer answer;
-    if (const auto wrong = read_row(line, input.steps->count(), step, answer); !wrong.empty())
-      return Problem{fmt::format("{}: line {}: {}", file, number, wrong)};
-    has_times |= answer.answer == ASSAY_COLLISION && answer.first_lo == answer.first_hi;
-    if (!rows.emplace(step, answer).second)
-      return Problem{fmt::format("{}: line {}: step {} has a row already", file, number, step + 1)};
-  }
-  if (rows.empty()) return Problem{fmt::format("{}: it has no row", file)};
-  properties::Contract contract;
-  contract.adjacency = adjacency;
-  contract.reports_pairs = false;
-  properties::Claims claims = {Claim::free_sound};
-  claims.set(Claim::not_late, has_times);
-  properties::Subject subject;
-  subject.description = {file, "", claims, contract};
-  subject.detector = {file, false, claims, contract, {{file, {}}}};
-  return std::unique_ptr<StepAnswers>(
-      std::make_unique<Table>(std::move(subject), *input.steps, std::move(rows), has_times));
 }
 
 }  // namespace assay::reports

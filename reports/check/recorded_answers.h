@@ -3,13 +3,16 @@
 #pragma once
 
 #include "corpus/formats/step_log.h"
+#include "properties/campaign/request.h"
 #include "reports/check/step_answers.h"
 
 namespace assay::reports {
 
 // Which steps of a log are judged.
 struct LogSelection {
-  double share = 1;  // in (0, 1]; which steps these are goes by their numbers alone
+  double share = 1;              // in (0, 1]; which steps these are goes by their numbers alone
+  properties::Shard shard = {};  // of the steps, by their numbers
+  std::uint64_t from = 0;        // steps before this one are not judged
   std::optional<std::uint64_t> step;  // this one alone
   bool follow = false;                // waits for steps until the recorder ends the log
 };
@@ -30,14 +33,5 @@ struct RecordedInput {
 // judged, or does not hold the step that is asked for.
 Expected<RecordedInput> recorded_input(corpus::StepLog& log, const std::string& file,
                                        const LogSelection& selection);
-
-// Answers to the steps of `input` from a table FILE.csv with the columns step, answer and time: the
-// step counted from 1, free, collision, undecided or error, and a time of contact, which may be
-// empty. Claimed is that no step with a contact is called free, and, where a time is given, that no
-// contact begins before it. Rows are in any order; steps without a row are left out. Fails if the
-// file is no such table, or names a step twice.
-Expected<std::unique_ptr<StepAnswers>> answers_of_table(const std::string& file,
-                                                        const CheckInput& input,
-                                                        properties::Adjacency adjacency);
 
 }  // namespace assay::reports

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "properties/printable.h"
 #include "reports/certificate/summary.h"
 #include "reports/check/detector_choice.h"
 #include "reports/judge/kept_failures.h"
@@ -35,7 +34,9 @@ corpus::Expected<corpus::Case> read_case_of(const std::vector<std::string>& word
   }
   BOOST_OUTCOME_TRY(log, corpus::StepLog::open(name.file));
   const auto place = log.place_of(*name.step);
-  if (!place) return corpus::problem_in(name.file, "there is no whole record of this step");
+  if (!place)
+    return corpus::problem_in(name.file,
+                              fmt::format("there is no whole record of step {}", *name.step + 1));
   BOOST_OUTCOME_TRY(step, log.step(*place));
   if (!step.why_unknown.empty()) return corpus::problem_in(words.front(), step.why_unknown);
   corpus::Case c;
@@ -43,6 +44,11 @@ corpus::Expected<corpus::Case> read_case_of(const std::vector<std::string>& word
   c.source = words.front();
   c.triangles = log.head().triangles;
   c.frames = {step.x_t0, step.x_t1};
+  // The detector is made from the mesh as it was at rest.
+  if (log.head().positions != step.x_t0) {
+    c.frames.insert(c.frames.begin(), log.head().positions);
+    c.script = {{1, 2, true}};
+  }
   if (log.head().counted) c.counted = corpus::CaseRelation{*log.head().counted, {}};
   return c;
 }
@@ -61,6 +67,9 @@ Expected<CheckAnswer> judge_log(const LogName& name, const LogQuestion& question
   std::unique_ptr<KeptFailures> kept;
   CheckListener with_files = listener;
   if (!question.out.empty()) {
+    std::error_code error;
+    std::filesystem::create_directories(question.out, error);
+    if (error) return Problem{fmt::format("{}: {}", question.out, error.message())};
     const auto replay = [&](std::uint64_t number) {
       return fmt::format("{} replay {}", this_program(true),
                          shell_word(fmt::format("{}#{}", name.file, number)));
@@ -71,8 +80,6 @@ Expected<CheckAnswer> judge_log(const LogName& name, const LogQuestion& question
   }
   auto check = question.check;
   check.files = {name.file};
-  for (const auto& [step, text] : log.notes())
-    listener.say(fmt::format("noted before step {}: {}\n", step + 1, properties::printable(text)));
   Limits limits(check.time_limit, check.memory_limit);
   return check_answers(check, recorded.input, *recorded.answers, limits, with_files);
 }
@@ -82,19 +89,29 @@ std::string junit_suite(const std::string& log, const CheckOutcome& outcome) {
     std::string claim, element, text;
   };
   std::vector<Line> lines;
+  const auto first_broken = [&](const std::string& claim) -> std::string {
+    for (const auto& [one, step] : outcome.first_broken) {
+      if (name_of(one) == claim) return fmt::format("first in step {}", step + 1);
+    }
+    return "";
+  };
   for (const auto& claim : outcome.held) {
-    const auto broken = std::ranges::find_if(
-        outcome.first_broken, [&](const auto& one) { return name_of(one.first) == claim; });
-    if (broken != outcome.first_broken.end()) {
-      lines.push_back({claim, "failure", fmt::format("first in step {}", broken->second + 1)});
+    if (const auto broken = first_broken(claim); !broken.empty()) {
+      lines.push_back({claim, "failure", broken});
     } else if (outcome.undecided) {
       lines.push_back({claim, "skipped", "undecided"});
     } else {
       lines.push_back({claim, "", ""});
     }
   }
-  for (const auto& [claim, reason] : outcome.not_judged)
-    lines.push_back({claim, "skipped", reason});
+  for (const auto& [claim, reason] : outcome.not_judged) {
+    const auto broken = first_broken(claim);
+    if (broken.empty()) {
+      lines.push_back({claim, "skipped", reason});
+    } else {
+      lines.push_back({claim, "failure", broken});
+    }
+  }
   const auto count = [&](const char* element) {
     return std::ranges::count(lines, element, &Line::element);
   };
@@ -109,6 +126,15 @@ std::string junit_suite(const std::string& log, const CheckOutcome& outcome) {
                                                xml_escaped(line.text));
   }
   return text + "  </testsuite>\n";
+}
+
+std::string junit_suite_of_problem(const std::string& log, const std::string& message) {
+  const auto name = xml_escaped(log);
+  return fmt::format(
+      "  <testsuite name=\"{0}\" tests=\"1\" failures=\"0\" errors=\"1\">\n"
+      "    <testcase classname=\"{0}\" name=\"log\"><error message=\"{1}\"/></testcase>\n"
+      "  </testsuite>\n",
+      name, xml_escaped(message));
 }
 
 std::string junit_text(const std::string& suites) {

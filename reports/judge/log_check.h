@@ -34,6 +34,8 @@ Expected<CheckAnswer> judge_log(const LogName& log, const LogQuestion& question,
 // What each claim of a log came to, as a suite of JUnit XML, and a file of suites. A claim that is
 // broken fails, and one of which the log tells nothing, or not enough, is skipped.
 std::string junit_suite(const std::string& log, const CheckOutcome& outcome);
+// The suite of a log that could not be judged.
+std::string junit_suite_of_problem(const std::string& log, const std::string& message);
 std::string junit_text(const std::string& suites);
 
 }  // namespace assay::reports

@@ -37,6 +37,9 @@ Expected<std::unique_ptr<KeptFailures>> kept_failures(const CheckRequest& reques
     again = std::move(subject);
   }
   const auto replay = [&request](std::uint64_t number) {
+    if (!request.question.answers.empty())
+      return fmt::format("{} check {} --answers {}", this_program(true), joined(request.files, " "),
+                         shell_word(request.question.answers));
     const auto file = std::filesystem::path(request.keep) / fmt::format("step-{}", number);
     const auto& of = request.question.detector;
     return fmt::format("{} replay {}{}", this_program(true),
@@ -61,7 +64,9 @@ Expected<int> run_check(const CheckRequest& request) {
         fmt::format("{} offsets for {} bodies: give one for each --body, in the same order",
                     request.offsets.size(), question.bodies.size())};
   // This is asked before the work, not after it.
-  BOOST_OUTCOME_TRY(may_write(request.json_file, question.files));
+  auto inputs = question.files;
+  if (!question.answers.empty()) inputs.push_back(question.answers);
+  BOOST_OUTCOME_TRY(may_write(request.json_file, inputs));
   BOOST_OUTCOME_TRY(input, question.bodies.empty() ? read_check_input(request.files)
                                                    : read_bodies(question.bodies, question.apart));
   question.wants_report = !request.json_file.empty();
@@ -102,7 +107,7 @@ void add_options(Verb& verb, CheckRequest& request) {
       add_detector_alone(verb, request.question.detector,
                          "A plug-in's library, or python:MODULE:CLASS (default: the built-in)");
   add_threads(verb, request.question.threads);
-  const auto answers =
+  auto answers =
       verb.add("--answers", request.question.answers,
                "Judge the answers of this table (step,answer,time) in place of a detector")
           .excludes(plugin);
@@ -140,11 +145,13 @@ void add_options(Verb& verb, CheckRequest& request) {
                          "two triangles is the sum of their bodies' lengths")
                     .with(length())
                     .excludes(plugin)
+                    .excludes(answers)
                     .excludes(no_oracle)
                     .excludes(second_opinion)
                     .excludes(separation);
   for (const auto& option : of_built_in) {
     plugin.excludes(option);
+    answers.excludes(option);
     separation.excludes(option);
     offset.excludes(option);
   }
@@ -159,9 +166,11 @@ void add_options(Verb& verb, CheckRequest& request) {
   verb.add_flag("--fail-on-collision", request.fail_on_collision,
                 "Exit code 5 when they agree on a collision, or a step comes within --separation");
   verb.add(
-      "--keep", request.keep,
-      "Keep failing steps here: the part of the mesh that shows each, as case, OBJ and C++; of "
-      "a plug-in shrunk");
+          "--keep", request.keep,
+          "Keep failing steps here: the part of the mesh that shows each, as case, OBJ and C++; of "
+          "a plug-in shrunk")
+      .excludes(separation)
+      .excludes(offset);
   verb.add("--json", request.json_file, "Write the report here (assay-check/1)");
 }
 

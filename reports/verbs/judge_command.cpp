@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
+#include "reports/campaign/campaign_options.h"
 #include "reports/judge/log_check.h"
 #include "reports/terminal/text_file.h"
 #include "reports/verbs/verbs.h"
@@ -14,6 +16,7 @@ struct JudgeRequest {
   std::vector<std::string> logs;
   LogQuestion question;
   std::optional<double> share;
+  std::uint64_t from = 1;  // counted from 1
   bool fail_on_collision = false;
   std::string json_file;   // empty: not written
   std::string junit_file;  // empty: not written
@@ -22,46 +25,64 @@ struct JudgeRequest {
 
 // The worse of two exit codes of this verb.
 int worse(int a, int b) {
-  constexpr std::array from_best = {exit_holds, exit_collision, exit_undecided, exit_defect,
-                                    exit_unsound};
+  constexpr std::array from_best = {exit_holds, exit_collision, exit_undecided,
+                                    exit_usage, exit_defect,    exit_unsound};
   const auto rank = [&](int code) { return std::ranges::find(from_best, code); };
   return rank(a) < rank(b) ? b : a;
+}
+
+Expected<void> check_words(const JudgeRequest& request) {
+  const bool is_one = request.logs.size() == 1;
+  if (!request.json_file.empty() && !is_one)
+    return Problem{"--json is of one log: name them one by one"};
+  if (request.question.selection.follow && !is_one) return Problem{"--follow is of one log"};
+  if (!request.question.again.library.empty() && request.question.out.empty())
+    return Problem{"--detector asks again about what is kept: --out says where"};
+  if (!request.json_file.empty() && request.json_file == request.junit_file)
+    return Problem{"--json and --junit are one file"};
+  std::vector<std::string> files;
+  for (const auto& word : request.logs) files.push_back(log_name(word).file);
+  BOOST_OUTCOME_TRY(may_write(request.json_file, files));
+  return may_write(request.junit_file, files);
 }
 
 Expected<int> run_judge(const JudgeRequest& request) {
   auto question = request.question;
   question.selection.share = request.share.value_or(1);
+  question.selection.from = request.from - 1;
   question.check.wants_report = !request.json_file.empty();
   question.check.announced_file = request.json_file;
   question.check.shows_all_steps = request.all_steps;
-  if (question.check.wants_report && request.logs.size() > 1)
-    return Problem{"--json is of one log: name them one by one"};
-  if (question.selection.follow && request.logs.size() > 1)
-    return Problem{"--follow is of one log"};
-  if (!question.again.library.empty() && question.out.empty())
-    return Problem{"--detector asks again about what is kept: --out says where"};
-  BOOST_OUTCOME_TRY(may_write(request.json_file, request.logs));
-  BOOST_OUTCOME_TRY(may_write(request.junit_file, request.logs));
+  BOOST_OUTCOME_TRY(check_words(request));
   const CheckListener terminal{[](const std::string& text) {
     fmt::print("{}", text);
     std::fflush(stdout);
   }};
   int code = exit_holds;
   std::string suites;
-  for (const auto& word : request.logs) {
-    if (request.logs.size() > 1) fmt::print("{}\n", word);
+  for (std::size_t i = 0; i < request.logs.size(); ++i) {
+    const auto& word = request.logs[i];
     auto of_log = question;
-    // Step 3 of one log is not that of another.
-    if (request.logs.size() > 1 && !question.out.empty())
-      of_log.out = (std::filesystem::path(question.out) /
-                    std::filesystem::path(log_name(word).file).filename())
-                       .string();
-    BOOST_OUTCOME_TRY(answer, judge_log(log_name(word), of_log, terminal));
-    if (question.check.wants_report) {
-      BOOST_OUTCOME_TRY(write_json_file(request.json_file, answer.report));
+    if (request.logs.size() > 1) {
+      fmt::print("{}\n", word);
+      // Step 3 of one log is not that of another, and logs of two folders may have one name.
+      const auto name = std::filesystem::path(log_name(word).file).filename().string();
+      if (!of_log.out.empty()) of_log.out = fmt::format("{}/{}-{}", of_log.out, i + 1, name);
     }
-    suites += junit_suite(word, answer.outcome);
-    code = worse(code, answer.outcome.exit_code(request.fail_on_collision));
+    const auto answer = judge_log(log_name(word), of_log, terminal);
+    if (!answer) {
+      // The others are judged all the same.
+      if (request.logs.size() == 1) return answer.error();
+      refuse(answer.error());
+      suites += junit_suite_of_problem(word, answer.error().message);
+      code = worse(code, exit_usage);
+      continue;
+    }
+    if (question.check.wants_report) {
+      BOOST_OUTCOME_TRY(write_json_file(request.json_file, answer.value().report));
+    }
+    suites += junit_suite(word, answer.value().outcome);
+    code = worse(code, answer.value().outcome.exit_code(request.fail_on_collision));
   }
   if (!request.junit_file.empty()) {
     BOOST_OUTCOME_TRY(write_text_file(request.junit_file, junit_text(suites)));
@@ -75,6 +96,10 @@ void add_options(Verb& verb, JudgeRequest& request) {
            "Logs that a recorder wrote (assay_record.h, assay.Recorder); LOG#N: step N alone")
       .required();
   verb.add("--share", request.share, "Judge this share of the steps").with(reports::share());
+  add_choice(verb, "--shard", question.selection.shard, "I/N with 1 <= I <= N", shard_of,
+             "I/N: the part of the steps that this process judges, one of N");
+  verb.add("--from", request.from, "Go on with this step, counted from 1")
+      .in_range(1, std::numeric_limits<std::int64_t>::max());
   verb.add_flag("--follow", question.selection.follow,
                 "Wait for steps until the recorder ends the log");
   verb.add("--out", question.out,
@@ -96,7 +121,7 @@ void add_options(Verb& verb, JudgeRequest& request) {
              "a whole number above 0, alone or with K, M or G", memory_size,
              "Limit of resident memory, such as 6GB or 512MB (MB: 2^20 bytes)");
   verb.add_flag("--fail-on-collision", request.fail_on_collision,
-                "Exit code 5 when a recorded collision is right");
+                "Exit code 5 when a collision is recorded, and no answer breaks a claim");
   verb.add_flag("--all-steps", request.all_steps,
                 "Print every step, not only those that are not as claimed");
   verb.add("--junit", request.junit_file, "Write what each claim came to here, as JUnit XML");

@@ -104,23 +104,13 @@ Expected<int> run_campaign(const RunRequest& command) {
   return conclude(request, findings.value(), out, took.count());
 }
 
-// Reads "2/8", for example.
-std::optional<properties::Shard> parse_shard(const std::string& word) {
-  const auto slash = word.find('/');
-  if (slash == std::string::npos) return std::nullopt;
-  const auto index = whole_number_of<std::uint64_t>(word.substr(0, slash));
-  const auto count = whole_number_of<std::uint64_t>(word.substr(slash + 1));
-  const bool is_shard = index && count && *index >= 1 && *index <= *count;
-  return is_shard ? std::optional(properties::Shard{*index, *count}) : std::nullopt;
-}
-
 void add_options(Verb& verb, RunRequest& request) {
   request.words.campaign = "quick";
   verb.add("--campaign", request.words.campaign,
            "smoke, quick, nightly, release, faults, or a campaign file (.json)")
       .shows_default();
   add_campaign_options(verb, request.words);
-  add_choice(verb, "--shard", request.shard, "I/N with 1 <= I <= N", parse_shard,
+  add_choice(verb, "--shard", request.shard, "I/N with 1 <= I <= N", shard_of,
              "I/N: the part of the cases that this run makes (default 1/1)");
   verb.add("--out", request.words.out, "Folder for the store and the failing meshes").required();
 }

@@ -127,6 +127,8 @@ def parts_of(result, answers=ANSWERS):
         return 0, 0.0, 0.0, pairs_of(None), None
     get = result.get if isinstance(result, dict) else lambda name: getattr(result, name, None)
     told = get("answer")
+    if told is None and all(get(name) is None for name in ("first", "pairs", "times")):
+        raise ValueError(f"{result!r} is no answer: None (free), or what has answer, first, pairs or times")
     answer = _place("collision" if told is None else told, answers, "answer")
     lo, hi = _interval(get("first")) if answer == 1 else (0.0, 0.0)
     pairs, times = pairs_of(get("pairs")), get("times")
@@ -173,4 +175,6 @@ def pairs_of(pairs):
         return np.zeros((0, 2), np.int32)
     if given.ndim != 2 or given.shape[1] != 2 or given.dtype.kind not in "iu":
         raise ValueError(f"pairs of shape {given.shape} and dtype {given.dtype}: (k, 2) integers are wanted")
+    if given.min() < 0 or given.max() > np.iinfo(np.int32).max:
+        raise ValueError("pairs: an index is no int32 from 0")
     return np.ascontiguousarray(given, np.int32)

@@ -9,13 +9,16 @@ import numpy.typing as npt
 from . import _recorder, arrays, hosting
 
 
+UNTOLD = object()  # in place of an answer: there is none
+
+
 class Recorder:
     """A log of a simulator's steps and of what its own collision detector answered.
 
     path: the file. triangles: integers (m, 3). positions: real numbers (n, 3), those that the
     detector was made from. name, version, claims, contract: of that detector, in the words of a
-    detector in Python (assay/hosting.py); without claims, what is wrong is counted and not held
-    against it. bodies: (n,) the number of each vertex's body, from 0 on; apart: pairs of bodies that
+    detector in Python (assay/hosting.py); without claims there is nothing that `assay judge` could
+    judge. bodies: (n,) the number of each vertex's body, from 0 on; apart: pairs of bodies that
     do not meet, or a body paired with itself.
 
     every: one step of so many is recorded. ring: 0, or the number of newest steps that two files,
@@ -71,7 +74,7 @@ class Recorder:
         *,
         dx: Optional[npt.ArrayLike] = None,
         committed: Optional[npt.ArrayLike] = None,
-        answer: Any = None,
+        answer: Any = UNTOLD,
         first: Any = None,
         pairs: Optional[npt.ArrayLike] = None,
         pair_times: Optional[npt.ArrayLike] = None,
@@ -86,10 +89,10 @@ class Recorder:
         answer: "free", "collision", "undecided" or "error"; first, pairs, pair_times: (lo, hi) or a
         number, (k, 2) triangles, their times (k, 2) or (k,); message: a line. Or answer is what a
         detector in Python answers, such as the result of assay.Detector, which has all of these.
-        None: no answer is recorded. share, positions: how far a limiter let the step go.
+        None is "free", as there; without it no answer is recorded. share, positions: how far a limiter let the step go.
         """
         told = None
-        if answer is not None:
+        if answer is not UNTOLD:
             if isinstance(answer, str):
                 answer = {"answer": answer, "first": first, "pairs": pairs, "times": pair_times}
             elif first is not None or pairs is not None or pair_times is not None:

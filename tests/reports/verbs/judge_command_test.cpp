@@ -5,11 +5,22 @@
 #include "corpus/formats/mesh_writer.h"
 #include "corpus/scenes/scenes.h"
 #include "detector/detector.h"
+#include "tests/public_data.h"
 #include "tests/recorded_log.h"
 #include "tests/reports/run_fixture.h"
 
 namespace assay::tests {
 namespace {
+
+// The steps of a report, without what differs from run to run, or that a log does not have.
+nlohmann::json steps_in(const std::string& file) {
+  auto report = nlohmann::json::parse(read_text(file));
+  for (auto& step : report["steps"]) {
+    step["diff"].erase("limit");
+    if (step.contains("oracle")) step["oracle"].erase("time_ms");
+  }
+  return report["steps"];
+}
 
 class JudgeCommand : public testing::Test {
  protected:
@@ -55,15 +66,6 @@ class JudgeCommand : public testing::Test {
     wrong[collision_] = {};
     wrong[collision_].answer = detector::Answer::free;
     return wrong;
-  }
-
-  static nlohmann::json steps_of(const std::string& file) {
-    auto report = nlohmann::json::parse(read_text(file));
-    for (auto& step : report["steps"]) {
-      step["diff"].erase("limit");  // which the log does not have
-      if (step.contains("oracle")) step["oracle"].erase("time_ms");
-    }
-    return report["steps"];
   }
 
   const Scratch scratch_;
@@ -128,7 +130,7 @@ TEST_F(JudgeCommand, ReportsWhatCheckReportsOfTheSameSteps) {
   const auto judged =
       run_assay("judge " + record(answers_) + " --json " + (scratch_ / "judge.json"));
   EXPECT_EQ(judged.exit_code, 0) << judged.out << judged.err;
-  EXPECT_TRUE(steps_of(scratch_ / "judge.json") == steps_of(scratch_ / "check.json"));
+  EXPECT_TRUE(steps_in(scratch_ / "judge.json") == steps_in(scratch_ / "check.json"));
 }
 
 TEST_F(JudgeCommand, AMissComesHomeAsTwoTrianglesAndTheirNeighbours) {
@@ -216,17 +218,62 @@ TEST_F(JudgeCommand, WhatIsLostIsSaid) {
   EXPECT_EQ(run_assay("judge " + scratch_.write("none.log", "no log")).exit_code, 2);
 }
 
+// Where a step goes is not known; that is no fault of the detector, and no proof for it.
+TEST_F(JudgeCommand, AStepThatIsNoneIsUndecided) {
+  const auto path = scratch_ / "nan.log";
+  LogWriter log(path, sequence_.triangles, sequence_.frames.front());
+  auto broken = sequence_.frames[1];
+  broken(0, 0) = std::nan("");
+  log.step(sequence_.frames.data(), broken, answers_[0]);
+  log.step(sequence_.frames.data(), sequence_.frames[1], answers_[0]);
+  log.end();
+  const auto judged = run_assay("judge " + path);
+  EXPECT_EQ(judged.exit_code, 3) << judged.out;
+  EXPECT_TRUE(says(judged.out, "lost: step 1: a coordinate is not finite"));
+}
+
+TEST_F(JudgeCommand, ALogIsNotOverwritten) {
+  const auto log = record(answers_);
+  for (const char* option : {" --json ", " --junit "}) {
+    EXPECT_EQ(run_assay("judge '" + log + "#1'" + option + log).exit_code, 2);
+    EXPECT_EQ(run_assay("judge " + log).exit_code, 0);
+  }
+}
+
+TEST_F(JudgeCommand, SeveralLogsAreJudgedWhateverOneIs) {
+  const auto out = scratch_ / "out", xml = scratch_ / "all.xml";
+  const auto log = record(with_a_miss());
+  const auto judged = run_assay("judge " + log + " " + (scratch_ / "absent.log") + " " + log +
+                                " --out " + out + " --junit " + xml);
+  EXPECT_EQ(judged.exit_code, 1) << judged.out << judged.err;
+  for (const char* folder : {"/1-steps.log", "/3-steps.log"})
+    EXPECT_TRUE(std::filesystem::exists(out + folder)) << folder;
+  EXPECT_TRUE(says(read_text(xml), "<error message="));
+}
+
 TEST_F(JudgeCommand, AShareOfTheStepsIsTheSameInEveryRun) {
   const auto log = record(answers_);
   const auto run = [&] {
     const auto file = scratch_ / "share.json";
     EXPECT_EQ(run_assay("judge " + log + " --share 0.5 --json " + file).exit_code, 0);
-    return steps_of(file);
+    return steps_in(file);
   };
   const auto steps = run();
   EXPECT_LT(steps.size(), answers_.size());
   EXPECT_GT(steps.size(), 0u);
   EXPECT_TRUE(run() == steps);
+}
+
+TEST_F(JudgeCommand, ShardsJudgeEachStepOnce) {
+  const auto log = record(answers_), file = scratch_ / "part.json";
+  std::size_t steps = 0;
+  for (const char* shard : {"1/2", "2/2"}) {
+    EXPECT_EQ(run_assay("judge " + log + " --shard " + shard + " --json " + file).exit_code, 0);
+    steps += steps_in(file).size();
+  }
+  EXPECT_EQ(steps, answers_.size());
+  EXPECT_EQ(run_assay("judge " + log + " --from 5 --json " + file).exit_code, 0);
+  EXPECT_EQ(steps_in(file).size(), answers_.size() - 4);
 }
 
 TEST_F(JudgeCommand, FollowsALogUntilItEnds) {
@@ -252,6 +299,42 @@ TEST_F(JudgeCommand, WhatALogCannotShowIsNotJudged) {
   EXPECT_TRUE(says(judged.out, "not judged: deterministic, for a log holds each step once"));
   description.claims = ASSAY_CLAIM_DETERMINISTIC;
   EXPECT_EQ(run_assay("judge " + record(answers_, true, description)).exit_code, 2);
+}
+
+// Real meshes, from logs and from frames.
+TEST(JudgePublicSequences, PublicLogsAreReportedAsTheirFrames) {
+  if (!public_data()) GTEST_SKIP() << "no public data";
+  const std::string data = public_data();
+  const std::string cloth = data + "/ipc-toolkit/thick-cloth/t", dancer = data + "/codim-ipc-kick/";
+  std::vector<std::vector<std::filesystem::path>> sequences = {{cloth + "0.ply", cloth + "1.ply"}};
+  auto& frames = sequences.emplace_back();
+  for (const auto& file : std::filesystem::directory_iterator(dancer)) {
+    if (file.path().filename().string().starts_with("shell")) frames.push_back(file.path());
+  }
+  std::ranges::sort(frames);
+  for (const auto& files : sequences) {
+    const Scratch scratch;
+    const auto sequence = corpus::read_sequence(files).value();
+    auto made = detector::Detector::create(sequence.triangles, sequence.frames.front(),
+                                           detector::Options());
+    LogWriter log(scratch / "log", sequence.triangles, sequence.frames.front());
+    std::string words;
+    for (std::size_t f = 0; f < files.size(); ++f) {
+      words += " " + files[f].string();
+      if (f > 0) {
+        log.step(&sequence.frames[f - 1], sequence.frames[f],
+                 made.value().step(sequence.frames[f - 1], sequence.frames[f]));
+      }
+    }
+    log.end();
+    const auto judged = run_assay("judge " + (scratch / "log") + " --json " + (scratch / "a"));
+    EXPECT_EQ(judged.exit_code, 0) << judged.out << judged.err;
+    EXPECT_EQ(run_assay("check" + words + " --detector " + plugin("wrapped_builtin") + " --json " +
+                        (scratch / "b"))
+                  .exit_code,
+              0);
+    EXPECT_TRUE(steps_in(scratch / "a") == steps_in(scratch / "b"));
+  }
 }
 
 }  // namespace
