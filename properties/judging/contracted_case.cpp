@@ -228,10 +228,9 @@ std::string why_left_out(const corpus::Case& c, const Contract& contract) {
   if (!contract_relation(seen, contract)) return "a place at rest has no float32";
   const auto pair = pair_too_near(x, seen, contract);
   if (!pair) return "";
-  return fmt::format("start {}: triangles {} and {} are {} where {}", start, pair->a, pair->b,
-                     distance,
-                     steps.size() > 1 ? "step 1 starts, and every other step starts so"
-                                      : "the step starts");
+  return fmt::format(
+      "start {}: triangles {} and {} are {} where {}", start, pair->a, pair->b, distance,
+      steps.size() > 1 ? "step 1 starts, and every other step starts so" : "the step starts");
 }
 
 using detector::FourPoints;
