@@ -5,8 +5,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <atomic>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
+#include <new>
 #include <sstream>
 #include <system_error>
 #include <vector>
@@ -81,9 +84,23 @@ int run(int argc, char** argv) {
 // The program may end at once, because a store is whole at any moment.
 constexpr const char* no_memory = "not enough memory for this input";
 
+// Some destructors allocate, such as those of nlohmann-json. Where they find no memory while the
+// exception that says so is on its way, the program would be ended by std::terminate. So there is
+// some memory for them alone.
+std::atomic<void*> memory_for_destructors = nullptr;
+void find_memory() {
+  void* const kept =
+      std::uncaught_exceptions() > 0 ? memory_for_destructors.exchange(nullptr) : nullptr;
+  if (!kept) throw std::bad_alloc();
+  std::free(kept);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  constexpr std::size_t bytes_for_destructors = std::size_t{1} << 20;
+  memory_for_destructors = std::malloc(bytes_for_destructors);
+  std::set_new_handler(find_memory);
   // If a file exceeds a limit of the user, the call that writes it fails, and the program is not
   // ended by a signal.
   ::signal(SIGXFSZ, SIG_IGN);
