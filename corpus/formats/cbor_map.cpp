@@ -1,6 +1,7 @@
 #include "corpus/formats/cbor_map.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <limits>
 
