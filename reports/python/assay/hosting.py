@@ -127,7 +127,10 @@ def parts_of(result, answers=ANSWERS):
         return 0, 0.0, 0.0, pairs_of(None), None
     get = result.get if isinstance(result, dict) else lambda name: getattr(result, name, None)
     told = get("answer")
-    if told is None and all(get(name) is None for name in ("first", "pairs", "times")):
+    is_bare = not isinstance(result, dict) and all(
+        get(name) is None for name in ("answer", "first", "pairs", "times")
+    )
+    if is_bare:  # False, say, or a number
         raise ValueError(f"{result!r} is no answer: None (free), or what has answer, first, pairs or times")
     answer = _place("collision" if told is None else told, answers, "answer")
     lo, hi = _interval(get("first")) if answer == 1 else (0.0, 0.0)

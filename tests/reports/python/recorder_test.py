@@ -196,3 +196,13 @@ def test_files_that_are_there_stay(path, pair):
     assert len(records(path)) == 2
     with pytest.raises(OSError, match="cannot open"):
         assay.Recorder(path / "below", pair.triangles, pair.x_t0, **MINE)
+
+
+@pytest.mark.parametrize("answer", [False, 0, 7, []])
+def test_what_is_no_answer_is_refused(tmp_path, answer):
+    """A False that was read as "something was found" would hide every miss."""
+    triangles, positions = [(0, 1, 2)], [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
+    with assay.Recorder(tmp_path / "log", triangles, positions, name="mine", claims=["free-sound"]) as log:
+        with pytest.raises(ValueError, match="is no answer"):
+            log.step(positions, positions, answer=answer)
+        log.step(positions, positions, answer=None)

@@ -1,5 +1,6 @@
 """A simulator's log (tests/recording/cloth.cpp): its answers against the exact ones, and written again."""
 
+import json
 import os
 import subprocess
 from pathlib import Path
@@ -83,3 +84,23 @@ def test_python_writes_the_same_bytes(logs, tmp_path):
                 pair_times=rows(step.get("pair_times"), 2),
             )
     assert (tmp_path / "again").read_bytes() == (logs / "slip").read_bytes()
+
+
+def test_the_slip_comes_home_as_two_triangles(logs, tmp_path):
+    """Recorded by Python, judged by the program."""
+    triangles, rest, steps = steps_of(logs / "slip")
+    with assay.Recorder(tmp_path / "log", triangles, rest, **WORDS) as recorder:
+        for x0, step in steps[:120]:
+            is_hit = step["answer"] == 1
+            recorder.step(
+                x0,
+                rows(step["x1"]),
+                answer=ANSWERS[step["answer"]],
+                first=(step["first_lo"], step["first_hi"]) if is_hit else None,
+                pairs=rows(step.get("pairs"), 2),
+            )
+    program = Path(os.environ["ASSAY_BUILD_DIR"], "assay")
+    judged = subprocess.run([program, "judge", tmp_path / "log", "--out", tmp_path / "out"])
+    assert judged.returncode == 1
+    first = sorted((tmp_path / "out").iterdir())[0]
+    assert len(json.loads((first / "pair.json").read_text())["triangles"]) == 2

@@ -301,6 +301,63 @@ TEST_F(JudgeCommand, WhatALogCannotShowIsNotJudged) {
   EXPECT_EQ(run_assay("judge " + record(answers_, true, description)).exit_code, 2);
 }
 
+nlohmann::json pair_of_first_failure(const std::string& out) {
+  std::vector<std::filesystem::path> steps;
+  for (const auto& entry : std::filesystem::directory_iterator(out)) steps.push_back(entry.path());
+  std::ranges::sort(steps);
+  return steps.empty() ? nlohmann::json()
+                       : nlohmann::json::parse(read_text(steps.front() / "pair.json"));
+}
+
+// A cloth that falls and folds; its detector drops some pairs of edges (tests/recording/cloth.cpp).
+TEST(JudgeSimulators, TheSlipOfAClothComesHomeAsTwoTriangles) {
+  const Scratch scratch;
+  const auto cloth = std::filesystem::path(ASSAY_PROGRAM).parent_path() / "record_cloth";
+  for (const std::string slip : {"", " slip"}) {
+    const auto log = scratch / "cloth.log", out = scratch / "out";
+    ASSERT_EQ(std::system((cloth.string() + " " + log + slip + " >/dev/null").c_str()), 0);
+    const auto judged = run_assay("judge " + log + " --out " + out);
+    EXPECT_EQ(judged.exit_code, slip.empty() ? 0 : 1) << judged.out << judged.err;
+    if (slip.empty()) continue;
+    EXPECT_TRUE(says(judged.out, "of 500 steps judged"));
+    EXPECT_EQ(pair_of_first_failure(out)["triangles"].size(), 2u);
+  }
+}
+
+// A program in C that knows nothing of us but the header.
+TEST(JudgeSimulators, TheSlipOfACProgramComesHomeAsTwoTriangles) {
+  const Scratch scratch;
+  const auto source = scratch.write("simulator.c", R"(
+#include "assay_record.h"
+int main(int count, char** words) {
+  const int32_t triangles[] = {0, 1, 2, 3, 4, 5};
+  double x0[] = {0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, 2, 2, 1, 3, 1, 2, 3}, x1[18];
+  const assay_description mine = {.name = "mine", .version = "1", .claims = ASSAY_CLAIM_FREE_SOUND};
+  const assay_record_settings settings = {.path = words[count - 1]};
+  const assay_record_array rest = {.data = x0};
+  const assay_result none = {.answer = ASSAY_FREE};
+  assay_recorder log;
+  int32_t code = assay_record_begin(&log, &settings, &mine, triangles, 2, rest, 6, NULL);
+  for (int step = 0; step < 500; ++step) {
+    memcpy(x1, x0, sizeof x1);
+    for (int v = 3; v < 6; ++v) x1[3 * v + 2] -= 0.01; /* the second one falls through the first */
+    const assay_record_step_data data = {.x0 = {x0, 0}, .x1 = {x1, 0}, .result = &none};
+    if (code == ASSAY_OK) code = assay_record_step(&log, &data);
+    memcpy(x0, x1, sizeof x0);
+  }
+  return code == ASSAY_OK ? assay_record_end(&log) : code;
+}
+)");
+  const auto program = scratch / "simulator", log = scratch / "c.log", out = scratch / "out";
+  const std::string built = "cc -std=c99 -Wall -Wextra -pedantic -Werror -I" ASSAY_SOURCE_DIR
+                            "/detector/plugin " +
+                            source + " -o " + program;
+  ASSERT_EQ(std::system((built + " && " + program + " " + log).c_str()), 0);
+  const auto judged = run_assay("judge " + log + " --out " + out);
+  EXPECT_EQ(judged.exit_code, 1) << judged.out << judged.err;
+  EXPECT_EQ(pair_of_first_failure(out)["triangles"].size(), 2u);
+}
+
 // Real meshes, from logs and from frames.
 TEST(JudgePublicSequences, PublicLogsAreReportedAsTheirFrames) {
   if (!public_data()) GTEST_SKIP() << "no public data";
