@@ -108,6 +108,12 @@ const detector::Positions& end_of(const Case& c, const CaseStep& step);
 // The view primitive during steps_of(c)[step]; nothing when the case states none.
 std::optional<detector::ViewPrimitive> view_of_step(const Case& c, std::size_t step);
 
+// A step as a case by itself. `rest`: the frame that a detector is made from, which then is the
+// first one; null: where the step starts. `counted`: which pairs count; null: all of them.
+Case case_of_step(const detector::Triangles& triangles, const detector::CountedPairs* counted,
+                  const detector::Positions* rest, const detector::Positions& x_t0,
+                  const detector::Positions& x_t1);
+
 // The vertices of a frame as points.
 std::vector<detector::Point> points_of(const detector::Positions& x);
 

@@ -36,6 +36,19 @@ std::optional<detector::ViewPrimitive> view_of_step(const Case& c, std::size_t s
   return detector::ViewPrimitive{q0, c.view->q1.empty() ? q0 : moving(c.view->q1)};
 }
 
+Case case_of_step(const detector::Triangles& triangles, const detector::CountedPairs* counted,
+                  const detector::Positions* rest, const detector::Positions& x_t0,
+                  const detector::Positions& x_t1) {
+  Case c;
+  c.triangles = triangles;
+  if (rest) c.frames.push_back(*rest);
+  c.frames.push_back(x_t0);
+  c.frames.push_back(x_t1);
+  if (rest) c.script = {{1, 2, true}};
+  if (counted) c.counted = CaseRelation{*counted, {}};
+  return c;
+}
+
 std::vector<detector::Point> points_of(const detector::Positions& x) {
   std::vector<detector::Point> points;
   for (std::int32_t v = 0; v < x.rows(); ++v) points.push_back(detector::point_of(x, v));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstring>
 #include <limits>
 
@@ -183,11 +184,6 @@ std::optional<std::string> CborMap::text(std::string_view key) const {
 }
 
 const CborMap* CborMap::map(std::string_view key) const { return find<CborMap>(key); }
-
-std::optional<CborMap::Numbers> CborMap::numbers(std::string_view key) const {
-  if (const auto* x = find<Numbers>(key)) return *x;
-  return std::nullopt;
-}
 
 std::optional<std::vector<double>> CborMap::doubles(std::string_view key) const {
   const auto* x = find<Numbers>(key);

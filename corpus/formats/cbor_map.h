@@ -2,7 +2,6 @@
 // (RFC 8746), and maps of these. It copies no array until it is asked for one.
 #pragma once
 
-#include <bit>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -33,7 +32,6 @@ class CborMap {
   std::optional<double> number(std::string_view key) const;
   std::optional<std::string> text(std::string_view key) const;
   const CborMap* map(std::string_view key) const;
-  std::optional<Numbers> numbers(std::string_view key) const;
   // An array of float32 or float64, or of int32.
   std::optional<std::vector<double>> doubles(std::string_view key) const;
   std::optional<std::vector<std::int32_t>> integers(std::string_view key) const;

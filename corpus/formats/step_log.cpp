@@ -19,11 +19,7 @@ namespace {
 
 using detector::Positions;
 
-// A record: an array of these four letters, the body as bytes of CBOR, and its checksum.
-constexpr std::string_view mark(
-    "\x83\x44"
-    "ASR1",
-    6);
+// A record: an array of four letters, the body as bytes of CBOR, and its checksum.
 constexpr std::string_view before_length("\xD8\x18\x5B", 3);
 constexpr char before_checksum = '\x1A';
 constexpr std::size_t head_bytes = 17, length_bytes = 8, tail_bytes = 5;
@@ -149,8 +145,8 @@ bool StepLog::read(std::uint64_t offset, std::size_t count, std::string& bytes) 
 
 std::optional<StepLog::Record> StepLog::record_at(std::uint64_t offset) {
   std::string head;
-  if (!read(offset, head_bytes, head) || !head.starts_with(mark) ||
-      head.compare(mark.size(), before_length.size(), before_length) != 0)
+  if (!read(offset, head_bytes, head) || !head.starts_with(mark_of_log) ||
+      head.compare(mark_of_log.size(), before_length.size(), before_length) != 0)
     return std::nullopt;
   const auto length = big_endian<std::uint64_t>(head.data() + head_bytes - length_bytes);
   const auto left = size_ - offset - head_bytes;
@@ -185,12 +181,13 @@ std::optional<std::uint64_t> StepLog::next_record(std::uint64_t offset) {
   for (std::uint64_t from = offset + 1; from + head_bytes <= size_;) {
     const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(piece_bytes, size_ - from));
     if (!read(from, count, piece)) return std::nullopt;
-    for (auto at = piece.find(mark); at != std::string::npos; at = piece.find(mark, at + 1)) {
+    for (auto at = piece.find(mark_of_log); at != std::string::npos;
+         at = piece.find(mark_of_log, at + 1)) {
       if (record_at(from + at)) return from + at;
       if (summed_ > most_summed()) return std::nullopt;
     }
     if (count < piece_bytes) break;
-    from += count - mark.size();  // a mark may lie across both pieces
+    from += count - mark_of_log.size();  // a mark may lie across both pieces
   }
   return std::nullopt;
 }
@@ -220,7 +217,7 @@ Expected<void> StepLog::begin() {
   const auto record = record_at(0);
   if (!record) {
     std::string start;
-    const bool is_log = read(0, mark.size(), start) && start == mark;
+    const bool is_log = read(0, mark_of_log.size(), start) && start == mark_of_log;
     return problem_in(path_, is_log ? "its first record is damaged, so it is not known of which "
                                       "mesh and detector it is"
                                     : "it is no log of steps");

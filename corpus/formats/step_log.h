@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "corpus/file_bytes.h"
@@ -20,6 +21,9 @@
 namespace assay::corpus {
 
 class CborMap;
+
+// The bytes with which a log begins, and each of its records.
+inline constexpr std::string_view mark_of_log("\x83\x44\x41\x53\x52\x31", 6);
 
 // What holds for all steps.
 struct LogHead {

@@ -7,6 +7,7 @@
 
 #include "corpus/file_bytes.h"
 #include "corpus/formats/bodies_reader.h"
+#include "corpus/formats/step_log.h"
 #include "detector/mesh/mesh_checks.h"
 
 namespace assay::corpus {
@@ -133,10 +134,6 @@ Expected<std::unique_ptr<StepSource>> steps_of_bodies(const BodyFiles& bodies) {
 
 Expected<std::unique_ptr<StepSource>> read_steps(const std::vector<std::filesystem::path>& files) {
   if (files.size() > 1 || files[0].extension() != ".json") {
-    constexpr std::string_view mark_of_log(
-        "\x83\x44"
-        "ASR1",
-        6);
     const auto start = read_start(files[0], mark_of_log.size());
     if (start && start.value() == mark_of_log)
       return problem_in(files[0], "it is a log of steps: assay judge");

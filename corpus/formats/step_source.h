@@ -29,8 +29,15 @@ class StepSource {
   // Whether there is a step s, which comes after those that were asked for. An input that still
   // grows may wait for it.
   virtual Expected<bool> has(std::size_t s) { return s < count(); }
+  // The number of step s in the whole that the input is a part of, from 0.
+  virtual std::uint64_t number_of(std::size_t s) const { return s; }
   // What the input holds that is no part of the question, in words; empty for nothing.
   virtual std::string remark() const { return ""; }
+  // A line each: what was noted before the step that was asked for last, and, after all steps, what
+  // of the input is lost, so that nothing is known of it, and what else is to be said.
+  virtual std::vector<std::string> notes() const { return {}; }
+  virtual std::vector<std::string> lost() const { return {}; }
+  virtual std::vector<std::string> last_remarks() const { return {}; }
   // The number of frames, in memory or not.
   virtual std::size_t frames() const = 0;
   virtual const detector::Triangles& triangles() const = 0;

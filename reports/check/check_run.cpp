@@ -58,7 +58,7 @@ class CheckRun {
         BOOST_OUTCOME_TRY(is_there, has_step(s));
         if (!is_there) break;
         BOOST_OUTCOME_TRY(step, read_step(s));
-        for (const auto& line : answers_.notes()) tell_note(s, line);
+        for (const auto& line : steps_.notes()) tell_note(s, line);
         auto json = leave_out(s);
         const bool is_left_out = json.has_value();
         if (!is_left_out) json = run_step(s, step);
@@ -69,7 +69,7 @@ class CheckRun {
       if (has_facts() && !outcome_.undecided) check_facts();
     }
     outcome_.limit_reached = limits_.reached();
-    outcome_.lost = answers_.lost();
+    outcome_.lost = steps_.lost();
     outcome_.undecided |= !outcome_.lost.empty();
     constexpr std::size_t most_told = 20;
     for (std::size_t i = 0; i < std::min(outcome_.lost.size(), most_told); ++i)
@@ -80,7 +80,7 @@ class CheckRun {
       outcome_.lost.push_back(more);
       say(fmt::format("lost: {}\n", more));
     }
-    for (const auto& line : answers_.remarks()) say(line + "\n");
+    for (const auto& line : steps_.last_remarks()) say(line + "\n");
     if (answers_.is_plugin() && !question_.no_oracle) {
       outcome_.judge_claims(answers_.under_test(), answers_.steps_left_out());
       for (auto& claim : answers_.beyond_reach()) outcome_.not_judged.push_back(std::move(claim));
@@ -197,7 +197,7 @@ class CheckRun {
   void tell_note(std::size_t s, const std::string& note) {
     constexpr std::size_t most_told = 100;
     if (++notes_told_ <= most_told)
-      say(fmt::format("noted before step {}: {}\n", answers_.number_of(s) + 1, note));
+      say(fmt::format("noted before step {}: {}\n", steps_.number_of(s) + 1, note));
     if (notes_told_ == most_told) say("further notes are not shown\n");
   }
 
@@ -207,7 +207,7 @@ class CheckRun {
     const auto why = answers_.left_out();
     if (!why) return std::nullopt;
     if (why->empty()) return nlohmann::ordered_json();
-    const auto number = answers_.number_of(s);
+    const auto number = steps_.number_of(s);
     // Many steps are left out for the same reason, in other words at most by other numbers.
     const bool is_new = reasons_.insert(why->substr(0, why->find(':'))).second;
     if (is_new || question_.shows_all_steps)
@@ -217,7 +217,7 @@ class CheckRun {
   }
 
   nlohmann::ordered_json run_step(std::size_t s, const corpus::SourceStep& step) {
-    const auto shown_number = static_cast<std::size_t>(answers_.number_of(s)) + 1;
+    const auto shown_number = static_cast<std::size_t>(steps_.number_of(s)) + 1;
     Progress progress(fmt::format("step {}/{}", s + 1, step_count()));
     const detector::StopFunction stop = [&] {
       progress.tick();
@@ -266,8 +266,7 @@ class CheckRun {
     outcome_.undecided |= diff.outcome == Outcome::undecided || diff.outcome == Outcome::error;
     if (answers_.is_plugin()) outcome_.count(diff, result);
     ++outcome_.judged_steps;
-    for (const auto claim : diff.broken)
-      outcome_.first_broken.emplace(claim, answers_.number_of(s));
+    for (const auto claim : diff.broken) outcome_.first_broken.emplace(claim, steps_.number_of(s));
     if (question_.shows_all_steps || diff.outcome != Outcome::holds)
       say(step_text(shown_number, result, &oracle, shown_work(s)) + told_error);
     if (diff.outcome == Outcome::defect) {

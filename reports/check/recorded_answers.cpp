@@ -48,6 +48,44 @@ class RecordedSteps : public corpus::StepSource {
     return s < log_.count();
   }
 
+  std::uint64_t number_of(std::size_t s) const override { return log_.number_of(s); }
+
+  std::vector<std::string> notes() const override {
+    std::vector<std::string> lines;
+    const auto [begin, end] = log_.notes().equal_range(now_.number);
+    for (auto note = begin; is_chosen_ && note != end; ++note)
+      lines.push_back(properties::line_of(note->second.c_str()));
+    return lines;
+  }
+
+  std::vector<std::string> lost() const override {
+    std::vector<std::string> lines;
+    for (const auto& damage : log_.damages()) {
+      lines.push_back(damage.to > damage.from
+                          ? fmt::format("bytes {} to {}: {}", damage.from, damage.to, damage.what)
+                          : fmt::format("before byte {}: {}", damage.from, damage.what));
+    }
+    lines.insert(lines.end(), unknown_.begin(), unknown_.end());
+    return lines;
+  }
+
+  std::vector<std::string> last_remarks() const override {
+    std::vector<std::string> lines;
+    if (unanswered_ > 0)
+      lines.push_back(
+          fmt::format("{} step{} without an answer", unanswered_, unanswered_ == 1 ? "" : "s"));
+    const auto rest = log_.rest();
+    if (!rest.what.empty()) {
+      lines.push_back(
+          fmt::format("bytes {} to {}, the last of the log, are {}: it was cut, or is "
+                      "being written",
+                      rest.from, rest.to, rest.what));
+    } else if (!log_.is_ended()) {
+      lines.emplace_back("the recorder was not told to end the log");
+    }
+    return lines;
+  }
+
   corpus::Expected<corpus::SourceStep> step(std::size_t s) override {
     is_chosen_ = chooses(log_.number_of(s));
     why_left_out_.clear();
@@ -65,7 +103,8 @@ class RecordedSteps : public corpus::StepSource {
       why_left_out_ = "nothing was recorded that its claims are about";
       return corpus::SourceStep{now_.x_t0, now_.x_t1};
     }
-    auto c = as_case();
+    const auto* rest = contract_.rest_distance > 0 ? &first_frame() : nullptr;
+    const auto c = corpus::case_of_step(triangles(), counted(), rest, now_.x_t0, now_.x_t1);
     if (auto seen = properties::contracted(c, contract_)) {
       const auto script = corpus::steps_of(*seen);
       now_.x_t0 = start_of(*seen, script.front());
@@ -81,15 +120,11 @@ class RecordedSteps : public corpus::StepSource {
     return corpus::problem_in({}, "a log is judged as it is read");
   }
 
-  const corpus::StepLog& log() const { return log_; }
   // Of the step that was read last.
   const corpus::LogStep& now() const { return now_; }
   bool is_chosen() const { return is_chosen_; }
   const std::string& why_left_out() const { return why_left_out_; }
   bool is_beyond_contract() const { return is_beyond_contract_; }
-  // Of all steps so far.
-  const std::vector<std::string>& unknown() const { return unknown_; }
-  std::size_t unanswered() const { return unanswered_; }
 
  private:
   // Spreads the numbers evenly, and goes by them alone, so that every run chooses the same steps.
@@ -98,19 +133,6 @@ class RecordedSteps : public corpus::StepSource {
     if (number < selection_.from || !selection_.shard.holds(number)) return false;
     constexpr std::uint64_t golden = 0x9E3779B97F4A7C15;
     return static_cast<double>((number * golden) >> 11) * 0x1p-53 < selection_.share;
-  }
-
-  // The mesh at rest is the first frame of a case where the contract goes by it.
-  corpus::Case as_case() const {
-    corpus::Case c;
-    c.triangles = triangles();
-    c.frames = {now_.x_t0, now_.x_t1};
-    if (counted()) c.counted = corpus::CaseRelation{*counted(), {}};
-    if (contract_.rest_distance > 0) {
-      c.frames.insert(c.frames.begin(), first_frame());
-      c.script = {{1, 2, true}};
-    }
-    return c;
   }
 
   corpus::StepLog& log_;
@@ -140,41 +162,6 @@ class Recorded : public GivenAnswers {
     steps_left_out_ += steps_.is_beyond_contract() ? 1 : 0;
     return steps_.why_left_out();
   }
-
-  std::vector<std::string> lost() const override {
-    std::vector<std::string> lines;
-    for (const auto& damage : steps_.log().damages()) {
-      lines.push_back(damage.to > damage.from
-                          ? fmt::format("bytes {} to {}: {}", damage.from, damage.to, damage.what)
-                          : fmt::format("before byte {}: {}", damage.from, damage.what));
-    }
-    lines.insert(lines.end(), steps_.unknown().begin(), steps_.unknown().end());
-    return lines;
-  }
-
-  std::vector<std::string> notes() const override {
-    std::vector<std::string> lines;
-    const auto [begin, end] = steps_.log().notes().equal_range(steps_.now().number);
-    for (auto note = begin; steps_.is_chosen() && note != end; ++note)
-      lines.push_back(properties::line_of(note->second.c_str()));
-    return lines;
-  }
-
-  std::vector<std::string> remarks() const override {
-    const auto rest = steps_.log().rest();
-    const auto unanswered = steps_.unanswered();
-    if (unanswered > 0)
-      return {fmt::format("{} step{} without an answer", unanswered, unanswered == 1 ? "" : "s")};
-    if (!rest.what.empty())
-      return {
-          fmt::format("bytes {} to {}, the last of the log, are {}: it was cut, or is being "
-                      "written",
-                      rest.from, rest.to, rest.what)};
-    if (!steps_.log().is_ended()) return {"the recorder was not told to end the log"};
-    return {};
-  }
-
-  std::uint64_t number_of(std::size_t s) const override { return steps_.log().number_of(s); }
 
   std::vector<properties::NotJudged> beyond_reach() const override { return beyond_a_log_; }
 

@@ -49,14 +49,6 @@ class StepAnswers {
   // Why the step that was read last is not judged; an empty text: it was not chosen. Asked before
   // its answer, once.
   virtual std::optional<std::string> left_out() { return std::nullopt; }
-  // The number of step s in its input, from 0.
-  virtual std::uint64_t number_of(std::size_t s) const { return s; }
-  // What was noted before the step that was read last.
-  virtual std::vector<std::string> notes() const { return {}; }
-  // What of the input is lost, a line each, so that nothing is known of it. Asked after all steps.
-  virtual std::vector<std::string> lost() const { return {}; }
-  // What else is to be said of the input. Asked after all steps.
-  virtual std::vector<std::string> remarks() const { return {}; }
   // Claims of the detector that this kind of input cannot show, and why. They are not among those
   // of under_test().
   virtual std::vector<properties::NotJudged> beyond_reach() const { return {}; }

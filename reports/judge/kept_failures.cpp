@@ -22,18 +22,6 @@ using detector::TrianglePair;
 // A step that fails as many others do shows nothing new.
 constexpr int most_of_a_kind = 10;
 
-corpus::Case case_of(const FailedStep& failed) {
-  corpus::Case c;
-  c.triangles = failed.source.triangles();
-  c.frames = {failed.step.x_t0, failed.step.x_t1};
-  if (failed.source.counted()) c.counted = corpus::CaseRelation{*failed.source.counted(), {}};
-  if (failed.detector.contract.rest_distance > 0) {
-    c.frames.insert(c.frames.begin(), failed.source.first_frame());
-    c.script = {{1, 2, true}};
-  }
-  return c;
-}
-
 // Marks the triangles that have a vertex of those that are marked.
 void add_neighbours(const detector::Triangles& triangles, Eigen::Index vertices,
                     std::vector<std::uint8_t>& marked) {
@@ -98,7 +86,9 @@ Expected<std::string> KeptFailures::keep(const FailedStep& failed) {
   if (kept_[failure.signature()]++ >= most_of_a_kind)
     return fmt::format("  not kept, {} of its kind are: {}\n{}", most_of_a_kind,
                        failure.signature(), replay);
-  const auto whole = case_of(failed);
+  const auto* rest = contract.rest_distance > 0 ? &failed.source.first_frame() : nullptr;
+  const auto whole = corpus::case_of_step(failed.source.triangles(), failed.source.counted(), rest,
+                                          failed.step.x_t0, failed.step.x_t1);
   const auto part = [&](int rings) {
     return failure.pair ? part_that_shows(whole, *failure.pair, contract, rings) : std::nullopt;
   };
@@ -125,11 +115,7 @@ Expected<std::string> KeptFailures::keep(const FailedStep& failed) {
   if (!again_) return text;
   BOOST_OUTCOME_TRY(told, ask_again(c, folder));
   if (told.empty() && c.triangles.rows() < whole.triangles.rows()) {
-    c.triangles = whole.triangles;
-    c.frames = whole.frames;
-    c.script = whole.script;
-    c.counted = whole.counted;
-    BOOST_OUTCOME_TRY(of_whole, ask_again(c, folder));
+    BOOST_OUTCOME_TRY(of_whole, ask_again(whole, folder));
     told = std::move(of_whole);
   }
   return text +
@@ -137,7 +123,8 @@ Expected<std::string> KeptFailures::keep(const FailedStep& failed) {
 }
 
 // Asks the plug-in about the case, and shrinks it if it fails. An empty text: it is right.
-Expected<std::string> KeptFailures::ask_again(corpus::Case c, const std::filesystem::path& folder) {
+Expected<std::string> KeptFailures::ask_again(const corpus::Case& c,
+                                              const std::filesystem::path& folder) {
   const auto& detector = again_->detector;
   const auto& configuration = detector.configurations.front();
   if (!properties::contracted(c, detector.contract)) return std::string();

@@ -26,7 +26,7 @@ class KeptFailures {
   Expected<std::string> keep(const FailedStep& failed);
 
  private:
-  Expected<std::string> ask_again(corpus::Case c, const std::filesystem::path& folder);
+  Expected<std::string> ask_again(const corpus::Case& c, const std::filesystem::path& folder);
 
   const std::filesystem::path folder_;
   const std::string origin_;

@@ -39,17 +39,12 @@ corpus::Expected<corpus::Case> read_case_of(const std::vector<std::string>& word
                               fmt::format("there is no whole record of step {}", *name.step + 1));
   BOOST_OUTCOME_TRY(step, log.step(*place));
   if (!step.why_unknown.empty()) return corpus::problem_in(words.front(), step.why_unknown);
-  corpus::Case c;
+  const auto& head = log.head();
+  const auto* rest = head.positions != step.x_t0 ? &head.positions : nullptr;
+  auto c = corpus::case_of_step(head.triangles, head.counted ? &*head.counted : nullptr, rest,
+                                step.x_t0, step.x_t1);
   c.id = fmt::format("step-{}", *name.step + 1);
   c.source = words.front();
-  c.triangles = log.head().triangles;
-  c.frames = {step.x_t0, step.x_t1};
-  // The detector is made from the mesh as it was at rest.
-  if (log.head().positions != step.x_t0) {
-    c.frames.insert(c.frames.begin(), log.head().positions);
-    c.script = {{1, 2, true}};
-  }
-  if (log.head().counted) c.counted = corpus::CaseRelation{*log.head().counted, {}};
   return c;
 }
 

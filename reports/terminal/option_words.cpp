@@ -140,6 +140,14 @@ Check share() {
           }};
 }
 
+void add_limits(Verb& verb, std::optional<double>& seconds, std::optional<std::uint64_t>& bytes) {
+  verb.add("--time", seconds,
+           "Limit in seconds of processor time, all threads together; what is left is undecided")
+      .with(positive());
+  add_choice(verb, "--memory", bytes, "a whole number above 0, alone or with K, M or G",
+             memory_size, "Limit of resident memory, such as 6GB or 512MB (MB: 2^20 bytes)");
+}
+
 void add_jobs(Verb& verb, int& jobs) {
   jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   verb.add("--jobs", jobs, "Threads of the oracle; the result does not depend on it")

@@ -139,6 +139,8 @@ struct DetectorWords {
 
 // The options --jobs (all cores, unless told otherwise) and --seed.
 void add_jobs(Verb& verb, int& jobs);
+// The options --time and --memory of a verb that does its work in this process (limits.h).
+void add_limits(Verb& verb, std::optional<double>& seconds, std::optional<std::uint64_t>& bytes);
 void add_seed(Verb& verb, std::uint64_t& seed, const std::string& about);
 // The option --part: which part of a plug-in a campaign is about.
 void add_part(Verb& verb, DetectorPart& part);

@@ -156,13 +156,7 @@ void add_options(Verb& verb, CheckRequest& request) {
     offset.excludes(option);
   }
   add_jobs(verb, request.question.jobs);
-  verb.add("--time", request.question.time_limit,
-           "Limit in seconds of processor time, all threads together; what is left is "
-           "undecided")
-      .with(positive());
-  add_choice(verb, "--memory", request.question.memory_limit,
-             "a whole number above 0, alone or with K, M or G", memory_size,
-             "Limit of resident memory, such as 6GB or 512MB (MB: 2^20 bytes)");
+  add_limits(verb, request.question.time_limit, request.question.memory_limit);
   verb.add_flag("--fail-on-collision", request.fail_on_collision,
                 "Exit code 5 when they agree on a collision, or a step comes within --separation");
   verb.add(

@@ -114,12 +114,7 @@ void add_options(Verb& verb, JudgeRequest& request) {
            "Check the oracle itself by other methods, on this share of its questions")
       .with(reports::share());
   add_jobs(verb, question.check.jobs);
-  verb.add("--time", question.check.time_limit,
-           "Limit in seconds of processor time for each log; what is left is undecided")
-      .with(positive());
-  add_choice(verb, "--memory", question.check.memory_limit,
-             "a whole number above 0, alone or with K, M or G", memory_size,
-             "Limit of resident memory, such as 6GB or 512MB (MB: 2^20 bytes)");
+  add_limits(verb, question.check.time_limit, question.check.memory_limit);
   verb.add_flag("--fail-on-collision", request.fail_on_collision,
                 "Exit code 5 when a collision is recorded, and no answer breaks a claim");
   verb.add_flag("--all-steps", request.all_steps,

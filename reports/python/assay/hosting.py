@@ -178,6 +178,12 @@ def pairs_of(pairs):
         return np.zeros((0, 2), np.int32)
     if given.ndim != 2 or given.shape[1] != 2 or given.dtype.kind not in "iu":
         raise ValueError(f"pairs of shape {given.shape} and dtype {given.dtype}: (k, 2) integers are wanted")
-    if given.min() < 0 or given.max() > np.iinfo(np.int32).max:
-        raise ValueError("pairs: an index is no int32 from 0")
+    return int32_of(given, "pairs")
+
+
+def int32_of(numbers, name):
+    """Whole numbers from 0 on as int32. ValueError: others."""
+    given = np.asarray(numbers)
+    if given.dtype.kind not in "iu" or (given.size and (given.min() < 0 or given.max() > np.iinfo(np.int32).max)):
+        raise ValueError(f"{name}: whole numbers from 0 to {np.iinfo(np.int32).max} are wanted")
     return np.ascontiguousarray(given, np.int32)

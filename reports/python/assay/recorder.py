@@ -8,7 +8,6 @@ import numpy.typing as npt
 
 from . import _recorder, arrays, hosting
 
-
 UNTOLD = object()  # in place of an answer: there is none
 
 
@@ -53,7 +52,7 @@ class Recorder:
             raise ValueError("every and ring are numbers of steps")
         rest = _frame(positions, "positions", True)
         self._vertices = len(rest)
-        body = None if bodies is None else np.ascontiguousarray(bodies, np.int32)
+        body = None if bodies is None else hosting.int32_of(bodies, "bodies")
         if body is not None and body.shape != (self._vertices,):
             raise ValueError(f"bodies: shape {body.shape} is not ({self._vertices},)")
         self._recorder = _recorder.Recorder(
@@ -89,7 +88,8 @@ class Recorder:
         answer: "free", "collision", "undecided" or "error"; first, pairs, pair_times: (lo, hi) or a
         number, (k, 2) triangles, their times (k, 2) or (k,); message: a line. Or answer is what a
         detector in Python answers, such as the result of assay.Detector, which has all of these.
-        None is "free", as there; without it no answer is recorded. share, positions: how far a limiter let the step go.
+        None is "free", as there; without it no answer is recorded. share, positions: how far a
+        limiter let the step go.
         """
         told = None
         if answer is not UNTOLD:
