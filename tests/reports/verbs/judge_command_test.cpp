@@ -232,6 +232,22 @@ TEST_F(JudgeCommand, AStepThatIsNoneIsUndecided) {
   EXPECT_TRUE(says(judged.out, "lost: step 1: a coordinate is not finite"));
 }
 
+TEST_F(JudgeCommand, AnAbsentAnswerHidesNoOtherRemark) {
+  const auto path = scratch_ / "silent.log";
+  LogWriter log(path, sequence_.triangles, sequence_.frames.front());
+  assay_record_step_data silent = {};
+  silent.x0 = silent.x1 = LogWriter::array(sequence_.frames.front());
+  log.step(silent);
+  log.step(sequence_.frames.data(), sequence_.frames[1], answers_[0]);
+  log.end();
+  const auto text = read_text(path);
+  const auto judged =
+      run_assay("judge " + scratch_.write("cut.log", text.substr(0, text.size() - 9)));
+  EXPECT_EQ(judged.exit_code, 0) << judged.out;
+  EXPECT_TRUE(says(judged.out, "1 step without an answer"));
+  EXPECT_TRUE(says(judged.out, "it was cut, or is being written"));
+}
+
 TEST_F(JudgeCommand, ALogIsNotOverwritten) {
   const auto log = record(answers_);
   for (const char* option : {" --json ", " --junit "}) {
