@@ -121,6 +121,45 @@ TEST_F(ForeignLogs, WrongKindsInAStepAreNotTakenForAbsent) {
   EXPECT_FALSE(read("positions", doubles({0, 0, 0})).limit->positions->allFinite());
 }
 
+// The caller stopped before the end, and there the next step starts.
+TEST_F(ForeignLogs, AStepStartsWhereTheCallerStopped) {
+  auto first = step(0), second = step(1);
+  first["committed"] = doubles({5, 0, 0, 6, 0, 0, 5, 1, 0});
+  second.erase("x0");
+  auto log = open({begin(), first, second}).value();
+  EXPECT_EQ(log.step(1).value().x_t0(0, 0), 5);
+  EXPECT_EQ(log.step(1).value().x_t1(0, 0), 0);
+}
+
+// The search for the next record reads a piece at a time, and its mark may lie across two.
+TEST_F(ForeignLogs, ARecordBehindMuchDamageIsFound) {
+  constexpr std::size_t piece = std::size_t{1} << 20;
+  for (std::size_t more = 0; more < 9; ++more) {
+    const auto text = record(begin()) + std::string(piece - 2 + more, 'x') + record(step(0));
+    const auto log = StepLog::open(write("far.log", text));
+    EXPECT_EQ(log.value().count(), 1u) << more;
+    EXPECT_EQ(log.value().damages().size(), 1u);
+  }
+}
+
+// A hundred thousand heads, each with a length that fits: their bodies are not all summed.
+TEST_F(ForeignLogs, ManyWrongLengthsEndTheSearch) {
+  constexpr std::size_t heads = 100'000, head_bytes = 17;
+  std::string text = record(begin());
+  const auto end = text.size() + heads * head_bytes;
+  for (std::size_t i = 0; i < heads; ++i) {
+    const std::uint64_t length = end - text.size() - head_bytes;
+    text += std::string(mark_of_log) + "\xD8\x18\x5B";
+    for (int k = 7; k >= 0; --k) text += static_cast<char>(length >> (8 * k));
+  }
+  text +=
+      "\x1A"
+      "0000";
+  const auto log = StepLog::open(write("heads.log", text + record(step(0))));
+  ASSERT_EQ(log.value().damages().size(), 1u);
+  EXPECT_TRUE(says(log.value().damages()[0].what, "it is not searched"));
+}
+
 TEST_F(ForeignLogs, RecordsInAnotherOrderAreNamed) {
   const auto damages = [&](const std::vector<Json>& bodies) {
     const auto log = open(bodies);
@@ -131,7 +170,16 @@ TEST_F(ForeignLogs, RecordsInAnotherOrderAreNamed) {
   EXPECT_EQ(damages({begin(), step(0), step(1)}), 0u);
   EXPECT_EQ(damages({begin(), step(0), late}), 1u) << "records are missing";
   EXPECT_EQ(damages({begin(), step(0), step(0)}), 1u);
-  EXPECT_EQ(damages({begin(), step(0), begin()}), 1u);
+  auto again = step(1);
+  again["record"] = 1;
+  EXPECT_EQ(damages({begin(), step(0), again}), 1u) << "a record that was there";
+  again = step(0);
+  again["record"] = 2;
+  EXPECT_EQ(damages({begin(), step(0), again}), 1u) << "a step that was there";
+  auto other = begin();
+  other["record"] = 2;
+  EXPECT_TRUE(
+      says(open({begin(), step(0), other}).value().damages()[0].what, "another log begins"));
   EXPECT_EQ(damages({begin(), step(0), Json::array({1, 2})}), 1u);
 }
 

@@ -155,6 +155,19 @@ TEST_F(StepLogs, WithAnyByteChangedTheyLoseOneRecord) {
   }
 }
 
+// So that what any reader of CBOR calls no log is none here.
+TEST_F(StepLogs, EachByteOfARecordsFormCounts) {
+  good_ = bytes_of(write_log());
+  const auto ends = ends_of_steps();
+  for (const std::size_t at : {ends[3], ends[3] + 1, ends[3] + 7, ends[3] + 8, ends[4] - 5}) {
+    auto bad = good_;
+    bad[at] = static_cast<char>(bad[at] ^ 1);
+    const auto log = StepLog::open(write("form.log", bad));
+    EXPECT_EQ(log.value().count(), std::size_t{steps_written} - 1) << at;
+    EXPECT_EQ(log.value().damages().size(), 1u) << at;
+  }
+}
+
 TEST_F(StepLogs, BytesTakenOutOrPutInAreNamed) {
   good_ = bytes_of(write_log());
   const auto ends = ends_of_steps();
@@ -215,6 +228,9 @@ TEST_F(StepLogs, GrowWhileTheyAreRead) {
   writer.end();
   ASSERT_TRUE(log.go_on());
   EXPECT_TRUE(log.is_ended());
+  std::filesystem::rename(path, path.string() + ".before");  // as a ring does
+  write("grows.log", bytes_of(path.string() + ".before"));
+  EXPECT_FALSE(log.go_on());
 }
 
 TEST_F(StepLogs, DisplacementsAreExactSums) {
