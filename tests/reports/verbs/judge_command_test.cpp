@@ -187,6 +187,20 @@ TEST_F(JudgeCommand, JUnitHasEachClaim) {
   EXPECT_TRUE(says(xml, "name=\"no-spurious\"/>"));
 }
 
+TEST_F(JudgeCommand, TenOfAKindAreKept) {
+  const auto path = scratch_ / "same.log", out = scratch_ / "out";
+  LogWriter log(path, sequence_.triangles, sequence_.frames.front());
+  for (int s = 0; s < 12; ++s)
+    log.step(&sequence_.frames[collision_], sequence_.frames[collision_ + 1],
+             with_a_miss()[collision_]);
+  log.end();
+  const auto judged = run_assay("judge " + path + " --out " + out);
+  EXPECT_EQ(judged.exit_code, 1) << judged.err;
+  EXPECT_TRUE(says(judged.out, "not kept, 10 of its kind are"));
+  EXPECT_TRUE(std::filesystem::exists(out + "/step-10"));
+  EXPECT_FALSE(std::filesystem::exists(out + "/step-11"));
+}
+
 TEST_F(JudgeCommand, APluginOfTheSameCodeIsAskedAgain) {
   const auto log = record(with_a_miss()), out = scratch_ / "out";
   const auto same = run_assay("judge " + log + " --out " + out + " --detector " +
@@ -335,7 +349,8 @@ TEST(JudgeSimulators, TheSlipOfAClothComesHomeAsTwoTriangles) {
     const auto judged = run_assay("judge " + log + " --out " + out);
     EXPECT_EQ(judged.exit_code, slip.empty() ? 0 : 1) << judged.out << judged.err;
     if (slip.empty()) continue;
-    EXPECT_TRUE(says(judged.out, "of 500 steps judged"));
+    EXPECT_TRUE(says(judged.out, "114 of 500 steps judged"));
+    EXPECT_TRUE(says(judged.out, "386 steps left out by the contract"));
     EXPECT_EQ(pair_of_first_failure(out)["triangles"].size(), 2u);
   }
 }
