@@ -6,7 +6,8 @@
         def create(self, triangles, positions): ...       # int32 (m, 3), float64 (n, 3): its own
         def evaluate(self, x_t0, x_t1): ...               # float64 (n, 3) each
 
-evaluate() answers with None (free) or a result: any object, or dict, with
+evaluate() answers with None (free) or a result: a dict, or an object that has one of these at least
+(so that a False, or a number, is an error and not an answer):
 
     answer   "free", "collision", "undecided"; where there is none a collision
     first    (lo, hi), or one number; not known without it
