@@ -13,6 +13,7 @@
 #include <cstring>
 #include <new>
 #include <stdexcept>
+#include <system_error>
 #include <thread>
 
 extern char** environ;
@@ -180,7 +181,7 @@ std::string said_in(int file) {
 
 CopyRun in_a_copy(const std::function<void(const Say&)>& work) {
   const auto fail = [](const char* what) {
-    throw std::runtime_error(std::string(what) + ": " + std::strerror(errno));
+    throw std::system_error(errno, std::generic_category(), what);
   };
   // The copy speaks into a file in memory: a pipe would wake this process for every line.
   const int file = ::memfd_create("said", MFD_CLOEXEC);
@@ -188,7 +189,9 @@ CopyRun in_a_copy(const std::function<void(const Say&)>& work) {
   const pid_t copy = ::fork();
   if (copy == 0) run_in_the_copy(file, work);
   if (copy < 0) {
+    const int why = errno;
     ::close(file);
+    errno = why;
     fail("no process");
   }
   CopyRun run;

@@ -81,7 +81,7 @@ using Say = std::function<void(std::string_view)>;
 // The copy has one thread, and none of the open files: it holds no lock and no pipe any longer
 // than this process does. The work must not wait for another thread of this process.
 // Throws what the work threw, as std::bad_alloc or as std::runtime_error with its text, and
-// std::runtime_error if no copy can be made.
+// std::system_error if the system gives no process or no descriptor for the copy.
 // Cost: about a millisecond for a process of 100 MB.
 CopyRun in_a_copy(const std::function<void(const Say&)>& work);
 

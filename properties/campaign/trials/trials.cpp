@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <system_error>
 
 #include "properties/campaign/ledger/step_measures.h"
 #include "properties/campaign/ledger/store_problem.h"
@@ -131,6 +132,9 @@ class Trials {
     } catch (const std::bad_alloc&) {
       const std::lock_guard lock(mutex_);
       end_.problem = Problem{"not enough memory for a trial"};
+    } catch (const std::system_error& failure) {
+      const std::lock_guard lock(mutex_);
+      end_.problem = Problem{failure.what()};
     } catch (const std::exception& failure) {
       const std::lock_guard lock(mutex_);
       end_.harness_problem = failure.what();
