@@ -28,6 +28,26 @@ std::string claims_text(const std::vector<std::string>& held,
 
 }  // namespace
 
+std::vector<ClaimResult> CheckOutcome::claim_results() const {
+  using State = ClaimResult::State;
+  std::map<std::string, std::string> broken;
+  for (const auto& [claim, step] : first_broken)
+    broken[name_of(claim)] = fmt::format("first in step {}", step + 1);
+  std::vector<ClaimResult> results;
+  const auto add = [&](const std::string& claim, State state, const std::string& why) {
+    const auto found = broken.find(claim);
+    if (found == broken.end()) {
+      results.push_back({claim, state, why});
+    } else {
+      results.push_back({claim, State::broken, found->second});
+    }
+  };
+  for (const auto& claim : held)
+    add(claim, undecided ? State::undecided : State::holds, undecided ? "undecided" : "");
+  for (const auto& [claim, reason] : not_judged) add(claim, State::not_judged, reason);
+  return results;
+}
+
 std::string CheckOutcome::summary() const {
   std::string text = undecided || !ended.empty() ? "no collision found so far" : "no collision";
   if (!has_answers) text = "candidate pairs";

@@ -15,6 +15,14 @@
 
 namespace assay::reports {
 
+// What one claim of a plug-in came to.
+struct ClaimResult {
+  enum class State : std::uint8_t { holds, broken, undecided, not_judged };
+  std::string claim;
+  State state;
+  std::string why;  // "first in step 3", "undecided", or why it is not judged
+};
+
 struct CheckOutcome {
   bool is_judged = true;  // the oracle judged it
   bool defect = false, undecided = false;
@@ -41,6 +49,8 @@ struct CheckOutcome {
   // contract leaves out.
   void judge_claims(const properties::DetectorUnderTest& plugin, std::size_t steps_left_out);
 
+  // In the order of claims, those that are not judged last. REQUIRES judge_claims.
+  std::vector<ClaimResult> claim_results() const;
   // The last lines of what `check` prints, each with its end of line.
   std::string summary() const;
   const char* word() const;

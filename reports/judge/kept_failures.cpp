@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "properties/campaign/phases/shrink.h"
 #include "properties/judging/contracted_case.h"
@@ -10,8 +11,11 @@
 #include "properties/judging/trial.h"
 #include "properties/reducer/case_edits.h"
 #include "properties/reducer/mesh_size.h"
+#include "reports/certificate/summary.h"
 #include "reports/pictures/case_scene.h"
+#include "reports/pictures/mesh_svg.h"
 #include "reports/steps/case_export.h"
+#include "reports/terminal/text_file.h"
 #include "reports/terminal/words.h"
 
 namespace assay::reports {
@@ -21,6 +25,23 @@ using detector::TrianglePair;
 
 // A step that fails as many others do shows nothing new.
 constexpr int most_of_a_kind = 10;
+
+constexpr const char* page_form = R"(<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8"><title>{name}: {word}</title>
+<meta name="viewport" content="width=device-width">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'">
+<style>
+:root {{ color-scheme: light dark; font-family: system-ui, sans-serif; }}
+body {{ max-width: 48rem; margin: 2rem auto; padding: 0 1rem; }}
+td {{ padding: .2rem 1rem .2rem 0; }}
+pre {{ overflow-x: auto; }}
+svg {{ width: 100%; max-width: 32rem; height: auto; }}
+</style></head><body>
+<h1>{word}: {name}</h1>
+<pre>{summary}</pre>
+{claims}{steps}<footer><p>{version}</p></footer>
+</body></html>
+)";
 
 // Marks the triangles that have a vertex of those that are marked.
 void add_neighbours(const detector::Triangles& triangles, Eigen::Index vertices,
@@ -82,9 +103,9 @@ Expected<std::string> KeptFailures::keep(const FailedStep& failed) {
   const auto& contract = failed.detector.contract;
   const auto failure = properties::failure_of(failed.diff, failed.result, contract);
   const auto number = failed.number + 1;
-  const std::string replay = fmt::format("  again: {}\n", replay_(number));
-  if (kept_[failure.signature()]++ >= most_of_a_kind)
-    return fmt::format("  not kept, {} of its kind are: {}\n{}", most_of_a_kind,
+  const std::string replay = replay_(number);
+  if (met_[failure.signature()]++ >= most_of_a_kind)
+    return fmt::format("  not kept, {} of its kind are: {}\n  again: {}\n", most_of_a_kind,
                        failure.signature(), replay);
   const auto* rest = contract.rest_distance > 0 ? &failed.source.first_frame() : nullptr;
   const auto whole = corpus::case_of_step(failed.source.triangles(), failed.source.counted(), rest,
@@ -103,23 +124,59 @@ Expected<std::string> KeptFailures::keep(const FailedStep& failed) {
   name(c, fmt::format("step-{}", number));
   const auto folder = folder_ / c.id;
   BOOST_OUTCOME_TRYV(export_case(folder, c, failed.detector, properties::judge_case(c, contract)));
+  Kept kept{number, c.about, properties::size_text(properties::size_of(c)), c.id, replay, {}, {}};
   SceneMaker scenes(std::nullopt);
-  BOOST_OUTCOME_TRYV(scenes.write_picture(folder / "case.json", c, "", failure.signature()));
+  if (const auto scene = scenes.scene_of(c, "");
+      scene && c.triangles.rows() <= most_shown_triangles) {
+    kept.picture = mesh_svg(*scene, failure.signature());
+    BOOST_OUTCOME_TRYV(write_text_file(folder / "case.svg", kept.picture));
+  }
   if (auto pair = part(0)) {
     name(*pair, "pair");
     BOOST_OUTCOME_TRYV(corpus::write_case(folder / "pair.json", *pair));
   }
-  std::string text =
-      fmt::format("  {}: {}\n  kept in {} ({})\n{}", failure.signature(), failure.explanation,
-                  folder.string(), properties::size_text(properties::size_of(c)), replay);
-  if (!again_) return text;
-  BOOST_OUTCOME_TRY(told, ask_again(c, folder));
-  if (told.empty() && c.triangles.rows() < whole.triangles.rows()) {
-    BOOST_OUTCOME_TRY(of_whole, ask_again(whole, folder));
-    told = std::move(of_whole);
+  if (again_) {
+    BOOST_OUTCOME_TRY(told, ask_again(c, folder));
+    if (told.empty() && c.triangles.rows() < whole.triangles.rows()) {
+      BOOST_OUTCOME_TRY(of_whole, ask_again(whole, folder));
+      told = std::move(of_whole);
+    }
+    kept.again = told.empty() ? "not reproduced: asked again, the detector is right here" : told;
   }
-  return text +
-         (told.empty() ? "  not reproduced: asked again, the detector is right here\n" : told);
+  std::string text = fmt::format("  {}\n  kept in {} ({})\n  again: {}\n", kept.what,
+                                 folder.string(), kept.size, replay);
+  if (again_) text += fmt::format("  {}\n", kept.again);
+  steps_.push_back(std::move(kept));
+  return text;
+}
+
+Expected<void> KeptFailures::write_page(const CheckOutcome& outcome) const {
+  std::string claims, steps;
+  for (const auto& [claim, state, why] : outcome.claim_results()) {
+    constexpr std::array words = {"holds", "broken", "undecided", "not judged"};
+    claims += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>\n", claim,
+                          words[static_cast<std::size_t>(state)], xml_escaped(why));
+  }
+  for (const auto& kept : steps_) {
+    steps += fmt::format(
+        "<h2>Step {}</h2>\n<p>{}</p>\n<p>{}: <a href=\"{}/\">{}/</a></p>\n<pre>{}</pre>\n{}{}\n",
+        kept.number, xml_escaped(kept.what), kept.size, kept.folder, kept.folder,
+        xml_escaped(kept.replay),
+        kept.again.empty() ? "" : "<p>" + xml_escaped(kept.again) + "</p>\n", kept.picture);
+  }
+  for (const auto& [kind, times] : met_) {
+    if (times > most_of_a_kind)
+      steps += fmt::format("<p>{} more of this kind are not kept: {}</p>\n", times - most_of_a_kind,
+                           xml_escaped(kind));
+  }
+  if (steps.empty()) steps = "<p>No step failed.</p>\n";
+  return write_text_file(
+      folder_ / "page.html",
+      fmt::format(page_form, fmt::arg("name", xml_escaped(origin_)),
+                  fmt::arg("word", outcome.word()),
+                  fmt::arg("summary", xml_escaped(outcome.summary())),
+                  fmt::arg("claims", claims.empty() ? "" : "<table>\n" + claims + "</table>\n"),
+                  fmt::arg("steps", steps), fmt::arg("version", version_text())));
 }
 
 // Asks the plug-in about the case, and shrinks it if it fails. An empty text: it is right.
@@ -136,7 +193,7 @@ Expected<std::string> KeptFailures::ask_again(const corpus::Case& c,
   auto smallest = reduction.smallest;
   smallest.id = "smallest";
   BOOST_OUTCOME_TRYV(corpus::write_case(file, smallest));
-  return fmt::format("  reproduced; smallest: {} ({})\n", file.string(),
+  return fmt::format("reproduced; smallest: {} ({})", file.string(),
                      properties::size_text(properties::size_of(smallest)));
 }
 

@@ -6,8 +6,10 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "properties/judging/subject.h"
+#include "reports/check/check_outcome.h"
 #include "reports/check/check_run.h"
 
 namespace assay::reports {
@@ -25,7 +27,18 @@ class KeptFailures {
   // printed. Fails if a file cannot be written.
   Expected<std::string> keep(const FailedStep& failed);
 
+  // Writes FOLDER/page.html: the verdict, what each claim came to, and the steps that are kept,
+  // with their pictures. It is one file that asks for nothing. Fails if it cannot be written.
+  Expected<void> write_page(const CheckOutcome& outcome) const;
+
  private:
+  struct Kept {
+    std::uint64_t number = 0;            // from 1
+    std::string what, size;              // "14 triangles, 12 vertices, 1 step"
+    std::string folder;                  // in the folder of all
+    std::string replay, picture, again;  // pictures are SVG; empty: too large, not asked
+  };
+
   Expected<std::string> ask_again(const corpus::Case& c, const std::filesystem::path& folder);
 
   const std::filesystem::path folder_;
@@ -34,7 +47,8 @@ class KeptFailures {
   const std::optional<properties::Subject> again_;
   std::unique_ptr<properties::WorkerProcess> worker_;
   const double shrink_seconds_;
-  std::map<std::string, int> kept_;  // by signature
+  std::map<std::string, int> met_;  // by signature
+  std::vector<Kept> steps_;
 };
 
 }  // namespace assay::reports

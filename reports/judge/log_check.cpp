@@ -76,49 +76,29 @@ Expected<CheckAnswer> judge_log(const LogName& name, const LogQuestion& question
   auto check = question.check;
   check.files = {name.file};
   Limits limits(check.time_limit, check.memory_limit);
-  return check_answers(check, recorded.input, *recorded.answers, limits, with_files);
+  BOOST_OUTCOME_TRY(answer,
+                    check_answers(check, recorded.input, *recorded.answers, limits, with_files));
+  if (kept) {
+    BOOST_OUTCOME_TRYV(kept->write_page(answer.outcome));
+  }
+  return answer;
 }
 
 std::string junit_suite(const std::string& log, const CheckOutcome& outcome) {
-  struct Line {
-    std::string claim, element, text;
-  };
-  std::vector<Line> lines;
-  const auto first_broken = [&](const std::string& claim) -> std::string {
-    for (const auto& [one, step] : outcome.first_broken) {
-      if (name_of(one) == claim) return fmt::format("first in step {}", step + 1);
-    }
-    return "";
-  };
-  for (const auto& claim : outcome.held) {
-    if (const auto broken = first_broken(claim); !broken.empty()) {
-      lines.push_back({claim, "failure", broken});
-    } else if (outcome.undecided) {
-      lines.push_back({claim, "skipped", "undecided"});
-    } else {
-      lines.push_back({claim, "", ""});
-    }
-  }
-  for (const auto& [claim, reason] : outcome.not_judged) {
-    const auto broken = first_broken(claim);
-    if (broken.empty()) {
-      lines.push_back({claim, "skipped", reason});
-    } else {
-      lines.push_back({claim, "failure", broken});
-    }
-  }
-  const auto count = [&](const char* element) {
-    return std::ranges::count(lines, element, &Line::element);
-  };
+  using State = ClaimResult::State;
+  const auto results = outcome.claim_results();
+  const auto broken = std::ranges::count(results, State::broken, &ClaimResult::state);
+  const auto held = std::ranges::count(results, State::holds, &ClaimResult::state);
   const auto name = xml_escaped(log);
-  std::string text =
-      fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n", name,
-                  lines.size(), count("failure"), count("skipped"));
-  for (const auto& line : lines) {
-    text += fmt::format("    <testcase classname=\"{}\" name=\"{}\"", name, line.claim);
-    text += line.element.empty() ? "/>\n"
-                                 : fmt::format("><{} message=\"{}\"/></testcase>\n", line.element,
-                                               xml_escaped(line.text));
+  std::string text = fmt::format(
+      "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n", name,
+      results.size(), broken, static_cast<std::ptrdiff_t>(results.size()) - broken - held);
+  for (const auto& [claim, state, why] : results) {
+    text += fmt::format("    <testcase classname=\"{}\" name=\"{}\"", name, claim);
+    text += state == State::holds
+                ? "/>\n"
+                : fmt::format("><{} message=\"{}\"/></testcase>\n",
+                              state == State::broken ? "failure" : "skipped", xml_escaped(why));
   }
   return text + "  </testsuite>\n";
 }

@@ -87,6 +87,9 @@ Expected<int> run_check(const CheckRequest& request) {
     return near.exit_code;
   }
   BOOST_OUTCOME_TRY(answer, check_mesh(question, input, properties::worker_program(), terminal));
+  if (kept) {
+    BOOST_OUTCOME_TRYV(kept->write_page(answer.outcome));
+  }
   if (question.wants_report) {
     BOOST_OUTCOME_TRY(write_json_file(request.json_file, answer.report));
   }

@@ -1,10 +1,12 @@
 // What is a neighbour's doing and what is the detector's own: workers killed from outside, and
 // plug-ins that end their process.
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "properties/judging/judged_run.h"
+#include "properties/worker/child_process.h"
 #include "properties/worker/plugin/query_case.h"
 #include "properties/worker/processor_time.h"
 #include "properties/worker/worker_process.h"
@@ -266,6 +268,33 @@ TEST(DisturbedWorker, APlugInThatDiesWhenItIsLoadedAgainHasCrashed) {
   std::filesystem::remove(file);
   EXPECT_EQ(run.end, RunEnd::crashed);
   EXPECT_TRUE(says(run.explanation, "ended while it was loaded: killed by signal 11"));
+}
+
+// What the system does not give says nothing of the harness, so it is told apart from what goes
+// wrong in the work itself.
+TEST(InACopy, WhatTheSystemDoesNotGiveIsASystemError) {
+  const auto nothing = [](const Say&) {};
+  rlimit files;
+  ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &files), 0);
+  const rlimit none = {0, files.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &none), 0);
+  int said = 0;
+  try {
+    in_a_copy(nothing);
+  } catch (const std::system_error& failure) {
+    said = failure.code().value();
+  }
+  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &files), 0);
+  EXPECT_EQ(said, EMFILE);
+  EXPECT_EQ(in_a_copy(nothing).end.code, 0);
+  try {
+    in_a_copy([](const Say&) { throw std::runtime_error("of the work"); });
+    ADD_FAILURE() << "what the work throws is thrown";
+  } catch (const std::system_error& failure) {
+    ADD_FAILURE() << failure.what();
+  } catch (const std::runtime_error& failure) {
+    EXPECT_STREQ(failure.what(), "of the work");
+  }
 }
 
 }  // namespace

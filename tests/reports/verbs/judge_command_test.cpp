@@ -157,6 +157,25 @@ TEST_F(JudgeCommand, AMissComesHomeAsTwoTrianglesAndTheirNeighbours) {
   EXPECT_EQ(run_assay(fmt::format("replay '{}#99'", log)).exit_code, 2);
 }
 
+TEST_F(JudgeCommand, ThePageShowsVerdictClaimsAndKeptSteps) {
+  const auto wrong = scratch_ / "a & b <i>.log", out = scratch_ / "out";
+  std::filesystem::rename(record(with_a_miss()), wrong);
+  const auto judged = run_assay("judge '" + wrong + "' --out " + out);
+  EXPECT_EQ(judged.exit_code, 1) << judged.out << judged.err;
+  const auto page = read_text(out + "/page.html");
+  EXPECT_TRUE(contains(page, "<h1>defect: " + (scratch_ / "a &amp; b &lt;i&gt;.log"))) << page;
+  EXPECT_TRUE(contains(
+      page, fmt::format("<td>free-sound</td><td>broken</td><td>first in step {}", collision_ + 1)));
+  EXPECT_TRUE(contains(page, "<td>not-late</td><td>holds</td>")) << page;
+  EXPECT_TRUE(contains(page, fmt::format("<h2>Step {}</h2>", collision_ + 1)));
+  EXPECT_TRUE(contains(page, "<svg ")) << "the picture";
+  EXPECT_TRUE(contains(page, fmt::format("#{}'</pre>", collision_ + 1))) << "the line to replay";
+  EXPECT_FALSE(contains(page, "<script"));
+  const auto right = record(answers_);
+  EXPECT_EQ(run_assay("judge " + right + " --out " + out).exit_code, 0);
+  EXPECT_TRUE(contains(read_text(out + "/page.html"), "<p>No step failed.</p>"));
+}
+
 TEST_F(JudgeCommand, ShrinkAndReplayTakeStepsOfLogsAndFrames) {
   const auto log = record(with_a_miss()), small = scratch_ / "small.json";
   const auto step = fmt::format(" '{}#{}'", log, collision_ + 1);
@@ -333,7 +352,9 @@ TEST_F(JudgeCommand, WhatALogCannotShowIsNotJudged) {
 
 nlohmann::json pair_of_first_failure(const std::string& out) {
   std::vector<std::filesystem::path> steps;
-  for (const auto& entry : std::filesystem::directory_iterator(out)) steps.push_back(entry.path());
+  for (const auto& entry : std::filesystem::directory_iterator(out)) {
+    if (entry.is_directory()) steps.push_back(entry.path());
+  }
   std::ranges::sort(steps);
   return steps.empty() ? nlohmann::json()
                        : nlohmann::json::parse(read_text(steps.front() / "pair.json"));
