@@ -34,7 +34,7 @@ constexpr const char* page_form = R"(<!DOCTYPE html>
 :root {{ color-scheme: light dark; font-family: system-ui, sans-serif; }}
 body {{ max-width: 48rem; margin: 2rem auto; padding: 0 1rem; }}
 td {{ padding: .2rem 1rem .2rem 0; }}
-pre {{ overflow-x: auto; }}
+pre {{ white-space: pre-wrap; overflow-wrap: anywhere; }}
 svg {{ width: 100%; max-width: 32rem; height: auto; }}
 </style></head><body>
 <h1>{word}: {name}</h1>
