@@ -6,6 +6,7 @@
 #include <bit>
 
 #include "properties/judging/case_options.h"
+#include "properties/laws/metamorphic/forms.h"
 
 namespace assay::properties {
 namespace {
@@ -108,14 +109,16 @@ std::uint64_t Tally::open() const { return sum_of(*this, &StratumTally::open); }
 std::uint64_t Tally::disturbed() const { return sum_of(*this, &StratumTally::disturbed); }
 
 void add_law(TrialCounts& counts, const Law& law, const LawTally& tally, std::string_view culling) {
-  LawCount met{tally.premise, tally.close, tally.broken, {}};
+  LawCount met{tally.premise, tally.close, tally.broken, 0, {}};
   if (law.met_under != MetUnder::any_culling) met.by_culling.emplace(culling, tally.premise);
   counts.laws[std::string(law.name)] += met;
 }
 
-std::vector<std::pair<const Law*, LawCount>> laws_in(const TrialCounts& counts) {
+std::vector<std::pair<const Law*, LawCount>> laws_in(const TrialCounts& counts, bool built_in) {
   std::vector<std::pair<const Law*, LawCount>> list;
+  if (!built_in && counts.laws.empty()) return list;
   for (const auto& law : laws()) {
+    if (!built_in && !is_of_plugins(law)) continue;
     const auto found = counts.laws.find(law.name);
     list.emplace_back(&law, found == counts.laws.end() ? LawCount{} : found->second);
   }

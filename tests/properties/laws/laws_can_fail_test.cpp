@@ -120,6 +120,8 @@ const std::map<std::string, Wrong, std::less<>>& wrongs() {
          {[](JudgedCase&) {}, with_cone_fault("cone/normals-at-end")}},
         {"Change_Translation", {[](JudgedCase&) {}, with_fault<BlindBeyondOrigin>}},
         {"Change_StepHalved", {[](JudgedCase&) {}, with_fault<BlindInTheEnd>}},
+        {"Change_StepReversed", {[](JudgedCase&) {}, with_fault<BlindInTheEnd>}},
+        {"Claim_InEveryPairOfOptions", {[](JudgedCase&) {}, with_fault<BlindInTheEnd>}},
     };
     // The laws that each of these breaks.
     const std::vector<std::pair<Tamper, const char*>> by_tamper = {
@@ -141,7 +143,9 @@ const std::map<std::string, Wrong, std::less<>>& wrongs() {
          "L9_AllPositiveAtTheStartReleases L10_ComponentsAreCleanByThemselves "
          "L15_StepsWithoutViewsAreInTheAccount"},
         {free_component, "L5_TheFreePathIsTaken"},
-        {late, "L7_ClosureIsThePairSet Claim_NotLate Claim_FirstTime Change_VertexNumbers"},
+        {late,
+         "L7_ClosureIsThePairSet Claim_NotLate Claim_FirstTime Change_VertexNumbers "
+         "Change_StepsBeforeDoNotShow"},
         {always_free,
          "Claim_FreeSound L12_NeverFreeOnAGuess_BrokenEdges "
          "L12_NeverFreeOnAGuess_Collapsed L12_NeverFreeOnAGuess_SeveralLayers "
@@ -149,7 +153,7 @@ const std::map<std::string, Wrong, std::less<>>& wrongs() {
         {no_pairs,
          "Claim_FirstPairs Claim_AllPairs L10_PairsOfTwoComponentsNeedNoSigns "
          "L10_EachComponentAsIfAlone L14_NoContactIsAmongWhatIsProved "
-         "Change_TriangleOrder"},
+         "Change_TriangleOrder L18_RefinedMeshHasTheSameContacts"},
         {invented, "Claim_NoSpurious Change_RepeatedCall"},
         {undecided, "Claim_Total"},
         {no_doubts,
