@@ -109,7 +109,7 @@ std::uint64_t Tally::open() const { return sum_of(*this, &StratumTally::open); }
 std::uint64_t Tally::disturbed() const { return sum_of(*this, &StratumTally::disturbed); }
 
 void add_law(TrialCounts& counts, const Law& law, const LawTally& tally, std::string_view culling) {
-  LawCount met{tally.premise, tally.close, tally.broken, 0, {}};
+  LawCount met{tally.premise, tally.close, tally.broken, {}};
   if (law.met_under != MetUnder::any_culling) met.by_culling.emplace(culling, tally.premise);
   counts.laws[std::string(law.name)] += met;
 }

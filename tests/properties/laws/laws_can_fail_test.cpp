@@ -120,6 +120,9 @@ const std::map<std::string, Wrong, std::less<>>& wrongs() {
          {[](JudgedCase&) {}, with_cone_fault("cone/normals-at-end")}},
         {"Change_Translation", {[](JudgedCase&) {}, with_fault<BlindBeyondOrigin>}},
         {"Change_StepHalved", {[](JudgedCase&) {}, with_fault<BlindInTheEnd>}},
+        {"L16_WithinADistanceIsWhatTheOracleFinds",
+         {[](JudgedCase&) {}, with_fault<BlindInTheEnd>}},
+        {"L17_LimitsAreFreeAndGoFar", {[](JudgedCase&) {}, with_fault<BlindInTheEnd>}},
         {"Change_StepReversed", {[](JudgedCase&) {}, with_fault<BlindInTheEnd>}},
         {"Claim_InEveryPairOfOptions", {[](JudgedCase&) {}, with_fault<BlindInTheEnd>}},
     };
@@ -132,7 +135,8 @@ const std::map<std::string, Wrong, std::less<>>& wrongs() {
         {wrong_size,
          "Sets_AreDisjointAndCover L12_BadInputIsNamedAndChangesNothing "
          "Change_EqualEndsAreAPoint Change_EvaluateChangesNothing "
-         "Change_ResetStartsAnew Change_RowStride Change_ThreadsDoNotShow"},
+         "Change_ResetStartsAnew Change_RowStride Change_ThreadsDoNotShow "
+         "Change_StopsChangeNothing"},
         {meet_among_one_sign,
          "L3_FirstContactIsACandidate L6_OutsideKSomethingMetBefore "
          "L4_AllPositiveIsCollisionFree_Point L4_AllPositiveIsCollisionFree_Line "
