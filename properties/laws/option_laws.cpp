@@ -9,6 +9,7 @@
 
 #include "detector/assembly.h"
 #include "properties/judging/trial.h"
+#include "properties/laws/metamorphic/forms.h"
 #include "properties/laws/step_law.h"
 #include "properties/random.h"
 #include "properties/worker/case_player.h"
@@ -50,12 +51,14 @@ constexpr FactorSizes factor_sizes = {all_values<detector::Culling>.size(),
                                       all_values<detector::Pairs>.size(),
                                       most_threads,
                                       all_values<StateBefore>.size(),
+                                      2,
                                       3,
                                       3};
 
 struct Drawn {
   detector::Options options;
   StateBefore state = StateBefore::fresh;
+  bool is_scaled = false;  // by a power of two, up to the largest doubles or down to the least
 };
 
 Drawn drawn(const OptionRow& row) {
@@ -66,14 +69,15 @@ Drawn drawn(const OptionRow& row) {
   d.options.pairs = all_values<detector::Pairs>[row[3]];
   d.options.threads = row[4] + 1u;
   d.state = all_values<StateBefore>[row[5]];
+  d.is_scaled = row[6] != 0;
   return d;
 }
 
 std::string text_of(const Drawn& d) {
   const auto& o = d.options;
-  return fmt::format("{}, {}, start {}, pairs {}, {} threads, {}", name_of(o.culling),
+  return fmt::format("{}, {}, start {}, pairs {}, {} threads, {}{}", name_of(o.culling),
                      name_of(o.arithmetic), name_of(o.start), name_of(o.pairs), o.threads,
-                     name_of(d.state));
+                     name_of(d.state), d.is_scaled ? ", scaled" : "");
 }
 
 MeshClass mesh_class(const CaseFacts& facts) {
@@ -104,7 +108,7 @@ Drawn drawn_for(const CaseFacts& facts) {
   const auto size = static_cast<std::uint8_t>(size_class(facts));
   std::vector<OptionRow> fitting;
   std::copy_if(array.begin(), array.end(), std::back_inserter(fitting),
-               [&](const OptionRow& row) { return row[6] == mesh && row[7] == size; });
+               [&](const OptionRow& row) { return row[7] == mesh && row[8] == size; });
   return drawn(fitting[random.next() % fitting.size()]);
 }
 
@@ -166,7 +170,8 @@ bool is_vouched_rightly(CaseFacts& told, CaseFacts& facts, std::size_t s, std::s
 void check_options(CaseFacts& facts, LawTally& tally) {
   if (!facts.stages_of()) return;
   const Drawn d = drawn_for(facts);
-  const corpus::Case c = with_step_before(facts.source(), d.state);
+  const auto scaled = d.is_scaled ? scaled_form(facts.source()) : std::nullopt;
+  const corpus::Case c = with_step_before(scaled ? scaled->c : facts.source(), d.state);
   const auto results = play(c, d, facts.stages_of());
   const std::size_t steps = corpus::steps_of(c).size(), before = steps - facts.steps();
   if (results.size() < steps) {

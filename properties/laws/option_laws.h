@@ -10,7 +10,7 @@
 namespace assay::properties {
 
 // One value of each factor.
-inline constexpr std::size_t option_factors = 8;
+inline constexpr std::size_t option_factors = 9;
 using OptionRow = std::array<std::uint8_t, option_factors>;
 using FactorSizes = std::array<std::uint8_t, option_factors>;
 

@@ -125,8 +125,8 @@ std::string tags_text(const properties::TrialCounts& counts) {
   return out + fmt::format("  {}\n", line);
 }
 
-// Nobody knows how close a plug-in came. Where its answers differ in two forms of a case, its claims
-// allow it.
+// Nobody knows how close a plug-in came. Answers that differ in two forms of a case are allowed by
+// its claims.
 template <class Laws>
 std::string laws_of_plugin_text(const Laws& laws) {
   std::string out = fmt::format("{:52} {:>9} {:>7} {:>7}\n", "law", "premise", "broken", "differs");

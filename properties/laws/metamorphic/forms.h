@@ -68,7 +68,8 @@ template <MakeChange make, bool on_grid = false>
 std::optional<Form> form_by(const corpus::Case& c) {
   return form_by_change(c, make, on_grid);
 }
-std::span<const FormLaw> change_forms();  // those of change_laws.cpp
+std::span<const FormLaw> change_forms();                 // those of change_laws.cpp
+std::optional<Form> scaled_form(const corpus::Case& c);  // by a power of two
 
 // L18: some edges are split in all triangles that have them.
 std::optional<Form> refined(const corpus::Case& c);

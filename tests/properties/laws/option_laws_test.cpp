@@ -7,7 +7,7 @@
 namespace assay::properties {
 namespace {
 
-constexpr FactorSizes sizes = {7, 2, 3, 2, 3, 5, 3, 3};
+constexpr FactorSizes sizes = {7, 2, 3, 2, 3, 5, 2, 3, 3};
 
 TEST(CoveringRows, HoldEveryTwoValuesOfEveryTwoFactors) {
   for (std::uint64_t seed = 0; seed < 16; ++seed) {
