@@ -251,6 +251,16 @@ struct PiercedGhostsIgnored : BoundaryHandler {
   }
 };
 
+// What is clean where a step starts says nothing of what the ghosts touch during the step.
+struct NewStartNotSwept : BoundaryHandler {
+  bool sweep(const GhostSweep& s, GhostIndices ghosts, const StopFunction& stop, Flags& touched,
+             GhostCounts& counts) const override {
+    const bool moves = s.motion.vertices_t0 != s.motion.vertices_t1;
+    if (moves && s.piercing_at_start) return true;
+    return BoundaryHandler::sweep(s, ghosts, stop, touched, counts);
+  }
+};
+
 }  // namespace
 
 std::vector<Fault> ghost_faults() {
@@ -269,6 +279,8 @@ std::vector<Fault> ghost_faults() {
        "ghosts are swept without edge-edge tests"},
       {wrong<PiercedGhostsIgnored>, "boundary/pierced-ghosts-ignored", "L11", "F_pierced_ghost", 8,
        "what pierces a ghost at a new start is not looked for"},
+      {wrong<NewStartNotSwept>, "boundary/new-start-not-swept", "L11", "D8_release_arm_sequence",
+       22, "ghosts are not swept in a step whose start is new"},
       {wrong<LoopNeighboursSkipped<1>>, "boundary/loop-neighbours-skipped", "L11",
        "F_loop_neighbours", 5,
        "triangles that share a vertex with a ghost are not tested against it"},

@@ -29,24 +29,6 @@ using detector::Triangles;
 
 // What L12 calls doubtful: input that is no surface of a body, and is answered all the same.
 
-// Some edge has three or more triangles, or is used twice in one direction.
-bool has_broken_edges(const CaseFacts& facts) {
-  const auto& mesh = facts.surface().mesh;
-  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
-    const auto around = mesh.edge_triangles.row(static_cast<std::int32_t>(e));
-    if (around.size() > 2) return true;
-    if (around.size() < 2) continue;
-    const auto runs_upward = [&](std::int32_t t) {
-      const auto& v = mesh.triangles[at(t)];
-      const auto i =
-          static_cast<std::size_t>(std::find(v.begin(), v.end(), mesh.edges[e][0]) - v.begin());
-      return v[(i + 1) % 3] == mesh.edges[e][1];
-    };
-    if (runs_upward(around[0]) == runs_upward(around[1])) return true;
-  }
-  return false;
-}
-
 // Two vertices of triangles are at one place at the start of the step.
 bool has_coincident_vertices(const CaseFacts& facts, std::size_t s) {
   std::vector<detector::Point> places;
@@ -107,7 +89,7 @@ Observation free_only_when_the_oracle_says_so(CaseFacts& facts, std::size_t s, b
 }
 
 Observation broken_edges(CaseFacts& facts, std::size_t s) {
-  return free_only_when_the_oracle_says_so(facts, s, has_broken_edges(facts));
+  return free_only_when_the_oracle_says_so(facts, s, facts.has_broken_edges());
 }
 
 Observation collapsed(CaseFacts& facts, std::size_t s) {

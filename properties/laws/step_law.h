@@ -26,13 +26,18 @@ std::span<const Law> doubtful_input_laws();  // L12
 std::span<const Law> normal_cone_laws();     // L13
 std::span<const Law> change_laws();          // metamorphic: the mesh in another form
 std::span<const Law> repetition_laws();      // metamorphic: the same step in another way
+std::span<const Law> question_laws();        // L16, L17, stops
+std::span<const Law> refinement_laws();      // L18
+std::span<const Law> form_of_steps_laws();   // metamorphic: the steps in another form
+std::span<const Law> option_laws();          // options, states and sizes in pairs
 
 // In the order of laws().
 inline std::vector<std::span<const Law>> law_groups() {
   return {view_value_laws(),   view_set_laws(),       first_contact_laws(), one_sign_laws(),
           all_positive_laws(), pair_set_laws(),       state_laws(),         component_laws(),
-          boundary_laws(),     doubtful_input_laws(), normal_cone_laws(),   change_laws(),
-          repetition_laws()};
+          boundary_laws(),     doubtful_input_laws(), normal_cone_laws(),   question_laws(),
+          refinement_laws(),   change_laws(),         repetition_laws(),    form_of_steps_laws(),
+          option_laws()};
 }
 
 // What a law observes: nothing if its premise does not hold; else what is wrong, as a text that is

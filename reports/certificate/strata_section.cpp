@@ -117,10 +117,11 @@ Json strata_json(const RunFindings& findings) {
 
 Json laws_json(const RunFindings& findings) {
   const auto& plan = findings.run.plan;
-  if (!findings.run.detector.built_in || plan.laws_every == 0 || plan.strata.empty())
-    return nullptr;
+  const bool built_in = findings.run.detector.built_in;
+  const auto laws = properties::laws_in(findings.tally.counts, built_in);
+  if (plan.laws_every == 0 || plan.strata.empty() || laws.empty()) return nullptr;
   Json list = Json::array();
-  for (const auto& [law, tally] : properties::laws_in(findings.tally.counts)) {
+  for (const auto& [law, tally] : laws) {
     Json by_culling = Json::array();
     for (const auto& [culling, premise] : properties::premises_by_culling(tally, *law)) {
       by_culling.push_back({{"culling", culling}, {"premises", premise}});
@@ -130,7 +131,8 @@ Json laws_json(const RunFindings& findings) {
                     {"premises", tally.premise},
                     {"by_culling", std::move(by_culling)},
                     {"close", tally.close},
-                    {"broken", tally.broken}});
+                    {"broken", tally.broken},
+                    {"differs", tally.differs}});
   }
   return {{"wanted_premises", findings.laws_are_judged() ? plan.law_premises : 0},
           {"laws", std::move(list)}};

@@ -7,7 +7,7 @@
 
 namespace assay::properties {
 
-ASSAY_FIELDS(LawCount, premise, close, broken, by_culling)
+ASSAY_FIELDS(LawCount, premise, close, broken, differs, by_culling)
 ASSAY_FIELDS(SetPairCount, contacts, first_contacts)
 ASSAY_FIELDS(StoredFailure, id, configuration, signature, explanation, mesh, smallest, flaky,
              printed)
@@ -37,6 +37,7 @@ LawCount& LawCount::operator+=(const LawCount& other) {
   premise += other.premise;
   close += other.close;
   broken += other.broken;
+  differs += other.differs;
   add(by_culling, other.by_culling);
   return *this;
 }

@@ -21,6 +21,8 @@ struct LawCount {
   std::uint64_t premise = 0, close = 0, broken = 0;
   // The premise by the word for the culling, for a law that has to be met under several of them.
   Counts by_culling;
+  // Of a plug-in: steps whose answers differ in two forms of a case, which its claims allow.
+  std::uint64_t differs = 0;
   LawCount& operator+=(const LawCount& other);
   friend bool operator==(const LawCount&, const LawCount&) = default;
 };

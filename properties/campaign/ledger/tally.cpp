@@ -6,6 +6,7 @@
 #include <bit>
 
 #include "properties/judging/case_options.h"
+#include "properties/laws/metamorphic/forms.h"
 
 namespace assay::properties {
 namespace {
@@ -113,9 +114,11 @@ void add_law(TrialCounts& counts, const Law& law, const LawTally& tally, std::st
   counts.laws[std::string(law.name)] += met;
 }
 
-std::vector<std::pair<const Law*, LawCount>> laws_in(const TrialCounts& counts) {
+std::vector<std::pair<const Law*, LawCount>> laws_in(const TrialCounts& counts, bool built_in) {
   std::vector<std::pair<const Law*, LawCount>> list;
+  if (!built_in && counts.laws.empty()) return list;
   for (const auto& law : laws()) {
+    if (!built_in && !is_of_plugins(law)) continue;
     const auto found = counts.laws.find(law.name);
     list.emplace_back(&law, found == counts.laws.end() ? LawCount{} : found->second);
   }

@@ -61,8 +61,10 @@ struct Tally {
 // culling: the word for it, as in options of the command line.
 void add_law(TrialCounts& counts, const Law& law, const LawTally& tally, std::string_view culling);
 
-// What was counted of each law of this build, in the order of laws().
-std::vector<std::pair<const Law*, LawCount>> laws_in(const TrialCounts& counts);
+// What was counted of each law of this build, in the order of laws(): of all, or of those that are
+// judged of a plug-in. Nothing of a plug-in in whose trials no law was met.
+std::vector<std::pair<const Law*, LawCount>> laws_in(const TrialCounts& counts,
+                                                     bool built_in = true);
 
 // The cullings under which a campaign has to meet the law, each with how often it did; nothing if
 // any culling will do.

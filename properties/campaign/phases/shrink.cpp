@@ -10,6 +10,7 @@
 #include "properties/campaign/ledger/store_problem.h"
 #include "properties/campaign/trials/case_tally.h"
 #include "properties/campaign/trials/planned_case.h"
+#include "properties/worker/child_process.h"
 #include "properties/worker/worker_process.h"
 
 namespace assay::properties {
@@ -134,9 +135,10 @@ void shrink_failures(const CampaignRequest& request, Store& store, const ReduceL
   }
 }
 
-std::optional<corpus::Case> with_explicit_view(const corpus::Case& c,
-                                               const detector::Options& options) {
-  if (c.view || !uses_views(options.culling)) return std::nullopt;
+namespace {
+
+// The case with the view that the detector chose; it runs here and may crash.
+std::optional<corpus::Case> chosen_view(const corpus::Case& c, const detector::Options& options) {
   // A component within which nothing counts needs no view, so all pairs count here.
   auto made = detector::Detector::create(c.triangles, c.frames[0], options);
   if (!made) return std::nullopt;
@@ -153,6 +155,19 @@ std::optional<corpus::Case> with_explicit_view(const corpus::Case& c,
     if (is_line) out.view->q1.push_back(result.primitives[0].q1.t0);
   }
   return out;
+}
+
+}  // namespace
+
+std::optional<corpus::Case> with_explicit_view(const corpus::Case& c,
+                                               const detector::Options& options) {
+  if (c.view || !uses_views(options.culling)) return std::nullopt;
+  const auto run = in_a_copy([&](const Say& say) {
+    if (const auto shown = chosen_view(c, options)) say(corpus::case_text(*shown));
+  });
+  auto shown = corpus::parse_case(run.said, c.id);
+  if (!shown) return std::nullopt;  // there is none, or the copy crashed
+  return std::move(shown.value());
 }
 
 Finding finding_of(const Failure& failure) {

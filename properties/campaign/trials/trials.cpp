@@ -10,6 +10,7 @@
 #include "properties/campaign/ledger/store_problem.h"
 #include "properties/campaign/ledger/tally.h"
 #include "properties/campaign/trials/case_tally.h"
+#include "properties/campaign/trials/form_check.h"
 #include "properties/campaign/trials/planned_case.h"
 #include "properties/judging/case_check.h"
 #include "properties/queries/query_families.h"
@@ -207,6 +208,30 @@ class Trials {
     measures.contact_trials = trial.has_contact ? 1 : 0;
     measures.repeated_trials = again ? 1 : 0;
     count_steps(trial);
+    if (has_forms(request_.detector, trial.seen)) count_forms(trial, again, worker);
+  }
+
+  // The laws of a plug-in, in cases that hold: what fails anyway shows nothing of a form.
+  void count_forms(Trial& trial, const CaseRun* again, WorkerProcess& worker) const {
+    const auto every = request_.plan.laws_every;
+    if (every == 0 || trial.planned->index % every != 0) return;
+    const auto& run = trial.runs.front();
+    auto& counts = trial.record.counts.laws;
+    if (again && request_.description.parts.takes_threads && again->end == RunEnd::completed) {
+      auto& threads = counts[std::string(threads_law)];
+      threads.premise += run.steps.size();
+      // What the claim deterministic says of it is judged with the trial.
+      if (!same_answers(run, *again)) ++threads.differs;
+    }
+    if (run.end != RunEnd::completed || trial.record.outcomes.front() != letter_of(Outcome::holds))
+      return;
+    for (const auto& law : form_laws()) {
+      if (!is_given_in_form(law, trial.record.id)) continue;
+      auto check = check_in_form(law, trial.seen, run, request_.detector, worker);
+      if (check.count.premise > 0) counts[std::string(law.law)] += check.count;
+      trial.record.disturbed += check.disturbances;
+      if (check.failure) trial.failures.push_back(std::move(*check.failure));
+    }
   }
 
   // Counts what the trials met, keeps them, and empties the list.

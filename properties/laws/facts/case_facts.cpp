@@ -91,6 +91,23 @@ bool CaseFacts::has_ghosts(std::size_t component) const {
          surface_.mesh.components[component].triangles.size();
 }
 
+bool CaseFacts::has_broken_edges() const {
+  const auto& mesh = surface_.mesh;
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    const auto around = mesh.edge_triangles.row(static_cast<std::int32_t>(e));
+    if (around.size() > 2) return true;
+    if (around.size() < 2) continue;
+    const auto runs_upward = [&](std::int32_t t) {
+      const auto& v = mesh.triangles[at(t)];
+      const auto i =
+          static_cast<std::size_t>(std::find(v.begin(), v.end(), mesh.edges[e][0]) - v.begin());
+      return v[(i + 1) % 3] == mesh.edges[e][1];
+    };
+    if (runs_upward(around[0]) == runs_upward(around[1])) return true;
+  }
+  return false;
+}
+
 Positions CaseFacts::all_t0(std::size_t s) const {
   return oracle::with_apexes(x_t0(s), apex_rows(results_[s], false));
 }

@@ -55,6 +55,8 @@ class CaseFacts {
   // The detector answered step s and the result states its view sets.
   bool has_views(std::size_t s) const;
   bool has_ghosts(std::size_t component) const;
+  // Some edge has three or more triangles, or is used twice in one direction.
+  bool has_broken_edges() const;
   // The detector verifies a new start by views alone (L5), as under view-auto, and not by layers
   // (L9).
   bool starts_by_view_alone() const;

@@ -92,7 +92,7 @@ std::string compare_step(CaseFacts& facts, std::size_t s, const StepResult& base
 
 void check_change(CaseFacts& facts, LawTally& tally, MakeChange make) {
   const auto base = pinned_run(facts);
-  const auto change = base ? make(facts, *base) : std::nullopt;
+  const auto change = base ? make(facts.source().id, *base) : std::nullopt;
   auto player = change
                     ? PinnedPlayer::make(change->run, options_with_views(facts), facts.stages_of())
                     : std::nullopt;
@@ -107,7 +107,7 @@ void check_change_on_a_grid(CaseFacts& facts, LawTally& tally, MakeChange make) 
   auto run = pinned_run(facts);
   if (!run) return;
   const PinnedRun base = on_a_grid(std::move(*run));
-  const auto change = make(facts, base);
+  const auto change = make(facts.source().id, base);
   if (!change) return;
   auto player = PinnedPlayer::make(base, options_with_views(facts), facts.stages_of());
   auto other = PinnedPlayer::make(change->run, options_with_views(facts), facts.stages_of());

@@ -27,7 +27,7 @@ struct Change {
 };
 
 // Makes the change; nothing if it does not apply. The case's id is the only source of randomness.
-using MakeChange = std::optional<Change> (*)(const CaseFacts&, const PinnedRun&);
+using MakeChange = std::optional<Change> (*)(std::string_view, const PinnedRun&);
 
 // Compares the changed run with the given results. On a grid both sides are run anew, from
 // coordinates that are rounded so that sums and halves are exact (round_to_grid).
@@ -44,6 +44,6 @@ void check_change_on_a_grid(CaseFacts& facts, LawTally& tally) {
 }
 
 // L11: vertices and triangles in reverse order. Applies if there are two holes or more.
-std::optional<Change> holes_in_another_order(const CaseFacts& facts, const PinnedRun& run);
+std::optional<Change> holes_in_another_order(std::string_view id, const PinnedRun& run);
 
 }  // namespace assay::properties

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "properties/laws/metamorphic/change_law.h"
+#include "properties/laws/metamorphic/forms.h"
 #include "properties/laws/step_law.h"
 #include "properties/random.h"
 
@@ -11,8 +12,8 @@ namespace {
 
 using detector::Point;
 
-Random random_of(const CaseFacts& facts, std::string_view law) {
-  return {Random::hash(facts.source().id), Random::hash(law)};
+Random random_of(std::string_view id, std::string_view law) {
+  return {Random::hash(id), Random::hash(law)};
 }
 
 Numbers vertices_of(const PinnedRun& run) {
@@ -54,15 +55,15 @@ void renumber_triangles(Change& change, const Numbers& new_number) {
 
 void turn_triangles_over(PinnedRun& run) { run.triangles.col(1).swap(run.triangles.col(2)); }
 
-std::optional<Change> vertices_renumbered(const CaseFacts& facts, const PinnedRun& run) {
-  Random random = random_of(facts, "vertices");
+std::optional<Change> vertices_renumbered(std::string_view id, const PinnedRun& run) {
+  Random random = random_of(id, "vertices");
   Change change = unchanged(run);
   renumber_vertices(change.run, shuffled(random, vertices_of(run)));
   return change;
 }
 
-std::optional<Change> triangles_reordered(const CaseFacts& facts, const PinnedRun& run) {
-  Random random = random_of(facts, "triangles");
+std::optional<Change> triangles_reordered(std::string_view id, const PinnedRun& run) {
+  Random random = random_of(id, "triangles");
   Change change = unchanged(run);
   for (Eigen::Index t = 0; t < run.triangles.rows(); ++t) {
     const int turn = random.below(3);
@@ -72,9 +73,37 @@ std::optional<Change> triangles_reordered(const CaseFacts& facts, const PinnedRu
   return change;
 }
 
-std::optional<Change> scaled_by_a_power_of_two(const CaseFacts& facts, const PinnedRun& run) {
-  Random random = random_of(facts, "scale");
-  const int exponent = random.one_in(2) ? random.between(1, 60) : -random.between(1, 60);
+constexpr int least_bit = -1074;
+
+// The exponent of the lowest bit that is set in a coordinate.
+int lowest_bit(const PinnedRun& run) {
+  int lowest = 0;
+  const auto look = [&](const Point& p) {
+    for (double c : p) {
+      if (c == 0) continue;
+      int exponent = 0;
+      for (c = std::frexp(c, &exponent); c != std::trunc(c); c *= 2) --exponent;
+      lowest = std::min(lowest, exponent);
+    }
+    return p;
+  };
+  PinnedRun copy = run;
+  move_points(copy, look);
+  return lowest;
+}
+
+std::optional<Change> scaled_by_a_power_of_two(std::string_view id, const PinnedRun& run) {
+  Random random = random_of(id, "scale");
+  constexpr int most = 60, end_of_doubles = 1024;
+  const int some = random.between(1, most);
+  // Up to the largest doubles, where sums and differences overflow, or to the least. No filter
+  // decides there, so large meshes would take long.
+  constexpr Eigen::Index largest_small = 40;
+  const int kind = random.below(4) + (run.triangles.rows() > largest_small ? 2 : 0);
+  const int exponent = kind == 0       ? end_of_doubles - exponent_above(run)
+                       : kind == 1     ? least_bit - lowest_bit(run)
+                       : kind % 2 == 0 ? some
+                                       : -some;
   Change change = unchanged(run);
   bool exact = true;
   move_points(change.run, [&](Point p) {
@@ -90,8 +119,8 @@ std::optional<Change> scaled_by_a_power_of_two(const CaseFacts& facts, const Pin
 }
 
 // REQUIRES coordinates on a grid, so that adding multiples of its unit is exact.
-std::optional<Change> translated(const CaseFacts& facts, const PinnedRun& run) {
-  Random random = random_of(facts, "translation");
+std::optional<Change> translated(std::string_view id, const PinnedRun& run) {
+  Random random = random_of(id, "translation");
   const int exponent = exponent_above(run);
   Point by;
   for (double& c : by) {
@@ -113,8 +142,8 @@ std::optional<Change> translated(const CaseFacts& facts, const PinnedRun& run) {
   return change;
 }
 
-std::optional<Change> mirrored(const CaseFacts& facts, const PinnedRun& run) {
-  Random random = random_of(facts, "mirror");
+std::optional<Change> mirrored(std::string_view id, const PinnedRun& run) {
+  Random random = random_of(id, "mirror");
   const auto axis = at(random.below(3));
   Change change = unchanged(run);
   move_points(change.run, [&](Point p) {
@@ -125,11 +154,11 @@ std::optional<Change> mirrored(const CaseFacts& facts, const PinnedRun& run) {
   return change;
 }
 
-std::optional<Change> axes_exchanged(const CaseFacts& facts, const PinnedRun& run) {
+std::optional<Change> axes_exchanged(std::string_view id, const PinnedRun& run) {
   constexpr std::array<std::array<std::size_t, 3>, 5> orders = {
       {{1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
   constexpr int even_orders = 2;
-  Random random = random_of(facts, "axes");
+  Random random = random_of(id, "axes");
   const int order = random.below(static_cast<int>(orders.size()));
   Change change = unchanged(run);
   move_points(change.run, [&](const Point& p) {
@@ -140,7 +169,7 @@ std::optional<Change> axes_exchanged(const CaseFacts& facts, const PinnedRun& ru
   return change;
 }
 
-std::optional<Change> turned_inside_out(const CaseFacts&, const PinnedRun& run) {
+std::optional<Change> turned_inside_out(std::string_view, const PinnedRun& run) {
   Change change = unchanged(run);
   turn_triangles_over(change.run);
   change.swaps_signs = true;
@@ -177,7 +206,24 @@ constexpr Law change_law_table[] = {
 
 std::span<const Law> change_laws() { return change_law_table; }
 
-std::optional<Change> holes_in_another_order(const CaseFacts&, const PinnedRun& run) {
+std::optional<Form> scaled_form(const corpus::Case& c) {
+  return form_by<scaled_by_a_power_of_two>(c);
+}
+
+std::span<const FormLaw> change_forms() {
+  static constexpr FormLaw forms[] = {
+      {"Change_VertexNumbers", form_by<vertices_renumbered>},
+      {"Change_TriangleOrder", form_by<triangles_reordered>},
+      {"Change_PowerOfTwo", scaled_form},
+      {"Change_Translation", form_by<translated, true>},
+      {"Change_Mirror", form_by<mirrored>},
+      {"Change_AxesExchanged", form_by<axes_exchanged>},
+      {"Change_InsideOutSwapsSigns", form_by<turned_inside_out>},
+  };
+  return forms;
+}
+
+std::optional<Change> holes_in_another_order(std::string_view, const PinnedRun& run) {
   if (run.loops.size() < 2) return std::nullopt;
   Change change = unchanged(run);
   renumber_vertices(change.run, backwards(vertices_of(run)));

@@ -139,6 +139,12 @@ std::string compare_pairs(const StepResult& whole, const StepResult& first,
 
 }  // namespace
 
+std::optional<PinnedRun> halved_run(const PinnedRun& whole) {
+  Halved halves = halved(whole);
+  if (!halves.exact) return std::nullopt;
+  return std::move(halves.run);
+}
+
 void check_halves(CaseFacts& facts, LawTally& tally) {
   auto run = pinned_run(facts);
   if (!run) return;

@@ -4,11 +4,13 @@
 #include <algorithm>
 
 #include "detector/assembly.h"
+#include "detector/parallel/thread_arena.h"
 #include "detector/state/step_state.h"
 #include "properties/laws/metamorphic/halves.h"
 #include "properties/laws/metamorphic/pinned_run.h"
 #include "properties/laws/metamorphic/result_equality.h"
 #include "properties/laws/step_law.h"
+#include "properties/random.h"
 #include "properties/worker/case_player.h"
 
 namespace assay::properties {
@@ -55,13 +57,14 @@ void check_reset(CaseFacts& facts, LawTally& tally) {
 }
 
 // Makes another detector from the positions with which the case ends, so that it has chosen other
-// apexes and primitives. It is in the middle of something else: a step is evaluated and not
-// committed.
+// apexes and primitives. It has a state of its own, and is in the middle of something else: one
+// step is committed, and another one is evaluated and not committed.
 std::optional<detector::Detector> busy_detector(const CaseFacts& facts) {
   const auto& frames = facts.source().frames;
   auto made = detector::assemble(facts.source().triangles, frames.back(), facts.options(),
                                  facts.stages_of()(facts.options()));
   if (!made) return std::nullopt;
+  made.value().step(frames.back(), frames.back());
   made.value().evaluate(frames.back(), frames.front());
   return std::move(made.value());
 }
@@ -137,20 +140,45 @@ void check_row_stride(CaseFacts& facts, LawTally& tally) {
   }
 }
 
+// Runs the pieces of a loop one after the other, in an order and in lanes that are drawn. So what
+// depends on them shows again and again, and a case that shows it can be shrunk.
+class DrawnOrder : public detector::ThreadArena {
+ public:
+  DrawnOrder(Random random, std::size_t lanes) : random_(random), lanes_(lanes) {}
+  void run(std::size_t count, const Work& work) override {
+    for (const auto i : shuffled(random_, in_order(count)))
+      work.run(at(i), at(random_.below(static_cast<int>(lanes_))));
+  }
+
+ private:
+  Random random_;
+  const std::size_t lanes_;
+};
+
 void check_threads(CaseFacts& facts, LawTally& tally) {
+  constexpr std::uint32_t threads = 3;
   auto options = facts.options();
-  const auto make = [&](std::uint32_t threads) {
-    options.threads = threads;
+  const auto make = [&](std::uint32_t count) {
+    options.threads = count;
     return CasePlayer::make(facts.source(), options, facts.stages_of()(options));
   };
-  auto alone = make(1), shared = make(3);
-  if (!alone || !shared) return;
+  auto alone = make(1), shared = make(threads), ordered = make(1);
+  const Random random(Random::hash(facts.source().id), Random::hash("order of pieces"));
+  const auto& c = facts.source();
+  auto drawn = detector::assemble(
+      c.triangles, c.frames.front(), facts.options(), facts.stages_of()(facts.options()), {},
+      detector::Workers(std::make_unique<DrawnOrder>(random, threads), threads));
+  if (!alone || !shared || !ordered || !drawn) return;
+  ordered.value().detector() = std::move(drawn.value());
   for (std::size_t s = 0; s < facts.steps(); ++s) {
     alone.value().play(s);
-    std::string differing = difference(facts.result(s), shared.value().play(s));
-    if (differing.empty() &&
-        alone.value().detector().state().bytes() != shared.value().detector().state().bytes()) {
-      differing = "the state after the step";
+    const auto state = alone.value().detector().state().bytes();
+    std::string differing;
+    for (auto* other : {&ordered, &shared}) {
+      if (!differing.empty()) break;
+      differing = difference(facts.result(s), other->value().play(s));
+      if (differing.empty() && other->value().detector().state().bytes() != state)
+        differing = "the state after the step";
     }
     note(facts, s, differing.empty() ? holds() : differing + " differs", tally);
   }
@@ -197,7 +225,9 @@ constexpr Law repetition_law_table[] = {
      "Positions that stand in wider rows give the same bytes as packed ones.", "nothing",
      check_row_stride, one_case_in_16},
     {"Change_ThreadsDoNotShow", "change",
-     "A detector of three threads gives the same bytes as one of one thread, counts and state too.",
+     "A detector of three threads gives the same bytes as one of one thread, counts and state too, "
+     "and so does one that runs the pieces of its loops one by one, in a drawn order and in drawn "
+     "lanes.",
      "nothing", check_threads, one_case_in_16},
     {"Change_RestoredStateGoesOn", "change",
      "A state that went through bytes into another detector of the mesh, made from other positions "

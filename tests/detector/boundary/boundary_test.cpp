@@ -85,6 +85,19 @@ TEST(Apex, IsFiniteForEveryFiniteLoop) {
       for (const double c : place_apex(rule, {0, 1, 2}, x)) EXPECT_TRUE(std::isfinite(c)) << s;
     }
   }
+  // The sum of the rounded terms overflows for some numbers of vertices, of which 11 is the least.
+  for (int count = 3; count <= 50; ++count) {
+    Loop loop;
+    for (int v = 0; v < count; ++v) loop.push_back(v);
+    for (const double reach : {0.0, 1.0, huge}) {
+      Positions x(count, 3);
+      for (int v = 0; v < count; ++v) x.row(v) << huge, -huge, v % 2 == 0 ? reach : -reach;
+      for (const auto& rule : apex_rules) {
+        for (const double c : place_apex(rule, loop, x))
+          EXPECT_TRUE(std::isfinite(c)) << count << " vertices, " << reach;
+      }
+    }
+  }
 }
 
 // Each by its own rule at both ends of a step: where it stood at the end of the one before.

@@ -97,6 +97,25 @@ TEST(ElementaryTest, IrrationalTimeIsEnclosedInAdjacentDoubles) {
   EXPECT_EQ(exact_contact(query).time, result.time);
 }
 
+// With s = 1 - 3t the vertex touches an edge of the face where s vanishes, and nowhere else: at a
+// third, which is no double, and where dependencies of the four points have double zeros.
+TEST(ElementaryTest, DoubleZerosAtAThird) {
+  for (const double sign : {1., -1.}) {
+    const FourPoints query = four_points(VertexFace{
+        {{sign, 3, 1}, {-2 * sign, -6, -2}},
+        {still({-2 * sign, -1, 0}), {{2 * sign, 1, 2}, {2 * sign, 1, -4}}, still({0, 0, 5})}});
+    const ContactResult result = test_contact(query, Want::first_time);
+    EXPECT_EQ(result.rung, ContactRung::unbounded);
+    for (const bool contact :
+         {result.contact, test_contact(query, Want::yes_no).contact, exact_contact(query).contact})
+      EXPECT_TRUE(contact);
+    const double below = std::nextafter(1. / 3, 0), third = 1. / 3;
+    EXPECT_TRUE(result.time == (TimeEnclosure{below, third}) ||
+                result.time == (TimeEnclosure{third, std::nextafter(third, 1)}))
+        << result.time.lo << " " << result.time.hi;
+  }
+}
+
 // An axis multiplied by a power of two changes neither contact nor time, nor who decides.
 TEST(ElementaryTest, ExtremeMagnitudesAreBroughtIntoRange) {
   for (const double scale : {0x1p-1070, 0x1p-600, 0x1p600, 0x1p1020}) {

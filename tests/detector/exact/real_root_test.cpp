@@ -1,5 +1,6 @@
 #include "detector/exact/real_root.h"
 
+#include "detector/exact/root_isolation.h"
 #include "tests/test.h"
 
 namespace assay::detector {
@@ -158,6 +159,29 @@ TEST(RealRoot, BracketedRootIsTheSameFromAnyGuess) {
   const auto roots = roots_in_unit_interval(f);
   for (const double guess : {-1.0, 1e-300, 0.3, 0.70710678, 0.99}) {
     EXPECT_EQ(enclose_single_root(f, 0, 1, guess), roots[0].enclosure()) << guess;
+  }
+}
+
+// At the ends of a bracket the function may have any sign, or none: it has another root there.
+TEST(BracketRoot, AsksInsideAloneFromEveryGuess) {
+  constexpr std::uint64_t room = 700;
+  for (const double end : {0x1p-1022, 0x1p-60, 0.25, 1.0}) {
+    const std::uint64_t last = ordinal(end), first = last - room;
+    for (const std::uint64_t root : {first, first + 1, first + 73, last - 74, last - 1}) {
+      for (std::uint64_t guess = first; guess <= last; ++guess) {
+        for (const int sign_lo : {1, -1}) {
+          // The root lies behind the double `root`, and before the next one.
+          const auto sign_at = [&](double t) {
+            EXPECT_TRUE(ordinal(t) > first && ordinal(t) < last) << "an end is asked";
+            return ordinal(t) <= root ? sign_lo : -sign_lo;
+          };
+          const TimeEnclosure found = bracket_root(sign_at, sign_lo, from_ordinal(first),
+                                                   from_ordinal(last), from_ordinal(guess));
+          EXPECT_EQ(ordinal(found.lo), root);
+          EXPECT_EQ(ordinal(found.hi), root + 1);
+        }
+      }
+    }
   }
 }
 

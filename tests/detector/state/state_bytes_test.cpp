@@ -117,6 +117,20 @@ TEST(StateBytes, OfEveryCullingBeforeAndAfterSteps) {
   }
 }
 
+// Whatever a detector has committed itself, it then has what was saved, also if that is nothing.
+TEST(StateBytes, ReplaceWhatTheDetectorHasCommitted) {
+  for (const auto culling : all_values<Culling>) {
+    for (const int steps : {0, 1, 2}) {
+      const auto saved = passed(culling, steps).state();
+      for (const int own_steps : {0, 1, 2}) {
+        Detector other = passed(culling, own_steps);
+        ASSERT_FALSE(other.restore(saved));
+        EXPECT_EQ(other.state().bytes(), saved.bytes()) << name_of(culling) << " " << own_steps;
+      }
+    }
+  }
+}
+
 // The form is for ever: what an older build of version 2 has saved is read by a newer one.
 TEST(StateBytes, HaveTheFormThatIsStated) {
   StateFields state;

@@ -1,4 +1,8 @@
+#include <barrier>
+#include <thread>
+
 #include "detector/detector.h"
+#include "detector/parallel/for_all.h"
 #include "detector/state/layers.h"
 #include "detector/step/release_rule.h"
 #include "tests/detector/points.h"
@@ -24,6 +28,46 @@ TEST(StepState, HoldsAtThePositionsThatItKeptAndAtNoOthers) {
     Positions other = x;
     other(v, 2) += 1;
     EXPECT_FALSE(state.holds_at(other, pace)) << v;
+  }
+}
+
+// Begins all pieces before it ends one: each has a thread of its own, and they wait for each other
+// at the beginning. So what a piece has read of another one's result is what stood there before.
+class BeginTogether : public ThreadArena {
+ public:
+  void run(std::size_t count, const Work& work) override {
+    std::barrier begin(static_cast<std::ptrdiff_t>(count));
+    std::vector<std::thread> threads;
+    for (std::size_t i = 0; i < count; ++i) {
+      threads.emplace_back([&, i] {
+        begin.arrive_and_wait();
+        work.run(i, i);
+      });
+    }
+    for (auto& thread : threads) thread.join();
+  }
+};
+
+// A piece that finds no difference must not take back what another one has found.
+TEST(StepState, HoldsAtNoOtherPositionsWhicheverPieceEndsLast) {
+  constexpr Eigen::Index pieces = 2, of_piece = rows_of_piece, count = pieces * of_piece;
+  const Workers workers(std::make_unique<BeginTogether>(), pieces);
+  const Positions x = Positions::Constant(count, 3, 1.5);
+  PacedStop pace(never_stops, workers);
+  StepState state;
+  state.keep(x, pace);
+  EXPECT_TRUE(state.holds_at(x, pace));
+  constexpr int repetitions = 100;
+  Positions other = x;
+  for (Eigen::Index piece = 0; piece < pieces; ++piece) {
+    for (const Eigen::Index place : {Eigen::Index{1}, of_piece / 2, of_piece - 2}) {
+      double& changed = other(piece * of_piece + place, 1);
+      changed = 2.5;
+      int believed = 0;
+      for (int n = 0; n < repetitions; ++n) believed += state.holds_at(other, pace) ? 1 : 0;
+      EXPECT_EQ(believed, 0) << "of " << repetitions << ", piece " << piece << ", row " << place;
+      changed = 1.5;
+    }
   }
 }
 

@@ -2,6 +2,8 @@
 // the scales of the component's box. Prints the largest error beside what is allowed.
 #include "detector/view/view_bounds.h"
 
+#include <numbers>
+
 #include "tests/detector/exact/exact_numbers.h"
 #include "tests/detector/view/triangle_batches.h"
 
@@ -131,14 +133,36 @@ TEST(ViewBounds, OutOfRangeIsRefused) {
   EXPECT_FALSE(make_lane_input(vertices, {batch.x_t0, batch.x_t1}, batch.primitive, in));
 }
 
-TEST(ViewBounds, LinesThatTurnHaveAnyAxialCoordinate) {
+// The middle coefficient of |d|^2 is d0.d1. Where that is not positive the range of s has no bound,
+// however long the line is at both ends.
+TEST(ViewBounds, L1_LinesThatTurnHaveAnyAxialCoordinate) {
   BatchMaker maker(8);
   TriangleBatch batch = maker.make(BatchFamily::generic, 4, true);
-  batch.primitive = {{{0, 0, 0}, {0, 0, 0}}, {{1, 0, 0}, {-1, 0, 0}}};
-  LaneInput in{};
-  ASSERT_TRUE(make_lane_input(batch.mesh.components[0].vertices, {batch.x_t0, batch.x_t1},
-                              batch.primitive, in));
-  EXPECT_EQ(in.axial_error, 2);
+  const auto axial_error = [&](const Point& d0, const Point& d1) {
+    batch.primitive = {{{0, 0, 0}, {0, 0, 0}}, {d0, d1}};
+    LaneInput in{};
+    EXPECT_TRUE(make_lane_input(batch.mesh.components[0].vertices, {batch.x_t0, batch.x_t1},
+                                batch.primitive, in));
+    return in.axial_error;
+  };
+  EXPECT_EQ(axial_error({1, 0, 0}, {-1, 0, 0}), 2);
+  EXPECT_EQ(axial_error({1, 0, 0}, {0, 1, 0}), 2) << "a right angle";
+  for (int degrees = 91; degrees <= 180; ++degrees) {
+    const double angle = degrees * std::numbers::pi / 180;
+    EXPECT_EQ(axial_error({1, 0, 0}, {std::cos(angle), std::sin(angle), 0}), 2) << degrees;
+    EXPECT_EQ(axial_error({0, 3, 0}, {0, std::cos(angle), std::sin(angle)}), 2) << degrees;
+  }
+  // One that turns by less has a bound, which grows without limit towards the right angle.
+  double before = 0;
+  for (int degrees = 0; degrees < 90; ++degrees) {
+    const double angle = degrees * std::numbers::pi / 180;
+    const double error = axial_error({1, 0, 0}, {std::cos(angle), std::sin(angle), 0});
+    EXPECT_LT(error, 1e-6) << degrees;
+    if (degrees > 60) {
+      EXPECT_GT(error, before) << degrees << ": d0.d1 is less than it was";
+    }
+    before = error;
+  }
 }
 
 }  // namespace

@@ -73,6 +73,29 @@ INSTANTIATE_TEST_SUITE_P(
                     Played{"PointFirst", detector::Culling::view_point, detector::Pairs::first}),
     [](const auto& played) { return std::string(played.param.name); });
 
+// The id draws the configuration, so a case under many ids meets many of them.
+TEST(CuratedOptions, HoldInManyConfigurations) {
+  constexpr int configurations = 24;
+  const Law* law = law_named("Claim_InEveryPairOfOptions");
+  std::uint64_t met = 0;
+  for (const auto& c : tests::curated_cases()) {
+    if (c.expected.answer == detector::Answer::error) continue;
+    Setting setting;
+    setting.options.culling = detector::Culling::view_line;
+    JudgedCase judged(c, setting);
+    for (int n = 0; n < configurations; ++n) {
+      judged.source.id = c.id + "/" + std::to_string(n);
+      CaseFacts facts = judged.facts();
+      LawTally tally;
+      law->check(facts, tally);
+      EXPECT_EQ(tally.broken, 0u) << tally.first_broken;
+      met += tally.premise;
+    }
+  }
+  std::printf("%llu steps\n", static_cast<unsigned long long>(met));
+  EXPECT_GT(met, 3000u);
+}
+
 // "views_used" of a case: 1 for each step in which view-auto used its views, 0 for the others.
 TEST(CuratedViews, AreUsedInTheStepsThatAreStated) {
   int stated = 0;

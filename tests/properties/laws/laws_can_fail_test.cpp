@@ -120,6 +120,11 @@ const std::map<std::string, Wrong, std::less<>>& wrongs() {
          {[](JudgedCase&) {}, with_cone_fault("cone/normals-at-end")}},
         {"Change_Translation", {[](JudgedCase&) {}, with_fault<BlindBeyondOrigin>}},
         {"Change_StepHalved", {[](JudgedCase&) {}, with_fault<BlindInTheEnd>}},
+        {"L16_WithinADistanceIsWhatTheOracleFinds",
+         {[](JudgedCase&) {}, with_fault<BlindInTheEnd>}},
+        {"L17_LimitsAreFreeAndGoFar", {[](JudgedCase&) {}, with_fault<BlindInTheEnd>}},
+        {"Change_StepReversed", {[](JudgedCase&) {}, with_fault<BlindInTheEnd>}},
+        {"Claim_InEveryPairOfOptions", {[](JudgedCase&) {}, with_fault<BlindInTheEnd>}},
     };
     // The laws that each of these breaks.
     const std::vector<std::pair<Tamper, const char*>> by_tamper = {
@@ -130,7 +135,8 @@ const std::map<std::string, Wrong, std::less<>>& wrongs() {
         {wrong_size,
          "Sets_AreDisjointAndCover L12_BadInputIsNamedAndChangesNothing "
          "Change_EqualEndsAreAPoint Change_EvaluateChangesNothing "
-         "Change_ResetStartsAnew Change_RowStride Change_ThreadsDoNotShow"},
+         "Change_ResetStartsAnew Change_RowStride Change_ThreadsDoNotShow "
+         "Change_StopsChangeNothing"},
         {meet_among_one_sign,
          "L3_FirstContactIsACandidate L6_OutsideKSomethingMetBefore "
          "L4_AllPositiveIsCollisionFree_Point L4_AllPositiveIsCollisionFree_Line "
@@ -141,7 +147,9 @@ const std::map<std::string, Wrong, std::less<>>& wrongs() {
          "L9_AllPositiveAtTheStartReleases L10_ComponentsAreCleanByThemselves "
          "L15_StepsWithoutViewsAreInTheAccount"},
         {free_component, "L5_TheFreePathIsTaken"},
-        {late, "L7_ClosureIsThePairSet Claim_NotLate Claim_FirstTime Change_VertexNumbers"},
+        {late,
+         "L7_ClosureIsThePairSet Claim_NotLate Claim_FirstTime Change_VertexNumbers "
+         "Change_StepsBeforeDoNotShow"},
         {always_free,
          "Claim_FreeSound L12_NeverFreeOnAGuess_BrokenEdges "
          "L12_NeverFreeOnAGuess_Collapsed L12_NeverFreeOnAGuess_SeveralLayers "
@@ -149,7 +157,7 @@ const std::map<std::string, Wrong, std::less<>>& wrongs() {
         {no_pairs,
          "Claim_FirstPairs Claim_AllPairs L10_PairsOfTwoComponentsNeedNoSigns "
          "L10_EachComponentAsIfAlone L14_NoContactIsAmongWhatIsProved "
-         "Change_TriangleOrder"},
+         "Change_TriangleOrder L18_RefinedMeshHasTheSameContacts"},
         {invented, "Claim_NoSpurious Change_RepeatedCall"},
         {undecided, "Claim_Total"},
         {no_doubts,

@@ -146,6 +146,13 @@ LAW_TEST(Change_ResetStartsAnew)
 LAW_TEST(Change_RowStride)
 LAW_TEST(Change_ThreadsDoNotShow)
 LAW_TEST(Change_RestoredStateGoesOn)
+LAW_TEST(Change_StepReversed)
+LAW_TEST(Change_StepsBeforeDoNotShow)
+LAW_TEST(L16_WithinADistanceIsWhatTheOracleFinds)
+LAW_TEST(L17_LimitsAreFreeAndGoFar)
+LAW_TEST(Change_StopsChangeNothing)
+LAW_TEST(L18_RefinedMeshHasTheSameContacts)
+LAW_TEST(Claim_InEveryPairOfOptions)
 // clang-format on
 
 TEST(Laws, EachHasATestOfItsName) {

@@ -1,0 +1,141 @@
+// What else a detector is asked: what comes within a distance (L16), how far a step may be gone
+// (L17), and a step that is stopped.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "detector/assembly.h"
+#include "properties/judging/step_truth.h"
+#include "properties/judging/trial.h"
+#include "properties/laws/metamorphic/result_equality.h"
+#include "properties/laws/step_law.h"
+#include "properties/random.h"
+#include "properties/worker/case_player.h"
+
+namespace assay::properties {
+namespace {
+
+using detector::Answer;
+using detector::Culling;
+using detector::StepResult;
+
+// The oracle takes long for distances among many triangles.
+constexpr std::size_t most_triangles_apart = 40;
+
+// A power of two, from an eighth of the mesh down to its 2^-20; 0 for a mesh without extent.
+double drawn_distance(const CaseFacts& facts, Random& random) {
+  const auto& x = facts.source().frames.front();
+  const double extent = (x.colwise().maxCoeff() - x.colwise().minCoeff()).maxCoeff();
+  if (!(extent > 0) || !std::isfinite(extent)) return 0;
+  return std::ldexp(1, std::ilogb(extent) - random.between(3, random.one_in(4) ? 20 : 8));
+}
+
+// The same under every culling of the case, so one of them will do.
+void check_distance(CaseFacts& facts, LawTally& tally) {
+  if (!facts.stages_of() || facts.options().culling != Culling::view_line ||
+      facts.surface().mesh.triangles.size() > most_triangles_apart)
+    return;
+  Random random(Random::hash(facts.source().id), Random::hash("distance"));
+  detector::Options options;
+  options.culling = random.one_in(4) ? Culling::none : Culling::bvh;
+  options.threads = static_cast<std::uint32_t>(random.between(1, 3));
+  options.separation = drawn_distance(facts, random);
+  if (!(options.separation > 0x1p-400 && options.separation < 0x1p400)) return;
+  const Contract contract = contract_of(options);
+  const auto& c = facts.source();
+  auto made =
+      detector::assemble(c.triangles, c.frames.front(), options, facts.stages_of()(options));
+  for (std::size_t s = 0; made && s < facts.steps(); ++s) {
+    const auto result = made.value().step(facts.x_t0(s), facts.x_t1(s));
+    const auto judgement = judge_under(contract, {facts.x_t0(s), facts.x_t1(s)}, c.triangles, {});
+    const auto diff = compare(result, judgement, claims_of(options), contract, c.triangles);
+    note(facts, s,
+         diff.outcome == Outcome::holds
+             ? ""
+             : fmt::format("within {}, {}: {}", options.separation, name_of(options.culling),
+                           diff.broken.empty() ? "no answer"
+                                               : failure_of(diff, result, contract).explanation),
+         tally);
+  }
+}
+
+void check_limits(CaseFacts& facts, LawTally& tally) {
+  if (!facts.stages_of() || facts.options().pairs != detector::Pairs::all) return;
+  auto options = facts.options();
+  if (options.start == detector::Start::clean) options.start = detector::Start::verified;
+  auto player = CasePlayer::make(facts.source(), options, facts.stages_of()(options));
+  auto alone = CasePlayer::make(facts.source(), options, facts.stages_of()(options));
+  if (!player || !alone) return;
+  Contract contract;
+  contract.progress = 0.9;
+  const oracle::JudgeOptions asked;
+  for (std::size_t s = 0; s < facts.steps(); ++s) {
+    const auto &x_t0 = facts.x_t0(s), &x_t1 = facts.x_t1(s);
+    const auto limit = player.value().detector().limit(x_t0, x_t1);
+    StepDiff diff;
+    if (!limit.problem)
+      judge_limit(LimitAnswer{limit.share, limit.positions},
+                  {{x_t0, x_t1}, facts.source().triangles, asked}, facts.judgement(s),
+                  claims_on_limits, contract, diff);
+    std::string wrong = limit.problem ? "refused" : "";
+    for (const auto claim : diff.broken) wrong = fmt::format("{}", name_of(claim));
+    // The state stays as it is.
+    const StepResult after = player.value().play(s), expected = alone.value().play(s);
+    if (wrong.empty()) wrong = difference(expected, after);
+    if (facts.is_judged(s)) note(facts, s, wrong, tally);
+  }
+}
+
+void check_stops(CaseFacts& facts, LawTally& tally) {
+  if (!facts.stages_of()) return;
+  const auto make = [&] {
+    return CasePlayer::make(facts.source(), facts.options(), facts.stages_of()(facts.options()));
+  };
+  auto player = make(), alone = make();
+  if (!player || !alone) return;
+  Random random(Random::hash(facts.source().id), Random::hash("stops"));
+  for (std::size_t s = 0; s < facts.steps(); ++s) {
+    std::string wrong;
+    bool is_stopped = true;
+    for (int stop_at = 1; is_stopped && stop_at < 100; stop_at += random.between(1, 4)) {
+      int asked = 0;
+      const auto stopped = player.value().look(s, [&] { return ++asked == stop_at; });
+      is_stopped = asked >= stop_at;
+      if (!is_stopped) break;
+      if (stopped.answer != Answer::undecided) wrong = "the answer of a stopped step";
+      if (!player.value().detector().commit()) wrong = "a stopped step is committed, which";
+    }
+    const StepResult after = player.value().play(s);
+    alone.value().play(s);
+    if (wrong.empty()) wrong = difference(facts.result(s), after);
+    if (wrong.empty() &&
+        player.value().detector().state().bytes() != alone.value().detector().state().bytes())
+      wrong = "the state after the step";
+    note(facts, s, wrong.empty() ? holds() : wrong + " differs", tally);
+  }
+}
+
+constexpr int one_case_in_64 = 64;
+
+constexpr Law question_law_table[] = {
+    {"L16_WithinADistanceIsWhatTheOracleFinds", "L16",
+     "Asked what comes within a distance, without views, a detector finds the pairs of the oracle, "
+     "each at its time.",
+     "what comes within a distance", check_distance, one_case_in_16},
+    {"L17_LimitsAreFreeAndGoFar", "L17",
+     "The way to where a step may be gone is free, it is nine tenths of what is possible or more "
+     "where rounding lets it, a free step is gone to its end, and the state stays as it is.",
+     "contacts, and those of the way", check_limits, one_case_in_64},
+    {"Change_StopsChangeNothing", "change",
+     "A step that is stopped is undecided and cannot be committed; evaluated whole it then gives "
+     "the "
+     "same bytes and the same state.",
+     "nothing", check_stops, one_case_in_16},
+};
+
+}  // namespace
+
+std::span<const Law> question_laws() { return question_law_table; }
+
+}  // namespace assay::properties
