@@ -14,8 +14,9 @@ namespace assay::corpus {
 // The few kinds of problem that the program acts upon. All else is said by the message.
 enum class ProblemKind {
   other,
-  out_of_memory,  // a plug-in had too little memory for a step: the step is undecided
-  not_as_stored,  // a row is not as this process stored it, or found it when it began
+  out_of_memory,    // a plug-in had too little memory for a step: the step is undecided
+  beyond_capacity,  // a plug-in refused a step as more than it holds
+  not_as_stored,    // a row is not as this process stored it, or found it when it began
 };
 
 // `message` is one line without a line break, for a user; it names the file where there is one, and

@@ -52,6 +52,16 @@ class Members {
     }
     return *this;
   }
+  Members& operator()(const char* key, std::uint64_t& value) {
+    if (!map_.has(key)) return *this;
+    const auto read = map_.integer(key);
+    if (read && *read >= 0) {
+      value = static_cast<std::uint64_t>(*read);
+    } else {
+      wrong_ = key;
+    }
+    return *this;
+  }
   Members& operator()(const char* key, double& value) {
     if (!map_.has(key)) return *this;
     if (const auto read = map_.number(key)) {
@@ -90,7 +100,9 @@ std::string read_description(const CborMap& body, assay_description& d) {
              "least_nonzero", d.least_nonzero)("largest", d.largest)("features", d.features)(
              "time_tolerance", d.time_tolerance)("reports", d.reports)("separation", d.separation)(
              "counts", d.counts)("rings", d.rings)("rest_distance", d.rest_distance)(
-             "limit_gives", d.limit_gives)("progress", d.progress)("motion", d.motion)
+             "limit_gives", d.limit_gives)("progress", d.progress)("motion", d.motion)(
+             "capacity_triangles", d.capacity_triangles)("capacity_contacts", d.capacity_contacts)(
+             "capacity_candidates", d.capacity_candidates)
       .wrong();
 }
 

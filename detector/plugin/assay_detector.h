@@ -62,6 +62,13 @@ enum {
   ASSAY_FAILED = 3         /* anything else */
 };
 
+/* `refused: capacity`: the mesh, or this step of it, is more than the detector holds. It is both a
+ * return code, of create, evaluate, result, candidates and limit, and an answer of a step. Where
+ * a number of the description's capacity is exceeded it is counted, and breaks no claim. Elsewhere
+ * it is a refusal as any other. Nothing else is excused beyond the capacity: an answer that is given
+ * has to be right. */
+enum { ASSAY_BEYOND_CAPACITY = 4 };
+
 /* What the detector claims. It is judged by its claims and by nothing else. t* is the first
  * contact time of the step. */
 enum {
@@ -191,6 +198,14 @@ typedef struct assay_description {
   int32_t limit_gives;  /* ASSAY_LIMIT_...: where the caller stops who is told a share alone */
   double progress;      /* what ASSAY_CLAIM_PROGRESS promises: above 0, at most 1; else 0 */
   int32_t motion;       /* ASSAY_MOTION_... */
+  /* How much the detector holds; 0: as much as there is. Beyond one of them it may answer
+   * ASSAY_BEYOND_CAPACITY. */
+  uint64_t capacity_triangles;  /* of the mesh */
+  uint64_t capacity_contacts;   /* pairs of triangles in contact during the step that its contract
+                                   does not leave out */
+  uint64_t capacity_candidates; /* pairs of features (a vertex and a face, two edges) that share no
+                                   vertex and whose boxes around their whole way meet, or come
+                                   within the separation */
 } assay_description;
 
 /* The detector's own data of one mesh. */
@@ -200,7 +215,8 @@ enum { ASSAY_FREE = 0, ASSAY_COLLISION = 1, ASSAY_UNDECIDED = 2, ASSAY_ERROR = 3
 
 /* The result of a step. The host sets all members to 0 before the call. */
 typedef struct assay_result {
-  int32_t answer; /* ASSAY_FREE, ASSAY_COLLISION, ASSAY_UNDECIDED, ASSAY_ERROR */
+  int32_t answer; /* ASSAY_FREE, ASSAY_COLLISION, ASSAY_UNDECIDED, ASSAY_ERROR,
+                     ASSAY_BEYOND_CAPACITY */
   /* With ASSAY_COLLISION: the interval of the first contact time, 0 <= first_lo <= first_hi <= 1.
    * [0, 1] states nothing about the time. */
   double first_lo;

@@ -26,6 +26,8 @@
 //
 // - std::bad_alloc means out of memory; the step counts as undecided.
 // - Refused, thrown by the constructor, means that the detector does not take this mesh.
+// - BeyondCapacity, thrown by the constructor, evaluate(), candidates() or limit(), means that this
+//   is more than the detector holds (ASSAY_BEYOND_CAPACITY).
 // - Any other exception is a failure, told with its text. If the constructor throws it, the mesh
 //   has no handle. If evaluate() throws it, the answer of the step is ASSAY_ERROR. If another
 //   function throws it, the call returns ASSAY_FAILED and error_text() has the text.
@@ -85,6 +87,11 @@ struct Mesh {
 // To be thrown by the constructor for a mesh that the detector does not take. Its text is told to
 // the user.
 class Refused : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// To be thrown where the mesh or the step is more than the detector holds.
+class BeyondCapacity : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 

@@ -46,6 +46,9 @@ std::int32_t guarded(Line& line, const Work& work) noexcept {
   } catch (const Refused& refused) {
     line.set(refused.what());
     return ASSAY_REFUSED;
+  } catch (const BeyondCapacity& beyond) {
+    line.set(beyond.what());
+    return ASSAY_BEYOND_CAPACITY;
   } catch (const std::exception& thrown) {
     line.set(thrown.what());
   } catch (...) {
@@ -134,7 +137,7 @@ std::int32_t evaluate(assay_handle* handle, const double* x_t0, const double* x_
     h.result = h.detector.evaluate({x_t0, h.vertices}, {x_t1, h.vertices});
   });
   // All other exceptions are told by result(), with their texts.
-  return code == ASSAY_OUT_OF_MEMORY ? code : ASSAY_OK;
+  return code == ASSAY_OUT_OF_MEMORY || code == ASSAY_BEYOND_CAPACITY ? code : ASSAY_OK;
 }
 
 template <class D>

@@ -448,6 +448,9 @@ static inline void assay_record_begin_body_(assay_recorder* r, const assay_recor
   assay_record_integer_(r, "limit_gives", d->limit_gives);
   assay_record_real_(r, "progress", d->progress);
   assay_record_integer_(r, "motion", d->motion);
+  assay_record_count_(r, "capacity_triangles", d->capacity_triangles);
+  assay_record_count_(r, "capacity_contacts", d->capacity_contacts);
+  assay_record_count_(r, "capacity_candidates", d->capacity_candidates);
   assay_record_count_(r, "vertices", r->vertex_count);
   assay_record_int32s_(r, "triangles", c->triangles, 3 * c->triangle_count);
   assay_record_vertices_(r, "positions", c->positions);
@@ -744,7 +747,7 @@ static inline int32_t assay_record_check_step_(assay_recorder* r,
     return assay_record_fail_(r, ASSAY_RECORD_NOT_BEGUN, "nothing is being recorded", "", 0);
   if (!step || !step->x1.data == !step->dx.data)
     return assay_record_wrong_(r, "a step has either x1 or dx");
-  if (result && (result->answer < ASSAY_FREE || result->answer > ASSAY_ERROR))
+  if (result && (result->answer < ASSAY_FREE || result->answer > ASSAY_BEYOND_CAPACITY))
     return assay_record_wrong_(r, "there is no such answer");
   if (result && result->pair_count && !result->pairs)
     return assay_record_wrong_(r, "the pairs are missing");

@@ -21,6 +21,12 @@ std::vector<StratumPlan> strata(std::uint64_t generic, std::uint64_t others, dou
   return list;
 }
 
+// Adds strata of sizes, from 1,000 triangles on. A multiple of ten shows each shape equally often.
+void add_sizes(CampaignPlan& plan, std::initializer_list<std::uint64_t> cases) {
+  auto family = size_families().begin();
+  for (const auto count : cases) plan.strata.push_back({std::string((family++)->name), count, 0});
+}
+
 std::vector<CampaignPlan> make_named_plans() {
   constexpr double minute = 60, hour = 60 * minute;
   CampaignPlan smoke;
@@ -38,6 +44,7 @@ std::vector<CampaignPlan> make_named_plans() {
   quick.name = "quick";
   quick.about = "all claims, laws and planted faults, 10 minutes on 2 cores";
   quick.strata = strata(4000, 1500, 5e-3, 5e-2);
+  add_sizes(quick, {20, 10});
   quick.law_premises = 1000;
   quick.fault_cases = 800;
   quick.fault_seeds = 3;
@@ -49,6 +56,7 @@ std::vector<CampaignPlan> make_named_plans() {
   nightly.name = "nightly";
   nightly.about = "one night";
   nightly.strata = strata(30'000, 20'000, 1e-3, 1e-3);
+  add_sizes(nightly, {100, 40, 10});
   nightly.seconds = 8 * hour;
   nightly.laws_every = 4;
   nightly.fault_cases = 5000;
@@ -63,6 +71,7 @@ std::vector<CampaignPlan> make_named_plans() {
   release.name = "release";
   release.about = "before a release; best in shards";
   release.strata = strata(120'000, 60'000, 2e-4, 2e-4);
+  add_sizes(release, {200, 100, 20, 10});
   release.seconds = 72 * hour;
 
   CampaignPlan faults;

@@ -14,7 +14,7 @@ namespace assay::properties {
 
 // One family of cases. Each case is a trial of every configuration of the detector.
 struct StratumPlan {
-  std::string family;       // name in families(), or query_families()
+  std::string family;       // name in families(), size_families() or query_families()
   std::uint64_t cases = 0;  // n
   double wanted_bound = 0;  // wanted upper bound on the share of defects; 0: none
 };

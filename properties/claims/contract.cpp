@@ -78,7 +78,22 @@ std::vector<std::string> phrases_of(const Contract& contract) {
   if (contract.progress > 0) say("progress ", number_text(contract.progress));
   if (contract.limit_gives != LimitGives::positions)
     say("stops at ", name_of(contract.limit_gives));
+  const auto say_capacity = [&](std::uint64_t most, const char* of) {
+    if (most > 0) say("capacity ", std::to_string(most), of);
+  };
+  say_capacity(contract.capacity_triangles, " triangles");
+  say_capacity(contract.capacity_contacts, " contacts");
+  say_capacity(contract.capacity_candidates, " candidates");
   return list;
+}
+
+bool beyond_capacity(const Contract& contract, const StepLoad& load) {
+  const auto exceeds = [](std::uint64_t number, std::uint64_t most) {
+    return most > 0 && number > most;
+  };
+  return exceeds(load.triangles, contract.capacity_triangles) ||
+         exceeds(load.contacts, contract.capacity_contacts) ||
+         exceeds(load.candidates, contract.capacity_candidates);
 }
 
 detector::CountedPairs tested_pairs(const Contract& contract, const detector::Positions& rest) {

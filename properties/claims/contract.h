@@ -117,6 +117,9 @@ struct Contract {
   // Displacements are in float32 alone: the end of a step is then a double, in which the oracle
   // holds it.
   MotionGiven motion = MotionGiven::ends;
+  // How much the detector holds; 0: as much as there is. Beyond one of them a step may be refused
+  // (beyond_capacity).
+  std::uint64_t capacity_triangles = 0, capacity_contacts = 0, capacity_candidates = 0;
   friend bool operator==(const Contract&, const Contract&) = default;
 
   bool has_range() const { return largest > 0; }
@@ -137,7 +140,8 @@ template <class Archive>
 void fields(Archive& archive, Contract& contract) {
   auto& [adjacency, coordinates, margin, start, start_distance, least_nonzero, largest, features,
          time_tolerance, reports_pairs, separation, counts, rings, rest_distance, takes_relations,
-         limit_gives, progress, motion] = contract;
+         limit_gives, progress, motion, capacity_triangles, capacity_contacts,
+         capacity_candidates] = contract;
   archive("adjacency", adjacency, "coordinates", coordinates, "margin", margin);
   archive("start", start, "start_distance", start_distance);
   archive("least_nonzero", least_nonzero, "largest", largest, "features", features);
@@ -146,6 +150,8 @@ void fields(Archive& archive, Contract& contract) {
   archive("counts", counts, "rings", rings, "rest_distance", rest_distance);
   archive("takes_relations", takes_relations);
   archive("limit_gives", limit_gives, "progress", progress, "motion", motion);
+  archive("capacity_triangles", capacity_triangles, "capacity_contacts", capacity_contacts,
+          "capacity_candidates", capacity_candidates);
 }
 
 // The shortest decimal that reads back to the same double. It is made without libfmt, because the
@@ -159,6 +165,14 @@ std::string fault_of(const Contract& contract);
 // What the contract leaves out or changes, one phrase each: "starts free", "edges from 1e-06",
 // "coordinates up to 1e+06", "times within 1e-09". Empty for the contract that leaves nothing out.
 std::vector<std::string> phrases_of(const Contract& contract);
+
+// How much a step is, as the oracle counts it: triangles of its mesh, pairs of them in contact that
+// the contract does not leave out, and feature pairs whose swept boxes meet.
+struct StepLoad {
+  std::uint64_t triangles = 0, contacts = 0, candidates = 0;
+};
+// Whether a detector with this contract may refuse such a step.
+bool beyond_capacity(const Contract& contract, const StepLoad& load);
 
 // The relation of what the contract tests, on a mesh whose vertices are at rest at `rest`.
 detector::CountedPairs tested_pairs(const Contract& contract, const detector::Positions& rest);

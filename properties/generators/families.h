@@ -24,12 +24,18 @@ struct Family {
   bool closed = false;      // every case is a cycle
   bool degenerate = false;  // exact coincidences are frequent: the oracle needs dear rungs
   GeneratedCase (*make)(Random&, std::string id);
+  std::uint64_t triangles = 0;  // of every case, about; 0: few, as above
 };
 
 // The strata's families in a fixed order.
 std::span<const Family> families();
 // Families of cases with a relation (relations.h), for plan files: no named campaign has them.
 std::span<const Family> counted_families();
+
+// Families of large cases of one size each, "size-1e3" to "size-1e6" (sizes/). Their strata state
+// a bound each and want none: their cases are few and dear.
+std::span<const Family> size_families();
+bool is_size_family(std::string_view name);
 
 // Makes the case of an id "campaign:seed:stratum:index". The id's hash is the only source of
 // randomness, so any case can be made alone, with the same bytes on every machine. Takes 10 us. A

@@ -300,6 +300,27 @@ void judge_candidates(const CandidatePairs& candidates, const oracle::StepJudgem
   }
 }
 
+StepDiff diff_of_refusal(const oracle::StepJudgement& judgement, const Claims& claims,
+                         const Contract& contract, const detector::TrianglesView& triangles) {
+  StepDiff diff;
+  diff.answer = Answer::error;
+  diff.oracle_complete = judgement.complete;
+  const StepTruth truth = truth_of(judgement, contract, triangles);
+  diff.starts_near = truth.starts_near;
+  diff.refused = {static_cast<std::uint64_t>(triangles.rows()), truth.pairs.size(),
+                  judgement.feature_candidates};
+  if (beyond_capacity(contract, *diff.refused)) {
+    diff.outcome = Outcome::refused;
+  } else if (!judgement.complete) {
+    diff.partial = true;
+    diff.outcome = Outcome::undecided;
+  } else {
+    if (claims.has(Claim::total)) diff.broken.push_back(Claim::total);
+    diff.outcome = claims.has(Claim::total) ? Outcome::defect : Outcome::error;
+  }
+  return diff;
+}
+
 StepDiff diff_without_answer(const detector::StepResult& result, const Claims& claims) {
   StepDiff diff;
   diff.has_answer = false;

@@ -16,11 +16,15 @@
 
 namespace assay::properties {
 
-enum class Outcome : std::uint8_t { holds, defect, undecided, error };
+// refused: beyond the capacity of the contract, where the detector need not answer.
+enum class Outcome : std::uint8_t { holds, defect, undecided, error, refused };
 constexpr auto names_of(Outcome) {
   using enum Outcome;
-  return std::to_array<Named<Outcome>>(
-      {{holds, "holds"}, {defect, "defect"}, {undecided, "undecided"}, {error, "error"}});
+  return std::to_array<Named<Outcome>>({{holds, "holds"},
+                                        {defect, "defect"},
+                                        {undecided, "undecided"},
+                                        {error, "error"},
+                                        {refused, "refused: capacity"}});
 }
 
 // A pair whose first time the detector has wrong.
@@ -111,8 +115,9 @@ struct StepDiff {
   // them.
   std::optional<CandidateCount> candidates;
   std::vector<detector::PairContact> missing_candidates;
-  std::optional<LimitDiff> limit;  // only of a limiter
-  bool has_answer = true;          // false: the library gives candidates or limits, no answers
+  std::optional<LimitDiff> limit;   // only of a limiter
+  bool has_answer = true;           // false: the library gives candidates or limits, no answers
+  std::optional<StepLoad> refused;  // only of a step that was refused as beyond the capacity
 };
 
 // Judges a step by what its detector claims. Pairs of the oracle that lie outside of the
@@ -197,6 +202,12 @@ struct LimitedStep {
 void judge_limit(const std::optional<LimitAnswer>& answer, const LimitedStep& step,
                  const oracle::StepJudgement& judgement, const Claims& claims,
                  const Contract& contract, StepDiff& diff);
+
+// The diff of a step that was refused as beyond the capacity. It is Outcome::refused where a number
+// of the contract's capacity is exceeded. Elsewhere it breaks `total`, or is Outcome::error without
+// that claim. It is undecided if the oracle was stopped before it had counted as much.
+StepDiff diff_of_refusal(const oracle::StepJudgement& judgement, const Claims& claims,
+                         const Contract& contract, const detector::TrianglesView& triangles);
 
 // The diff of a step of a library without answers, of candidates or limits: it holds, or was an
 // error, which breaks `total`.

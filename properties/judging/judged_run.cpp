@@ -12,8 +12,8 @@ namespace {
 
 // The worse of two outcomes.
 Outcome worse(Outcome a, Outcome b) {
-  constexpr Outcome ascending[] = {Outcome::holds, Outcome::undecided, Outcome::error,
-                                   Outcome::defect};
+  constexpr Outcome ascending[] = {Outcome::refused, Outcome::holds, Outcome::undecided,
+                                   Outcome::error, Outcome::defect};
   const auto rank = [&](Outcome outcome) {
     return std::find(std::begin(ascending), std::end(ascending), outcome);
   };
@@ -74,6 +74,7 @@ StepTruth truth_of(const corpus::Case& c, const oracle::StepJudgement& judgement
 StepDiff compare_step(const CaseRun& run, std::size_t s, const oracle::StepJudgement& judgement,
                       const Claims& claims, const Contract& contract,
                       const detector::TrianglesView& triangles) {
+  if (is_over_capacity(run, s)) return diff_of_refusal(judgement, claims, contract, triangles);
   StepDiff diff = run.has_answers ? compare(run.steps[s], judgement, claims, contract, triangles)
                                   : diff_without_answer(run.steps[s], claims);
   diff.oracle_complete = judgement.complete;
@@ -98,6 +99,15 @@ JudgedRun judge_run(const corpus::Case& c, const CaseRun& run,
     case RunEnd::refused:
       if (c.expected.answer != detector::Answer::error) not_answered(judged, claims);
       break;
+    case RunEnd::beyond_capacity: {
+      const StepLoad load = {static_cast<std::uint64_t>(c.triangles.rows()), 0, 0};
+      if (beyond_capacity(contract, load)) {
+        judged.outcome = Outcome::refused;
+      } else {
+        not_answered(judged, claims);
+      }
+      break;
+    }
     case RunEnd::hung:
     case RunEnd::out_of_memory:
       judged.outcome = Outcome::undecided;
@@ -111,7 +121,7 @@ JudgedRun judge_run(const corpus::Case& c, const CaseRun& run,
   std::optional<AskedPairs> asked;
   for (std::size_t s = 0; s < std::min(run.steps.size(), judgements.size()); ++s) {
     auto diff = compare_step(run, s, judgements[s], claims, of_case, c.triangles);
-    if (s < run.limits.size()) {
+    if (s < run.limits.size() && !diff.refused) {
       if (!asked) asked.emplace(c, contract, 1);
       judge_limit(run.limits[s],
                   {{start_of(c, script[s]), end_of(c, script[s])}, c.triangles, asked->options},
@@ -122,6 +132,9 @@ JudgedRun judge_run(const corpus::Case& c, const CaseRun& run,
     judged.left_out_misses += diff.left_out_missed ? 1 : 0;
     judged.steps.push_back(std::move(diff));
   }
+  const auto is_refused = [](const StepDiff& diff) { return diff.outcome == Outcome::refused; };
+  if (!judged.steps.empty() && std::all_of(judged.steps.begin(), judged.steps.end(), is_refused))
+    judged.outcome = Outcome::refused;
   if (!again) return judged;
   if (again->end == RunEnd::not_run) {
     judged.explanation = again->explanation;
@@ -132,7 +145,8 @@ JudgedRun judge_run(const corpus::Case& c, const CaseRun& run,
     not_answered(judged, claims);
   }
   const auto ended_by_itself = [](const CaseRun& one) {
-    return one.end == RunEnd::completed || one.end == RunEnd::crashed || one.end == RunEnd::refused;
+    return one.end == RunEnd::completed || one.end == RunEnd::crashed ||
+           one.end == RunEnd::refused || one.end == RunEnd::beyond_capacity;
   };
   if (claims.has(Claim::deterministic) && ended_by_itself(run) && ended_by_itself(*again) &&
       !same_answers(run, *again)) {

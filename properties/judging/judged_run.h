@@ -43,6 +43,8 @@ StepDiff compare_step(const CaseRun& run, std::size_t s, const oracle::StepJudge
 // Judges a run. How it ended decides first:
 // - A crash breaks `total`, and so does a refusal, unless the case is expected to be refused. If
 //   `total` is not claimed they are Outcome::error.
+// - A mesh that is refused as beyond the capacity is Outcome::refused if it has more triangles than
+//   that, and so is a run of which every step is refused so; else it is a refusal as any other.
 // - A hang, or a lack of memory, is undecided.
 // - A run that did not take place is Outcome::error.
 // - `again` is a second run. It breaks `total` if it crashes, and `deterministic` if it differs. If

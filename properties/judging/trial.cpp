@@ -167,7 +167,8 @@ class FailureOfStep {
             fmt::format(", and are none of {} candidates", diff.candidates->given);
         break;
       default:
-        failure_.kind = "error";
+        failure_.kind = diff.refused ? name_of(Outcome::refused) : "error";
+        if (diff.refused) failure_.explanation = refusal_text(*diff.refused);
     }
   }
 
@@ -179,6 +180,17 @@ class FailureOfStep {
     failure_.pair = contact.pair;
     failure_.feature = name_of(contact.feature.kind);
     failure_.explanation = contact_text(contact, " " + asked_text(contract_));
+  }
+
+  std::string refusal_text(const StepLoad& load) const {
+    const auto of = [](std::uint64_t number, const char* what, std::uint64_t most) {
+      return fmt::format("{} {}{}", number, what,
+                         most > 0 ? fmt::format(" (it holds {})", most) : "");
+    };
+    return fmt::format("refused: {}, {}, {}",
+                       of(load.triangles, "triangles", contract_.capacity_triangles),
+                       of(load.contacts, "contacts", contract_.capacity_contacts),
+                       of(load.candidates, "candidates", contract_.capacity_candidates));
   }
 
   void of_pair(const char* kind, const WrongTime& wrong) {
@@ -260,7 +272,7 @@ Failure failure_of(const StepDiff& diff, const detector::StepResult& result,
   Failure failure = FailureOfStep(diff, contract).take();
   Claims without_answer = claims_on_limits;
   without_answer.set(Claim::candidates);
-  if (failure.kind == "error" || without_answer.has(failure.claim)) return failure;
+  if (failure.kind == "error" || diff.refused || without_answer.has(failure.claim)) return failure;
   const auto exact = diff.first_contact
                          ? answer_text(detector::Answer::collision, diff.first_contact->time)
                          : answer_text(detector::Answer::free, {});

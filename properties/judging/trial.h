@@ -20,7 +20,7 @@ struct Failure {
   // How the claim is broken. One of these, as fits the claim: "answered free", "late", "early",
   // "missing pair", "late pair", "answered collision", "spurious pair", "early pair", "missing
   // candidate", "contact on the way", "share too large", "share too small", "free step cut",
-  // "error", "two runs differ", "crashed", "refused".
+  // "error", "two runs differ", "crashed", "refused", "refused: capacity".
   std::string kind;
   std::size_t step = 0;                        // step of the script
   std::optional<detector::TrianglePair> pair;  // the first wrong pair

@@ -53,9 +53,14 @@ void drop_view_at_the_end(ReductionSearch& search) {
 
 }  // namespace
 
+std::string fails_from_text(std::size_t triangles) {
+  return "fails from " + std::to_string(triangles) + " triangles on";
+}
+
 Reduction reduce(const corpus::Case& failing, const Judge& judge, const ReduceLimits& limits,
                  const OnBetter& on_better, const MakeViewExplicit& make_view_explicit) {
   ReductionSearch search(failing, judge, limits, on_better);
+  Reduction reduction;
   if (search.found()) {
     // Steps are dropped first, because a view is made explicit for each step that remains.
     search.begin_pass("drop later steps");
@@ -64,13 +69,16 @@ Reduction reduce(const corpus::Case& failing, const Judge& judge, const ReduceLi
       search.begin_pass("make view explicit");
       if (const auto with_view = make_view_explicit(search.best())) search.replace(*with_view);
     }
-    run_all(search);
-    drop_view_at_the_end(search);
-    search.begin_pass("canonical order");
-    canonical_order(search);
+    search.begin_pass("large mesh");
+    reduction.fails_from = cut_large_mesh(search);
+    if (reduction.fails_from == 0) {
+      run_all(search);
+      drop_view_at_the_end(search);
+      search.begin_pass("canonical order");
+      canonical_order(search);
+    }
   }
   search.begin_pass("end");
-  Reduction reduction;
   reduction.fixed_point = search.found() && !search.ended();
   reduction.smallest = search.best();
   reduction.finding = search.finding();

@@ -46,8 +46,14 @@ struct Reduction {
   std::uint64_t calls = 0;
   double seconds = 0;
   bool fixed_point = false;  // no pass finds anything smaller; false if a limit ended it
+  // Above 0: only its size shows the failure. So many triangles of the case fail, and no fewer that
+  // were tried (cut_large_mesh of passes.h).
+  std::size_t fails_from = 0;
   std::vector<PassStatistics> passes;
 };
+
+// "fails from 5001 triangles on": how Reduction::fails_from is said.
+std::string fails_from_text(std::size_t triangles);
 
 // Is called with each smaller case as soon as it is found, so that what it saves is never lost.
 using OnBetter = std::function<void(const corpus::Case&)>;

@@ -1,5 +1,6 @@
 #include "properties/reducer/search.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 
@@ -109,16 +110,25 @@ bool ReductionSearch::ended() const {
 
 std::optional<Finding> ReductionSearch::ask(const Case& candidate) {
   const auto [place, is_new] = judged_.try_emplace(hash_of(candidate));
-  if (!is_new) return place->second;
-  if (ended() || !is_valid(candidate)) {
-    judged_.erase(place);
-    return std::nullopt;
+  if (is_new) {
+    if (ended() || !is_valid(candidate)) {
+      judged_.erase(place);
+      return std::nullopt;
+    }
+    ++calls_;
+    ++statistics_[pass_].tried;
+    place->second = judge_(candidate);
   }
-  ++calls_;
-  ++statistics_[pass_].tried;
-  auto found = judge_(candidate);
-  if (found && found->signature == finding_.signature) place->second = std::move(found);
-  return place->second;
+  return place->second && matches(*place->second) ? place->second : std::nullopt;
+}
+
+bool ReductionSearch::matches(const Finding& finding) const {
+  if (finding.signature == finding_.signature) return true;
+  // "claim: kind at stage, feature, cause"
+  const auto kind_of = [](const std::string& signature) {
+    return signature.substr(0, std::min(signature.find(','), signature.find(" at ")));
+  };
+  return kind_alone_ && kind_of(finding.signature) == kind_of(finding_.signature);
 }
 
 void ReductionSearch::keep(const Case& candidate, const MeshSize& size, Finding finding) {

@@ -31,6 +31,10 @@ class ReductionSearch {
   // nothing. The best case stays as it is.
   std::optional<Finding> ask(const corpus::Case& candidate);
 
+  // From now on a failure of the same claim and kind counts as the same, whatever its feature and
+  // cause, or one of the whole signature that the best case has by then.
+  void match_kind_alone(bool alone) { kind_alone_ = alone; }
+
   // A limit is reached: nothing is judged any more.
   bool ended() const;
   std::uint64_t calls() const { return calls_; }
@@ -52,8 +56,10 @@ class ReductionSearch {
   MeshSize size_;
   MeshSize reported_;  // the least size that on_better_ was told
   std::uint64_t calls_ = 0;
-  // The judged cases by the hash of their content. Findings of another signature are kept as
-  // nothing.
+  bool matches(const Finding& finding) const;
+
+  bool kind_alone_ = false;
+  // The judged cases by the hash of their content.
   std::unordered_map<std::uint64_t, std::optional<Finding>> judged_;
   std::vector<PassStatistics> statistics_;
   std::size_t pass_ = 0;

@@ -26,6 +26,15 @@ std::string error_of(const CaseRun& run, std::size_t s) {
   return s < run.errors.size() ? run.errors[s] : "";
 }
 
+void note_capacity(CaseRun& run, std::size_t s) {
+  run.over_capacity.resize(std::max(run.over_capacity.size(), s + 1));
+  run.over_capacity[s] = 1;
+}
+
+bool is_over_capacity(const CaseRun& run, std::size_t s) {
+  return s < run.over_capacity.size() && run.over_capacity[s] != 0;
+}
+
 CaseRun out_of_memory() { return {RunEnd::out_of_memory, "out of memory", {}}; }
 
 namespace {
@@ -102,7 +111,8 @@ CaseRun run_case(const corpus::Case& c, const Configuration& configuration) try 
 
 bool same_answers(const CaseRun& a, const CaseRun& b) {
   return a.end == b.end && a.explanation == b.explanation && a.has_answers == b.has_answers &&
-         a.errors == b.errors && a.candidates == b.candidates &&
+         a.errors == b.errors && a.over_capacity == b.over_capacity &&
+         a.candidates == b.candidates &&
          std::equal(a.limits.begin(), a.limits.end(), b.limits.begin(), b.limits.end(),
                     same_limit) &&
          std::equal(a.steps.begin(), a.steps.end(), b.steps.begin(), b.steps.end(), same_result);

@@ -34,12 +34,13 @@ struct RunTimes {
 };
 
 enum class RunEnd : std::uint8_t {
-  completed,      // every step has a result, which may be undecided or an error
-  crashed,        // the process ended while the detector ran
-  hung,           // stopped at a time limit: undecided
-  refused,        // the mesh was refused by name when the detector was made
-  out_of_memory,  // before the first step: undecided
-  not_run,        // there is no worker to run it: the harness failed, not the detector
+  completed,        // every step has a result, which may be undecided or an error
+  crashed,          // the process ended while the detector ran
+  hung,             // stopped at a time limit: undecided
+  refused,          // the mesh was refused by name when the detector was made
+  out_of_memory,    // before the first step: undecided
+  not_run,          // there is no worker to run it: the harness failed, not the detector
+  beyond_capacity,  // the mesh was refused for its size when the detector was made
 };
 constexpr auto names_of(RunEnd) {
   using enum RunEnd;
@@ -48,7 +49,8 @@ constexpr auto names_of(RunEnd) {
                                        {hung, "hung"},
                                        {refused, "refused"},
                                        {out_of_memory, "out of memory"},
-                                       {not_run, "not run"}});
+                                       {not_run, "not run"},
+                                       {beyond_capacity, "refused: capacity"}});
 }
 
 // The candidate pairs of one step; nothing if the detector failed to give them.
@@ -74,6 +76,9 @@ struct CaseRun {
   // For each step why it has no answer ("step 2: ..."), or an empty text if it has one. The list
   // is empty if all steps have answers.
   std::vector<std::string> errors = {};
+  // For each step whether a plug-in refused it as beyond its capacity; its answer is then an error.
+  // Empty if it refused none so.
+  std::vector<std::uint8_t> over_capacity = {};
   // Whether the detector answers steps at all. A library that only lists candidates does not: each
   // of its steps is stored as undecided or, if it failed, as an error.
   bool has_answers = true;
@@ -105,6 +110,10 @@ CaseRun run_case(const corpus::Case& c, const Configuration& configuration);
 void note_error(CaseRun& run, std::size_t s, const std::string& text);
 // Why step s has no answer; empty if nothing is said about it.
 std::string error_of(const CaseRun& run, std::size_t s);
+
+// Notes that step s was refused as beyond the capacity; whether it was.
+void note_capacity(CaseRun& run, std::size_t s);
+bool is_over_capacity(const CaseRun& run, std::size_t s);
 
 // The run to report for a case that did not fit into memory.
 CaseRun out_of_memory();

@@ -151,9 +151,10 @@ std::string broken_rule(const corpus::Case& c, const CaseRun& run,
     case RunEnd::completed:
       break;
     case RunEnd::refused:
+    case RunEnd::beyond_capacity:
     case RunEnd::out_of_memory:
       return run.steps.empty() && run.candidates.empty() && run.limits.empty() &&
-                     run.errors.empty() && !run.times
+                     run.errors.empty() && run.over_capacity.empty() && !run.times
                  ? ""
                  : "steps of a case that was not run";
     default:
@@ -171,6 +172,12 @@ std::string broken_rule(const corpus::Case& c, const CaseRun& run,
   }
   if (run.errors.size() > steps || !std::all_of(run.errors.begin(), run.errors.end(), is_line))
     return "errors of steps that are none";
+  if (!run.over_capacity.empty() && run.over_capacity.size() != steps)
+    return "refusals of steps that are none";
+  for (std::size_t s = 0; s < steps; ++s) {
+    if (is_over_capacity(run, s) && run.steps[s].answer != Answer::error)
+      return "an answer of a step that it refuses";
+  }
   if (run.times) {
     const auto is_time = [](double seconds) { return 0 <= seconds && std::isfinite(seconds); };
     const auto& of_steps = run.times->steps;

@@ -37,10 +37,11 @@ ASSAY_FIELDS(LimitAnswer, share, positions)
 template <class Wire>
 void fields(Wire& wire, CaseRun& run) {
   // The last three are the host's to say.
-  auto& [end, explanation, steps, candidates, limits, errors, has_answers, times, disturbances,
-         processor_seconds, printed] = run;
+  auto& [end, explanation, steps, candidates, limits, errors, over_capacity, has_answers, times,
+         disturbances, processor_seconds, printed] = run;
   wire("end", end, "explanation", explanation, "steps", steps, "candidates", candidates, "limits",
-       limits, "errors", errors, "has_answers", has_answers, "times", times);
+       limits, "errors", errors, "over_capacity", over_capacity, "has_answers", has_answers,
+       "times", times);
 }
 
 ASSAY_FIELDS(Configuration, name, options, fault, is_timed)
@@ -152,6 +153,8 @@ inline constexpr std::uint64_t longest_hello = 4 * longest_reply_text;
 // - The same of limits: each has a share from 0 to 1, or -1 where no claim speaks of it, and finite
 //   positions of all vertices.
 // - A run of a query (query_case.h) states neither pairs, candidates nor limits, and has an answer.
+// - If a step is refused as beyond the capacity, that is said of each step, and such a step is an
+//   error.
 // - Otherwise there are answers if and only if the plug-in has the part of steps.
 // - Times, if there are any, are finite and not negative, one for each step.
 std::string broken_rule(const corpus::Case& c, const CaseRun& run,

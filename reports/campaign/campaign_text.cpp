@@ -26,7 +26,7 @@ std::string stratum_row(const RunFindings& findings, const properties::StratumPl
   const double seconds = 1e-6 * static_cast<double>(tally.oracle_us + tally.detector_us);
   return fmt::format("{:24} {:{}} {:>7} {:>7} {:>7} {:>9} {:>9.2e} {:>9} {:>13}\n",
                      c == 0 ? stratum.family : "", name, width, outcomes.trials(), outcomes.holds,
-                     outcomes.defects, outcomes.open(), bound_of(outcomes, findings.run),
+                     outcomes.defects, outcomes.open(), bound_of(outcomes, stratum, findings.run),
                      stratum.wanted_bound > 0 ? fmt::format("{:.0e}", stratum.wanted_bound) : "-",
                      c == 0 && seconds > 0
                          ? fmt::format("{:.0f}", static_cast<double>(tally.steps) / seconds)

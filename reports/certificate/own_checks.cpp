@@ -121,7 +121,7 @@ class JudgedRows {
           properties::judge_trial(*seen, truth, runs[i], configurations[i], request_.detector);
       if (!verdict.steps.empty())
         count_triangles(rows_[i], *seen, properties::has_judged_contact(verdict.steps));
-      if (verdict.outcome == Outcome::holds) continue;
+      if (verdict.outcome == Outcome::holds || verdict.outcome == Outcome::refused) continue;
       const auto& failure = verdict.failure;
       rows_[i].defects += failure ? 1 : 0;
       if (!failure) {

@@ -21,7 +21,8 @@ Json bounds_json(const RunFindings& findings, const properties::StratumPlan& str
                     {"defects", outcomes.defects},
                     {"undecided", outcomes.undecided},
                     {"errors", outcomes.errors},
-                    {"bound", bound_of(outcomes, findings.run)},
+                    {"refused", outcomes.refused},
+                    {"bound", bound_of(outcomes, stratum, findings.run)},
                     {"met", is_met(findings, stratum, c)}});
   }
   return list;
@@ -108,6 +109,7 @@ Json strata_json(const RunFindings& findings) {
                     {"pairs", tally.pairs},
                     {"measures", findings.run.detector.built_in ? Json(nullptr)
                                                                 : measures_json(tally.measures)},
+                    {"risk", risk_in(stratum, findings.run)},
                     {"wanted_bound", wanted > 0 ? Json(wanted) : Json(nullptr)},
                     {"agree", configurations_agree(findings, stratum)},
                     {"bounds", bounds_json(findings, stratum)}});
@@ -205,6 +207,7 @@ Json measures_json(const properties::StepMeasures& m) {
           {"left_out",
            {{"cases_redrawn", m.redrawn},
             {"steps", m.steps_left_out},
+            {"refused", m.refused},
             {"would_be_misses", m.left_out_misses}}}};
 }
 

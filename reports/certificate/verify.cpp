@@ -196,9 +196,9 @@ properties::Expected<Json> pool(const std::vector<Json>& predicates) {
   }
   Json list = Json::array();
   if (predicates.empty()) return list;
-  const double risk = predicates[0]["confidence"]["risk_of_each"].get<double>();
   for (std::size_t s = 0; s < predicates[0]["strata"].size(); ++s) {
     const auto& first = predicates[0]["strata"][s];
+    const double risk = first["risk"].get<double>();
     for (std::size_t c = 0; c < first["bounds"].size(); ++c) {
       std::uint64_t n = 0, holds = 0;
       for (const auto& p : predicates) {

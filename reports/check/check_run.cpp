@@ -151,7 +151,8 @@ class CheckRun {
     }
     say(fmt::format("the detector's run: {}\n", outcome_.ended));
     outcome_.defect = judged.outcome == Outcome::defect;
-    outcome_.undecided = !outcome_.defect;
+    outcome_.is_judged &= judged.outcome != Outcome::refused;
+    outcome_.undecided = !outcome_.defect && judged.outcome != Outcome::refused;
     // If the only broken claim is that two runs agree, there are steps to show.
     return judged.broken == std::vector<properties::Claim>{properties::Claim::deterministic};
   }
@@ -233,7 +234,7 @@ class CheckRun {
         refused_ = fmt::format("step {}: {}", shown_number, error);
         return {};
       }
-      if (outcome_.ended.empty()) outcome_.ended = error;
+      if (outcome_.ended.empty() && !answers_.is_refused(s)) outcome_.ended = error;
       told_error = fmt::format("  {}\n", error);
     }
     if (result.answer == Answer::collision && !outcome_.collision_step) {

@@ -22,6 +22,8 @@ void GivenAnswers::take(const std::optional<corpus::LoggedAnswer>& logged) {
   if (result) {
     run_.steps.front() = std::move(result.value());
   } else {
+    if (result.error().kind == properties::ProblemKind::beyond_capacity)
+      properties::note_capacity(run_, 0);
     take_error(result.error().message);
   }
 }

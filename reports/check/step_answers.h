@@ -68,6 +68,9 @@ class StepAnswers {
   // built-in detector it is empty.
   const properties::CaseRun& run() const { return run_; }
 
+  // Whether a plug-in refused step s as beyond its capacity.
+  bool is_refused(std::size_t s) const { return is_over_capacity(run_, s - first_of_run_); }
+
   properties::StepDiff judge(std::size_t s, const detector::StepResult& result,
                              const oracle::StepJudgement& judgement,
                              const properties::LimitedStep& step) const {

@@ -16,7 +16,9 @@ namespace assay::python {
 // A member of the contract by its name in Python: a choice of words, or a number.
 struct ContractMember {
   const char* name;
-  std::variant<std::int32_t assay_description::*, double assay_description::*> place;
+  std::variant<std::int32_t assay_description::*, double assay_description::*,
+               std::uint64_t assay_description::*>
+      place;
   std::vector<std::string> words;
 };
 
@@ -47,7 +49,10 @@ inline std::vector<ContractMember> contract_members() {
           {"rest_distance", &Description::rest_distance, {}},
           {"limit_gives", &Description::limit_gives, words_of<properties::LimitGives>()},
           {"progress", &Description::progress, {}},
-          {"motion", &Description::motion, words_of<properties::MotionGiven>()}};
+          {"motion", &Description::motion, words_of<properties::MotionGiven>()},
+          {"capacity_triangles", &Description::capacity_triangles, {}},
+          {"capacity_contacts", &Description::capacity_contacts, {}},
+          {"capacity_candidates", &Description::capacity_candidates, {}}};
 }
 
 inline pybind11::tuple claim_words() {

@@ -91,8 +91,9 @@ std::string folder_of_package() {
   if (error.matches(PyExc_MemoryError)) throw std::bad_alloc();
   if (error.trace()) PyException_SetTraceback(error.value().ptr(), error.trace().ptr());
   const auto told = py::module_::import("assay.hosting").attr("tell")(error.value());
-  const auto [is_refused, line] = told.cast<std::pair<bool, std::string>>();
-  if (is_refused) throw plugin::Refused(line);
+  const auto [kind, line] = told.cast<std::pair<std::string, std::string>>();
+  if (kind == "refused") throw plugin::Refused(line);
+  if (kind == "beyond capacity") throw plugin::BeyondCapacity(line);
   throw std::runtime_error(line);
 }
 

@@ -130,6 +130,9 @@ std::string measures_sentence(const properties::StepMeasures& m) {
                                 m.starts_near, m.starts_near == 1 ? "" : "s"));
   if (m.steps_left_out > 0)
     parts.push_back(fmt::format("{} steps left out by the contract", m.steps_left_out));
+  if (m.refused > 0)
+    parts.push_back(
+        fmt::format("{} step{} refused: capacity", m.refused, m.refused == 1 ? "" : "s"));
   if (m.left_out_misses > 0)
     parts.push_back(fmt::format("{} step{} would be a miss if the contract left nothing out",
                                 m.left_out_misses, m.left_out_misses == 1 ? "" : "s"));
@@ -149,6 +152,7 @@ std::string measures_text(const properties::RunFindings& findings) {
                        measures_row(findings.tally_of(stratum).measures));
   const auto all = findings.tally.counts.measures;
   out += fmt::format("{:24} {}\n", "all", measures_row(all));
+  if (all.refused > 0) out += fmt::format("refused: capacity, in {} steps\n", all.refused);
   if (all.left_out_misses > 0)
     out += fmt::format("the contract leaves out what would have been a miss in {} steps\n",
                        all.left_out_misses);

@@ -32,6 +32,7 @@ bool differs(const properties::StepDiff& diff) {
 
 std::string verdict_text(const properties::StepDiff& diff) {
   if (diff.outcome == Outcome::holds) return differs(diff) ? "no claim is broken" : "agree";
+  if (diff.outcome == Outcome::refused) return "beyond its capacity";
   return diff.outcome == Outcome::undecided ? "undecided" : "DIFFER";
 }
 
@@ -166,7 +167,8 @@ std::string step_text(std::size_t number, const detector::StepResult& result,
                        diff->missing_candidates.size());
   if (diff->limit) out += limit_text(*diff->limit);
   out += times_text(*diff, shown.has_stages);
-  if (diff->outcome != Outcome::holds || differs(*diff)) out += diff_text(*diff, shown);
+  const bool is_plain = diff->outcome == Outcome::holds || diff->outcome == Outcome::refused;
+  if (!is_plain || differs(*diff)) out += diff_text(*diff, shown);
   return out;
 }
 

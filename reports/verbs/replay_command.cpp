@@ -247,10 +247,8 @@ Expected<int> run_replay(const ReplayRequest& request) {
         *seen, truth, runs[i], configuration, subject.detector, asks_twice ? &again[i] : nullptr);
     print_run(configuration, runs[i], verdict);
     if (verdict.outcome == Outcome::defect) code = exit_defect;
-    if (verdict.outcome != Outcome::defect && verdict.outcome != Outcome::holds &&
-        code == exit_holds) {
-      code = exit_undecided;
-    }
+    const bool is_open = verdict.outcome == Outcome::undecided || verdict.outcome == Outcome::error;
+    if (is_open && code == exit_holds) code = exit_undecided;
     if (request.why) {
       fmt::print("{}", pair_story(c, configuration.options, *request.why, truth));
     }

@@ -105,7 +105,10 @@ Expected<int> run_shrink(const ShrinkRequest& request) {
   if (!written) return written.error();
   fmt::print("{}; {} runs, {:.1f} s{}\npicture {}\nreplay: {} replay {}{}\n",
              properties::size_text(properties::size_of(c), properties::size_of(reduction.smallest)),
-             reduction.calls, reduction.seconds, reduction.fixed_point ? "" : "; the time was over",
+             reduction.calls, reduction.seconds,
+             !reduction.fixed_point     ? "; the time was over"
+             : reduction.fails_from > 0 ? "; " + properties::fails_from_text(reduction.fails_from)
+                                        : "",
              picture_file(request.out), this_program(true), shell_word(request.out),
              detector_words(request.detector.library, request.detector.threads));
   return exit_defect;

@@ -17,6 +17,8 @@
 //   no-interval                              its first time is none
 //   changing                                 the interval of every second first time ends at 1
 //   rounds-end                               rounds the end of a displacement to float32
+//   refuse-from=N                            refuses meshes of N triangles or more for its capacity
+//   refuse-pairs-from=N                      the same of steps with N pairs in contact or more
 //   print=N                                  prints N lines a step, with an escape character
 #include <algorithm>
 #include <atomic>
@@ -60,6 +62,8 @@ class ByContract {
       const auto* corners = mesh.triangles[i];
       triangles.push_back({corners[0], corners[1], corners[2]});
     }
+    if (is_from("refuse-from", triangles.size()))
+      throw assay::plugin::BeyondCapacity("so many triangles");
   }
 
   Result evaluate(assay::plugin::Positions start, assay::plugin::Positions end) {
@@ -79,6 +83,8 @@ class ByContract {
         if (time < first) first = time;
       }
     }
+    if (is_from("refuse-pairs-from", found.pairs.size()))
+      throw assay::plugin::BeyondCapacity("so many pairs");
     const auto lines = static_cast<int>(told.number_of("print"));
     for (int i = 1; i <= lines; ++i)
       std::fprintf(stderr, "line %d of \x1b[31m%d triangles\n", i,
@@ -109,6 +115,10 @@ class ByContract {
   }
 
  private:
+  static bool is_from(const char* word, std::size_t count) {
+    return told.has(word) && static_cast<double>(count) >= told.number_of(word);
+  }
+
   const double* end_of_displacement(assay::plugin::Positions way) {
     ends.assign(way.data(), way.data() + 3 * way.size());
     for (std::size_t i = 0; i < ends.size(); ++i) {

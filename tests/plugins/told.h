@@ -3,7 +3,7 @@
 //
 //   start=free, start=apart:D, range=LO:HI, features=vertex-face, features=edge-edge, tolerance=T,
 //   margin=D, separation=D, no-pairs, adjacency=NUMBER, float32,
-//   displacement, claims=BITS
+//   displacement, claims=BITS, capacity-triangles=N, capacity-contacts=N, capacity-candidates=N
 #pragma once
 
 #include <cstdlib>
@@ -47,6 +47,12 @@ class Told {
     d.separation = number_of("separation");
     d.time_tolerance = number_of("tolerance");
     d.adjacency = static_cast<std::int32_t>(number_of("adjacency"));
+    const auto count_of = [this](const char* word) {
+      return static_cast<std::uint64_t>(number_of(word));
+    };
+    d.capacity_triangles = count_of("capacity-triangles");
+    d.capacity_contacts = count_of("capacity-contacts");
+    d.capacity_candidates = count_of("capacity-candidates");
     if (has("no-pairs")) d.reports = ASSAY_REPORTS_NO_PAIRS;
     if (has("float32")) d.coordinates = ASSAY_COORDINATES_FLOAT32;
     if (has("displacement")) d.motion = ASSAY_MOTION_DISPLACEMENT;

@@ -31,7 +31,8 @@ std::uint64_t RunFindings::planned() const {
 
 bool RunFindings::is_left_out(const StratumPlan& stratum) const {
   const auto cases = planned(stratum);
-  return cases > 0 && tally_of(stratum).discards == cases;
+  const auto& of_stratum = tally_of(stratum);
+  return cases > 0 && of_stratum.discards + of_stratum.refused == cases;
 }
 
 const StratumTally& RunFindings::tally_of(const StratumPlan& stratum) const {
@@ -108,6 +109,7 @@ std::uint64_t number_of_bounds(const BoundRun& run) {
   for (const auto& configuration : run.detector.configurations)
     on_steps += configuration.claims.size();
   for (const auto& stratum : run.plan.strata) {
+    if (is_size_family(stratum.family)) continue;
     const bool is_of_queries = is_query_family(stratum.family) && !alone;
     bounds += is_of_queries ? run.detector.query_claims.size() : on_steps;
   }
@@ -116,22 +118,28 @@ std::uint64_t number_of_bounds(const BoundRun& run) {
 
 double risk_of_each(const BoundRun& run) { return risk_of_each(number_of_bounds(run)); }
 
-double bound_of(const StratumTally::Outcomes& outcomes, const BoundRun& run) {
+double risk_in(const StratumPlan& stratum, const BoundRun& run) {
+  return is_size_family(stratum.family) ? risk_of_each(1) : risk_of_each(run);
+}
+
+double bound_of(const StratumTally::Outcomes& outcomes, const StratumPlan& stratum,
+                const BoundRun& run) {
   const auto n = outcomes.trials();
-  return upper_bound(n - outcomes.holds, n, risk_of_each(run));
+  return upper_bound(n - outcomes.holds, n, risk_in(stratum, run));
 }
 
 bool is_met(const RunFindings& findings, const StratumPlan& stratum, std::size_t configuration) {
   if (findings.is_left_out(stratum)) return true;
   const auto outcomes = findings.outcomes_of(stratum, configuration);
-  if (stratum.wanted_bound <= 0) return outcomes.open() == 0;
-  return findings.alone || bound_of(outcomes, findings.run) <= stratum.wanted_bound;
+  if (stratum.wanted_bound <= 0) return outcomes.open() == 0 || is_size_family(stratum.family);
+  return findings.alone || bound_of(outcomes, stratum, findings.run) <= stratum.wanted_bound;
 }
 
 bool configurations_agree(const RunFindings& findings, const StratumPlan& stratum) {
   const auto& all = findings.tally_of(stratum).by_configuration;
-  return std::all_of(all.begin(), all.end(),
-                     [&](const auto& outcomes) { return outcomes == all.front(); });
+  return std::all_of(all.begin(), all.end(), [&](const auto& outcomes) {
+    return outcomes == all.front() || outcomes == StratumTally::Outcomes{};
+  });
 }
 
 }  // namespace assay::properties

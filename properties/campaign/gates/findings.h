@@ -45,7 +45,8 @@ struct RunFindings {
   // looked at (`alone`) or in all of them.
   std::uint64_t planned(const StratumPlan& stratum) const;
   std::uint64_t planned() const;
-  // Whether the contract left out every case of a family, once all of them were drawn.
+  // Whether the contract left out every case of a family, once all of them were drawn, or the
+  // detector refused it as beyond its capacity.
   bool is_left_out(const StratumPlan& stratum) const;
   // The tally of a family; an empty one if no trial of it was judged.
   const StratumTally& tally_of(const StratumPlan& stratum) const;
@@ -91,7 +92,8 @@ Expected<RunFindings> read_findings(const std::filesystem::path& folder,
 
 // The bounds that the trials of a campaign support, all of them together.
 
-// The number of bounds: strata times the claims of all configurations. A trial that breaks any
+// The number of bounds: strata times the claims of all configurations. Strata of large sizes
+// (size_families) are not among them: each of their bounds is stated alone. A trial that breaks any
 // claim of a configuration counts against that configuration's bound, so one bound holds for all
 // of its claims. Each claim is counted all the same, which only widens the bounds.
 std::uint64_t number_of_bounds(const BoundRun& run);
@@ -99,12 +101,17 @@ std::uint64_t number_of_bounds(const BoundRun& run);
 // The risk of each bound, so that all of them hold together with family_confidence.
 double risk_of_each(const BoundRun& run);
 
+// The risk of the bound of a stratum: that of each, or family_confidence for itself alone.
+double risk_in(const StratumPlan& stratum, const BoundRun& run);
+
 // The bound on the share of cases on which one configuration does not hold.
-double bound_of(const StratumTally::Outcomes& outcomes, const BoundRun& run);
+double bound_of(const StratumTally::Outcomes& outcomes, const StratumPlan& stratum,
+                const BoundRun& run);
 
 // Whether the gate bounds has nothing to say against a configuration in a stratum: its bound is not
 // above the one that is wanted, or, if none is wanted, every trial has a verdict. Nothing is asked
-// of a family of which the contract takes no case; no bound is asked of one shard by itself.
+// of a family of which the contract takes no case, nor of one of large sizes without a wanted
+// bound; no bound is asked of one shard by itself.
 bool is_met(const RunFindings& findings, const StratumPlan& stratum, std::size_t configuration);
 
 // Whether all configurations came to the same outcomes in a stratum, so that one row tells them.

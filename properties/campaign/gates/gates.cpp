@@ -259,8 +259,8 @@ GateFindings check_bounds(const RunFindings& f, const Asked&) {
       const auto outcomes = f.outcomes_of(stratum, c);
       found.against.push_back(
           fmt::format("{}, {}: ", stratum.family, f.run.detector.configurations[c].name) +
-          (is_wanted ? fmt::format("bound {:.2e}, {:.0e} is wanted", bound_of(outcomes, f.run),
-                                   stratum.wanted_bound)
+          (is_wanted ? fmt::format("bound {:.2e}, {:.0e} is wanted",
+                                   bound_of(outcomes, stratum, f.run), stratum.wanted_bound)
                      : fmt::format("{} without a verdict", outcomes.open())));
     }
   }

@@ -57,7 +57,7 @@ TrialCounts& TrialCounts::operator+=(const TrialCounts& other) {
 }
 
 char letter_of(Outcome outcome) {
-  constexpr std::string_view letters = "HDUE";
+  constexpr std::string_view letters = "HDUER";
   return letters[static_cast<std::size_t>(outcome)];
 }
 

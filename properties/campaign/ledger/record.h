@@ -50,7 +50,9 @@ struct TrialRecord {
   std::string id;  // campaign:seed:family:index
   std::string family;
   std::uint64_t index = 0;
-  std::string outcomes;  // one letter a configuration: H(olds) D(efect) U(ndecided) E(rror)
+  // One letter a configuration: H(olds) D(efect) U(ndecided) E(rror) R(efused: capacity), or
+  // not_run.
+  std::string outcomes;
   std::uint64_t triangles = 0, steps = 0, collisions = 0, pairs = 0;
   std::uint64_t oracle_us = 0, detector_us = 0;
   TrialCounts counts;
@@ -63,6 +65,8 @@ struct TrialRecord {
 };
 
 char letter_of(Outcome outcome);
+// Of a configuration that was not run: culling none on large meshes.
+inline constexpr char not_run = '-';
 
 // A defect with its mesh. `mesh` and `smallest` are case files (assay-case/1) as text.
 struct StoredFailure {

@@ -22,6 +22,7 @@ constexpr NamedNumber numbers[] = {
     {"redrawn", &StepMeasures::redrawn},
     {"steps_left_out", &StepMeasures::steps_left_out},
     {"starts_near", &StepMeasures::starts_near},
+    {"refused", &StepMeasures::refused},
     {"left_out_misses", &StepMeasures::left_out_misses},
     {"contact_trials", &StepMeasures::contact_trials},
     {"repeated_trials", &StepMeasures::repeated_trials},
@@ -88,6 +89,10 @@ StepMeasures measures_of(std::span<const StepDiff> diffs,
   StepMeasures sum;
   for (std::size_t s = 0; s < diffs.size(); ++s) {
     const StepDiff& diff = diffs[s];
+    if (diff.outcome == Outcome::refused) {
+      ++sum.refused;
+      continue;
+    }
     if (diff.starts_near) {
       ++sum.starts_near;
       continue;

@@ -28,6 +28,7 @@ struct StepMeasures {
   // What the contract leaves out.
   std::uint64_t redrawn = 0;          // cases that it does not take at all
   std::uint64_t steps_left_out = 0;   // steps left out of cases that it takes
+  std::uint64_t refused = 0;          // steps that were refused as beyond the capacity
   std::uint64_t left_out_misses = 0;  // steps that only the contract saves from being a miss
   // Of any detector: trials that were judged with a contact that the contract does not leave out,
   // and trials that were run twice and compared.

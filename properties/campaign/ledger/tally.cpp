@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "properties/generators/families.h"
 #include "properties/judging/case_options.h"
 #include "properties/laws/metamorphic/forms.h"
 
@@ -50,6 +51,7 @@ void StratumTally::add(const TrialRecord& record) {
   open += record.has(Outcome::undecided) || record.has(Outcome::error) ? 1 : 0;
   disturbed += record.disturbed > 0 ? 1 : 0;
   discards += record.outcomes.empty() ? 1 : 0;
+  refused += record.has(Outcome::refused) ? 1 : 0;
   meshes.insert(record.mesh);
   by_configuration.resize(std::max(by_configuration.size(), record.outcomes.size()));
   for (std::size_t i = 0; i < record.outcomes.size(); ++i) {
@@ -64,6 +66,11 @@ void StratumTally::add(const TrialRecord& record) {
       case 'U':
         ++outcomes.undecided;
         break;
+      case 'R':
+        ++outcomes.refused;
+        break;
+      case not_run:
+        break;
       default:
         ++outcomes.errors;
     }
@@ -73,9 +80,10 @@ void StratumTally::add(const TrialRecord& record) {
   const auto grow = [&](std::uint64_t& most, bool counts) {
     if (counts) most = std::max(most, record.triangles);
   };
-  grow(triangles, record.has(Outcome::holds) || record.has(Outcome::defect));
-  grow(triangles_in_contact, shown.contact_trials > 0);
-  grow(triangles_repeated, shown.repeated_trials > 0);
+  const bool is_judged = record.has(Outcome::holds) || record.has(Outcome::defect);
+  grow(triangles, is_judged);
+  grow(triangles_in_contact, is_judged && shown.contact_trials > 0);
+  grow(triangles_repeated, is_judged && shown.repeated_trials > 0);
   ++sizes[log2_of(record.triangles)];
   ++contacts[log2_of(record.pairs)];
 }
@@ -85,7 +93,9 @@ void Tally::add(const TrialRecord& record) {
   counts += record.counts;
   disturbances += record.disturbed;
   note_slow(record);
-  if (record.slowest_us >= near_from_us) near_limit.push_back(without_counts(record));
+  // The limit of large cases is another one.
+  if (record.slowest_us >= near_from_us && !is_size_family(record.family))
+    near_limit.push_back(without_counts(record));
 }
 
 void Tally::note_slow(const TrialRecord& record) {
@@ -103,7 +113,9 @@ void Tally::note_slow(const TrialRecord& record) {
 }
 
 std::uint64_t Tally::trials() const { return sum_of(*this, &StratumTally::trials); }
-std::uint64_t Tally::judged() const { return trials() - sum_of(*this, &StratumTally::discards); }
+std::uint64_t Tally::judged() const {
+  return trials() - sum_of(*this, &StratumTally::discards) - sum_of(*this, &StratumTally::refused);
+}
 std::uint64_t Tally::with_defect() const { return sum_of(*this, &StratumTally::with_defect); }
 std::uint64_t Tally::open() const { return sum_of(*this, &StratumTally::open); }
 std::uint64_t Tally::disturbed() const { return sum_of(*this, &StratumTally::disturbed); }

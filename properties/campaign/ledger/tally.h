@@ -20,9 +20,11 @@ struct StratumTally {
   std::uint64_t with_defect = 0, open = 0;  // trials with a configuration that is so
   std::uint64_t disturbed = 0;              // trials killed from outside, which ran again
   std::uint64_t discards = 0;      // trials for which no case was drawn that the contract takes
+  std::uint64_t refused = 0;       // trials that were refused as beyond the capacity
   std::set<std::uint64_t> meshes;  // hashes: as many as there are distinct cases
   struct Outcomes {
     std::uint64_t holds = 0, defects = 0, undecided = 0, errors = 0;
+    std::uint64_t refused = 0;  // none of the trials, because nothing was judged of them
     std::uint64_t trials() const { return holds + defects + undecided + errors; }
     std::uint64_t open() const { return undecided + errors; }
     friend bool operator==(const Outcomes&, const Outcomes&) = default;

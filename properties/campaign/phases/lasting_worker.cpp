@@ -46,7 +46,7 @@ CaseRun LastingWorker::run(const corpus::Case& c) {
 
 void LastingWorker::begin() {
   for (const auto& stratum : request_.plan.strata) {
-    if (!put_first_cases(stratum)) return;
+    if (!is_size_family(stratum.family) && !put_first_cases(stratum)) return;
   }
 }
 
@@ -94,7 +94,7 @@ void LastingWorker::judge_anew(const Remembered& asked, const CaseRun& run, Aske
   const auto& detector = request_.detector;
   const auto truth = judge_case(asked.c, detector.contract, request_.jobs);
   auto judged = judge_trial(asked.c, truth, run, configuration(), detector, &asked.first);
-  if (judged.outcome != Outcome::holds && judged.outcome != Outcome::defect) ++row.open;
+  if (judged.outcome == Outcome::undecided || judged.outcome == Outcome::error) ++row.open;
   if (!judged.failure) return;
   ++row.wrong;
   auto& failure = *judged.failure;

@@ -15,9 +15,19 @@
 
 namespace assay::properties {
 
+namespace {
+
+// Its oracle is worth several threads, and its failure more time.
+bool is_large(const corpus::Case& c) {
+  constexpr Eigen::Index from = 1000;
+  return c.triangles.rows() > from;
+}
+
+}  // namespace
+
 Judge judge_of_detector(const DetectorUnderTest& detector, const Configuration& configuration,
-                        WorkerProcess& worker) {
-  return [&](const corpus::Case& c) -> std::optional<Finding> {
+                        WorkerProcess& worker, int jobs) {
+  return [&, jobs](const corpus::Case& c) -> std::optional<Finding> {
     const auto seen = contracted(c, detector.contract);
     if (!seen) return std::nullopt;
     // If the case does not start clean although its caller vouches for that, the failure is no
@@ -27,7 +37,8 @@ Judge judge_of_detector(const DetectorUnderTest& detector, const Configuration& 
     const auto run = worker.run(*seen, {&configuration, 1});
     if (run[0].end == RunEnd::not_run) throw StoreProblem(run[0].explanation);
     const auto verdict =
-        judge_trial(*seen, judge_case(*seen, detector.contract), run[0], configuration, detector);
+        judge_trial(*seen, judge_case(*seen, detector.contract, is_large(c) ? jobs : 1), run[0],
+                    configuration, detector);
     if (!verdict.failure) return std::nullopt;
     return finding_of(*verdict.failure);
   };
@@ -35,15 +46,15 @@ Judge judge_of_detector(const DetectorUnderTest& detector, const Configuration& 
 
 Reduction shrink_case(const corpus::Case& failing, const DetectorUnderTest& detector,
                       const Configuration& configuration, WorkerProcess& worker,
-                      const ReduceLimits& limits, const OnBetter& on_better) {
+                      const ReduceLimits& limits, const OnBetter& on_better, int jobs) {
   MakeViewExplicit make_explicit;
   if (detector.built_in) {
     make_explicit = [&](const corpus::Case& c) {
       return with_explicit_view(c, configuration.options);
     };
   }
-  return reduce(failing, judge_of_detector(detector, configuration, worker), limits, on_better,
-                make_explicit);
+  return reduce(failing, judge_of_detector(detector, configuration, worker, jobs), limits,
+                on_better, make_explicit);
 }
 
 namespace {
@@ -72,10 +83,18 @@ std::vector<Configuration> configurations_of(const corpus::Case& failing,
   return vouched ? with_clean_start(detector.configurations) : detector.configurations;
 }
 
-// Replaces the text `about` by that of the case itself, because the text names triangles and
-// times, which the shrunk case has others of.
-void tell_of_itself(corpus::Case& c, const Judge& judge) {
-  if (const auto finding = judge(c)) c.about = about_text(finding->signature, finding->explanation);
+// The text `about` of a shrunk case, which names its own triangles and times. The signature stays
+// that of the failure, though the cause of a case that was cut from a large mesh may be another.
+std::string about_shrunk(const StoredFailure& failure, const Finding& finding,
+                         std::size_t fails_from = 0) {
+  const auto text = about_text(failure.signature, finding.explanation);
+  return fails_from == 0 ? text : text + "; " + fails_from_text(fails_from);
+}
+
+// How long a failure may be shrunk. The time grows with the triangles of the mesh, from 10,000 on.
+double seconds_for(const StoredFailure& failure, const corpus::Case& failing, double usual) {
+  if (failure.id.starts_with(repeated_in_id)) return std::min(usual, most_seconds_of_a_large_mesh);
+  return usual * std::max(1., static_cast<double>(failing.triangles.rows()) / 10'000);
 }
 
 // Puts failures that were shrunk in part before the others of their signature.
@@ -107,28 +126,39 @@ void shrink_failures(const CampaignRequest& request, Store& store, const ReduceL
                      [&](const Configuration& c) { return c.name == configuration_name(failure); });
     if (configuration == configurations.end()) continue;
     if (progress) progress(failure.signature);
-    const double most =
-        failure.id.starts_with(repeated_in_id) ? most_seconds_of_a_large_mesh : limits.seconds;
-    const ReduceLimits bounded{std::min({most, limits.seconds, left.count()}), limits.calls};
+    const double most = seconds_for(failure, failing.value(), limits.seconds);
+    const ReduceLimits bounded{std::min(most, left.count()), limits.calls};
     const Law* law = failure.signature.starts_with(law_in_signature)
                          ? law_named(failure.signature.substr(law_in_signature.size()))
                          : nullptr;
-    const OnBetter keep = [&](const corpus::Case& better) {
+    const auto store_as_smallest = [&](const corpus::Case& better, const std::string& about) {
       // As the detector saw it: with coordinates that a contract of float32 has rounded.
       corpus::Case shown = contracted(better, request.detector.contract).value_or(better);
-      if (!law) tell_of_itself(shown, judge_of_detector(request.detector, *configuration, worker));
+      if (!about.empty()) shown.about = about;
       failure.smallest = corpus::case_text(shown);
       store.set_smallest(failure);
     };
+    const OnBetter keep = [&](const corpus::Case& better) {
+      // What a large mesh shows is told in the end, because asking again takes long.
+      const auto finding =
+          law || is_large(better)
+              ? std::nullopt
+              : judge_of_detector(request.detector, *configuration, worker)(better);
+      store_as_smallest(better, finding ? about_shrunk(failure, *finding) : "");
+    };
     const Reduction reduction =
         law ? reduce(failing.value(), judge_of_law(*law, *configuration), bounded, keep)
-            : shrink_case(failing.value(), request.detector, *configuration, worker, bounded, keep);
+            : shrink_case(failing.value(), request.detector, *configuration, worker, bounded, keep,
+                          request.jobs);
+    if (is_large(reduction.smallest) && !law && !reduction.finding.signature.empty())
+      store_as_smallest(reduction.smallest,
+                        about_shrunk(failure, reduction.finding, reduction.fails_from));
     if (failure.smallest.empty()) {
       // Nothing smaller was found, so the mesh itself is the smallest.
       failure.smallest = failure.mesh;
       store.set_smallest(failure);
     }
-    const bool had_its_time = bounded.seconds >= std::min(most, limits.seconds);
+    const bool had_its_time = bounded.seconds >= most;
     const bool shows_no_more = reduction.finding.signature.empty();
     if (reduction.fixed_point || had_its_time || shows_no_more)
       store.set_note(done_note(failure), "done");
@@ -205,6 +235,7 @@ std::vector<SlowTrial> slowest_trials(const Store& store, double limit) {
     const auto undecided = r.outcomes.find(letter_of(Outcome::undecided));
     const double seconds = 1e-6 * static_cast<double>(r.slowest_us);
     const bool is_undecided = undecided != std::string::npos;
+    if (is_size_family(r.family)) return;  // their limit is another one
     if (!is_undecided && seconds < near_share * limit) return;
     list.push_back({r.id, r.family, is_undecided ? undecided : 0, is_undecided,
                     seconds < 0.5 * limit, seconds});

@@ -17,14 +17,14 @@
 namespace assay::properties {
 
 // A judge that runs a case in the worker and asks the oracle; the judge returns nothing if the case
-// holds. The arguments must outlive it.
+// holds. The arguments must outlive it. `jobs` are threads of the oracle for large meshes.
 Judge judge_of_detector(const DetectorUnderTest& detector, const Configuration& configuration,
-                        WorkerProcess& worker);
+                        WorkerProcess& worker, int jobs = 1);
 
 // Shrinks one case, by that judge.
 Reduction shrink_case(const corpus::Case& failing, const DetectorUnderTest& detector,
                       const Configuration& configuration, WorkerProcess& worker,
-                      const ReduceLimits& limits, const OnBetter& on_better = {});
+                      const ReduceLimits& limits, const OnBetter& on_better = {}, int jobs = 1);
 
 // Shrinks the first stored failure of each signature (failures of one signature break the same
 // claim in the same way). One that has been shrunk before is left alone, and so is one that the

@@ -37,8 +37,10 @@ PlannedCase case_within(const Contract& contract, const Family& family, const st
 // The case scaled by a power of two, so that the contract may take it. Its features can hardly lie
 // start_distance apart if the whole mesh is smaller than eight times that, so it becomes that
 // large, if a range of the contract allows it. With a separation the mesh becomes twice to 512
-// times as large as that. If the contract has a range, the case is scaled until its largest
-// coordinate fits, or until its shortest edge does.
+// times as large as that. Of a mesh of more than 400 triangles the middle one of its edges is
+// looked at in place of the mesh, and becomes twice to 8 times as large as the separation. If the
+// contract has a range, the case is scaled until its largest coordinate fits, or until its shortest
+// edge does.
 corpus::Case brought_into_contract(corpus::Case c, const Contract& contract);
 
 // Finds the cases for which Start::clean may be used, because what the caller then vouches for is
@@ -50,7 +52,7 @@ corpus::Case brought_into_contract(corpus::Case c, const Contract& contract);
 bool starts_clean(const corpus::Case& c);
 
 // Whether trial `index` of a family vouches for the start of its case. That is done for the
-// built-in detector, in every second one of the trials that may.
+// built-in detector, in every second one of the trials that may. A large mesh is not looked at.
 bool is_vouched_for(const DetectorUnderTest& detector, const corpus::Case& c, std::uint64_t index);
 
 // The same configurations, with start clean in place of start verified.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <mutex>
 #include <system_error>
 
@@ -54,6 +55,12 @@ std::uint64_t mesh_hash(const corpus::Case& c) {
     hash ^= hash >> 32;
   }
   return hash;
+}
+
+// A case of ten times as many triangles as 10,000 may take ten times the limit of a case.
+double time_factor(const Family& family) {
+  constexpr double from = 10'000;
+  return std::max(1., static_cast<double>(family.triangles) / from);
 }
 
 struct PlannedTrial {
@@ -109,21 +116,22 @@ class Trials {
   static constexpr std::size_t counted_together = 32;  // check_in_copies
 
   void work() {
-    Workers workers{{request_.worker, request_.plugin, request_.worker_limits()},
-                    {request_.worker, request_.plugin, request_.second_worker_limits()}};
+    Workers workers(request_);
     std::vector<Trial> waiting, judged;
     // If something goes wrong in one thread, all of them end.
     try {
       while (const PlannedTrial* planned = next_trial()) {
-        Trial trial = run_first(*planned, workers.first);
+        Trial trial = run_first(*planned, workers);
         if (planned->index % repeat_every != 0 || !trial.is_within) {
-          conclude(trial, nullptr, workers.first);
+          conclude(trial, nullptr, workers);
           judged.push_back(std::move(trial));
         } else {
           waiting.push_back(std::move(trial));
           if (waiting.size() == repeated_together) repeat(waiting, workers, judged);
         }
-        if (judged.size() >= counted_together || !request_.detector.built_in) finish(judged);
+        const bool is_large = planned->family->triangles > 0;  // not many of them in memory
+        if (judged.size() >= counted_together || !request_.detector.built_in || is_large)
+          finish(judged);
       }
       repeat(waiting, workers, judged);
       finish(judged);
@@ -173,18 +181,40 @@ class Trials {
     std::vector<StoredFailure> failures;
   };
 
-  struct Workers {
-    WorkerProcess first, second;
+  // The processes of one thread: one for first runs, one for second ones; and the same for each
+  // size of large cases, whose limit of time is another. They are started when they are asked.
+  class Workers {
+   public:
+    explicit Workers(const CampaignRequest& request) : request_(request) {}
+
+    WorkerProcess& first(const Family& family) { return of(family, request_.worker_limits()); }
+    WorkerProcess& second(const Family& family) {
+      return of(family, request_.second_worker_limits());
+    }
+
+   private:
+    WorkerProcess& of(const Family& family, WorkerLimits limits) {
+      limits.seconds *= time_factor(family);
+      const std::pair key(limits.seconds, limits.variation);
+      auto place = processes_.find(key);
+      if (place == processes_.end())
+        place =
+            processes_.emplace(key, WorkerProcess(request_.worker, request_.plugin, limits)).first;
+      return place->second;
+    }
+
+    const CampaignRequest& request_;
+    std::map<std::pair<double, std::uint32_t>, WorkerProcess> processes_;
   };
 
-  Trial run_first(const PlannedTrial& planned, WorkerProcess& worker) const {
+  Trial run_first(const PlannedTrial& planned, Workers& workers) const {
     Trial trial = make(planned);
     if (!trial.is_within) return trial;
     auto begin = Clock::now();
     trial.truth = judge_case(trial.seen, request_.detector.contract);
     trial.record.oracle_us = microseconds_since(begin);
     begin = Clock::now();
-    trial.runs = run(trial, trial.configurations, worker);
+    trial.runs = run(trial, trial.configurations, workers.first(*planned.family));
     trial.record.detector_us = microseconds_since(begin);
     return trial;
   }
@@ -193,15 +223,17 @@ class Trials {
   void repeat(std::vector<Trial>& waiting, Workers& workers, std::vector<Trial>& judged) const {
     for (; !waiting.empty(); waiting.pop_back()) {
       auto& trial = waiting.back();
-      const auto again = run(trial, trial.configurations, workers.second);
-      conclude(trial, again.data(), workers.first);
+      const auto again = run(trial, trial.configurations, workers.second(*trial.planned->family));
+      conclude(trial, again.data(), workers);
       judged.push_back(std::move(trial));
     }
   }
 
   // `again` is a second run for each configuration, or NULL.
-  void conclude(Trial& trial, const CaseRun* again, WorkerProcess& worker) const {
+  void conclude(Trial& trial, const CaseRun* again, Workers& workers) const {
     if (!trial.is_within) return;
+    auto& worker = workers.first(*trial.planned->family);
+    trial.record.outcomes.assign(request_.detector.configurations.size(), not_run);
     for (std::size_t i = 0; i < trial.runs.size(); ++i)
       judge_configuration(trial, i, again ? again + i : nullptr, worker);
     auto& measures = trial.record.counts.measures;
@@ -251,6 +283,12 @@ class Trials {
     const bool vouched = is_vouched_for(request_.detector, trial.made.c, planned.index);
     trial.configurations = vouched ? with_clean_start(request_.detector.configurations)
                                    : request_.detector.configurations;
+    // Without a tree every pair of triangles is looked at.
+    constexpr std::uint64_t most_without_tree = 20'000;
+    if (planned.family->triangles > most_without_tree && request_.detector.built_in)
+      std::erase_if(trial.configurations, [](const Configuration& configuration) {
+        return configuration.options.culling == detector::Culling::none;
+      });
     auto& record = trial.record;
     if (request_.detector.built_in)
       ++record.counts.tags[vouched ? "start:clean" : "start:verified"];
@@ -279,9 +317,15 @@ class Trials {
   void judge_configuration(Trial& trial, std::size_t i, const CaseRun* again,
                            WorkerProcess& worker) const {
     const auto& configuration = trial.configurations[i];
-    const JudgedTrial judged = judge_trial(trial.seen, trial.truth, trial.runs[i], configuration,
-                                           request_.detector, again);
-    trial.record.outcomes += letter_of(judged.outcome);
+    JudgedTrial judged = judge_trial(trial.seen, trial.truth, trial.runs[i], configuration,
+                                     request_.detector, again);
+    // What is special about the first of many contacts says little, and would tell apart what a
+    // large mesh shows of one cause.
+    if (judged.failure && !request_.detector.built_in && trial.planned->family->triangles > 0)
+      judged.failure->cause = "large mesh";
+    trial.record.outcomes[place_of(configuration)] = letter_of(judged.outcome);
+    if (trial.runs[i].end == RunEnd::beyond_capacity && judged.outcome == Outcome::refused)
+      trial.record.counts.measures.refused += trial.truth.size();
     trial.has_contact |= has_judged_contact(judged.steps);
     if (!request_.detector.built_in) {
       auto& measures = trial.record.counts.measures;
@@ -298,6 +342,14 @@ class Trials {
                               judged.failure->signature() + (flaky ? " (flaky)" : ""),
                               judged.failure->explanation, corpus::case_text(failing), "", flaky,
                               printed_of(trial.runs[i], again)});
+  }
+
+  std::size_t place_of(const Configuration& configuration) const {
+    const auto& all = request_.detector.configurations;
+    const auto found = std::find_if(all.begin(), all.end(), [&](const Configuration& one) {
+      return one.name == configuration.name;
+    });
+    return static_cast<std::size_t>(found - all.begin());
   }
 
   // Two runs may differ in whether something was printed. If the first printed nothing, the text
@@ -321,7 +373,8 @@ class Trials {
     std::vector<RunCase> cases;
     for (const auto& trial : judged) {
       const auto every = request_.plan.laws_every;
-      const bool with_laws = every > 0 && trial.planned->index % every == 0;
+      const bool with_laws =
+          every > 0 && trial.planned->index % every == 0 && trial.planned->family->triangles == 0;
       cases.push_back({trial.made, trial.configurations, trial.runs, trial.truth, with_laws});
     }
     const auto tallies = tally_cases(cases);
@@ -360,7 +413,8 @@ class Trials {
     std::vector<MetFailure> met;
     for (const auto& failure : trial.failures) {
       met.push_back({failure.configuration, failure.signature});
-      if (met_[failure.signature]++ < meshes_kept) kept.push_back(failure);
+      const std::uint64_t most = trial.planned->family->triangles > 0 ? 1 : meshes_kept;
+      if (met_[failure.signature]++ < most) kept.push_back(failure);
     }
     // The trial and its failures are stored in one transaction, so that nothing is counted twice
     // when a killed run goes on.

@@ -11,6 +11,14 @@
 
 namespace assay::properties {
 
+// large_meshes.cpp: a mesh of more than 1,000 triangles is cut before any pass begins, which would
+// take too long: to the least number of triangles around the reported pair that still fails, found
+// by doubling and then halving, and by halves and quarters that are left out. A failure of the same
+// claim and kind counts as the same, because another contact may now come first. If more than 1,000
+// triangles are left in the end, only size shows the failure, and their number is returned. It
+// returns 0 if fewer are left, and if a limit ended the search.
+std::size_t cut_large_mesh(ReductionSearch& search);
+
 // step_passes.cpp: passes that shorten the sequence.
 void drop_later_steps(ReductionSearch& search);  // those after the step that shows the failure
 void drop_steps(ReductionSearch& search);        // halves, then one by one

@@ -86,6 +86,7 @@ class PluginRun {
   Expected<void> called(const char* function, std::int32_t code) const {
     if (code == ASSAY_OK) return boost::outcome_v2::success();
     if (code == ASSAY_OUT_OF_MEMORY) return Problem{"out of memory", ProblemKind::out_of_memory};
+    if (code == ASSAY_BEYOND_CAPACITY) return refused_by_capacity(text_of_error(api_));
     return Problem{text_of_code(api_, function, code)};
   }
 
@@ -225,6 +226,8 @@ CaseRun PluginHost::run(const corpus::Case& c, bool is_timed) const {
   if (code == ASSAY_OUT_OF_MEMORY) return out_of_memory();
   if (code != ASSAY_OK || !handle) {
     std::string explanation = line_of(message);
+    if (code == ASSAY_BEYOND_CAPACITY)
+      return {RunEnd::beyond_capacity, refused_by_capacity(explanation).message, {}};
     if (explanation.empty()) explanation = text_of_code(table_, "create", code);
     return {RunEnd::refused, std::move(explanation), {}};
   }
@@ -249,6 +252,7 @@ CaseRun PluginHost::run(const corpus::Case& c, bool is_timed) const {
       result = {};
       result.answer =
           problem.kind == ProblemKind::out_of_memory ? Answer::undecided : Answer::error;
+      if (problem.kind == ProblemKind::beyond_capacity) note_capacity(run, run.steps.size() - 1);
       note_error(run, run.steps.size() - 1, line_of(problem.message.c_str()));
     };
     // Candidates and limits are asked for before the step is evaluated, because nothing may stand
@@ -276,6 +280,7 @@ CaseRun PluginHost::run(const corpus::Case& c, bool is_timed) const {
     clock.answered();
     if (problem) fail(*problem);
   }
+  if (!run.over_capacity.empty()) run.over_capacity.resize(run.steps.size());
   run.times = clock.take();
   return run;
 }

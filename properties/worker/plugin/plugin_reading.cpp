@@ -83,6 +83,9 @@ std::string read_contract(const assay_description& raw, Contract& contract) {
   contract.least_nonzero = raw.least_nonzero;
   contract.largest = raw.largest;
   contract.time_tolerance = raw.time_tolerance;
+  contract.capacity_triangles = raw.capacity_triangles;
+  contract.capacity_contacts = raw.capacity_contacts;
+  contract.capacity_candidates = raw.capacity_candidates;
   contract.reports_pairs = raw.reports == ASSAY_REPORTS_PAIRS;
   return fault_of(contract);
 }
@@ -100,6 +103,11 @@ std::string line_of(const char* text) {
 
 std::string text_of_error(const assay_detector_api& table) {
   return line_of(table.error_text ? table.error_text() : nullptr);
+}
+
+Problem refused_by_capacity(const std::string& text) {
+  return {name_of(RunEnd::beyond_capacity) + (text.empty() ? "" : ": " + text),
+          ProblemKind::beyond_capacity};
 }
 
 std::string text_of_code(const assay_detector_api& table, const char* function, std::int32_t code) {
@@ -260,6 +268,7 @@ Expected<detector::StepResult> step_result(const assay_result& raw, std::int32_t
   if (raw.answer == ASSAY_ERROR) {
     return Problem{raw.message && *raw.message ? raw.message : "an error without a message"};
   }
+  if (raw.answer == ASSAY_BEYOND_CAPACITY) return refused_by_capacity(line_of(raw.message));
   if (!reports_pairs && raw.pair_count > 0) {
     return Problem{"gives pairs, and says that it reports none"};
   }

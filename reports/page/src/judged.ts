@@ -103,6 +103,7 @@ function measures(f: Findings): HTMLElement[] {
   type Row = (typeof rows)[number];
   const gives = rows.some(({ measures }) => measures.candidates.steps > 0);
   const limits = rows.some(({ measures }) => measures.limits.free + measures.limits.contact > 0);
+  const refuses = rows.some(({ measures }) => measures.left_out.refused > 0);
   return [
     html("p", {}, "Counted whatever is claimed. Intervals have a confidence of 95 %. Late and early: how many steps, and of these the median, 99 of 100 and the worst, in shares of the step."),
     table(
@@ -117,6 +118,7 @@ function measures(f: Findings): HTMLElement[] {
         ...(gives ? [{ head: "candidates, of at least", cell: (r: Row) => candidatesText(r.measures.candidates), number: true }] : []),
         ...(limits ? [{ head: "limits: free steps cut; used until a contact: median, 99 of 100, worst", cell: (r: Row) => limitsText(r.measures.limits) }] : []),
         { head: "left out: cases, steps", cell: (r: Row) => `${count(r.measures.left_out.cases_redrawn)}, ${count(r.measures.left_out.steps)}`, number: true },
+        ...(refuses ? [{ head: "refused: capacity, steps", cell: (r: Row) => count(r.measures.left_out.refused), number: true }] : []),
       ],
       rows,
     ),

@@ -25,7 +25,7 @@ from .judging import (
     judge,
     least_distance,
 )
-from .hosting import Refused
+from .hosting import BeyondCapacity, Refused
 from .programs import Outcome, Page, certify, replay, report, run
 from .recorder import Recorder
 from .results import (

@@ -24,7 +24,8 @@ so what assay.Detector answers is one. Beside these a class may have name, versi
     def use_threads(count): ...
 
 limit() answers with a share (a number), with positions (n, 3), with both (a tuple), or with what has
-`share` or `positions`, as assay.Limit has. Exceptions are errors of their step; Refused, of create(), is a mesh that is not taken.
+`share` or `positions`, as assay.Limit has. Exceptions are errors of their step; Refused, of create(), is a mesh that is not taken, and
+BeyondCapacity, of any but query(), one that is more than the detector holds.
 """
 
 import importlib
@@ -39,6 +40,10 @@ KINDS = ("vertex-face", "edge-edge")
 
 class Refused(Exception):
     """Of create(): a mesh that the detector does not take, and why."""
+
+
+class BeyondCapacity(Exception):
+    """The mesh or the step is more than the detector holds: `refused: capacity`."""
 
 
 class Hosted:
@@ -81,7 +86,7 @@ def described(claims, contract, claim_words, members):
         numbers[member] = (
             _place(value, words, f"contract: {member}")
             if words
-            else int(value) if member == "rings" else float(value)
+            else int(value) if member == "rings" or member.startswith("capacity_") else float(value)
         )
     return sum(1 << _place(claim, claim_words, "claims") for claim in set(claims)), numbers
 
@@ -146,15 +151,17 @@ def parts_of(result, answers=ANSWERS):
 
 
 def tell(error):
-    """Prints the traceback; whether a mesh is refused, and a line that says what and where."""
+    """Prints the traceback of an error; what kind it is, and a line that says what and where."""
     if isinstance(error, Refused):
-        return True, str(error)
+        return "refused", str(error)
+    if isinstance(error, BeyondCapacity):
+        return "beyond capacity", str(error)
     traceback.print_exception(error, file=sys.stderr)
     line = f"{type(error).__name__}: {error}"
     frames = traceback.extract_tb(error.__traceback__)
     if frames:
         line += f" ({frames[-1].filename}:{frames[-1].lineno}, in {frames[-1].name})"
-    return False, line
+    return "error", line
 
 
 def _place(word, words, what):

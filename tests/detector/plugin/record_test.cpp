@@ -17,6 +17,7 @@ TEST_F(Record, BeginHoldsTheMeshAndTheContract) {
   description.separation = 0.5, description.counts = 1, description.rings = -3;
   description.rest_distance = 0.125, description.limit_gives = 2;
   description.progress = 0.75, description.motion = 1;
+  description.capacity_triangles = 7, description.capacity_candidates = std::uint64_t{1} << 40;
   ASSERT_EQ(begin(), ASSAY_OK) << error();
   auto records = end();
   ASSERT_EQ(records.size(), 2u);
@@ -47,6 +48,9 @@ TEST_F(Record, BeginHoldsTheMeshAndTheContract) {
                          {"limit_gives", 2},
                          {"progress", 0.75},
                          {"motion", 1},
+                         {"capacity_triangles", 7},
+                         {"capacity_contacts", 0},
+                         {"capacity_candidates", std::uint64_t{1} << 40},
                          {"vertices", 4}};
   EXPECT_EQ(first, expected);
   EXPECT_TRUE(first["margin"].is_number_float());

@@ -10,7 +10,7 @@
 namespace assay::properties {
 namespace {
 
-using test::failure, test::good_findings;
+using test::failure, test::good_findings, test::good_tally;
 
 using Change = std::function<void(RunFindings&)>;
 
@@ -312,7 +312,7 @@ TEST(Gates, WithoutContactsInsideTheContractNothingIsCertified) {
       std::vector<std::string>{"2 of 3 families have a contact inside the contract, 3 are wanted"});
   expect_certified({left_out, [](auto& f) {
                       f.run.plan.strata.push_back({"closed-degenerate", 2, 0.99});
-                      f.tally.strata["closed-degenerate"] = test::good_tally(2);
+                      f.tally.strata["closed-degenerate"] = good_tally(2);
                     }});
   // A campaign of fewer families cannot end in a certificate, but a run of it may hold.
   const Change one_family = [](auto& f) {
@@ -360,7 +360,7 @@ TEST(Gates, ContactsOfQueriesDoNotStandForThoseOfSteps) {
     f.run.detector.query_claims = {"free-sound"};
     for (const std::string family : {"query-ulp", "query-far", "query-generic"}) {
       f.run.plan.strata.push_back({family, 2, 0.99});
-      f.tally.strata[family] = test::good_tally(2);
+      f.tally.strata[family] = good_tally(2);
     }
   };
   expect_certified({with_queries});
@@ -406,6 +406,52 @@ TEST(Gates, BoundsAndSpeed) {
     EXPECT_EQ(judgement.of(Gate::speed).state, GateState::not_judged);
     EXPECT_EQ(judgement.verdict, "certified");
   }
+}
+
+// A stratum of sizes states its bound at 95 % for itself, changes that of no other, and wants none.
+TEST(Gates, StrataOfSizesEnterNoCorrection) {
+  const auto plain = good_findings();
+  auto with = plain;
+  with.run.plan.strata.push_back({"size-1e4", 10, 0});
+  with.tally.strata["size-1e4"] = good_tally(10);
+  with.tally.strata["size-1e4"].by_configuration = {{7, 0, 2, 1}};
+  EXPECT_EQ(number_of_bounds(with.run), number_of_bounds(plain.run));
+  for (const auto& stratum : plain.run.plan.strata)
+    EXPECT_EQ(bound_of(with.outcomes_of(stratum, 0), stratum, with.run),
+              bound_of(plain.outcomes_of(stratum, 0), stratum, plain.run));
+  const auto& size = with.run.plan.strata.back();
+  EXPECT_EQ(bound_of(with.outcomes_of(size, 0), size, with.run), upper_bound(3, 10, .05));
+  EXPECT_TRUE(is_met(with, size, 0));
+  EXPECT_EQ(judge(with, asked_of_a_certificate()).verdict, "certified");
+  // A bound that a campaign file wants of it is asked for.
+  with.run.plan.strata.back().wanted_bound = 0.1;
+  EXPECT_EQ(judge(with, asked_of_a_certificate()).verdict, "undecided");
+  // A defect in it is a defect.
+  with.tally.strata["size-1e4"].with_defect = 1;
+  with.tally.strata["size-1e4"].by_configuration = {{9, 1, 0, 0}};
+  with.failures = {failure("free-sound: answered free, large mesh", "tiny:1:size-1e4:3")};
+  with.times_met = {{"free-sound: answered free, large mesh", 1}};
+  EXPECT_EQ(judge(with, asked_of_a_certificate()).verdict, "defect");
+}
+
+// What is refused beyond the capacity is no trial of a bound, and nothing is certified of its size.
+TEST(Gates, RefusalsBeyondTheCapacityAreCountedAlone) {
+  TrialRecord record;
+  record.id = "tiny:1:size-1e4:0";
+  record.family = "size-1e4";
+  record.outcomes = letter_of(Outcome::refused);
+  record.triangles = 10'000;
+  StratumTally tally;
+  tally.add(record);
+  EXPECT_EQ(tally.by_configuration[0].trials(), 0u);
+  EXPECT_EQ(tally.by_configuration[0].refused, 1u);
+  EXPECT_EQ(tally.refused, 1u);
+  EXPECT_EQ(tally.triangles, 0u);
+  auto f = good_findings();
+  f.run.plan.strata.push_back({"size-1e4", 1, 0});
+  f.tally.strata["size-1e4"] = tally;
+  EXPECT_TRUE(f.is_left_out(f.run.plan.strata.back()));
+  EXPECT_EQ(judge(f, asked_of_a_certificate()).verdict, "certified");
 }
 
 TEST(Gates, TheFirstThatFailsNamesTheVerdict) {

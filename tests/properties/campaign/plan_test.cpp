@@ -3,6 +3,7 @@
 
 #include "corpus/json_fields.h"
 #include "properties/generators/families.h"
+#include "properties/queries/query_families.h"
 #include "tests/reports/program.h"
 
 namespace assay::properties {
@@ -195,10 +196,7 @@ TEST_F(Plans, NamedOnesListKnownFamiliesOnce) {
     names.insert(plan.name);
     std::set<std::string> families_of_plan;
     for (const auto& stratum : plan.strata) {
-      const auto known = families();
-      EXPECT_TRUE(std::any_of(known.begin(), known.end(), [&](const Family& f) {
-        return f.name == stratum.family;
-      })) << stratum.family;
+      EXPECT_TRUE(find_family(stratum.family)) << stratum.family;
       families_of_plan.insert(stratum.family);
     }
     EXPECT_EQ(families_of_plan.size(), plan.strata.size());
@@ -212,6 +210,23 @@ TEST_F(Plans, NamedOnesListKnownFamiliesOnce) {
   const auto missing = find_plan("no-such-campaign");
   ASSERT_FALSE(missing);
   EXPECT_NE(missing.error().message.find("no-such-campaign"), std::string::npos);
+}
+
+// Large cases are dear, so each plan has few of them, of the sizes that it has the time for. They
+// want no bound, and their number shows each of the ten shapes equally often.
+TEST_F(Plans, NamedOnesJudgeLargeMeshesUpToTheirTime) {
+  const std::map<std::string, std::uint64_t> largest = {
+      {"smoke", 0}, {"quick", 10'000}, {"nightly", 100'000}, {"release", 1'000'000}, {"faults", 0}};
+  for (const auto& plan : named_plans()) {
+    std::uint64_t most = 0;
+    for (const auto& stratum : plan.strata) {
+      if (!is_size_family(stratum.family)) continue;
+      most = std::max(most, find_family(stratum.family)->triangles);
+      EXPECT_EQ(stratum.wanted_bound, 0) << plan.name;
+      EXPECT_EQ(stratum.cases % 10, 0u) << plan.name;
+    }
+    EXPECT_EQ(most, largest.at(plan.name)) << plan.name;
+  }
 }
 
 }  // namespace

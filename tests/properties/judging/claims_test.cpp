@@ -100,6 +100,42 @@ TEST(Claims, FreeAgainstAContactIsUnsoundAndLosesItsPairs) {
             Outcome::holds);
 }
 
+// A refusal counts as one beyond each number of the capacity, never at it, and as any other below.
+TEST(Claims, ARefusalBeyondTheCapacityBreaksNothing) {
+  auto judgement = truth({pair_at(3, 4, .5), pair_at(0, 3, .5)});
+  judgement.feature_candidates = 7;
+  struct Row {
+    Contract contract;
+    bool is_beyond;
+  };
+  const Row rows[] = {{{}, false},
+                      {{.capacity_triangles = 5}, false},
+                      {{.capacity_triangles = 4}, true},
+                      {{.capacity_contacts = 2}, false},
+                      {{.capacity_contacts = 1}, true},
+                      {{.capacity_candidates = 7}, false},
+                      {{.capacity_candidates = 6}, true},
+                      {{.capacity_triangles = 9, .capacity_candidates = 6}, true}};
+  for (const auto& [contract, is_beyond] : rows) {
+    const auto diff = diff_of_refusal(judgement, claimable, contract, mesh());
+    EXPECT_EQ(diff.outcome, is_beyond ? Outcome::refused : Outcome::defect);
+    EXPECT_EQ(diff.broken, is_beyond ? List{} : List{Claim::total});
+    // Without the claim total a refusal breaks nothing, and answers nothing.
+    EXPECT_EQ(diff_of_refusal(judgement, {Claim::free_sound}, contract, mesh()).outcome,
+              is_beyond ? Outcome::refused : Outcome::error);
+    // An answer is judged, whatever the capacity: silence is no refusal.
+    EXPECT_EQ(judged(answer(Answer::free), judgement, claimable, contract).broken.front(),
+              Claim::free_sound);
+  }
+  // Pairs that the contract leaves out fill no buffer.
+  auto neighbours = truth({pair_at(0, 1, .5), pair_at(3, 4, .5)});
+  const Contract strangers = {.adjacency = Adjacency::no_shared_vertex, .capacity_contacts = 1};
+  EXPECT_EQ(diff_of_refusal(neighbours, claimable, strangers, mesh()).outcome, Outcome::defect);
+  // An oracle that was stopped has counted too little to refuse the refusal.
+  neighbours.complete = false;
+  EXPECT_EQ(diff_of_refusal(neighbours, claimable, strangers, mesh()).outcome, Outcome::undecided);
+}
+
 TEST(Claims, CollisionAgainstNoneIsSpurious) {
   const auto alarm = collision({0, 0}, {pair_at(3, 4, 0)});
   EXPECT_EQ(judged(alarm, truth({})).broken, List{Claim::no_spurious});

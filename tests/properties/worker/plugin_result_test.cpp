@@ -32,6 +32,16 @@ TEST(PluginResult, PairsAreOrderedAndEachIsThereOnce) {
   EXPECT_EQ(result.value().pairs[1].time, (detector::TimeEnclosure{.625, .625}));
 }
 
+TEST(PluginResult, ARefusalForSizeIsAProblemOfItsOwnKind) {
+  assay_result raw = {};
+  raw.answer = ASSAY_BEYOND_CAPACITY;
+  raw.message = "no more room";
+  const auto refused = step_result(raw, triangle_count);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().kind, ProblemKind::beyond_capacity);
+  EXPECT_EQ(refused.error().message, "refused: capacity: no more room");
+}
+
 // Who judges a plug-in may ask whether it gave up by itself or broke the rules.
 TEST(PluginResult, WhatThePlugInSaysItselfIsNoBrokenRule) {
   assay_result raw = {};

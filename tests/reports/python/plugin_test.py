@@ -37,6 +37,19 @@ SOURCE = """
         def create(self, triangles, positions):
             raise assay.Refused("too many triangles")
 
+    class Full(Right):
+        contract = {"capacity_triangles": 7}
+        def evaluate(self, x_t0, x_t1):
+            raise assay.BeyondCapacity("8 is one too many")
+
+    class FullTooEarly(Full):
+        contract = {"capacity_triangles": 8}
+
+    class FullInCreate(Right):
+        contract = {"capacity_triangles": 7}
+        def create(self, triangles, positions):
+            raise assay.BeyondCapacity("8 is one too many")
+
     class OutOfMemory(Right):
         def evaluate(self, x_t0, x_t1):
             raise MemoryError
@@ -133,6 +146,17 @@ def test_an_exception_is_an_error_with_its_traceback(mine, frames):
     printed = report.json["detector"]["printed"]
     assert "so far so good" in printed and "Traceback (most recent call last)" in printed
     assert "return 1 / 0" in printed
+
+
+def test_a_refusal_beyond_the_capacity_breaks_nothing(mine, frames):
+    report = assay.check(frames, "python:mine:Full")
+    assert (report.outcome, report.code) == ("holds", 0), report.text
+    assert report.json["steps"][0]["diff"]["outcome"] == "refused: capacity"
+    assert "1 step refused: capacity" in report.text and "8 is one too many" in report.text
+    assert report.json["detector"]["contract"]["capacity_triangles"] == 7
+    early = assay.check(frames, "python:mine:FullTooEarly")
+    assert early.outcome == "defect" and early.steps[0].diff.broken == ("total",)
+    assert assay.check(frames, "python:mine:FullInCreate").outcome == "not judged"
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,112 @@
+// Strata of sizes through the program: what goes wrong on large meshes alone is found, is brought
+// home with the number of triangles from which it fails, and is not certified up to a size at which
+// it was not judged. Refusals beyond a stated capacity are counted and break nothing.
+#include "properties/campaign/gates/not_judged.h"
+#include "tests/reports/run_fixture.h"
+
+namespace assay::tests {
+namespace {
+
+using properties::Claim;
+
+class Sizes : public RunFixture {
+ protected:
+  // A campaign of strata of sizes alone.
+  std::string campaign(const std::string& strata) const {
+    return scratch.write("sizes.json",
+                         R"({"schema": "assay-campaign/1", "name": "sizes", "seconds": null, )"
+                         R"("laws_every": 0, "strata": [)" +
+                             strata + "]}");
+  }
+  static std::string stratum(const std::string& family, int cases) {
+    return R"({"family": ")" + family + R"(", "cases": )" + std::to_string(cases) + "}";
+  }
+  Outcome run_on(const std::string& strata, const std::string& more = "",
+                 const std::string& prefix = "") const {
+    return run_assay("run --campaign " + campaign(strata) + " --out " + out + " --jobs 2 " + more,
+                     prefix);
+  }
+  properties::RunFindings findings() const { return properties::read_findings(out).value(); }
+};
+
+TEST_F(Sizes, TheBuiltInHoldsAndTheSizeIsSaid) {
+  const auto outcome = run_on(stratum("size-1e3", 4));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  for (const auto& [claim, triangles] : judged_sizes(findings())) {
+    EXPECT_GE(triangles, 900u) << claim;
+    EXPECT_TRUE(contains(outcome.out, claim)) << claim;
+  }
+  // Shards, and the same trials made again, are as of every stratum.
+  const auto whole = trials_of(out);
+  std::vector<std::string> both;
+  for (const auto* shard : {"1", "2"}) {
+    const auto folder = out + shard;
+    const auto part = run_assay("run --campaign " + campaign(stratum("size-1e3", 4)) + " --out " +
+                                folder + " --shard " + shard + "/2");
+    EXPECT_EQ(part.exit_code, 0) << part.out;
+    for (auto& line : trials_of(folder, std::string("shard-") + shard + "-of-2"))
+      both.push_back(std::move(line));
+  }
+  std::sort(both.begin(), both.end());
+  EXPECT_EQ(both, whole);
+}
+
+TEST_F(Sizes, FreeAbove5000IsFoundAt10000AndTheNumberIsTold) {
+  const auto outcome = run_on(stratum("size-1e3", 2) + ", " + stratum("size-1e4", 1),
+                              "--detector " + plugin("free_above_5000"));
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.out << outcome.err;
+  EXPECT_TRUE(contains(outcome.out, "fails from 5001 triangles on")) << outcome.out;
+  EXPECT_EQ(triangles_of_smallest(out), 5001);
+}
+
+TEST_F(Sizes, FreeAbove50000IsFoundAt100000) {
+  const auto outcome = run_on(stratum("size-1e5", 1), "--detector " + plugin("free_above_50000"));
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.out << outcome.err;
+  EXPECT_TRUE(contains(outcome.out, "fails from 50001 triangles on")) << outcome.out;
+}
+
+TEST_F(Sizes, ADeepTreeIsFoundAt1000AndComesHomeSmall) {
+  const auto outcome = run_on(stratum("size-1e3", 3), "--detector " + plugin("stack_of_32_levels"));
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.out << outcome.err;
+  EXPECT_LE(triangles_of_smallest(out), 400);
+}
+
+TEST_F(Sizes, BuffersAndProductsAreFoundAt10000) {
+  for (const auto* wrong : {"buffer_of_candidates", "product_in_32_bits"}) {
+    std::filesystem::remove_all(out);
+    const auto outcome = run_on(stratum("size-1e4", 4), std::string("--detector ") + plugin(wrong));
+    EXPECT_EQ(outcome.exit_code, 1) << wrong << "\n" << outcome.out << outcome.err;
+    EXPECT_TRUE(contains(outcome.out, "large mesh")) << outcome.out;
+  }
+}
+
+// The same refusals hold under a contract that names them, and break `total` under one that does
+// not.
+TEST_F(Sizes, RefusalsBeyondTheCapacityAreCounted) {
+  const auto with = [&](const std::string& words) {
+    std::filesystem::remove_all(out);
+    return run_assay("run --campaign " + scratch.write("plan.json", plan_text(16)) + " --out " +
+                         out + " --detector " + plugin("by_contract"),
+                     "ASSAY_BY_CONTRACT=\"" + words + "\"");
+  };
+  const auto stated = with("refuse-from=20 capacity-triangles=19");
+  EXPECT_EQ(stated.exit_code, 0) << stated.out << stated.err;
+  EXPECT_TRUE(contains(stated.out, "refused: capacity, in ")) << stated.out;
+  EXPECT_TRUE(contains(stated.out, "capacity 19 triangles")) << stated.out;
+  const auto f = findings();
+  EXPECT_GT(f.tally.counts.measures.refused, 0u);
+  for (const auto& [claim, triangles] : judged_sizes(f)) EXPECT_LT(triangles, 20u) << claim;
+
+  EXPECT_EQ(with("refuse-pairs-from=9 capacity-contacts=8").exit_code, 0);
+  const auto unstated = with("refuse-from=20");
+  EXPECT_EQ(unstated.exit_code, 1) << unstated.out;
+  EXPECT_TRUE(contains(unstated.out, "total: refused: capacity")) << unstated.out;
+  const auto too_early = with("refuse-pairs-from=8 capacity-contacts=8");
+  EXPECT_EQ(too_early.exit_code, 1) << too_early.out;
+  EXPECT_TRUE(contains(too_early.out, "8 contacts (it holds 8)")) << too_early.out;
+  // Silence is no refusal.
+  EXPECT_EQ(with("miss-inside capacity-triangles=3").exit_code, 1);
+}
+
+}  // namespace
+}  // namespace assay::tests
