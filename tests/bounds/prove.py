@@ -24,6 +24,9 @@ RULES = [
 ]
 # Lines that stand once in a file, and what stands there in the copy.
 LINES = {
+    "contact/contact_doubles.cpp": [
+        ("Cubic left_of(Cubic f, double s) {", "Cubic left_of(Cubic f, double s) {\n  bounds::cut(s);"),
+    ],
     "view/view_lanes_kernel.h": [
         ("typedef double Lanes __attribute__((vector_size(8 * ASSAY_LANES)));",
          "using Lanes = bounds::RecordedLanes;"),
@@ -75,7 +78,7 @@ def changed(text, change):
 
 def write_scripts(options, work, filters, pool):
     """Compiles the filters and writes their scripts. The program's exit code and output."""
-    compile_ = [options.compiler, "-std=c++20", "-O0", "-w", f"-I{work}", f"-I{ROOT}",
+    compile_ = [options.compiler, "-std=c++20", "-O1", "-w", f"-I{work}", f"-I{ROOT}",
                 *[f"-isystem{i}" for i in options.include]]
 
     # Eigen and the standard library are read once.

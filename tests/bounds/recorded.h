@@ -86,6 +86,7 @@ struct Record {
   std::map<int, std::set<int>> together;      // by node those that were compared with it
   std::set<std::pair<int, int>> obligations;  // a number and its bound
   std::set<std::pair<int, int>> of_ranges;    // comparisons of which another claim speaks
+  std::map<std::string, double> errors;       // of the entries of a group, if not 1 u
 
   int add(Node node) {
     const auto key = std::tuple(node.op, node.a, node.b, node.op == Op::constant ? node.value : 0.0,
@@ -196,6 +197,14 @@ inline void compared(const Recorded& a, const Recorded& b, bool less_or_equal) {
   } else if (!a.is_constant() && !b.is_constant()) {
     const int low = less_or_equal ? a.node : b.node, high = less_or_equal ? b.node : a.node;
     record.above[low].insert(high);
+    // Of two products with one positive constant the other factors are in the same order.
+    const Node& l = record.nodes.at(static_cast<std::size_t>(low));
+    const Node& h = record.nodes.at(static_cast<std::size_t>(high));
+    if (l.op == Op::multiply && h.op == Op::multiply && l.a == h.a &&
+        record.nodes.at(static_cast<std::size_t>(l.a)).op == Op::constant &&
+        record.nodes.at(static_cast<std::size_t>(l.a)).value > 0) {
+      record.above[l.b].insert(h.b);
+    }
     record.together[a.node].insert(b.node);
     record.together[b.node].insert(a.node);
   }

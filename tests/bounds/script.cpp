@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
+#include <optional>
 #include <utility>
 
 #include "detector/exact/bernstein.h"
@@ -11,6 +12,24 @@ namespace assay::bounds {
 namespace {
 
 constexpr double unit = 0x1p-53;
+
+// What was found out about the nodes of the present record.
+struct Known {
+  std::map<int, std::set<int>> below;
+  std::map<std::pair<int, int>, bool> covered;
+  std::map<int, std::set<Monomial>> monomials;
+  std::map<int, bool> of_sizes;
+  std::map<std::pair<int, Groups>, double> size;
+};
+Known known;
+
+// The value kept under a key, which is made if there is none yet.
+template <class Map, class Make>
+auto kept(Map& map, const typename Map::key_type& key, const Make& make) {
+  if (const auto found = map.find(key); found != map.end()) return found->second;
+  auto made = make();
+  return map[key] = made;
+}
 
 bool is_coordinate(int node) { return at(node).op == Op::input; }
 
@@ -36,6 +55,39 @@ bool is_power_of_two(double value) {
   return value != 0 && std::abs(std::frexp(value, &exponent)) == 0.5;
 }
 
+bool is_share(int node) { return at(node).op == Op::free; }
+
+// 1 - s
+bool is_rest(int node) {
+  const Node& n = at(node);
+  return n.op == Op::subtract && at(n.a).op == Op::constant && at(n.a).value == 1 && is_share(n.b);
+}
+
+// A mean of a and b with shares: a + s (b - a) or (1 - s) a + s b, for s in [0,1].
+struct Mean {
+  int a, b, share;
+  double roundings;  // as computed it is off by less than so many u of the larger of a and b
+};
+
+std::optional<Mean> mean_in(int node) {
+  const Node& sum = at(node);
+  if (sum.op != Op::add || at(sum.b).op != Op::multiply) return std::nullopt;
+  const Node &left = at(sum.a), &right = at(sum.b);
+  if (!is_share(right.a)) return std::nullopt;
+  // A difference of twice the size, its product, a sum.
+  const Node& difference = at(right.b);
+  if (difference.op == Op::subtract && difference.b == sum.a)
+    return Mean{sum.a, difference.a, right.a, 5.125};
+  if (left.op == Op::multiply && is_rest(left.a) && at(left.a).b == right.a)
+    return Mean{left.b, right.b, right.a, 2.625};
+  return std::nullopt;
+}
+
+double error_of_entry(int entry) {
+  const auto found = record.errors.find(group_of(entry));
+  return unit * (found == record.errors.end() ? 1 : found->second);
+}
+
 // Whether the order that was noted says that a node is at most another one.
 bool is_below(int low, int high) {
   std::set<int> seen = {low};
@@ -53,9 +105,8 @@ bool is_below(int low, int high) {
 }
 
 // All nodes from which the noted order leads to `high`.
-std::map<int, std::set<int>> below_cache;
 const std::set<int>& below(int high) {
-  if (const auto found = below_cache.find(high); found != below_cache.end()) return found->second;
+  if (const auto found = known.below.find(high); found != known.below.end()) return found->second;
   std::map<int, std::vector<int>> down;
   for (const auto& [low, highs] : record.above)
     for (const int h : highs) down[h].push_back(low);
@@ -67,7 +118,7 @@ const std::set<int>& below(int high) {
     for (const int next : down[node])
       if (seen.insert(next).second) open.push_back(next);
   }
-  return below_cache[high] = seen;
+  return known.below[high] = seen;
 }
 
 // The sizes in a bound: entries, and absolute values of entries.
@@ -96,13 +147,23 @@ bool is_bounded(int p, int q, int magnitude) {
 }
 
 // Whether it is made of sizes: then it is part of a bound, and no number that has one.
+bool find_of_sizes(int node);
 bool is_of_sizes(int node) {
+  return kept(known.of_sizes, node, [&] { return find_of_sizes(node); });
+}
+
+bool find_of_sizes(int node) {
   const Node& n = at(node);
   return n.op == Op::absolute || (n.a >= 0 && n.op != Op::halved && is_of_sizes(n.a)) ||
          (n.b >= 0 && n.op != Op::halved && is_of_sizes(n.b));
 }
 
+bool find_cover(int entry, int bound);
 bool is_covered(int entry, int bound) {
+  return kept(known.covered, {entry, bound}, [&] { return find_cover(entry, bound); });
+}
+
+bool find_cover(int entry, int bound) {
   std::set<int> sizes;
   magnitudes(bound, sizes);
   const auto some = [&](int p, int q) {
@@ -139,11 +200,17 @@ double value_in(int node, const Case& which) {
 }
 
 // At least the size of the exact twin.
+double find_size(int node, const Case& which);
 double size_in(int node, const Case& which) {
+  return kept(known.size, {node, which.ones}, [&] { return find_size(node, which); });
+}
+
+double find_size(int node, const Case& which) {
   const Node& n = at(node);
   const auto of = [&](int operand) { return size_in(operand, which); };
   constexpr double slack = 1 + 0x1p-45;
   if (is_entry(node)) return which.ones.contains(group_of(node)) ? slack : 0;
+  if (const auto mean = mean_in(node)) return std::max(of(mean->a), of(mean->b));
   switch (n.op) {
     case Op::constant:
       return std::abs(n.value);
@@ -229,7 +296,10 @@ class Errors {
     const Node n = at(node);
     const double size = size_in(node, case_);
     constexpr double slack = 1 + 0x1p-20;
-    if (is_entry(node)) return size == 0 ? 0 : unit * slack;
+    if (is_entry(node)) return size == 0 ? 0 : error_of_entry(node) * slack;
+    if (const auto mean = mean_in(node)) {
+      return slack * (std::max(of(mean->a), of(mean->b)) + mean->roundings * unit * size);
+    }
     switch (n.op) {
       case Op::constant:
       case Op::free:
@@ -264,7 +334,12 @@ class Errors {
 };
 
 // The products of entries that a number is a sum of.
+std::set<Monomial> find_monomials(int node);
 std::set<Monomial> monomials(int node) {
+  return kept(known.monomials, node, [&] { return find_monomials(node); });
+}
+
+std::set<Monomial> find_monomials(int node) {
   const Node& n = at(node);
   if (is_entry(node)) return {{group_of(node)}};
   std::set<Monomial> out;
@@ -353,15 +428,38 @@ std::string Script::computed_bound() {
 }
 
 // Entries are off by at most 2^-53 of their own size, which is at most that of the bound.
+void Script::want_bound_beyond(int operands, int more, const std::string& least) {
+  is_bound_ = true;
+  const std::string bound = name(bound_).computed, a = name(operands).computed,
+                    b = name(more).computed;
+  is_bound_ = false;
+  want(bound + " - " + a + " >= " + least);
+  hint(bound + " - " + a + " -> (" + bound + " - (" + a + " + " + b + ")) + " + b);
+}
+
+void Script::want_factor(int node, const std::string& most, double factor) {
+  const Names names = name(node);
+  want("|" + names.computed + " -/ " + names.exact + "| <= " + most);
+  want(factor < 1 ? decimal(factor) + " * (1 + " + most + ") <= 1"
+                  : decimal(factor) + " * (1 - " + most + ") >= 1");
+}
+
 // In a bound the size of an entry stands for that of all entries of its group.
 Script::Names Script::entry(int node) {
-  const std::string scale = case_.ones.contains(group_of(node)) ? "1" : "0";
+  const std::string scale = bound_ < 0 || case_.ones.contains(group_of(node)) ? "1" : "0";
   if (scale == "0" || is_bound_) return {scale, scale};
+  if (bound_ < 0) {
+    const Names out = {next('x'), next('X')};
+    assume("|" + out.computed + " -/ " + out.exact + "| <= 1b-53");
+    assume(out.exact + " in [1b-400,1b400]");
+    hint(out.computed + " ~ " + out.exact);
+    return out;
+  }
   if (!is_covered(node, bound_))
     throw std::runtime_error("the bound knows nothing of an entry's size");
   const Names out = {next('x'), next('X')};
   assume("|" + out.computed + "| <= 1");
-  assume("|" + out.computed + " - " + out.exact + "| <= 1b-53");
+  assume("|" + out.computed + " - " + out.exact + "| <= " + in_units(error_of_entry(node)));
   hint(out.computed + " ~ " + out.exact);
   return out;
 }
@@ -404,6 +502,13 @@ Script::Names Script::make(int node) {
     case Op::add:
     case Op::subtract: {
       const Names a = name(n.a), b = name(n.b);
+      // 1 - s is at most 1: half a unit in the last place is at most 2^-54.
+      if (is_rest(node)) {
+        const Names out = {next('x'), "(" + a.exact + " - " + b.exact + ")"};
+        assume("|" + out.computed + " - " + out.exact + "| <= 1b-54");
+        hint(out.computed + " ~ " + out.exact);
+        return out;
+      }
       return rounded(n.op == Op::add ? "+" : "-", a, b, a.computed == "0" && b.computed == "0");
     }
     case Op::multiply: {
@@ -464,24 +569,64 @@ constexpr double rounded_bound = 64 * unit;
 
 // The error is at most `most`, and that is at most the bound as it is computed.
 void Claims::want_below(Script& script, const std::string& name, std::vector<int> nodes, int bound,
-                        const Case& which, double error) {
+                        const Case& which, double error, double before) {
   const double allowed = value_in(bound, which) * (1 - rounded_bound);
-  const std::string most = in_units(std::min(error, allowed));
+  const std::string most = in_units(std::min(error, allowed - before));
   for (const int node : nodes) {
     script.want("|" + script.computed(node) + " - " + script.exact(node) + "| <= " + most);
   }
-  script.want(script.computed_bound() + " >= " + most);
-  tightest_[name] = std::max(tightest_[name], error / allowed);
+  script.want(script.computed_bound() +
+              " >= " + in_units(std::min(error, allowed - before) + before));
+  tightest_[name] = std::max(tightest_[name], (error + before) / allowed);
   write(name, script);
 }
 
+// A mean of two numbers is off by what they are off by and by its own roundings (lemma 8): the
+// script is about these. What the numbers are off by is returned.
+double Claims::give_mean(Script& script, const std::string& name, int node, int bound,
+                         const Case& which) {
+  const auto mean = mean_in(node);
+  if (!mean) return 0;
+  Errors errors(which);
+  double before = 0;
+  for (const int part : {mean->a, mean->b}) {
+    write_obligation(name, part, bound);
+    before = std::max(before, errors.of(part) * (1 + 0x1p-20));
+  }
+  for (const int part : {mean->a, mean->b})
+    script.give(part, "0", decimal(size_in(part, which) + before));
+  script.split(mean->share);
+  return before;
+}
+
+// A bound that is a bound of the operands and more: means of the operands are off by the first part,
+// so the second one is for the roundings (lemma 8). The first part is at most the size of the
+// operands, or no number is beyond the bound.
+void Claims::write_carried(const std::string& name, int node, int bound) {
+  const int operands = at(bound).a, more = at(bound).b;
+  for (const Case& which : cases_of(node, more)) {
+    Script script(which, bound);
+    const double before = give_mean(script, name, node, bound, which);
+    const double allowed = value_in(more, which) - unit * at(operands).hi - 0x1p-90;
+    const double error = Errors(which).of(node) * (1 + 0x1p-20);
+    const std::string most = in_units(std::min(error, allowed) - before);
+    script.want("|" + script.computed(node) + " - " + script.exact(node) + "| <= " + most);
+    script.want_bound_beyond(operands, more, in_units(std::min(error, allowed)));
+    tightest_[name] = std::max(tightest_[name], error / allowed);
+    write(name, script);
+  }
+}
+
 void Claims::write_obligation(const std::string& name, int node, int bound) {
+  if (at(bound).op == Op::add && at(at(bound).a).op == Op::free)
+    return write_carried(name, node, bound);
   for (const Case& which : cases_of(node, bound)) {
     Script script(which, bound);
     const Node n = at(node);
     const double error = Errors(which).of(node) * (1 + 0x1p-20);
     if (n.op != Op::halved) {
-      want_below(script, name, {node}, bound, which, error);
+      const double before = give_mean(script, name, node, bound, which);
+      want_below(script, name, {node}, bound, which, error - before, before);
       continue;
     }
     // One halving, of coefficients that are off by what was proved before.
@@ -518,7 +663,7 @@ void Claims::write_obligations(const std::string& name) {
     }
   }
   if (obligations.empty()) fail(name + ": nothing was compared with a bound");
-  below_cache.clear();
+  known = {};
   record = {};
 }
 

@@ -25,6 +25,8 @@ struct Case {
 class Script {
  public:
   Script(const Case& which, int bound) : case_(which), bound_(bound) {}
+  // Of positive numbers that are known up to a factor: entries are off by u of themselves.
+  static Script of_factors() { return {{}, -1}; }
 
   // The variable or number that stands for a node as computed, and for its exact twin.
   std::string computed(int node);
@@ -35,9 +37,16 @@ class Script {
   // is at most `size`.
   void give(int node, const std::string& error, const std::string& size);
 
+  // Has Gappa look at shares in small pieces.
+  void split(int share) { hint("$ " + computed(share) + " in 32"); }
+
   void assume(const std::string& hypothesis) { hypotheses_.push_back(hypothesis); }
   void hint(const std::string& hint) { hints_.push_back(hint); }
   void want(const std::string& goal) { goals_.push_back(goal); }
+  // The bound is at least `least` more than the part of it that the operands' errors are.
+  void want_bound_beyond(int operands, int more, const std::string& least);
+  // The number is its twin up to a factor in 1 +- most, and the constant factor in it covers that.
+  void want_factor(int node, const std::string& most, double factor);
   std::string text() const;
 
  private:
@@ -75,7 +84,9 @@ class Claims {
   void write_text(const std::string& name, const std::string& text);
   void write_obligation(const std::string& name, int node, int bound);
   void want_below(Script& script, const std::string& name, std::vector<int> nodes, int bound,
-                  const Case& which, double error);
+                  const Case& which, double error, double before = 0);
+  void write_carried(const std::string& name, int node, int bound);
+  double give_mean(Script& script, const std::string& name, int node, int bound, const Case& which);
   void fail(const std::string& what);
 
   std::string folder_;

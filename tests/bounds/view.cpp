@@ -25,6 +25,16 @@ void claim_view(Claims& claims) {
   const Recorded share = free_number("share", 0, 1, 0.5);
   sure_value_sign<ProvedBounds, Recorded>(rounded_range("f"), rounded_range("g"), {share, share});
   claims.write_obligations("view-value");
+  // Both ends of the range of s are quotients of ends of ranges, less and more than 1 as a factor.
+  Range<Recorded> along = rounded_range("a"), length2 = rounded_range("l");
+  along.lo.value = along.hi.value = 0.25;
+  length2.lo.value = length2.hi.value = 1;
+  const auto s = clamped_axial<ProvedBounds, Recorded>(along, length2);
+  for (const Recorded& end : {s.lo, s.hi}) {
+    Script script = Script::of_factors();
+    script.want_factor(at(end.node).a, "9b-54", at(at(end.node).b).value);
+    claims.write("view-share", script);
+  }
 }
 
 const Filter filter("view", claim_view);
