@@ -22,8 +22,19 @@ RULES = [
     (re.compile(r"\bstd::(abs|sqrt|isfinite|ilogb|scalbn|ldexp|frexp)\b"), r"bounds::math::\1"),
     (re.compile(r"\bprivate:"), "public:"),
 ]
+# In the floats of boxes, too.
+FLOAT_RULES = [
+    (re.compile(r"\bfloat\b"), "bounds::Float"),
+    (re.compile(r"bounds::Float __attribute__\(\(vector_size\(16\)\)\)"), "bounds::FloatLanes"),
+    (re.compile(r"\bint __attribute__\(\(vector_size\(16\)\)\)"), "bounds::LaneTruth"),
+    (re.compile(r"#ifdef __SSE__"), "#if 0"),
+]
 # Lines that stand once in a file, and what stands there in the copy.
 LINES = {
+    "distance/nearest_places.cpp": [
+        ("double share(double part, double whole) {",
+         "double share(double part, double whole) {\n  if (bounds::cut(part)) return part;"),
+    ],
     "contact/contact_doubles.cpp": [
         ("Cubic left_of(Cubic f, double s) {", "Cubic left_of(Cubic f, double s) {\n  bounds::cut(s);"),
     ],
@@ -58,7 +69,8 @@ def copy(target, change):
             if text.count(line) != 1:
                 sys.exit(f"{source}: not once in it: {line}")
             text = text.replace(line, other)
-        for pattern, other in RULES:
+        in_floats = source.parent.name == "search"
+        for pattern, other in RULES + (FLOAT_RULES if in_floats else []):
             text = pattern.sub(other, text)
         place = target / source.relative_to(ROOT)
         place.parent.mkdir(parents=True, exist_ok=True)
@@ -83,9 +95,10 @@ def write_scripts(options, work, filters, pool):
 
     # Eigen and the standard library are read once.
     first = work / "first.h"
-    if not first.exists():
+    read = Path(f"{first}.gch")
+    if not read.exists() or read.stat().st_mtime < (HERE / "recorded.h").stat().st_mtime:
         first.write_text('#include "tests/bounds/recorded.h"\n')
-        subprocess.run([*compile_, "-x", "c++-header", str(first), "-o", f"{first}.gch"], check=True)
+        subprocess.run([*compile_, "-x", "c++-header", str(first), "-o", str(read)], check=True)
 
     def build(name):
         return subprocess.run(

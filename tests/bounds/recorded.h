@@ -25,6 +25,7 @@
 namespace assay::bounds {
 
 enum class Op {
+  to_float,
   input,
   free,
   constant,
@@ -69,6 +70,7 @@ struct Node {
   std::string name;       // of an input: what it is a coordinate of, and its axis
   double lo = 0, hi = 0;  // of a free number
   int index = 0;          // of what was halved
+  bool is_float = false;  // rounded to a float
 };
 
 // An array of Bernstein coefficients that is halved.
@@ -79,7 +81,7 @@ struct Halved {
 // What a run has written down.
 struct Record {
   std::vector<Node> nodes;
-  std::map<std::tuple<Op, int, int, double, std::string, int>, int> known;
+  std::map<std::tuple<Op, int, int, double, std::string, int, bool>, int> known;
   std::vector<Halved> halved;
   std::map<std::vector<int>, int> known_halved;
   std::map<int, std::set<int>> above;         // by node those that are at least it
@@ -90,7 +92,7 @@ struct Record {
 
   int add(Node node) {
     const auto key = std::tuple(node.op, node.a, node.b, node.op == Op::constant ? node.value : 0.0,
-                                node.name, node.index);
+                                node.name, node.index, node.is_float);
     const auto [place, is_new] = known.try_emplace(key, static_cast<int>(nodes.size()));
     if (is_new) nodes.push_back(std::move(node));
     return place->second;
@@ -234,6 +236,65 @@ inline Recorded scalbn(const Recorded& x, int n) { return x * Recorded(std::scal
 inline Recorded ldexp(const Recorded& x, int n) { return scalbn(x, n); }
 inline Recorded frexp(const Recorded& x, int* e) { return std::frexp(x.value, e); }
 
+// A float. Its operations are rounded to floats.
+struct Float {
+  Recorded number;
+  constexpr Float() = default;
+  template <class T>
+  requires std::is_arithmetic_v<T>
+  constexpr Float(T value) : number(value) {}
+  explicit Float(const Recorded& x) : number(rounded(Op::to_float, x, Recorded())) {}
+  static Float of(const Recorded& rounded_already) {
+    Float out;
+    out.number = rounded_already;
+    return out;
+  }
+  static Recorded rounded(Op op, const Recorded& a, const Recorded& b) {
+    const Recorded exact = op == Op::add ? a + b : op == Op::subtract ? a - b : a;
+    if (exact.is_constant()) return static_cast<float>(exact.value);
+    Recorded out;
+    out.value = static_cast<float>(exact.value);
+    out.node = record.add({op, node_of(a), op == Op::to_float ? -1 : node_of(b), out.value,
+                           Kind::plain, "", 0, 0, 0, true});
+    return out;
+  }
+  friend Float operator+(const Float& a, const Float& b) {
+    return of(rounded(Op::add, a.number, b.number));
+  }
+  friend Float operator-(const Float& a, const Float& b) {
+    return of(rounded(Op::subtract, a.number, b.number));
+  }
+  friend bool operator<(const Float& a, const Float& b) { return a.number < b.number; }
+  friend bool operator>(const Float& a, const Float& b) { return b < a; }
+};
+
+// In place of vectors of four.
+struct LaneTruth {
+  int lanes[4];
+  int operator[](std::size_t i) const { return lanes[i]; }
+  operator bool() const { return lanes[0] != 0; }
+  friend LaneTruth operator&(const LaneTruth& a, const LaneTruth& b) {
+    return {a[0] & b[0], a[1] & b[1], a[2] & b[2], a[3] & b[3]};
+  }
+  friend LaneTruth operator|(const LaneTruth& a, const LaneTruth& b) {
+    return {a[0] | b[0], a[1] | b[1], a[2] | b[2], a[3] | b[3]};
+  }
+};
+struct FloatLanes {
+  Float lanes[4];
+  const Float& operator[](std::size_t i) const { return lanes[i]; }
+  friend FloatLanes operator+(const FloatLanes& a, const FloatLanes& b) {
+    return {a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]};
+  }
+  friend FloatLanes operator-(const FloatLanes& a, const FloatLanes& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]};
+  }
+  friend LaneTruth operator<(const FloatLanes& a, const FloatLanes& b) {
+    return {a[0] < b[0], a[1] < b[1], a[2] < b[2], a[3] < b[3]};
+  }
+  friend LaneTruth operator>(const FloatLanes& a, const FloatLanes& b) { return b < a; }
+};
+
 // One lane, in place of a vector of lanes.
 struct RecordedLanes : Recorded {
   RecordedLanes() = default;
@@ -253,7 +314,7 @@ inline RecordedMask operator>(const RecordedLanes& a, const RecordedLanes& b) { 
 
 // A share in [0,1] that was computed and clamped goes on as a number of which no more is known.
 inline bool cut(Recorded& share) {
-  share = free_number("share" + std::to_string(share.node), 0, 1, 0.5);
+  share = free_number("share" + std::to_string(node_of(share)), 0, 1, 0.5);
   return true;
 }
 

@@ -298,7 +298,8 @@ class Errors {
     constexpr double slack = 1 + 0x1p-20;
     if (is_entry(node)) return size == 0 ? 0 : error_of_entry(node) * slack;
     if (const auto mean = mean_in(node)) {
-      return slack * (std::max(of(mean->a), of(mean->b)) + mean->roundings * unit * size);
+      return slack * (slack * std::max(of(mean->a), of(mean->b)) + mean->roundings * unit * size) +
+             0x1p-72;
     }
     switch (n.op) {
       case Op::constant:
@@ -406,6 +407,7 @@ std::string Script::computed(int node) { return name(node).computed; }
 std::string Script::exact(int node) { return name(node).exact; }
 
 void Script::give(int node, const std::string& error, const std::string& size) {
+  if (names_.contains(node)) return;
   const Names out = {next('x'), next('X')};
   names_[node] = out;
   assume("|" + out.computed + " - " + out.exact + "| <= " + error);
@@ -448,9 +450,16 @@ void Script::want_factor(int node, const std::string& most, double factor) {
 Script::Names Script::entry(int node) {
   const std::string scale = bound_ < 0 || case_.ones.contains(group_of(node)) ? "1" : "0";
   if (scale == "0" || is_bound_) return {scale, scale};
+  if (bound_ == boxes) {
+    const Names out = {next('x'), next('X')};
+    assume("|" + out.computed + "| <= 2");
+    assume("|" + out.computed + " - " + out.exact + "| <= 1b-52");
+    hint(out.computed + " ~ " + out.exact);
+    return out;
+  }
   if (bound_ < 0) {
     const Names out = {next('x'), next('X')};
-    assume("|" + out.computed + " -/ " + out.exact + "| <= 1b-53");
+    assume("|" + out.computed + " -/ " + out.exact + "| <= " + in_units(error_of_entry(node)));
     assume(out.exact + " in [1b-400,1b400]");
     hint(out.computed + " ~ " + out.exact);
     return out;
@@ -464,12 +473,21 @@ Script::Names Script::entry(int node) {
   return out;
 }
 
+// Of floats Gappa is told how they are rounded: their bounds are no multiples of sizes.
+std::string Script::as_float(const std::string& value) {
+  const std::string out = next('x');
+  definitions_.push_back(out + " = float<ieee_32,ne>(" + value + ")");
+  hint(out + " ~ " + value);
+  return out;
+}
+
 Script::Names Script::rounded(const std::string& operation, const Names& a, const Names& b,
-                              bool is_zero) {
+                              bool is_zero, bool is_float) {
   if (is_zero) return {"0", "0"};
-  const Names out = {next('x'), next('X')};
   const std::string of_computed = a.computed + " " + operation + " " + b.computed;
   const std::string of_exact = a.exact + " " + operation + " " + b.exact;
+  if (is_float) return {as_float(of_computed), "(" + of_exact + ")"};
+  const Names out = {next('x'), next('X')};
   definitions_.push_back(out.exact + " = " + of_exact);
   assume("|" + out.computed + " -/ (" + of_computed + ")| <= 1b-53");
   hint(out.computed + " ~ " + of_computed);
@@ -509,7 +527,12 @@ Script::Names Script::make(int node) {
         hint(out.computed + " ~ " + out.exact);
         return out;
       }
-      return rounded(n.op == Op::add ? "+" : "-", a, b, a.computed == "0" && b.computed == "0");
+      return rounded(n.op == Op::add ? "+" : "-", a, b, a.computed == "0" && b.computed == "0",
+                     n.is_float);
+    }
+    case Op::to_float: {
+      const Names a = name(n.a);
+      return {as_float(a.computed), a.exact};
     }
     case Op::multiply: {
       const Names a = name(n.a), b = name(n.b);
@@ -526,6 +549,15 @@ Script::Names Script::make(int node) {
       if (at(n.b).op == Op::constant && is_power_of_two(at(n.b).value) && a.computed != "0")
         return {"(" + a.computed + " / " + b.computed + ")", "(" + a.exact + " / " + b.exact + ")"};
       return rounded("/", a, b, a.computed == "0");
+    }
+    case Op::root: {
+      const Names a = name(n.a), out = {next('x'), next('X')};
+      definitions_.push_back(out.exact + " = sqrt(" + a.exact + ")");
+      assume("|" + out.computed + " -/ sqrt(" + a.computed + ")| <= 1b-53");
+      hint(out.computed + " ~ sqrt(" + a.computed + ")");
+      hint("sqrt(" + a.computed + ") ~ sqrt(" + a.exact + ")");
+      hint(out.computed + " ~ " + out.exact);
+      return out;
     }
     default:
       throw std::runtime_error("a number of which nothing is known");
@@ -581,22 +613,43 @@ void Claims::want_below(Script& script, const std::string& name, std::vector<int
   write(name, script);
 }
 
-// A mean of two numbers is off by what they are off by and by its own roundings (lemma 8): the
-// script is about these. What the numbers are off by is returned.
-double Claims::give_mean(Script& script, const std::string& name, int node, int bound,
-                         const Case& which) {
-  const auto mean = mean_in(node);
-  if (!mean) return 0;
-  Errors errors(which);
-  double before = 0;
-  for (const int part : {mean->a, mean->b}) {
-    write_obligation(name, part, bound);
-    before = std::max(before, errors.of(part) * (1 + 0x1p-20));
+// What a number is off by, as a script of its own says.
+double Claims::write_inner(const std::string& name, int node, int bound, const Case& which) {
+  const double error = Errors(which).of(node) * (1 + 0x1p-20);
+  if (is_entry(node)) return error;
+  Script script(which, bound);
+  const double before = prepare(script, name, node, bound, which);
+  script.want("|" + script.computed(node) + " - " + script.exact(node) +
+              "| <= " + in_units(error - before));
+  write(name, script);
+  return error;
+}
+
+// A mean of two numbers is off by what they are off by and by its own roundings (lemma 8). So if a
+// script is about a mean, it is about these roundings, and what the numbers are off by is returned.
+// A mean within another number is given with what it is off by.
+double Claims::prepare(Script& script, const std::string& name, int node, int bound,
+                       const Case& which) {
+  if (const auto mean = mean_in(node)) {
+    double before = 0;
+    for (const int part : {mean->a, mean->b})
+      before = std::max(before, write_inner(name, part, bound, which));
+    for (const int part : {mean->a, mean->b})
+      script.give(part, "0", decimal(size_in(part, which) + before));
+    script.split(mean->share);
+    return before;
   }
-  for (const int part : {mean->a, mean->b})
-    script.give(part, "0", decimal(size_in(part, which) + before));
-  script.split(mean->share);
-  return before;
+  const Node n = at(node);
+  for (const int operand : {n.a, n.b}) {
+    if (operand < 0 || n.op == Op::halved || is_entry(node)) continue;
+    if (!mean_in(operand)) {
+      prepare(script, name, operand, bound, which);
+    } else if (const double size = size_in(operand, which); size > 0) {
+      const double error = write_inner(name, operand, bound, which);
+      script.give(operand, in_units(error + 0x1p-73), decimal(size));
+    }
+  }
+  return 0;
 }
 
 // A bound that is a bound of the operands and more: means of the operands are off by the first part,
@@ -606,7 +659,7 @@ void Claims::write_carried(const std::string& name, int node, int bound) {
   const int operands = at(bound).a, more = at(bound).b;
   for (const Case& which : cases_of(node, more)) {
     Script script(which, bound);
-    const double before = give_mean(script, name, node, bound, which);
+    const double before = prepare(script, name, node, bound, which);
     const double allowed = value_in(more, which) - unit * at(operands).hi - 0x1p-90;
     const double error = Errors(which).of(node) * (1 + 0x1p-20);
     const std::string most = in_units(std::min(error, allowed) - before);
@@ -625,7 +678,7 @@ void Claims::write_obligation(const std::string& name, int node, int bound) {
     const Node n = at(node);
     const double error = Errors(which).of(node) * (1 + 0x1p-20);
     if (n.op != Op::halved) {
-      const double before = give_mean(script, name, node, bound, which);
+      const double before = prepare(script, name, node, bound, which);
       want_below(script, name, {node}, bound, which, error - before, before);
       continue;
     }

@@ -26,7 +26,9 @@ class Script {
  public:
   Script(const Case& which, int bound) : case_(which), bound_(bound) {}
   // Of positive numbers that are known up to a factor: entries are off by u of themselves.
-  static Script of_factors() { return {{}, -1}; }
+  static Script of_factors() { return {{}, factors}; }
+  // Of coordinates in a grid: entries are at most 2 in size.
+  static Script of_boxes() { return {{}, boxes}; }
 
   // The variable or number that stands for a node as computed, and for its exact twin.
   std::string computed(int node);
@@ -55,10 +57,13 @@ class Script {
   };
   Names name(int node);
   Names make(int node);
-  Names rounded(const std::string& operation, const Names& a, const Names& b, bool is_zero);
+  Names rounded(const std::string& operation, const Names& a, const Names& b, bool is_zero,
+                bool is_float = false);
   Names entry(int node);
+  std::string as_float(const std::string& value);
   std::string next(char letter) { return letter + std::to_string(++count_); }
 
+  static constexpr int factors = -1, boxes = -2;  // in place of a bound
   Case case_;
   int bound_, count_ = 0;
   bool is_bound_ = false;
@@ -86,7 +91,8 @@ class Claims {
   void want_below(Script& script, const std::string& name, std::vector<int> nodes, int bound,
                   const Case& which, double error, double before = 0);
   void write_carried(const std::string& name, int node, int bound);
-  double give_mean(Script& script, const std::string& name, int node, int bound, const Case& which);
+  double write_inner(const std::string& name, int node, int bound, const Case& which);
+  double prepare(Script& script, const std::string& name, int node, int bound, const Case& which);
   void fail(const std::string& what);
 
   std::string folder_;
