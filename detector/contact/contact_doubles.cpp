@@ -57,14 +57,15 @@ ContactResult bounded_contact(const FourPoints& query, Want want) {
 // Error bounds, in the notation of bernstein.h; B is the largest |coefficient| that is split.
 //
 //   quantity         | operations                             | error in u                | size
-//   a level at s     | (1 - s) x + s y, s in [0,1]            | as before + at most 3 B   | B
-//   split at s       | three such levels                      | as before + 9 B           | B
+//   a level at s     | (1 - s) x + s y, s in [0,1]            | as before + at most 2.5 B | B
+//   split at s       | three such levels                      | as before + 7.5 B         | B
 //   halved           | (x + y) / 2 at three levels            | as before + 3 B           | B
 //
-// Of the 3 B of a level, 1 - s costs (1 - s) B, its product with x as much, the product of s and y
-// costs s B, and the sum costs B. The code adds 10 B for a split and 4 B for a halving: 1 B is
-// slack. s itself is exact: a time t in [lo,hi] and lo are multiples of the last place of t, so
-// t - lo is a double, and hi - lo is a power of two.
+// Of the 2.5 B of a level 1 - s costs B / 2, because it is at most 1; its product with x costs
+// (1 - s) B, the product of s and y costs s B, and the sum costs B. The bound so far is at most B,
+// or no sign is sure, so the sum of it and of what is added costs B more. The code adds 9 B for a
+// split and 5 B for a halving; what is left is slack. s itself is exact: a time t in [lo,hi] and
+// lo are multiples of the last place of t, so t - lo is a double, and hi - lo is a power of two.
 
 namespace {
 
@@ -92,7 +93,7 @@ struct RootPiece {
 
 std::array<RootPiece, 2> halves(const RootPiece& piece) {
   const double middle = (piece.lo + piece.hi) / 2;
-  const double bound = piece.bound + 4 * unit_roundoff * greatest(piece.f);
+  const double bound = piece.bound + 5 * unit_roundoff * greatest(piece.f);
   std::array<RootPiece, 2> out{RootPiece{{}, bound, piece.lo, middle},
                                RootPiece{{}, bound, middle, piece.hi}};
   halve(piece.f, out[0].f, out[1].f);
@@ -120,7 +121,7 @@ double changed_at(RootPiece piece, int sign) {
 
 std::optional<TimeEnclosure> around_guess(const RootPiece& piece, int sign) {
   const Cubic& f = piece.f;
-  const double bound = piece.bound + 10 * unit_roundoff * greatest(f);
+  const double bound = piece.bound + 9 * unit_roundoff * greatest(f);
   const double width = piece.hi - piece.lo, s = guess_root(f);
   const double slope = 3 * std::abs((1 - s) * (1 - s) * (f[1] - f[0]) +
                                     2 * s * (1 - s) * (f[2] - f[1]) + s * s * (f[3] - f[2]));

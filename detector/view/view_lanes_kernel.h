@@ -67,6 +67,12 @@ ASSAY_INLINE void greater(Lanes& greatest, const Lanes& value) {
   greatest = value > greatest ? value : greatest;
 }
 
+// The nearest number of [0,1].
+ASSAY_INLINE void clamp_to_unit(Lanes& s) {
+  lesser(s, all(1));
+  greater(s, Lanes{});
+}
+
 ASSAY_INLINE void gather(LaneVector& out, const double* x, std::ptrdiff_t stride,
                          const std::int32_t (&rows)[lane_count]) {
   const double* row[lane_count];
@@ -206,8 +212,7 @@ ASSAY_INLINE void middle_group(const LaneInput& in, const std::int32_t* triangle
   cubics(line, in, triangles);
   const LaneCubic &h0 = line.h0, &h1 = line.h1;
   const Lanes d0 = h1.b0 - h0.b0, d1 = h1.b1 - h0.b1, d2 = h1.b2 - h0.b2, d3 = h1.b3 - h0.b3;
-  const Lanes zero = {}, one = all(1);
-  Lanes s_least = one, s_greatest = zero;  // the range of s over the step and the corners
+  Lanes s_least = all(1), s_greatest = {};  // the range of s over the step and the corners
   Lanes end_least, end_greatest;           // the range of the corners' values at t=0 and t=1
   for (int corner = 0; corner < 3; ++corner) {
     LaneMotion w = line.w;
@@ -237,10 +242,8 @@ ASSAY_INLINE void middle_group(const LaneInput& in, const std::int32_t* triangle
     greater(s_greatest, s1);
     lesser(s_least, s2);
     greater(s_greatest, s2);
-    lesser(s0, one);
-    greater(s0, zero);
-    lesser(s2, one);
-    greater(s2, zero);
+    clamp_to_unit(s0);
+    clamp_to_unit(s2);
     const Lanes at_start = h0.b0 + s0 * d0, at_end = h0.b3 + s2 * d3;
     if (corner == 0) end_least = end_greatest = at_start;
     lesser(end_least, at_start);
@@ -250,10 +253,8 @@ ASSAY_INLINE void middle_group(const LaneInput& in, const std::int32_t* triangle
   }
   s_least = s_least - in.axial_error;
   s_greatest = s_greatest + in.axial_error;
-  lesser(s_greatest, one);
-  greater(s_greatest, zero);
-  lesser(s_least, one);
-  greater(s_least, zero);
+  clamp_to_unit(s_greatest);
+  clamp_to_unit(s_least);
   Lanes least, greatest, least2, greatest2;
   range(least, greatest,
         {h0.b0 + s_least * d0, h0.b1 + s_least * d1, h0.b2 + s_least * d2, h0.b3 + s_least * d3});

@@ -1,0 +1,41 @@
+// The signs of one instant: orientation, projections, and how a ray crosses a triangle.
+#include "detector/geometry/orientation.cpp"
+#include "detector/geometry/winding.cpp"
+#include "tests/bounds/moving_points.h"
+#include "tests/bounds/script.h"
+
+namespace assay::bounds {
+namespace {
+
+using namespace detector;
+
+Point point(const std::string& name, int number) { return moving_point(name, number).t0; }
+
+Point point_at(int number, double x, double y, double z) {
+  return {coordinate("x", number, 0, x), coordinate("x", number, 1, y),
+          coordinate("x", number, 2, z)};
+}
+
+void claim_instants(Claims& claims) {
+  filtered_orientation<ProvedBounds>(point("x", 0), point("x", 1), point("x", 2), point("x", 3));
+  claims.write_obligations("orientation");
+  // Both ends are above the triangle, so that both are looked at.
+  surely_on_one_side(
+      point_at(3, 0.125, 0.25, 1), point_at(4, 0.25, 0.375, 1.125),
+      {point_at(0, 0, 0, 0), point_at(1, 1, 0.125, 0.25), point_at(2, 0.125, 1, 0.25)});
+  if (record.obligations.size() != 2) throw std::runtime_error("two sides are compared");
+  claims.write_obligations("orientation");
+  for (const std::size_t axis : {0u, 1u, 2u}) {
+    sure_side(point("x", 0), point("x", 1), point("x", 2), axis);
+    claims.write_obligations("side");
+  }
+  // No component of the direction is a power of two: products with it are rounded.
+  filtered_signs<ProvedBounds>({point("c", 1), point("c", 2), point("c", 3)},
+                               {point("o", 4), point("o", 5), point("o", 6)}, {3, 5, 7});
+  claims.write_obligations("crossing");
+}
+
+const Filter filter("instants", claim_instants);
+
+}  // namespace
+}  // namespace assay::bounds

@@ -1,0 +1,81 @@
+// The view test in lanes, of points and lines, with the bounds of a whole component.
+#include "detector/view/view_bounds.cpp"
+#define ASSAY_LANES 2
+#include "detector/view/view_lanes_kernel.h"
+#include "tests/bounds/moving_points.h"
+#include "tests/bounds/script.h"
+
+namespace assay::bounds {
+namespace {
+
+using namespace detector;
+
+// In units of 2^-53: the error of (p-q0).d and of d.d, of which lemma 8 speaks.
+constexpr double share_units = 6.125;
+
+// The quotient in a node, or in what it is made of, whose divisor is no constant.
+int quotient_in(int node) {
+  const Node& n = at(node);
+  if (n.op == Op::divide) return node;
+  for (const int operand : {n.b, n.a}) {
+    if (operand < 0) continue;
+    if (const int found = quotient_in(operand); found >= 0) return found;
+  }
+  return -1;
+}
+
+// Of shares, and of values at computed shares, lemma 8 speaks. Gappa proves what it starts from:
+// the errors of (p-q0).d and d.d, and the error of a value at a given share.
+void claim_shares(const LaneInput& input) {
+  const auto compared = record.obligations;
+  Recorded along, length2;
+  along.node = at(quotient_in(input.axial_error.node)).a;
+  length2.node = at(quotient_in(at(at(input.axial_error.node).a).a)).a;
+  const Recorded unit(0x1p-53), proved(share_units);
+  for (const auto& [node, bound] : compared) {
+    if (bound == input.end_error.node) {
+      record.obligations.erase({node, bound});
+      record.obligations.insert({node, input.value_error.node});
+    }
+    if (bound != input.axial_error.node) continue;
+    record.obligations.erase({node, bound});
+    // A product with a reciprocal; the middle ones are taken times 2.
+    const Node product = at(node);
+    record.obligations.insert({product.a, node_of(2 * proved * unit * along)});
+  }
+  for (const Recorded& reciprocal : input.length2_reciprocals)
+    record.obligations.insert({at(reciprocal.node).b, node_of(proved * unit * length2)});
+}
+
+void claim_lanes(Claims& claims) {
+  const std::vector<std::int32_t> corners = {0, 1, 2, 0, 1, 2};
+  for (const bool is_line : {false, true}) {
+    Positions x_t0(3, 3), x_t1(3, 3);
+    for (int v = 0; v < 3; ++v) {
+      const MovingPoint p = moving_point("p", v);
+      for (int k = 0; k < 3; ++k) {
+        x_t0(v, k) = p.t0[static_cast<std::size_t>(k)];
+        x_t1(v, k) = p.t1[static_cast<std::size_t>(k)];
+      }
+    }
+    const MovingPoint q0 = moving_point("q", 3);
+    LaneInput input{};
+    make_lane_input(std::span(corners).first(3), {x_t0, x_t1},
+                    {q0, is_line ? moving_point("q", 4) : q0}, input);
+    input.corners = corners.data();
+    const std::int32_t triangles[] = {0, 1};
+    std::int8_t signs[2];
+    if (!is_line) point_group(input, triangles, signs);
+    if (is_line) {
+      two_cubics_group(input, triangles, signs);
+      middle_group(input, triangles, signs);
+      claim_shares(input);
+    }
+    claims.write_obligations("lanes");
+  }
+}
+
+const Filter filter("lanes", claim_lanes);
+
+}  // namespace
+}  // namespace assay::bounds

@@ -1,0 +1,182 @@
+#!/usr/bin/env python3
+"""Has Gappa prove the error bounds of the detector's filters (README.md)."""
+import argparse
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+FILTERS = sorted(p.stem for p in HERE.glob("*.cpp") if p.stem != "script")
+
+# What the copy of a source has in place of what the detector has.
+RULES = [
+    (re.compile(r"\bdouble\b"), "bounds::Recorded"),
+    (re.compile(r'(?<![\w."/])(\d+\.\d+)(?![\w.])'), r"bounds::Recorded(\1)"),
+    (re.compile(r"\bstd::(abs|sqrt|isfinite|ilogb|scalbn|ldexp|frexp)\b"), r"bounds::math::\1"),
+    (re.compile(r"\bprivate:"), "public:"),
+]
+# In the floats of boxes, too.
+FLOAT_RULES = [
+    (re.compile(r"\bfloat\b"), "bounds::Float"),
+    (re.compile(r"bounds::Float __attribute__\(\(vector_size\(16\)\)\)"), "bounds::FloatLanes"),
+    (re.compile(r"\bint __attribute__\(\(vector_size\(16\)\)\)"), "bounds::LaneTruth"),
+    (re.compile(r"#ifdef __SSE__"), "#if 0"),
+]
+# Lines that stand once in a file, and what stands there in the copy.
+LINES = {
+    "distance/nearest_places.cpp": [
+        ("double share(double part, double whole) {",
+         "double share(double part, double whole) {\n  if (bounds::cut(part)) return part;"),
+    ],
+    "contact/contact_doubles.cpp": [
+        ("Cubic left_of(Cubic f, double s) {", "Cubic left_of(Cubic f, double s) {\n  bounds::cut(s);"),
+    ],
+    "view/view_lanes_kernel.h": [
+        ("typedef double Lanes __attribute__((vector_size(8 * ASSAY_LANES)));",
+         "using Lanes = bounds::RecordedLanes;"),
+        ("ASSAY_INLINE void clamp_to_unit(Lanes& s) {",
+         "ASSAY_INLINE void clamp_to_unit(Lanes& s) {\n  if (bounds::cut(s)) return;"),
+    ],
+}
+
+
+def arguments():
+    p = argparse.ArgumentParser(description=__doc__)
+    p.add_argument("--work", default=str(ROOT / "build/bounds"), help="where copies and scripts go")
+    p.add_argument("--compiler", default="g++")
+    p.add_argument("--include", action="append", default=["/usr/include/eigen3"])
+    p.add_argument("--jobs", type=int, default=os.cpu_count())
+    p.add_argument("--changes", help="a JSON list of changed lines, of which each must be found")
+    return p.parse_args()
+
+
+def copy(target, change):
+    """Copies the detector with recorded numbers in place of doubles, and one line changed."""
+    for source in (ROOT / "detector").rglob("*"):
+        if source.suffix not in (".h", ".cpp"):
+            continue
+        text = source.read_text()
+        if change and source == ROOT / change["file"]:
+            text = changed(text, change)
+        for line, other in LINES.get(str(source.relative_to(ROOT / "detector")), []):
+            if text.count(line) != 1:
+                sys.exit(f"{source}: not once in it: {line}")
+            text = text.replace(line, other)
+        in_floats = source.parent.name == "search"
+        for pattern, other in RULES + (FLOAT_RULES if in_floats else []):
+            text = pattern.sub(other, text)
+        place = target / source.relative_to(ROOT)
+        place.parent.mkdir(parents=True, exist_ok=True)
+        if not place.exists() or place.read_text() != text:
+            place.write_text(text)
+
+
+def changed(text, change):
+    lines = text.split("\n")
+    places = [n for n, line in enumerate(lines) if line.strip() == change["line"]]
+    nth = change.get("occurrence", 1)
+    if len(places) < nth or ("occurrence" not in change and len(places) != 1):
+        sys.exit(f"{change['file']}: stands there {len(places)} times: {change['line']}")
+    lines[places[nth - 1]] = change["mutated"]
+    return "\n".join(lines)
+
+
+def write_scripts(options, work, filters, pool):
+    """Compiles the filters and writes their scripts. The program's exit code and output."""
+    compile_ = [options.compiler, "-std=c++20", "-O1", "-w", f"-I{work}", f"-I{ROOT}",
+                *[f"-isystem{i}" for i in options.include]]
+
+    # Eigen and the standard library are read once.
+    first = work / "first.h"
+    read = Path(f"{first}.gch")
+    if not read.exists() or read.stat().st_mtime < (HERE / "recorded.h").stat().st_mtime:
+        first.write_text('#include "tests/bounds/recorded.h"\n')
+        subprocess.run([*compile_, "-x", "c++-header", str(first), "-o", str(read)], check=True)
+
+    def build(name):
+        return subprocess.run(
+            [*compile_, "-include", str(first), "-c", str(HERE / f"{name}.cpp"),
+             "-o", f"{work}/{name}.o"], capture_output=True, text=True)
+    objects = ["script", *filters]
+    for name, done in zip(objects, pool.map(build, objects)):
+        if done.returncode:
+            return 1, f"{name} does not compile:\n{done.stderr[:2000]}"
+    # What the filters do not call, such as integers, stays unresolved.
+    subprocess.run([options.compiler, "-no-pie", "-Wl,--unresolved-symbols=ignore-all",
+                    *[f"{work}/{name}.o" for name in objects], "-o", f"{work}/write_scripts"],
+                   check=True)
+    shutil.rmtree(work / "scripts", ignore_errors=True)
+    (work / "scripts").mkdir()
+    done = subprocess.run([f"{work}/write_scripts", f"{work}/scripts"], capture_output=True, text=True)
+    return done.returncode, done.stdout + done.stderr
+
+
+def proof_of(script):
+    started = time.monotonic()
+    done = subprocess.run(["gappa", str(script)], capture_output=True, text=True)
+    errors = [line for line in done.stderr.split("\n") if line and "Warning" not in line]
+    return script.name, done.returncode == 0, " ".join(errors), time.monotonic() - started
+
+
+def open_scripts(work, pool, all_of_them=True):
+    """The scripts that Gappa does not prove, or only the first of them."""
+    found = []
+    scripts = sorted((work / "scripts").glob("*.g"), key=lambda s: (len(s.name), s.name))
+    step = len(scripts) if all_of_them else 8
+    for begin in range(0, len(scripts), max(step, 1)):
+        found += [p for p in pool.map(proof_of, scripts[begin:begin + step]) if not p[1]]
+        if found:
+            break
+    return found, len(scripts)
+
+
+def prove(options, pool):
+    work = Path(options.work) / "as_is"
+    copy(work, None)
+    code, output = write_scripts(options, work, FILTERS, pool)
+    print(output, end="", flush=True)
+    started = time.monotonic()
+    found, count = open_scripts(work, pool)
+    for name, _, errors, _ in found:
+        print(f"not proved: {work}/scripts/{name}: {errors[:200]}")
+    print(f"{count - len(found)} of {count} scripts proved in {time.monotonic() - started:.0f} s")
+    return code or (1 if found or count == 0 else 0)
+
+
+def prove_changed(options, pool):
+    work = Path(options.work) / "changed"
+    missed = 0
+    for change in json.loads(Path(options.changes).read_text()):
+        copy(work, change)
+        code, output = write_scripts(options, work, change["filters"], pool)
+        reason = output.strip().split("\n")[-1][:120]
+        if "does not compile" in output:
+            sys.exit(f"{change['about']}: {output}")
+        if code == 0:
+            found, _ = open_scripts(work, pool, all_of_them=False)
+            reason = f"not proved: {found[0][0]}" if found else ""
+            code = 1 if found else 0
+        print(f"{'red' if code else 'MISSED'}: {change['file']}: {change['about']} ({reason})",
+              flush=True)
+        missed += code == 0
+    print(f"{missed} changes missed")
+    return 1 if missed else 0
+
+
+def main():
+    options = arguments()
+    if not shutil.which("gappa"):
+        sys.exit("gappa is not installed (Debian: gappa)")
+    with ThreadPoolExecutor(options.jobs) as pool:
+        return prove_changed(options, pool) if options.changes else prove(options, pool)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
