@@ -37,6 +37,7 @@ std::vector<CampaignPlan> make_named_plans() {
   smoke.fault_cases = 300;
   smoke.fault_seeds = 1;
   smoke.tetrahedron_seconds = 5;
+  smoke.search = 10'000;
   smoke.policy.self_test_queries = 10'000;
   smoke.policy.repeated_triangles = 2000;
 
@@ -49,6 +50,7 @@ std::vector<CampaignPlan> make_named_plans() {
   quick.fault_cases = 800;
   quick.fault_seeds = 3;
   quick.tetrahedron_seconds = 40;
+  quick.search = 50'000;
   quick.policy.self_test_queries = 20'000;
   quick.policy.repeated_triangles = 5000;
 
@@ -62,6 +64,7 @@ std::vector<CampaignPlan> make_named_plans() {
   nightly.fault_cases = 5000;
   nightly.fault_seeds = 5;
   nightly.tetrahedron_seconds = 5 * minute;
+  nightly.search = 500'000;
   nightly.policy.self_test_queries = 100'000;
   nightly.policy.repeated_triangles = 20'000;
   nightly.policy.speed_limits = {
@@ -73,6 +76,7 @@ std::vector<CampaignPlan> make_named_plans() {
   release.strata = strata(120'000, 60'000, 2e-4, 2e-4);
   add_sizes(release, {200, 100, 20, 10});
   release.seconds = 72 * hour;
+  release.search = 2'000'000;
 
   CampaignPlan faults;
   faults.name = "faults";

@@ -69,6 +69,7 @@ void fields(Archive& archive, CampaignPlan& plan) {
   archive.may("shrink_faults", plan.shrink_faults);
   archive.may("tetrahedron_seconds", plan.tetrahedron_seconds, at_least_0);
   archive.may("shrink_share", plan.shrink_share, at_least_0);
+  archive.may("search", plan.search, most_cases);
   archive.may("policy", plan.policy);
 }
 
@@ -239,7 +240,7 @@ corpus::Expected<void> check_whole(const JsonField& top, const CampaignPlan& pla
     return top.problem("fault_cases and fault_seeds belong together");
   const bool has_cases = std::any_of(plan.strata.begin(), plan.strata.end(),
                                      [](const StratumPlan& s) { return s.cases > 0; });
-  if (!has_cases && plan.fault_cases == 0 && plan.tetrahedron_seconds == 0)
+  if (!has_cases && plan.fault_cases == 0 && plan.tetrahedron_seconds == 0 && plan.search == 0)
     return top.problem("there is nothing to do");
   return boost::outcome_v2::success();
 }

@@ -83,6 +83,11 @@ RunDeadline deadline_after(RunDeadline begin, const CampaignPlan& plan, double s
 std::uint64_t planned_cases(const StratumPlan& stratum, const Shard& shard);
 std::uint64_t planned_trial_count(const CampaignPlan& plan, const Shard& shard);
 
+// The search is made of lanes of so many cases, the last one of what is left (search/search.h).
+std::uint64_t search_lanes(const CampaignPlan& plan);
+std::uint64_t cases_of_lane(const CampaignPlan& plan, std::uint64_t lane);
+std::uint64_t planned_lanes(const CampaignPlan& plan, const Shard& shard);
+
 // "quick:1:closed-generic:12".
 std::string trial_id(const CampaignPlan& plan, std::uint64_t seed, const std::string& family,
                      std::uint64_t index);

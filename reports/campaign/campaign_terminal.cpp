@@ -68,6 +68,11 @@ class CampaignTerminal : public properties::CampaignObserver {
     std::fflush(stdout);
   }
 
+  void on_search(const properties::SearchProgress& state) override {
+    progress_->show(fmt::format("{}/{} lanes, {} cases, {} with a defect", state.lanes,
+                                state.planned, state.cases, state.defects));
+  }
+
   void on_shrinking(const std::string& signature) override { progress_->show(signature); }
 
   void on_failures_shrunk(const properties::KeptFailures& kept) override {

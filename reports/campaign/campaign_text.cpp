@@ -216,6 +216,14 @@ std::string shrinking_text(const RunFindings& findings) {
          fmt::format("{} of {} within one vertex of the smallest known mesh\n", reached, tried);
 }
 
+// What the search found; empty if none was asked for.
+std::string search_text(const RunFindings& findings) {
+  const auto [lanes, cases, defects, causes] = findings.searched();
+  if (lanes == 0) return "";
+  return fmt::format("search: {} cases, {} with a defect, {} causes in the archives\n", cases,
+                     defects, causes);
+}
+
 std::string worlds_text(const RunFindings& findings) {
   std::string out = "every motion of a tetrahedron on a grid, up to symmetry:\n";
   for (const auto& world : findings.evidence.worlds) {
@@ -255,6 +263,8 @@ std::string findings_text(const RunFindings& findings) {
     out += judged_lines(findings);
     if (run.plan.laws_every > 0) out += laws_text(findings);
   }
+  const auto search = search_text(findings);
+  if (!search.empty()) out += fmt::format("\n{}", search);
   if (!findings.evidence.faults.empty()) out += fmt::format("\n{}", faults_text(findings));
   const auto shrinking = shrinking_text(findings);
   if (!shrinking.empty()) out += fmt::format("\n{}", shrinking);
@@ -292,6 +302,8 @@ std::string verdict_text(const RunFindings& findings, const properties::Judgemen
                                 properties::broken_laws(findings.tally.counts));
   if (differing) out += fmt::format(", {} larger meshes on which runs differ", differing);
   if (wrong_steps) out += fmt::format(", {} wrong steps of larger meshes", wrong_steps);
+  if (const auto defects = findings.searched().defects)
+    out += fmt::format(", {} cases of the search with a defect", defects);
   if (wrong_again) out += fmt::format(", {} cases wrong when asked again", wrong_again);
   return out;
 }

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <set>
+
 #include "corpus/cases/case_file.h"
 #include "corpus/digest.h"
 #include "properties/campaign/ledger/run_folder.h"
@@ -120,6 +122,19 @@ Json repeated_json(const RunFindings& findings) {
   Json rows = Json::array();
   for (const auto& row : findings.evidence.repeated) rows.push_back(facts_of(row));
   return rows;
+}
+
+Json search_json(const RunFindings& findings) {
+  const auto planned = findings.run.plan.search;
+  if (planned == 0) return nullptr;
+  const auto [lanes, cases, defects, causes] = findings.searched();
+  std::set<std::string> words;
+  for (const auto& lane : findings.evidence.search)
+    words.insert(lane.causes.begin(), lane.causes.end());
+  std::uint64_t found = 0;
+  for (const auto* failure : findings.kinds()) found += is_of_search(*failure) ? 1 : 0;
+  return {{"planned", planned}, {"lanes", lanes}, {"cases", cases},
+          {"defects", defects}, {"found", found}, {"causes", words}};
 }
 
 Json times_json(const RunFindings& findings) {

@@ -49,6 +49,9 @@ nlohmann::ordered_json measures_json(const properties::StepMeasures& measures);
 // One object for each large mesh that was put to a plug-in again and again; null if none was.
 nlohmann::ordered_json repeated_json(const properties::RunFindings& findings);
 
+// How many cases the search asked, and what it found; null if the campaign has none.
+nlohmann::ordered_json search_json(const properties::RunFindings& findings);
+
 // Null if no self-test was run.
 nlohmann::ordered_json self_test_json(const properties::RunFindings& findings);
 nlohmann::ordered_json corpus_json(const properties::RunFindings& findings);

@@ -138,6 +138,7 @@ Json make_predicate(const RunFindings& findings, const properties::Judgement& ju
        {"self_test", self_test_json(findings)},
        {"corpus", corpus_json(findings)},
        {"repeated", repeated_json(findings)},
+       {"search", search_json(findings)},
        {"failures", failures_json(findings)},
        {"waivers", waivers_json(findings)},
        {"replay", replay_json(findings)},

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "properties/campaign/ledger/record.h"
 #include "properties/campaign/plan.h"
 #include "properties/words.h"
 #include "reports/steps/measures_text.h"
@@ -124,7 +125,10 @@ std::string claims_text(const Json& p) {
 
 std::string met_text(const Json& failure) {
   const auto trials = count(failure["met"]);
-  return trials == 0 ? "met in the corpus alone" : "met " + properties::times_text(trials);
+  const auto id = failure["case"].get<std::string>();
+  return trials > 0                                   ? "met " + properties::times_text(trials)
+         : id.starts_with(properties::searched_in_id) ? "found by the search alone"
+                                                      : "met in the corpus alone";
 }
 
 std::string summary_text(const Json& p) {
@@ -138,6 +142,10 @@ std::string summary_text(const Json& p) {
   if (!power["taken_from"].is_null())
     out += fmt::format(" Their proof is taken from campaign {}, seed {}, of the same build.",
                        cell(power["taken_from"]["campaign"]), count(power["taken_from"]["seed"]));
+  if (!p["search"].is_null())
+    out += fmt::format(" The search asked {} cases: {} with a defect, {} causes in its archives.",
+                       count(p["search"]["cases"]), count(p["search"]["defects"]),
+                       p["search"]["causes"].size());
   out += "\n\n" + gates_text(p) + strata_text(p) + failures_text(p);
   if (!p["strata"].empty())
     out +=

@@ -1,6 +1,7 @@
 #include "properties/campaign/gates/findings.h"
 
 #include <algorithm>
+#include <set>
 
 #include "properties/campaign/gates/statistics.h"
 #include "properties/campaign/plan.h"
@@ -88,6 +89,7 @@ bool RunFindings::laws_are_judged() const {
 bool RunFindings::has_more_to_do() const {
   const auto& faults = evidence.faults;
   return tally.trials() < planned() ||
+         searched().lanes < planned_lanes(run.plan, alone.value_or(Shard{})) ||
          std::any_of(faults.begin(), faults.end(),
                      [&](const auto& proof) { return !proof.is_whole(run.plan); });
 }
@@ -101,6 +103,19 @@ std::uint64_t RunFindings::found() const {
 std::uint64_t RunFindings::found_at_random() const {
   return count_planted(evidence.faults,
                        [](const FaultProof& proof) { return proof.found_at_random(); });
+}
+
+RunFindings::SearchCount RunFindings::searched() const {
+  SearchCount count;
+  std::set<std::string> causes;
+  for (const auto& lane : evidence.search) {
+    ++count.lanes;
+    count.cases += lane.cases;
+    count.defects += lane.defects;
+    causes.insert(lane.causes.begin(), lane.causes.end());
+  }
+  count.causes = causes.size();
+  return count;
 }
 
 std::uint64_t number_of_bounds(const BoundRun& run) {

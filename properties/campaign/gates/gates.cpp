@@ -158,6 +158,14 @@ void check_asked_again(const RunFindings& f, Lines& lines) {
   }
 }
 
+// Checks that the search asked all of its cases.
+void check_search(const RunFindings& f, Lines& lines) {
+  const auto planned = planned_lanes(f.run.plan, f.alone.value_or(Shard{}));
+  const auto [done, cases, defects, causes] = f.searched();
+  if (done < planned)
+    lines.push_back(fmt::format("{} of {} lanes of the search, {} cases", done, planned, cases));
+}
+
 GateFindings check_harness(const RunFindings& f, const Asked& asked) {
   GateFindings found;
   auto& lines = found.against;
@@ -209,9 +217,12 @@ GateFindings check_claims(const RunFindings& f, const Asked& asked) {
     if (is_waived(f, asked, signature)) continue;
     const auto* shown = f.example_of(signature);
     const auto met = f.times_met.find(signature);
-    found.against.push_back(fmt::format(
-        "{}, met {}; {}", signature, times_text(met == f.times_met.end() ? 0 : met->second),
-        shown ? shown->id + " (" + shown->configuration + ")" : "no mesh is stored"));
+    const bool by_search = met == f.times_met.end() && shown && is_of_search(*shown);
+    found.against.push_back(
+        fmt::format("{}, {}; {}", signature,
+                    by_search ? "found by the search"
+                              : "met " + times_text(met == f.times_met.end() ? 0 : met->second),
+                    shown ? shown->id + " (" + shown->configuration + ")" : "no mesh is stored"));
   }
   for (const auto& world : f.evidence.worlds) {
     if (world.counterexample)
@@ -233,6 +244,7 @@ GateFindings check_complete(const RunFindings& f, const Asked& asked) {
   check_faults(f, lines);
   check_repetitions(f, lines);
   check_asked_again(f, lines);
+  check_search(f, lines);
   for (const auto& row : f.evidence.corpus) {
     for (const auto& open : row.open)
       lines.push_back(fmt::format("{} ({}): {}", open.id, row.configuration, open.what));

@@ -24,6 +24,7 @@ ASSAY_FIELDS(Repetition::Judged, step, contacts, holds)
 ASSAY_FIELDS(Repetition, input, configuration, shard, triangles, steps, runs, threads, what, broken,
              judged)
 ASSAY_FIELDS(AskedAgain, shard, cases, steps, wrong, open)
+ASSAY_FIELDS(SearchedLane, lane, shard, cases, defects, causes)
 ASSAY_FIELDS(Asked, gates, certificate)
 ASSAY_FIELDS(Versions, assay, commit, libraries)
 ASSAY_FIELDS(Paths, out, detector, own_cases, data)
@@ -134,7 +135,7 @@ Row to_row(const AnyEvidence& evidence) {
 void EvidenceFacts::take(const Row& row) {
   const auto is_taken = [&](auto&... lists) { return (takes(lists, row) || ...); };
   if (!is_taken(canaries, problems, faults, power, worlds, asked, versions, paths, isolation, slow,
-                repeated, asked_again, inputs, waivers, corpus, self_test, speed, issued))
+                repeated, asked_again, search, inputs, waivers, corpus, self_test, speed, issued))
     throw StoreProblem(fmt::format("no run stores {}", row_name(row)));
 }
 

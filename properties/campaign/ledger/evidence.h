@@ -160,6 +160,15 @@ struct AskedAgain {
   std::uint64_t cases = 0, steps = 0, wrong = 0, open = 0;
 };
 
+// What one lane of the search came to (phases/search.h). Only whole lanes are stored.
+struct SearchedLane {
+  static constexpr const char* kind = "search";
+  std::string lane, shard;               // its number, from 1, with leading zeros
+  std::uint64_t cases = 0, defects = 0;  // cases that were asked, and those with a defect
+  std::vector<std::string> causes;       // of the hardest cases that its archive holds (cause.h)
+  const std::string& key() const { return lane; }
+};
+
 // What a verb asked of a run.
 struct Asked {
   static constexpr const char* kind = "asked";
@@ -259,6 +268,7 @@ struct EvidenceFacts {
   std::vector<SlowCase> slow;
   std::vector<Repetition> repeated;
   std::vector<AskedAgain> asked_again;
+  std::vector<SearchedLane> search;
   std::optional<InputDigests> inputs;
   std::vector<StoredWaiver> waivers;
   std::vector<CorpusRow> corpus;
@@ -273,8 +283,8 @@ EvidenceFacts facts_in(const Store& store);
 
 using AnyEvidence =
     std::variant<Canary, HarnessProblem, FaultProof, PowerSource, World, Asked, Versions, Paths,
-                 PluginIsolation, SlowCase, Repetition, AskedAgain, InputDigests, StoredWaiver,
-                 CorpusRow, SelfTestRow, SpeedFigure, Issued>;
+                 PluginIsolation, SlowCase, Repetition, AskedAgain, SearchedLane, InputDigests,
+                 StoredWaiver, CorpusRow, SelfTestRow, SpeedFigure, Issued>;
 Row to_row(const AnyEvidence& evidence);
 
 // Whether two runs of one campaign may differ in this row, which is one of evidence.

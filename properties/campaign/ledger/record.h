@@ -92,6 +92,12 @@ inline constexpr std::string_view repeated_in_id = "repeated/";
 // And that of a failure that shows when a lasting process is asked again (phases/lasting_worker.h).
 inline constexpr std::string_view asked_again_in_id = "asked-again/";
 
+// And that of a failure that the search found (phases/search.h).
+inline constexpr std::string_view searched_in_id = "search/";
+inline bool is_of_search(const StoredFailure& failure) {
+  return failure.id.starts_with(searched_in_id);
+}
+
 // `about_text` is what the case file of a failure says of itself: "all-pairs: missing pair,
 // edge-edge; triangles 0 and 1 meet at t = 0.5". `shown_explanation` reads it back: it returns the
 // part after the signature, from the smallest mesh if there is one.

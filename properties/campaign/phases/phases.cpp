@@ -52,6 +52,11 @@ class CampaignRun {
       repeat_large_meshes(request_, store_, *lasting_, after(1),
                           [&](const std::string& input) { observer_.on_shrinking(input); });
     }
+    if (complete && request_.plan.search > 0) {
+      observer_.on_phase("search");
+      search_shard(request_, corpus_, store_, after(faults_share),
+                   [&](const SearchProgress& state) { observer_.on_search(state); });
+    }
     observer_.on_phase("shrinking");
     shrink(complete);
     observer_.on_failures_shrunk(value_or_throw(store_.kept_failures()));

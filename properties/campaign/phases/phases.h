@@ -10,6 +10,7 @@
 #include "properties/campaign/ledger/evidence.h"
 #include "properties/campaign/ledger/run_folder.h"
 #include "properties/campaign/phases/fault_hunt.h"
+#include "properties/campaign/phases/search.h"
 #include "properties/campaign/request.h"
 #include "properties/campaign/trials/trials.h"
 
@@ -22,12 +23,13 @@ class CampaignObserver {
   virtual ~CampaignObserver() = default;
   // Called first: so many trials are in the store already.
   virtual void on_begin(std::uint64_t /*trials*/) {}
-  // A phase begins now: "trials", "repetitions", "shrinking", "slow cases", "faults",
+  // A phase begins now: "trials", "repetitions", "search", "shrinking", "slow cases", "faults",
   // "tetrahedron" or "asked again". The first of these is told after the canary.
   virtual void on_phase(const char* /*phase*/) {}
   virtual void on_canary(const Canary&) {}
   virtual void on_trial(const TrialProgress&) {}
   virtual void on_trials(const TrialsEnd&) {}
+  virtual void on_search(const SearchProgress&) {}
   // What is being shrunk or repeated now.
   virtual void on_shrinking(const std::string& /*signature*/) {}
   // All trials and their failures are stored now; faults and worlds are still to come. Called again

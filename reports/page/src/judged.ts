@@ -30,6 +30,10 @@ function repeated(list: NonNullable<Findings["repeated"]>): string[] {
   ];
 }
 
+// What the search asked and found. Its cases are no trials.
+const searched = (s: NonNullable<Findings["search"]>): string =>
+  `${count(s.cases)} cases that were aimed, ${s.defects === 0 ? "none" : count(s.defects)} with a defect; its archives hold ${count(s.causes.length)} causes of contact`;
+
 // Sizes with the claims that were tried up to them, the largest first.
 function sizesOf(list: Findings["judged_up_to"]): string[] {
   const sizes = new Map<number, string[]>();
@@ -61,6 +65,7 @@ export function judged(f: Findings): HTMLElement {
     ["Contract", [contract.leaves_out.length === 0 ? "leaves nothing out" : contract.leaves_out.join(", ")]],
     ...(f.isolation === null ? [] : ([["Isolation", [isolations[f.isolation] ?? f.isolation]]] as [string, string[]][])),
     ...(f.repeated === null ? [] : ([["Larger meshes", repeated(f.repeated)]] as [string, string[]][])),
+    ...(f.search === null ? [] : ([["Search", [searched(f.search)]]] as [string, string[]][])),
     ["Campaign", [`${f.campaign.name}, seed ${f.campaign.seed}${f.campaign.is_default_seed ? ", the default one, whose cases everybody knows" : ""}`]],
   ];
   return section(

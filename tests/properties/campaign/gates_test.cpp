@@ -247,6 +247,31 @@ TEST(Gates, EveryShardAsksAPlugInAgainAtTheEnd) {
   EXPECT_EQ(open.of(Gate::complete).reasons.size(), 1u);
 }
 
+// A search of 1,000 cases has two lanes.
+TEST(Gates, TheSearchAsksAllOfItsCases) {
+  const Change planned = [](auto& f) { f.run.plan.search = 1000; };
+  const auto lane = [](const char* name) {
+    return [name](auto& f) { f.evidence.search.push_back({name, "1/1", 500, 0, {"generic"}}); };
+  };
+  expect_certified({planned, lane("001"), lane("002")});
+  const auto cut = judged_after({planned, lane("001")});
+  expect(cut, Gate::complete, "incomplete", 3);
+  EXPECT_EQ(cut.of(Gate::complete).reasons,
+            std::vector<std::string>{"1 of 2 lanes of the search, 500 cases"});
+}
+
+TEST(Gates, WhatTheSearchFindsIsADefect) {
+  const Change found = [](auto& f) {
+    f.failures.push_back(
+        {"search/tiny:1:001:7", "bvh", "all-pairs: missing pair", "why", "{}", ""});
+  };
+  const auto judged = judged_after({found});
+  expect(judged, Gate::claims, "defect", 1);
+  EXPECT_EQ(judged.of(Gate::claims).reasons,
+            std::vector<std::string>{
+                "all-pairs: missing pair, found by the search; search/tiny:1:001:7 (bvh)"});
+}
+
 TEST(Gates, APlugInIsGivenEverySceneAndALimiterEveryWalk) {
   const Change plug_in = [](auto& f) {
     f.run.detector.built_in = false;

@@ -16,6 +16,7 @@ const char* const whole_plan = R"({"schema": "assay-campaign/1", "name": "tiny-1
              {"family": "broken", "cases": 5}],
   "seconds": 30, "case_seconds": 2.5, "case_bytes": 5000000000, "laws_every": 3, "law_premises": 4,
   "fault_cases": 7, "fault_seeds": 2, "shrink_faults": true, "tetrahedron_seconds": 1.5, "shrink_share": 0.25,
+  "search": 900,
   "policy": {"power": 0.5, "self_test_queries": 9, "repeated_triangles": 80,
              "speed_limits": {"exact-over-double": 1.5}}})";
 
@@ -63,6 +64,7 @@ TEST_F(Plans, AFileSaysAllOfIt) {
   EXPECT_TRUE(plan.shrink_faults);
   EXPECT_EQ(plan.tetrahedron_seconds, 1.5);
   EXPECT_EQ(plan.shrink_share, .25);
+  EXPECT_EQ(plan.search, 900);
   EXPECT_EQ(plan.policy.power, .5);
   EXPECT_EQ(plan.policy.self_test_queries, 9u);
   EXPECT_EQ(plan.policy.repeated_triangles, 80u);
@@ -130,6 +132,7 @@ TEST_F(Plans, AWrongFieldIsOneClearLine) {
   expect_wrong("/law_premises", "many", "law_premises");
   expect_wrong("/fault_seeds", 0, "fault_cases and fault_seeds");
   expect_wrong("/fault_cases", 0, "fault_cases and fault_seeds");
+  expect_wrong("/search", -1, "search");
   expect_wrong("/tetrahedron_seconds", -1, "tetrahedron_seconds");
   expect_wrong("/policy", 1, "policy: an object expected");
   expect_wrong("/policy/power", 0, "policy.power: 0 < power <= 1");

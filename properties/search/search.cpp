@@ -1,0 +1,257 @@
+#include "properties/search/search.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "properties/judging/cause.h"
+#include "properties/judging/contracted_case.h"
+#include "properties/search/gap.h"
+#include "properties/search/moves.h"
+#include "properties/worker/plugin/query_case.h"
+
+namespace assay::properties {
+namespace {
+
+// How far the detector is off, in bits: what it may be under its contract counts too.
+double error_bits(const SearchedCase& judged) {
+  constexpr double alarm = 8, no_answer = 8, disagreement = 16, bits_of_a_double = 53;
+  double bits = 0;
+  for (std::size_t i = 0; i < judged.trials.size(); ++i) {
+    const auto& steps = judged.trials[i].steps;
+    for (std::size_t s = 0; s < steps.size(); ++s) {
+      const StepDiff& diff = steps[s];
+      if (diff.answered_collision) bits = std::max(bits, alarm);
+      if (diff.answer == detector::Answer::undecided) bits = std::max(bits, no_answer);
+      if (diff.first) {
+        const double off = std::abs(diff.first->detector.lo - diff.first->oracle.lo);
+        if (off > 0) bits = std::max(bits, (bits_of_a_double + std::log2(off)) / 2);
+      }
+      const auto& others = judged.trials[0].steps;
+      if (s < others.size() && others[s].answer != diff.answer) bits = std::max(bits, disagreement);
+    }
+  }
+  return bits;
+}
+
+// What the detector did in its first configuration, in a few letters: it distinguishes cases of one
+// cause that go different ways through it.
+std::string ways_of(const SearchedCase& judged) {
+  std::string ways;
+  if (judged.runs.empty()) return ways;
+  for (const auto& step : judged.runs[0].steps) {
+    ways += step.answer == detector::Answer::collision ? 'c' : 'f';
+    if (step.view_positive > 0) ways += 'P';
+    if (step.view_negative > 0) ways += 'N';
+    if (step.view_zero > 0) ways += 'Z';
+    if (step.violated > 0) ways += 'V';
+    if (step.dirty > 0) ways += 'D';
+  }
+  return ways;
+}
+
+bool is_same(const corpus::Case& a, const corpus::Case& b) {
+  return a.triangles.rows() == b.triangles.rows() &&
+         a.frames.front().rows() == b.frames.front().rows() && a.triangles == b.triangles &&
+         a.frames == b.frames && a.script == b.script && a.view.has_value() == b.view.has_value() &&
+         !a.view;
+}
+
+struct Scored {
+  Candidate found;
+  std::string cause, cell;
+  double score = 0;
+};
+
+std::string word_of_hardest(const Gap& gap) {
+  const auto least = std::min_element(gap.share.begin(), gap.share.end());
+  return name_of(static_cast<Hardness>(least - gap.share.begin()));
+}
+
+std::optional<Scored> scored(const corpus::Case& c, const SearchedCase& judged,
+                             const Contract& contract, Random& random) {
+  const auto focus = focus_of(c, judged.truth, contract, random);
+  if (!focus) return std::nullopt;
+  const bool of_distance = contract.separation > 0;
+  const Gap gap = gap_of(query_at(c, *focus), focus->time, contract.separation);
+  Scored scored{{c, focus}, "no contact", "", nearness(gap) + error_bits(judged)};
+  if (focus->contact) {
+    const auto step = corpus::steps_of(c)[focus->step];
+    const detector::SteppedMesh motion{start_of(c, step), end_of(c, step)};
+    scored.cause =
+        text_of(says_query(c) ? cause_of_query(c.triangles, motion, *focus->contact, of_distance)
+                              : cause_of(c.triangles, motion, *focus->contact, of_distance));
+  }
+  scored.cell = fmt::format("{}; {}; {}; {}", scored.cause, focus->first_group,
+                            word_of_hardest(gap), ways_of(judged));
+  return scored;
+}
+
+// The best case of each cell: of a cause, a kind of features, what is hardest, and how the
+// detector went.
+class Archive {
+ public:
+  // Of two equally good cases the later stays, so that the search drifts.
+  void offer(Scored&& one) {
+    causes_.insert(one.cause);
+    const auto [place, is_new] = cells_.try_emplace(one.cell, cases_.size());
+    if (is_new) {
+      cases_.push_back(std::move(one));
+    } else if (one.score >= cases_[place->second].score) {
+      cases_[place->second] = std::move(one);
+    }
+  }
+  const Candidate* draw(Random& random) const {
+    if (cases_.empty()) return nullptr;
+    return &cases_[static_cast<std::size_t>(random.below(static_cast<int>(cases_.size())))].found;
+  }
+  std::set<std::string> take_causes() { return std::move(causes_); }
+
+ private:
+  std::map<std::string, std::size_t> cells_;
+  std::vector<Scored> cases_;
+  std::set<std::string> causes_;
+};
+
+// What a lane is free to do for a while.
+struct Swarm {
+  std::vector<const Move*> moves;          // each as often as its weight
+  std::vector<const CaseSource*> sources;  // the same
+  Eigen::Index most_triangles = 0;
+  std::size_t most_frames = 0;
+  int fresh_one_in = 0;
+
+  // All is switched on at the beginning of a lane.
+  Swarm(const SearchLane& lane, const SearchSpace& space, std::uint64_t begin) {
+    Random random(fmt::format("{}:swarm:{}", lane.id, begin));
+    for (int tries = 0; moves.size() < 4 || tries == 0; ++tries) {
+      moves.clear();
+      for (const Move& move : properties::moves()) {
+        if (begin == 0 || random.one_in(2))
+          moves.insert(moves.end(), static_cast<std::size_t>(move.weight), &move);
+      }
+    }
+    while (sources.empty()) {
+      for (const auto& source : space.sources) {
+        if (begin == 0 || random.one_in(2))
+          sources.insert(sources.end(), static_cast<std::size_t>(source.weight), &source);
+      }
+    }
+    constexpr Eigen::Index sizes[] = {4, 4, 8, 12, 24};
+    most_triangles = sizes[random.below(static_cast<int>(std::size(sizes)))];
+    most_frames = static_cast<std::size_t>(random.between(2, 5));
+    // Small fresh cases are cheap, and find what is frequent; moves find what is rare.
+    fresh_one_in = begin > 0 && random.one_in(2) ? 1 : random.between(2, 6);
+  }
+};
+
+class LaneSearch {
+ public:
+  LaneSearch(const SearchLane& lane, const SearchSpace& space)
+      : lane_(lane), space_(space), swarm_(lane, space, 0) {}
+
+  LaneResult run(const JudgeCases& judge, const std::function<bool()>& stop) {
+    while (result_.cases < lane_.cases) {
+      if (stop && stop()) return std::move(result_);
+      constexpr std::uint64_t together = 8, cases_of_a_swarm = 32, most_idle = 20;
+      if (idle_ > 0 || result_.cases % cases_of_a_swarm == 0) swarm_ = Swarm(lane_, space_, drawn_);
+      std::vector<corpus::Case> batch;
+      const auto wanted = std::min(together, lane_.cases - result_.cases);
+      while (batch.size() < wanted) {
+        auto one = next_case();
+        if (!one) break;
+        batch.push_back(std::move(*one));
+      }
+      idle_ = batch.empty() ? idle_ + 1 : 0;
+      if (idle_ > most_idle) break;  // the contract takes none
+      const auto judged = judge(batch);
+      for (std::size_t i = 0; i < batch.size(); ++i) take(batch[i], judged[i]);
+    }
+    result_.complete = true;
+    result_.causes = archive_.take_causes();
+    return std::move(result_);
+  }
+
+ private:
+  // A case that the contract takes; nothing if many attempts in a row led to none. Each attempt
+  // draws by its own number.
+  std::optional<corpus::Case> next_case() {
+    constexpr int most_attempts = 200;
+    for (int attempts = 0; attempts < most_attempts; ++attempts) {
+      const auto id = fmt::format("{}:{}", lane_.id, ++drawn_);
+      Random random(id);
+      corpus::Case made = draw(random, id);
+      made.id = id;
+      const bool is_finite = std::all_of(made.frames.begin(), made.frames.end(),
+                                         [](const auto& frame) { return frame.allFinite(); });
+      if (made.frames.size() < 2 || !is_finite) continue;
+      if (made.triangles.rows() > swarm_.most_triangles || made.frames.size() > swarm_.most_frames)
+        continue;
+      if (auto seen = contracted(made, space_.contract)) return seen;
+    }
+    return std::nullopt;
+  }
+
+  corpus::Case draw(Random& random, const std::string& id) const {
+    Candidate made;
+    const Candidate* parent = random.one_in(swarm_.fresh_one_in) ? nullptr : archive_.draw(random);
+    if (!parent) {
+      const auto place = random.below(static_cast<int>(swarm_.sources.size()));
+      const auto& source = *swarm_.sources[static_cast<std::size_t>(place)];
+      made.c = source.draw(random, id, swarm_.most_triangles);
+      if (made.c.frames.size() < 2) return made.c;
+      made.c = space_.bring(std::move(made.c));
+      // Under such a contract most fresh cases that are taken are in no contact.
+      const bool leaves_contacts_out = space_.contract.start != StartRule::any;
+      if (!random.one_in(leaves_contacts_out ? 2 : 4)) return made.c;
+      made.focus = focus_of(made.c, {}, space_.contract, random);
+      moves().front().make(random, made, {space_.contract});
+      return made.c;
+    }
+    made = *parent;
+    made.c.expected = {};
+    const MoveContext context{space_.contract, archive_.draw(random)};
+    do {
+      const auto place = random.below(static_cast<int>(swarm_.moves.size()));
+      const Move& move = *swarm_.moves[static_cast<std::size_t>(place)];
+      if (!move.of_mesh || !says_query(made.c)) move.make(random, made, context);
+    } while (random.one_in(2));
+    if (is_same(made.c, parent->c)) made.c.frames.clear();
+    return made.c;
+  }
+
+  void take(const corpus::Case& c, const SearchedCase& judged) {
+    ++result_.cases;
+    bool is_defect = false;
+    for (std::size_t i = 0; i < judged.trials.size(); ++i) {
+      const auto& failure = judged.trials[i].failure;
+      if (!failure) continue;
+      is_defect = true;
+      if (met_.emplace(i, failure->signature()).second)
+        result_.found.push_back({c, i, *failure, result_.cases});
+    }
+    result_.defects += is_defect ? 1 : 0;
+    Random random(c.id + ":focus");
+    if (auto one = scored(c, judged, space_.contract, random)) archive_.offer(std::move(*one));
+  }
+
+  const SearchLane& lane_;
+  const SearchSpace& space_;
+  Swarm swarm_;
+  Archive archive_;
+  std::set<std::pair<std::size_t, std::string>> met_;
+  std::uint64_t drawn_ = 0;
+  std::uint64_t idle_ = 0;  // swarms in a row of which the contract took no case
+  LaneResult result_;
+};
+
+}  // namespace
+
+LaneResult search(const SearchLane& lane, const SearchSpace& space, const JudgeCases& judge,
+                  const std::function<bool()>& stop) {
+  return LaneSearch(lane, space).run(judge, stop);
+}
+
+}  // namespace assay::properties

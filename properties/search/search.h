@@ -1,0 +1,75 @@
+// A search that aims: it looks for cases on which a detector fails, and does not draw them blindly.
+//
+// It keeps the best case of each cause in an archive, and makes new cases of these by moves
+// (moves.h), or draws fresh ones. A case is the better the nearer the oracle's polynomials are to a
+// degeneracy (gap.h), and the farther off the detector's own answers are. Cases are small, because
+// there the oracle takes microseconds.
+//
+// What it finds are defects. Its cases are no trials: they were chosen, so no bound rests on them.
+#pragma once
+
+#include <functional>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "properties/judging/trial.h"
+#include "properties/random.h"
+
+namespace assay::properties {
+
+// What the oracle and the detector say of one case; a trial and a run for each configuration.
+struct SearchedCase {
+  std::vector<oracle::StepJudgement> truth;
+  std::vector<CaseRun> runs;
+  std::vector<JudgedTrial> trials;
+};
+
+// Judges some cases, each as the contract has it.
+using JudgeCases = std::function<std::vector<SearchedCase>(std::span<const corpus::Case>)>;
+
+// Where fresh cases come from. A case of at most so many triangles is wanted; a larger one is not
+// taken.
+struct CaseSource {
+  std::string name;
+  int weight = 1;  // it is drawn from as often as this, in comparison
+  std::function<corpus::Case(Random&, const std::string& id, Eigen::Index most_triangles)> draw;
+};
+
+struct SearchSpace {
+  const Contract& contract;
+  std::vector<CaseSource> sources;
+  // Brings a case into a range of the contract; applied to fresh cases.
+  std::function<corpus::Case(corpus::Case)> bring;
+};
+
+// A part of a search that depends on nothing but its name: it begins with an empty archive. For some
+// cases at a time about half of the moves and sources are switched off, as the name draws, and
+// meshes are of a size of their own, because what helps to find one fault keeps others away.
+struct SearchLane {
+  std::string id;           // "search/quick:1:7"
+  std::uint64_t cases = 0;  // so many are asked
+};
+
+struct FoundDefect {
+  corpus::Case c;  // its id is that of the lane and the number of the case
+  std::size_t configuration = 0;
+  Failure failure;
+  std::uint64_t after = 0;  // so many cases were asked in the lane, this one included
+};
+
+struct LaneResult {
+  bool complete = false;           // it was not stopped
+  std::uint64_t cases = 0;         // asked
+  std::uint64_t defects = 0;       // cases on which some configuration fails
+  std::vector<FoundDefect> found;  // the first of each signature and configuration
+  std::set<std::string> causes;    // of the cases that the archive holds
+};
+
+// A lane of which the contract takes no case ends early. `stop` is asked between batches of cases.
+// The same lane gives the same result wherever it runs.
+LaneResult search(const SearchLane& lane, const SearchSpace& space, const JudgeCases& judge,
+                  const std::function<bool()>& stop);
+
+}  // namespace assay::properties
