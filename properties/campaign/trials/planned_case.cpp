@@ -7,12 +7,15 @@
 #include <cstdlib>
 #include <limits>
 
+#include "detector/boundary/apex.h"
+#include "detector/detector.h"
 #include "oracle/instant/layers.h"
 #include "oracle/mesh/loops.h"
 #include "properties/generators/approaches.h"
 #include "properties/judging/contracted_case.h"
 #include "properties/judging/judged_run.h"
 #include "properties/queries/query_families.h"
+#include "properties/worker/child_process.h"
 #include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
@@ -195,24 +198,63 @@ PlannedCase case_within(const Contract& contract, const Family& family, const st
   return last;
 }
 
-bool starts_clean(const corpus::Case& c) {
-  const detector::Triangles no_ghosts(0, 3);
-  if (!oracle::closes(c.triangles, no_ghosts)) return false;
+namespace {
+
+// Where the steps start that do not go on from a committed one.
+std::vector<const detector::Positions*> new_starts(const corpus::Case& c) {
+  std::vector<const detector::Positions*> starts;
   const corpus::CaseStep* committed = nullptr;
   const auto script = corpus::steps_of(c);
   for (const auto& step : script) {
     const auto& start = start_of(c, step);
-    const bool is_new = committed == nullptr || start != end_of(c, *committed);
-    if (is_new) {
-      const auto layers = oracle::layers_at(oracle::Instant(start), c.triangles, no_ghosts);
-      if (!std::all_of(layers.clean.begin(), layers.clean.end(),
-                       [](std::uint8_t is_clean) { return is_clean != 0; })) {
-        return false;
-      }
-    }
+    if (committed == nullptr || start != end_of(c, *committed)) starts.push_back(&start);
     if (step.commit) committed = &step;
   }
-  return true;
+  return starts;
+}
+
+bool is_clean(const detector::Positions& all, const detector::Triangles& triangles,
+              const detector::Triangles& ghosts) {
+  const auto layers = oracle::layers_at(oracle::Instant(all), triangles, ghosts);
+  return std::all_of(layers.clean.begin(), layers.clean.end(),
+                     [](std::uint8_t is_clean) { return is_clean != 0; });
+}
+
+// The same with the ghosts of the built-in detector, which it places by this arithmetic.
+bool starts_clean_with_ghosts(const corpus::Case& c, detector::Arithmetic arithmetic) {
+  detector::Options options;
+  options.culling = detector::Culling::view_line;
+  options.arithmetic = arithmetic;
+  auto made = detector::Detector::create(c.triangles, c.frames.front(), options);
+  if (!made) return false;
+  const auto& all = made.value().surface().all().triangles;
+  const auto own = static_cast<std::size_t>(c.triangles.rows());
+  detector::Triangles ghosts(static_cast<Eigen::Index>(all.size() - own), 3);
+  for (std::size_t g = own; g < all.size(); ++g)
+    ghosts.row(static_cast<Eigen::Index>(g - own)) << all[g][0], all[g][1], all[g][2];
+  const auto starts = new_starts(c);
+  return std::all_of(starts.begin(), starts.end(), [&](const auto* start) {
+    const auto result = made.value().evaluate(*start, *start);
+    return is_clean(detector::with_apexes(*start, result.apexes, false), c.triangles, ghosts);
+  });
+}
+
+}  // namespace
+
+bool starts_clean(const corpus::Case& c) {
+  const detector::Triangles no_ghosts(0, 3);
+  if (oracle::closes(c.triangles, no_ghosts)) {
+    const auto starts = new_starts(c);
+    return std::all_of(starts.begin(), starts.end(),
+                       [&](const auto* start) { return is_clean(*start, c.triangles, no_ghosts); });
+  }
+  const auto run = in_a_copy([&](const Say& say) {
+    using detector::Arithmetic;
+    if (starts_clean_with_ghosts(c, Arithmetic::exact) &&
+        starts_clean_with_ghosts(c, Arithmetic::bounded))
+      say("clean");
+  });
+  return run.said == "clean";
 }
 
 bool is_vouched_for(const DetectorUnderTest& detector, const corpus::Case& c, std::uint64_t index) {

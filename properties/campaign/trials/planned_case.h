@@ -47,8 +47,8 @@ corpus::Case brought_into_contract(corpus::Case c, const Contract& contract);
 // true.
 
 // Whether the oracle calls every triangle clean (L9, detector/README.md) in every step of the case
-// that is a new start. True for closed meshes alone, because for others the answer depends on
-// where the detector puts its apexes.
+// that is a new start. For an unclosed mesh that depends on where the built-in detector puts its
+// apexes, so it is asked for them, in a copy of this process, in which a crash does no harm.
 bool starts_clean(const corpus::Case& c);
 
 // Whether trial `index` of a family vouches for the start of its case. That is done for the
