@@ -137,6 +137,7 @@ std::int32_t evaluate(assay_handle* handle, const double* x_t0, const double* x_
     h.result = h.detector.evaluate({x_t0, h.vertices}, {x_t1, h.vertices});
   });
   // All other exceptions are told by result(), with their texts.
+  if (code == ASSAY_BEYOND_CAPACITY) last_line<D>() = h.line;
   return code == ASSAY_OUT_OF_MEMORY || code == ASSAY_BEYOND_CAPACITY ? code : ASSAY_OK;
 }
 

@@ -158,7 +158,7 @@ TEST_F(RecordFiles, RefusesWrongSteps) {
   data.dx = {};
   assay_result result = {};
   data.result = &result;
-  result.answer = 4;
+  result.answer = 5;
   EXPECT_EQ(assay_record_step(&recorder, &data), ASSAY_RECORD_WRONG_ARGUMENT);
   result.answer = ASSAY_COLLISION, result.pair_count = 1;
   EXPECT_EQ(assay_record_step(&recorder, &data), ASSAY_RECORD_WRONG_ARGUMENT);

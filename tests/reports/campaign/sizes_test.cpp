@@ -11,20 +11,20 @@ using properties::Claim;
 
 class Sizes : public RunFixture {
  protected:
-  // A campaign of strata of sizes alone.
-  std::string campaign(const std::string& strata) const {
-    return scratch.write("sizes.json",
-                         R"({"schema": "assay-campaign/1", "name": "sizes", "seconds": null, )"
-                         R"("laws_every": 0, "strata": [)" +
-                             strata + "]}");
+  // A campaign of strata of sizes alone, with so many seconds to shrink what fails.
+  std::string campaign(const std::string& strata, int shrinking) const {
+    return scratch.write(
+        "sizes.json", R"({"schema": "assay-campaign/1", "name": "sizes", "seconds": 600, )"
+                      R"("shrink_share": )" +
+                          std::to_string(shrinking / 600.) + R"(, "laws_every": 0, "strata": [)" +
+                          strata + "]}");
   }
   static std::string stratum(const std::string& family, int cases) {
     return R"({"family": ")" + family + R"(", "cases": )" + std::to_string(cases) + "}";
   }
-  Outcome run_on(const std::string& strata, const std::string& more = "",
-                 const std::string& prefix = "") const {
-    return run_assay("run --campaign " + campaign(strata) + " --out " + out + " --jobs 2 " + more,
-                     prefix);
+  Outcome run_on(const std::string& strata, const std::string& more = "", int shrinking = 0) const {
+    return run_assay("run --campaign " + campaign(strata, shrinking) + " --out " + out +
+                     " --jobs 2 " + more);
   }
   properties::RunFindings findings() const { return properties::read_findings(out).value(); }
 };
@@ -41,8 +41,8 @@ TEST_F(Sizes, TheBuiltInHoldsAndTheSizeIsSaid) {
   std::vector<std::string> both;
   for (const auto* shard : {"1", "2"}) {
     const auto folder = out + shard;
-    const auto part = run_assay("run --campaign " + campaign(stratum("size-1e3", 4)) + " --out " +
-                                folder + " --shard " + shard + "/2");
+    const auto part = run_assay("run --campaign " + campaign(stratum("size-1e3", 4), 0) +
+                                " --out " + folder + " --shard " + shard + "/2");
     EXPECT_EQ(part.exit_code, 0) << part.out;
     for (auto& line : trials_of(folder, std::string("shard-") + shard + "-of-2"))
       both.push_back(std::move(line));
@@ -53,20 +53,22 @@ TEST_F(Sizes, TheBuiltInHoldsAndTheSizeIsSaid) {
 
 TEST_F(Sizes, FreeAbove5000IsFoundAt10000AndTheNumberIsTold) {
   const auto outcome = run_on(stratum("size-1e3", 2) + ", " + stratum("size-1e4", 1),
-                              "--detector " + plugin("free_above_5000"));
+                              "--detector " + plugin("free_above_5000"), 120);
   EXPECT_EQ(outcome.exit_code, 1) << outcome.out << outcome.err;
   EXPECT_TRUE(contains(outcome.out, "fails from 5001 triangles on")) << outcome.out;
   EXPECT_EQ(triangles_of_smallest(out), 5001);
 }
 
 TEST_F(Sizes, FreeAbove50000IsFoundAt100000) {
-  const auto outcome = run_on(stratum("size-1e5", 1), "--detector " + plugin("free_above_50000"));
+  const auto outcome =
+      run_on(stratum("size-1e5", 1), "--detector " + plugin("free_above_50000"), 300);
   EXPECT_EQ(outcome.exit_code, 1) << outcome.out << outcome.err;
   EXPECT_TRUE(contains(outcome.out, "fails from 50001 triangles on")) << outcome.out;
 }
 
 TEST_F(Sizes, ADeepTreeIsFoundAt1000AndComesHomeSmall) {
-  const auto outcome = run_on(stratum("size-1e3", 3), "--detector " + plugin("stack_of_32_levels"));
+  const auto outcome =
+      run_on(stratum("size-1e3", 3), "--detector " + plugin("stack_of_32_levels"), 15);
   EXPECT_EQ(outcome.exit_code, 1) << outcome.out << outcome.err;
   EXPECT_LE(triangles_of_smallest(out), 400);
 }
@@ -85,9 +87,10 @@ TEST_F(Sizes, BuffersAndProductsAreFoundAt10000) {
 TEST_F(Sizes, RefusalsBeyondTheCapacityAreCounted) {
   const auto with = [&](const std::string& words) {
     std::filesystem::remove_all(out);
-    return run_assay("run --campaign " + scratch.write("plan.json", plan_text(16)) + " --out " +
-                         out + " --detector " + plugin("by_contract"),
-                     "ASSAY_BY_CONTRACT=\"" + words + "\"");
+    setenv("ASSAY_BY_CONTRACT", words.c_str(), 1);
+    auto outcome = run("--detector " + plugin("by_contract"));
+    unsetenv("ASSAY_BY_CONTRACT");
+    return outcome;
   };
   const auto stated = with("refuse-from=20 capacity-triangles=19");
   EXPECT_EQ(stated.exit_code, 0) << stated.out << stated.err;

@@ -15,6 +15,7 @@ Json night(std::uint64_t seed, std::uint64_t n, std::uint64_t holds) {
           {"confidence", {{"bounds", 8}, {"risk_of_each", properties::risk_of_each(8)}}},
           {"strata",
            {{{"family", "broken"},
+             {"risk", properties::risk_of_each(8)},
              {"bounds", {{{"configuration", "bvh"}, {"n", n}, {"holds", holds}}}}}}}};
 }
 
