@@ -90,7 +90,8 @@ class Crossings {
       }
     });
     constexpr double scale = 0x1p-20 * reach;
-    margin_ = 0x1p-50 * (largest[0] * scale + largest[1] * scale + largest[2] * scale) + 0x1p-1071;
+    const double size = largest[0] * scale + largest[1] * scale + largest[2] * scale;
+    margin_ = 8 * unit_roundoff * size + 0x1p-1071;
   }
 
   std::array<Point, 3> corners(std::int32_t t) const {

@@ -19,7 +19,7 @@ FILTERS = sorted(p.stem for p in HERE.glob("*.cpp") if p.stem != "script")
 RULES = [
     (re.compile(r"\bdouble\b"), "bounds::Recorded"),
     (re.compile(r'(?<![\w."/])(\d+\.\d+)(?![\w.])'), r"bounds::Recorded(\1)"),
-    (re.compile(r"\bstd::(abs|sqrt|isfinite|ilogb|scalbn|ldexp|frexp)\b"), r"bounds::math::\1"),
+    (re.compile(r"\bstd::(abs|sqrt|isfinite|ilogb|scalbn|ldexp|frexp|bit_cast)\b"), r"bounds::math::\1"),
     (re.compile(r"\bprivate:"), "public:"),
 ]
 # In the floats of boxes, too.

@@ -415,6 +415,16 @@ void Script::give(int node, const std::string& error, const std::string& size) {
   hint(out.computed + " ~ " + out.exact);
 }
 
+void Script::give_term(int node, const std::string& factor) {
+  if (factor.empty()) {
+    names_[node] = names_in_bound_[node] = {"0", "0"};
+    return;
+  }
+  const std::string exact = next('X');
+  names_[node] = names_in_bound_[node] = {"1", exact};
+  assume("|1 -/ " + exact + "| <= " + factor);
+}
+
 Script::Names Script::name(int node) {
   auto& names = is_bound_ ? names_in_bound_ : names_;
   if (const auto found = names.find(node); found != names.end()) return found->second;
@@ -508,6 +518,11 @@ Script::Names Script::make(int node) {
       return {out, out};
     }
     case Op::absolute: {
+      if (bound_ == factors) {  // whatever it is of
+        const std::string out = next('x');
+        assume(out + " in [1b-400,1b400]");
+        return {out, out};
+      }
       const Names a = name(n.a);
       if (is_bound_) return a;
       return {"|" + a.computed + "|", "|" + a.exact + "|"};
@@ -676,7 +691,7 @@ void Claims::write_obligation(const std::string& name, int node, int bound) {
   for (const Case& which : cases_of(node, bound)) {
     Script script(which, bound);
     const Node n = at(node);
-    const double error = Errors(which).of(node) * (1 + 0x1p-20);
+    const double error = Errors(which).of(node) * (1 + 0x1p-19) + 0x1p-71;
     if (n.op != Op::halved) {
       const double before = prepare(script, name, node, bound, which);
       want_below(script, name, {node}, bound, which, error - before, before);
