@@ -1,7 +1,6 @@
 // The signs at a root: sums of products in doubles, and balls.
 #include "detector/contact/fixed_root.h"
 #include "detector/exact/ball.h"
-
 #include "tests/bounds/script.h"
 
 namespace assay::bounds {
