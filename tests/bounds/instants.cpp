@@ -1,8 +1,8 @@
 // The signs of one instant: orientation, projections, and how a ray crosses a triangle.
 #include "detector/geometry/orientation.cpp"
 #include "detector/geometry/winding.cpp"
+#include "tests/bounds/claims.h"
 #include "tests/bounds/moving_points.h"
-#include "tests/bounds/script.h"
 
 namespace assay::bounds {
 namespace {

@@ -16,7 +16,8 @@ import comparisons
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
-FILTERS = sorted(p.stem for p in HERE.glob("*.cpp") if p.stem != "script")
+BASE = ["claims", "graph", "script"]  # the others are filters
+FILTERS = sorted(p.stem for p in HERE.glob("*.cpp") if p.stem not in BASE)
 
 # What the copy of a source has in place of what the detector has.
 RULES = [
@@ -107,7 +108,7 @@ def write_scripts(options, work, filters, pool):
         return subprocess.run(
             [*compile_, "-include", str(first), "-c", str(HERE / f"{name}.cpp"),
              "-o", f"{work}/{name}.o"], capture_output=True, text=True)
-    objects = ["script", *filters]
+    objects = [*BASE, *filters]
     for name, done in zip(objects, pool.map(build, objects)):
         if done.returncode:
             return 1, f"{name} does not compile:\n{done.stderr[:2000]}"
@@ -172,6 +173,8 @@ def seen_by_proofs(options, change, pool):
     code, output = write_scripts(options, work, change["filters"], pool)
     if "does not compile" in output:
         sys.exit(f"{change['about']}: {output}")
+    if code not in (0, 1):
+        sys.exit(f"{change['about']}: the program that writes scripts ended with {code}")
     if code:
         return [output.strip().split("\n")[-1]]
     found, _ = open_scripts(work, pool, all_of_them=False)

@@ -1,7 +1,7 @@
 // The signs at a root: sums of products in doubles, and balls.
 #include "detector/contact/fixed_root.h"
 #include "detector/exact/ball.h"
-#include "tests/bounds/script.h"
+#include "tests/bounds/claims.h"
 
 namespace assay::bounds {
 namespace {
@@ -43,7 +43,7 @@ void claim_sums(Claims& claims, std::size_t count) {
       claims.write("sums-at-a-root", script);
     }
   }
-  record = {};
+  begin_anew();
 }
 
 void claim_signs_at_a_root(Claims& claims) {
@@ -83,7 +83,7 @@ void claim_balls(Claims& claims) {
     script.want_factor(radius, "8b-53", at(product.a).value);
     claims.write("ball", script);
   }
-  record = {};
+  begin_anew();
 }
 
 void claim_roots(Claims& claims) {
