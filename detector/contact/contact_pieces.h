@@ -9,12 +9,15 @@
 // At a root of F there is no contact if one L_k,i > 0 and another < 0 for some axis k. There is a
 // contact if for some axis all L_k,i have one sign and are not all zero.
 //
-// Error bounds, in the notation of bernstein.h. All u_j have the bounds M_k, so T is 3 MxMyMz.
+// Error bounds, in the notation of bernstein.h. All u_j have the bounds M_k. The n of one of the
+// two products in a middle coefficient of F is an end of the step.
 //
 //   quantity      | operations                      | error in u               | size
 //   lam_1..3      | cross, middle                   | 10 MM                    | 2 MM
 //   lam_0         | three of these, two sums        | 30 + 4 + 6 = 40 MM       | 6 MM
-//   F             | w . n, middle                   | 22 T = 66 MxMyMz         | 2 T = 6 MxMyMz
+//   w . n         | three w n, sums of 4 and 6      | 42 + 4 + 6 = 52 MxMyMz   | 6 MxMyMz
+//   w . n, end    | a minor has 8 u, a cross 10 u   | 36 + 4 + 6 = 46 MxMyMz   | 6 MxMyMz
+//   F             | (2 (w . n) + w . n, end) / 3    | 168 / 3 + 6 = 62 MxMyMz  | 6 MxMyMz
 //   lam_0 halved  | a quadratic with B = 6 MM       | as before + 12 MM        | 6 MM
 //   F halved      | a cubic with B = 6 MxMyMz       | as before + 18 MxMyMz    | 6 MxMyMz
 //
@@ -31,7 +34,7 @@ namespace assay::detector {
 // dependency by less than quadratic_error(depth) * MpMq.
 template <class Bounds = ProvedBounds>
 constexpr auto cubic_error(int depth) {
-  return static_cast<typename Bounds::Number>(67 + 18 * depth) * Bounds::unit;
+  return static_cast<typename Bounds::Number>(63 + 18 * depth) * Bounds::unit;
 }
 template <class Bounds = ProvedBounds>
 constexpr auto quadratic_error(int depth) {

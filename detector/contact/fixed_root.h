@@ -138,7 +138,7 @@ class FixedRoot {
 //   a term                        | four of these at most, multiplied  | at most 4 (9 + 1) = 40
 //   a sum of seven terms at most  | six sums                           | 40 + 6 = 46 S
 //
-// The code asks for 2^-46 S = 128 u S. If S is so small that a term may have lost bits by
+// The code asks for 128 u S. If S is so small that a term may have lost bits by
 // underflow, doubles decide nothing.
 template <std::size_t W>
 class SignAtRoot {
@@ -198,7 +198,7 @@ class SignAtRoot {
   }
 
   static int sure(double value, double size) {
-    constexpr double relative_error = 0x1p-46, least_size = 0x1p-800;
+    constexpr double relative_error = 128 * unit_roundoff, least_size = 0x1p-800;
     return size > least_size ? sign_beyond(value, relative_error * size) : 0;
   }
 

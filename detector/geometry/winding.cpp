@@ -90,7 +90,8 @@ class Crossings {
       }
     });
     constexpr double scale = 0x1p-20 * reach;
-    margin_ = 0x1p-50 * (largest[0] * scale + largest[1] * scale + largest[2] * scale) + 0x1p-1071;
+    const double size = largest[0] * scale + largest[1] * scale + largest[2] * scale;
+    margin_ = 8 * unit_roundoff * size + 0x1p-1071;
   }
 
   std::array<Point, 3> corners(std::int32_t t) const {
@@ -262,11 +263,11 @@ std::vector<std::optional<int>> winding_numbers_outside(const Topology& mesh,
 //   minor          | x y - z w                          | 1 + 1 + 2 = 4 V          | 2 V
 //   term           | an entry times a minor             | 4 + 2 = 6 V              | 2 V
 //   determinant    | three terms, two sums              | 3 * 6 + 4 + 6 = 28 V     | 6 V
-//   its entries    | 6 products of 3 entries            | 6 * 3 * 4 = 72 V         | 6 V
+//   its entries    | 6 products of 3 entries            | 6 * 3 * 11 / 4 = 49.5 V  | 6 V
 //
 // The rows of minor, term and determinant count roundings alone. The last row adds the error of
-// the determinant that comes from the errors of its entries: 11 W is taken for 16 W, so each entry
-// is off by 4 u of its size 4 W. Together these are 100 u V. The code asks for 128 u V, which also
+// the determinant that comes from the errors of its entries: 11 W is 11 / 4 u of an entry's size
+// 4 W. Together these are 77.5 u V. The code asks for 80 u V, which also
 // covers errors of second order and the rounding of V. A ray's direction is exact.
 //
 // If the filter cannot tell a sign, exact arithmetic computes it in integers. Bounded arithmetic
@@ -341,7 +342,7 @@ CrossingSigns filtered_signs(const std::array<Point, 3>& corners, const RayOrigi
                                    std::abs(direction[2])};
   const auto dets = determinants<Number>(a, direction);
   // V is summed by terms, because each coordinate of the (exact) direction has its own size.
-  constexpr Number error = 128 * Bounds::unit;
+  constexpr Number error = 80 * Bounds::unit;
   const Number along =
       error * (w[0] * w[1] * extent[2] + w[1] * w[2] * extent[0] + w[2] * w[0] * extent[1]);
   const Number volume = error * (w[0] * w[1] * w[2]);

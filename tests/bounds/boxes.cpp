@@ -1,6 +1,6 @@
 // Boxes in floats, of triangles and of features, with the margins of a distance.
 #include "detector/search/feature_pairs.cpp"
-#include "tests/bounds/script.h"
+#include "tests/bounds/claims.h"
 
 namespace assay::bounds {
 namespace {
@@ -82,7 +82,7 @@ void claim_axes(Claims& claims, bool grows) {
   const int sum = grows ? a.hi_t0[0].number.node : (fa[0] + margin[0]).number.node;
   claims.write("boxes", order(fa[0].number.node, fb[0].number.node, sum, partner_of(sum),
                               margin[0].number.node, d));
-  record = {};
+  begin_anew();
 }
 
 void claim_diagonals(Claims& claims, bool is_far) {
@@ -103,7 +103,7 @@ void claim_diagonals(Claims& claims, bool is_far) {
     }
     claims.write("boxes-diagonal", script);
   }
-  record = {};
+  begin_anew();
 }
 
 void claim_boxes(Claims& claims) {

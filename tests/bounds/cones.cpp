@@ -1,7 +1,7 @@
 // Normal cones and contours: which directions a triangle faces, turns and cosines in the plane.
 #include "detector/traditional/moving_contour.cpp"
+#include "tests/bounds/claims.h"
 #include "tests/bounds/moving_points.h"
-#include "tests/bounds/script.h"
 
 namespace assay::bounds {
 namespace {

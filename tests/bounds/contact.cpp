@@ -1,8 +1,8 @@
 // The filter of the elementary test: ContactPieces with proved bounds, as it is halved down to the
 // greatest depth, and the enclosure of a root.
 #include "detector/contact/contact_doubles.cpp"
+#include "tests/bounds/claims.h"
 #include "tests/bounds/moving_points.h"
-#include "tests/bounds/script.h"
 
 namespace assay::bounds {
 namespace {

@@ -1,7 +1,7 @@
 // The filter of a distance: gaps along a vector, and places of the features.
 #include "detector/distance/near_filter.cpp"
 #include "detector/distance/nearest_places.cpp"
-#include "tests/bounds/script.h"
+#include "tests/bounds/claims.h"
 
 namespace assay::bounds {
 namespace {

@@ -1,8 +1,8 @@
 // The signs of one instant: orientation, projections, and how a ray crosses a triangle.
 #include "detector/geometry/orientation.cpp"
 #include "detector/geometry/winding.cpp"
+#include "tests/bounds/claims.h"
 #include "tests/bounds/moving_points.h"
-#include "tests/bounds/script.h"
 
 namespace assay::bounds {
 namespace {
@@ -14,6 +14,29 @@ Point point(const std::string& name, int number) { return moving_point(name, num
 Point point_at(int number, double x, double y, double z) {
   return {coordinate("x", number, 0, x), coordinate("x", number, 1, y),
           coordinate("x", number, 2, z)};
+}
+
+// Shadows along a ray. Of the margin around a triangle's box one part is for its corners, one for the
+// ray's origin; what is left is for the rounding of the box less the margin.
+void claim_shadows(Claims& claims) {
+  Positions x(1, 3);
+  for (int k = 0; k < 3; ++k) x(0, k) = coordinate("p", 0, k, k + 1) - coordinate("q", 0, k, 0);
+  for (int k = 0; k < 3; ++k) record.errors["pq" + std::to_string(k)] = 0;
+  Topology mesh;
+  mesh.triangles.push_back({0, 0, 0});
+  const std::vector<std::int32_t> triangles = {0};
+  const Crossings surface(mesh, triangles, x, Arithmetic::exact, nullptr);
+  const Plane plane({reach, reach, reach});
+  const Point p = point_of(x, 0);
+  const Shadow corner = plane.of(p), origin = plane.of(RayOrigin{p, p, p});
+  record.obligations.clear();
+  const Node& margin = at(surface.margin_.node);
+  Recorded main;  // without what is added for underflows
+  main.node = margin.a;
+  main.kind = Kind::bound;
+  for (const Recorded& c : {corner.u, corner.v}) believe(c, main * 0.28125);
+  for (const Recorded& c : {origin.u, origin.v}) believe(c, main * 0.53125);
+  claims.write_obligations("shadows");
 }
 
 void claim_instants(Claims& claims) {
@@ -33,6 +56,7 @@ void claim_instants(Claims& claims) {
   filtered_signs<ProvedBounds>({point("c", 1), point("c", 2), point("c", 3)},
                                {point("o", 4), point("o", 5), point("o", 6)}, {3, 5, 7});
   claims.write_obligations("crossing");
+  claim_shadows(claims);
 }
 
 const Filter filter("instants", claim_instants);

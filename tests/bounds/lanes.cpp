@@ -2,8 +2,8 @@
 #include "detector/view/view_bounds.cpp"
 #define ASSAY_LANES 2
 #include "detector/view/view_lanes_kernel.h"
+#include "tests/bounds/claims.h"
 #include "tests/bounds/moving_points.h"
-#include "tests/bounds/script.h"
 
 namespace assay::bounds {
 namespace {

@@ -11,15 +11,19 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+sys.dont_write_bytecode = True  # the sources' folder stays as it is
+import comparisons
+
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
-FILTERS = sorted(p.stem for p in HERE.glob("*.cpp") if p.stem != "script")
+BASE = ["claims", "graph", "script"]  # the others are filters
+FILTERS = sorted(p.stem for p in HERE.glob("*.cpp") if p.stem not in BASE)
 
 # What the copy of a source has in place of what the detector has.
 RULES = [
     (re.compile(r"\bdouble\b"), "bounds::Recorded"),
     (re.compile(r'(?<![\w."/])(\d+\.\d+)(?![\w.])'), r"bounds::Recorded(\1)"),
-    (re.compile(r"\bstd::(abs|sqrt|isfinite|ilogb|scalbn|ldexp|frexp)\b"), r"bounds::math::\1"),
+    (re.compile(r"\bstd::(abs|sqrt|isfinite|ilogb|scalbn|ldexp|frexp|bit_cast)\b"), r"bounds::math::\1"),
     (re.compile(r"\bprivate:"), "public:"),
 ]
 # In the floats of boxes, too.
@@ -104,7 +108,7 @@ def write_scripts(options, work, filters, pool):
         return subprocess.run(
             [*compile_, "-include", str(first), "-c", str(HERE / f"{name}.cpp"),
              "-o", f"{work}/{name}.o"], capture_output=True, text=True)
-    objects = ["script", *filters]
+    objects = [*BASE, *filters]
     for name, done in zip(objects, pool.map(build, objects)):
         if done.returncode:
             return 1, f"{name} does not compile:\n{done.stderr[:2000]}"
@@ -147,25 +151,46 @@ def prove(options, pool):
     for name, _, errors, _ in found:
         print(f"not proved: {work}/scripts/{name}: {errors[:200]}")
     print(f"{count - len(found)} of {count} scripts proved in {time.monotonic() - started:.0f} s")
-    return code or (1 if found or count == 0 else 0)
+    claims = {re.sub(r"-\d+\.g$", "", s.name) for s in (work / "scripts").glob("*.g")}
+    missing = comparisons.faults(comparisons.sources_of(ROOT), claims)
+    for fault in missing:
+        print(fault)
+    return code or (1 if found or missing or count == 0 else 0)
+
+
+def seen_in_list(change):
+    """What the list of comparisons has against a changed source."""
+    claims = {name for parts in comparisons.listed().values() for name in parts}
+    sources = [(file, changed(text, change) if f"detector/{file}" == change["file"] else text)
+               for file, text in comparisons.sources_of(ROOT)]
+    return comparisons.faults(sources, claims - {"nothing"} - {c for c in claims if "lemma" in c})
+
+
+def seen_by_proofs(options, change, pool):
+    """What is not proved of a changed source."""
+    work = Path(options.work) / "changed"
+    copy(work, change)
+    code, output = write_scripts(options, work, change["filters"], pool)
+    if "does not compile" in output:
+        sys.exit(f"{change['about']}: {output}")
+    if code not in (0, 1):
+        sys.exit(f"{change['about']}: the program that writes scripts ended with {code}")
+    if code:
+        return [output.strip().split("\n")[-1]]
+    found, _ = open_scripts(work, pool, all_of_them=False)
+    return [f"{name}: {errors}" for name, _, errors, _ in found]
 
 
 def prove_changed(options, pool):
-    work = Path(options.work) / "changed"
     missed = 0
     for change in json.loads(Path(options.changes).read_text()):
-        copy(work, change)
-        code, output = write_scripts(options, work, change["filters"], pool)
-        reason = output.strip().split("\n")[-1][:120]
-        if "does not compile" in output:
-            sys.exit(f"{change['about']}: {output}")
-        if code == 0:
-            found, _ = open_scripts(work, pool, all_of_them=False)
-            reason = f"not proved: {found[0][0]}" if found else ""
-            code = 1 if found else 0
-        print(f"{'red' if code else 'MISSED'}: {change['file']}: {change['about']} ({reason})",
-              flush=True)
-        missed += code == 0
+        if "filters" in change:
+            seen = seen_by_proofs(options, change, pool)
+        else:
+            seen = seen_in_list(change)
+        print(f"{'red' if seen else 'MISSED'}: {change['file']}: {change['about']}"
+              f" ({seen[0][:90] if seen else ''})", flush=True)
+        missed += not seen
     print(f"{missed} changes missed")
     return 1 if missed else 0
 

@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <compare>
 #include <limits>
@@ -322,6 +323,16 @@ inline bool cut(Recorded& share) {
 namespace math {
 using bounds::abs, bounds::sqrt, bounds::isfinite, bounds::ilogb, bounds::scalbn, bounds::ldexp,
     bounds::frexp;
+template <class To, class From>
+To bit_cast(const From& x) {
+  if constexpr (std::is_same_v<From, Recorded>) {
+    return std::bit_cast<To>(x.value);
+  } else if constexpr (std::is_same_v<To, Recorded>) {
+    return std::bit_cast<double>(x);
+  } else {
+    return std::bit_cast<To>(x);
+  }
+}
 using std::abs, std::sqrt, std::isfinite, std::ilogb, std::scalbn, std::ldexp, std::frexp;
 }  // namespace math
 

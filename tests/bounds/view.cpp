@@ -1,7 +1,7 @@
 // The view test in doubles, of one triangle at a time.
 #include "detector/view/view_filter.cpp"
+#include "tests/bounds/claims.h"
 #include "tests/bounds/moving_points.h"
-#include "tests/bounds/script.h"
 
 namespace assay::bounds {
 namespace {

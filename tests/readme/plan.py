@@ -22,6 +22,7 @@ NO_QUERY = "libmine.so is the example, which holds no query; parts_of_a_detector
 LENT = "builds, and the build is only lent"
 EXAMPLES = "of files that the examples write; tests/reports/python runs those"
 MUTANTS = "compiles as the build did, and the build is only lent; test mutation_smoke runs the script"
+BOUNDS = "the tests bounds, bounds_changes and bounds_contracted run it"
 
 # What the reader is to have at hand: made before the first command of that README.
 GIVEN = {
@@ -135,6 +136,11 @@ NOT_RUN = {
         "ctest --preset release": RECURSION,
         "tests/sanitized": "compiles and runs for hours",
     },
+    "tests/bounds/README.md": {
+        "python3 tests/bounds/prove.py": BOUNDS,
+        "python3 tests/bounds/prove.py --changes tests/bounds/changes.json": BOUNDS,
+        "python3 tests/bounds/contracted.py --build build/release": BOUNDS,
+    },
     "tests/mutation/README.md": {
         "cmake --build --preset release --target mutation_facts mutant_judge detector_tests "
         "properties_detector_tests": LENT,
@@ -174,6 +180,10 @@ NO_COMMAND = {
         'assay="$ASSAY/build/release/assay"': "a job; a test runs it, and compares the two",
         "assay_builtin_save(handle": "C; tests/consumer compiles a whole program like it",
         '#include "detector/plugin/assay_record.h"': "C; tests/recording compiles and runs it",
+    },
+    "tests/bounds/README.md": {
+        "X6 = X2 * X4;": "a script for Gappa, shortened; test bounds writes and proves such",
+        "|a/l - A/K|": "a formula",
     },
     "properties/README.md": {
         "WorkerProcess worker(": "C++; the tests of the worker are made of such lines",
