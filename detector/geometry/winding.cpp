@@ -265,10 +265,10 @@ std::vector<std::optional<int>> winding_numbers_outside(const Topology& mesh,
 //   determinant    | three terms, two sums              | 3 * 6 + 4 + 6 = 28 V     | 6 V
 //   its entries    | 6 products of 3 entries            | 6 * 3 * 11 / 4 = 49.5 V  | 6 V
 //
-// The rows of minor, term and determinant count roundings alone. The last row adds the error of
-// the determinant that comes from the errors of its entries: 11 W is 11 / 4 u of an entry's size
-// 4 W. Together these are 77.5 u V. The code asks for 80 u V, which also
-// covers errors of second order and the rounding of V. A ray's direction is exact.
+// The rows of minor, term and determinant count roundings alone. The last row adds the error of the
+// determinant that comes from the errors of its entries: 11 W is 11 / 4 u of an entry's size 4 W.
+// Together these are 77.5 u V. The code asks for 80 u V, which also covers errors of second order
+// and the rounding of V. A ray's direction is exact.
 //
 // If the filter cannot tell a sign, exact arithmetic computes it in integers. Bounded arithmetic
 // leaves the sign 0. Then the direction is given up, or the count altogether, but nothing is

@@ -38,8 +38,8 @@ Margin margin_in(int node) {
   return {whole, sum, product, at(product).a, at(at(product).b).value, at(at(sum).b).value};
 }
 
-// That a + margin is below b, or b less a margin, proves that the twins of a and b differ by more than
-// the distance, scaled, that the margin was made of.
+// That a + margin is below b, or b less a margin, proves that the twins of a and b differ by more
+// than the distance, scaled, that the margin was made of.
 Script order(int a, int b, int sum, int below, int margin, const Recorded& distance) {
   Script s = Script::of_boxes();
   const bool grown = below != b;

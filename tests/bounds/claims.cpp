@@ -183,8 +183,8 @@ double Claims::prepare(Script& script, const std::string& name, int node, int bo
   return 0;
 }
 
-// A bound that is a bound of the operands and more: means of the operands are off by the first part,
-// so the second one is for the roundings (lemma 8). The first part is at most the size of the
+// A bound that is a bound of the operands and more: means of the operands are off by the first
+// part, so the second one is for the roundings (lemma 8). The first part is at most the size of the
 // operands, or no number is beyond the bound.
 void Claims::write_carried(const std::string& name, int node, int bound) {
   const int operands = at(bound).a, more = at(bound).b;

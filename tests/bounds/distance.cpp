@@ -74,7 +74,7 @@ void claim_gaps(Claims& claims) {
 
 // A place of a feature is off by less than place_error times M, if its shares are not.
 void claim_places(Claims& claims) {
-  // So that each case of nearest_places.cpp is met.
+  // So that each case of detector/distance/nearest_places.cpp is met.
   struct Query {
     int first_group;
     Place b, c, e;

@@ -16,8 +16,8 @@ Point point_at(int number, double x, double y, double z) {
           coordinate("x", number, 2, z)};
 }
 
-// Shadows along a ray. Of the margin around a triangle's box one part is for its corners, one for the
-// ray's origin; what is left is for the rounding of the box less the margin.
+// Shadows along a ray. Of the margin around a triangle's box one part is for its corners, one for
+// the ray's origin; what is left is for the rounding of the box less the margin.
 void claim_shadows(Claims& claims) {
   Positions x(1, 3);
   for (int k = 0; k < 3; ++k) x(0, k) = coordinate("p", 0, k, k + 1) - coordinate("q", 0, k, 0);

@@ -49,7 +49,7 @@ void claim_sums(Claims& claims, std::size_t count) {
 void claim_signs_at_a_root(Claims& claims) {
   for (const bool is_linear : {false, true}) {
     SignAtRoot<1> at_root({}, 1, 10);
-    constexpr double coefficient = 4;  // u: from integers (fixed_root.h)
+    constexpr double coefficient = 4;  // u: from integers
     for (int i = 0; i < 4; ++i) {
       at_root.near_f_[static_cast<std::size_t>(i)] =
           given("f" + std::to_string(i), coefficient, i % 2 ? 1 : -1);
@@ -65,7 +65,8 @@ void claim_signs_at_a_root(Claims& claims) {
   }
 }
 
-// A radius covers the errors of the operands and of the middle, up to a factor that the slack covers.
+// A radius covers the errors of the operands and of the middle, up to a factor that the slack
+// covers.
 void claim_balls(Claims& claims) {
   const auto ball = [](const std::string& name, double middle, double radius) {
     Ball out;

@@ -31,8 +31,8 @@ class Script {
   // Has Gappa look at shares in small pieces.
   void split(int share) { hint("$ " + computed(share) + " in 32"); }
 
-  // Of a sum of terms: this one is 1 as computed, and its twin up to a factor in 1 +- `factor`. It is
-  // 0 if no factor is given.
+  // Of a sum of terms: this one is 1 as computed, and its twin up to a factor in 1 +- `factor`. It
+  // is 0 if no factor is given.
   void give_term(int node, const std::string& factor);
 
   void assume(const std::string& hypothesis) { hypotheses_.push_back(hypothesis); }
