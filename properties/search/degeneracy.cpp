@@ -136,7 +136,7 @@ double& coordinate(FourPoints& q, int c) {
   return (c < coordinates / 2 ? p.t0 : p.t1)[static_cast<std::size_t>(c % 3)];
 }
 
-double greatest_of(const std::vector<double>& r) {
+double worst_of(const std::vector<double>& r) {
   double greatest = 0;
   for (const double x : r) greatest = std::max(greatest, std::abs(x));
   return greatest;
@@ -157,7 +157,7 @@ std::optional<FourPoints> moved_onto(const FourPoints& query, std::span<const De
   }
   FourPoints q = query;
   auto r = residuals(q);
-  for (int step = 0; step < steps && greatest_of(r) > near / 64; ++step) {
+  for (int step = 0; step < steps && worst_of(r) > near / 64; ++step) {
     Eigen::MatrixXd slopes(static_cast<Eigen::Index>(r.size()),
                            static_cast<Eigen::Index>(free.size()));
     for (std::size_t c = 0; c < free.size(); ++c) {
@@ -174,7 +174,7 @@ std::optional<FourPoints> moved_onto(const FourPoints& query, std::span<const De
       coordinate(q, free[c]) += size * way[static_cast<Eigen::Index>(c)];
     r = residuals(q);
   }
-  if (!(greatest_of(r) < near)) return std::nullopt;
+  if (!(worst_of(r) < near)) return std::nullopt;
   return q;
 }
 

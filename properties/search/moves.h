@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "corpus/cases/case_file.h"
 #include "properties/claims/contract.h"
@@ -35,15 +36,20 @@ struct Move {
   void (*make)(Random&, Candidate&, const MoveContext&);
 };
 
-// The first lets the features meet.
+// The first lets the features meet, the second changes the size.
 std::span<const Move> moves();
 
-// The four points of a query as a closed mesh: a corner and the face across it, or two edges across
-// each other, are its only features that do not share a vertex.
-corpus::Case tetrahedron(const detector::FourPoints& query, std::string id);
+// The two lists of which it is made.
+std::span<const Move> feature_moves();
+std::span<const Move> mesh_moves();
 
-// The two features of a query as a mesh of two triangles, whose other corners lie away from the
-// features.
-corpus::Case two_triangles(const detector::FourPoints& query, Random& random, std::string id);
+// The greatest magnitude of a coordinate.
+double greatest_of(const corpus::Case& c);
+
+// One item of a list that is not empty.
+template <class List>
+auto& one_of(Random& random, List& list) {
+  return list[static_cast<std::size_t>(random.below(static_cast<int>(std::size(list))))];
+}
 
 }  // namespace assay::properties

@@ -207,7 +207,9 @@ class LaneSearch {
       const bool leaves_contacts_out = space_.contract.start != StartRule::any;
       if (!random.one_in(leaves_contacts_out ? 2 : 4)) return made.c;
       made.focus = focus_of(made.c, {}, space_.contract, random);
-      moves().front().make(random, made, {space_.contract});
+      moves()[0].make(random, made, {space_.contract});
+      if (space_.contract.has_range() && random.one_in(3))
+        moves()[1].make(random, made, {space_.contract});
       return made.c;
     }
     made = *parent;

@@ -44,11 +44,11 @@ struct SearchSpace {
   std::function<corpus::Case(corpus::Case)> bring;
 };
 
-// A part of a search that depends on nothing but its name: it begins with an empty archive. For some
-// cases at a time about half of the moves and sources are switched off, as the name draws, and
-// meshes are of a size of their own, because what helps to find one fault keeps others away.
+// A part of a search that depends on nothing but its name: it begins with an empty archive. For
+// some cases at a time about half of the moves and sources are switched off, as the name draws,
+// and meshes are of a size of their own, because what helps to find one fault keeps others away.
 struct SearchLane {
-  std::string id;           // "search/quick:1:7"
+  std::string id;           // what the ids of its cases begin with
   std::uint64_t cases = 0;  // so many are asked
 };
 

@@ -2,13 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <mutex>
 
 #include "corpus/hard/hard_families.h"
 #include "properties/generators/families.h"
 #include "properties/queries/query_families.h"
-#include "properties/search/moves.h"
+#include "properties/search/degeneracy.h"
 #include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
@@ -132,6 +134,66 @@ std::vector<CaseSource> case_sources(const SourcesAsked& asked) {
     for (const auto& queries : query_families()) sources.push_back(source_of(queries));
   }
   return sources;
+}
+
+corpus::Case tetrahedron(const detector::FourPoints& query, std::string id) {
+  corpus::Case c = case_of_query(query, std::move(id));
+  c.options.clear();
+  c.triangles.resize(4, 3);
+  c.triangles << 0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3;
+  // Outward at the start, where it has a volume.
+  if (coplanarity_at(query, 0) < 0) c.triangles.col(1).swap(c.triangles.col(2));
+  return c;
+}
+
+corpus::Case two_triangles(const detector::FourPoints& query, Random& random, std::string id) {
+  const bool is_vertex_face = query.first_group == 1;
+  const auto first_group = static_cast<std::size_t>(query.first_group);
+  const std::size_t vertices = 6;
+  corpus::Case c;
+  c.id = std::move(id);
+  c.triangles.resize(2, 3);
+  if (is_vertex_face) {
+    c.triangles << 0, 4, 5, 1, 2, 3;
+  } else {
+    c.triangles << 0, 1, 4, 2, 3, 5;
+  }
+  detector::Point first{}, second{};  // the means of the two features at the start
+  double size = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double x = query.points[i].t0[k];
+      i < first_group ? first[k] += x / static_cast<double>(first_group)
+                      : second[k] += x / static_cast<double>(4 - first_group);
+      size = std::max({size, std::abs(x - query.points[0].t0[k]),
+                       std::abs(query.points[i].t1[k] - query.points[0].t0[k])});
+    }
+  }
+  if (!(size > 0)) size = 1;
+  const double unit = std::ldexp(1.0, std::clamp(std::ilogb(size), -1000, 1000));
+  c.frames.assign(2, detector::Positions(vertices, 3));
+  const auto put = [&](int v, const detector::MovingPoint& p) {
+    for (int k = 0; k < 3; ++k) {
+      c.frames[0](v, k) = p.t0[static_cast<std::size_t>(k)];
+      c.frames[1](v, k) = p.t1[static_cast<std::size_t>(k)];
+    }
+  };
+  for (int v = 0; v < 4; ++v) put(v, query.points[static_cast<std::size_t>(v)]);
+  // A corner beside a point of its own feature, on the side away from the other feature.
+  const auto corner = [&](std::size_t beside, double away) {
+    detector::MovingPoint p = query.points[beside];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double outward = away * (first[k] - second[k]) + unit * random.between(-2, 2);
+      p.t0[k] += outward;
+      p.t1[k] += outward;
+    }
+    return p;
+  };
+  const auto four = corner(is_vertex_face ? 0 : 1, 1);
+  put(4, four);
+  const auto five = corner(is_vertex_face ? 0 : 3, is_vertex_face ? 1 : -1);
+  put(5, five);
+  return c;
 }
 
 }  // namespace assay::properties

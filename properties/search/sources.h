@@ -19,4 +19,12 @@ struct SourcesAsked {
 // They may be drawn from in several threads. A curated case is read when it is first drawn.
 std::vector<CaseSource> case_sources(const SourcesAsked& asked);
 
+// The four points of a query as a closed mesh: a corner and the face across it, or two edges across
+// each other, are its only features that do not share a vertex.
+corpus::Case tetrahedron(const detector::FourPoints& query, std::string id);
+
+// The two features of a query as a mesh of two triangles, whose other corners lie away from the
+// features.
+corpus::Case two_triangles(const detector::FourPoints& query, Random& random, std::string id);
+
 }  // namespace assay::properties

@@ -37,9 +37,9 @@ struct GateRule {
 //   world has a counterexample. A
 //   certificate leaves waived failures aside.
 // - complete: all that was planned is there: shards, trials, the search, and planted faults with
-//   all of their cases. For a certificate the corpus is there too, with an answer in every case, and so is the
-//   self-test. At most 1 % of the trials were disturbed from outside. Enough contacts were judged
-//   (not_judged.h).
+//   all of their cases. For a certificate the corpus is there too, with an answer in every case,
+//   and so is the self-test. At most 1 % of the trials were disturbed from outside. Enough
+//   contacts were judged (not_judged.h).
 // - bounds: every bound that is wanted is met. If none is wanted, every trial has a verdict.
 // - speed: every figure that has a limit was measured, and none is above its limit. A failure is
 //   no defect, because a time proves nothing wrong. The gate is not judged if no limit is set, nor

@@ -1,5 +1,5 @@
-// The search of a campaign (search/search.h): after the trials, in lanes that share nothing, each in
-// a thread with a worker process of its own.
+// The search of a campaign (search/search.h): after the trials, in lanes that share nothing, each
+// in a thread with a worker process of its own.
 #pragma once
 
 #include <filesystem>
@@ -25,7 +25,8 @@ JudgeCases judge_in(WorkerProcess& worker, const DetectorUnderTest& detector);
 // defects with their meshes, then the lane itself. So a run that is killed does again what was cut,
 // and finds the same. What is found depends on plan, seed and shard alone, not on the number of
 // jobs; a lane that the deadline ends is not stored. `corpus` is the folder of the curated cases.
-// `progress` is called from one thread at a time. Throws StoreProblem; so it is for campaign/ alone.
+// `progress` is called from one thread at a time. Throws StoreProblem; so it is for campaign/
+// alone.
 void search_shard(const CampaignRequest& request, const std::filesystem::path& corpus, Store& store,
                   RunDeadline deadline, const std::function<void(const SearchProgress&)>& progress);
 

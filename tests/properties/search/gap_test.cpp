@@ -12,7 +12,7 @@ namespace {
 
 using detector::FourPoints;
 
-// A vertex that falls by `speed` onto the face (-4,-4) (4,-4) (0,4) of height 0, at the place (x,y).
+// A vertex that falls at the place (x,y) onto the face (-4,-4) (4,-4) (0,4) of height 0.
 FourPoints falling(double x, double y, double from, double to) {
   const auto fixed = [](double a, double b) { return detector::MovingPoint{{a, b, 0}, {a, b, 0}}; };
   return {

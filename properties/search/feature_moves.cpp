@@ -1,0 +1,382 @@
+// Moves of the four points of a focus, and of all coordinates alike.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "properties/search/degeneracy.h"
+#include "properties/search/gap.h"
+#include "properties/search/moves.h"
+
+namespace assay::properties {
+namespace {
+
+using detector::FourPoints;
+using detector::MovingPoint;
+using detector::Point;
+
+// Times at which things are made to happen: the ends, powers of two, and next to the ends.
+double menu_time(Random& random, const FourPoints& q) {
+  constexpr double fixed[] = {0, 1, 1, 0.5, 0.5, 0.25, 0.125, 0.75};
+  switch (random.below(4)) {
+    case 0: {
+      const auto root = root_of(q);
+      return root ? *root : 0.5;
+    }
+    case 1: {
+      const double small = std::ldexp(1.0, -random.between(2, 40));
+      return random.one_in(2) ? small : 1 - small;
+    }
+    default:
+      return one_of(random, fixed);
+  }
+}
+
+// Which ends may move: all, those at t = 1, one point, or one point's end.
+unsigned menu_of_ends(Random& random) {
+  const unsigned point = static_cast<unsigned>(random.below(4));
+  switch (random.below(4)) {
+    case 0:
+      return all_ends_move;
+    case 1:
+      return 0xf0;
+    case 2:
+      return 0x11u << point;
+    default:
+      return 0x10u << point;
+  }
+}
+
+DegeneracyAt any_degeneracy(Random& random, double time) {
+  constexpr Degeneracy kinds[] = {
+      Degeneracy::coplanar,    Degeneracy::side,      Degeneracy::side, Degeneracy::double_root,
+      Degeneracy::double_root, Degeneracy::no_normal, Degeneracy::flat, Degeneracy::flat};
+  const Degeneracy kind = one_of(random, kinds);
+  return {kind, time, random.below(4)};
+}
+
+void newton(Random& random, Candidate& made, const MoveContext&) {
+  if (!made.focus) return;
+  const FourPoints q = query_at(made.c, *made.focus);
+  const double time = random.one_in(3) ? made.focus->time : menu_time(random, q);
+  std::vector<DegeneracyAt> goals = {any_degeneracy(random, time)};
+  if (goals[0].kind == Degeneracy::side || random.one_in(2))
+    goals.push_back({Degeneracy::coplanar, time, 0});
+  if (random.one_in(2)) goals.push_back(any_degeneracy(random, time));
+  const unsigned moving = goals[0].kind == Degeneracy::flat ? all_ends_move : menu_of_ends(random);
+  if (const auto moved = moved_onto(q, goals, moving)) set_query(made.c, *made.focus, *moved);
+}
+
+Point mixed(const Point& a, const Point& b, double t) {
+  Point p;
+  for (std::size_t k = 0; k < 3; ++k) p[k] = a[k] + t * (b[k] - a[k]);
+  return p;
+}
+Point place_of(const MovingPoint& p, double t) { return mixed(p.t0, p.t1, t); }
+
+// Moves one end of the path so that the point is at this place at time t.
+void send(MovingPoint& p, const Point& place, double t, bool by_its_start) {
+  if (t == 0 || (by_its_start && t < 1)) {
+    for (std::size_t k = 0; k < 3; ++k)
+      p.t0[k] = t == 0 ? place[k] : (place[k] - t * p.t1[k]) / (1 - t);
+  } else {
+    for (std::size_t k = 0; k < 3; ++k) p.t1[k] = p.t0[k] + (place[k] - p.t0[k]) / t;
+  }
+}
+
+// Lets the two features meet at a time: at a corner, on an edge, or inside, at simple shares.
+void meet(Random& random, Candidate& made, const MoveContext&) {
+  if (!made.focus) return;
+  FourPoints q = query_at(made.c, *made.focus);
+  const double t = menu_time(random, q);
+  constexpr double shares[] = {0, 0.25, 0.5, 0.5, 0.75, 1.0 / 3};
+  const double s = one_of(random, shares), u = one_of(random, shares);
+  auto at = [&](std::size_t i) { return place_of(q.points[i], t); };
+  const bool by_its_start = random.one_in(4);
+  if (q.first_group == 1) {
+    send(q.points[0], mixed(mixed(at(1), at(2), s), at(3), u), t, by_its_start);
+  } else {
+    const Point where = mixed(at(2), at(3), u), other = at(1);
+    Point place;
+    for (std::size_t k = 0; k < 3; ++k) place[k] = other[k] + (where[k] - other[k]) / (1 - s);
+    send(q.points[0], place, t, by_its_start);
+  }
+  set_query(made.c, *made.focus, q);
+}
+
+double neighbour(double x, int steps, Coordinates coordinates) {
+  const double towards = steps > 0 ? std::numeric_limits<double>::infinity()
+                                   : -std::numeric_limits<double>::infinity();
+  for (int i = std::abs(steps); i > 0; --i) {
+    x = coordinates == Coordinates::float32
+            ? static_cast<double>(
+                  std::nextafter(static_cast<float>(x), static_cast<float>(towards)))
+            : std::nextafter(x, towards);
+  }
+  return x;
+}
+
+// A step of up to three units of the last place; a coordinate 0 moves by some of those of the mesh.
+void step_on_lattice(Random& random, FourPoints& q, Coordinates coordinates) {
+  auto& point = one_of(random, q.points);
+  auto& end = random.one_in(2) ? point.t0 : point.t1;
+  double& x = one_of(random, end);
+  const int steps = random.between(1, 3) * (random.one_in(2) ? 1 : -1);
+  if (x != 0) {
+    x = neighbour(x, steps, coordinates);
+    return;
+  }
+  double size = 0;
+  for (const double other : end) size = std::max(size, std::abs(other));
+  const double unit = size > 0 ? size : 1;
+  x = coordinates == Coordinates::float32 ? static_cast<float>(steps * 0x1p-23 * unit)
+                                          : steps * 0x1p-52 * unit;
+}
+
+void ulps(Random& random, Candidate& made, const MoveContext& context) {
+  if (!made.focus) return;
+  FourPoints q = query_at(made.c, *made.focus);
+  for (int changes = random.between(1, 4); changes > 0; --changes)
+    step_on_lattice(random, q, context.contract.coordinates);
+  set_query(made.c, *made.focus, q);
+}
+
+// Walks on the lattice of doubles or floats as long as the exact gap shrinks.
+void walk(Random& random, Candidate& made, const MoveContext& context) {
+  if (!made.focus) return;
+  constexpr int tries = 10;
+  const double d = context.contract.separation;
+  FourPoints best = query_at(made.c, *made.focus);
+  double near = nearness(gap_of(best, made.focus->time, d));
+  for (int i = 0; i < tries; ++i) {
+    FourPoints q = best;
+    step_on_lattice(random, q, context.contract.coordinates);
+    const double there = nearness(gap_of(q, made.focus->time, d));
+    if (there < near) continue;
+    near = there;
+    best = q;
+  }
+  set_query(made.c, *made.focus, best);
+}
+
+// Rounds all coordinates to so few bits that coincidences become exact.
+void grid(Random& random, Candidate& made, const MoveContext&) {
+  const double greatest = greatest_of(made.c);
+  if (!(greatest > 1e-300) || !(greatest < 1e300)) return;
+  const int bits = random.between(2, 12);
+  const double unit = std::ldexp(1.0, std::ilogb(greatest) - bits);
+  for (auto& frame : made.c.frames)
+    frame = frame.unaryExpr([&](double x) { return unit * std::round(x / unit); }).eval();
+}
+
+// Brings the features into one plane, at rest or moving along its normal, in both frames or in one.
+void flatten(Random& random, Candidate& made, const MoveContext&) {
+  if (!made.focus) return;
+  FourPoints q = query_at(made.c, *made.focus);
+  const auto axis = static_cast<std::size_t>(random.below(3));
+  const std::size_t copied = (axis + 1) % 3;
+  const int kind = random.below(4);
+  const double level_0 = q.points[0].t0[axis], level_1 = q.points[0].t1[axis];
+  for (auto& p : q.points) {
+    if (kind == 0) {  // a plane that is not that of two axes
+      p.t0[axis] = p.t0[copied];
+      p.t1[axis] = p.t1[copied];
+      continue;
+    }
+    if (kind != 3) p.t0[axis] = level_0;
+    p.t1[axis] = kind == 1 ? level_0 : level_1;
+  }
+  set_query(made.c, *made.focus, q);
+}
+
+// Brings the features into a plane that is not that of two axes, as doubles see it: F is then noise
+// of rounding, at the edge of every error bound. The features overlap in the plane throughout.
+void near_a_plane(Random& random, Candidate& made, const MoveContext&) {
+  if (!made.focus) return;
+  FourPoints q = query_at(made.c, *made.focus);
+  const double x = random.signed_unit(), y = random.signed_unit();
+  const double length = std::sqrt(x * x + y * y + 1);
+  Point normal = {x / length, y / length, 1 / length};
+  std::rotate(normal.begin(), normal.begin() + random.below(3), normal.end());
+  const bool overlaps = random.one_in(2);
+  const double s = random.between(1, 3) / 4.0, u = random.between(1, 3) / 4.0;
+  for (auto end : {&MovingPoint::t0, &MovingPoint::t1}) {
+    const Point origin = q.points[3].*end;
+    for (std::size_t i = 0; i < 3; ++i) {
+      Point& p = q.points[i].*end;
+      double height = 0;
+      for (std::size_t k = 0; k < 3; ++k) height += normal[k] * (p[k] - origin[k]);
+      for (std::size_t k = 0; k < 3; ++k) p[k] -= height * normal[k];
+    }
+    if (!overlaps) continue;
+    auto at = [&](std::size_t i) { return q.points[i].*end; };
+    q.points[0].*end = q.first_group == 1 ? mixed(mixed(at(1), at(2), s), at(3), u)
+                                          : mixed(at(1), mixed(at(2), at(3), s), 1 + u);
+  }
+  set_query(made.c, *made.focus, q);
+}
+
+Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Point plus(const Point& a, double s, const Point& b) {
+  return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]};
+}
+Point cross_of(const Point& a, const Point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+// The points with few bits, so that the sums and products below are exact.
+FourPoints of_few_bits(FourPoints q) {
+  double size = 0;
+  for (const auto& p : q.points) {
+    for (const double x : p.t0) size = std::max(size, std::abs(x));
+  }
+  if (!(size > 1e-300) || !(size < 1e300)) return q;
+  const double unit = std::ldexp(1.0, std::ilogb(size) - 6);
+  for (auto& p : q.points) {
+    for (auto* end : {&p.t0, &p.t1}) {
+      for (double& x : *end) x = unit * std::round(x / unit);
+    }
+  }
+  return q;
+}
+
+// Vertex and face touch without crossing, at t = s: an exact double root, as in generators/aims.
+void graze(Random& random, Candidate& made, const MoveContext&) {
+  if (!made.focus || made.focus->first_group != 1) return;
+  FourPoints q = of_few_bits(query_at(made.c, *made.focus));
+  auto& [vertex, a, b, c] = q.points;
+  const double s = random.one_in(2) ? 0.5 : 0.25, share = random.between(1, 4) / 4.0;
+  a.t1 = a.t0;
+  b.t1 = b.t0;
+  const Point middle = mixed(a.t0, b.t0, 0.5), e = minus(c.t0, middle);
+  const Point w = cross_of(minus(b.t0, a.t0), e);
+  c.t1 = plus(c.t0, share, w);
+  vertex.t0 = plus(plus(middle, 2 * s, e), s * s * share, w);
+  vertex.t1 = plus(plus(middle, 2 * s - 1, e), s * s * share, w);
+  set_query(made.c, *made.focus, q);
+}
+
+// Two edges become parallel, or a face a segment: throughout, or at one end of the step.
+void align(Random& random, Candidate& made, const MoveContext&) {
+  if (!made.focus) return;
+  FourPoints q = of_few_bits(query_at(made.c, *made.focus));
+  auto& [p0, p1, p2, p3] = q.points;
+  constexpr double shares[] = {1, -1, 2, 0.5};
+  const double share = one_of(random, shares);
+  const int ends = random.below(3);
+  for (auto end : {&MovingPoint::t0, &MovingPoint::t1}) {
+    if ((ends == 1 && end == &MovingPoint::t0) || (ends == 2 && end == &MovingPoint::t1)) continue;
+    p3.*end = q.first_group == 2 ? plus(p2.*end, share, minus(p1.*end, p0.*end))
+                                 : plus(p2.*end, share, minus(p1.*end, p2.*end));
+  }
+  if (q.first_group == 2 && random.one_in(2)) {  // one edge goes through the other on its way
+    const Point by = minus(p2.t0, p0.t0);
+    for (auto* p : {&p0, &p1}) {
+      for (std::size_t k = 0; k < 3; ++k) p->t1[k] = p->t0[k] + 2 * by[k];
+    }
+    p2.t1 = p2.t0;
+    p3.t1 = p3.t0;
+  }
+  set_query(made.c, *made.focus, q);
+}
+
+// Gives the features the paths of those of another case, in its size or in their own.
+void transplant(Random& random, Candidate& made, const MoveContext& context) {
+  if (!made.focus || !context.other || !context.other->focus) return;
+  const auto& other = *context.other->focus;
+  if (other.first_group != made.focus->first_group) return;
+  FourPoints q = query_at(context.other->c, other);
+  if (random.one_in(3)) {  // the ends of one, the start of the other
+    const FourPoints own = query_at(made.c, *made.focus);
+    for (std::size_t i = 0; i < 4; ++i)
+      (random.one_in(2) ? q.points[i].t0 = own.points[i].t0 : q.points[i].t1 = own.points[i].t1);
+  }
+  set_query(made.c, *made.focus, q);
+}
+
+// Brings the case to any size that the contract takes, for thresholds that are lengths.
+void resize(Random& random, Candidate& made, const Contract& contract) {
+  const double greatest = greatest_of(made.c);
+  if (!(greatest > 0)) return;
+  const int least = std::ilogb(contract.least_nonzero) + 2, most = std::ilogb(contract.largest) - 1;
+  const int exponent = random.between(std::min(least, most), most) - std::ilogb(greatest);
+  for (auto& frame : made.c.frames)
+    frame = frame.unaryExpr([&](double x) { return std::ldexp(x, exponent); }).eval();
+}
+
+void scale(Random& random, Candidate& made, const MoveContext& context) {
+  made.c.view.reset();
+  if (context.contract.has_range() && random.one_in(2))
+    return resize(random, made, context.contract);
+  const int reach = random.one_in(3) ? 30 : 8;
+  const int exponent = random.between(-reach, reach);
+  const int kind = random.below(4);
+  for (auto& frame : made.c.frames) {
+    if (kind == 0) {
+      frame = frame.unaryExpr([&](double x) { return std::ldexp(x, exponent); }).eval();
+    } else if (kind == 1) {
+      const auto axis = frame.col(exponent & 1);
+      frame.col(exponent & 1) =
+          axis.unaryExpr([&](double x) { return std::ldexp(x, exponent); }).eval();
+    } else {
+      frame.array() += std::ldexp(1.0, exponent);
+    }
+  }
+}
+
+// Lets points rest, or takes a step the other way.
+void rest(Random& random, Candidate& made, const MoveContext&) {
+  if (!made.focus) return;
+  FourPoints q = query_at(made.c, *made.focus);
+  const int kind = random.below(6);
+  for (std::size_t i = 0; i < 4; ++i) {
+    auto& p = q.points[i];
+    const bool is_first = q.in_first_group(static_cast<int>(i));
+    if (kind == 0) std::swap(p.t0, p.t1);
+    if (kind == 1 || (kind == 2 && is_first) || (kind == 3 && !is_first)) p.t1 = p.t0;
+  }
+  if (kind >= 4) {
+    auto& p = one_of(random, q.points);
+    p.t1 = kind == 4 ? p.t0 : one_of(random, q.points).t1;
+  }
+  set_query(made.c, *made.focus, q);
+}
+
+void shake(Random& random, Candidate& made, const MoveContext&) {
+  const double greatest = greatest_of(made.c);
+  if (!(greatest < 1e300)) return;
+  const double amount = std::ldexp(greatest, -random.between(0, 12));
+  const bool all = random.one_in(2);
+  for (auto& frame : made.c.frames) {
+    for (Eigen::Index v = 0; v < frame.rows(); ++v) {
+      const bool moves = all || random.one_in(4);
+      for (int k = 0; k < 3; ++k) {
+        const double by = random.signed_unit();
+        if (moves) frame(v, k) += amount * by;
+      }
+    }
+  }
+}
+
+constexpr Move of_features[] = {
+    {"meet", "the features meet at a time and place", false, 5, meet},
+    {"scale", "scaled by a power of two, or moved away", false, 2, scale},
+    {"newton", "Newton steps onto one degeneracy, or onto two at once", false, 6, newton},
+    {"ulps", "some coordinates go to neighbouring numbers", false, 2, ulps},
+    {"walk", "a walk by ulps along which the gap shrinks", false, 2, walk},
+    {"grid", "all coordinates are rounded to few bits", false, 2, grid},
+    {"flatten", "the features lie in one plane", false, 3, flatten},
+    {"plane", "the features lie in one plane but for rounding", false, 3, near_a_plane},
+    {"graze", "vertex and face touch and part again: a double root", false, 2, graze},
+    {"align", "parallel edges, or a face without area", false, 2, align},
+    {"transplant", "the paths of the features of another case", false, 2, transplant},
+    {"rest", "points rest, or go the other way", false, 2, rest},
+    {"shake", "all vertices, or some, move a little", false, 3, shake},
+};
+
+}  // namespace
+
+std::span<const Move> feature_moves() { return of_features; }
+
+}  // namespace assay::properties
