@@ -271,6 +271,12 @@ std::vector<Case> cases_of(int node, int bound) {
   }
   std::vector<Case> cases;
   for (const auto& m : of_bound) cases.push_back({Groups(m.begin(), m.end())});
+  for (const Case& a : cases) {
+    for (const Case& b : cases) {
+      if (&a != &b && std::includes(a.ones.begin(), a.ones.end(), b.ones.begin(), b.ones.end()))
+        throw std::runtime_error("a product of sizes within another one: lemma 3 tells nothing");
+    }
+  }
   return cases;
 }
 
