@@ -203,8 +203,8 @@ ViewSign from_nearer_end(const ViewPolynomials& view) {
 ViewPrimitive midpoint(const ViewPrimitive& line) {
   ViewPrimitive view;
   for (std::size_t k = 0; k < 3; ++k) {
-    view.q0.t0[k] = 0.5 * (line.q0.t0[k] + line.q1.t0[k]);
-    view.q0.t1[k] = 0.5 * (line.q0.t1[k] + line.q1.t1[k]);
+    view.q0.t0[k] = 0.5 * line.q0.t0[k] + 0.5 * line.q1.t0[k];
+    view.q0.t1[k] = 0.5 * line.q0.t1[k] + 0.5 * line.q1.t1[k];
   }
   view.q1 = view.q0;
   return view;
