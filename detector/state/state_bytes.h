@@ -1,6 +1,6 @@
 // A saved state as bytes, to be kept in a file or handed to another program.
 //
-// The form, version 1, is the same on every machine: 8 bytes "assaySAV", a version, the number of
+// The form, version 2, is the same on every machine: 8 bytes "assaySAV", a version, the number of
 // all bytes, the fields of StateFields in the order of state_bytes.cpp, and a checksum of all
 // before it (FNV-1a of 64 bits, byte by byte). Numbers are little-endian, of 64 bits. Doubles are
 // written as their bits, flags and kinds as single bytes, a list as its length and then its
