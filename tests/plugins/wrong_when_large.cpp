@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "detector/assembly.h"
-#include "detector/plugin/builtin_handle.h"
-#include "tests/plugins/changed_builtin.h"
+#include "tests/plugins/other_stages.h"
 
 using namespace assay;
 
@@ -134,38 +132,20 @@ Search free_above(const Triangles& triangles, const Positions&) {
   return std::make_shared<detector::TreeSearch>();
 }
 
-const assay_description* describe() {
-  static const assay_description description = [] {
-    assay_description d = *assay_builtin_detector()->describe();
-    d.name = "built-in with " NAME_OF_WRONG;
-    return d;
-  }();
-  return &description;
-}
+struct WrongWhenLarge {
+  static constexpr const char* name = "built-in with " NAME_OF_WRONG;
 
-std::int32_t create(const std::int32_t* triangles, std::uint64_t triangle_count,
-                    const double* positions, std::uint64_t vertex_count, assay_handle** handle,
-                    const char** message) {
-  const auto n = static_cast<Eigen::Index>(vertex_count);
-  const Triangles mesh(triangles, static_cast<Eigen::Index>(triangle_count), 3);
-  const Positions x(positions, n, 3);
-  const detector::Options options = {.culling = detector::Culling::bvh};
-  auto stages = detector::standard_stages(options);
-  stages.pair_search = WRONG(mesh, x);
-  auto made = detector::assemble(mesh, x, options, std::move(stages));
-  if (!made) {
-    *message = detector::name_of(made.error().error);
-    return ASSAY_REFUSED;
+  static detector::Stages stages(const Triangles& mesh, const Positions& x,
+                                 detector::Options& options) {
+    options.culling = detector::Culling::bvh;
+    auto stages = detector::standard_stages(options);
+    stages.pair_search = WRONG(mesh, x);
+    return stages;
   }
-  *handle = new assay_handle{std::move(made.value()), n};
-  return ASSAY_OK;
-}
+};
 
 }  // namespace
 
 const assay_detector_api* assay_detector() {
-  return tests::changed_builtin([](assay_detector_api& table) {
-    table.describe = describe;
-    table.create = create;
-  });
+  return tests::builtin_of_other_stages<WrongWhenLarge>();
 }

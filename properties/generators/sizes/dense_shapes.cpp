@@ -126,13 +126,12 @@ Draft bundle_of_tubes(Random& random, int triangles) {
 Draft soup_of_bodies(Random& random, int triangles) {
   constexpr double pitch = 2, size = 0.45, way = 1.6;
   const int bodies = triangles / 4;
-  const int side = nearest_resolution(bodies, 1, [](int k) { return k * k * k; }) + 1;
+  const Grid grid(bodies, pitch);
   Draft draft;
   draft.frames.emplace_back();
   Points end;
   for (int body = 0; body < bodies; ++body) {
-    const Point cell = {pitch * (body % side), pitch * (body / side % side),
-                        pitch * (body / side / side)};
+    const Point cell = grid.cell(body);
     const auto first = draft.vertices();
     const Point aside = any_point(random, 0.1);
     const Point tilt = any_point(random, 0.4);

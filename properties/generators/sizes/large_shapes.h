@@ -36,6 +36,17 @@ void add_sheet(Draft& draft, int columns, int rows, const Place& place) {
 // A tetrahedron whose corners are `size` from `middle` along each axis, before it is tilted.
 void add_tetrahedron(Draft& draft, const Point& middle, double size, const Point& tilt);
 
+// The cells of a cubic grid that has room for so many bodies.
+class Grid {
+ public:
+  Grid(int bodies, double pitch);
+  Point cell(int body) const;
+
+ private:
+  int side_;
+  double pitch_;
+};
+
 // dense_shapes.cpp: many contacts, which fill buffers, or many boxes that meet. How many there are
 // for each triangle does not grow with the size, so that the oracle judges a case in seconds.
 

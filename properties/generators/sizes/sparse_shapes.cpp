@@ -53,13 +53,12 @@ Draft many_components(Random& random, int triangles) {
   constexpr double pitch = 3, size = 0.5;
   constexpr int every = 50;
   const int bodies = triangles / 4;
-  const int side = nearest_resolution(bodies, 1, [](int k) { return k * k * k; }) + 1;
+  const Grid grid(bodies, pitch);
   Draft draft;
   draft.frames.emplace_back();
   Points end;
   for (int body = 0; body < bodies; ++body) {
-    const Point cell = {pitch * (body % side), pitch * (body / side % side),
-                        pitch * (body / side / side)};
+    const Point cell = grid.cell(body);
     const auto first = draft.vertices();
     const Point tilt = any_point(random, 0.4);
     add_tetrahedron(draft, cell, size, tilt);
