@@ -169,8 +169,9 @@ bool is_vouched_rightly(CaseFacts& told, CaseFacts& facts, std::size_t s, std::s
 
 void check_options(CaseFacts& facts, LawTally& tally) {
   if (!facts.stages_of()) return;
-  const Drawn d = drawn_for(facts);
+  Drawn d = drawn_for(facts);
   const auto scaled = d.is_scaled ? scaled_form(facts.source()) : std::nullopt;
+  d.is_scaled = scaled.has_value();  // some cases have no such form
   const corpus::Case c = with_step_before(scaled ? scaled->c : facts.source(), d.state);
   const auto results = play(c, d, facts.stages_of());
   const std::size_t steps = corpus::steps_of(c).size(), before = steps - facts.steps();

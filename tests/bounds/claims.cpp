@@ -125,15 +125,26 @@ void Claims::fail(const std::string& what) {
 
 namespace {
 
-// Roundings of the bound itself cost less than this, as a factor.
-constexpr double rounded_bound = 64 * unit;
+// Roundings of the bound itself cost less than this, as a factor. What is left unused is for
+// underflows of products (lemma 1).
+constexpr double rounded_bound = 64 * unit, left_unused = unit / 10;
+
+bool has_product(int node) {
+  if (node < 0 || is_entry(node)) return false;
+  const Node& n = at(node);
+  const auto is_constant = [](int operand) { return at(operand).op == Op::constant; };
+  if (n.op == Op::multiply && !is_constant(n.a) && !is_constant(n.b)) return true;
+  return has_product(n.a) || has_product(n.b);
+}
 
 }  // namespace
 
 // The error is at most `most`, and that is at most the bound as it is computed.
 void Claims::want_below(Script& script, const std::string& name, std::vector<int> nodes, int bound,
                         const Case& which, double error, double before) {
-  const double allowed = value_in(bound, which) * (1 - rounded_bound);
+  const bool may_underflow = std::any_of(nodes.begin(), nodes.end(), has_product);
+  const double allowed =
+      value_in(bound, which) * (1 - rounded_bound) - (may_underflow ? left_unused : 0);
   const std::string most = in_units(std::min(error, allowed - before));
   for (const int node : nodes) {
     script.want("|" + script.computed(node) + " - " + script.exact(node) + "| <= " + most);

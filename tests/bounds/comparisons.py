@@ -17,6 +17,7 @@ FOUND = [re.compile(p) for p in (
     r"\bb - a > by\b|return a < b;|> r\b",
     r" [<>] (least|greatest)_(magnitude|size)\b|\b(least|greatest)_(magnitude|size) = 0x",
     r"\b(unit_roundoff|Bounds::unit)\b|0x1p-(2[0-4]|4[0-9]|5[0-4])f?\b",
+    r"\bepsilon\(|\b\d(\.\d+)?e-\d+",
 )]
 
 

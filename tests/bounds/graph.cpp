@@ -101,6 +101,11 @@ bool find_of_sizes(int node) {
 bool find_cover(int entry, int bound) {
   std::set<int> sizes;
   magnitudes(bound, sizes);
+  // Only the size of its own group says how large an entry is.
+  std::erase_if(sizes, [&](int m) {
+    const Node& n = at(m);
+    return group_of(n.op == Op::absolute ? n.a : m) != group_of(entry);
+  });
   const auto some = [&](int p, int q) {
     return std::any_of(sizes.begin(), sizes.end(), [&](int m) { return is_bounded(p, q, m); });
   };

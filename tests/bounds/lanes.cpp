@@ -10,7 +10,7 @@ namespace {
 
 using namespace detector;
 
-// In units of 2^-53: the error of (p-q0).d and of d.d, of which lemma 8 speaks.
+// In units of 2^-53: the error of (p-q0).d and of d.d, of which lemma 10 speaks.
 constexpr double share_units = 6.125;
 
 // The quotient in a node, or in what it is made of, whose divisor is no constant.
@@ -24,7 +24,7 @@ int quotient_in(int node) {
   return -1;
 }
 
-// Of shares, and of values at computed shares, lemma 8 speaks. Gappa proves what it starts from:
+// Of shares, and of values at computed shares, lemma 10 speaks. Gappa proves what it starts from:
 // the errors of (p-q0).d and d.d, and the error of a value at a given share.
 void claim_shares(const LaneInput& input) {
   const auto compared = record.obligations;

@@ -61,7 +61,7 @@ FormCheck check_in_form(const FormLaw& law, const corpus::Case& c, const CaseRun
   const auto& contract = detector.contract;
   const bool states_lengths =
       contract.margin > 0 || contract.separation > 0 || contract.rest_distance > 0;
-  if (told->frames != form->c.frames || states_lengths) form->step.clear();
+  if (told->frames != form->c.frames || (states_lengths && !law.keeps_lengths)) form->step.clear();
   const auto& configuration = detector.configurations.front();
   const auto in_form = std::move(worker.run(*told, {&configuration, 1}).front());
   if (in_form.end == RunEnd::not_run) throw StoreProblem(in_form.explanation);

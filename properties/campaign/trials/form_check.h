@@ -17,7 +17,8 @@
 namespace assay::properties {
 
 struct FormCheck {
-  LawCount count;  // premise, broken, differs: in steps; nothing if the form did not apply
+  // Premise and differs are steps, and broken is 0 or 1; nothing if the form did not apply.
+  LawCount count;
   std::optional<StoredFailure> failure;  // of the form, if the law is broken
   std::uint64_t disturbances = 0;
 };

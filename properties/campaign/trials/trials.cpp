@@ -248,6 +248,7 @@ class Trials {
     const auto every = request_.plan.laws_every;
     if (every == 0 || trial.planned->index % every != 0) return;
     const auto& run = trial.runs.front();
+    if (run.end != RunEnd::completed) return;
     auto& counts = trial.record.counts.laws;
     if (again && request_.description.parts.takes_threads && again->end == RunEnd::completed) {
       auto& threads = counts[std::string(threads_law)];
@@ -255,8 +256,7 @@ class Trials {
       // What the claim deterministic says of it is judged with the trial.
       if (!same_answers(run, *again)) ++threads.differs;
     }
-    if (run.end != RunEnd::completed || trial.record.outcomes.front() != letter_of(Outcome::holds))
-      return;
+    if (trial.record.outcomes.front() != letter_of(Outcome::holds)) return;
     for (const auto& law : form_laws()) {
       if (!is_given_in_form(law, trial.record.id)) continue;
       auto check = check_in_form(law, trial.seen, run, request_.detector, worker);

@@ -214,7 +214,7 @@ std::span<const FormLaw> change_forms() {
   static constexpr FormLaw forms[] = {
       {"Change_VertexNumbers", form_by<vertices_renumbered>},
       {"Change_TriangleOrder", form_by<triangles_reordered>},
-      {"Change_PowerOfTwo", scaled_form},
+      {"Change_PowerOfTwo", scaled_form, false, false},
       {"Change_Translation", form_by<translated, true>},
       {"Change_Mirror", form_by<mirrored>},
       {"Change_AxesExchanged", form_by<axes_exchanged>},

@@ -36,6 +36,7 @@ struct FormLaw {
   // The steps of the case are asked for as they were, between others that must not matter: what a
   // detector that claims to be deterministic answers is then the same.
   bool same_calls = false;
+  bool keeps_lengths = true;
 };
 
 // All such laws, always in the same order: changes of the mesh, then of its steps.

@@ -18,10 +18,10 @@ std::string line_of(const char* text);
 
 // What the plug-in says about the call that failed last, in one line; empty for nothing.
 std::string text_of_error(const assay_detector_api& table);
-// "evaluate returned 3: TEXT".
 // What a plug-in says by ASSAY_BEYOND_CAPACITY, with its own line if it gives one.
 Problem refused_by_capacity(const std::string& text);
 
+// "evaluate returned 3: TEXT".
 std::string text_of_code(const assay_detector_api& table, const char* function, std::int32_t code);
 
 // The table as one of this host's version; functions that an older version does not have are NULL.
