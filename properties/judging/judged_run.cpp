@@ -12,7 +12,8 @@ namespace {
 
 // The worse of two outcomes.
 Outcome worse(Outcome a, Outcome b) {
-  constexpr Outcome ascending[] = {Outcome::refused, Outcome::holds, Outcome::undecided,
+  // A case of which a step is refused speaks for nothing, although its other steps hold.
+  constexpr Outcome ascending[] = {Outcome::holds, Outcome::refused, Outcome::undecided,
                                    Outcome::error, Outcome::defect};
   const auto rank = [&](Outcome outcome) {
     return std::find(std::begin(ascending), std::end(ascending), outcome);
@@ -132,9 +133,6 @@ JudgedRun judge_run(const corpus::Case& c, const CaseRun& run,
     judged.left_out_misses += diff.left_out_missed ? 1 : 0;
     judged.steps.push_back(std::move(diff));
   }
-  const auto is_refused = [](const StepDiff& diff) { return diff.outcome == Outcome::refused; };
-  if (!judged.steps.empty() && std::all_of(judged.steps.begin(), judged.steps.end(), is_refused))
-    judged.outcome = Outcome::refused;
   if (!again) return judged;
   if (again->end == RunEnd::not_run) {
     judged.explanation = again->explanation;

@@ -299,7 +299,10 @@ void transplant(Random& random, Candidate& made, const MoveContext& context) {
 void resize(Random& random, Candidate& made, const Contract& contract) {
   const double greatest = greatest_of(made.c);
   if (!(greatest > 0)) return;
-  const int least = std::ilogb(contract.least_nonzero) + 2, most = std::ilogb(contract.largest) - 1;
+  constexpr int widest = 60;  // in powers of two, where the contract says nothing of small lengths
+  const int most = std::ilogb(contract.largest) - 1;
+  const int least =
+      contract.least_nonzero > 0 ? std::ilogb(contract.least_nonzero) + 2 : most - widest;
   const int exponent = random.between(std::min(least, most), most) - std::ilogb(greatest);
   for (auto& frame : made.c.frames)
     frame = frame.unaryExpr([&](double x) { return std::ldexp(x, exponent); }).eval();

@@ -156,7 +156,10 @@ class LaneSearch {
     while (result_.cases < lane_.cases) {
       if (stop && stop()) return std::move(result_);
       constexpr std::uint64_t together = 8, cases_of_a_swarm = 32, most_idle = 20;
-      if (idle_ > 0 || result_.cases % cases_of_a_swarm == 0) swarm_ = Swarm(lane_, space_, drawn_);
+      if (renew_ || of_swarm_ >= cases_of_a_swarm) {
+        swarm_ = Swarm(lane_, space_, drawn_);
+        of_swarm_ = 0;
+      }
       std::vector<corpus::Case> batch;
       const auto wanted = std::min(together, lane_.cases - result_.cases);
       while (batch.size() < wanted) {
@@ -165,6 +168,9 @@ class LaneSearch {
         batch.push_back(std::move(*one));
       }
       idle_ = batch.empty() ? idle_ + 1 : 0;
+      // Of a swarm that led to too few cases nothing more is expected.
+      renew_ = batch.size() < wanted;
+      of_swarm_ += batch.size();
       if (idle_ > most_idle) break;  // the contract takes none
       const auto judged = judge(batch);
       for (std::size_t i = 0; i < batch.size(); ++i) take(batch[i], judged[i]);
@@ -235,6 +241,14 @@ class LaneSearch {
         result_.found.push_back({c, i, *failure, result_.cases});
     }
     result_.defects += is_defect ? 1 : 0;
+    // What has no verdict would let later cases depend on how fast the machine is.
+    const auto is_open = [](const JudgedTrial& trial) {
+      return trial.outcome == Outcome::undecided || trial.outcome == Outcome::error;
+    };
+    if (std::any_of(judged.trials.begin(), judged.trials.end(), is_open)) {
+      ++result_.open;
+      return;
+    }
     Random random(c.id + ":focus");
     if (auto one = scored(c, judged, space_.contract, random)) archive_.offer(std::move(*one));
   }
@@ -245,6 +259,8 @@ class LaneSearch {
   Archive archive_;
   std::set<std::pair<std::size_t, std::string>> met_;
   std::uint64_t drawn_ = 0;
+  std::uint64_t of_swarm_ = 0;  // cases that were asked in this swarm
+  bool renew_ = false;
   std::uint64_t idle_ = 0;  // swarms in a row of which the contract took no case
   LaneResult result_;
 };

@@ -63,6 +63,7 @@ struct LaneResult {
   bool complete = false;           // it was not stopped
   std::uint64_t cases = 0;         // asked
   std::uint64_t defects = 0;       // cases on which some configuration fails
+  std::uint64_t open = 0;          // cases on which some configuration has no verdict
   std::vector<FoundDefect> found;  // the first of each signature and configuration
   std::set<std::string> causes;    // of the cases that the archive holds
 };

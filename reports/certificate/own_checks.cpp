@@ -119,7 +119,7 @@ class JudgedRows {
       for (const auto& step : truth) count(rows_[i], step);
       const auto verdict =
           properties::judge_trial(*seen, truth, runs[i], configurations[i], request_.detector);
-      if (!verdict.steps.empty())
+      if (!verdict.steps.empty() && verdict.outcome != Outcome::refused)
         count_triangles(rows_[i], *seen, properties::has_judged_contact(verdict.steps));
       if (verdict.outcome == Outcome::holds || verdict.outcome == Outcome::refused) continue;
       const auto& failure = verdict.failure;

@@ -127,7 +127,7 @@ Json repeated_json(const RunFindings& findings) {
 Json search_json(const RunFindings& findings) {
   const auto planned = findings.run.plan.search;
   if (planned == 0) return nullptr;
-  const auto [lanes, cases, defects, causes] = findings.searched();
+  const auto [lanes, cases, defects, open, causes] = findings.searched();
   std::set<std::string> words;
   for (const auto& lane : findings.evidence.search)
     words.insert(lane.causes.begin(), lane.causes.end());

@@ -112,6 +112,7 @@ RunFindings::SearchCount RunFindings::searched() const {
     ++count.lanes;
     count.cases += lane.cases;
     count.defects += lane.defects;
+    count.open += lane.open;
     causes.insert(lane.causes.begin(), lane.causes.end());
   }
   count.causes = causes.size();

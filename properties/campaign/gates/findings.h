@@ -67,9 +67,10 @@ struct RunFindings {
   // How many planted faults were tried, how many were found, and how many of these by random cases.
   // The others were found by their curated case alone.
   std::uint64_t planted() const, found() const, found_at_random() const;
-  // How many cases the search asked, with a defect, and how many causes its archives hold together.
+  // How many cases the search asked, with a defect, without a verdict, and how many causes its
+  // archives hold together.
   struct SearchCount {
-    std::uint64_t lanes = 0, cases = 0, defects = 0, causes = 0;
+    std::uint64_t lanes = 0, cases = 0, defects = 0, open = 0, causes = 0;
   };
   SearchCount searched() const;
 };

@@ -103,7 +103,7 @@ void check_trials(const RunFindings& f, const Asked& asked, Lines& lines) {
   }
   if (asked.certificate && f.planned() == 0) lines.push_back("the campaign plans no trial");
   if (f.planned() > 0 && f.tally.judged() == 0 && f.tally.trials() == f.planned())
-    lines.push_back("the contract takes no case of any family");
+    lines.push_back("no case was judged: the contract or the detector takes none of any family");
   if (asked.certificate && f.tally.judged() > 0 && f.run.detector.query_claims.empty() &&
       judged_claims(f).empty())
     lines.push_back("no claim of the detector was judged");
@@ -161,9 +161,12 @@ void check_asked_again(const RunFindings& f, Lines& lines) {
 // Checks that the search asked all of its cases.
 void check_search(const RunFindings& f, Lines& lines) {
   const auto planned = planned_lanes(f.run.plan, f.alone.value_or(Shard{}));
-  const auto [done, cases, defects, causes] = f.searched();
+  const auto [done, cases, defects, open, causes] = f.searched();
   if (done < planned)
     lines.push_back(fmt::format("{} of {} lanes of the search, {} cases", done, planned, cases));
+  if (planned > 0 && done == planned && cases == 0)
+    lines.push_back("the contract takes no case of the search");
+  if (open > 0) lines.push_back(fmt::format("{} cases of the search have no verdict", open));
 }
 
 GateFindings check_harness(const RunFindings& f, const Asked& asked) {

@@ -34,13 +34,13 @@ struct GateRule {
 //   steps. Every defect of a trial was stored as a failure. Without a canary nothing is judged.
 // - corpus: the shipped cases, scenes and the owner's cases hold, and no waiver is expired.
 // - claims: no claim and no law is broken in any trial or in any case that the search asked, and no
-//   world has a counterexample. A
-//   certificate leaves waived failures aside.
+//   world has a counterexample. A certificate leaves waived failures aside.
 // - complete: all that was planned is there: shards, trials, the search, and planted faults with
 //   all of their cases. For a certificate the corpus is there too, with an answer in every case,
 //   and so is the self-test. At most 1 % of the trials were disturbed from outside. Enough
 //   contacts were judged (not_judged.h).
-// - bounds: every bound that is wanted is met. If none is wanted, every trial has a verdict.
+// - bounds: every bound that is wanted is met. If none is wanted, every trial has a verdict,
+//   but for the strata of sizes, whose bounds say it.
 // - speed: every figure that has a limit was measured, and none is above its limit. A failure is
 //   no defect, because a time proves nothing wrong. The gate is not judged if no limit is set, nor
 //   for a plug-in.

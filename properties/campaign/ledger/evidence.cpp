@@ -24,7 +24,7 @@ ASSAY_FIELDS(Repetition::Judged, step, contacts, holds)
 ASSAY_FIELDS(Repetition, input, configuration, shard, triangles, steps, runs, threads, what, broken,
              judged)
 ASSAY_FIELDS(AskedAgain, shard, cases, steps, wrong, open)
-ASSAY_FIELDS(SearchedLane, lane, shard, cases, defects, causes)
+ASSAY_FIELDS(SearchedLane, lane, shard, cases, defects, open, causes)
 ASSAY_FIELDS(Asked, gates, certificate)
 ASSAY_FIELDS(Versions, assay, commit, libraries)
 ASSAY_FIELDS(Paths, out, detector, own_cases, data)

@@ -163,9 +163,10 @@ struct AskedAgain {
 // What one lane of the search came to (phases/search.h). Only whole lanes are stored.
 struct SearchedLane {
   static constexpr const char* kind = "search";
-  std::string lane, shard;               // its number, from 1, with leading zeros
-  std::uint64_t cases = 0, defects = 0;  // cases that were asked, and those with a defect
-  std::vector<std::string> causes;       // of the hardest cases that its archive holds (cause.h)
+  std::string lane, shard;  // its number, from 1, with leading zeros
+  // Cases that were asked, those with a defect, and those without a verdict.
+  std::uint64_t cases = 0, defects = 0, open = 0;
+  std::vector<std::string> causes;  // of the hardest cases that its archive holds (cause.h)
   const std::string& key() const { return lane; }
 };
 

@@ -62,6 +62,7 @@ bool LastingWorker::put_first_cases(const StratumPlan& stratum) {
     auto drawn = case_within(request_.detector.contract, *family, id);
     if (!drawn.seen) continue;
     auto first = run(*drawn.seen);
+    if (first.end == RunEnd::beyond_capacity) continue;
     if (first.end != RunEnd::completed) return false;
     const bool is_colliding = collides(first);
     int& count = is_colliding ? colliding : free;

@@ -324,6 +324,15 @@ class Repetitions {
     return run;
   }
 
+  // Whether some step has no answer because of the capacity: such a run says nothing of two runs.
+  // Whether the contract allows that is judged in the trials.
+  static bool is_refused(const CaseRun& run) {
+    for (std::size_t s = 0; s < run.steps.size(); ++s) {
+      if (is_over_capacity(run, s)) return true;
+    }
+    return run.end == RunEnd::beyond_capacity;
+  }
+
   void run_all(const corpus::Case& c, JudgedSteps steps, Repetition& row) {
     const auto& claims = request_.detector.claims;
     std::optional<CaseRun> first;
@@ -333,6 +342,10 @@ class Repetitions {
       if (run.end == RunEnd::hung || run.end == RunEnd::out_of_memory) {
         hung_ += run.end == RunEnd::hung ? 1 : 0;
         row.what = run.explanation;
+        return;
+      }
+      if (is_refused(run)) {
+        row.what = "it is beyond the capacity of the detector";
         return;
       }
       ++row.runs;

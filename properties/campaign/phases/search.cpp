@@ -58,7 +58,7 @@ class ShardSearch {
                                               request_.seed, name_of_lane(*lane)),
                                   cases_of_lane(request_.plan, *lane)};
         const auto result = search(searched, space_, judge, [this] { return is_over(); });
-        if (result.complete) keep(*lane, result, worker);
+        keep(*lane, result, worker);
       }
     } catch (const StoreProblem& failure) {
       end_by(failure.problem());
@@ -114,13 +114,12 @@ class ShardSearch {
   void keep(std::uint64_t number, const LaneResult& result, WorkerProcess& worker) {
     std::vector<StoredFailure> failures;
     for (const auto& found : result.found) failures.push_back(stored_of(found, worker));
-    const SearchedLane lane{name_of_lane(number),
-                            text_of(request_.shard),
-                            result.cases,
-                            result.defects,
-                            {result.causes.begin(), result.causes.end()}};
+    const SearchedLane lane{name_of_lane(number), text_of(request_.shard),
+                            result.cases,         result.defects,
+                            result.open,          {result.causes.begin(), result.causes.end()}};
     const std::lock_guard lock(mutex_);
     for (const auto& failure : failures) store_.add(failure);
+    if (!result.complete) return;  // it is searched again, and finds the same and more
     store_.set(to_row(lane));
     count(lane);
     if (progress_) progress_(state_);

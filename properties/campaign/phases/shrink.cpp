@@ -94,7 +94,8 @@ std::string about_shrunk(const StoredFailure& failure, const Finding& finding,
 // How long a failure may be shrunk. The time grows with the triangles of the mesh, from 10,000 on.
 double seconds_for(const StoredFailure& failure, const corpus::Case& failing, double usual) {
   if (failure.id.starts_with(repeated_in_id)) return std::min(usual, most_seconds_of_a_large_mesh);
-  return usual * std::max(1., static_cast<double>(failing.triangles.rows()) / 10'000);
+  constexpr double most_times = 10;
+  return usual * std::clamp(static_cast<double>(failing.triangles.rows()) / 10'000, 1., most_times);
 }
 
 // Puts failures that were shrunk in part before the others of their signature.

@@ -99,7 +99,7 @@ export function scope({ confidence }: Findings): HTMLElement {
     html("p", {}, html("strong", {}, "What the bounds speak of: "),
       "the share of cases, of this campaign\u2019s random generator, in which the detector would not hold. " +
       "They say nothing of other meshes, yours included, beyond what those have in common with the generator\u2019s."),
-    html("p", {}, `All ${count(confidence.bounds)} bounds hold together with a confidence of ${percent} % ` +
+    html("p", {}, `All ${count(confidence.bounds)} bounds hold together with a confidence of ${percent} %, without those of the strata of sizes (size-\u2026), of which each stands alone ` +
       "(exact one-sided Clopper and Pearson, Bonferroni). A trial is a whole case; undecided ones count against the detector."),
   );
 }

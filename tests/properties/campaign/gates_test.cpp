@@ -251,13 +251,23 @@ TEST(Gates, EveryShardAsksAPlugInAgainAtTheEnd) {
 TEST(Gates, TheSearchAsksAllOfItsCases) {
   const Change planned = [](auto& f) { f.run.plan.search = 1000; };
   const auto lane = [](const char* name) {
-    return [name](auto& f) { f.evidence.search.push_back({name, "1/1", 500, 0, {"generic"}}); };
+    return [name](auto& f) { f.evidence.search.push_back({name, "1/1", 500, 0, 0, {"generic"}}); };
   };
   expect_certified({planned, lane("001"), lane("002")});
   const auto cut = judged_after({planned, lane("001")});
   expect(cut, Gate::complete, "incomplete", 3);
   EXPECT_EQ(cut.of(Gate::complete).reasons,
             std::vector<std::string>{"1 of 2 lanes of the search, 500 cases"});
+  const Change no_verdict = [](auto& f) { f.evidence.search.at(0).open = 3; };
+  EXPECT_EQ(
+      judged_after({planned, lane("001"), lane("002"), no_verdict}).of(Gate::complete).reasons,
+      std::vector<std::string>{"3 cases of the search have no verdict"});
+  const Change none_taken = [](auto& f) {
+    for (auto& one : f.evidence.search) one.cases = 0;
+  };
+  EXPECT_EQ(
+      judged_after({planned, lane("001"), lane("002"), none_taken}).of(Gate::complete).reasons,
+      std::vector<std::string>{"the contract takes no case of the search"});
 }
 
 TEST(Gates, WhatTheSearchFindsIsADefect) {
