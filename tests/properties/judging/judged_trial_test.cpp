@@ -67,6 +67,24 @@ TEST_F(JudgedTrials, ARightRunHolds) {
   }
 }
 
+// A detector may not choose which steps of a case speak for it.
+TEST_F(JudgedTrials, ACaseWithARefusedStepSpeaksForNothing) {
+  c.frames.push_back(c.frames[0]);
+  c.script = {{0, 1, true}, {0, 1, true}};
+  truth = judge_case(c);
+  auto run = run_case(c, configuration);
+  plugin.contract.capacity_triangles = 1;
+  EXPECT_EQ(judge(run, plugin).outcome, Outcome::holds);
+  run.steps[1] = {};
+  run.steps[1].answer = Answer::error;
+  note_capacity(run, 1);
+  EXPECT_EQ(judge(run, plugin).outcome, Outcome::refused);
+  // A wrong step is a defect beside a refused one.
+  run.steps[0] = {};
+  run.steps[0].answer = Answer::free;
+  EXPECT_EQ(judge(run, plugin).outcome, Outcome::defect);
+}
+
 TEST_F(JudgedTrials, ACrashBreaksTotal) {
   const auto crash = ended(RunEnd::crashed, "killed by signal 11 (Segmentation fault)");
   for (const auto* detector : {&built_in, &plugin}) {
