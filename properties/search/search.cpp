@@ -238,7 +238,7 @@ class LaneSearch {
       if (!failure) continue;
       is_defect = true;
       if (met_.emplace(i, failure->signature()).second)
-        result_.found.push_back({c, i, *failure, result_.cases});
+        result_.found.push_back({c, i, *failure, judged.runs[i], result_.cases});
     }
     result_.defects += is_defect ? 1 : 0;
     // What has no verdict would let later cases depend on how fast the machine is.

@@ -56,6 +56,7 @@ struct FoundDefect {
   corpus::Case c;  // its id is that of the lane and the number of the case
   std::size_t configuration = 0;
   Failure failure;
+  CaseRun run;              // that failed
   std::uint64_t after = 0;  // so many cases were asked in the lane, this one included
 };
 

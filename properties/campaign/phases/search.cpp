@@ -94,12 +94,11 @@ class ShardSearch {
     state_.defects += lane.defects;
   }
 
-  // A defect as it is stored: if it is another one when the case is run again, it is flaky.
+  // A defect as it is stored: if the case, run again by itself, has other answers, it is flaky.
   StoredFailure stored_of(const FoundDefect& found, WorkerProcess& worker) const {
     const auto& configuration = request_.detector.configurations[found.configuration];
-    const auto first = worker.run(found.c, {&configuration, 1});
-    const auto second = worker.run(found.c, {&configuration, 1});
-    const bool flaky = !same_answers(first[0], second[0]);
+    const auto again = worker.run(found.c, {&configuration, 1});
+    const bool flaky = !same_answers(found.run, again[0]);
     const auto failing = failing_case(found.c, configuration, request_.detector, found.failure);
     return {found.c.id,
             configuration.name,
@@ -108,7 +107,7 @@ class ShardSearch {
             corpus::case_text(failing),
             "",
             flaky,
-            first[0].printed};
+            found.run.printed};
   }
 
   void keep(std::uint64_t number, const LaneResult& result, WorkerProcess& worker) {
