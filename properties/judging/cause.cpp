@@ -22,6 +22,23 @@ using detector::PositionsView;
 using detector::SteppedMesh;
 using detector::TrianglesView;
 
+using Rational = std::array<mpq_class, 3>;
+
+bool is_zero_cross(const Rational& u, const Rational& v) {
+  return u[1] * v[2] == u[2] * v[1] && u[2] * v[0] == u[0] * v[2] && u[0] * v[1] == u[1] * v[0];
+}
+
+template <class PlaceOf>
+bool has_no_area_by(const TrianglesView& triangles, std::int32_t triangle, const PlaceOf& place) {
+  Rational u, v;
+  for (int axis = 0; axis < 3; ++axis) {
+    const mpq_class origin = place(triangles(triangle, 0), axis);
+    u[axis] = place(triangles(triangle, 1), axis) - origin;
+    v[axis] = place(triangles(triangle, 2), axis) - origin;
+  }
+  return is_zero_cross(u, v);
+}
+
 constexpr const char* time_words[] = {"t inside", "t at 1", "t near 0", "t at 0"};
 constexpr const char* shape_words[] = {"generic",
                                        "double root",
@@ -188,33 +205,16 @@ class PairOfStep {
   }
 
   static constexpr int corners[] = {0, 1, 2};
-  using Rational = std::array<mpq_class, 3>;
 
   std::int32_t corner(std::int32_t triangle, int k) const { return triangles_(triangle, k); }
 
-  static bool is_zero_cross(const Rational& u, const Rational& v) {
-    return u[1] * v[2] == u[2] * v[1] && u[2] * v[0] == u[0] * v[2] && u[0] * v[1] == u[1] * v[0];
-  }
-
-  template <class PlaceOf>
-  bool has_no_area_by(std::int32_t triangle, const PlaceOf& place) const {
-    Rational u, v;
-    for (int axis = 0; axis < 3; ++axis) {
-      const mpq_class origin = place(corner(triangle, 0), axis);
-      u[axis] = place(corner(triangle, 1), axis) - origin;
-      v[axis] = place(corner(triangle, 2), axis) - origin;
-    }
-    return is_zero_cross(u, v);
-  }
-
   bool has_no_area(std::int32_t triangle, const PositionsView& x) const {
-    return has_no_area_by(triangle,
-                          [&](std::int32_t v, int axis) { return mpq_class(x(v, axis)); });
+    return properties::has_no_area(triangles_, triangle, x);
   }
 
   bool has_no_area_at(std::int32_t triangle, double t) const {
     const mpq_class time(t);
-    return has_no_area_by(triangle, [&](std::int32_t v, int axis) {
+    return has_no_area_by(triangles_, triangle, [&](std::int32_t v, int axis) {
       const mpq_class from(motion_.vertices_t0(v, axis)), to(motion_.vertices_t1(v, axis));
       return mpq_class(from + time * (to - from));
     });
@@ -241,6 +241,11 @@ Cause cause_of_contact(const PairOfStep& pair, const PairContact& contact, bool 
 }
 
 }  // namespace
+
+bool has_no_area(const TrianglesView& triangles, std::int32_t triangle, const PositionsView& x) {
+  return has_no_area_by(triangles, triangle,
+                        [&](std::int32_t v, int axis) { return mpq_class(x(v, axis)); });
+}
 
 Cause cause_of(const TrianglesView& triangles, const SteppedMesh& motion,
                const PairContact& contact, bool of_distance) {

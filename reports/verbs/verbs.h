@@ -22,6 +22,8 @@ Action add_run(CLI::App& app);
 Action add_scene(CLI::App& app);
 Action add_self_test(CLI::App& app);
 Action add_shrink(CLI::App& app);
+Action add_vectors(CLI::App& app);
 Action add_verify(CLI::App& app);
+Action add_verify_vectors(CLI::App& app);
 
 }  // namespace assay::reports

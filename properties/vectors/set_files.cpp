@@ -1,0 +1,445 @@
+#include "properties/vectors/set_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/outcome/try.hpp>
+#include <cmath>
+
+#include "corpus/atomic_file.h"
+#include "corpus/digest.h"
+#include "corpus/file_bytes.h"
+#include "corpus/json_fields.h"
+#include "properties/reducer/case_edits.h"
+#include "properties/vectors/exact_csv.h"
+#include "properties/worker/plugin/query_case.h"
+
+namespace assay::properties {
+namespace {
+
+constexpr std::string_view licence = "MIT";
+constexpr std::string_view how_to_cite =
+    "Assay conformance vectors for continuous collision detection, version 1.0.0, 2026";
+
+std::string json_word(std::string_view text) { return corpus::json_text(corpus::Json(text)); }
+
+// JSON readers take "-0" for the integer 0 and lose the sign.
+std::string number(double x) { return x == 0 && std::signbit(x) ? "-0.0" : fmt::format("{}", x); }
+
+template <class Items, class Text>
+std::string list(const Items& items, const Text& text) {
+  std::string out = "[";
+  for (const auto& item : items) out.append(out.size() > 1 ? "," : "").append(text(item));
+  return out.append("]");
+}
+
+std::string texts(const std::vector<std::string>& items) { return list(items, json_word); }
+
+std::string point_text(const detector::Point& x) { return list(x, number); }
+
+std::string first_text(const VectorFacts& facts) {
+  if (!facts.first) return "";
+  return fmt::format(",\"first_time\":[{},{}],\"polynomial\":{}", number(facts.first->lo),
+                     number(facts.first->hi), texts(facts.polynomial));
+}
+
+std::string query_text(const Vector& v) {
+  const auto query = *query_of(v.c);
+  const auto points = [&](auto end) {
+    return list(query.points, [&](const detector::MovingPoint& p) { return point_text(p.*end); });
+  };
+  std::string out;
+  if (v.question == VectorQuestion::distance)
+    out += fmt::format(",\"distance\":{}", number(v.distance));
+  if (v.steps[0].least_distance && std::isfinite(*v.steps[0].least_distance))
+    out += fmt::format(",\"least_distance\":{}", number(*v.steps[0].least_distance));
+  out += first_text(v.steps[0]);
+  return out + fmt::format(",\"t0\":{},\"t1\":{}", points(&detector::MovingPoint::t0),
+                           points(&detector::MovingPoint::t1));
+}
+
+std::string step_text(const corpus::CaseStep& step, const VectorFacts& facts) {
+  std::string out = fmt::format("{{\"from\":{},\"to\":{},\"commit\":{},\"result\":\"{}\"",
+                                step.from, step.to, step.commit, name_of(facts.result));
+  out += first_text(facts);
+  if (!facts.pairs.empty()) {
+    out += ",\"pairs\":" + list(facts.pairs, [](const corpus::ExpectedPair& p) {
+             return fmt::format("[{},{},{},{}]", p.pair.a, p.pair.b, number(p.time.lo),
+                                number(p.time.hi));
+           });
+  }
+  return out + "}";
+}
+
+std::string mesh_text(const Vector& v) {
+  std::string out = ",\"triangles\":" + list(triangles_of(v.c), [](const auto& t) {
+                      return fmt::format("[{},{},{}]", t[0], t[1], t[2]);
+                    });
+  out += ",\"frames\":" + list(v.c.frames, [](const detector::Positions& frame) {
+           return list(corpus::points_of(frame), point_text);
+         });
+  const auto steps = corpus::steps_of(v.c);
+  out += ",\"steps\":[";
+  for (std::size_t s = 0; s < steps.size(); ++s)
+    out += (s > 0 ? "," : "") + step_text(steps[s], v.steps[s]);
+  return out + "]";
+}
+
+std::string case_line(const Vector& v) {
+  std::string out = fmt::format("{{\"id\":{},\"about\":{},\"result\":\"{}\"", json_word(v.c.id),
+                                json_word(v.c.about), name_of(v.result()));
+  out += says_query(v.c) ? query_text(v) : mesh_text(v);
+  out += ",\"flags\":" + list(v.flags, [](VectorFlag f) { return json_word(name_of(f)); });
+  if (!v.hard.kind.empty())
+    out +=
+        fmt::format(",\"hard\":{{\"kind\":{},\"bits\":{}}}", json_word(v.hard.kind), v.hard.bits);
+  if (!v.open.empty()) out += ",\"open\":" + texts(v.open);
+  if (!v.breaks.empty()) out += ",\"breaks\":" + texts(v.breaks);
+  if (!v.split_of.empty()) out += ",\"split_of\":" + json_word(v.split_of);
+  return out + ",\"source\":" + json_word(v.c.source) + "}";
+}
+
+std::string group_text(const VectorGroup& group) {
+  std::string out = fmt::format(
+      "{{\"schema\":\"{}\",\"version\":\"{}\",\"group\":\"{}\",\"features\":\"{}\","
+      "\"question\":\"{}\",\"precision\":\"{}\",\"licence\":\"{}\",\"cases\":[\n",
+      vectors_schema, vectors_version, group.name(), name_of(group.features),
+      name_of(group.question), name_of(group.precision), licence);
+  for (std::size_t i = 0; i < group.cases.size(); ++i)
+    out += case_line(group.cases[i]) + (i + 1 < group.cases.size() ? ",\n" : "\n");
+  return out + "]}\n";
+}
+
+std::string file_of(const VectorGroup& group) { return group.name() + ".json"; }
+
+struct Digests {
+  std::vector<std::string> of_groups;
+  std::string of_set;
+};
+
+Digests digests_of(const VectorSet& set, const std::vector<SetFile>& groups) {
+  Digests digests;
+  std::string lines;
+  for (std::size_t i = 0; i < set.groups.size(); ++i) {
+    digests.of_groups.push_back(corpus::sha256_of(groups[i].text));
+    lines += fmt::format("{}  {}\n", digests.of_groups.back(), groups[i].name);
+  }
+  digests.of_set = corpus::sha256_of(lines);
+  return digests;
+}
+
+std::vector<SetFile> group_files(const VectorSet& set) {
+  std::vector<SetFile> files;
+  for (const auto& group : set.groups) files.push_back({file_of(group), group_text(group)});
+  return files;
+}
+
+std::string set_text(const VectorSet& set, const Digests& digests) {
+  corpus::Json json;
+  json["schema"] = vectors_schema;
+  json["version"] = vectors_version;
+  json["profile"] = set.profile;
+  std::size_t cases = 0;
+  auto groups = corpus::Json::array();
+  for (std::size_t i = 0; i < set.groups.size(); ++i) {
+    const auto& group = set.groups[i];
+    cases += group.cases.size();
+    groups.push_back({{"file", file_of(group)},
+                      {"sha256", digests.of_groups[i]},
+                      {"cases", group.cases.size()},
+                      {"features", name_of(group.features)},
+                      {"question", name_of(group.question)},
+                      {"precision", name_of(group.precision)}});
+  }
+  json["cases"] = cases;
+  json["digest"] = digests.of_set;
+  json["licence"] = licence;
+  json["cite"] = how_to_cite;
+  json["groups"] = groups;
+  for (const auto& flag : flag_texts()) {
+    auto& text = json["flags"][name_of(flag.flag)];
+    text["about"] = flag.about;
+    text["wrong"] = flag.wrong;
+    text["links"] = flag.links;
+  }
+  return corpus::json_text(json, 1) + "\n";
+}
+
+}  // namespace
+
+std::vector<SetFile> files_of(const VectorSet& set) {
+  auto files = group_files(set);
+  const auto digests = digests_of(set, files);
+  files.insert(files.begin(), {"set.json", set_text(set, digests)});
+  for (const auto& group : set.groups) {
+    if (group.features != VectorFeatures::mesh)
+      files.push_back({"csv/" + csv_name(group), csv_text(group)});
+  }
+  return files;
+}
+
+std::string digest_of(const VectorSet& set) { return digests_of(set, group_files(set)).of_set; }
+
+Expected<void> write_set(const std::filesystem::path& folder, const VectorSet& set) {
+  std::error_code failure;
+  for (const auto& file : files_of(set)) {
+    const auto path = folder / file.name;
+    std::filesystem::create_directories(path.parent_path(), failure);
+    if (failure)
+      return Problem{fmt::format("{}: {}", path.parent_path().string(), failure.message())};
+    BOOST_OUTCOME_TRYV(corpus::write_file_atomically(path, file.text));
+  }
+  return boost::outcome_v2::success();
+}
+
+namespace {
+
+using corpus::JsonField;
+
+template <class T>
+Expected<void> put(T& place, Expected<T> value) {
+  BOOST_OUTCOME_TRY(read, std::move(value));
+  place = std::move(read);
+  return boost::outcome_v2::success();
+}
+
+template <class Enum>
+Expected<Enum> word_at(const JsonField& object, const char* key) {
+  BOOST_OUTCOME_TRY(field, object.at(key));
+  BOOST_OUTCOME_TRY(word, field.text());
+  const auto named = from_name<Enum>(word);
+  if (!named) return field.problem(fmt::format("'{}' is none of: {}", word, all_names<Enum>()));
+  return *named;
+}
+
+Expected<std::string> text_at(const JsonField& object, const char* key) {
+  BOOST_OUTCOME_TRY(field, object.at(key));
+  return field.text();
+}
+
+Expected<double> number_at(const JsonField& object, const char* key) {
+  BOOST_OUTCOME_TRY(field, object.at(key));
+  return field.number();
+}
+
+// Calls use(item) for each item of an array, until one of them fails.
+template <class Use>
+Expected<void> for_each_item(const JsonField& array, const Use& use) {
+  BOOST_OUTCOME_TRY(size, array.size());
+  for (std::size_t i = 0; i < size; ++i) {
+    BOOST_OUTCOME_TRYV(use(array.item(i)));
+  }
+  return boost::outcome_v2::success();
+}
+
+Expected<std::vector<std::string>> texts_at(const JsonField& object, const char* key) {
+  std::vector<std::string> texts;
+  if (!object.has(key)) return texts;
+  BOOST_OUTCOME_TRY(field, object.at(key));
+  const auto read_field = [&](const JsonField& item) -> Expected<void> {
+    BOOST_OUTCOME_TRY(text, item.text());
+    texts.push_back(std::move(text));
+    return boost::outcome_v2::success();
+  };
+  BOOST_OUTCOME_TRYV(for_each_item(field, read_field));
+  return texts;
+}
+
+template <std::size_t count>
+Expected<std::array<double, count>> numbers_of(const JsonField& field) {
+  std::array<double, count> numbers{};
+  BOOST_OUTCOME_TRY(size, field.size());
+  if (size != count) return field.problem(fmt::format("wants {} numbers", count));
+  for (std::size_t i = 0; i < count; ++i) {
+    BOOST_OUTCOME_TRYV(put(numbers[i], field.item(i).number()));
+  }
+  return numbers;
+}
+
+Expected<detector::Positions> points_of(const JsonField& field) {
+  BOOST_OUTCOME_TRY(size, field.size());
+  detector::Positions points(static_cast<Eigen::Index>(size), 3);
+  for (std::size_t i = 0; i < size; ++i) {
+    BOOST_OUTCOME_TRY(x, numbers_of<3>(field.item(i)));
+    for (int k = 0; k < 3; ++k)
+      points(static_cast<Eigen::Index>(i), k) = x[static_cast<std::size_t>(k)];
+  }
+  return points;
+}
+
+Expected<VectorFacts> facts_of(const JsonField& object) {
+  VectorFacts facts;
+  BOOST_OUTCOME_TRYV(put(facts.result, word_at<VectorResult>(object, "result")));
+  if (object.has("first_time")) {
+    BOOST_OUTCOME_TRY(field, object.at("first_time"));
+    BOOST_OUTCOME_TRY(time, numbers_of<2>(field));
+    facts.first = detector::TimeEnclosure{time[0], time[1]};
+  }
+  BOOST_OUTCOME_TRYV(put(facts.polynomial, texts_at(object, "polynomial")));
+  if (object.has("least_distance")) {
+    BOOST_OUTCOME_TRYV(put(facts.least_distance.emplace(), number_at(object, "least_distance")));
+  }
+  if (object.has("pairs")) {
+    BOOST_OUTCOME_TRY(pairs, object.at("pairs"));
+    const auto read_pairs = [&](const JsonField& item) -> Expected<void> {
+      BOOST_OUTCOME_TRY(p, numbers_of<4>(item));
+      facts.pairs.push_back(
+          {{static_cast<std::int32_t>(p[0]), static_cast<std::int32_t>(p[1])}, {p[2], p[3]}});
+      return boost::outcome_v2::success();
+    };
+    BOOST_OUTCOME_TRYV(for_each_item(pairs, read_pairs));
+  }
+  return facts;
+}
+
+Expected<void> read_query(const JsonField& object, VectorFeatures features, Vector& v) {
+  BOOST_OUTCOME_TRY(t0, object.at("t0"));
+  BOOST_OUTCOME_TRY(t1, object.at("t1"));
+  BOOST_OUTCOME_TRY(start, points_of(t0));
+  BOOST_OUTCOME_TRY(end, points_of(t1));
+  if (start.rows() != 4 || end.rows() != 4) return object.problem("a query has four points");
+  detector::FourPoints query;
+  query.first_group = features == VectorFeatures::vertex_face ? 1 : 2;
+  const detector::SteppedMesh motion{start, end};
+  for (std::int32_t i = 0; i < 4; ++i) query.points[detector::at(i)] = motion.path(i);
+  auto c = case_of_query(query, v.c.id);
+  c.about = v.c.about;
+  c.source = v.c.source;
+  v.c = std::move(c);
+  BOOST_OUTCOME_TRY(facts, facts_of(object));
+  v.steps.push_back(std::move(facts));
+  if (v.question == VectorQuestion::distance) {
+    BOOST_OUTCOME_TRYV(put(v.distance, number_at(object, "distance")));
+    if (!v.steps[0].least_distance) v.steps[0].least_distance = INFINITY;
+  }
+  return boost::outcome_v2::success();
+}
+
+Expected<void> read_mesh(const JsonField& object, Vector& v) {
+  constexpr std::int64_t most = 1 << 24;
+  BOOST_OUTCOME_TRY(frames, object.at("frames"));
+  const auto read_frames = [&](const JsonField& item) -> Expected<void> {
+    BOOST_OUTCOME_TRY(frame, points_of(item));
+    v.c.frames.push_back(std::move(frame));
+    return boost::outcome_v2::success();
+  };
+  BOOST_OUTCOME_TRYV(for_each_item(frames, read_frames));
+  if (v.c.frames.empty()) return object.problem("has no frames");
+  const auto vertices = v.c.frames[0].rows();
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  BOOST_OUTCOME_TRY(list, object.at("triangles"));
+  const auto read_list = [&](const JsonField& item) -> Expected<void> {
+    BOOST_OUTCOME_TRY(size, item.size());
+    if (size != 3) return item.problem("a triangle has three corners");
+    auto& triangle = triangles.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      BOOST_OUTCOME_TRYV(put(triangle[k], item.item(k).integer(0, vertices)));
+    }
+    return boost::outcome_v2::success();
+  };
+  BOOST_OUTCOME_TRYV(for_each_item(list, read_list));
+  v.c.triangles.resize(static_cast<Eigen::Index>(triangles.size()), 3);
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (int k = 0; k < 3; ++k)
+      v.c.triangles(static_cast<Eigen::Index>(t), k) = triangles[t][static_cast<std::size_t>(k)];
+  }
+  BOOST_OUTCOME_TRY(steps, object.at("steps"));
+  const auto read_steps = [&](const JsonField& item) -> Expected<void> {
+    corpus::CaseStep step;
+    BOOST_OUTCOME_TRY(from, item.at("from"));
+    BOOST_OUTCOME_TRYV(put(step.from, from.integer(0, most)));
+    BOOST_OUTCOME_TRY(to, item.at("to"));
+    BOOST_OUTCOME_TRYV(put(step.to, to.integer(0, most)));
+    BOOST_OUTCOME_TRY(commit, item.at("commit"));
+    step.commit = commit.json() == true;
+    const auto end = static_cast<std::int32_t>(v.c.frames.size());
+    if (step.from >= end || step.to >= end) return item.problem("names no frame");
+    v.c.script.push_back(step);
+    BOOST_OUTCOME_TRY(facts, facts_of(item));
+    v.steps.push_back(std::move(facts));
+    return boost::outcome_v2::success();
+  };
+  BOOST_OUTCOME_TRYV(for_each_item(steps, read_steps));
+  if (v.c.script == corpus::consecutive_steps(v.c.frames.size())) v.c.script.clear();
+  if (v.steps.empty() || !is_valid(v.c)) return object.problem("is no mesh with steps");
+  return boost::outcome_v2::success();
+}
+
+Expected<Vector> read_vector(const JsonField& object, const VectorGroup& group) {
+  Vector v;
+  v.question = group.question;
+  BOOST_OUTCOME_TRYV(put(v.c.id, text_at(object, "id")));
+  BOOST_OUTCOME_TRYV(put(v.c.about, text_at(object, "about")));
+  BOOST_OUTCOME_TRYV(put(v.c.source, text_at(object, "source")));
+  BOOST_OUTCOME_TRYV(group.features == VectorFeatures::mesh
+                         ? read_mesh(object, v)
+                         : read_query(object, group.features, v));
+  BOOST_OUTCOME_TRY(flags, texts_at(object, "flags"));
+  for (const auto& word : flags) {
+    const auto flag = from_name<VectorFlag>(word);
+    if (!flag) return object.problem(fmt::format("has an unknown flag '{}'", word));
+    v.flags.push_back(*flag);
+  }
+  if (object.has("hard")) {
+    BOOST_OUTCOME_TRY(hard, object.at("hard"));
+    BOOST_OUTCOME_TRYV(put(v.hard.kind, text_at(hard, "kind")));
+    BOOST_OUTCOME_TRY(bits, hard.at("bits"));
+    BOOST_OUTCOME_TRYV(put(v.hard.bits, bits.integer(0, 10'000)));
+  }
+  BOOST_OUTCOME_TRYV(put(v.open, texts_at(object, "open")));
+  BOOST_OUTCOME_TRYV(put(v.breaks, texts_at(object, "breaks")));
+  if (object.has("split_of")) {
+    BOOST_OUTCOME_TRYV(put(v.split_of, text_at(object, "split_of")));
+  }
+  return v;
+}
+
+Expected<VectorGroup> read_group(const JsonField& object) {
+  VectorGroup group;
+  BOOST_OUTCOME_TRYV(put(group.features, word_at<VectorFeatures>(object, "features")));
+  BOOST_OUTCOME_TRYV(put(group.question, word_at<VectorQuestion>(object, "question")));
+  BOOST_OUTCOME_TRYV(put(group.precision, word_at<VectorPrecision>(object, "precision")));
+  BOOST_OUTCOME_TRY(cases, object.at("cases"));
+  const auto read_cases = [&](const JsonField& item) -> Expected<void> {
+    BOOST_OUTCOME_TRY(vector, read_vector(item, group));
+    group.cases.push_back(std::move(vector));
+    return boost::outcome_v2::success();
+  };
+  BOOST_OUTCOME_TRYV(for_each_item(cases, read_cases));
+  return group;
+}
+
+}  // namespace
+
+Expected<ReadSet> read_set(const std::filesystem::path& folder) {
+  const auto path = folder / "set.json";
+  BOOST_OUTCOME_TRY(bytes, corpus::read_bytes(path));
+  BOOST_OUTCOME_TRY(json, corpus::parse_json(bytes, path));
+  const JsonField object(json, path);
+  BOOST_OUTCOME_TRY(schema, text_at(object, "schema"));
+  if (schema != vectors_schema)
+    return object.problem(fmt::format("schema '{}' is not {}", schema, vectors_schema));
+  ReadSet read;
+  BOOST_OUTCOME_TRYV(put(read.version, text_at(object, "version")));
+  BOOST_OUTCOME_TRYV(put(read.set.profile, text_at(object, "profile")));
+  BOOST_OUTCOME_TRYV(put(read.digest, text_at(object, "digest")));
+  BOOST_OUTCOME_TRY(groups, object.at("groups"));
+  const auto read_groups = [&](const JsonField& item) -> Expected<void> {
+    BOOST_OUTCOME_TRY(name, text_at(item, "file"));
+    BOOST_OUTCOME_TRY(wanted, text_at(item, "sha256"));
+    const bool is_name = std::filesystem::path(name).filename() == name;
+    if (!is_name) return item.problem(fmt::format("'{}' is no file of this folder", name));
+    const auto file = folder / name;
+    BOOST_OUTCOME_TRY(text, corpus::read_bytes(file));
+    if (corpus::sha256_of(text) != wanted)
+      return Problem{fmt::format("{}: is not the file that set.json names", file.string())};
+    BOOST_OUTCOME_TRY(of_group, corpus::parse_json(text, file));
+    BOOST_OUTCOME_TRY(group, read_group(JsonField(of_group, file)));
+    read.set.groups.push_back(std::move(group));
+    return boost::outcome_v2::success();
+  };
+  BOOST_OUTCOME_TRYV(for_each_item(groups, read_groups));
+  return read;
+}
+
+}  // namespace assay::properties
