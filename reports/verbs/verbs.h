@@ -9,6 +9,7 @@
 namespace assay::reports {
 
 // Each function adds its verb, with all its options, to the command line.
+Action add_answer_vectors(CLI::App& app);
 Action add_bench(CLI::App& app);
 Action add_certify(CLI::App& app);
 Action add_check(CLI::App& app);

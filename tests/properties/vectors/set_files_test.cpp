@@ -1,0 +1,178 @@
+// A set is written and read back; verification finds what is changed in it.
+#include "properties/vectors/set_files.h"
+
+#include <gtest/gtest.h>
+
+#include "corpus/file_bytes.h"
+#include "corpus/queries/query_csv.h"
+#include "properties/queries/query_families.h"
+#include "properties/vectors/mesh_facts.h"
+#include "properties/vectors/methods.h"
+#include "properties/vectors/query_facts.h"
+#include "properties/worker/plugin/query_case.h"
+#include "tests/corpus/scratch.h"
+#include "tests/test.h"
+
+namespace assay::properties {
+namespace {
+
+namespace fs = std::filesystem;
+
+Vector query_vector(const std::string& family, std::uint64_t i, const std::string& id) {
+  Vector v;
+  v.c = make_case(*find_family(family), "vectors-test:" + std::to_string(i)).c;
+  v.c.id = id;
+  v.c.about = "A query.";
+  v.c.source = "a test";
+  const auto query = *query_of(v.c);
+  v.steps = {contact_facts(query)};
+  const auto flags = flags_of(query, v.steps[0], 0, VectorPrecision::float64);
+  v.flags.assign(flags.begin(), flags.end());
+  v.hard = hardness_of(query, v.steps[0], 0);
+  return v;
+}
+
+VectorSet small_set() {
+  VectorSet set;
+  set.profile = "core";
+  VectorGroup faces, edges{VectorFeatures::edge_edge, VectorQuestion::contact,
+                           VectorPrecision::float64, {}};
+  for (std::uint64_t i = 0; i < 60; ++i) {
+    for (const char* family : {"query-small-int", "query-exponents", "query-denormals"}) {
+      auto v = query_vector(family, i, "q-" + std::to_string(i) + family);
+      (query_of(v.c)->first_group == 1 ? faces : edges).cases.push_back(std::move(v));
+    }
+  }
+  VectorGroup steps{VectorFeatures::mesh, VectorQuestion::contact, VectorPrecision::float64, {}};
+  for (int i = 0; i < 6; ++i) {
+    auto c = make_case(families()[0], "vectors-test:" + std::to_string(i)).c;
+    c.id = "m-" + std::to_string(i);
+    c.view.reset();
+    steps.cases.push_back(*mesh_vector(c, steps.question, steps.precision));
+  }
+  set.groups = {faces, edges, steps};
+  say_open_methods(set, 1);
+  return set;
+}
+
+bool same(const Vector& a, const Vector& b) {
+  return a.c.id == b.c.id && a.c.about == b.c.about && a.c.frames == b.c.frames &&
+         a.c.triangles == b.c.triangles && corpus::steps_of(a.c) == corpus::steps_of(b.c) &&
+         a.steps == b.steps && a.flags == b.flags && a.hard == b.hard && a.open == b.open &&
+         a.breaks == b.breaks && query_word(a.c) == query_word(b.c);
+}
+
+class VectorFiles : public corpus::Scratch {};
+
+TEST_F(VectorFiles, AreReadBackAsTheyWereWritten) {
+  const auto set = small_set();
+  ASSERT_TRUE(write_set(folder_, set));
+  const auto read = read_set(folder_);
+  ASSERT_TRUE(read) << read.error().text;
+  EXPECT_EQ(read.value().digest, digest_of(set));
+  EXPECT_EQ(digest_of(read.value().set), digest_of(set));
+  ASSERT_EQ(read.value().set.groups.size(), set.groups.size());
+  for (std::size_t g = 0; g < set.groups.size(); ++g) {
+    const auto& cases = set.groups[g].cases;
+    ASSERT_EQ(read.value().set.groups[g].cases.size(), cases.size());
+    for (std::size_t i = 0; i < cases.size(); ++i)
+      EXPECT_TRUE(same(read.value().set.groups[g].cases[i], cases[i])) << cases[i].c.id;
+  }
+  EXPECT_TRUE(contradictions_of(read.value().set, 2).empty());
+}
+
+TEST_F(VectorFiles, QueriesStandInRationalsToo) {
+  const auto set = small_set();
+  ASSERT_TRUE(write_set(folder_, set));
+  const auto& faces = set.groups[0].cases;
+  const auto queries = corpus::read_queries(folder_ / "csv/vertex-face/double.csv");
+  ASSERT_TRUE(queries) << queries.error().text;
+  ASSERT_EQ(queries.value().size(), faces.size());
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const auto query = *query_of(faces[i].c);
+    for (std::size_t k = 0; k < 4; ++k) {
+      EXPECT_EQ(queries.value()[i].query.points[k].t0, query.points[k].t0);
+      EXPECT_EQ(queries.value()[i].query.points[k].t1, query.points[k].t1);
+    }
+    EXPECT_EQ(queries.value()[i].truth, faces[i].result() != VectorResult::free);
+  }
+}
+
+TEST_F(VectorFiles, RefuseWhatTheDigestsDoNotName) {
+  ASSERT_TRUE(write_set(folder_, small_set()));
+  const auto file = folder_ / "steps-double.json";
+  auto text = corpus::read_bytes(file).value();
+  text.replace(text.find("free"), 4, "FREE");
+  std::ofstream(file) << text;
+  const auto read = read_set(folder_);
+  ASSERT_FALSE(read);
+  EXPECT_NE(read.error().text.find("steps-double.json"), std::string::npos);
+}
+
+TEST(Verification, FindsEachWrongStatement) {
+  const auto sound = small_set();
+  ASSERT_TRUE(contradictions_of(sound, 2).empty());
+  const auto one_is_found = [&](const std::function<bool(Vector&)>& change) {
+    auto set = sound;
+    for (auto& group : set.groups) {
+      for (auto& v : group.cases) {
+        if (!change(v)) continue;
+        const auto found = contradictions_of(set, 2);
+        EXPECT_EQ(found.size(), 1u);
+        if (!found.empty()) EXPECT_EQ(found[0].id, v.c.id);
+        return;
+      }
+    }
+    ADD_FAILURE() << "no case to change";
+  };
+  one_is_found([](Vector& v) {
+    if (v.result() != VectorResult::collision) return false;
+    v.steps[0].result = VectorResult::acceptable;
+    return true;
+  });
+  one_is_found([](Vector& v) {
+    if (v.steps[0].polynomial.size() < 3) return false;
+    v.steps[0].polynomial[0] += "1";
+    return true;
+  });
+  one_is_found([](Vector& v) {
+    if (!v.steps[0].first || v.steps[0].first->hi == 1) return false;
+    v.steps[0].first->hi = 1;
+    return true;
+  });
+  one_is_found([](Vector& v) {
+    if (v.steps[0].pairs.size() < 2) return false;
+    v.steps[0].pairs.pop_back();
+    return true;
+  });
+  one_is_found([](Vector& v) {
+    v.flags.push_back(VectorFlag::sequence);
+    return true;
+  });
+  one_is_found([](Vector& v) {
+    v.open = {"referee"};
+    return true;
+  });
+}
+
+TEST(Neighbours, AreAskedOfAllMethods) {
+  const auto tally = check_neighbours(small_set(), 500, 2);
+  EXPECT_EQ(tally.queries, 500u);
+  EXPECT_TRUE(tally.contradictions.empty());
+  Random random("neighbour");
+  const auto query = query_generators()[0].make(1, 0).query;
+  const auto moved = neighbour_of(query, VectorPrecision::float32, random);
+  int changed = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      changed += moved.points[i].t0[k] != query.points[i].t0[k] ? 1 : 0;
+      changed += moved.points[i].t1[k] != query.points[i].t1[k] ? 1 : 0;
+      EXPECT_EQ(static_cast<float>(moved.points[i].t0[k]), moved.points[i].t0[k]);
+    }
+  }
+  EXPECT_GE(changed, 1);
+  EXPECT_LE(changed, 3);
+}
+
+}  // namespace
+}  // namespace assay::properties
