@@ -35,14 +35,17 @@ Vector query_vector(const std::string& family, std::uint64_t i, const std::strin
 VectorSet small_set() {
   VectorSet set;
   set.profile = "core";
-  VectorGroup faces, edges{VectorFeatures::edge_edge, VectorQuestion::contact,
-                           VectorPrecision::float64, {}};
-  for (std::uint64_t i = 0; i < 60; ++i) {
-    for (const char* family : {"query-small-int", "query-exponents", "query-denormals"}) {
-      auto v = query_vector(family, i, "q-" + std::to_string(i) + family);
+  VectorGroup faces,
+      edges{VectorFeatures::edge_edge, VectorQuestion::contact, VectorPrecision::float64, {}};
+  const auto add = [&](const std::string& family, std::uint64_t count) {
+    for (std::uint64_t i = 0; i < count; ++i) {
+      auto v = query_vector(family, i, family + "-" + std::to_string(i));
       (query_of(v.c)->first_group == 1 ? faces : edges).cases.push_back(std::move(v));
     }
-  }
+  };
+  add("query-small-int", 20);
+  add("query-exponents", 2);
+  add("query-denormals", 2);
   VectorGroup steps{VectorFeatures::mesh, VectorQuestion::contact, VectorPrecision::float64, {}};
   for (int i = 0; i < 6; ++i) {
     auto c = make_case(families()[0], "vectors-test:" + std::to_string(i)).c;
@@ -62,13 +65,16 @@ bool same(const Vector& a, const Vector& b) {
          a.breaks == b.breaks && query_word(a.c) == query_word(b.c);
 }
 
-class VectorFiles : public corpus::Scratch {};
+class VectorFiles : public corpus::Scratch {
+ protected:
+  std::filesystem::path folder() const { return write("a_file", "").parent_path(); }
+};
 
 TEST_F(VectorFiles, AreReadBackAsTheyWereWritten) {
   const auto set = small_set();
-  ASSERT_TRUE(write_set(folder_, set));
-  const auto read = read_set(folder_);
-  ASSERT_TRUE(read) << read.error().text;
+  ASSERT_TRUE(write_set(folder(), set));
+  const auto read = read_set(folder());
+  ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(read.value().digest, digest_of(set));
   EXPECT_EQ(digest_of(read.value().set), digest_of(set));
   ASSERT_EQ(read.value().set.groups.size(), set.groups.size());
@@ -83,10 +89,10 @@ TEST_F(VectorFiles, AreReadBackAsTheyWereWritten) {
 
 TEST_F(VectorFiles, QueriesStandInRationalsToo) {
   const auto set = small_set();
-  ASSERT_TRUE(write_set(folder_, set));
+  ASSERT_TRUE(write_set(folder(), set));
   const auto& faces = set.groups[0].cases;
-  const auto queries = corpus::read_queries(folder_ / "csv/vertex-face/double.csv");
-  ASSERT_TRUE(queries) << queries.error().text;
+  const auto queries = corpus::read_queries(folder() / "csv/vertex-face/double.csv");
+  ASSERT_TRUE(queries) << queries.error().message;
   ASSERT_EQ(queries.value().size(), faces.size());
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const auto query = *query_of(faces[i].c);
@@ -99,14 +105,14 @@ TEST_F(VectorFiles, QueriesStandInRationalsToo) {
 }
 
 TEST_F(VectorFiles, RefuseWhatTheDigestsDoNotName) {
-  ASSERT_TRUE(write_set(folder_, small_set()));
-  const auto file = folder_ / "steps-double.json";
+  ASSERT_TRUE(write_set(folder(), small_set()));
+  const auto file = folder() / "steps-double.json";
   auto text = corpus::read_bytes(file).value();
   text.replace(text.find("free"), 4, "FREE");
   std::ofstream(file) << text;
-  const auto read = read_set(folder_);
+  const auto read = read_set(folder());
   ASSERT_FALSE(read);
-  EXPECT_NE(read.error().text.find("steps-double.json"), std::string::npos);
+  EXPECT_NE(read.error().message.find("steps-double.json"), std::string::npos);
 }
 
 TEST(Verification, FindsEachWrongStatement) {
@@ -119,7 +125,9 @@ TEST(Verification, FindsEachWrongStatement) {
         if (!change(v)) continue;
         const auto found = contradictions_of(set, 2);
         EXPECT_EQ(found.size(), 1u);
-        if (!found.empty()) EXPECT_EQ(found[0].id, v.c.id);
+        if (!found.empty()) {
+          EXPECT_EQ(found[0].id, v.c.id);
+        }
         return;
       }
     }
