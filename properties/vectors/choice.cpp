@@ -28,7 +28,7 @@ namespace {
 
 using detector::FourPoints;
 
-// How many cases a group may hold, how many of one kind, and how many are tried of each source.
+// How many cases a group may hold beside those that are wanted anyway, how many of one kind, and how many are tried of each source.
 struct Quotas {
   std::size_t of_queries, of_distances, of_steps, of_limits;  // in doubles; in floats a half
   std::size_t of_a_kind;
@@ -36,7 +36,7 @@ struct Quotas {
   int strengths;                  // of each hard family
 };
 constexpr Quotas quotas_of(VectorProfile profile) {
-  return profile == VectorProfile::core ? Quotas{150, 50, 260, 50, 1, 120, 20, 3}
+  return profile == VectorProfile::core ? Quotas{120, 50, 90, 50, 1, 120, 20, 3}
                                         : Quotas{4500, 1200, 1500, 500, 40, 9000, 600, 100};
 }
 
@@ -163,7 +163,7 @@ class GroupChoice {
     }
   }
 
-  bool is_full() const { return group_.cases.size() >= most_; }
+  bool is_full() const { return group_.cases.size() - wanted_ >= most_; }
 
  private:
   void take(Vector v, bool is_wanted) {
@@ -171,9 +171,13 @@ class GroupChoice {
     if (!met_.insert(motion_of(v)).second) return;
     auto& count = kinds_[kind_of(v)];
     if (!is_wanted && (count >= quotas_.of_a_kind || is_one_too_many(v))) return;
-    ++count;
-    ++results_[v.result()];
-    for (const auto flag : v.flags) ++flags_[flag];
+    if (is_wanted) {
+      ++wanted_;
+    } else {
+      ++count;
+      ++results_[v.result()];
+      for (const auto flag : v.flags) ++flags_[flag];
+    }
     v.c.about = sentence_of(v, group_.features);
     v.c.id = fmt::format("{}-{:04}", prefix_, group_.cases.size() + 1);
     group_.cases.push_back(std::move(v));
@@ -202,6 +206,8 @@ class GroupChoice {
   std::size_t most_;
   const Quotas& quotas_;
   int jobs_;
+  std::size_t wanted_ = 0;
+  // Of the others.
   std::map<std::string, std::size_t> kinds_;
   std::map<VectorResult, std::size_t> results_;
   std::map<VectorFlag, std::size_t> flags_;
