@@ -11,7 +11,8 @@
 //   assay_vectors::serve({"mine", "1.0", ""}, mine);
 //
 // A question that is not overridden is unsupported. What a detector throws is the answer `error`.
-// In this process a crash ends everything, so a detector that may crash is better served.
+// In this process a crash ends everything, so a detector that may crash is better served. That the
+// files of the set are whole is believed: `vectors.py check` looks.
 // Numbers are read by strtod: a program that calls setlocale has to leave LC_NUMERIC at "C".
 #ifndef ASSAY_VECTORS_H
 #define ASSAY_VECTORS_H

@@ -288,36 +288,41 @@ def next_double(x):
 
 # --- polynomials --------------------------------------------------------------------------------
 
-def value(polynomial, t):
-    total = Fraction(0)
+def sign_at(polynomial, t):
+    """The sign of a polynomial with whole coefficients at a fraction."""
+    total, power = 0, 1
     for c in reversed(polynomial):
-        total = total * t + c
-    return total
+        total, power = total * t.numerator + c * power, power * t.denominator
+    return (total > 0) - (total < 0)
 
 
-def trimmed(polynomial):
+def primitive(polynomial):
+    """Without zeros at its end, and without the factor that its coefficients share."""
     while polynomial and polynomial[-1] == 0:
         polynomial = polynomial[:-1]
-    return polynomial
+    factor = math.gcd(*polynomial)
+    return [c // factor for c in polynomial]
 
 
 def has_zero(coefficients, lo, hi):
     """Whether the polynomial has a zero in [lo, hi]: exactly, by Sturm's theorem."""
-    p = trimmed([Fraction(int(c)) for c in coefficients])
+    p = primitive([int(c) for c in coefficients])
     lo, hi = Fraction(lo), Fraction(hi)
-    if not p or value(p, lo) == 0 or value(p, hi) == 0:
+    if not p or sign_at(p, lo) == 0 or sign_at(p, hi) == 0:
         return True
-    chain = [p, trimmed([i * c for i, c in enumerate(p)][1:])]
+    chain = [p, primitive([i * c for i, c in enumerate(p)][1:])]
     while chain[-1]:
         rest, divisor = chain[-2], chain[-1]
         while len(rest) >= len(divisor):
-            factor, shift = rest[-1] / divisor[-1], len(rest) - len(divisor)
-            rest = trimmed([c - factor * divisor[i - shift] if i >= shift else c
-                            for i, c in enumerate(rest)][:-1])
+            # Whole numbers stay whole, and the factor abs(divisor[-1]) keeps all signs.
+            shift, factor = len(rest) - len(divisor), abs(divisor[-1])
+            lead = rest[-1] if divisor[-1] > 0 else -rest[-1]
+            rest = primitive([factor * c - (lead * divisor[i - shift] if i >= shift else 0)
+                              for i, c in enumerate(rest)])
         chain.append([-c for c in rest])
 
     def changes(t):
-        signs = [s > 0 for s in (value(q, t) for q in chain[:-1]) if s != 0]
+        signs = [s for s in (sign_at(q, t) for q in chain[:-1]) if s != 0]
         return sum(a != b for a, b in zip(signs, signs[1:]))
     return changes(lo) > changes(hi)
 
@@ -437,10 +442,8 @@ class Program:
 
     def ask(self, request, seconds=None):
         if not self.lines.empty():
-            line = self.lines.get()
-            if line is None:
-                raise NoAnswer("crash")
-            return line  # it spoke unasked, so nobody knows what its lines answer
+            # It ended; or it spoke unasked, and nobody knows what its lines answer.
+            raise NoAnswer("crash" if self.lines.get() is None else "error")
         self.requests.put(request)
         try:
             line = self.lines.get(timeout=seconds or self.seconds)
@@ -585,9 +588,10 @@ def write_results(results, file):
     write_text(file, f'{text}, "answers": {{\n{cases}\n}}}}\n')
 
 
-def write_text(file, text):
+def write_text(file, text, mode="w"):
     try:
-        Path(file).write_text(text, encoding="utf-8")
+        with open(file, mode, encoding="utf-8", newline="\n") as out:
+            out.write(text)
     except OSError as problem:
         raise Wrong(f"{file}: {problem.strerror}") from None
 
@@ -982,7 +986,7 @@ def main(words):
         want(command, "run", "no program: vectors.py run [OPTIONS] -- COMMAND ARGS...")
         want(0 < given.timeout < math.inf, "--timeout", "wanted is a number above 0")
         vectors = VectorSet(given.set, given.group)
-        write_text(given.out, "")  # before the work, so that none is lost
+        write_text(given.out, "", "a")  # whether it can be written: no work is to be lost
         results = ask_all(Program(command, given.timeout, given.restart), vectors)
         write_results(results, given.out)
         judged = [judge(results, vectors)]

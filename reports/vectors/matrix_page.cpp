@@ -52,10 +52,10 @@ thead th { vertical-align: bottom; }
 .chip { padding: .25rem .6rem; border: 1px solid var(--line); border-radius: 6px; }
 .cases { padding-left: 1.2rem; }
 .cases li { margin: .35rem 0; }
-@media (max-width: 640px) {
+@media (max-width: 640px), print {
   thead { display: none; }
   tbody, tr, tbody th { display: block; }
-  tr { display: grid; grid-template-columns: repeat(auto-fill, minmax(5.4rem, 1fr)); gap: .25rem;
+  tr { display: grid; grid-template-columns: repeat(auto-fill, minmax(6.2rem, 1fr)); gap: .25rem;
     padding: .5rem 0; border-bottom: 1px solid var(--line); }
   th, td { border: 0; text-align: left; }
   tbody th, td.words { grid-column: 1 / -1; padding: 0; }
