@@ -210,8 +210,9 @@ inline Json read_json(const std::string& file) {
   return JsonReader(text).read();
 }
 
-inline Points points_of(const Json& json) {
+inline Points points_of(const Json& json, std::size_t wanted) {
   Points points;
+  if (json.as_list().size() != wanted) throw std::runtime_error("another number of points");
   for (const auto& point : json.as_list()) {
     if (point.as_list().size() != 3) throw std::runtime_error("a point has three coordinates");
     points.push_back(
@@ -321,13 +322,14 @@ inline std::string answer_case(Detector& detector, const Json& group, const Json
   const std::string& features = group.at("features").as_text();
   const std::string& question = group.at("question").as_text();
   if (features != "mesh") {
-    const Points t0 = points_of(one.at("t0")), t1 = points_of(one.at("t1"));
+    const Points t0 = points_of(one.at("t0"), 4), t1 = points_of(one.at("t1"), 4);
     const double distance = question == "distance" ? one.at("distance").as_number() : 0;
     return json_of(
         ask_query(detector, features, question == "distance" ? &distance : nullptr, t0, t1));
   }
   std::vector<Points> frames;
-  for (const auto& frame : one.at("frames").as_list()) frames.push_back(points_of(frame));
+  for (const auto& frame : one.at("frames").as_list())
+    frames.push_back(points_of(frame, one.at("frames").items[0].as_list().size()));
   Triangles triangles;
   for (const auto& triangle : one.at("triangles").as_list()) {
     triangles.emplace_back();
@@ -410,6 +412,13 @@ inline int serve(const Product& product, Detector& detector, std::istream& in = 
       at = behind;
       return x;
     };
+    // A whole number below `end`. What the line counts cannot be more than it has characters.
+    const auto count = [&](std::size_t end) {
+      const double x = number();
+      const bool is_count = x >= 0 && x < static_cast<double>(end) && x == std::floor(x);
+      is_cut = is_cut || !is_count;
+      return is_count ? static_cast<std::size_t>(x) : 0;
+    };
     const auto points = [&](std::size_t n) {
       Points all(n);
       for (auto& point : all)
@@ -420,13 +429,14 @@ inline int serve(const Product& product, Detector& detector, std::istream& in = 
     if (word == "assay-vectors") {
       answer = product.name + " " + product.version + " " + product.settings;
     } else if (word == "mesh") {
-      vertices = static_cast<std::size_t>(number());
-      triangles.assign(static_cast<std::size_t>(number()), {});
+      vertices = count(std::size_t{1} << 31);
+      triangles.assign(count(line.size()), {});
       for (auto& triangle : triangles)
-        for (auto& i : triangle) i = static_cast<int>(number());
+        for (auto& i : triangle) i = static_cast<int>(count(vertices));
       is_asked = false;
       answer = "ok";
     } else if (word == "step" || word == "limit") {
+      if (vertices > line.size()) return 2;
       const Points t0 = points(vertices), t1 = points(vertices);
       if (!is_asked && !is_cut) is_taken = begin_mesh(detector, triangles, t0);
       is_asked = true;

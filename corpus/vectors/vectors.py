@@ -250,7 +250,9 @@ def check_mesh(case, group, place):
         want(isinstance(step.get("commit", True), bool), here, "commit is not true or false")
         check_truth(step, here)
         triangle = (lambda x: is_count(x, len(case["triangles"])))
-        for pair in step.get("pairs", []):
+        pairs = step.get("pairs", [])
+        want(isinstance(pairs, list), here, "pairs are no list")
+        for pair in pairs:
             want(is_list(pair, 4, is_number) and triangle(pair[0]) and triangle(pair[1]) and
                  pair[0] < pair[1] and pair[2] <= pair[3], here,
                  "pairs are not two triangles and two times each")
@@ -261,6 +263,8 @@ def check_mesh(case, group, place):
 
 
 def check_truth(truth, place):
+    for name in ("first_time", "polynomial"):
+        want(isinstance(truth.get(name, []), list), place, f"{name} is no list")
     time_, polynomial = truth.get("first_time"), truth.get("polynomial")
     if truth["result"] == "free":
         want(time_ is None and polynomial is None, place, "free, and yet with a first time")

@@ -283,12 +283,54 @@ class AsAModule(InScratch):
 
 class Examples(InScratch):
     def compile(self, source, *options):
+        """An example, or a source by its path."""
         program = self.scratch / Path(source).stem
         compiler = os.environ.get("CC" if source.endswith(".c") else "CXX") or \
             ("cc" if source.endswith(".c") else "c++")
         subprocess.run([*compiler.split(), "-O1", "-Wall", "-Wextra", "-Wpedantic", "-Werror",
                         ROOM / "examples" / source, "-o", program, *options], check=True)
         return program
+
+    def test_the_header_hands_meshes_over(self):
+        source = self.scratch / "meshes.cpp"
+        source.write_text(r"""#include "assay_vectors.h"
+struct Mine : assay_vectors::Detector {
+  int meshes = 0;
+  bool mesh(const Triangles& triangles, const Points& points) override {
+    ++meshes;
+    return triangles.size() == 2 && triangles[1][2] == 5 && points.size() == 6;
+  }
+  Answer step(const Triangles&, const Points& t0, const Points& t1) override {
+    if (t0[3][2] == 3) throw std::runtime_error("too high");
+    if (t1[3][2] > 0) return Answer::free().with_pairs({});
+    return Answer::collision(0.25 * meshes, 0.5).with_pairs({{1, 0}});
+  }
+  Answer limit(const Triangles&, const Points&, const Points&) override {
+    return Answer::safe_share(0.25 * meshes);
+  }
+  Answer edge_edge(const Points&, const Points&) override { return Answer::safe_share(0.5); }
+  Answer vertex_face(const Points&, const Points&) override { return Answer::collision(NAN); }
+};
+int main(int count, char** words) {
+  Mine mine;
+  const assay_vectors::Product product = {"me\"shes", "1", "a\\b\tc"};
+  if (count < 2) return assay_vectors::serve({"meshes", "1", ""}, mine);
+  assay_vectors::run(words[1], product, mine, words[2]);
+}
+""")
+        program, file = self.compile(str(source), "-std=c++17", f"-I{ROOM}"), self.scratch / "own"
+        _, served, _ = self.ask(program)
+        subprocess.run([program, MINI, file], check=True)
+        own = vectors.read_results(file, vectors.VectorSet(MINI))
+        self.assertEqual(own["product"], {"name": 'me"shes', "version": "1", "settings": "a\\b\tc"})
+        self.assertEqual(own["answers"], served["answers"])
+        self.assertEqual(own["answers"]["st-d-0001"]["steps"],
+                         [{"answer": "error"},
+                          {"answer": "collision", "time": [0.25, 0.5], "pairs": [[0, 1]]},
+                          {"answer": "free", "pairs": []}])
+        self.assertEqual(own["answers"]["lm-d-0001"]["steps"], [{"answer": "share", "share": 0.5}])
+        for name in ("ee-d-0001", "vf-d-0001"):
+            self.assertEqual(own["answers"][name], {"answer": "error"}, "no answer to the question")
 
     def test_each_is_short(self):
         for name in ("plain.c", "textbook_cubic.py", "ipc_toolkit.py"):
