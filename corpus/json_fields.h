@@ -2,11 +2,14 @@
 // typed access to the fields of a value, in which each error names the file and the field.
 #pragma once
 
+#include <boost/outcome/try.hpp>
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "corpus/problem.h"
 
@@ -58,5 +61,17 @@ class JsonField {
   const std::filesystem::path* file_;
   std::string place_;
 };
+
+// Reads an array, item by item.
+template <class T, class ReadItem>
+Expected<std::vector<T>> read_list(const JsonField& field, ReadItem read_item) {
+  BOOST_OUTCOME_TRY(size, field.size());
+  std::vector<T> list;
+  for (std::size_t i = 0; i < size; ++i) {
+    BOOST_OUTCOME_TRY(item, read_item(field.item(i)));
+    list.push_back(std::move(item));
+  }
+  return list;
+}
 
 }  // namespace assay::corpus

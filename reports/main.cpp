@@ -26,12 +26,12 @@ using namespace assay;
 
 // The verbs, in the order of `assay --help`.
 constexpr reports::Action (*verbs[])(CLI::App&) = {
-    reports::add_check,          reports::add_judge,         reports::add_check_queries,
-    reports::add_scene,          reports::add_self_test,     reports::add_run,
-    reports::add_replay,         reports::add_shrink,        reports::add_bench,
-    reports::add_report,         reports::add_merge,         reports::add_verify,
-    reports::add_list,           reports::add_certify,       reports::add_vectors,
-    reports::add_verify_vectors, reports::add_answer_vectors};
+    reports::add_check,          reports::add_judge,          reports::add_check_queries,
+    reports::add_scene,          reports::add_self_test,      reports::add_run,
+    reports::add_replay,         reports::add_shrink,         reports::add_bench,
+    reports::add_report,         reports::add_merge,          reports::add_verify,
+    reports::add_list,           reports::add_certify,        reports::add_vectors,
+    reports::add_verify_vectors, reports::add_answer_vectors, reports::add_score};
 
 // CLI11 lists what it did not expect from the end.
 std::string complaint_of(const CLI::ParseError& wrong, const CLI::App& app) {

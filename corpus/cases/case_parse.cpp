@@ -21,18 +21,6 @@ namespace {
 
 // The small parts of a case file: points, triangles, times, signs.
 
-// Reads a JSON array, item by item.
-template <class T, class ReadItem>
-Expected<std::vector<T>> read_list(const JsonField& field, ReadItem read_item) {
-  BOOST_OUTCOME_TRY(size, field.size());
-  std::vector<T> list;
-  for (std::size_t i = 0; i < size; ++i) {
-    BOOST_OUTCOME_TRY(item, read_item(field.item(i)));
-    list.push_back(std::move(item));
-  }
-  return list;
-}
-
 // Fails unless `field` is an array of `wanted` items.
 Expected<void> expect_size(const JsonField& field, std::size_t wanted) {
   BOOST_OUTCOME_TRY(size, field.size());

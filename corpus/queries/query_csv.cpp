@@ -30,8 +30,8 @@ std::optional<Kind> kind_of(const std::filesystem::path& path) {
   std::filesystem::path name = path.filename();
   if (name.extension() == ".gz") name.replace_extension();
   const std::string stem = name.stem().string();
-  if (stem.ends_with("vf")) return Kind::vertex_face;
-  if (stem.ends_with("ee")) return Kind::edge_edge;
+  if (stem.ends_with("vf") || stem.starts_with("vertex-face")) return Kind::vertex_face;
+  if (stem.ends_with("ee") || stem.starts_with("edge-edge")) return Kind::edge_edge;
   // If both names are in the path, the nearest folder rules.
   for (auto folder = path.parent_path(); folder.has_filename(); folder = folder.parent_path()) {
     if (folder.filename() == "vertex-face") return Kind::vertex_face;
@@ -169,7 +169,7 @@ Expected<std::vector<LabelledQuery>> read_queries(
   if (!kind) {
     return problem_in(csv,
                       "vertex-face or edge-edge queries? The path should have a folder of that "
-                      "name, or the file's name should end in vf or ee");
+                      "name, or the file's name should begin so, or end in vf or ee");
   }
   BOOST_OUTCOME_TRY(bytes, read_bytes(csv));
   BOOST_OUTCOME_TRY(queries, CsvReader(bytes, csv, *kind).read());

@@ -21,6 +21,7 @@ Action add_replay(CLI::App& app);
 Action add_report(CLI::App& app);
 Action add_run(CLI::App& app);
 Action add_scene(CLI::App& app);
+Action add_score(CLI::App& app);
 Action add_self_test(CLI::App& app);
 Action add_shrink(CLI::App& app);
 Action add_vectors(CLI::App& app);

@@ -22,6 +22,7 @@ NO_QUERY = "libmine.so is the example, which holds no query; parts_of_a_detector
 LENT = "builds, and the build is only lent"
 EXAMPLES = "of files that the examples write; tests/reports/python runs those"
 MUTANTS = "compiles as the build did, and the build is only lent; test mutation_smoke runs the script"
+MISSES = "ends with 1, for the textbook test misses contacts; tests/corpus/vectors runs it"
 BOUNDS = "the tests bounds, bounds_changes and bounds_contracted run it"
 
 # What the reader is to have at hand: made before the first command of that README.
@@ -39,6 +40,9 @@ GIVEN = {
 }
 
 QUICK = {
+    "corpus/vectors/README.md": [
+        "cc -std=c99 -O2 corpus/vectors/examples/plain.c -o plain -lm",
+    ],
     "tests/README.md": [
         'RC_PARAMS="seed=7 max_success=1000 max_discard_ratio=100" ctest --preset law -R Laws.L3 --verbose',
     ],
@@ -111,6 +115,11 @@ NOT_RUN = {
         "reports/certify": "installs packages and builds; the slow list certifies by the program",
         "tests/run": RECURSION,
     },
+    "corpus/vectors/README.md": {
+        "python3 corpus/vectors/vectors.py run -- ./plain": MISSES,
+        "python3 corpus/vectors/vectors.py check corpus/vectors": "tests/corpus/vectors does so",
+        "build/release/assay score results.json --out matrix.html": MISSES,
+    },
     "reports/README.md": {
         "reports/nightly --out build/night": NIGHT,
         "reports/nightly --out build/night --by parallel --hosts hosts.txt":
@@ -165,6 +174,9 @@ NO_COMMAND = {
     },
     "corpus/README.md": {
         "83                      an array": "the bytes of a record; tests/detector/plugin reads them",
+    },
+    "corpus/vectors/README.md": {
+        "import vectors": "Python; tests/corpus/vectors runs such lines",
     },
     "corpus/peers/README.md": {
         "built-in, exact, bvh": "rows of the table of `assay bench --suite peers`",

@@ -75,6 +75,12 @@ TEST_F(QueryCsv, CompressedCrlfAndBlanks) {
 }
 
 TEST_F(QueryCsv, KindIsToldByThePathOrNamed) {
+  for (const auto& [name, first] :
+       {std::pair{"vertex-face-double.csv", 1}, {"edge-edge-distance-float32.csv", 2}}) {
+    const auto queries = read_queries(write(name, rows("")));
+    ASSERT_TRUE(queries) << queries.error().message;
+    EXPECT_EQ(queries.value()[0].query.first_group, first);
+  }
   const auto unknown = read_queries(write("queries.csv", rows("")));
   ASSERT_FALSE(unknown);
   EXPECT_TRUE(says(unknown.error(), "vertex-face or edge-edge queries?"));

@@ -1,0 +1,47 @@
+// `assay score` judges what products answered to a conformance set.
+#include <fmt/format.h>
+
+#include "reports/terminal/text_file.h"
+#include "reports/vectors/matrix_page.h"
+#include "reports/verbs/verbs.h"
+
+namespace assay::reports {
+namespace {
+
+struct ScoreRequest {
+  std::vector<std::string> results;
+  std::string set = ASSAY_VECTORS_DIR;
+  std::string page;  // empty: not written
+};
+
+Expected<int> run_score(const ScoreRequest& request) {
+  BOOST_OUTCOME_TRY(may_write(request.page, request.results));
+  BOOST_OUTCOME_TRY(set, read_vector_set(request.set));
+  std::vector<JudgedResults> all;
+  for (const auto& file : request.results) {
+    BOOST_OUTCOME_TRY(results, read_vector_results(file, set));
+    all.push_back(judge_results(results, set));
+  }
+  fmt::print("{}", score_text(set, all));
+  if (!request.page.empty()) {
+    BOOST_OUTCOME_TRY(write_text_file(request.page, matrix_page(set, all)));
+    fmt::print("\npage {}: opens in a browser, without a network\n", request.page);
+  }
+  return exit_code_of(all);
+}
+
+void add_options(Verb& verb, ScoreRequest& request) {
+  verb.add("results", request.results,
+           "Results of vectors.py, assay_vectors.h or answer-vectors, a file a product")
+      .required();
+  verb.add("--set", request.set, "The folder of the set that was asked").shows_default();
+  verb.add("--out", request.page, "Write the matrix of all products here (.html)");
+}
+
+}  // namespace
+
+Action add_score(CLI::App& app) {
+  return make_verb(app, "score", "Answers to a conformance set, judged", add_options, run_score);
+}
+
+}  // namespace assay::reports
