@@ -22,7 +22,7 @@ MeshClass mesh_class(const CaseFacts& facts) {
 
 SizeClass size_class(const CaseFacts& facts, Random& random) {
   constexpr std::size_t few = 12, some = 60;
-  constexpr int one_small_case_in = 32;
+  constexpr int one_small_case_in = 96;
   const auto count = facts.surface().mesh.triangles.size();
   if (count > some) return SizeClass::many;
   if (random.one_in(one_small_case_in)) return SizeClass::far_body;

@@ -115,8 +115,9 @@ std::vector<oracle::StepJudgement> truth_of(const Posed& p, const CaseFacts& fac
 }
 
 // Goes on in a detector that was made elsewhere, and has committed something else.
-bool go_on_elsewhere(CasePlayer& player, const corpus::Case& c, const detector::Options& options,
+bool go_on_elsewhere(CasePlayer& player, const corpus::Case& c, detector::Options options,
                      const StagesOf& stages_of) {
+  options.counted = corpus::counted_of(c);
   const auto saved = detector::SavedState::read(player.detector().state().bytes());
   const auto& elsewhere = c.frames.back();
   auto made = detector::assemble(c.triangles, elsewhere, options, stages_of(options));
