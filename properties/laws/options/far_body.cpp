@@ -37,7 +37,7 @@ std::optional<corpus::Case> with_far_body(corpus::Case c, double apart) {
   if (!(largest > 1 / most && largest < most && apart < most)) return std::nullopt;
   Random random(Random::hash(c.id), Random::hash("far body"));
   // All places of the grid are small integers times a power of two, the width of a cell.
-  const int reach = std::ilogb(largest) + 1, finest = reach - random.between(0, 8);
+  const int reach = std::ilogb(largest) + 1, finest = reach - random.between(0, 16);
   const double cell = std::ldexp(1, apart > 0 ? std::max(finest, std::ilogb(apart) + 2) : finest);
   const double start = cell * (std::ceil(std::ldexp(4, reach) / cell) + 4);
   const auto vertices = static_cast<std::int32_t>(c.frames.front().rows());

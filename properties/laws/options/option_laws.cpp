@@ -8,6 +8,7 @@
 
 #include "detector/assembly.h"
 #include "oracle/mesh/pair_relation.h"
+#include "properties/generators/approaches.h"
 #include "properties/judging/contracted_case.h"
 #include "properties/judging/step_truth.h"
 #include "properties/judging/trial.h"
@@ -74,6 +75,9 @@ Posed posed(const CaseFacts& facts) {
   leave_out(d, random, facts, p.judged);
   d.options.separation = separation_of(d, random, p.judged);
   if (d.options.separation == 0) d.apart = Apart::none;
+  // Two features that only just come within it, or only just do not.
+  if (d.apart != Apart::none && d.options.start != detector::Start::clean && random.one_in(2))
+    p.judged = with_approach(std::move(p.judged), d.options.separation, random);
   auto large = d.has_far_body ? with_far_body(p.judged, d.options.separation)
                               : std::optional<corpus::Case>();
   d.has_far_body = large.has_value();

@@ -137,7 +137,7 @@ TEST(Generators, EveryTagOccurs) {
       "closed unclosed broken response orientation:inward order:shuffled mode:positive "
       "mode:aimed mode:free size:2-12 size:13-40 size:41-100 size:101-200 shape:tetrahedron "
       "shape:bipyramid shape:sphere shape:split-sphere shape:capsule shape:star shape:torus "
-      "shape:sheet shape:tube shape:spiral pieces:apart pieces:nested pieces:cavity "
+      "shape:sheet shape:tube shape:spiral shape:flat-ring shape:rolled-ring motion:closing pieces:apart pieces:nested pieces:cavity "
       "pieces:at-a-vertex pieces:at-an-edge holes:1 holes:2 holes:3 holes:4 "
       "holes:vertex-twice broken:missing-faces broken:turned-faces broken:leaves broken:zero-area "
       "broken:open-seam broken:doubled-vertex broken:unused-vertices broken:any-faces "
