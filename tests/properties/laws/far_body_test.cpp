@@ -10,7 +10,7 @@
 namespace assay::properties {
 namespace {
 
-// Counts how many pieces of one loop a lane had, while the lanes take turns.
+// Notes the most pieces of one loop; two lanes take them in turns.
 class CountingArena : public detector::ThreadArena {
  public:
   explicit CountingArena(std::size_t& most) : most_(most) {}
@@ -42,7 +42,9 @@ TEST(FarBody, SharesWorkOutAndChangesNoAnswer) {
     const auto expected = alone.value().step(small.frames[0], small.frames[1]);
     const auto found = shared.value().step(large->frames[0], large->frames[1]);
     EXPECT_EQ(found.answer, expected.answer);
-    EXPECT_EQ(found.pairs, expected.pairs);
+    EXPECT_TRUE(std::equal(
+        found.pairs.begin(), found.pairs.end(), expected.pairs.begin(), expected.pairs.end(),
+        [](const auto& a, const auto& b) { return a.pair == b.pair && a.time == b.time; }));
     EXPECT_GE(most, 4u);
     collisions += expected.answer == detector::Answer::collision ? 1 : 0;
   }
