@@ -69,8 +69,8 @@ constexpr Family family_table[] = {
      true, true, make<closed_exact>},
     {"closed-far-large-step", "far from the origin, mixed scales, denormals, large steps", true,
      false, make<closed_far>},
-    {"unclosed-generic", "1 to 4 holes, sheets, open tubes, spirals", false, false,
-     make<unclosed_generic>},
+    {"unclosed-generic", "1 to 4 holes, sheets, open tubes, spirals, rings that close", false,
+     false, make<unclosed_generic>},
     {"unclosed-degenerate", "as closed-degenerate, with holes", false, true, make<unclosed_exact>},
     {"unclosed-near-degenerate", "as closed-near-degenerate, with holes", false, false,
      make<unclosed_near>},
@@ -125,8 +125,15 @@ void move_freely(Random& random, Draft& draft, int steps, const Recipe& recipe) 
   const bool returns = steps > 1 && random.one_in(3);
   const int forward = returns ? (steps + 1) / 2 : steps;
   for (int s = 0; s < forward; ++s) {
-    const Motion& motion = *any_of(random, chosen);
     Points x = draft.frames.back();
+    if (s == 0 && !draft.closing.empty() && !random.one_in(4)) {
+      for (std::size_t v = 0; v < draft.closing.size(); ++v) x[v] = x[v] + draft.closing[v];
+      if (random.one_in(3)) roughen(random, x, 0x1p-8);
+      draft.frames.push_back(std::move(x));
+      draft.tag("motion:closing");
+      continue;
+    }
+    const Motion& motion = *any_of(random, chosen);
     const double amount = random.one_in(5) ? 1.0 : usual / std::sqrt(static_cast<double>(forward));
     motion.move(random, draft, x, amount);
     if (motion.level && !recipe.exact) roughen(random, x, amount);

@@ -38,7 +38,61 @@ double length_of_some_edge(Random& random, const corpus::Case& c) {
   return sum;
 }
 
+// Two features of the pair, unless those that are drawn share a vertex.
+void leave_out_features(Random& random, const corpus::Case& c, const detector::TrianglePair& pair,
+                        CountedPairs& pairs) {
+  const auto [of, face] = random.one_in(2) ? std::pair(pair.a, pair.b) : std::pair(pair.b, pair.a);
+  const auto turned = [&](std::int32_t t) {
+    Face corners = {c.triangles(t, 0), c.triangles(t, 1), c.triangles(t, 2)};
+    std::rotate(corners.begin(), corners.begin() + random.below(3), corners.end());
+    return corners;
+  };
+  const Face a = turned(of), b = turned(face);
+  const std::array edge_a = {a[0], a[1]}, edge_b = {b[0], b[1]};
+  if (random.one_in(2)) {
+    if (!has(b, a[0])) pairs.vertex_faces.push_back({a[0], face});
+  } else if (std::find_first_of(edge_a.begin(), edge_a.end(), edge_b.begin(), edge_b.end()) ==
+             edge_a.end()) {
+    pairs.edge_pairs.push_back({edge_a, edge_b});
+  }
+}
+
 }  // namespace
+
+CountedPairs relation_without(LeftOut left_out, Random& random, const corpus::Case& c,
+                              std::span<const detector::PairContact> in_contact) {
+  CountedPairs pairs;
+  pairs.level =
+      random.one_in(4) ? detector::CountedLevel::features : detector::CountedLevel::triangles;
+  switch (left_out) {
+    case LeftOut::nothing:
+      break;
+    case LeftOut::bodies:
+      choose_bodies(random, c, pairs);
+      break;
+    case LeftOut::rings:
+      pairs.rings = random.between(1, 2);
+      break;
+    case LeftOut::near_at_rest: {
+      const double length = length_of_some_edge(random, c);
+      const double nearer = std::ldexp(length, -random.between(0, 10));
+      if (!std::isfinite(nearer)) break;
+      pairs.rest_distance = nearer;
+      pairs.rest = corpus::points_of(any_of(random, c.frames));
+      break;
+    }
+    case LeftOut::single_pairs:
+      for (const auto& contact : in_contact) {
+        if (random.one_in(2)) continue;
+        if (pairs.level == detector::CountedLevel::features) {
+          leave_out_features(random, c, contact.pair, pairs);
+        } else {
+          pairs.triangle_pairs.push_back(contact.pair);
+        }
+      }
+  }
+  return pairs;
+}
 
 void add_relation(Random& random, GeneratedCase& made) {
   corpus::Case& c = made.c;

@@ -150,6 +150,11 @@ corpus::Case with_steps(const corpus::Case& c, const std::vector<std::size_t>& p
   return out;
 }
 
+double extent_of(const corpus::Case& c) {
+  const auto& x = c.frames.front();
+  return x.rows() == 0 ? 0 : (x.colwise().maxCoeff() - x.colwise().minCoeff()).maxCoeff();
+}
+
 std::vector<Edge> edges_of(const corpus::Case& c) {
   if (const auto query = says_query(c) ? query_of(c) : std::nullopt) {
     if (query->first_group == 1) return {{1, 2}, {2, 3}, {3, 1}};

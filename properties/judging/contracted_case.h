@@ -29,6 +29,8 @@ std::string why_left_out(const corpus::Case& c, const Contract& contract);
 // The edges whose lengths count for a contract's range: of all triangles, or of the features of a
 // query.
 std::vector<Edge> edges_of(const corpus::Case& c);
+// The longest side of the mesh's box in its first frame.
+double extent_of(const corpus::Case& c);
 
 // The case with only the steps at these places, ascending, and the frames that they use. If the
 // contract goes by distances at rest, its first frame stays too, because that is at rest. What was

@@ -133,13 +133,15 @@ class LimitComparison {
 
   // Whether a pair may be one that the question is about.
   oracle::WantedPair counted_pairs() const {
+    // Relations refer to them.
+    const auto features =
+        std::make_shared<const oracle::MeshFeatures>(oracle::mesh_features(step_.triangles));
     std::vector<std::shared_ptr<oracle::PairRelation>> relations;
     for (const auto* pairs : {step_.options.counted, step_.options.tested}) {
       if (pairs && !pairs->count_all())
-        relations.push_back(
-            std::make_shared<oracle::PairRelation>(*pairs, oracle::mesh_features(step_.triangles)));
+        relations.push_back(std::make_shared<oracle::PairRelation>(*pairs, *features));
     }
-    return [this, relations](std::int32_t a, std::int32_t b) {
+    return [this, features, relations](std::int32_t a, std::int32_t b) {
       return !leaves_out(contract_, step_.triangles, {a, b}) &&
              std::all_of(relations.begin(), relations.end(),
                          [&](const auto& relation) { return relation->counts_faces(a, b); });

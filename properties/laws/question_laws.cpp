@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "detector/assembly.h"
+#include "properties/judging/contracted_case.h"
 #include "properties/judging/step_truth.h"
 #include "properties/judging/trial.h"
 #include "properties/laws/metamorphic/result_equality.h"
@@ -25,8 +26,7 @@ constexpr std::size_t most_triangles_apart = 40;
 
 // A power of two, from an eighth of the mesh down to its 2^-20; 0 for a mesh without extent.
 double drawn_distance(const CaseFacts& facts, Random& random) {
-  const auto& x = facts.source().frames.front();
-  const double extent = (x.colwise().maxCoeff() - x.colwise().minCoeff()).maxCoeff();
+  const double extent = extent_of(facts.source());
   if (!(extent > 0) || !std::isfinite(extent)) return 0;
   return std::ldexp(1, std::ilogb(extent) - random.between(3, random.one_in(4) ? 20 : 8));
 }

@@ -67,12 +67,6 @@ void scale_all(Places& places, int exponent) {
   }
 }
 
-// The longest side of the mesh's box in its first frame.
-double extent_of(const corpus::Case& c) {
-  const auto& x = c.frames.front();
-  return x.rows() == 0 ? 0 : (x.colwise().maxCoeff() - x.colwise().minCoeff()).maxCoeff();
-}
-
 // The length of most edges of a large mesh, and the longest side of a small one. A contract's
 // distances are told in it, so that a large mesh does not lie within them as a whole.
 double unit_of(const corpus::Case& c) {

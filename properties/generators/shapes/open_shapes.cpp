@@ -108,6 +108,34 @@ Draft spiral(Random& random, int size) {
   return d;
 }
 
+// A ring with a gap, which closes when all vertices go their way (Draft::closing): a flat one, a
+// tube with an open seam, or a sheet that curls onto its own border. Its two ends then meet, only
+// just miss each other, or pass. A ramp takes some ends past each other.
+Draft open_ring(Random& random, int size) {
+  const int rows = random.between(1, size < 24 ? 1 : 3), along = std::max(6, size / (2 * rows));
+  const bool flat = random.one_in(2);
+  const double width = 0.25 + 0.5 * random.unit();
+  const double ramp = random.one_in(2) ? 0 : 0.25 * random.signed_unit();
+  const double gap = random.one_in(3) ? 0.5 : 0.25 * (0.125 + random.unit());
+  constexpr std::array over = {0.0, 0.0, 0x1p-30, -0x1p-30, 0x1p-8, -0x1p-8, 0x1p-4};
+  const double closed = 1 + any_of(random, over);
+  // A rolled sheet keeps the length of its columns.
+  const auto place = [=](int i, int j, double turns) -> Point {
+    const double share = 2.0 * j / along - 1, turn = turns * share / 2;
+    const double radius = flat ? 1 + width * i / rows : 1 / turns;
+    const double height = (flat ? 0.0 : width * (2.0 * i / rows - 1)) + ramp * share;
+    return {radius * cos_turn(turn), radius * sin_turn(turn), height};
+  };
+  Draft d = grid(rows, along, false, [&](int i, int j) { return place(i, j, 1 - gap); });
+  for (int i = 0; i <= rows; ++i) {
+    for (int j = 0; j <= along; ++j)
+      d.closing.push_back(place(i, j, closed) - place(i, j, 1 - gap));
+  }
+  d.holes.push_back({0, 0, 0});
+  d.tag(flat ? "shape:flat-ring" : "shape:rolled-ring");
+  return d;
+}
+
 // Two holes of one triangle each that meet at a vertex only. The loop passes that vertex twice.
 Draft loop_twice_through_a_vertex(Random& random, int size) {
   Draft d = star_shape(random, std::max(size, 8));
@@ -139,7 +167,7 @@ Draft open_star_shape(Random& random, int size) {
 Draft open_shape(Random& random, int size) {
   // A shape that stands here twice is made twice as often.
   constexpr Draft (*shapes[])(Random&, int) = {
-      sheet,           sheet,           tube,     spiral,  loop_twice_through_a_vertex,
+      sheet,           open_ring,       tube,     spiral,  loop_twice_through_a_vertex,
       open_star_shape, open_star_shape, cut_open, cut_open};
   return any_of(random, shapes)(random, size);
 }

@@ -1,6 +1,6 @@
 // Rest shapes. Closed ones of one piece, and of two, which are apart, nested, one a cavity in the
 // other, or joined at a vertex or an edge. Unclosed ones (closed ones with holes, sheets, tubes,
-// spirals), and damaged ones.
+// spirals, rings with a gap that close), and damaged ones.
 #pragma once
 
 #include "properties/generators/draft.h"

@@ -1,0 +1,137 @@
+#include "properties/laws/options/drawn_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "properties/laws/options/covering_rows.h"
+#include "properties/random.h"
+
+namespace assay::properties {
+namespace {
+
+// The two factors that come with the case. A few of the small cases get a far body.
+enum class MeshClass : std::uint8_t { closed, open, broken };
+enum class SizeClass : std::uint8_t { few, some, many, far_body };
+
+MeshClass mesh_class(const CaseFacts& facts) {
+  return facts.surface().is_closed() ? MeshClass::closed
+         : facts.has_broken_edges()  ? MeshClass::broken
+                                     : MeshClass::open;
+}
+
+SizeClass size_class(const CaseFacts& facts, Random& random) {
+  constexpr std::size_t few = 12, some = 60;
+  constexpr int one_small_case_in = 96;
+  const auto count = facts.surface().mesh.triangles.size();
+  if (count > some) return SizeClass::many;
+  if (random.one_in(one_small_case_in)) return SizeClass::far_body;
+  return count <= few ? SizeClass::few : SizeClass::some;
+}
+
+// Those that prove nothing are left out.
+constexpr detector::Arithmetic arithmetics[] = {detector::Arithmetic::exact,
+                                                detector::Arithmetic::bounded};
+constexpr std::uint8_t most_threads = 3;
+
+namespace factor {
+enum : std::size_t {
+  culling,
+  arithmetic,
+  start,
+  pairs,
+  threads,
+  state,
+  scale,
+  apart,
+  left_out,
+  question,
+  mesh,
+  size,
+};
+}  // namespace factor
+
+FactorSizes factor_sizes() {
+  return {all_values<detector::Culling>.size(),
+          std::size(arithmetics),
+          all_values<detector::Start>.size(),
+          all_values<detector::Pairs>.size(),
+          most_threads,
+          all_values<StateBefore>.size(),
+          2,
+          all_values<Apart>.size(),
+          all_values<LeftOut>.size(),
+          all_values<Question>.size(),
+          3,
+          4};
+}
+
+bool answers_separation(detector::Culling culling) {
+  return culling == detector::Culling::bvh || culling == detector::Culling::none;
+}
+
+bool may_meet(const TwoValues& two) {
+  const auto& [f, g, a, b] = two;
+  if (g == factor::apart && all_values<Apart>[b] != Apart::none)
+    return f == factor::culling      ? answers_separation(all_values<detector::Culling>[a])
+           : f == factor::arithmetic ? arithmetics[a] == detector::Arithmetic::exact
+           : f == factor::scale      ? a == 0
+                                     : true;
+  if (f == factor::apart && g == factor::size && all_values<Apart>[a] != Apart::none)
+    return static_cast<SizeClass>(b) != SizeClass::many;
+  if (g == factor::size && static_cast<SizeClass>(b) == SizeClass::far_body)
+    return f == factor::culling ? all_values<detector::Culling>[a] != detector::Culling::none
+           : f == factor::scale ? a == 0
+           : f == factor::start ? all_values<detector::Start>[a] != detector::Start::clean
+                                : true;
+  return true;
+}
+
+DrawnOptions options_of(const FactorRow& row) {
+  DrawnOptions d;
+  d.options.culling = all_values<detector::Culling>[row[factor::culling]];
+  d.options.arithmetic = arithmetics[row[factor::arithmetic]];
+  d.options.start = all_values<detector::Start>[row[factor::start]];
+  d.options.pairs = all_values<detector::Pairs>[row[factor::pairs]];
+  d.options.threads = row[factor::threads] + 1u;
+  d.state = all_values<StateBefore>[row[factor::state]];
+  d.is_scaled = row[factor::scale] != 0;
+  d.apart = all_values<Apart>[row[factor::apart]];
+  d.left_out = all_values<LeftOut>[row[factor::left_out]];
+  d.question = all_values<Question>[row[factor::question]];
+  d.has_far_body = static_cast<SizeClass>(row[factor::size]) == SizeClass::far_body;
+  return d;
+}
+
+}  // namespace
+
+std::string DrawnOptions::text() const {
+  return fmt::format(
+      "{}, {}, start {}, pairs {}, {} threads, {}{}, {}, {} left out, {}{}",
+      name_of(options.culling), name_of(options.arithmetic), name_of(options.start),
+      name_of(options.pairs), options.threads, name_of(state), is_scaled ? ", scaled" : "",
+      options.separation > 0 ? fmt::format("within {}", options.separation) : name_of(apart),
+      name_of(left_out), name_of(question), has_far_body ? ", far body" : "");
+}
+
+DrawnOptions drawn_options(const CaseFacts& facts) {
+  constexpr std::uint64_t arrays = 16;
+  static const auto all = [] {
+    std::vector<std::vector<FactorRow>> made;
+    for (std::uint64_t seed = 0; seed < arrays; ++seed)
+      made.push_back(covering_rows(factor_sizes(), seed, may_meet));
+    return made;
+  }();
+  const auto own = static_cast<std::uint64_t>(facts.options().culling);
+  Random random(Random::hash(facts.source().id), own);
+  const auto& array = all[random.next() % arrays];
+  const auto mesh = static_cast<std::uint8_t>(mesh_class(facts));
+  const auto size = static_cast<std::uint8_t>(size_class(facts, random));
+  std::vector<FactorRow> fitting;
+  std::copy_if(array.begin(), array.end(), std::back_inserter(fitting), [&](const FactorRow& row) {
+    return row[factor::mesh] == mesh && row[factor::size] == size;
+  });
+  return options_of(fitting[random.next() % fitting.size()]);
+}
+
+}  // namespace assay::properties

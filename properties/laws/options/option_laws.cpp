@@ -1,0 +1,303 @@
+// The claims of the detector, in a configuration that is drawn so that every two values of options,
+// question, state, mesh and size meet.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "detector/assembly.h"
+#include "oracle/mesh/pair_relation.h"
+#include "properties/generators/approaches.h"
+#include "properties/judging/contracted_case.h"
+#include "properties/judging/step_truth.h"
+#include "properties/judging/trial.h"
+#include "properties/laws/metamorphic/forms.h"
+#include "properties/laws/options/drawn_options.h"
+#include "properties/laws/options/far_body.h"
+#include "properties/laws/step_law.h"
+#include "properties/random.h"
+#include "properties/worker/case_player.h"
+
+namespace assay::properties {
+namespace {
+
+using detector::Answer, detector::StepLimit, detector::StepResult, detector::StopFunction;
+
+// What the oracle is asked about, and what the detector is given instead: behind the step that the
+// state asks for, and with its far body.
+struct Posed {
+  corpus::Case judged, played;
+  DrawnOptions drawn;
+};
+
+// The case behind the step that the state asks for.
+corpus::Case with_step_before(corpus::Case c, StateBefore state) {
+  const auto last = static_cast<std::int32_t>(c.frames.size()) - 1;
+  auto script = corpus::steps_of(c);
+  if (state == StateBefore::elsewhere) script.insert(script.begin(), {last, last, true});
+  if (state == StateBefore::carried) script.insert(script.begin(), {last, script[0].from, true});
+  c.script = std::move(script);
+  return c;
+}
+
+// Some cases have no such form: then what was drawn is taken back.
+void leave_out(DrawnOptions& d, Random& random, const CaseFacts& facts, corpus::Case& c) {
+  if (d.left_out == LeftOut::nothing) return;
+  std::vector<detector::PairContact> in_contact;
+  for (std::size_t s = 0; s < facts.steps(); ++s) {
+    const auto& pairs = facts.judgement(s).pairs;
+    in_contact.insert(in_contact.end(), pairs.begin(), pairs.end());
+  }
+  auto relation = relation_without(d.left_out, random, c, in_contact);
+  if (relation.count_all() || c.counted) {
+    d.left_out = LeftOut::nothing;
+  } else {
+    c.counted = corpus::CaseRelation{std::move(relation), {}};
+  }
+}
+
+// A power of two, from a quarter of the mesh down to its 2^-12.
+double separation_of(const DrawnOptions& d, Random& random, const corpus::Case& c) {
+  const double extent = extent_of(c);
+  if (d.apart == Apart::none || !(extent > 0x1p-400 && extent < 0x1p400)) return 0;
+  const int halvings = d.apart == Apart::much ? random.between(2, 4) : random.between(5, 12);
+  return std::ldexp(1, std::ilogb(extent) - halvings);
+}
+
+Posed posed(const CaseFacts& facts) {
+  Posed p{facts.source(), {}, drawn_options(facts)};
+  auto& d = p.drawn;
+  Random random(Random::hash(p.judged.id), Random::hash("what is asked"));
+  auto scaled = d.is_scaled ? scaled_form(p.judged) : std::nullopt;
+  d.is_scaled = scaled.has_value();
+  if (scaled) p.judged = std::move(scaled->c);
+  leave_out(d, random, facts, p.judged);
+  d.options.separation = separation_of(d, random, p.judged);
+  if (d.options.separation == 0) d.apart = Apart::none;
+  // Two features that only just come within it, or only just do not.
+  if (d.apart != Apart::none && d.options.start != detector::Start::clean && random.one_in(2))
+    p.judged = with_approach(std::move(p.judged), d.options.separation, random);
+  auto large = d.has_far_body ? with_far_body(p.judged, d.options.separation)
+                              : std::optional<corpus::Case>();
+  d.has_far_body = large.has_value();
+  p.played = with_step_before(large ? std::move(*large) : p.judged, d.state);
+  return p;
+}
+
+// What the oracle says of each step of the posed case. It is asked anew only where what it said of
+// the case does not tell.
+std::vector<oracle::StepJudgement> truth_of(const Posed& p, const CaseFacts& facts) {
+  const auto* counted = corpus::counted_of(p.judged);
+  const auto features = oracle::mesh_features(p.judged.triangles);
+  const auto relation = counted
+                            ? std::optional<oracle::PairRelation>(std::in_place, *counted, features)
+                            : std::nullopt;
+  oracle::JudgeOptions asked;
+  asked.counted = counted;
+  std::vector<oracle::StepJudgement> truth;
+  for (std::size_t s = 0; s < facts.steps(); ++s) {
+    if (p.drawn.options.separation > 0 || (relation && relation->is_of_features())) {
+      const auto& step = facts.script(s);
+      truth.push_back(judge_under(contract_of(p.drawn.options),
+                                  {start_of(p.judged, step), end_of(p.judged, step)},
+                                  p.judged.triangles, asked));
+      continue;
+    }
+    truth.push_back(facts.judgement(s));
+    auto& of_step = truth.back();
+    if (!relation) continue;
+    keep_counted(relation, of_step.pairs);
+    const auto first =
+        std::min_element(of_step.pairs.begin(), of_step.pairs.end(),
+                         [](const auto& a, const auto& b) { return a.time < b.time; });
+    const bool meets = first != of_step.pairs.end();
+    of_step.first = meets ? first->time : detector::TimeEnclosure{};
+    if (of_step.complete) of_step.answer = meets ? Answer::collision : Answer::free;
+  }
+  return truth;
+}
+
+// Goes on in a detector that was made elsewhere, and has committed something else.
+bool go_on_elsewhere(CasePlayer& player, const corpus::Case& c, detector::Options options,
+                     const StagesOf& stages_of) {
+  options.counted = corpus::counted_of(c);
+  const auto saved = detector::SavedState::read(player.detector().state().bytes());
+  const auto& elsewhere = c.frames.back();
+  auto made = detector::assemble(c.triangles, elsewhere, options, stages_of(options));
+  if (!saved || !made) return false;
+  made.value().step(elsewhere, elsewhere);
+  if (made.value().restore(saved.value())) return false;
+  player.detector() = std::move(made.value());
+  return true;
+}
+
+// What a question before a step showed.
+struct Asked {
+  std::string wrong;
+  std::optional<StepLimit> limit;  // to be judged
+};
+
+bool is_the_same(const StepLimit& a, const StepLimit& b) {
+  return a.answer == b.answer && a.share == b.share && a.positions == b.positions &&
+         a.first == b.first;
+}
+
+// Asks once to its end, to count how often the stop function is asked; then one of these times is
+// the last. `ask` gives what is wrong with an answer of which it is told that it was stopped.
+template <class Ask>
+std::string ask_and_stop(Random& random, detector::Detector& detector, const Ask& ask) {
+  const auto state = detector.state().bytes();
+  int times = 0, asked = 0;
+  ask([&] { return ++times, false; }, false);
+  if (times == 0) return "";
+  const int last = random.between(1, times);
+  // With several threads it may be asked less often than before.
+  std::string wrong = ask([&] { return ++asked == last; }, true);
+  if (asked < last) return "";
+  if (wrong.empty() && !detector.commit()) wrong = "what was stopped is committed";
+  if (wrong.empty() && detector.state().bytes() != state) wrong = "what was stopped leaves a trace";
+  return wrong;
+}
+
+Asked ask_before(Question question, Random& random, CasePlayer& player, std::size_t s) {
+  auto& detector = player.detector();
+  const auto &x_t0 = player.x_t0(s), &x_t1 = player.x_t1(s);
+  const auto stopped_step = [&](const StopFunction& stop, bool is_stopped) -> std::string {
+    const auto answer = player.look(s, stop).answer;
+    return is_stopped && answer != Answer::undecided
+               ? fmt::format("a stopped step is {}", name_of(answer))
+               : "";
+  };
+  StepLimit whole;
+  const auto stopped_limit = [&](const StopFunction& stop, bool is_stopped) -> std::string {
+    auto limit = detector.limit(x_t0, x_t1, stop);
+    if (!is_stopped) {
+      whole = std::move(limit);
+    } else if (limit.answer != Answer::undecided || limit.share != 0 || limit.positions != x_t0) {
+      return fmt::format("a stopped limit is {}, share {}", name_of(limit.answer), limit.share);
+    }
+    return "";
+  };
+  switch (question) {
+    case Question::none:
+      return {};
+    case Question::limit:
+      return {"", detector.limit(x_t0, x_t1)};
+    case Question::stopped_step:
+      return {ask_and_stop(random, detector, stopped_step), {}};
+    case Question::stopped_limit: {
+      auto wrong = ask_and_stop(random, detector, stopped_limit);
+      if (wrong.empty() && !is_the_same(whole, detector.limit(x_t0, x_t1)))
+        wrong = "a limit differs after one that was stopped";
+      return {wrong, {}};
+    }
+  }
+  return {};
+}
+
+struct PlayedStep {
+  StepResult result;
+  Asked asked;
+};
+
+// One for each step of the case; fewer if a state was not taken, or the mesh is refused.
+std::vector<PlayedStep> play(const Posed& p, const StagesOf& stages_of) {
+  const auto& [options, state] = std::tie(p.drawn.options, p.drawn.state);
+  auto player = CasePlayer::make(p.played, options, stages_of(options));
+  if (!player) return {};
+  const auto steps = player.value().steps();
+  if (state == StateBefore::reset) {
+    for (std::size_t s = 0; s < steps; ++s) player.value().play(s);
+    player.value().detector().reset();
+  }
+  Random random(Random::hash(p.played.id), Random::hash("where it is stopped"));
+  std::vector<PlayedStep> played;
+  for (std::size_t s = 0; s < steps; ++s) {
+    if (state == StateBefore::restored &&
+        !go_on_elsewhere(player.value(), p.played, options, stages_of))
+      break;
+    Asked asked = ask_before(p.drawn.question, random, player.value(), s);
+    played.push_back({player.value().play(s), std::move(asked)});
+  }
+  return played;
+}
+
+// What is wrong with a limit, or empty.
+std::string fault_of(const StepLimit& limit, const Posed& p, const corpus::CaseStep& step,
+                     const oracle::StepJudgement& truth) {
+  if (limit.problem) return "a limit is refused";
+  Contract contract = contract_of(p.drawn.options);
+  contract.progress = 0.9;
+  // Bounded arithmetic may see a contact too early, or where there is none.
+  const Claims claims = p.drawn.options.arithmetic == detector::Arithmetic::exact
+                            ? claims_on_limits
+                            : Claims{Claim::commit_free, Claim::path_free};
+  oracle::JudgeOptions asked;
+  asked.counted = corpus::counted_of(p.judged);
+  const auto& x_t0 = start_of(p.judged, step);
+  StepDiff diff;
+  judge_limit(LimitAnswer{limit.share, limit.positions.topRows(x_t0.rows())},
+              {{x_t0, end_of(p.judged, step)}, p.judged.triangles, asked}, truth, claims, contract,
+              diff);
+  return diff.broken.empty() ? "" : fmt::format("limit: {}", name_of(diff.broken.front()));
+}
+
+// Whether what the caller vouches for is true (CaseFacts::is_trusted). A step without views does
+// not tell its apexes. All that it takes from a clean start is that nothing pierces its own
+// component there; what has ghosts it leaves dirty (L15). So it will do if with the apexes of
+// `facts` all is clean.
+bool is_vouched_rightly(CaseFacts& told, CaseFacts& facts, std::size_t s, std::size_t before) {
+  if (told.is_trusted(s)) return true;
+  if (const auto& known = told.known_from(s))
+    return is_vouched_rightly(told, facts, *known, before);
+  if (s < before || told.has_views(s) || !facts.has_views(s - before)) return false;
+  const auto& clean = facts.layers_at_start(s - before).clean;
+  return std::all_of(clean.begin(), clean.end(), [](std::uint8_t c) { return c != 0; });
+}
+
+void check_options(CaseFacts& facts, LawTally& tally) {
+  if (!facts.stages_of()) return;
+  const Posed p = posed(facts);
+  const auto& options = p.drawn.options;
+  const auto played = play(p, facts.stages_of());
+  const std::size_t steps = corpus::steps_of(p.played).size(), before = steps - facts.steps();
+  if (played.size() < steps) {
+    note(facts, 0, p.drawn.text() + ": refused", tally);
+    return;
+  }
+  const auto truth = truth_of(p, facts);
+  std::vector<StepResult> results;
+  for (const auto& step : played) results.push_back(step.result);
+  std::vector<oracle::StepJudgement> judgements(before);
+  judgements.insert(judgements.end(), truth.begin(), truth.end());
+  CaseFacts told(p.played, options, results, judgements, facts.surface(), facts.stages_of());
+  const Claims claims = claims_of(options);
+  const Contract contract = contract_of(options);
+  for (std::size_t s = 0; s < facts.steps(); ++s) {
+    if (!truth[s].complete || !is_vouched_rightly(told, facts, s + before, before)) continue;
+    const auto& [result, asked] = played[s + before];
+    const auto diff = compare(result, truth[s], claims, contract, p.played.triangles);
+    std::string wrong = diff.outcome == Outcome::defect
+                            ? failure_of(diff, result, contract).explanation
+                            : asked.wrong;
+    if (wrong.empty() && asked.limit) wrong = fault_of(*asked.limit, p, facts.script(s), truth[s]);
+    note(facts, s, wrong.empty() ? holds() : fmt::format("{}: {}", p.drawn.text(), wrong), tally);
+  }
+}
+
+constexpr Law option_law_table[] = {
+    {"Claim_InEveryPairOfOptions", "claim",
+     "In a configuration that is drawn so that every two values of culling, arithmetic, start, "
+     "pairs, threads, separation, relation, question, state before the case, mesh and size meet, "
+     "the claims hold. Limits are asked for too, and steps and limits are stopped. Where the "
+     "caller "
+     "vouches for a clean start, that is true.",
+     "contacts, what comes within a distance, and layers of a clean start", check_options, 4},
+};
+
+}  // namespace
+
+std::span<const Law> option_laws() { return option_law_table; }
+
+}  // namespace assay::properties
