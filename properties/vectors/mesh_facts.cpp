@@ -8,6 +8,7 @@
 #include "properties/judging/judged_run.h"
 #include "properties/reducer/case_edits.h"
 #include "properties/search/focus.h"
+#include "properties/search/gap.h"
 #include "properties/vectors/query_facts.h"
 
 namespace assay::properties {
@@ -155,6 +156,7 @@ std::optional<Vector> mesh_vector(corpus::Case c, VectorQuestion question,
       points.push_back(motion.path(static_cast<std::int32_t>(v)));
     flags.merge(number_flags_of(points, precision));
   }
+  vector.hard = {name_of(Hardness::distance), 0};  // of a mesh without two features
   Random random("focus");
   if (const auto focus = focus_of(c, truth, {}, random)) {
     const auto query = query_at(c, *focus);
