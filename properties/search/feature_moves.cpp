@@ -124,7 +124,8 @@ void step_on_lattice(Random& random, FourPoints& q, Coordinates coordinates) {
   double& x = one_of(random, end);
   const int steps = random.between(1, 3) * (random.one_in(2) ? 1 : -1);
   if (x != 0) {
-    x = neighbour(x, steps, coordinates);
+    const double next = neighbour(x, steps, coordinates);
+    if (std::isfinite(next)) x = next;
     return;
   }
   double size = 0;

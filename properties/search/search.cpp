@@ -147,6 +147,18 @@ struct Swarm {
   }
 };
 
+// Whether all is a number: moves may overflow.
+bool is_finite(const corpus::Case& c) {
+  const auto are_numbers = [](const std::vector<detector::Point>& points) {
+    return std::all_of(points.begin(), points.end(), [](const detector::Point& p) {
+      return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+    });
+  };
+  if (c.view && !(are_numbers(c.view->q0) && are_numbers(c.view->q1))) return false;
+  return std::all_of(c.frames.begin(), c.frames.end(),
+                     [](const auto& frame) { return frame.allFinite(); });
+}
+
 class LaneSearch {
  public:
   LaneSearch(const SearchLane& lane, const SearchSpace& space)
@@ -190,9 +202,7 @@ class LaneSearch {
       Random random(id);
       corpus::Case made = draw(random, id);
       made.id = id;
-      const bool is_finite = std::all_of(made.frames.begin(), made.frames.end(),
-                                         [](const auto& frame) { return frame.allFinite(); });
-      if (made.frames.size() < 2 || !is_finite) continue;
+      if (made.frames.size() < 2 || !is_finite(made)) continue;
       if (made.triangles.rows() > swarm_.most_triangles || made.frames.size() > swarm_.most_frames)
         continue;
       if (auto seen = contracted(made, space_.contract)) return seen;
@@ -225,7 +235,7 @@ class LaneSearch {
       const auto place = random.below(static_cast<int>(swarm_.moves.size()));
       const Move& move = *swarm_.moves[static_cast<std::size_t>(place)];
       if (!move.of_mesh || !says_query(made.c)) move.make(random, made, context);
-    } while (random.one_in(2));
+    } while (random.one_in(2) && is_finite(made.c));
     if (is_same(made.c, parent->c)) made.c.frames.clear();
     return made.c;
   }

@@ -24,7 +24,7 @@ constexpr const char* head = R"(<!DOCTYPE html>
     --open-ground: #33290f; }
 }
 * { box-sizing: border-box; }
-body { margin: 0 auto; max-width: 72rem; padding: 1.5rem 1rem 3rem; background: var(--ground);
+body { margin: 0 auto; max-width: 80rem; padding: 1.5rem 1rem 3rem; background: var(--ground);
   color: var(--text); font: 15px/1.5 system-ui, "Segoe UI", "Liberation Sans", sans-serif; }
 h1 { font-size: 1.5rem; margin: 0; }
 h2 { font-size: 1.2rem; margin: 2.2rem 0 .6rem; padding-top: .8rem;
@@ -39,8 +39,8 @@ th, td { border-bottom: 1px solid var(--line); padding: .35rem .5rem; text-align
 th:first-child, td.words { text-align: left; }
 thead th { vertical-align: bottom; }
 .wide { overflow-x: auto; }
-.matrix tbody th { min-width: 14rem; }
-.matrix thead th:not(:first-child) { min-width: 4.6rem; max-width: 8rem; overflow-wrap: anywhere; }
+.matrix tbody th { min-width: 12rem; }
+.matrix thead th:not(:first-child) { min-width: 4.2rem; max-width: 7rem; overflow-wrap: anywhere; }
 .matrix small, .chip small { display: block; line-height: 1.3; }
 .matrix td { white-space: nowrap; }
 .matrix td b, .chip b { font-weight: 600; }
