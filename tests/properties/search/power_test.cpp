@@ -3,6 +3,8 @@
 //
 // ASSAY_RACE_SEEDS=15 ASSAY_RACE_SECONDS=20 properties_search_tests --gtest_filter=*Table* prints
 // the table, of the faults in ASSAY_RACE_FAULTS (names with commas; "all") and of the peers.
+//
+// ASSAY_CAUSES_SECONDS=60 with --gtest_filter=*Causes* counts the distinct causes on each peer.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -69,6 +71,21 @@ TEST(Power, Table) {
         ("," + names + ",").find("," + std::string(fault.name) + ",") != std::string::npos;
     if (is_asked)
       print_row(std::string(fault.name), race(test::runner_of(fault), std::stoi(seeds), limits));
+  }
+}
+
+TEST(Power, Causes) {
+  const auto seconds = word_from("ASSAY_CAUSES_SECONDS");
+  if (seconds.empty()) GTEST_SKIP() << "ASSAY_CAUSES_SECONDS is not set";
+  for (const char* peer :
+       {"cubic_double", "cubic_float", "cubic_eigen", "fcl_elementary", "bullet_bernstein"}) {
+    const auto runner = test::runner_of_peer(peer);
+    if (!runner) continue;
+    const auto by_search = test::signatures_by_search(*runner, std::stod(seconds));
+    const auto at_random = test::signatures_at_random(*runner, std::stod(seconds));
+    fmt::print("{:20} {:>5} causes by search {:>5} at random\n", peer, by_search.size(),
+               at_random.size());
+    std::fflush(stdout);
   }
 }
 

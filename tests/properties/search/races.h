@@ -109,15 +109,16 @@ inline FirstDefect race_at_random(const Runner& runner, int seed, const RaceLimi
   return first;
 }
 
-// `causes`: if it is given, the race goes on after the first defect, and the distinct signatures
-// that are found stand there.
+inline SearchSpace racing_space(const Runner& runner) {
+  const auto& contract = runner.detector.contract;
+  return {contract,
+          case_sources({true, false, ASSAY_SOURCE_DIR "/corpus/curated", runner.shows_it_as_it_is}),
+          [&contract](corpus::Case c) { return brought_into_contract(std::move(c), contract); }};
+}
+
 inline FirstDefect race_by_search(const Runner& runner, int seed, const RaceLimits& limits) {
   FirstDefect first;
-  const auto& contract = runner.detector.contract;
-  const SearchSpace space{
-      contract,
-      case_sources({true, false, ASSAY_SOURCE_DIR "/corpus/curated", runner.shows_it_as_it_is}),
-      [&](corpus::Case c) { return brought_into_contract(std::move(c), contract); }};
+  const SearchSpace space = racing_space(runner);
   const ProcessorClock clock;
   const JudgeCases judge = [&](std::span<const corpus::Case> cases) {
     std::vector<SearchedCase> judged;
@@ -138,6 +139,45 @@ inline FirstDefect race_by_search(const Runner& runner, int seed, const RaceLimi
     search({fmt::format("race:{}:{}", seed, lane), 500}, space, judge, stop);
   if (!first.found) first.seconds = clock.seconds();
   return first;
+}
+
+// The distinct signatures of defects that are met in so many seconds of processor time.
+struct Signatures {
+  std::set<std::string> met;
+  void take(const SearchedCase& judged) {
+    if (const auto& failure = judged.trials[0].failure) met.insert(failure->signature());
+  }
+};
+
+inline std::set<std::string> signatures_at_random(const Runner& runner, double seconds) {
+  Signatures signatures;
+  const ProcessorClock clock;
+  const auto known = families();
+  for (std::uint64_t i = 0; clock.seconds() < seconds; ++i) {
+    const auto& family = known[i % known.size()];
+    const auto c = case_within(runner.detector.contract, family,
+                               fmt::format("causes:{}:{}", family.name, i / known.size()));
+    if (c.seen) signatures.take(judged_by(runner, *c.seen));
+  }
+  return signatures.met;
+}
+
+inline std::set<std::string> signatures_by_search(const Runner& runner, double seconds) {
+  Signatures signatures;
+  const SearchSpace space = racing_space(runner);
+  const ProcessorClock clock;
+  const JudgeCases judge = [&](std::span<const corpus::Case> cases) {
+    std::vector<SearchedCase> judged;
+    for (const auto& c : cases) {
+      judged.push_back(judged_by(runner, c));
+      signatures.take(judged.back());
+    }
+    return judged;
+  };
+  const auto stop = [&] { return clock.seconds() >= seconds; };
+  for (int lane = 1; !stop(); ++lane)
+    search({fmt::format("causes:{}", lane), 500}, space, judge, stop);
+  return signatures.met;
 }
 
 }  // namespace assay::properties::test
