@@ -137,7 +137,7 @@ void sweep_steps(const corpus::Case& c, std::span<const Options> subjects, int r
       measurements.push_back([&, i] {
         tick();
         auto& [all_ns, broad_phase_ns, result, hash, differs] = swept[i];
-        const double ns = ns_of([&] { result = players[i].look(s); });
+        const double ns = ns_of([&, &looked = result] { looked = players[i].look(s); });
         if (result.answer == Answer::error)
           throw UnusableData(c.id + ": " + result.problem->message);
         const auto hash_now = result_hash(result);

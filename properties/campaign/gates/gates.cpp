@@ -298,7 +298,7 @@ GateFindings check_speed(const RunFindings& f, const Asked&) {
     for (const auto& [figure, limit] : limits) {
       const auto& measured = f.evidence.speed;
       const auto one = std::find_if(measured.begin(), measured.end(),
-                                    [&](const SpeedFigure& m) { return m.name == figure; });
+                                    [&name = figure](const SpeedFigure& m) { return m.name == name; });
       if (one == measured.end()) {
         found.against.push_back(fmt::format("{} was not measured", figure));
       } else if (one->median > limit) {

@@ -145,9 +145,9 @@ std::string speed_error_picture(std::span<const VariantSummary> variants) {
   std::uint64_t judged = 0;
   for (const auto& [arithmetic, colour] : arithmetic_looks) {
     for (const auto& [culling, point_type] : marks) {
-      const auto v = std::find_if(variants.begin(), variants.end(), [&](const auto& one) {
-        return one.variant == Variant{arithmetic, culling, detector::Pairs::all};
-      });
+      const Variant drawn{arithmetic, culling, detector::Pairs::all};
+      const auto v = std::find_if(variants.begin(), variants.end(),
+                                  [&](const auto& one) { return one.variant == drawn; });
       if (v == variants.end()) continue;
       const bool hollow = is_hollow(arithmetic);
       points.push_back({fmt::format("pointtype {} pointsize {} linecolor '{}' linewidth {}",
