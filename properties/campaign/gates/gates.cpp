@@ -297,8 +297,9 @@ GateFindings check_speed(const RunFindings& f, const Asked&) {
   } else {
     for (const auto& [figure, limit] : limits) {
       const auto& measured = f.evidence.speed;
-      const auto one = std::find_if(measured.begin(), measured.end(),
-                                    [&name = figure](const SpeedFigure& m) { return m.name == name; });
+      const auto one =
+          std::find_if(measured.begin(), measured.end(),
+                       [&name = figure](const SpeedFigure& m) { return m.name == name; });
       if (one == measured.end()) {
         found.against.push_back(fmt::format("{} was not measured", figure));
       } else if (one->median > limit) {
