@@ -28,7 +28,8 @@ namespace {
 
 using detector::FourPoints;
 
-// How many cases a group may hold beside those that are wanted anyway, how many of one kind, and how many are tried of each source.
+// How many cases a group may hold beside those that are wanted anyway, how many of one kind, and
+// how many are tried of each source.
 struct Quotas {
   std::size_t of_queries, of_distances, of_steps, of_limits;  // in doubles; in floats a half
   std::size_t of_a_kind;

@@ -5,7 +5,7 @@
 
 namespace assay::properties {
 
-// "vertex-face/double.csv": the folder says which features a file holds.
+// The path within corpus/vectors/csv: the folder says which features a file holds.
 std::string csv_name(const VectorGroup& group);
 
 // Eight rows a query, each with the label and, of a distance, with the separation. What is

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <boost/outcome/try.hpp>
 #include <cmath>
+#include <set>
 
 #include "corpus/atomic_file.h"
 #include "corpus/digest.h"
@@ -424,6 +425,8 @@ Expected<ReadSet> read_set(const std::filesystem::path& folder) {
   BOOST_OUTCOME_TRYV(put(read.set.profile, text_at(object, "profile")));
   BOOST_OUTCOME_TRYV(put(read.digest, text_at(object, "digest")));
   BOOST_OUTCOME_TRY(groups, object.at("groups"));
+  std::string digested;
+  std::set<std::string> ids;
   const auto read_groups = [&](const JsonField& item) -> Expected<void> {
     BOOST_OUTCOME_TRY(name, text_at(item, "file"));
     BOOST_OUTCOME_TRY(wanted, text_at(item, "sha256"));
@@ -433,12 +436,19 @@ Expected<ReadSet> read_set(const std::filesystem::path& folder) {
     BOOST_OUTCOME_TRY(text, corpus::read_bytes(file));
     if (corpus::sha256_of(text) != wanted)
       return Problem{fmt::format("{}: is not the file that set.json names", file.string())};
+    digested += fmt::format("{}  {}\n", wanted, name);
     BOOST_OUTCOME_TRY(of_group, corpus::parse_json(text, file));
     BOOST_OUTCOME_TRY(group, read_group(JsonField(of_group, file)));
+    for (const auto& v : group.cases) {
+      if (!ids.insert(v.c.id).second)
+        return Problem{fmt::format("{}: case {} is there twice", file.string(), v.c.id)};
+    }
     read.set.groups.push_back(std::move(group));
     return boost::outcome_v2::success();
   };
   BOOST_OUTCOME_TRYV(for_each_item(groups, read_groups));
+  if (corpus::sha256_of(digested) != read.digest)
+    return object.problem("its digest is not that of its groups");
   return read;
 }
 

@@ -33,8 +33,8 @@ struct ReadSet {
   std::string version, digest;  // as set.json has it
 };
 
-// Refuses a folder without a set, files whose bytes are not those that set.json names, and cases
-// that are none.
+// Refuses a folder without a set, files whose bytes are not those that set.json names, a digest
+// that is not theirs, cases that are none, and an id that is there twice.
 Expected<ReadSet> read_set(const std::filesystem::path& folder);
 
 }  // namespace assay::properties

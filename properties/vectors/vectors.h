@@ -114,7 +114,7 @@ struct VectorFacts {
   // Integers c0, c1, ... The first time is a zero of c0 + c1 t + ... between its ends. Unless free.
   std::vector<std::string> polynomial;
   std::vector<corpus::ExpectedPair> pairs;  // of a mesh: all in contact, ascending
-  std::optional<double> least_distance;     // of a question about distance (feature_distance.h)
+  std::optional<double> least_distance;     // of a question about distance (oracle/distance)
   friend bool operator==(const VectorFacts&, const VectorFacts&) = default;
 };
 

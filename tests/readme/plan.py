@@ -23,6 +23,7 @@ LENT = "builds, and the build is only lent"
 EXAMPLES = "of files that the examples write; tests/reports/python runs those"
 MUTANTS = "compiles as the build did, and the build is only lent; test mutation_smoke runs the script"
 MISSES = "ends with 1, for the textbook test misses contacts; tests/corpus/vectors runs it"
+SET_TESTS = "takes minutes; the tests vectors_are_made and vectors_hold run it"
 BOUNDS = "the tests bounds, bounds_changes and bounds_contracted run it"
 
 # What the reader is to have at hand: made before the first command of that README.
@@ -42,6 +43,8 @@ GIVEN = {
 QUICK = {
     "corpus/vectors/README.md": [
         "cc -std=c99 -O2 corpus/vectors/examples/plain.c -o plain -lm",
+        "build/release/assay answer-vectors corpus/vectors --arithmetic exact --out build/exact.json",
+        "build/release/assay score build/exact.json --out build/matrix.html",
     ],
     "tests/README.md": [
         'RC_PARAMS="seed=7 max_success=1000 max_discard_ratio=100" ctest --preset law -R Laws.L3 --verbose',
@@ -112,13 +115,16 @@ NOT_RUN = {
             "ends with 1, for it finds defects, and wants Bullet; PeersSuite judges all peers that are present",
         "build/release/assay check --detector python:mine:MyDetector build/bend/frame_*.ply":
             "of a file of the reader's; tests/reports/python judges such",
+        "python3 corpus/vectors/vectors.py run -- ./your_program":
+            "of a program of the reader's; tests/corpus/vectors runs such",
         "reports/certify": "installs packages and builds; the slow list certifies by the program",
         "tests/run": RECURSION,
     },
     "corpus/vectors/README.md": {
         "python3 corpus/vectors/vectors.py run -- ./plain": MISSES,
         "python3 corpus/vectors/vectors.py check corpus/vectors": "tests/corpus/vectors does so",
-        "build/release/assay score results.json --out matrix.html": MISSES,
+        "build/release/assay vectors --out build/vectors": SET_TESTS,
+        "build/release/assay verify-vectors corpus/vectors": SET_TESTS,
     },
     "reports/README.md": {
         "reports/nightly --out build/night": NIGHT,

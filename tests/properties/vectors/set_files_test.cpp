@@ -115,6 +115,28 @@ TEST_F(VectorFiles, RefuseWhatTheDigestsDoNotName) {
   EXPECT_NE(read.error().message.find("steps-double.json"), std::string::npos);
 }
 
+TEST_F(VectorFiles, RefuseADigestThatIsNotThatOfTheGroups) {
+  const auto set = small_set();
+  ASSERT_TRUE(write_set(folder(), set));
+  const auto file = folder() / "set.json";
+  auto text = corpus::read_bytes(file).value();
+  const auto digest = digest_of(set);
+  text.replace(text.find(digest), digest.size(), std::string(digest.size(), '0'));
+  std::ofstream(file) << text;
+  const auto read = read_set(folder());
+  ASSERT_FALSE(read);
+  EXPECT_NE(read.error().message.find("its digest"), std::string::npos) << read.error().message;
+}
+
+TEST_F(VectorFiles, RefuseAnIdThatIsThereTwice) {
+  auto set = small_set();
+  set.groups[0].cases[1].c.id = set.groups[0].cases[0].c.id;
+  ASSERT_TRUE(write_set(folder(), set));
+  const auto read = read_set(folder());
+  ASSERT_FALSE(read);
+  EXPECT_NE(read.error().message.find("twice"), std::string::npos) << read.error().message;
+}
+
 TEST(Verification, FindsEachWrongStatement) {
   const auto sound = small_set();
   ASSERT_TRUE(contradictions_of(sound, 2).empty());
