@@ -169,7 +169,11 @@ class GroupChoice {
  private:
   void take(Vector v, bool is_wanted) {
     if (is_full() && !is_wanted) return;
-    if (!met_.insert(motion_of(v)).second) return;
+    auto motion = motion_of(v);
+    if (const auto met = met_.find(motion); met != met_.end()) {
+      add_breaks(group_.cases[met->second], v.breaks);  // another detector failed on it, too
+      return;
+    }
     auto& count = kinds_[kind_of(v)];
     if (!is_wanted && (count >= quotas_.of_a_kind || is_one_too_many(v))) return;
     if (is_wanted) {
@@ -179,9 +183,17 @@ class GroupChoice {
       ++results_[v.result()];
       for (const auto flag : v.flags) ++flags_[flag];
     }
+    met_.emplace(std::move(motion), group_.cases.size());
     v.c.about = sentence_of(v, group_.features);
     v.c.id = fmt::format("{}-{:04}", prefix_, group_.cases.size() + 1);
     group_.cases.push_back(std::move(v));
+  }
+
+  static void add_breaks(Vector& v, const std::vector<std::string>& more) {
+    for (const auto& name : more) {
+      if (std::find(v.breaks.begin(), v.breaks.end(), name) == v.breaks.end())
+        v.breaks.push_back(name);
+    }
   }
 
   // What is frequent may fill a part of the group, and no more.
@@ -212,7 +224,7 @@ class GroupChoice {
   std::map<std::string, std::size_t> kinds_;
   std::map<VectorResult, std::size_t> results_;
   std::map<VectorFlag, std::size_t> flags_;
-  std::set<std::string> met_;
+  std::map<std::string, std::size_t> met_;  // the place of each motion that was taken
 };
 
 bool is_float(const VectorGroup& group) { return group.precision == VectorPrecision::float32; }
