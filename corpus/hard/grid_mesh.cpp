@@ -71,7 +71,10 @@ void GridMesh::add_tetrahedron(const std::array<GridVertex, 4>& corners) {
 GridMap GridMap::any(Variation& vary) {
   GridMap map = of_axes(vary);
   for (auto& shear : map.shears) {
-    for (auto& coefficient : shear) coefficient = vary.sign() * vary.between(1, 2);
+    for (auto& coefficient : shear) {
+      const auto sign = vary.sign();
+      coefficient = sign * vary.between(1, 2);
+    }
   }
   return map;
 }

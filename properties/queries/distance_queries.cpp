@@ -202,7 +202,8 @@ DistanceQuery any_touch(Random& random, std::uint64_t index) {
 // Multiples of 2^-30.
 DistanceQuery in_a_cube(std::uint64_t seed, std::uint64_t index) {
   Random random(~seed, index);
-  return {motion_of("generic", seed, index), {std::ldexp(random.unit(), -random.below(8)), 0}, {}};
+  const int halvings = random.below(8);
+  return {motion_of("generic", seed, index), {std::ldexp(random.unit(), -halvings), 0}, {}};
 }
 
 // Distances of whole numbers and their parts, and roots of whole numbers as doubles, which are next
@@ -286,7 +287,8 @@ DistanceQuery at_rest(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   DistanceQuery q = Touch(random, index, Touch::Feet::anywhere).at_rest();
   if (random.one_in(3)) {
-    q.distance.second = std::ldexp(random.one_in(2) ? 1 : -1, random.between(-1074, -40));
+    const int exponent = random.between(-1074, -40);
+    q.distance.second = std::ldexp(random.one_in(2) ? 1 : -1, exponent);
     if (q.distance.second < 0) q.near_at.reset();
   }
   return q;
@@ -301,7 +303,8 @@ DistanceQuery no_distance(std::uint64_t seed, std::uint64_t index) {
 DistanceQuery huge_distance(std::uint64_t seed, std::uint64_t index) {
   Random random(~seed, index);
   DistanceQuery q = {motion_of(random.one_in(2) ? "small-int" : "exponents", seed, index), {}, {}};
-  q.distance = {std::ldexp(1 + random.unit(), random.between(3, 1022)), 0};
+  const int exponent = random.between(3, 1022);
+  q.distance = {std::ldexp(1 + random.unit(), exponent), 0};
   if (random.one_in(2)) q.distance.second = q.distance.first;
   return q;
 }
@@ -311,9 +314,9 @@ DistanceQuery of_denormals(std::uint64_t seed, std::uint64_t index) {
   Random random(~seed, index);
   constexpr int least_exponent = -1074;
   if (random.one_in(3)) {
-    return {motion_of("denormals", seed, index),
-            {std::ldexp(random.between(0, 9), random.one_in(2) ? least_exponent : -2), 0},
-            {}};
+    const int exponent = random.one_in(2) ? least_exponent : -2;
+    return {
+        motion_of("denormals", seed, index), {std::ldexp(random.between(0, 9), exponent), 0}, {}};
   }
   DistanceQuery q = any_touch(random, index);
   if (random.one_in(3)) {
@@ -332,7 +335,10 @@ DistanceQuery all_doubles(std::uint64_t seed, std::uint64_t index) {
     scale(q, random.between(-1070, 1000));
     return q;
   }
-  const auto any = [&] { return std::ldexp(random.unit(), random.between(-1074, 1020)); };
+  const auto any = [&] {
+    const int exponent = random.between(-1074, 1020);
+    return std::ldexp(random.unit(), exponent);
+  };
   const Query motion =
       random.one_in(2) ? extreme_contact(seed, index) : motion_of("exponents", seed, index);
   return {motion, {any(), random.one_in(3) ? any() : 0}, {}};
@@ -342,7 +348,8 @@ DistanceQuery all_doubles(std::uint64_t seed, std::uint64_t index) {
 DistanceQuery beside(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   DistanceQuery q = any_touch(random, index);
-  const double ulp = std::ldexp(random.one_in(2) ? 1 : -1, -random.between(49, 56));
+  const int bits = random.between(49, 56);
+  const double ulp = std::ldexp(random.one_in(2) ? 1 : -1, -bits);
   if (random.one_in(2)) {
     q.distance.second = ulp * random.between(1, 4);
     if (q.distance.second < 0) q.near_at.reset();

@@ -218,7 +218,9 @@ GeneratedQuery far_from_origin(std::uint64_t seed, std::uint64_t index) {
   // rounded.
   std::array<double, 3> offset;
   for (double& c : offset) {
-    c = std::ldexp(random.below(2) == 0 ? 1 : -1, random.between(30, 50)) + random.below(1000);
+    const int exponent = random.between(30, 50);
+    const double far = std::ldexp(random.below(2) == 0 ? 1 : -1, exponent);
+    c = far + random.below(1000);
   }
   for (MovingPoint& p : made.query.points) {
     for (std::size_t k = 0; k < 3; ++k) {

@@ -122,7 +122,7 @@ void step_on_lattice(Random& random, FourPoints& q, Coordinates coordinates) {
   auto& point = one_of(random, q.points);
   auto& end = random.one_in(2) ? point.t0 : point.t1;
   double& x = one_of(random, end);
-  const int steps = random.between(1, 3) * (random.one_in(2) ? 1 : -1);
+  const int count = random.between(1, 3), steps = random.one_in(2) ? count : -count;
   if (x != 0) {
     const double next = neighbour(x, steps, coordinates);
     if (std::isfinite(next)) x = next;

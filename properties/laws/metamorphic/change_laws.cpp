@@ -126,7 +126,8 @@ std::optional<Change> translated(std::string_view id, const PinnedRun& run) {
   for (double& c : by) {
     // Let u be a power of two above all coordinates. The shift is a multiple of 2^-20 u and at
     // most 2^20 u.
-    c = std::ldexp(random.between(-(1 << 20), 1 << 20), exponent - random.between(0, 20));
+    const int less = random.between(0, 20);
+    c = std::ldexp(random.between(-(1 << 20), 1 << 20), exponent - less);
   }
   Change change = unchanged(run);
   bool exact = true;
