@@ -28,16 +28,26 @@ class ExtremeNumbers {
     for (int& e : scales_) e = any_exponent(random);
   }
 
+  // An exponent is drawn before its mantissa.
   double next() {
     switch (kind_) {
-      case 0:  // anything
-        return std::ldexp(full_mantissa(random_), any_exponent(random_));
-      case 1:  // few mantissas
-        return std::ldexp(random_.between(-2, 2), any_exponent(random_));
-      case 2:  // powers of two and many zeros
-        return random_.one_in(2) ? 0 : std::ldexp(2 * random_.below(2) - 1, any_exponent(random_));
-      case 3:  // few scales
-        return std::ldexp(random_.between(-3, 3), scales_[random_.below(3)]);
+      case 0: {  // anything
+        const int exponent = any_exponent(random_);
+        return std::ldexp(full_mantissa(random_), exponent);
+      }
+      case 1: {  // few mantissas
+        const int exponent = any_exponent(random_);
+        return std::ldexp(random_.between(-2, 2), exponent);
+      }
+      case 2: {  // powers of two and many zeros
+        if (random_.one_in(2)) return 0;
+        const int exponent = any_exponent(random_);
+        return std::ldexp(2 * random_.below(2) - 1, exponent);
+      }
+      case 3: {  // few scales
+        const int exponent = scales_[random_.below(3)];
+        return std::ldexp(random_.between(-3, 3), exponent);
+      }
       case 4:  // denormals beside ordinary numbers
         return random_.one_in(3) ? std::ldexp(random_.between(-3, 3), least_exponent)
                                  : random_.between(-4, 4);
@@ -45,8 +55,10 @@ class ExtremeNumbers {
         const double c = std::ldexp(random_.between(-4, 4), scales_[0]);
         return random_.one_in(2) ? c : std::nextafter(c, random_.signed_unit());
       }
-      default:  // full mantissas of few scales
-        return std::ldexp(full_mantissa(random_), scales_[random_.below(3)]);
+      default: {  // full mantissas of few scales
+        const int exponent = scales_[random_.below(3)];
+        return std::ldexp(full_mantissa(random_), exponent);
+      }
     }
   }
 
