@@ -101,6 +101,17 @@ bool hold_displacements(corpus::Case& c, corpus::Case given, const Contract& con
   return true;
 }
 
+// Whether who stops at x_t0 + share (x_t1 - x_t0) can: each way of each step is a number of the
+// contract's coordinates.
+bool ways_are_finite(const corpus::Case& c, const Contract& contract) {
+  const auto steps = corpus::steps_of(c);
+  return std::all_of(steps.begin(), steps.end(), [&](const corpus::CaseStep& step) {
+    const detector::Positions way = end_of(c, step) - start_of(c, step);
+    return contract.coordinates == Coordinates::float32 ? way.cast<float>().allFinite()
+                                                        : way.allFinite();
+  });
+}
+
 // From a list with an entry for each frame, takes the entries of these frames. An empty list stays
 // empty.
 template <class List>
@@ -183,6 +194,8 @@ std::optional<corpus::Case> contracted(const corpus::Case& c, const Contract& co
   }
   if (contract.motion == MotionGiven::displacement && !hold_displacements(out, c, contract))
     return std::nullopt;
+  if (contract.limit_gives == LimitGives::start_plus && !ways_are_finite(out, contract))
+    return std::nullopt;
   if (says_query(out)) {
     const auto query = query_of(out);
     return query && takes(contract, *query) ? std::optional(out) : std::nullopt;
@@ -230,6 +243,8 @@ std::string why_left_out(const corpus::Case& c, const Contract& contract) {
   if (corpus::Case held = seen;
       contract.motion == MotionGiven::displacement && !hold_displacements(held, c, contract))
     return "motion displacement: the end of every step is no double";
+  if (contract.limit_gives == LimitGives::start_plus && !ways_are_finite(seen, contract))
+    return "stops at start-plus: the way of a vertex is beyond the largest number";
   if (!contract_relation(seen, contract)) return "a place at rest has no float32";
   const auto pair = pair_too_near(x, seen, contract);
   if (!pair) return "";

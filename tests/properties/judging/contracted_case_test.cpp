@@ -103,6 +103,20 @@ TEST(ContractedCase, IsNoneBeyondTheRange) {
 }
 
 // Real meshes have vertices next to a plane of the axes: what a threshold goes by is lengths.
+// x_t0 + share (x_t1 - x_t0) is no place if the difference overflows. That is not the limiter's
+// fault, who states a share alone.
+TEST(ContractedCase, WhoStopsByAShareGetsNoWayThatOverflows) {
+  const auto near = at_heights({1, -1}), far = at_heights({-0x1p1023, 0x1p1023});
+  Contract contract;
+  contract.limit_gives = LimitGives::start_plus;
+  EXPECT_TRUE(contracted(near, contract));
+  EXPECT_FALSE(contracted(far, contract));
+  EXPECT_EQ(why_left_out(far, contract),
+            "stops at start-plus: the way of a vertex is beyond the largest number");
+  contract.limit_gives = LimitGives::blend;
+  EXPECT_TRUE(contracted(far, contract));
+}
+
 TEST(ContractedCase, ASmallCoordinateIsNoShortEdge) {
   const Contract range = {.least_nonzero = 0.5, .largest = 8};
   EXPECT_TRUE(contracted(at_heights({0.25, 5e-324}), range));
