@@ -171,8 +171,8 @@ TEST(Verification, FindsEachWrongStatement) {
     return true;
   });
   one_is_found([](Vector& v) {
-    if (v.steps[0].pairs.size() < 2) return false;
-    v.steps[0].pairs.pop_back();
+    if (!v.steps[0].pairs || v.steps[0].pairs->size() < 2) return false;
+    v.steps[0].pairs->pop_back();
     return true;
   });
   one_is_found([](Vector& v) {
