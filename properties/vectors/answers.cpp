@@ -7,7 +7,6 @@
 #include <chrono>
 #include <mutex>
 
-#include "corpus/json_fields.h"
 #include "detector/contact/elementary.h"
 #include "detector/distance/nearness.h"
 #include "properties/judging/case_options.h"
@@ -169,19 +168,6 @@ class PluginAnswers {
   std::optional<Problem>& problem_;
 };
 
-std::string answer_text(const VectorAnswer& a) {
-  std::string out = fmt::format("{{\"answer\":\"{}\"", a.answer);
-  if (a.time) out += fmt::format(",\"time\":[{},{}]", a.time->lo, a.time->hi);
-  if (a.share) out += fmt::format(",\"share\":{}", *a.share);
-  if (a.pairs) {
-    out += ",\"pairs\":[";
-    for (const auto& pair : *a.pairs)
-      out += fmt::format("{}[{},{}]", out.back() == '[' ? "" : ",", pair.a, pair.b);
-    out += "]";
-  }
-  return out + "}";
-}
-
 }  // namespace
 
 VectorResults answers_of_built_in(const VectorSet& set, Arithmetic arithmetic, int jobs) {
@@ -201,29 +187,6 @@ Expected<VectorResults> answers_of_plugin(const VectorSet& set, const Subject& s
   results.product = subject.description.name;
   results.version = subject.description.version;
   return results;
-}
-
-std::string results_text(const VectorResults& results, const ReadSet& read) {
-  const auto word = [](const std::string& text) { return corpus::json_text(corpus::Json(text)); };
-  std::string out = fmt::format(
-      "{{\"schema\":\"assay-results/1\",\"set\":{{\"version\":{},\"profile\":{},\"digest\":{}}},\n"
-      "\"product\":{{\"name\":{},\"version\":{},\"settings\":{}}},\"seconds\":{:.1f},\n"
-      "\"answers\":{{\n",
-      word(read.version), word(read.set.profile), word(read.digest), word(results.product),
-      word(results.version), word(results.settings), results.seconds);
-  bool of_query = true;
-  std::size_t i = 0;
-  for (const auto& group : read.set.groups) {
-    of_query = group.features != VectorFeatures::mesh;
-    for (std::size_t n = 0; n < group.cases.size(); ++n, ++i) {
-      const auto& [id, answers] = results.answers[i];
-      std::string text;
-      for (const auto& one : answers) text.append(text.empty() ? "" : ",").append(answer_text(one));
-      if (!of_query) text = "{\"steps\":[" + text + "]}";
-      out += fmt::format("{}:{}{}\n", word(id), text, i + 1 < results.answers.size() ? "," : "");
-    }
-  }
-  return out + "}}\n";
 }
 
 }  // namespace assay::properties

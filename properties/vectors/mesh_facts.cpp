@@ -64,7 +64,8 @@ VectorFacts facts_of(const corpus::Case& c, const detector::SteppedMesh& motion,
                   [&](const auto& contact) { return pair_only_touches(c, motion, contact); });
   facts.result = touches ? VectorResult::acceptable : VectorResult::collision;
   facts.first = judgement.first;
-  for (const auto& contact : judgement.pairs) facts.pairs.push_back({contact.pair, contact.time});
+  auto& pairs = facts.pairs.emplace();
+  for (const auto& contact : judgement.pairs) pairs.push_back({contact.pair, contact.time});
   facts.polynomial = {"0", "1"};
   const auto& feature = first_of(judgement).feature;
   if (judgement.first.hi > 0) {

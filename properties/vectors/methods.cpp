@@ -107,14 +107,20 @@ std::optional<std::string> wrong_fact(const Vector& v, const VectorGroup& group)
   }
   for (std::size_t s = 0; s < v.steps.size(); ++s) {
     const auto& told = v.steps[s];
-    const auto& found = again.steps[s];
+    auto& found = again.steps[s];
+    // Pairs that are not stated are not wrong.
+    if (!told.pairs) found.pairs.reset();
+    if (told.pairs && !found.pairs) found.pairs.emplace();
     if (told == found) continue;
     const auto time = [](const VectorFacts& facts) {
       return facts.first ? fmt::format("[{}, {}]", facts.first->lo, facts.first->hi) : "none";
     };
+    const auto pairs = [](const VectorFacts& facts) {
+      return facts.pairs ? facts.pairs->size() : 0;
+    };
     return fmt::format("step {}: states {}, first time {}, {} pairs; is {}, {}, {}{}", s + 1,
-                       name_of(told.result), time(told), told.pairs.size(), name_of(found.result),
-                       time(found), found.pairs.size(),
+                       name_of(told.result), time(told), pairs(told), name_of(found.result),
+                       time(found), pairs(found),
                        told.polynomial != found.polynomial ? "; another polynomial" : "");
   }
   if (v.flags != again.flags) return "states other flags than it has";

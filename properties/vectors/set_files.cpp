@@ -10,7 +10,6 @@
 #include "corpus/atomic_file.h"
 #include "corpus/digest.h"
 #include "corpus/file_bytes.h"
-#include "corpus/json_fields.h"
 #include "properties/reducer/case_edits.h"
 #include "properties/vectors/exact_csv.h"
 #include "properties/worker/plugin/query_case.h"
@@ -63,8 +62,8 @@ std::string step_text(const corpus::CaseStep& step, const VectorFacts& facts) {
   std::string out = fmt::format("{{\"from\":{},\"to\":{},\"commit\":{},\"result\":\"{}\"",
                                 step.from, step.to, step.commit, name_of(facts.result));
   out += first_text(facts);
-  if (!facts.pairs.empty()) {
-    out += ",\"pairs\":" + list(facts.pairs, [](const corpus::ExpectedPair& p) {
+  if (facts.pairs) {
+    out += ",\"pairs\":" + list(*facts.pairs, [](const corpus::ExpectedPair& p) {
              return fmt::format("[{},{},{},{}]", p.pair.a, p.pair.b, number(p.time.lo),
                                 number(p.time.hi));
            });
@@ -140,11 +139,9 @@ std::string set_text(const VectorSet& set, const Digests& digests) {
   json["schema"] = vectors_schema;
   json["version"] = vectors_version;
   json["profile"] = set.profile;
-  std::size_t cases = 0;
   auto groups = corpus::Json::array();
   for (std::size_t i = 0; i < set.groups.size(); ++i) {
     const auto& group = set.groups[i];
-    cases += group.cases.size();
     groups.push_back({{"file", file_of(group)},
                       {"sha256", digests.of_groups[i]},
                       {"cases", group.cases.size()},
@@ -152,7 +149,7 @@ std::string set_text(const VectorSet& set, const Digests& digests) {
                       {"question", name_of(group.question)},
                       {"precision", name_of(group.precision)}});
   }
-  json["cases"] = cases;
+  json["cases"] = set.size();
   json["digest"] = digests.of_set;
   json["licence"] = licence;
   json["cite"] = how_to_cite;
@@ -193,9 +190,37 @@ Expected<void> write_set(const std::filesystem::path& folder, const VectorSet& s
   return boost::outcome_v2::success();
 }
 
-namespace {
-
 using corpus::JsonField;
+
+Expected<std::string> text_at(const JsonField& object, std::string_view key) {
+  BOOST_OUTCOME_TRY(field, object.at(key));
+  return field.text();
+}
+
+Expected<void> want_schema(const JsonField& object, std::string_view schema) {
+  BOOST_OUTCOME_TRY(word, text_at(object, "schema"));
+  if (word == schema) return boost::outcome_v2::success();
+  return object.problem(fmt::format("schema '{}' is not {}", word, schema));
+}
+
+Expected<detector::TimeEnclosure> read_interval(const JsonField& field) {
+  const auto read = [](const JsonField& item) { return item.number(); };
+  BOOST_OUTCOME_TRY(times, corpus::read_list<double>(field, read));
+  if (times.size() != 2 || times[0] > times[1])
+    return field.problem("two numbers expected, the lesser one first");
+  return detector::TimeEnclosure{times[0], times[1]};
+}
+
+Expected<detector::TrianglePair> read_pair(const JsonField& field, std::int64_t triangles) {
+  BOOST_OUTCOME_TRY(size, field.size());
+  if (size < 2) return field.problem("two triangles expected");
+  BOOST_OUTCOME_TRY(a, field.item(0).integer(0, triangles));
+  BOOST_OUTCOME_TRY(b, field.item(1).integer(0, triangles));
+  if (a >= b) return field.problem("two triangles expected, the lesser one first");
+  return detector::TrianglePair{a, b};
+}
+
+namespace {
 
 template <class T>
 Expected<void> put(T& place, Expected<T> value) {
@@ -213,9 +238,9 @@ Expected<Enum> word_at(const JsonField& object, const char* key) {
   return *named;
 }
 
-Expected<std::string> text_at(const JsonField& object, const char* key) {
-  BOOST_OUTCOME_TRY(field, object.at(key));
-  return field.text();
+Expected<std::string> text_if_any(const JsonField& object, std::string_view key) {
+  if (!object.has(key)) return std::string();
+  return text_at(object, key);
 }
 
 Expected<double> number_at(const JsonField& object, const char* key) {
@@ -234,47 +259,44 @@ Expected<void> for_each_item(const JsonField& array, const Use& use) {
 }
 
 Expected<std::vector<std::string>> texts_at(const JsonField& object, const char* key) {
-  std::vector<std::string> texts;
-  if (!object.has(key)) return texts;
+  if (!object.has(key)) return std::vector<std::string>();
   BOOST_OUTCOME_TRY(field, object.at(key));
-  const auto read_field = [&](const JsonField& item) -> Expected<void> {
-    BOOST_OUTCOME_TRY(text, item.text());
-    texts.push_back(std::move(text));
-    return boost::outcome_v2::success();
-  };
-  BOOST_OUTCOME_TRYV(for_each_item(field, read_field));
-  return texts;
-}
-
-template <std::size_t count>
-Expected<std::array<double, count>> numbers_of(const JsonField& field) {
-  std::array<double, count> numbers{};
-  BOOST_OUTCOME_TRY(size, field.size());
-  if (size != count) return field.problem(fmt::format("wants {} numbers", count));
-  for (std::size_t i = 0; i < count; ++i) {
-    BOOST_OUTCOME_TRYV(put(numbers[i], field.item(i).number()));
-  }
-  return numbers;
+  return corpus::read_list<std::string>(field, [](const JsonField& item) { return item.text(); });
 }
 
 Expected<detector::Positions> points_of(const JsonField& field) {
   BOOST_OUTCOME_TRY(size, field.size());
   detector::Positions points(static_cast<Eigen::Index>(size), 3);
   for (std::size_t i = 0; i < size; ++i) {
-    BOOST_OUTCOME_TRY(x, numbers_of<3>(field.item(i)));
-    for (int k = 0; k < 3; ++k)
-      points(static_cast<Eigen::Index>(i), k) = x[static_cast<std::size_t>(k)];
+    const auto point = field.item(i);
+    BOOST_OUTCOME_TRY(numbers, point.size());
+    if (numbers != 3) return point.problem("wants 3 numbers");
+    for (int k = 0; k < 3; ++k) {
+      BOOST_OUTCOME_TRYV(put(points(static_cast<Eigen::Index>(i), k),
+                             point.item(static_cast<std::size_t>(k)).number()));
+    }
   }
   return points;
 }
 
-Expected<VectorFacts> facts_of(const JsonField& object) {
+Expected<corpus::ExpectedPair> read_contact(const JsonField& item, std::int64_t triangles) {
+  corpus::ExpectedPair contact;
+  BOOST_OUTCOME_TRYV(put(contact.pair, read_pair(item, triangles)));
+  BOOST_OUTCOME_TRY(size, item.size());
+  if (size != 4) return item.problem("wants 4 numbers");
+  BOOST_OUTCOME_TRYV(put(contact.time.lo, item.item(2).number()));
+  BOOST_OUTCOME_TRYV(put(contact.time.hi, item.item(3).number()));
+  if (contact.time.lo > contact.time.hi)
+    return item.problem("its first time ends before it begins");
+  return contact;
+}
+
+Expected<VectorFacts> facts_of(const JsonField& object, std::int64_t triangles) {
   VectorFacts facts;
   BOOST_OUTCOME_TRYV(put(facts.result, word_at<VectorResult>(object, "result")));
   if (object.has("first_time")) {
     BOOST_OUTCOME_TRY(field, object.at("first_time"));
-    BOOST_OUTCOME_TRY(time, numbers_of<2>(field));
-    facts.first = detector::TimeEnclosure{time[0], time[1]};
+    BOOST_OUTCOME_TRYV(put(facts.first.emplace(), read_interval(field)));
   }
   BOOST_OUTCOME_TRYV(put(facts.polynomial, texts_at(object, "polynomial")));
   if (object.has("least_distance")) {
@@ -282,13 +304,9 @@ Expected<VectorFacts> facts_of(const JsonField& object) {
   }
   if (object.has("pairs")) {
     BOOST_OUTCOME_TRY(pairs, object.at("pairs"));
-    const auto read_pairs = [&](const JsonField& item) -> Expected<void> {
-      BOOST_OUTCOME_TRY(p, numbers_of<4>(item));
-      facts.pairs.push_back(
-          {{static_cast<std::int32_t>(p[0]), static_cast<std::int32_t>(p[1])}, {p[2], p[3]}});
-      return boost::outcome_v2::success();
-    };
-    BOOST_OUTCOME_TRYV(for_each_item(pairs, read_pairs));
+    const auto read = [&](const JsonField& item) { return read_contact(item, triangles); };
+    BOOST_OUTCOME_TRYV(
+        put(facts.pairs.emplace(), corpus::read_list<corpus::ExpectedPair>(pairs, read)));
   }
   return facts;
 }
@@ -307,7 +325,7 @@ Expected<void> read_query(const JsonField& object, VectorFeatures features, Vect
   c.about = v.c.about;
   c.source = v.c.source;
   v.c = std::move(c);
-  BOOST_OUTCOME_TRY(facts, facts_of(object));
+  BOOST_OUTCOME_TRY(facts, facts_of(object, 0));
   v.steps.push_back(std::move(facts));
   if (v.question == VectorQuestion::distance) {
     BOOST_OUTCOME_TRYV(put(v.distance, number_at(object, "distance")));
@@ -319,30 +337,20 @@ Expected<void> read_query(const JsonField& object, VectorFeatures features, Vect
 Expected<void> read_mesh(const JsonField& object, Vector& v) {
   constexpr std::int64_t most = 1 << 24;
   BOOST_OUTCOME_TRY(frames, object.at("frames"));
-  const auto read_frames = [&](const JsonField& item) -> Expected<void> {
-    BOOST_OUTCOME_TRY(frame, points_of(item));
-    v.c.frames.push_back(std::move(frame));
-    return boost::outcome_v2::success();
-  };
-  BOOST_OUTCOME_TRYV(for_each_item(frames, read_frames));
+  BOOST_OUTCOME_TRYV(put(v.c.frames, corpus::read_list<detector::Positions>(frames, points_of)));
   if (v.c.frames.empty()) return object.problem("has no frames");
   const auto vertices = v.c.frames[0].rows();
-  std::vector<std::array<std::int32_t, 3>> triangles;
   BOOST_OUTCOME_TRY(list, object.at("triangles"));
-  const auto read_list = [&](const JsonField& item) -> Expected<void> {
-    BOOST_OUTCOME_TRY(size, item.size());
-    if (size != 3) return item.problem("a triangle has three corners");
-    auto& triangle = triangles.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) {
-      BOOST_OUTCOME_TRYV(put(triangle[k], item.item(k).integer(0, vertices)));
+  BOOST_OUTCOME_TRY(triangles, list.size());
+  v.c.triangles.resize(static_cast<Eigen::Index>(triangles), 3);
+  for (std::size_t t = 0; t < triangles; ++t) {
+    const auto item = list.item(t);
+    BOOST_OUTCOME_TRY(corners, item.size());
+    if (corners != 3) return item.problem("a triangle has three corners");
+    for (int k = 0; k < 3; ++k) {
+      BOOST_OUTCOME_TRYV(put(v.c.triangles(static_cast<Eigen::Index>(t), k),
+                             item.item(static_cast<std::size_t>(k)).integer(0, vertices)));
     }
-    return boost::outcome_v2::success();
-  };
-  BOOST_OUTCOME_TRYV(for_each_item(list, read_list));
-  v.c.triangles.resize(static_cast<Eigen::Index>(triangles.size()), 3);
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    for (int k = 0; k < 3; ++k)
-      v.c.triangles(static_cast<Eigen::Index>(t), k) = triangles[t][static_cast<std::size_t>(k)];
   }
   BOOST_OUTCOME_TRY(steps, object.at("steps"));
   const auto read_steps = [&](const JsonField& item) -> Expected<void> {
@@ -356,7 +364,7 @@ Expected<void> read_mesh(const JsonField& object, Vector& v) {
     const auto end = static_cast<std::int32_t>(v.c.frames.size());
     if (step.from >= end || step.to >= end) return item.problem("names no frame");
     v.c.script.push_back(step);
-    BOOST_OUTCOME_TRY(facts, facts_of(item));
+    BOOST_OUTCOME_TRY(facts, facts_of(item, v.c.triangles.rows()));
     v.steps.push_back(std::move(facts));
     return boost::outcome_v2::success();
   };
@@ -370,8 +378,8 @@ Expected<Vector> read_vector(const JsonField& object, const VectorGroup& group) 
   Vector v;
   v.question = group.question;
   BOOST_OUTCOME_TRYV(put(v.c.id, text_at(object, "id")));
-  BOOST_OUTCOME_TRYV(put(v.c.about, text_at(object, "about")));
-  BOOST_OUTCOME_TRYV(put(v.c.source, text_at(object, "source")));
+  BOOST_OUTCOME_TRYV(put(v.c.about, text_if_any(object, "about")));
+  BOOST_OUTCOME_TRYV(put(v.c.source, text_if_any(object, "source")));
   BOOST_OUTCOME_TRYV(group.features == VectorFeatures::mesh
                          ? read_mesh(object, v)
                          : read_query(object, group.features, v));
@@ -389,25 +397,33 @@ Expected<Vector> read_vector(const JsonField& object, const VectorGroup& group) 
   }
   BOOST_OUTCOME_TRYV(put(v.open, texts_at(object, "open")));
   BOOST_OUTCOME_TRYV(put(v.breaks, texts_at(object, "breaks")));
-  if (object.has("split_of")) {
-    BOOST_OUTCOME_TRYV(put(v.split_of, text_at(object, "split_of")));
-  }
+  BOOST_OUTCOME_TRYV(put(v.split_of, text_if_any(object, "split_of")));
   return v;
 }
 
 Expected<VectorGroup> read_group(const JsonField& object) {
   VectorGroup group;
+  BOOST_OUTCOME_TRYV(want_schema(object, vectors_schema));
   BOOST_OUTCOME_TRYV(put(group.features, word_at<VectorFeatures>(object, "features")));
   BOOST_OUTCOME_TRYV(put(group.question, word_at<VectorQuestion>(object, "question")));
   BOOST_OUTCOME_TRYV(put(group.precision, word_at<VectorPrecision>(object, "precision")));
   BOOST_OUTCOME_TRY(cases, object.at("cases"));
-  const auto read_cases = [&](const JsonField& item) -> Expected<void> {
-    BOOST_OUTCOME_TRY(vector, read_vector(item, group));
-    group.cases.push_back(std::move(vector));
-    return boost::outcome_v2::success();
-  };
-  BOOST_OUTCOME_TRYV(for_each_item(cases, read_cases));
+  const auto read = [&](const JsonField& item) { return read_vector(item, group); };
+  BOOST_OUTCOME_TRYV(put(group.cases, corpus::read_list<Vector>(cases, read)));
   return group;
+}
+
+Expected<std::vector<ReadFlag>> read_flags(const JsonField& flags) {
+  std::vector<ReadFlag> read;
+  if (!flags.json().is_object()) return flags.problem("an object expected");
+  for (const auto& item : flags.json().items()) {
+    const auto flag = from_name<VectorFlag>(item.key());
+    if (!flag) return flags.problem(fmt::format("has an unknown flag '{}'", item.key()));
+    BOOST_OUTCOME_TRY(text, flags.at(item.key()));
+    BOOST_OUTCOME_TRY(wrong, text_at(text, "wrong"));
+    read.push_back({*flag, std::move(wrong)});
+  }
+  return read;
 }
 
 }  // namespace
@@ -417,13 +433,13 @@ Expected<ReadSet> read_set(const std::filesystem::path& folder) {
   BOOST_OUTCOME_TRY(bytes, corpus::read_bytes(path));
   BOOST_OUTCOME_TRY(json, corpus::parse_json(bytes, path));
   const JsonField object(json, path);
-  BOOST_OUTCOME_TRY(schema, text_at(object, "schema"));
-  if (schema != vectors_schema)
-    return object.problem(fmt::format("schema '{}' is not {}", schema, vectors_schema));
+  BOOST_OUTCOME_TRYV(want_schema(object, vectors_schema));
   ReadSet read;
   BOOST_OUTCOME_TRYV(put(read.version, text_at(object, "version")));
   BOOST_OUTCOME_TRYV(put(read.set.profile, text_at(object, "profile")));
   BOOST_OUTCOME_TRYV(put(read.digest, text_at(object, "digest")));
+  BOOST_OUTCOME_TRY(flags, object.at("flags"));
+  BOOST_OUTCOME_TRYV(put(read.flags, read_flags(flags)));
   BOOST_OUTCOME_TRY(groups, object.at("groups"));
   std::string digested;
   std::set<std::string> ids;
@@ -435,13 +451,15 @@ Expected<ReadSet> read_set(const std::filesystem::path& folder) {
     const auto file = folder / name;
     BOOST_OUTCOME_TRY(text, corpus::read_bytes(file));
     if (corpus::sha256_of(text) != wanted)
-      return Problem{fmt::format("{}: is not the file that set.json names", file.string())};
+      return corpus::problem_in(file, "changed: its SHA-256 is not that of set.json");
     digested += fmt::format("{}  {}\n", wanted, name);
     BOOST_OUTCOME_TRY(of_group, corpus::parse_json(text, file));
-    BOOST_OUTCOME_TRY(group, read_group(JsonField(of_group, file)));
+    const JsonField field(of_group, file);
+    BOOST_OUTCOME_TRYV(put(read.titles.emplace_back(), text_at(field, "group")));
+    BOOST_OUTCOME_TRY(group, read_group(field));
     for (const auto& v : group.cases) {
       if (!ids.insert(v.c.id).second)
-        return Problem{fmt::format("{}: case {} is there twice", file.string(), v.c.id)};
+        return corpus::problem_in(file, fmt::format("case {} is there twice", v.c.id));
     }
     read.set.groups.push_back(std::move(group));
     return boost::outcome_v2::success();

@@ -155,6 +155,12 @@ VectorResult Vector::result() const {
   return greatest;
 }
 
+std::size_t VectorSet::size() const {
+  std::size_t cases = 0;
+  for (const auto& group : groups) cases += group.cases.size();
+  return cases;
+}
+
 std::string VectorGroup::name() const {
   const std::string of_precision = std::string("-") + name_of(precision);
   if (features == VectorFeatures::mesh)

@@ -113,8 +113,9 @@ struct VectorFacts {
   std::optional<detector::TimeEnclosure> first;  // unless free
   // Integers c0, c1, ... The first time is a zero of c0 + c1 t + ... between its ends. Unless free.
   std::vector<std::string> polynomial;
-  std::vector<corpus::ExpectedPair> pairs;  // of a mesh: all in contact, ascending
-  std::optional<double> least_distance;     // of a question about distance (oracle/distance)
+  // Of a mesh: all in contact, ascending. Absent: none, if free; else they are not stated.
+  std::optional<std::vector<corpus::ExpectedPair>> pairs;
+  std::optional<double> least_distance;  // of a question about distance (oracle/distance)
   friend bool operator==(const VectorFacts&, const VectorFacts&) = default;
 };
 
@@ -153,6 +154,7 @@ struct VectorGroup {
 struct VectorSet {
   std::string profile;
   std::vector<VectorGroup> groups;
+  std::size_t size() const;  // how many cases
 };
 
 }  // namespace assay::properties

@@ -11,21 +11,26 @@
 namespace assay::reports {
 namespace {
 
+using detector::TrianglePair;
+using properties::VectorAnswer;
+using properties::VectorFacts;
+using properties::VectorResult;
+
 class StepJudge {
  public:
   StepJudge(JudgedResults& judged, bool is_limit) : judged_(judged), is_limit_(is_limit) {}
 
-  CaseOutcome judge(const VectorStep& step, const VectorAnswer& answer) {
+  CaseOutcome judge(const VectorFacts& step, const VectorAnswer& answer) {
     for (const auto outcome : {CaseOutcome::crash, CaseOutcome::timeout, CaseOutcome::error,
                                CaseOutcome::undecided, CaseOutcome::unsupported}) {
-      if (answer.word == properties::word_of(outcome_words, outcome)) return outcome;
+      if (answer.answer == properties::word_of(outcome_words, outcome)) return outcome;
     }
-    return is_limit_ ? judge_share(step, answer.share) : judge_contact(step, answer);
+    return is_limit_ ? judge_share(step, *answer.share) : judge_contact(step, answer);
   }
 
  private:
-  CaseOutcome judge_contact(const VectorStep& step, const VectorAnswer& answer) {
-    const bool says_contact = answer.word == "collision";
+  CaseOutcome judge_contact(const VectorFacts& step, const VectorAnswer& answer) {
+    const bool says_contact = answer.answer == "collision";
     const bool decides_convention = step.result == VectorResult::acceptable;
     if (decides_convention) {
       ++(says_contact ? judged_.closed : judged_.open);
@@ -34,19 +39,19 @@ class StepJudge {
     }
     if (answer.pairs && step.pairs && !decides_convention)
       compare_pairs(*step.pairs, *answer.pairs);
-    if (!says_contact || !answer.time || !step.first_time) return CaseOutcome::right;
-    if ((*answer.time)[0] > (*step.first_time)[1]) return CaseOutcome::late;
-    if ((*answer.time)[1] < (*step.first_time)[0]) ++judged_.early;
+    if (!says_contact || !answer.time || !step.first) return CaseOutcome::right;
+    if (answer.time->lo > step.first->hi) return CaseOutcome::late;
+    if (answer.time->hi < step.first->lo) ++judged_.early;
     return CaseOutcome::right;
   }
 
-  CaseOutcome judge_share(const VectorStep& step, double share) {
-    if (!step.first_time) {
+  CaseOutcome judge_share(const VectorFacts& step, double share) {
+    if (!step.first) {
       judged_.uses.push_back(share);
       return CaseOutcome::right;
     }
     // A first time that is no double lies between two of them, so the lesser one is safe.
-    const auto [lo, hi] = *step.first_time;
+    const auto [lo, hi] = *step.first;
     const bool is_safe = share < lo || (share == lo && lo != hi);
     if (step.result == VectorResult::acceptable) {
       ++(is_safe ? judged_.closed : judged_.open);
@@ -57,10 +62,13 @@ class StepJudge {
     return CaseOutcome::right;
   }
 
-  void compare_pairs(std::vector<VectorPair> right, const std::vector<VectorPair>& given) {
+  void compare_pairs(const std::vector<corpus::ExpectedPair>& contacts,
+                     const std::vector<TrianglePair>& given) {
+    std::vector<TrianglePair> right;
+    for (const auto& contact : contacts) right.push_back(contact.pair);
     std::sort(right.begin(), right.end());
     const auto without = [](const auto& a, const auto& b) {
-      std::vector<VectorPair> rest;
+      std::vector<TrianglePair> rest;
       std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(rest));
       return static_cast<int>(rest.size());
     };
@@ -86,27 +94,32 @@ std::string JudgedResults::title() const {
   return fmt::format("{} {}{}{}", name, version, settings.empty() ? "" : ", ", settings);
 }
 
-JudgedResults judge_results(const VectorResults& results, const VectorSet& set) {
+JudgedResults judge_results(const properties::VectorResults& results,
+                            const properties::VectorSet& set) {
   JudgedResults judged;
-  judged.name = results.name;
+  judged.name = results.product;
   judged.version = results.version;
   judged.settings = results.settings;
-  for (const auto& asked : set.cases) {
-    const auto found = results.answers.find(asked.id);
-    if (found == results.answers.end()) continue;
-    StepJudge judge(judged, asked.is_limit);
-    JudgedCase one;
-    one.asked = &asked;
-    for (std::size_t i = 0; i < asked.steps.size(); ++i) {
-      const auto& answer = found->second[i];
-      const auto outcome = judge.judge(asked.steps[i], answer);
-      if (i == 0 || outcome < one.outcome) {
-        one.outcome = outcome;
-        one.step = i;
-        one.answer = answer;
+  auto given = results.answers.begin();
+  for (std::size_t group = 0; group < set.groups.size(); ++group) {
+    for (const auto& asked : set.groups[group].cases) {
+      if (given == results.answers.end() || given->first != asked.c.id) continue;
+      StepJudge judge(judged, asked.question == properties::VectorQuestion::limit);
+      JudgedCase one;
+      one.asked = &asked;
+      one.group = group;
+      for (std::size_t i = 0; i < asked.steps.size(); ++i) {
+        const auto& answer = given->second[i];
+        const auto outcome = judge.judge(asked.steps[i], answer);
+        if (i == 0 || outcome < one.outcome) {
+          one.outcome = outcome;
+          one.step = i;
+          one.answer = answer;
+        }
       }
+      judged.cases.push_back(std::move(one));
+      ++given;
     }
-    judged.cases.push_back(std::move(one));
   }
   return judged;
 }

@@ -2,7 +2,7 @@
 // corpus/vectors/vectors.py counts the same.
 #pragma once
 
-#include "reports/vectors/given_results.h"
+#include "properties/vectors/results_file.h"
 
 namespace assay::reports {
 
@@ -22,10 +22,11 @@ inline constexpr const char* outcome_words[] = {
     "miss", "late", "alarm", "crash", "timeout", "error", "undecided", "unsupported", "right"};
 
 struct JudgedCase {
-  const VectorCase* asked = nullptr;
+  const properties::Vector* asked = nullptr;
+  std::size_t group = 0;  // of the set
   CaseOutcome outcome = CaseOutcome::right;
-  std::size_t step = 0;  // the first one that comes to this
-  VectorAnswer answer;   // to that step
+  std::size_t step = 0;             // the first one that comes to this
+  properties::VectorAnswer answer;  // to that step
 };
 
 struct JudgedResults {
@@ -47,7 +48,8 @@ struct JudgedResults {
 };
 
 // The set has to outlive what is returned.
-JudgedResults judge_results(const VectorResults& results, const VectorSet& set);
+JudgedResults judge_results(const properties::VectorResults& results,
+                            const properties::VectorSet& set);
 
 // 0: all is right; 1: a miss, a late time or an alarm; 3: none of these, but a case has no answer.
 int exit_code_of(const std::vector<JudgedResults>& all);

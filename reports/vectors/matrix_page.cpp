@@ -170,28 +170,30 @@ std::string touching_html(const std::vector<JudgedResults>& all) {
          html + "</ul>\n";
 }
 
-std::string time_text(const VectorStep& step) {
-  if (!step.first_time) return "";
-  const auto [lo, hi] = *step.first_time;
+std::string time_text(const properties::VectorFacts& step) {
+  if (!step.first) return "";
+  const auto [lo, hi] = *step.first;
   return lo == hi ? fmt::format(" at t = {}", lo) : fmt::format(" between t = {} and {}", lo, hi);
 }
 
-std::string answer_text(const VectorAnswer& answer) {
-  if (answer.word == "share") return fmt::format("share {}", answer.share);
-  if (!answer.time) return answer.word;
+std::string answer_text(const properties::VectorAnswer& answer) {
+  if (answer.answer == "share") return fmt::format("share {}", *answer.share);
+  if (!answer.time) return answer.answer;
   const auto [lo, hi] = *answer.time;
-  return lo == hi ? fmt::format("{} at t = {}", answer.word, lo)
-                  : fmt::format("{} between t = {} and {}", answer.word, lo, hi);
+  return lo == hi ? fmt::format("{} at t = {}", answer.answer, lo)
+                  : fmt::format("{} between t = {} and {}", answer.answer, lo, hi);
 }
 
 std::string case_html(const JudgedCase& one) {
   const auto& asked = *one.asked;
   const auto& step = asked.steps[one.step];
+  std::vector<std::string> flags;
+  for (const auto flag : asked.flags) flags.emplace_back(name_of(flag));
   return fmt::format("<li><code>{}</code> {}<br><small>{}contact{}; answered {}. {}</small></li>\n",
-                     escaped(asked.id), escaped(asked.about),
+                     escaped(asked.c.id), escaped(asked.c.about),
                      asked.steps.size() > 1 ? fmt::format("step {}: ", one.step + 1) : "",
                      time_text(step), escaped(answer_text(one.answer)),
-                     escaped(joined(asked.flags, ", ")));
+                     escaped(joined(flags, ", ")));
 }
 
 // The ids of all cases with an outcome that needs no sentence each.
@@ -199,7 +201,7 @@ std::string ids_html(const JudgedResults& judged, CaseOutcome outcome, const cha
   const auto cases = judged.with(outcome);
   if (cases.empty()) return "";
   std::string html = fmt::format("<p>{} ({}):", words, cases.size());
-  for (const auto* one : cases) html += " <code>" + escaped(one->asked->id) + "</code>";
+  for (const auto* one : cases) html += " <code>" + escaped(one->asked->c.id) + "</code>";
   return html + "</p>\n";
 }
 
@@ -231,24 +233,25 @@ std::string product_html(const JudgedResults& judged, const std::string& letter)
 
 }  // namespace
 
-std::string matrix_page(const VectorSet& set, const std::vector<JudgedResults>& all) {
+std::string matrix_page(const properties::ReadSet& read, const std::vector<JudgedResults>& all) {
   std::string html = head;
   html += fmt::format(
       "<h1>Who misses what</h1>\n<p>{} small hard cases of continuous collision detection, whose "
       "answers are known exactly. <span class=\"quiet\">Set {} ({}), digest "
       "<code>{}</code></span></p>\n",
-      set.cases.size(), escaped(set.version), escaped(set.profile), escaped(set.digest));
+      read.set.size(), escaped(read.version), escaped(read.set.profile), escaped(read.digest));
   html += products_html(all);
   html += "<h2>By what makes a case hard</h2>\n";
   html += legend;
   html += matrix_html(
-      "flag: what goes wrong", rows_by_flag(set, all), all, [&](const std::string& name) {
-        const auto flag = std::find_if(set.flags.begin(), set.flags.end(),
-                                       [&](const VectorFlag& one) { return one.name == name; });
-        return "<br><small>" + escaped(flag->wrong) + "</small>";
+      "flag: what goes wrong", rows_by_flag(read, all), all, [&](const std::string& name) {
+        const auto text = std::find_if(read.flags.begin(), read.flags.end(),
+                                       [&](const auto& one) { return name_of(one.flag) == name; });
+        return "<br><small>" + escaped(text->wrong) + "</small>";
       });
   html += "<h2>By group</h2>\n";
-  html += matrix_html("group", rows_by_group(set, all), all, [](const std::string&) { return ""; });
+  html +=
+      matrix_html("group", rows_by_group(read, all), all, [](const std::string&) { return ""; });
   html += touching_html(all);
   html += "<h2>The misses</h2>\n";
   for (std::size_t i = 0; i < all.size(); ++i) html += product_html(all[i], letter_of(i));

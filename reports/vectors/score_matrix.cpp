@@ -36,7 +36,7 @@ std::vector<MatrixRow> rows_of(const std::vector<std::string>& names,
     for (const auto& judged : all) {
       MatrixCell cell;
       for (const auto& one : judged.cases)
-        if (is_of(*one.asked, name)) add(cell, one.outcome);
+        if (is_of(one, name)) add(cell, one.outcome);
       row.cells.push_back(cell);
     }
     if (std::any_of(row.cells.begin(), row.cells.end(),
@@ -110,7 +110,7 @@ std::string lines_of(const JudgedResults& judged, const std::string& letter) {
     if (cases.empty() || outcome == CaseOutcome::unsupported) continue;
     text += letter + " " + words + ":";
     for (std::size_t i = 0; i < std::min(cases.size(), most_ids); ++i)
-      text += " " + cases[i]->asked->id;
+      text += " " + cases[i]->asked->c.id;
     if (cases.size() > most_ids) text += fmt::format(" and {} more", cases.size() - most_ids);
     text += "\n";
   }
@@ -129,17 +129,19 @@ std::string lines_of(const JudgedResults& judged, const std::string& letter) {
 
 }  // namespace
 
-std::vector<MatrixRow> rows_by_flag(const VectorSet& set, const std::vector<JudgedResults>& all) {
+std::vector<MatrixRow> rows_by_flag(const properties::ReadSet& read,
+                                    const std::vector<JudgedResults>& all) {
   std::vector<std::string> names;
-  for (const auto& flag : set.flags) names.push_back(flag.name);
-  return rows_of(names, all, [](const VectorCase& asked, const std::string& name) {
-    return std::find(asked.flags.begin(), asked.flags.end(), name) != asked.flags.end();
+  for (const auto& text : read.flags) names.emplace_back(name_of(text.flag));
+  return rows_of(names, all, [](const JudgedCase& one, const std::string& name) {
+    return one.asked->has(*from_name<properties::VectorFlag>(name));
   });
 }
 
-std::vector<MatrixRow> rows_by_group(const VectorSet& set, const std::vector<JudgedResults>& all) {
-  return rows_of(set.groups, all, [](const VectorCase& asked, const std::string& name) {
-    return asked.group == name;
+std::vector<MatrixRow> rows_by_group(const properties::ReadSet& read,
+                                     const std::vector<JudgedResults>& all) {
+  return rows_of(read.titles, all, [&](const JudgedCase& one, const std::string& name) {
+    return read.titles[one.group] == name;
   });
 }
 
@@ -154,11 +156,12 @@ std::string uses_text(const JudgedResults& judged) {
                      100 * median_of(judged.uses).value);
 }
 
-std::string score_text(const VectorSet& set, const std::vector<JudgedResults>& all) {
-  std::string text = fmt::format("set {} ({}), {} cases, digest {}\n\n{}", set.version, set.profile,
-                                 set.cases.size(), set.digest.substr(0, 12), products_text(all));
-  text += matrix_text("misses/cases by flag", rows_by_flag(set, all), all.size());
-  text += matrix_text("misses/cases by group", rows_by_group(set, all), all.size());
+std::string score_text(const properties::ReadSet& read, const std::vector<JudgedResults>& all) {
+  std::string text =
+      fmt::format("set {} ({}), {} cases, digest {}\n\n{}", read.version, read.set.profile,
+                  read.set.size(), read.digest.substr(0, 12), products_text(all));
+  text += matrix_text("misses/cases by flag", rows_by_flag(read, all), all.size());
+  text += matrix_text("misses/cases by group", rows_by_group(read, all), all.size());
   std::string lines;
   for (std::size_t i = 0; i < all.size(); ++i) lines += lines_of(all[i], letter_of(i));
   return lines.empty() ? text : text + "\n" + lines;

@@ -16,8 +16,10 @@ struct MatrixRow {
 };
 
 // A row for each flag, or group, of which some product was asked a case that it supports.
-std::vector<MatrixRow> rows_by_flag(const VectorSet& set, const std::vector<JudgedResults>& all);
-std::vector<MatrixRow> rows_by_group(const VectorSet& set, const std::vector<JudgedResults>& all);
+std::vector<MatrixRow> rows_by_flag(const properties::ReadSet& read,
+                                    const std::vector<JudgedResults>& all);
+std::vector<MatrixRow> rows_by_group(const properties::ReadSet& read,
+                                     const std::vector<JudgedResults>& all);
 
 // "A", "B" ... "Z", "A2" ...: the product of a column.
 std::string letter_of(std::size_t product);
@@ -25,6 +27,6 @@ std::string letter_of(std::size_t product);
 // "8 safe, the median uses 93.1 % of the way". REQUIRES a product that limited some step safely.
 std::string uses_text(const JudgedResults& judged);
 
-std::string score_text(const VectorSet& set, const std::vector<JudgedResults>& all);
+std::string score_text(const properties::ReadSet& read, const std::vector<JudgedResults>& all);
 
 }  // namespace assay::reports

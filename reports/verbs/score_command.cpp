@@ -16,15 +16,15 @@ struct ScoreRequest {
 
 Expected<int> run_score(const ScoreRequest& request) {
   BOOST_OUTCOME_TRY(may_write(request.page, request.results));
-  BOOST_OUTCOME_TRY(set, read_vector_set(request.set));
+  BOOST_OUTCOME_TRY(read, properties::read_set(request.set));
   std::vector<JudgedResults> all;
   for (const auto& file : request.results) {
-    BOOST_OUTCOME_TRY(results, read_vector_results(file, set));
-    all.push_back(judge_results(results, set));
+    BOOST_OUTCOME_TRY(results, properties::read_results(file, read));
+    all.push_back(judge_results(results, read.set));
   }
-  fmt::print("{}", score_text(set, all));
+  fmt::print("{}", score_text(read, all));
   if (!request.page.empty()) {
-    BOOST_OUTCOME_TRY(write_text_file(request.page, matrix_page(set, all)));
+    BOOST_OUTCOME_TRY(write_text_file(request.page, matrix_page(read, all)));
     fmt::print("\npage {}: opens in a browser, without a network\n", request.page);
   }
   return exit_code_of(all);

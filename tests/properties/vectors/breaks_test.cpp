@@ -31,9 +31,9 @@ bool is_wrong(const VectorAnswer& answer, const VectorFacts& facts) {
   if (answer.answer == "free") return true;
   if (answer.answer != "collision") return false;
   if (answer.time && answer.time->lo > facts.first->hi) return true;
-  if (!answer.pairs) return false;
+  if (!answer.pairs || !facts.pairs) return false;
   std::vector<detector::TrianglePair> wanted;
-  for (const auto& contact : facts.pairs) wanted.push_back(contact.pair);
+  for (const auto& contact : *facts.pairs) wanted.push_back(contact.pair);
   auto given = *answer.pairs;
   std::sort(given.begin(), given.end());
   return given != wanted;

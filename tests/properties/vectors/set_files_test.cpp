@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <regex>
+
+#include "corpus/digest.h"
 #include "corpus/file_bytes.h"
 #include "corpus/queries/query_csv.h"
 #include "properties/queries/query_families.h"
@@ -137,6 +140,67 @@ TEST_F(VectorFiles, RefuseAnIdThatIsThereTwice) {
   EXPECT_NE(read.error().message.find("twice"), std::string::npos) << read.error().message;
 }
 
+// Writes the small set with its meshes edited, and digests that are again those of the files.
+Expected<ReadSet> read_edited(const fs::path& folder, const std::string& what,
+                              const std::string& by) {
+  const auto set = small_set();
+  EXPECT_TRUE(write_set(folder, set));
+  const auto text_of = [&](const std::string& name) {
+    return corpus::read_bytes(folder / name).value();
+  };
+  auto said = text_of("set.json");
+  const auto say = [&](const std::string& old, const std::string& now) {
+    said.replace(said.find(old), old.size(), now);
+  };
+  const auto before = text_of("steps-double.json");
+  const auto after = std::regex_replace(before, std::regex(what), by);
+  EXPECT_NE(before, after) << what;
+  std::ofstream(folder / "steps-double.json") << after;
+  say(corpus::sha256_of(before), corpus::sha256_of(after));
+  std::string lines;
+  for (const auto& group : set.groups)
+    lines += corpus::sha256_of(text_of(group.name() + ".json")) + "  " + group.name() + ".json\n";
+  say(digest_of(set), corpus::sha256_of(lines));
+  std::ofstream(folder / "set.json") << said;
+  return read_set(folder);
+}
+
+TEST_F(VectorFiles, MayLeaveOutWhatIsNotJudgedBy) {
+  const auto read = read_edited(
+      folder(),
+      R"re(,"(pairs|polynomial|flags|hard|source|about)":(\[\[.*?\]\]|\[.*?\]|\{.*?\}|".*?"))re",
+      "");
+  ASSERT_TRUE(read) << read.error().message;
+  int contacts = 0;
+  for (const auto& v : read.value().set.groups[2].cases) {
+    EXPECT_EQ(v.c.about + v.c.source + v.hard.kind, "");
+    EXPECT_TRUE(v.flags.empty());
+    for (const auto& facts : v.steps) {
+      contacts += facts.first ? 1 : 0;
+      EXPECT_FALSE(facts.pairs) << "absent is not empty";
+    }
+  }
+  EXPECT_GT(contacts, 0);
+  const auto empty = read_edited(folder(), R"re("pairs":\[\[.*?\]\])re", "\"pairs\":[]");
+  ASSERT_TRUE(empty) << empty.error().message;
+  int stated = 0;
+  for (const auto& v : empty.value().set.groups[2].cases)
+    for (const auto& facts : v.steps) stated += facts.pairs && facts.pairs->empty() ? 1 : 0;
+  EXPECT_EQ(stated, contacts);
+}
+
+TEST_F(VectorFiles, RefusePairsTimesAndSchemasThatCannotBe) {
+  for (const auto& [what, by, message] :
+       {std::array{R"re("pairs":\[\[[0-9]+,[0-9]+)re", "\"pairs\":[[0,999", "pairs[0]"},
+        {R"re("pairs":\[\[[0-9]+,[0-9]+)re", "\"pairs\":[[0,0", "the lesser one first"},
+        {R"re("first_time":\[[^\]]*\])re", "\"first_time\":[1,0]", "the lesser one first"},
+        {"assay-vectors/1", "assay-vectors/9", "assay-vectors/9"}}) {
+    const auto read = read_edited(folder(), what, by);
+    ASSERT_FALSE(read) << by;
+    EXPECT_NE(read.error().message.find(message), std::string::npos) << read.error().message;
+  }
+}
+
 TEST(Verification, FindsEachWrongStatement) {
   const auto sound = small_set();
   ASSERT_TRUE(contradictions_of(sound, 2).empty());
@@ -171,8 +235,8 @@ TEST(Verification, FindsEachWrongStatement) {
     return true;
   });
   one_is_found([](Vector& v) {
-    if (v.steps[0].pairs.size() < 2) return false;
-    v.steps[0].pairs.pop_back();
+    if (!v.steps[0].pairs || v.steps[0].pairs->size() < 2) return false;
+    v.steps[0].pairs->pop_back();
     return true;
   });
   one_is_found([](Vector& v) {
