@@ -38,7 +38,7 @@ struct Quotas {
 };
 constexpr Quotas quotas_of(VectorProfile profile) {
   return profile == VectorProfile::core ? Quotas{120, 50, 90, 50, 1, 120, 20, 3}
-                                        : Quotas{4500, 1200, 1500, 500, 40, 9000, 600, 100};
+                                        : Quotas{3200, 900, 2400, 500, 150, 2500, 600, 100};
 }
 
 constexpr Eigen::Index most_triangles = 500;
