@@ -119,22 +119,10 @@ std::string kind_of(const Vector& v) {
 }
 
 std::optional<Vector> vector_of(const Draft& draft, const VectorGroup& group) {
-  std::optional<Vector> v;
-  if (group.features == VectorFeatures::mesh) {
-    v = mesh_vector(draft.c, group.question, group.precision);
-    if (!v) return v;
-  } else {
-    const auto query = *query_of(draft.c);
-    v.emplace();
-    v->c = draft.c;
-    v->question = group.question;
-    v->distance = draft.distance;
-    const bool of_distance = group.question == VectorQuestion::distance;
-    v->steps.push_back(of_distance ? distance_facts(query, draft.distance) : contact_facts(query));
-    const auto flags = flags_of(query, v->steps[0], draft.distance, group.precision);
-    v->flags.assign(flags.begin(), flags.end());
-    v->hard = hardness_of(query, v->steps[0], draft.distance);
-  }
+  auto v = group.features == VectorFeatures::mesh
+               ? mesh_vector(draft.c, group.question, group.precision)
+               : query_vector(draft.c, draft.distance, group.precision);
+  if (!v) return v;
   v->breaks = draft.breaks;
   v->split_of = draft.split_of;
   if (!draft.split_of.empty()) {
@@ -256,11 +244,11 @@ std::vector<FourPoints> halves_of(const FourPoints& query) {
   FourPoints first = query, second = query;
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const double a = query.points[i].t0[k], b = query.points[i].t1[k], middle = a / 2 + b / 2;
-      if (middle - a != b - middle || a + (middle - a) != middle || b - (b - middle) != middle ||
-          std::ldexp(a, -1) * 2 != a || std::ldexp(b, -1) * 2 != b)
-        return {};
-      // The difference is exact where it gives both ends back.
+      const double a = query.points[i].t0[k], b = query.points[i].t1[k];
+      // What rounding takes from the sum (Knuth, TwoSum), and from its half.
+      const double sum = a + b, of_b = sum - a, lost = (a - (sum - of_b)) + (b - of_b);
+      const double middle = sum / 2;
+      if (lost != 0 || middle * 2 != sum) return {};
       first.points[i].t1[k] = second.points[i].t0[k] = middle;
     }
   }

@@ -89,18 +89,10 @@ MethodsSay ask_methods(const Vector& v) {
 
 // What the case states and is not so.
 std::optional<std::string> wrong_fact(const Vector& v, const VectorGroup& group) {
-  Vector again = v;
-  if (const auto query = query_of(v.c)) {
-    again.steps = {v.question == VectorQuestion::distance ? distance_facts(*query, v.distance)
-                                                          : contact_facts(*query)};
-    const auto flags = flags_of(*query, again.steps[0], v.distance, group.precision);
-    again.flags.assign(flags.begin(), flags.end());
-    again.hard = hardness_of(*query, again.steps[0], v.distance);
-  } else {
-    const auto made = mesh_vector(v.c, v.question, group.precision);
-    if (!made) return "is no question about a limit";
-    again = *made;
-  }
+  const auto made = query_of(v.c) ? query_vector(v.c, v.distance, group.precision)
+                                  : mesh_vector(v.c, v.question, group.precision);
+  if (!made) return "is no question about a limit";
+  Vector again = *made;
   if (v.has(VectorFlag::split_invariant)) {
     again.flags.push_back(VectorFlag::split_invariant);
     std::sort(again.flags.begin(), again.flags.end());

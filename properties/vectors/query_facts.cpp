@@ -9,6 +9,7 @@
 #include "oracle/query/contact_events.h"
 #include "oracle/query/times/algebraic_times.h"
 #include "properties/search/gap.h"
+#include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
 namespace {
@@ -150,12 +151,6 @@ VectorFacts contact_facts(const FourPoints& query) {
   return facts;
 }
 
-bool only_touch(const FourPoints& query) {
-  if (!oracle::contact_of(query, detector::Want::yes_no).contact) return false;
-  ContactPolynomials polynomials(query);
-  return !passes(polynomials);
-}
-
 VectorFacts distance_facts(const FourPoints& query, double d) {
   VectorFacts facts;
   facts.least_distance = oracle::least_distance(query);
@@ -164,8 +159,10 @@ VectorFacts distance_facts(const FourPoints& query, double d) {
   const auto less = oracle::first_time_within(query, {d, -d * 0x1p-60}, detector::Want::yes_no);
   facts.result = less.near ? VectorResult::collision : VectorResult::acceptable;
   facts.first = near.first;
-  facts.polynomial = start_of_step;
-  if (near.first.hi == 0) return facts;
+  if (near.first.hi == 0) {
+    facts.polynomial = start_of_step;
+    return facts;
+  }
   const oracle::Regions regions(query, {d, 0});
   for (int i = 0; i < regions.size(); ++i) {
     const auto region = regions[i];
@@ -267,6 +264,19 @@ VectorHardness hardness_of(const FourPoints& query, const VectorFacts& facts, do
   const double least = oracle::least_distance(query);
   if (extent > 0 && std::isfinite(least)) take(Hardness::distance, std::min(least / extent, 1.0));
   return hard;
+}
+
+Vector query_vector(corpus::Case c, double distance, VectorPrecision precision) {
+  const auto query = *query_of(c);
+  Vector v;
+  v.c = std::move(c);
+  v.question = distance > 0 ? VectorQuestion::distance : VectorQuestion::contact;
+  v.distance = distance;
+  v.steps = {distance > 0 ? distance_facts(query, distance) : contact_facts(query)};
+  const auto flags = flags_of(query, v.steps[0], distance, precision);
+  v.flags.assign(flags.begin(), flags.end());
+  v.hard = hardness_of(query, v.steps[0], distance);
+  return v;
 }
 
 }  // namespace assay::properties

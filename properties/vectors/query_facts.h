@@ -12,11 +12,12 @@ namespace assay::properties {
 // time inside of the step they meet while F changes its sign; else they touch.
 VectorFacts contact_facts(const detector::FourPoints& query);
 
-// Whether the features meet in a step, and only touch.
-bool only_touch(const detector::FourPoints& query);
-
 // Of coming within d. They only come to d itself if nothing is within d less a 2^60th of it.
 VectorFacts distance_facts(const detector::FourPoints& query, double d);
+
+// The vector of a query with its facts, flags and hardness. REQUIRES a case that is a query.
+// `distance`: that which is asked about; 0: a contact is.
+Vector query_vector(corpus::Case c, double distance, VectorPrecision precision);
 
 // REQUIRES the facts of the query. `distance`: that which was asked about; 0: a contact was.
 std::set<VectorFlag> flags_of(const detector::FourPoints& query, const VectorFacts& facts,
