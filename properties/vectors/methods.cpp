@@ -120,6 +120,26 @@ std::optional<std::string> wrong_fact(const Vector& v, const VectorGroup& group)
   return std::nullopt;
 }
 
+// What is wrong with the halves of a step: one is missing, they are not its halves, or the whole
+// has a contact and no half has one, or the other way round.
+std::optional<std::string> wrong_halves(const Vector& whole, const VectorGroup& group) {
+  std::vector<const Vector*> halves;
+  for (const auto& v : group.cases) {
+    if (v.split_of == whole.c.id) halves.push_back(&v);
+  }
+  const bool is_split = whole.has(VectorFlag::split_invariant) && whole.split_of.empty();
+  if (!is_split) return halves.empty() ? std::nullopt : std::optional("has halves unsaid");
+  if (halves.size() != 2) return "has not two halves";
+  const auto &first = halves[0]->c.frames, &second = halves[1]->c.frames;
+  if (first[0] != whole.c.frames[0] || first[1] != second[0] || second[1] != whole.c.frames[1] ||
+      first[1] - first[0] != second[1] - second[0])
+    return "its halves are none";
+  const auto meets = [](const Vector& v) { return v.result() != VectorResult::free; };
+  if (meets(whole) != (meets(*halves[0]) || meets(*halves[1])))
+    return "another result whole than in halves";
+  return std::nullopt;
+}
+
 std::vector<std::pair<VectorGroup*, Vector*>> cases_of(VectorSet& set) {
   std::vector<std::pair<VectorGroup*, Vector*>> cases;
   for (auto& group : set.groups) {
@@ -154,6 +174,7 @@ std::vector<VectorContradiction> contradictions_of(const VectorSet& set, int job
   for_each_index(cases.size(), jobs, [&](std::size_t i) {
     const auto& [group, v] = cases[i];
     wrong[i] = wrong_fact(*v, *group);
+    if (!wrong[i]) wrong[i] = wrong_halves(*v, *group);
     if (wrong[i]) return;
     const auto say = ask_methods(*v);
     wrong[i] = say.contradiction;

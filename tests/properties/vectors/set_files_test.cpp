@@ -249,6 +249,42 @@ TEST(Verification, FindsEachWrongStatement) {
   });
 }
 
+// A vertex that passes a face at rest in the second half of the step.
+VectorSet split_set() {
+  const auto moved = [](double from, double to, const std::string& id, const std::string& of) {
+    detector::FourPoints query;
+    query.points = {{{{0, 0, from}, {0, 0, to}},
+                     {{-1, -1, 0}, {-1, -1, 0}},
+                     {{3, -1, 0}, {3, -1, 0}},
+                     {{-1, 3, 0}, {-1, 3, 0}}}};
+    auto v = query_vector(case_of_query(query, id), 0, VectorPrecision::float64);
+    v.flags.push_back(VectorFlag::split_invariant);
+    std::sort(v.flags.begin(), v.flags.end());
+    v.split_of = of;
+    return v;
+  };
+  VectorSet set;
+  set.groups.emplace_back();
+  set.groups[0].cases = {moved(3, -1, "whole", ""), moved(3, 1, "one", "whole"),
+                         moved(1, -1, "two", "whole")};
+  return set;
+}
+
+TEST(Verification, LooksAtHalves) {
+  EXPECT_TRUE(contradictions_of(split_set(), 1).empty());
+  const auto found_by = [](const std::function<void(std::vector<Vector>&)>& change) {
+    auto set = split_set();
+    change(set.groups[0].cases);
+    const auto found = contradictions_of(set, 1);
+    return found.size() == 1 ? found[0].id + " " + found[0].text : std::string("nothing");
+  };
+  EXPECT_EQ(found_by([](auto& cases) { cases.pop_back(); }), "whole has not two halves");
+  EXPECT_EQ(found_by([](auto& cases) { std::swap(cases[1], cases[2]); }),
+            "whole its halves are none");
+  EXPECT_EQ(found_by([](auto& cases) { std::erase(cases[0].flags, VectorFlag::split_invariant); }),
+            "whole has halves unsaid");
+}
+
 TEST(Neighbours, AreAskedOfAllMethods) {
   const auto tally = check_neighbours(small_set(), 500, 2);
   EXPECT_EQ(tally.queries, 500u);
