@@ -20,6 +20,7 @@ class PairRelation {
  public:
   // REQUIRES a relation without errors (detector/mesh/mesh_checks.h).
   PairRelation(const detector::CountedPairs& counted, const MeshFeatures& features);
+  PairRelation(const detector::CountedPairs& counted, MeshFeatures&& features) = delete;
 
   bool is_of_features() const { return counted_.level == detector::CountedLevel::features; }
   // Whether the bodies of two vertices meet. This is cheap, and needs no triangle that holds them.

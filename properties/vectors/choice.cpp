@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <boost/outcome/try.hpp>
 #include <cmath>
 #include <map>
@@ -142,11 +141,8 @@ class GroupChoice {
 
   void offer(const std::vector<Draft>& drafts) {
     std::vector<std::optional<Vector>> vectors(drafts.size());
-    std::atomic<std::size_t> next = 0;
-    in_threads(jobs_, [&] {
-      for (std::size_t i = next++; i < drafts.size(); i = next++)
-        vectors[i] = vector_of(drafts[i], group_);
-    });
+    for_each_in_threads(drafts.size(), jobs_,
+                        [&](std::size_t i) { vectors[i] = vector_of(drafts[i], group_); });
     for (std::size_t i = 0; i < drafts.size(); ++i) {
       if (vectors[i]) take(std::move(*vectors[i]), drafts[i].is_wanted);
     }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <mutex>
 
@@ -148,19 +147,11 @@ std::vector<std::pair<VectorGroup*, Vector*>> cases_of(VectorSet& set) {
   return cases;
 }
 
-template <class Work>
-void for_each_index(std::size_t count, int jobs, const Work& work) {
-  std::atomic<std::size_t> next = 0;
-  in_threads(jobs, [&] {
-    for (std::size_t i = next++; i < count; i = next++) work(i);
-  });
-}
-
 }  // namespace
 
 void say_open_methods(VectorSet& set, int jobs) {
   const auto cases = cases_of(set);
-  for_each_index(cases.size(), jobs, [&](std::size_t i) {
+  for_each_in_threads(cases.size(), jobs, [&](std::size_t i) {
     auto& v = *cases[i].second;
     v.open.clear();
     if (ask_methods(v).referee_is_open) v.open.push_back(referee_name);
@@ -171,7 +162,7 @@ std::vector<VectorContradiction> contradictions_of(const VectorSet& set, int job
   VectorSet copy = set;
   const auto cases = cases_of(copy);
   std::vector<std::optional<std::string>> wrong(cases.size());
-  for_each_index(cases.size(), jobs, [&](std::size_t i) {
+  for_each_in_threads(cases.size(), jobs, [&](std::size_t i) {
     const auto& [group, v] = cases[i];
     wrong[i] = wrong_fact(*v, *group);
     if (!wrong[i]) wrong[i] = wrong_halves(*v, *group);
@@ -220,7 +211,7 @@ NeighbourTally check_neighbours(const VectorSet& set, std::uint64_t count, int j
   NeighbourTally tally;
   if (asked.empty()) return tally;
   std::mutex mutex;
-  for_each_index(count, jobs, [&](std::size_t i) {
+  for_each_in_threads(count, jobs, [&](std::size_t i) {
     const auto& one = asked[i % asked.size()];
     const auto id = fmt::format("{}:{}", one.id, i / asked.size());
     Random random(id);
