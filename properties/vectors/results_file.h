@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "properties/vectors/set_files.h"
+#include "properties/vectors/set_reader.h"
 
 namespace assay::properties {
 

@@ -3,6 +3,7 @@
 
 #include "properties/vectors/methods.h"
 #include "properties/vectors/set_files.h"
+#include "properties/vectors/set_reader.h"
 #include "reports/terminal/words.h"
 #include "reports/verbs/verbs.h"
 

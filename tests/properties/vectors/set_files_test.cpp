@@ -12,6 +12,7 @@
 #include "properties/vectors/mesh_facts.h"
 #include "properties/vectors/methods.h"
 #include "properties/vectors/query_facts.h"
+#include "properties/vectors/set_reader.h"
 #include "properties/worker/plugin/query_case.h"
 #include "tests/corpus/scratch.h"
 #include "tests/test.h"
