@@ -52,6 +52,12 @@ struct BoundingVolumeTree::Builder {
     }
   }
 
+  // Half of the items, as a whole number of wide nodes (wide_tree.h) where there are enough.
+  static std::size_t half_of(std::size_t count) {
+    constexpr std::size_t wide = box_lanes::width;
+    return count <= 2 * wide ? count / 2 : (count / 2 + wide / 2) / wide * wide;
+  }
+
   static std::size_t split(Items items, const std::vector<Point>& centres) {
     Point lo = centres[at(items[0])], hi = lo;
     for (const auto i : items) widen(lo, hi, centres[at(i)]);
@@ -60,7 +66,7 @@ struct BoundingVolumeTree::Builder {
       // Halves: a side may be longer than the largest double.
       if (.5 * hi[k] - .5 * lo[k] > .5 * hi[axis] - .5 * lo[axis]) axis = k;
     }
-    const std::size_t middle = items.size() / 2;
+    const std::size_t middle = half_of(items.size());
     std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(middle),
                      items.end(), [&](std::int32_t a, std::int32_t b) {
                        const double p = centres[at(a)][axis], q = centres[at(b)][axis];
@@ -131,6 +137,7 @@ BoundingVolumeTree::BoundingVolumeTree(const Topology& mesh, const PositionsView
   Builder builder(*this, mesh, x, pace);
   if (!(pace && pace->stopped())) builder.grow_over_components(root, components);
   if (!(pace && pace->stopped())) make_blocks();
+  if (!(pace && pace->stopped())) wide_ = WideTree(*this, pace);
 }
 
 void BoundingVolumeTree::make_blocks() {
@@ -174,6 +181,7 @@ bool BoundingVolumeTree::refit(const Topology& mesh, const SteppedMesh& motion, 
     boxes_[at(node)] = child < 0 ? grown(points.box(mesh.triangles[at(~child)]), by)
                                  : join(boxes_[at(child)], boxes_[at(child) + 1]);
   });
+  if (!completed || !wide_.refit(mesh, points, by, pace)) return false;
   if (completed) fitted_to_ = Arrays(motion);
   return completed;
 }

@@ -17,6 +17,7 @@
 #include "detector/mesh/topology.h"
 #include "detector/parallel/for_all.h"
 #include "detector/search/moving_box.h"
+#include "detector/search/wide_tree.h"
 
 namespace assay::detector {
 
@@ -61,6 +62,9 @@ class BoundingVolumeTree {
     return for_each_paced(above_blocks_.size(), work_of_node, pace,
                           [&](std::size_t i) { body(above_blocks_[last - i]); });
   }
+
+  // The same tree as a search reads it, with boxes of the last refit.
+  const WideTree& wide() const { return wide_; }
 
   const FloatGrid& grid() const { return grid_; }
   // The box over the step of the last refit.
@@ -114,6 +118,7 @@ class BoundingVolumeTree {
   std::vector<std::int32_t> component_;
   std::vector<std::int32_t> component_root_;  // by component
   std::vector<MovingBox> boxes_;
+  WideTree wide_;
   double separation_ = 0;
   std::optional<Arrays> fitted_to_;
   FloatGrid grid_;

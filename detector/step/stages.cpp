@@ -1,6 +1,7 @@
 #include "detector/step/stages.h"
 
 #include "detector/distance/nearness.h"
+#include "detector/search/wide_search.h"
 #include "detector/traditional/traditional.h"
 
 namespace assay::detector {
@@ -21,7 +22,7 @@ Stages standard_stages(const Options& options) {
     stages.pair_search =
         std::make_shared<NormalConeSearch>(NormalConeSearch::Asked::of_four_triangles_or_more);
   } else {
-    stages.pair_search = std::make_shared<TreeSearch>();
+    stages.pair_search = std::make_shared<WideSearch>();
   }
   stages.elementary = options.separation > 0 ? make_near_test(options.separation)
                                              : make_elementary_test(options.arithmetic);

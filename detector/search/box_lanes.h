@@ -1,0 +1,39 @@
+// Comparisons of moving boxes, one with up to eight, by vector instructions. Floats are compared
+// and nothing is computed, so every instruction set gives the same bits.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace assay::detector {
+
+namespace box_lanes {
+inline constexpr std::size_t width = 8, rows = 12;
+}  // namespace box_lanes
+
+// Up to eight boxes as twelve rows of `count` floats (wide_tree.h). Eight floats may be read from
+// each row, whatever the count is.
+struct BoxRows {
+  const float* first;
+  std::size_t count;
+};
+
+// For each box i of a, the boxes of b that it is asked about, as bits, and then those of them that
+// it is not apart from.
+using LaneSets = std::uint8_t[box_lanes::width];
+
+struct BoxKernels {
+  // Clears the bits of the boxes that are apart. box_of_a and box_of_b are twelve floats that
+  // bound all boxes of a and of b; they spare comparisons. Returns how many boxes were compared.
+  std::uint32_t (*compare_all)(const BoxRows& a, const float* box_of_a, const BoxRows& b,
+                               const float* box_of_b, LaneSets& sets);
+  // The boxes of b that are not apart from one box, of twelve floats, as bits.
+  std::uint32_t (*compare_one)(const float* box, const BoxRows& b);
+};
+
+// Those of the best instruction set that this machine has.
+const BoxKernels& box_kernels();
+// The plain ones, which every machine has.
+const BoxKernels& plain_box_kernels();
+
+}  // namespace assay::detector

@@ -1,0 +1,267 @@
+#include "detector/search/wide_search.h"
+
+#include <atomic>
+#include <bit>
+
+#include "detector/parallel/for_all.h"
+
+namespace assay::detector {
+namespace {
+
+using box_lanes::width;
+
+// Two nodes of the wide tree whose boxes meet, or the same node twice.
+struct WidePair {
+  std::int32_t a, b;
+};
+
+// What the lanes of a search share.
+struct WideHunt {
+  WideHunt(const SearchInput& searched, const PairSink& taker)
+      : input(searched),
+        binary(searched.tree),
+        tree(searched.tree.wide()),
+        flags(searched.marks.node_flags.data()),
+        within(searched.tables.within),
+        across(searched.tables.across),
+        sink(taker),
+        kernels(box_kernels()) {
+    // In a step without views all triangles have one flag.
+    const auto all = flags[BoundingVolumeTree::root];
+    asks_everything = std::has_single_bit(all) && within.asks(all, all) && across.asks(all, all) &&
+                      !searched.relation;
+  }
+
+  // The table for pairs of these two components; an empty one if they do not meet.
+  const PairTable& table_of(std::int32_t c, std::int32_t d) const {
+    if (!input.components_meet(c, d)) return nothing;
+    return c == d ? within : across;
+  }
+
+  const SearchInput& input;
+  const BoundingVolumeTree& binary;
+  const WideTree& tree;
+  const std::uint8_t* flags;
+  const PairTable within, across, nothing = {};
+  const PairSink& sink;
+  const BoxKernels& kernels;
+  bool asks_everything = false;
+  std::atomic<bool> is_stopped = false;
+};
+
+// The flags of a node's children, a byte each.
+struct ChildFlags {
+  std::uint64_t bytes = 0;
+  std::uint8_t of(std::size_t i) const { return static_cast<std::uint8_t>(bytes >> (8 * i)); }
+  // The children that have some flag of this set, as bits.
+  std::uint8_t with(std::uint8_t set) const {
+    constexpr std::uint64_t low = 0x7f7f7f7f7f7f7f7f, ones = 0x0101010101010101;
+    const std::uint64_t some = bytes & (set * ones);
+    const std::uint64_t high = ((some & low) + low) | some;  // bit 7 of each byte that is not 0
+    constexpr std::uint64_t gather = 0x0002040810204081;
+    return static_cast<std::uint8_t>(((high >> 7) & ones) * (gather << 7) >> 56);
+  }
+};
+
+// The descent of one lane.
+class WideDescent {
+ public:
+  WideDescent(WideHunt& hunt, std::size_t lane, SearchCounts& counts)
+      : hunt_(hunt), tree_(hunt.tree), lane_(lane), counts_(counts) {
+    found_.reserve(found_at_once + width * width);
+  }
+
+  // Cuts the descent of the root against itself into as many pairs of nodes as wanted or a few
+  // more, splitting the highest first. There may be fewer if the descent ends before that.
+  std::vector<WidePair> cut(std::size_t wanted) {
+    std::vector<WidePair> left = {{WideTree::root, WideTree::root}};
+    for (std::size_t first = 0;; ++first) {
+      if (first == left.size() || left.size() - first >= wanted || is_ended()) {
+        left.erase(left.begin(), left.begin() + static_cast<std::ptrdiff_t>(first));
+        return left;
+      }
+      split(left[first]);
+      left.insert(left.end(), stack_.begin(), stack_.end());
+      stack_.clear();
+    }
+  }
+
+  // Searches all that lies below the pair.
+  void run(const WidePair& pair) {
+    stack_.push_back(pair);
+    while (!stack_.empty() && !is_ended()) {
+      const WidePair p = stack_.back();
+      stack_.pop_back();
+      split(p);
+    }
+    stack_.clear();
+  }
+
+  // Hands over what was found last. False if the search has ended early.
+  bool finish() {
+    hand_over();
+    return !is_ended();
+  }
+
+ private:
+  static constexpr std::size_t found_at_once = 256;
+
+  bool is_ended() const { return hunt_.is_stopped.load(std::memory_order_relaxed); }
+
+  void split(const WidePair& p) {
+    const auto &a = tree_.node(p.a), &b = tree_.node(p.b);
+    if (p.a != p.b && a.holds_triangles != b.holds_triangles) {
+      if (a.holds_triangles) {
+        split_one(p.b, b, p.a);
+      } else {
+        split_one(p.a, a, p.b);
+      }
+      return;
+    }
+    LaneSets sets;
+    ask(p, a, b, sets);
+    counts_.box_tests += hunt_.kernels.compare_all(tree_.children(p.a), tree_.box(p.a),
+                                                   tree_.children(p.b), tree_.box(p.b), sets);
+    if (a.holds_triangles) {
+      find(a, b, sets);
+      return;
+    }
+    if (p.a == p.b) enter_each(a);
+    for (std::size_t i = 0; i < a.count; ++i) {
+      const auto child = tree_.child(a.first_slot + i);
+      for (std::uint32_t left = sets[i]; left != 0; left &= left - 1)
+        stack_.push_back({child, tree_.child(b.first_slot + lowest(left))});
+    }
+  }
+
+  // A node of nodes with one of triangles.
+  void split_one(std::int32_t n, const WideTree::Node& node, std::int32_t other) {
+    counts_.box_tests += node.count;
+    std::uint32_t meet = hunt_.kernels.compare_one(tree_.box(other), tree_.children(n));
+    if (!hunt_.asks_everything) meet &= asked_of(node, tree_.binary_of(other));
+    for (; meet != 0; meet &= meet - 1)
+      stack_.push_back({tree_.child(node.first_slot + lowest(meet)), other});
+  }
+
+  void find(const WideTree::Node& a, const WideTree::Node& b, const LaneSets& sets) {
+    for (std::size_t i = 0; i < a.count; ++i) {
+      const auto t = tree_.child(a.first_slot + i);
+      counts_.candidate_pairs += static_cast<std::uint64_t>(std::popcount(sets[i]));
+      for (std::uint32_t left = sets[i]; left != 0; left &= left - 1)
+        found_.push_back({t, tree_.child(b.first_slot + lowest(left))});
+    }
+    if (found_.size() >= found_at_once) hand_over();
+  }
+
+  // The children each against itself. A single triangle holds no pair.
+  void enter_each(const WideTree::Node& node) {
+    for (std::size_t i = 0; i < node.count; ++i) {
+      const auto slot = node.first_slot + i;
+      const auto child = tree_.child(slot), binary = tree_.binary(slot);
+      if (hunt_.binary.is_leaf(binary)) continue;
+      if (!hunt_.asks_everything && !asks(binary, binary)) continue;
+      stack_.push_back({child, child});
+    }
+  }
+
+  // Sets, for each child of a, the children of b that it is asked about. Of a node with itself each
+  // pair is asked for once.
+  void ask(const WidePair& p, const WideTree::Node& a, const WideTree::Node& b,
+           LaneSets& sets) const {
+    if (hunt_.asks_everything) {
+      for (auto& set : sets) set = 0xff;
+    } else if (const auto c = component(tree_.binary_of(p.a)), d = component(tree_.binary_of(p.b));
+               c != mixed_components && d != mixed_components) {
+      const PairTable& table = hunt_.table_of(c, d);
+      const ChildFlags of_a = flags_of(a), of_b = flags_of(b);
+      for (std::size_t i = 0; i < a.count; ++i) sets[i] = of_b.with(table.partners(of_a.of(i)));
+    } else {
+      for (std::size_t i = 0; i < a.count; ++i)
+        sets[i] = asked_of(b, tree_.binary(a.first_slot + i));
+    }
+    if (p.a == p.b) {
+      for (std::size_t i = 0; i < a.count; ++i) sets[i] &= static_cast<std::uint8_t>(0xfe << i);
+    }
+  }
+
+  // The children of a node, as bits, that are asked about together with a binary node.
+  std::uint8_t asked_of(const WideTree::Node& node, std::int32_t other) const {
+    std::uint8_t asked = 0;
+    for (std::size_t i = 0; i < node.count; ++i) {
+      if (asks(tree_.binary(node.first_slot + i), other))
+        asked = static_cast<std::uint8_t>(asked | 1u << i);
+    }
+    return asked;
+  }
+
+  // Whether some pair below two binary nodes may be asked for.
+  bool asks(std::int32_t a, std::int32_t b) const {
+    const auto c = component(a), d = component(b);
+    const auto p = hunt_.flags[at(a)], q = hunt_.flags[at(b)];
+    if (c != mixed_components && d != mixed_components) return hunt_.table_of(c, d).asks(p, q);
+    return hunt_.within.asks(p, q) || hunt_.across.asks(p, q);
+  }
+
+  std::int32_t component(std::int32_t binary) const { return hunt_.binary.component(binary); }
+
+  ChildFlags flags_of(const WideTree::Node& node) const {
+    ChildFlags flags;
+    for (std::size_t i = 0; i < node.count; ++i) {
+      const std::uint64_t of_child = hunt_.flags[at(tree_.binary(node.first_slot + i))];
+      flags.bytes |= of_child << (8 * i);
+    }
+    return flags;
+  }
+
+  static std::size_t lowest(std::uint32_t set) {
+    return static_cast<std::size_t>(std::countr_zero(set));
+  }
+
+  void hand_over() {
+    if (!found_.empty() && !is_ended() && !hunt_.sink(found_, lane_)) hunt_.is_stopped = true;
+    found_.clear();
+  }
+
+  WideHunt& hunt_;
+  const WideTree& tree_;
+  const std::size_t lane_;
+  SearchCounts& counts_;
+  std::vector<WidePair> stack_;
+  std::vector<CandidatePair> found_;  // not yet handed over
+};
+
+}  // namespace
+
+bool WideSearch::search(const SearchInput& input, SearchCounts& counts,
+                        const PairSink& sink) const {
+  // With so many pairs of nodes for each lane, all lanes get about the same amount of work.
+  constexpr std::size_t pairs_of_lane = 64;
+  WideHunt hunt(input, sink);
+  WideDescent descent(hunt, 0, counts);
+  const bool has_lanes = has_workers(input.pace) && sink.takes_lanes();
+  const std::size_t wanted = has_lanes ? pairs_of_lane * input.pace->workers()->count() : 1;
+  const auto pairs = descent.cut(wanted);
+  if (!has_lanes || pairs.size() < wanted) {
+    for (const auto& pair : pairs) descent.run(pair);
+    return descent.finish();
+  }
+  if (!descent.finish()) return false;
+  struct alignas(64) Lane {
+    SearchCounts counts;
+    std::unique_ptr<WideDescent> descent;
+  };
+  std::vector<Lane> lanes(input.pace->workers()->count());
+  for (std::size_t i = 0; i < lanes.size(); ++i)
+    lanes[i].descent = std::make_unique<WideDescent>(hunt, i, lanes[i].counts);
+  input.pace->workers()->share_out(pairs.size(), 1, [&](const LoopPiece& piece) {
+    lanes[piece.lane].descent->run(pairs[piece.begin]);
+  });
+  bool completed = true;
+  for (const auto& lane : lanes) {
+    completed = lane.descent->finish() && completed;
+    counts += lane.counts;
+  }
+  return completed;
+}
+
+}  // namespace assay::detector
