@@ -22,6 +22,20 @@ struct BoxRows {
 // it is not apart from.
 using LaneSets = std::uint8_t[box_lanes::width];
 
+// A corner of a triangle over the step: its rounded coordinates and a 0, sums along the four
+// diagonals (feature_pairs.h), both at t=0, and the same at t=1.
+inline constexpr std::size_t floats_of_corner = 16;
+using TriangleCorners = const float*[3];
+
+// Which features of two triangles may meet, as bits.
+namespace feature_bits {
+constexpr std::uint32_t corner_on_face(std::size_t i) { return 1u << i; }
+constexpr std::uint32_t face_on_corner(std::size_t j) { return 1u << (3 + j); }
+constexpr std::uint32_t edges(std::size_t i, std::size_t j) { return 1u << (6 + 3 * i + j); }
+constexpr std::uint32_t edge_at_start(std::size_t i) { return 1u << (15 + i); }
+constexpr std::uint32_t face_at_start(std::size_t j) { return 1u << (18 + j); }
+}  // namespace feature_bits
+
 struct BoxKernels {
   // Clears the bits of the boxes that are apart. box_of_a and box_of_b are twelve floats that
   // bound all boxes of a and of b; they spare comparisons. Returns how many boxes were compared.
@@ -29,6 +43,11 @@ struct BoxKernels {
                                const float* box_of_b, LaneSets& sets);
   // The boxes of b that are not apart from one box, of twelve floats, as bits.
   std::uint32_t (*compare_one)(const float* box, const BoxRows& b);
+  // Of the features asked for, those whose boxes are not apart by more than the margin, which has
+  // eight floats. Of an edge and a face `at_start` counts the boxes at t=0 alone. Edge i is
+  // opposite to corner i. Nothing, if the two triangles are apart.
+  std::uint32_t (*compare_features)(const TriangleCorners& a, const TriangleCorners& b,
+                                    const float* margin, std::uint32_t asked);
 };
 
 // Those of the best instruction set that this machine has.

@@ -74,7 +74,108 @@ std::uint32_t compare_all_lanes(const BoxRows& a, const float* box_of_a, const B
   return compared;
 }
 
-constexpr BoxKernels kernels_of_this_file = {compare_all_lanes, compare_one_lanes};
+// The bounds of a feature, the upper ones with the margin.
+struct FeatureLanes {
+  Lanes lo_t0, hi_t0, lo_t1, hi_t1;
+};
+
+ASSAY_INLINE bool some(const LaneMask& mask) { return bits_of(mask) != 0; }
+
+ASSAY_INLINE void join(FeatureLanes& out, const FeatureLanes& a, const FeatureLanes& b) {
+  out.lo_t0 = a.lo_t0 < b.lo_t0 ? a.lo_t0 : b.lo_t0;
+  out.hi_t0 = a.hi_t0 > b.hi_t0 ? a.hi_t0 : b.hi_t0;
+  out.lo_t1 = a.lo_t1 < b.lo_t1 ? a.lo_t1 : b.lo_t1;
+  out.hi_t1 = a.hi_t1 > b.hi_t1 ? a.hi_t1 : b.hi_t1;
+}
+
+ASSAY_INLINE bool meet(const FeatureLanes& a, const FeatureLanes& b) {
+  return !some(((a.hi_t0 < b.lo_t0) & (a.hi_t1 < b.lo_t1)) |
+               ((b.hi_t0 < a.lo_t0) & (b.hi_t1 < a.lo_t1)));
+}
+
+ASSAY_INLINE bool meet_at_start(const FeatureLanes& a, const FeatureLanes& b) {
+  return !some((a.hi_t0 < b.lo_t0) | (b.hi_t0 < a.lo_t0));
+}
+
+ASSAY_INLINE void corner(FeatureLanes& out, const float* at, const Lanes& margin) {
+  load(out.lo_t0, at);
+  load(out.lo_t1, at + floats_of_corner / 2);
+  out.hi_t0 = out.lo_t0 + margin;
+  out.hi_t1 = out.lo_t1 + margin;
+}
+
+ASSAY_INLINE void edge(FeatureLanes& out, const TriangleCorners& corners, std::size_t i,
+                       const Lanes& margin) {
+  FeatureLanes p, q;
+  corner(p, corners[i == 2 ? 0 : i + 1], margin);
+  corner(q, corners[i == 0 ? 2 : i - 1], margin);
+  join(out, p, q);
+}
+
+ASSAY_INLINE void face(FeatureLanes& out, const TriangleCorners& corners, const Lanes& margin) {
+  FeatureLanes p;
+  edge(out, corners, 0, margin);
+  corner(p, corners[0], margin);
+  join(out, out, p);
+}
+
+ASSAY_INLINE std::size_t lowest(std::uint32_t bits) {
+  return static_cast<std::size_t>(__builtin_ctz(bits));
+}
+
+// Those of the corners asked for, as bits, that meet the face.
+ASSAY_INLINE std::uint32_t corners_that_meet(const TriangleCorners& corners, std::uint32_t asked,
+                                             const FeatureLanes& other, const Lanes& margin) {
+  std::uint32_t found = 0;
+  for (; asked != 0; asked &= asked - 1) {
+    FeatureLanes p;
+    corner(p, corners[lowest(asked)], margin);
+    if (meet(p, other)) found |= asked & -asked;
+  }
+  return found;
+}
+
+std::uint32_t compare_features_lanes(const TriangleCorners& a, const TriangleCorners& b,
+                                     const float* margin, std::uint32_t asked) {
+  Lanes by;
+  load(by, margin);
+  FeatureLanes face_a, face_b;
+  face(face_a, a, by);
+  face(face_b, b, by);
+  if (!meet(face_a, face_b)) return 0;
+  constexpr std::uint32_t three = 7;
+  std::uint32_t found = corners_that_meet(a, asked & three, face_b, by);
+  found |= corners_that_meet(b, asked >> 3 & three, face_a, by) << 3;
+  std::uint32_t edges = asked >> 6 & 511, starts_a = asked >> 15 & three, starts_b = asked >> 18;
+  // The edges of b that some pair asks for, and that meet the face of a.
+  std::uint32_t edges_b = (edges | edges >> 3 | edges >> 6) & three, left = edges_b | starts_b;
+  FeatureLanes boxes_b[3];
+  for (; left != 0; left &= left - 1) {
+    const std::size_t j = lowest(left);
+    edge(boxes_b[j], b, j, by);
+    if (!meet(boxes_b[j], face_a)) {
+      edges_b &= ~(1u << j);
+    } else if (starts_b >> j & 1 && meet_at_start(boxes_b[j], face_a)) {
+      found |= feature_bits::face_at_start(j);
+    }
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::uint32_t partners = edges >> (3 * i) & edges_b;
+    if (!(partners | (starts_a >> i & 1))) continue;
+    FeatureLanes box;
+    edge(box, a, i, by);
+    if (!meet(box, face_b)) continue;
+    if (starts_a >> i & 1 && meet_at_start(box, face_b)) found |= feature_bits::edge_at_start(i);
+    for (; partners != 0; partners &= partners - 1) {
+      const std::size_t j = lowest(partners);
+      if (meet(box, boxes_b[j])) found |= feature_bits::edges(i, j);
+    }
+  }
+  return found;
+}
+
+constexpr BoxKernels kernels_of_this_file = {compare_all_lanes, compare_one_lanes,
+                                             compare_features_lanes};
 
 #undef ASSAY_INLINE
 

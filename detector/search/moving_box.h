@@ -75,10 +75,6 @@ inline MovingBox grown(const MovingBox& box, FloatLanes by) {
   return {box.lo_t0 - by, box.hi_t0 + by, box.lo_t1 - by, box.hi_t1 + by};
 }
 
-inline bool apart_at_start(const MovingBox& a, const MovingBox& b) {
-  return any((a.hi_t0 < b.lo_t0) | (b.hi_t0 < a.lo_t0));
-}
-
 // The functions f, by axis: f(x) = (x - centre) * scale, rounded to double twice and to float
 // once. Each of the three roundings keeps order. Finite doubles give floats or infinities, never
 // NaN. The centre lies between positions of the step, so the differences of these from it do not

@@ -28,6 +28,32 @@ bool ordered(const Positions& x_t0, const Positions& x_t1, std::int32_t a, std::
   return false;
 }
 
+// Whether edges of these ends, or the points of equal ends, are apart, by a margin for axes and
+// diagonals. Both instruction sets have to agree.
+bool are_apart(const FeaturePoints& points, std::array<std::int32_t, 2> a,
+               std::array<std::int32_t, 2> b, const FeatureMargin& margin) {
+  const auto corners = [&](const std::array<std::int32_t, 2>& ends, TriangleCorners& out) {
+    out[0] = out[1] = points[ends[0]].floats();
+    out[2] = points[ends[1]].floats();
+  };
+  TriangleCorners of_a, of_b;
+  corners(a, of_a);
+  corners(b, of_b);
+  const auto found = [&](const BoxKernels& kernels) {
+    return kernels.compare_features(of_a, of_b, margin.floats(), feature_bits::edges(0, 0));
+  };
+  EXPECT_EQ(found(box_kernels()), found(plain_box_kernels()));
+  return found(box_kernels()) == 0;
+}
+
+// With this margin axes tell nothing apart.
+FeatureMargin of_diagonals_alone() {
+  constexpr float beyond_all = std::numeric_limits<float>::infinity();
+  FeatureMargin margin;
+  margin.axes = FloatLanes{beyond_all, beyond_all, beyond_all, beyond_all};
+  return margin;
+}
+
 TEST(FeatureBoxes, L3_ApartAlongDiagonalsIsOrderedExactly) {
   constexpr double largest = std::numeric_limits<double>::max();
   std::mt19937_64 engine(3);
@@ -49,8 +75,7 @@ TEST(FeatureBoxes, L3_ApartAlongDiagonalsIsOrderedExactly) {
       }
     }
     const FeaturePoints points({x[0], x[1]});
-    const FeatureBox a = feature_box(points[0]), b = feature_box(points[1]);
-    const bool is_apart = apart(a.diagonals, b.diagonals, FeatureMargin().diagonals);
+    const bool is_apart = are_apart(points, {0, 0}, {1, 1}, of_diagonals_alone());
     const bool is_ordered = ordered(x[0], x[1], 0, 1);
     EXPECT_TRUE(!is_apart || is_ordered);
     told_apart += is_apart;
@@ -99,11 +124,12 @@ TEST(FeatureBoxes, L3_WhatTouchesBetweenTwoFloatsIsFound) {
 TEST(FeatureBoxes, AxesAndDiagonals) {
   const Positions x = positions({{0, 0, 0}, {1, -1, 0}, {.9, .9, 0}, {1.5, -.5, .1}});
   const FeaturePoints points({x, x});
-  const FeatureBox edge = feature_box(points[0], points[1]);
-  const FeatureBox other = feature_box(points[2], points[3]);
-  EXPECT_FALSE(apart(edge.axes, other.axes));
-  EXPECT_TRUE(apart(edge, other));
-  EXPECT_FALSE(apart(edge, edge));
+  constexpr float beyond_all = std::numeric_limits<float>::infinity();
+  FeatureMargin of_axes;
+  of_axes.diagonals = FloatLanes{beyond_all, beyond_all, beyond_all, beyond_all};
+  EXPECT_FALSE(are_apart(points, {0, 1}, {2, 3}, of_axes));
+  EXPECT_TRUE(are_apart(points, {0, 1}, {2, 3}, {}));
+  EXPECT_FALSE(are_apart(points, {0, 1}, {0, 1}, {}));
 }
 
 }  // namespace
