@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "detector/parallel/sort_by_key.h"
+
 namespace assay::detector {
 namespace {
 
@@ -46,7 +48,8 @@ std::optional<Problem> find_same_vertices(const TrianglesView& triangles, std::s
     if (!sort_by_key(sorted, room, vertex_count, vertex, pace)) return stopped_at_checks();
   }
   for (std::size_t i = 1; i < sorted.size(); ++i) {
-    if (sorted[i].vertices == sorted[i - 1].vertices) {
+    const auto &a = sorted[i].vertices, &b = sorted[i - 1].vertices;
+    if (a[0] == b[0] && a[1] == b[1] && a[2] == b[2]) {
       return Problem{InputError::same_vertices_twice,
                      "triangles " + std::to_string(sorted[i - 1].triangle) + " and " +
                          std::to_string(sorted[i].triangle) + " have the same three vertices"};

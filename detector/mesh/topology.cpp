@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "detector/parallel/sort_by_key.h"
+
 namespace assay::detector {
 namespace {
 
@@ -51,7 +53,10 @@ bool make_edges(Topology& mesh, std::size_t vertex_count, PacedStop& pace) {
     if (!sort_by_key(uses, room, vertex_count, vertex, pace)) return false;
   }
   std::size_t count = 0;  // so that no room is taken for more
-  const auto is_new = [&](std::size_t i) { return i == 0 || uses[i].edge != uses[i - 1].edge; };
+  const auto is_new = [&](std::size_t i) {
+    return i == 0 || uses[i].edge[0] != uses[i - 1].edge[0] ||
+           uses[i].edge[1] != uses[i - 1].edge[1];
+  };
   if (!for_each_paced(uses.size(), 1, pace, [&](std::size_t i) { count += is_new(i); }))
     return false;
   mesh.edges.reserve(count);
