@@ -99,7 +99,7 @@ bool StepRun::place_primitives(const SteppedMesh& mesh, std::span<const ViewPrim
   if (given.empty()) {
     constexpr std::uint64_t work_of_anchor = 10;
     for (const auto& anchor :
-         policy_.anchors(context_.anchors, given_.motion.vertices_t0, cost_.pace)) {
+         policy_.anchors(context_.views.anchors(), given_.motion.vertices_t0, cost_.pace)) {
       if (cost_.pace.after(work_of_anchor)) return false;
       primitives.push_back(place_view(anchor, mesh));
     }

@@ -171,7 +171,10 @@ TEST_F(Paced, PointsAndRepresentatives) {
 TEST_F(Paced, NormalCones) {
   const NormalConeSearch search;
   BoundingVolumeTree tree(topology_, mesh_.x_t0);
-  expect_paced(60 * count_, [&](PacedStop& pace) { search.prepare(topology_, tree, pace); });
+  ContourMaker maker(topology_);
+  expect_paced(60 * count_, [&](PacedStop& pace) {
+    const PatchContours contours(topology_, tree, maker, &pace);
+  });
   PacedStop never(never_stops);
   const auto of_mesh = search.prepare(topology_, tree, never);
   const Marks marks(tree);
