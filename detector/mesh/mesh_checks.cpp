@@ -42,7 +42,7 @@ std::optional<Problem> find_same_vertices(const TrianglesView& triangles, std::s
     sorted[i] = {{triangles(t, 0), triangles(t, 1), triangles(t, 2)}, static_cast<std::int32_t>(t)};
     std::sort(sorted[i].vertices.begin(), sorted[i].vertices.end());
   };
-  if (!for_each_paced(sorted.size(), work_to_copy, pace, copy)) return stopped_at_checks();
+  if (!for_all_paced(sorted.size(), work_to_copy, pace, copy)) return stopped_at_checks();
   for (const std::size_t k : {2, 1, 0}) {
     const auto vertex = [k](const SortedTriangle& entry) { return entry.vertices[k]; };
     if (!sort_by_key(sorted, room, vertex_count, vertex, pace)) return stopped_at_checks();

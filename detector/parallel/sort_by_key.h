@@ -13,14 +13,29 @@ namespace assay::detector {
 
 namespace sorting {
 
-inline constexpr std::size_t chunk = 8192;
+// How the items are cut up.
+struct Chunks {
+  unsigned digit_bits;
+  std::size_t of_chunk, sets_of_counts;  // one thread needs one set, for all chunks
 
-// The bits of a digit. The counts of a chunk should fit into the fastest cache. One thread needs
-// one set of counts for all chunks, which may be larger.
-inline unsigned digit_bits(unsigned bits, bool is_alone) {
-  const unsigned most = is_alone && bits <= 16 ? 16 : 11, digits = (bits + most - 1) / most;
-  return (bits + digits - 1) / digits;
-}
+  // A key of few bits is one digit: there are then as few chunks as there are threads, because each
+  // has many counts. Else the counts of a chunk fit into the fastest cache.
+  Chunks(std::size_t items, unsigned bits, const PacedStop* pace) {
+    constexpr unsigned few_bits = 16, most_bits = 11;
+    constexpr std::size_t usual = 8192;
+    const unsigned digits = bits <= few_bits ? 1 : (bits + most_bits - 1) / most_bits;
+    digit_bits = (bits + digits - 1) / digits;
+    of_chunk = usual;
+    sets_of_counts = 1;
+    if (!has_workers(pace)) return;
+    if (digits == 1) {
+      const std::size_t chunks =
+          std::clamp<std::size_t>(items >> bits, 1, pace->workers()->count());
+      of_chunk = std::max(usual, (items + chunks - 1) / chunks);
+    }
+    sets_of_counts = (items + of_chunk - 1) / of_chunk;
+  }
+};
 
 // Turns how often each digit occurs in each chunk into the place of its first item there. False
 // if all items have one digit, so that nothing has to be moved.
@@ -55,31 +70,32 @@ bool sort_by_key(std::vector<Item>& items, std::vector<Item>& room, std::uint64_
                      [&](const Item& a, const Item& b) { return key(a) < key(b); });
     return !(pace && pace->after(work_if_small * items.size()));
   }
-  const bool is_alone = !has_workers(pace);
-  const auto bits = static_cast<unsigned>(std::bit_width(greatest | 1)),
-             width = sorting::digit_bits(bits, is_alone);
+  const auto bits = static_cast<unsigned>(std::bit_width(greatest | 1));
+  const auto [width, of_chunk, sets] = sorting::Chunks(items.size(), bits, pace);
   const std::size_t digits = std::size_t{1} << width,
-                    chunks = (items.size() + sorting::chunk - 1) / sorting::chunk;
-  // One thread takes the chunks in their order, so that they can share their counts.
-  std::vector<std::uint32_t> places((is_alone ? 1 : chunks) * digits);
+                    chunks = (items.size() + of_chunk - 1) / of_chunk;
+  std::vector<std::uint32_t> places(sets * digits);
   room.resize(items.size());
   const auto by_chunk = [&](std::uint64_t work_of_each, auto body) {
     return for_all_counted(chunks, 1, pace, [&](std::size_t c, std::size_t, std::size_t) {
-      const std::size_t begin = c * sorting::chunk,
-                        end = std::min(begin + sorting::chunk, items.size());
-      body(places.data() + (is_alone ? 0 : c * digits), begin, end);
+      const std::size_t begin = c * of_chunk, end = std::min(begin + of_chunk, items.size());
+      // One thread takes the chunks in their order, so that they can share their counts.
+      body(places.data() + (sets == 1 ? 0 : c * digits), begin, end);
       return work_of_each * (end - begin);
     });
   };
   for (unsigned shift = 0; shift < bits; shift += width) {
-    const auto digit = [&, shift](const Item& item) {
+    const auto digit = [&key, shift, digits](const Item& item) {
       return static_cast<std::uint64_t>(key(item)) >> shift & (digits - 1);
     };
     const auto count = [&](std::uint32_t* counts, std::size_t begin, std::size_t end) {
-      for (; begin < end; ++begin) ++counts[digit(items[begin])];
+      const Item* const from = items.data();
+      for (; begin < end; ++begin) ++counts[digit(from[begin])];
     };
     const auto place = [&](std::uint32_t* next, std::size_t begin, std::size_t end) {
-      for (; begin < end; ++begin) room[next[digit(items[begin])]++] = items[begin];
+      const Item* const from = items.data();
+      Item* const to = room.data();
+      for (; begin < end; ++begin) to[next[digit(from[begin])]++] = from[begin];
     };
     std::fill(places.begin(), places.end(), 0);
     if (!by_chunk(work_to_count, count)) return false;

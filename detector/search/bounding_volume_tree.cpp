@@ -286,9 +286,7 @@ BoundingVolumeTree::BoundingVolumeTree(const Topology& mesh, const PositionsView
   component_root_.resize(mesh.components.size());
   if (!Builder(*this, mesh, pace).run(x)) return;
   make_blocks();
-  boxes_.reserve(nodes);
-  constexpr std::uint64_t work_of_room = 5;  // the system clears it
-  for_each_paced(nodes, work_of_room, pace, [this](std::size_t) { boxes_.emplace_back(); });
+  boxes_ = std::make_unique_for_overwrite<MovingBox[]>(nodes);
 }
 
 void BoundingVolumeTree::make_blocks() {

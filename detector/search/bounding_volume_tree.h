@@ -10,6 +10,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -113,7 +114,7 @@ class BoundingVolumeTree {
   std::vector<std::int32_t> leaf_;    // by triangle
   std::vector<std::int32_t> component_;
   std::vector<std::int32_t> component_root_;  // by component
-  std::vector<MovingBox> boxes_;
+  std::unique_ptr<MovingBox[]> boxes_;  // by node; the first refit writes them, in all threads
   double separation_ = 0;
   std::optional<Arrays> fitted_to_;
   FloatGrid grid_;

@@ -4,6 +4,7 @@ namespace assay::detector {
 namespace {
 
 // One anchor for each component: where it is seen from best, with its ghosts, at these positions.
+// Where views are used only if they pay, their search has to be cheap beside a step.
 std::vector<ViewAnchor> place_anchors(const Surface& surface,
                                       const std::vector<ApexRule>& apex_rules, Culling culling,
                                       const PositionsView& positions, PacedStop& pace) {
@@ -15,7 +16,8 @@ std::vector<ViewAnchor> place_anchors(const Surface& surface,
   const Positions x = with_apexes(positions, apexes, false);
   std::vector<ViewAnchor> anchors;
   for (const auto& component : surface.all().components) {
-    const Effort effort = effort_for(component, surface.mesh, Effort::thorough);
+    const Effort effort = effort_for(component, surface.mesh,
+                                     chooses_views(culling) ? Effort::brief : Effort::thorough);
     if (pace.after(effort == Effort::least ? 400 : 20'000)) break;
     if (chooses_views(culling)) {
       anchors.push_back(

@@ -180,6 +180,9 @@ TEST_F(Paced, NormalCones) {
   const Marks marks(tree);
   const PairTables tables = EveryPair().candidates();
   of_mesh->fit(tree, topology_, {mesh_.x_t0, mesh_.x_t1}, never);
+  SearchCounts first_counts;  // of the search that finds the contours
+  ASSERT_TRUE(of_mesh->search({topology_, tree, marks, tables, &never}, first_counts,
+                              [](std::int32_t, std::int32_t) { return true; }));
   expect_paced(30 * count_, [&](PacedStop& pace) {
     SearchCounts counts;
     const auto sink = [&](std::int32_t, std::int32_t) {
