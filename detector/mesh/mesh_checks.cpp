@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "detector/parallel/sort_by_key.h"
+#include "detector/mesh/sort_by_key.h"
 
 namespace assay::detector {
 namespace {

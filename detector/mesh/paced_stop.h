@@ -27,7 +27,7 @@ class PacedStop {
 
   explicit PacedStop(const StopFunction& stop, std::uint64_t interval = usual_interval)
       : stop_(stop), interval_(interval) {}
-  // For work that the workers share (parallel/for_all.h). One thread asks for all of them.
+  // For work that the workers share (for_all.h). One thread asks for all of them.
   PacedStop(const StopFunction& stop, const Workers& workers)
       : stop_(stop), workers_(&workers), interval_(usual_interval) {}
 

@@ -3,7 +3,7 @@
 #include <cassert>
 #include <utility>
 
-#include "detector/parallel/sort_by_key.h"
+#include "detector/mesh/sort_by_key.h"
 
 namespace assay::detector {
 

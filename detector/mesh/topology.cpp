@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "detector/parallel/sort_by_key.h"
+#include "detector/mesh/sort_by_key.h"
 
 namespace assay::detector {
 namespace {

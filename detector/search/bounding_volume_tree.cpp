@@ -6,7 +6,7 @@
 #include <numeric>
 #include <span>
 
-#include "detector/parallel/sort_by_key.h"
+#include "detector/mesh/sort_by_key.h"
 
 namespace assay::detector {
 

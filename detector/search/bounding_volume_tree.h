@@ -14,9 +14,9 @@
 #include <optional>
 #include <vector>
 
+#include "detector/mesh/for_all.h"
 #include "detector/mesh/step_types.h"
 #include "detector/mesh/topology.h"
-#include "detector/parallel/for_all.h"
 #include "detector/search/moving_box.h"
 
 namespace assay::detector {

@@ -41,13 +41,13 @@
 #include <cmath>
 #include <span>
 
+#include "detector/mesh/for_all.h"
 #include "detector/mesh/mesh_checks.h"
 #include "detector/mesh/paced_stop.h"
 #include "detector/mesh/problem.h"
 #include "detector/mesh/step_types.h"
 #include "detector/mesh/surface.h"
 #include "detector/options.h"
-#include "detector/parallel/for_all.h"
 #include "detector/search/stopwatch.h"
 #include "detector/step/cost_model.h"
 #include "detector/step/step_run.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <span>
 
-#include "detector/parallel/for_all.h"
+#include "detector/mesh/for_all.h"
 #include "detector/search/pair_rule.h"
 #include "detector/search/stopwatch.h"
 #include "detector/step/step_work.h"

@@ -1,8 +1,8 @@
 // What is made of a mesh, in preprocessing or at the start of a step, asks the stop function after
 // every so much work, and ends where that says so. Counted is the work, not the time.
 #include "detector/mesh/mesh_checks.h"
+#include "detector/mesh/sort_by_key.h"
 #include "detector/mesh/surface.h"
-#include "detector/parallel/sort_by_key.h"
 #include "detector/search/feature_pairs.h"
 #include "detector/search/representatives.h"
 #include "detector/traditional/traditional.h"

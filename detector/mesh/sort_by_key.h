@@ -7,7 +7,7 @@
 
 #include <bit>
 
-#include "detector/parallel/for_all.h"
+#include "detector/mesh/for_all.h"
 
 namespace assay::detector {
 
