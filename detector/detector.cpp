@@ -10,37 +10,10 @@
 #include "detector/mesh/paced_stop.h"
 #include "detector/parallel/workers.h"
 #include "detector/state/state_bytes.h"
-#include "detector/step/cost_model.h"
 #include "detector/step/step.h"
 
 namespace assay::detector {
 namespace {
-
-// One anchor for each component: where it is seen from best, with its ghosts, at these positions.
-std::vector<ViewAnchor> place_anchors(const Surface& surface,
-                                      const std::vector<ApexRule>& apex_rules, Culling culling,
-                                      const PositionsView& positions, PacedStop& pace) {
-  std::vector<MovingPoint> apexes;
-  for (std::size_t l = 0; l < surface.loops.size(); ++l) {
-    const Point apex = place_apex(apex_rules[l], surface.loops[l], positions);
-    apexes.push_back({apex, apex});
-  }
-  const Positions x = with_apexes(positions, apexes, false);
-  std::vector<ViewAnchor> anchors;
-  for (const auto& component : surface.all().components) {
-    const Effort effort = effort_for(component, surface.mesh, Effort::thorough);
-    if (pace.after(effort == Effort::least ? 400 : 20'000)) break;
-    if (chooses_views(culling)) {
-      anchors.push_back(
-          choose_view_anchor(surface.all(), component, surface.first_apex, x, effort, &pace));
-    } else {
-      const ViewKind kind = culling == Culling::view_line ? ViewKind::line : ViewKind::point;
-      anchors.push_back(
-          make_view_anchor(kind, surface.all(), component, surface.first_apex, x, effort, &pace));
-    }
-  }
-  return anchors;
-}
 
 // A state knows nothing of components within which nothing is looked for. So it is of the mesh and
 // of the set of these components; of the rest of the relation between pairs it is independent.
@@ -136,32 +109,15 @@ Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView&
     if (auto problem = check_counted_pairs(*options.counted, triangles, positions.rows()))
       return std::move(*problem);
   }
-  // Once the stop function has asked for an end it is not asked again.
-  const StopFunction paced = [&] { return pace.now(); };
   const auto stopped = [] {
     return Problem{InputError::stopped, "stopped while the detector was created"};
   };
   if (pace.now()) return stopped();
   Surface surface = stages.boundary->close_up(triangles, positions.rows(), pace);
   if (pace.now()) return stopped();
-  const bool views = uses_views(options.culling);
-  // Apexes are chosen with the help of the tree, so on an unclosed mesh anchors come after it. On
-  // a closed mesh they come first, so that the memory of their search is given back before the
-  // tree is built.
-  std::vector<ViewAnchor> anchors;
-  if (views && surface.is_closed())
-    anchors = place_anchors(surface, {}, options.culling, positions, pace);
-  if (pace.stopped()) return stopped();
   BoundingVolumeTree tree(surface.mesh, positions, &pace);
   if (pace.now()) return stopped();
   tree.grow_boxes(stages.elementary->separation());
-  std::vector<ApexRule> rules;
-  if (views && !surface.is_closed()) {
-    rules = stages.boundary->choose_apexes(surface, tree, positions, *stages.elementary, paced);
-    if (pace.stopped()) return stopped();
-    anchors = place_anchors(surface, rules, options.culling, positions, pace);
-  }
-  if (pace.now()) return stopped();
   SearchMemory search(surface.mesh, tree, &pace);
   if (pace.stopped()) return stopped();
   auto mesh_search = stages.pair_search->prepare(surface.mesh, tree, pace);
@@ -172,14 +128,12 @@ Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView&
                       std::move(tree),
                       std::move(search),
                       std::move(mesh_search),
-                      std::move(anchors),
-                      std::move(rules),
-                      0,
+                      uses_views(options.culling) ? FirstViews(positions) : FirstViews(),
+                      {},
                       std::move(workers),
                       {}};
   context.relation = PairRelation(options.counted, context.surface.mesh);
   context.options.counted = nullptr;  // the user's own, who may let it go
-  if (views) context.adjacent_pairs = adjacent_pairs(context.surface.mesh);
   return Detector(
       std::unique_ptr<Detector::Parts>(new Detector::Parts{std::move(context), {}, {}}));
 }
@@ -254,9 +208,11 @@ void Detector::reset() {
 }
 
 SavedState Detector::state() const {
-  const StepContext& context = parts_->context;
+  StepContext& context = parts_->context;
+  PacedStop pace(never_stops, context.workers);
+  make_first_views(context, pace);
   return SavedState(StateFields{digest_of(context), context.options.culling, parts_->committed,
-                                context.apex_rules, context.anchors});
+                                context.views.apex_rules(), context.views.anchors()});
 }
 
 std::optional<Problem> Detector::restore(const SavedState& saved) {
@@ -267,17 +223,19 @@ std::optional<Problem> Detector::restore(const SavedState& saved) {
                    "the state is of a detector of another mesh, or of one that looks for contacts "
                    "within other bodies"};
   }
-  if (state.culling != context.options.culling || state.anchors.size() != context.anchors.size() ||
-      state.apex_rules.size() != context.apex_rules.size()) {
+  const bool has_views = uses_views(context.options.culling);
+  const std::size_t anchors = has_views ? context.surface.mesh.components.size() : 0,
+                    rules = has_views ? context.surface.loops.size() : 0;
+  if (state.culling != context.options.culling || state.anchors.size() != anchors ||
+      state.apex_rules.size() != rules) {
     return Problem{InputError::foreign_state, "the state is of a detector with another culling"};
   }
-  if (!fits(state, context.surface, context.anchors.size())) {
+  if (!fits(state, context.surface, anchors)) {
     return Problem{InputError::damaged_state, "the state contradicts the mesh that it names"};
   }
   StateFields copy = state;  // copied first, so that nothing has changed if memory fails here
   parts_->committed = std::move(copy.committed);
-  context.apex_rules = std::move(copy.apex_rules);
-  context.anchors = std::move(copy.anchors);
+  context.views.replace(std::move(copy.anchors), std::move(copy.apex_rules));
   parts_->evaluated.reset();
   return std::nullopt;
 }

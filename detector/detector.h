@@ -55,9 +55,9 @@ class SavedState {
 class Detector {
  public:
   // Errors: those of check_triangles, check_positions and, for options.counted,
-  // check_counted_pairs. The tree, the view anchors and the apexes are made from `positions`
-  // (preprocessing, O((M + ghosts) log M)). Any positions of the mesh will do; those of the first
-  // frame are best.
+  // check_counted_pairs. The tree is made from `positions` (preprocessing, O(M log M)), and so are
+  // view anchors and apexes when views are first due. Any positions of the mesh will do; those of
+  // the first frame are best.
   static Expected<Detector> create(const TrianglesView& triangles, const PositionsView& positions,
                                    const Options& options);
   // The same, and `stop` can end it, with the error `stopped`. It is asked after every few
@@ -108,7 +108,8 @@ class Detector {
                   const StopFunction& stop = {});
 
   // Everything that later steps rest on: the state of the last commit, and the rules that place
-  // view primitives and apexes.
+  // view primitives and apexes. If no step has asked for these yet they are chosen now, which takes
+  // up to two steps of culling bvh.
   SavedState state() const;
 
   // Goes on from a saved state. Further results equal those of the detector that was saved bit by

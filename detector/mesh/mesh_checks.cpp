@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "detector/mesh/sort_by_key.h"
+
 namespace assay::detector {
 namespace {
 
@@ -40,13 +42,14 @@ std::optional<Problem> find_same_vertices(const TrianglesView& triangles, std::s
     sorted[i] = {{triangles(t, 0), triangles(t, 1), triangles(t, 2)}, static_cast<std::int32_t>(t)};
     std::sort(sorted[i].vertices.begin(), sorted[i].vertices.end());
   };
-  if (!for_each_paced(sorted.size(), work_to_copy, pace, copy)) return stopped_at_checks();
+  if (!for_all_paced(sorted.size(), work_to_copy, pace, copy)) return stopped_at_checks();
   for (const std::size_t k : {2, 1, 0}) {
     const auto vertex = [k](const SortedTriangle& entry) { return entry.vertices[k]; };
     if (!sort_by_key(sorted, room, vertex_count, vertex, pace)) return stopped_at_checks();
   }
   for (std::size_t i = 1; i < sorted.size(); ++i) {
-    if (sorted[i].vertices == sorted[i - 1].vertices) {
+    const auto &a = sorted[i].vertices, &b = sorted[i - 1].vertices;
+    if (a[0] == b[0] && a[1] == b[1] && a[2] == b[2]) {
       return Problem{InputError::same_vertices_twice,
                      "triangles " + std::to_string(sorted[i - 1].triangle) + " and " +
                          std::to_string(sorted[i].triangle) + " have the same three vertices"};

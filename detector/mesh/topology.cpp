@@ -3,29 +3,44 @@
 #include <algorithm>
 #include <numeric>
 
+#include "detector/mesh/sort_by_key.h"
+
 namespace assay::detector {
 namespace {
 
 // The work on a corner and on a triangle, in box tests.
 constexpr std::uint64_t work_of_corner = 2, work_of_triangle = 3 * work_of_corner;
 
-// Makes the incidence that is the inverse of `lists`: triangle t stands in each of the three rows
-// lists[t]. The triangles of a row ascend.
-bool make_incidence(const std::vector<std::array<std::int32_t, 3>>& lists, std::size_t rows,
-                    Incidence& out, PacedStop& pace) {
-  out.starts.assign(rows + 1, 0);
-  const auto count = [&](std::size_t t) {
-    for (const auto row : lists[t]) ++out.starts[at(row) + 1];
+// Lists that are sorted by row, item after item: row_of(i) is the row of the item in place i, and
+// ascends. Sets where each row starts.
+template <class RowOf>
+bool set_starts(std::size_t rows, std::size_t items, RowOf row_of,
+                std::vector<std::int32_t>& starts, PacedStop& pace) {
+  starts.resize(rows + 1);
+  const auto fill = [&](std::size_t from, std::size_t to, std::size_t place) {
+    for (; from < to; ++from) starts[from] = static_cast<std::int32_t>(place);
   };
-  if (!for_each_paced(lists.size(), work_of_triangle, pace, count)) return false;
-  const auto add = [&](std::size_t row) { out.starts[row + 1] += out.starts[row]; };
-  if (!for_each_paced(rows, 1, pace, add)) return false;
-  out.items.resize(at(out.starts.back()));
-  std::vector<std::int32_t> next(out.starts.begin(), out.starts.end() - 1);
-  const auto place = [&](std::size_t t) {
-    for (const auto row : lists[t]) out.items[at(next[at(row)]++)] = static_cast<std::int32_t>(t);
+  const auto start = [&](std::size_t i) { fill(i == 0 ? 0 : row_of(i - 1) + 1, row_of(i) + 1, i); };
+  if (!for_all_paced(items, 1, pace, start)) return false;
+  fill(items == 0 ? 0 : row_of(items - 1) + 1, rows + 1, items);
+  return true;
+}
+
+// The triangles at each vertex, ascending.
+bool find_triangles_of_vertices(Topology& mesh, std::size_t vertex_count, PacedStop& pace) {
+  auto& [starts, items] = mesh.vertex_triangles;
+  const auto vertex = [&](std::int32_t corner) {
+    return mesh.triangles[at(corner / 3)][at(corner % 3)];
   };
-  return for_each_paced(lists.size(), work_of_triangle, pace, place);
+  items.resize(3 * mesh.triangles.size());
+  std::vector<std::int32_t> room;
+  const auto number = [&](std::size_t i) { items[i] = static_cast<std::int32_t>(i); };
+  return for_all_paced(items.size(), 1, pace, number) &&
+         sort_by_key(items, room, vertex_count, vertex, pace) &&
+         set_starts(
+             vertex_count, items.size(), [&](std::size_t i) { return at(vertex(items[i])); },
+             starts, pace) &&
+         for_all_paced(items.size(), 1, pace, [&](std::size_t i) { items[i] /= 3; });
 }
 
 // An edge of a triangle. Its corner fits into 31 bits, because meshes are limited for that
@@ -36,32 +51,53 @@ struct EdgeUse {
 };
 
 bool make_edges(Topology& mesh, std::size_t vertex_count, PacedStop& pace) {
-  std::vector<EdgeUse> uses, room;
-  uses.reserve(3 * mesh.triangles.size());
+  std::vector<EdgeUse> uses(3 * mesh.triangles.size()), room;
   const auto use = [&](std::size_t t) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const auto u = mesh.triangles[t][(corner + 1) % 3];
       const auto v = mesh.triangles[t][(corner + 2) % 3];
-      uses.push_back({{std::min(u, v), std::max(u, v)}, static_cast<std::int32_t>(3 * t + corner)});
+      uses[3 * t + corner] = {{std::min(u, v), std::max(u, v)},
+                              static_cast<std::int32_t>(3 * t + corner)};
     }
   };
-  if (!for_each_paced(mesh.triangles.size(), work_of_triangle, pace, use)) return false;
+  if (!for_all_paced(mesh.triangles.size(), work_of_triangle, pace, use)) return false;
   for (const std::size_t end : {1, 0}) {
     const auto vertex = [end](const EdgeUse& of) { return of.edge[end]; };
     if (!sort_by_key(uses, room, vertex_count, vertex, pace)) return false;
   }
-  std::size_t count = 0;  // so that no room is taken for more
-  const auto is_new = [&](std::size_t i) { return i == 0 || uses[i].edge != uses[i - 1].edge; };
-  if (!for_each_paced(uses.size(), 1, pace, [&](std::size_t i) { count += is_new(i); }))
-    return false;
-  mesh.edges.reserve(count);
+  room = {};
+  const auto is_new = [&](std::size_t i) {
+    return i == 0 || uses[i].edge[0] != uses[i - 1].edge[0] ||
+           uses[i].edge[1] != uses[i - 1].edge[1];
+  };
+  // Each piece numbers its edges from where those before it end.
+  constexpr std::size_t of_piece = 4096;
+  std::vector<std::size_t> first((uses.size() + of_piece - 1) / of_piece, 0);
+  const auto count = [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) first[begin / of_piece] += is_new(i);
+  };
+  if (!for_all_pieces(uses.size(), of_piece, 1, &pace, count)) return false;
+  std::size_t edges = 0;
+  for (auto& of_piece_before : first) edges += std::exchange(of_piece_before, edges);
+  mesh.edges.resize(edges);
   mesh.triangle_edges.resize(mesh.triangles.size());
-  return for_each_paced(uses.size(), work_of_corner, pace, [&](std::size_t i) {
-    if (is_new(i)) mesh.edges.push_back(uses[i].edge);
-    const auto corner = uses[i].corner;
-    mesh.triangle_edges[at(corner / 3)][at(corner % 3)] =
-        static_cast<std::int32_t>(mesh.edges.size()) - 1;
-  });
+  mesh.edge_triangles.items.resize(uses.size());
+  mesh.edge_triangles.starts.resize(edges + 1);
+  mesh.edge_triangles.starts[edges] = static_cast<std::int32_t>(uses.size());
+  return for_all_pieces(uses.size(), of_piece, work_of_corner, &pace,
+                        [&](std::size_t begin, std::size_t end, std::size_t) {
+                          std::size_t next = first[begin / of_piece];
+                          for (std::size_t i = begin; i < end; ++i) {
+                            if (is_new(i)) {
+                              mesh.edges[next] = uses[i].edge;
+                              mesh.edge_triangles.starts[next++] = static_cast<std::int32_t>(i);
+                            }
+                            const auto corner = uses[i].corner;
+                            mesh.edge_triangles.items[i] = corner / 3;
+                            mesh.triangle_edges[at(corner / 3)][at(corner % 3)] =
+                                static_cast<std::int32_t>(next) - 1;
+                          }
+                        });
 }
 
 std::int32_t root_of(std::vector<std::int32_t>& parent, std::int32_t v) {
@@ -134,10 +170,10 @@ bool find_cycles(Topology& mesh, PacedStop& pace) {
   std::vector<std::int32_t> surplus;
   if (!count_surplus(mesh, surplus, pace)) return false;
   for (auto& component : mesh.components) component.is_cycle = true;
-  return for_each_paced(mesh.triangles.size(), work_of_triangle, pace, [&](std::size_t t) {
-    for (const auto e : mesh.triangle_edges[t]) {
-      if (surplus[at(e)] != 0) mesh.components[at(mesh.component_of_triangle[t])].is_cycle = false;
-    }
+  return for_each_paced(surplus.size(), 1, pace, [&](std::size_t e) {
+    if (surplus[e] == 0) return;
+    const auto t = mesh.edge_triangles.row(static_cast<std::int32_t>(e)).front();
+    mesh.components[at(mesh.component_of_triangle[at(t)])].is_cycle = false;
   });
 }
 
@@ -168,10 +204,8 @@ Topology make_topology(const TrianglesView& triangles, Eigen::Index vertex_count
     mesh.triangles[i] = {triangles(t, 0), triangles(t, 1), triangles(t, 2)};
   };
   // Each function needs what those before it have made.
-  if (for_each_paced(mesh.triangles.size(), work_of_corner, pace, copy) &&
-      make_edges(mesh, vertices, pace) &&
-      make_incidence(mesh.triangles, vertices, mesh.vertex_triangles, pace) &&
-      make_incidence(mesh.triangle_edges, mesh.edges.size(), mesh.edge_triangles, pace) &&
+  if (for_all_paced(mesh.triangles.size(), work_of_corner, pace, copy) &&
+      make_edges(mesh, vertices, pace) && find_triangles_of_vertices(mesh, vertices, pace) &&
       make_components(mesh, vertices, pace)) {
     find_cycles(mesh, pace);
   }

@@ -14,7 +14,6 @@
 #include <memory>
 #include <thread>
 
-#include "detector/mesh/step_types.h"
 #include "detector/parallel/thread_arena.h"
 
 namespace assay::detector {
@@ -54,12 +53,12 @@ class Workers {
 class SharedStop {
  public:
   // `stop` must outlive this object, and this object must outlive what function() returns.
-  explicit SharedStop(const StopFunction& stop)
+  explicit SharedStop(const std::function<bool()>& stop)
       : stop_(stop), caller_(std::this_thread::get_id()) {}
 
   // A stop function for all threads: true as soon as the user's function has returned true. Empty
   // if the user's function is.
-  StopFunction function() {
+  std::function<bool()> function() {
     if (!stop_) return {};
     return [this] {
       if (is_stopped_.load(std::memory_order_relaxed)) return true;
@@ -70,7 +69,7 @@ class SharedStop {
   }
 
  private:
-  const StopFunction& stop_;
+  const std::function<bool()>& stop_;
   const std::thread::id caller_;
   std::atomic<bool> is_stopped_ = false;
 };

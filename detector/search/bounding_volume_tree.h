@@ -10,12 +10,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "detector/mesh/for_all.h"
 #include "detector/mesh/step_types.h"
 #include "detector/mesh/topology.h"
-#include "detector/parallel/for_all.h"
 #include "detector/search/moving_box.h"
 #include "detector/search/wide_tree.h"
 
@@ -117,7 +118,7 @@ class BoundingVolumeTree {
   std::vector<std::int32_t> leaf_;    // by triangle
   std::vector<std::int32_t> component_;
   std::vector<std::int32_t> component_root_;  // by component
-  std::vector<MovingBox> boxes_;
+  std::unique_ptr<MovingBox[]> boxes_;  // by node; the first refit writes them, in all threads
   WideTree wide_;
   double separation_ = 0;
   std::optional<Arrays> fitted_to_;

@@ -2,7 +2,7 @@
 
 #include <atomic>
 
-#include "detector/parallel/for_all.h"
+#include "detector/mesh/for_all.h"
 
 namespace assay::detector {
 namespace {

@@ -1,6 +1,6 @@
 #include "detector/search/representatives.h"
 
-#include "detector/parallel/for_all.h"
+#include "detector/mesh/for_all.h"
 
 namespace assay::detector {
 namespace {

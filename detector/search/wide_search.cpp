@@ -3,7 +3,7 @@
 #include <atomic>
 #include <bit>
 
-#include "detector/parallel/for_all.h"
+#include "detector/mesh/for_all.h"
 
 namespace assay::detector {
 namespace {

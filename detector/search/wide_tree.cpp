@@ -4,7 +4,7 @@
 #include <array>
 #include <cstring>
 
-#include "detector/parallel/for_all.h"
+#include "detector/mesh/for_all.h"
 #include "detector/search/bounding_volume_tree.h"
 
 namespace assay::detector {
@@ -101,15 +101,16 @@ WideTree::WideTree(const BoundingVolumeTree& binary, PacedStop* pace) {
   slots_.shrink_to_fit();
   binary_of_.shrink_to_fit();
   inner_.shrink_to_fit();
-  boxes_.resize(rows * slots_.size() + width);
-  own_.resize(rows * nodes_.size());
+  boxes_ = std::make_unique_for_overwrite<float[]>(rows * slots_.size() + width);
+  std::fill_n(boxes_.get() + rows * slots_.size(), width, 0.0F);
+  own_ = std::make_unique_for_overwrite<float[]>(rows * nodes_.size());
 }
 
 void WideTree::refit_node(std::int32_t n, const Topology& mesh, const RoundedPositions& points,
                           FloatLanes by) {
   const Node& node = nodes_[at(n)];
-  float* const first = boxes_.data() + rows * node.first_slot;
-  float* const own = own_.data() + rows * at(n);
+  float* const first = boxes_.get() + rows * node.first_slot;
+  float* const own = own_.get() + rows * at(n);
   for (std::size_t i = 0; i < node.count; ++i) {
     const auto child = slots_[node.first_slot + i].child;
     std::array<float, rows> bounds;

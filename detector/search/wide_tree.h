@@ -14,6 +14,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "detector/mesh/topology.h"
@@ -47,9 +48,9 @@ class WideTree {
   // The boxes of the last refit.
   BoxRows children(std::int32_t n) const {
     const Node& node = nodes_[at(n)];
-    return {boxes_.data() + box_lanes::rows * node.first_slot, node.count};
+    return {boxes_.get() + box_lanes::rows * node.first_slot, node.count};
   }
-  const float* box(std::int32_t n) const { return own_.data() + box_lanes::rows * at(n); }
+  const float* box(std::int32_t n) const { return own_.get() + box_lanes::rows * at(n); }
 
   // Makes the boxes those of the triangles, each grown by this on all sides. False if `pace` was
   // stopped.
@@ -67,7 +68,7 @@ class WideTree {
   std::vector<Node> nodes_;
   std::vector<std::int32_t> binary_of_;  // by node
   std::vector<Slot> slots_;
-  std::vector<float> boxes_, own_;
+  std::unique_ptr<float[]> boxes_, own_;  // the first refit writes them
   std::vector<std::int32_t> inner_;  // the nodes that hold nodes, ascending
 };
 

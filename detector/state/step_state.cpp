@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "detector/parallel/for_all.h"
+#include "detector/mesh/for_all.h"
 
 namespace assay::detector {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
-#include "detector/parallel/for_all.h"
+#include "detector/mesh/for_all.h"
 #include "detector/step/step_work.h"
 #include "detector/view/view_signs.h"
 

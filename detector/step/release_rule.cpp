@@ -5,7 +5,7 @@
 
 #include "detector/boundary/ghost_sweep.h"
 #include "detector/geometry/winding.h"
-#include "detector/parallel/for_all.h"
+#include "detector/mesh/for_all.h"
 #include "detector/search/feature_contacts.h"
 #include "detector/state/layers.h"
 #include "detector/view/view_signs.h"

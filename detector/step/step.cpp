@@ -11,6 +11,7 @@
 //     +     a fan over each boundary loop, its apex above it     BoundaryHandler (L11, L12)
 //         compute a view primitive inside the object
 //     +     anywhere, and one for each component                 make_view_anchor (L10)
+//     +     when views are first due                             FirstViews
 //   in each step
 //     (r) move the ghosts and the view primitive                 move_ghosts, place_primitives
 //         divide all triangles into V+, V- and V0 by view tests  classify_components (L1, L2)
@@ -40,13 +41,13 @@
 #include <cmath>
 #include <span>
 
+#include "detector/mesh/for_all.h"
 #include "detector/mesh/mesh_checks.h"
 #include "detector/mesh/paced_stop.h"
 #include "detector/mesh/problem.h"
 #include "detector/mesh/step_types.h"
 #include "detector/mesh/surface.h"
 #include "detector/options.h"
-#include "detector/parallel/for_all.h"
 #include "detector/search/stopwatch.h"
 #include "detector/step/cost_model.h"
 #include "detector/step/step_run.h"
@@ -118,7 +119,7 @@ bool run_stages(StepRun& step, const SteppedMesh& mesh, std::span<const ViewPrim
 // The policy of the culling asked for, made without allocating.
 class PolicyOfStep {
  public:
-  PolicyOfStep(const StepContext& context, const std::optional<StepState>& known)
+  PolicyOfStep(StepContext& context, const std::optional<StepState>& known)
       : PolicyOfStep(context, known ? known->policy : PolicyState{}) {}
   CullingPolicy& policy() {
     if (model_) return *model_;
@@ -126,10 +127,11 @@ class PolicyOfStep {
   }
 
  private:
-  PolicyOfStep(const StepContext& context, const PolicyState& before)
+  PolicyOfStep(StepContext& context, const PolicyState& before)
       : fixed_(context.options.culling, before) {
-    if (chooses_views(context.options.culling))
-      model_.emplace(context.surface, context.adjacent_pairs, before);
+    if (!chooses_views(context.options.culling)) return;
+    if (!context.adjacent_pairs) context.adjacent_pairs = adjacent_pairs(context.surface.mesh);
+    model_.emplace(context.surface, *context.adjacent_pairs, before);
   }
   FixedPolicy fixed_;
   std::optional<CostModel> model_;
@@ -146,7 +148,7 @@ bool move_ghosts(const StepContext& context, const SteppedMesh& mesh, PacedStop&
                  MovedGhosts& ghosts) {
   constexpr std::uint64_t work_of_ghost = 10, work_of_vertex = 3;
   const Surface& surface = context.surface;
-  ghosts.apexes = context.stages.boundary->place_apexes(surface, context.apex_rules, mesh);
+  ghosts.apexes = context.stages.boundary->place_apexes(surface, context.views.apex_rules(), mesh);
   if (pace.after(work_of_ghost * surface.ghost_count())) return false;
   ghosts.all_t0 = with_apexes(mesh.vertices_t0, ghosts.apexes, false);
   if (pace.after(work_of_vertex * at(surface.first_apex))) return false;
@@ -178,6 +180,9 @@ StepResult evaluate_step(StepContext& context, const std::optional<StepState>& k
   {
     Stopwatch watch(total);
     MovedGhosts ghosts;
+    const bool asks_for_views =
+        policy.is_due() && (primitives.empty() || !context.surface.is_closed());
+    if (asks_for_views && !make_first_views(context, pace)) return undecided();
     const bool moves_ghosts = !context.surface.is_closed() && policy.is_due();
     if (moves_ghosts && !move_ghosts(context, mesh, pace, ghosts)) return undecided();
     const SteppedMesh motion = moves_ghosts ? SteppedMesh{ghosts.all_t0, ghosts.all_t1} : mesh;

@@ -2,9 +2,8 @@
 #pragma once
 
 #include "detector/parallel/workers.h"
-#include "detector/step/stages.h"
+#include "detector/step/first_views.h"
 #include "detector/step_result.h"
-#include "detector/view/view_anchor.h"
 
 namespace assay::detector {
 
@@ -16,12 +15,17 @@ struct StepContext {
   BoundingVolumeTree tree;                  // of the mesh
   SearchMemory search;                      // with the marks of that tree
   std::unique_ptr<MeshSearch> pair_search;  // from the stage of that name
-  std::vector<ViewAnchor> anchors;   // one for each component; none with cullings without views
-  std::vector<ApexRule> apex_rules;  // one for each loop; likewise
-  std::uint64_t adjacent_pairs = 0;  // of the mesh; the cost model asks for it (cost_model.h)
+  FirstViews views;
+  std::optional<std::uint64_t> adjacent_pairs;  // once the cost model has asked (cost_model.h)
   Workers workers;
   PairRelation relation;
 };
+
+// False if it was stopped.
+inline bool make_first_views(StepContext& context, PacedStop& pace) {
+  return context.views.make(context.surface, context.tree, context.stages, context.options.culling,
+                            pace);
+}
 
 // Answers the step, going on from `known`, the state of the last commit if there is one. If the
 // answer is free or collision, `next` is set to the state at the end of the step. REQUIRES that

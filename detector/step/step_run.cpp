@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <span>
 
-#include "detector/parallel/for_all.h"
+#include "detector/mesh/for_all.h"
 #include "detector/search/pair_rule.h"
 #include "detector/search/stopwatch.h"
 #include "detector/step/step_work.h"
@@ -99,7 +99,7 @@ bool StepRun::place_primitives(const SteppedMesh& mesh, std::span<const ViewPrim
   if (given.empty()) {
     constexpr std::uint64_t work_of_anchor = 10;
     for (const auto& anchor :
-         policy_.anchors(context_.anchors, given_.motion.vertices_t0, cost_.pace)) {
+         policy_.anchors(context_.views.anchors(), given_.motion.vertices_t0, cost_.pace)) {
       if (cost_.pace.after(work_of_anchor)) return false;
       primitives.push_back(place_view(anchor, mesh));
     }

@@ -5,7 +5,7 @@
 //
 //   in preprocessing
 //       build a BVH of the mesh                                    BoundingVolumeTree
-//     + find the contour of each node                              PatchContours
+//     + find the contour of each node, when it is first asked for  PatchContours
 //   in each step
 //       refit the boxes of the BVH                                 PairSearch::fit
 //       for each leaf: the normal cone of its triangle
@@ -56,13 +56,10 @@ struct KeptPatches {
   PatchContours contours;
   std::vector<ContourUnion> joined;  // working memory of each lane
   std::vector<DirectionSet> cones;   // by node, for the present step
-  SamplePatches samples;
-  KeptPatches(PatchContours of, SamplePatches few, const Topology& mesh,
-              const BoundingVolumeTree& tree)
+  KeptPatches(PatchContours of, const Topology& mesh, const BoundingVolumeTree& tree)
       : contours(std::move(of)),
         joined(1, ContourUnion(mesh.vertex_triangles.starts.size())),
-        cones(tree.node_count()),
-        samples(std::move(few)) {}
+        cones(tree.node_count()) {}
 };
 
 class PatchCones : public PatchProofs {
@@ -164,8 +161,8 @@ class PatchCones : public PatchProofs {
 
 class NormalConeSearch::OfMesh : public MeshSearch {
  public:
-  OfMesh(const NormalConeSearch& scheme, KeptPatches kept)
-      : MeshSearch(scheme), scheme_(scheme), kept_(std::move(kept)) {}
+  OfMesh(const NormalConeSearch& scheme, SamplePatches samples)
+      : MeshSearch(scheme), scheme_(scheme), samples_(std::move(samples)) {}
 
   bool fit(BoundingVolumeTree& tree, const Topology& mesh, const SteppedMesh& motion,
            PacedStop& pace) override {
@@ -175,7 +172,8 @@ class NormalConeSearch::OfMesh : public MeshSearch {
 
   bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) override {
     if (!input.uses_proofs) return scheme_.descend(input, nullptr, counts, sink);
-    PatchCones cones(scheme_, kept_, *motion_, input, counts);
+    if (!kept_ && !keep_contours(input)) return false;
+    PatchCones cones(scheme_, *kept_, *motion_, input, counts);
     if (cones.is_stopped()) return false;
     return scheme_.descend(input, &cones, counts, sink);
   }
@@ -184,13 +182,23 @@ class NormalConeSearch::OfMesh : public MeshSearch {
   // are not looked at.
   ProvableShares provable_shares(const Topology& mesh) const override {
     MovingContour moving(*motion_);
-    const double of_large = share_of(kept_.samples.large, mesh, moving);
+    const double of_large = share_of(samples_.large, mesh, moving);
     if (of_large == 1) return {1, 1, 1};
-    return {share_of(kept_.samples.small, mesh, moving),
-            share_of(kept_.samples.medium, mesh, moving), of_large};
+    return {share_of(samples_.small, mesh, moving), share_of(samples_.medium, mesh, moving),
+            of_large};
   }
 
  private:
+  // Finds the contours, which takes about as long as building the tree. So it is done for the first
+  // search that uses proofs. False if it was stopped.
+  bool keep_contours(const SearchInput& input) {
+    const auto maker = scheme_.contour_maker(input.mesh);
+    PatchContours contours(input.mesh, input.tree, *maker, input.pace);
+    if (input.pace && input.pace->stopped()) return false;
+    kept_.emplace(std::move(contours), input.mesh, input.tree);
+    return true;
+  }
+
   double share_of(std::span<const SamplePatch> patches, const Topology& mesh,
                   MovingContour& moving) const {
     const auto free = std::count_if(patches.begin(), patches.end(), [&](const SamplePatch& patch) {
@@ -212,16 +220,15 @@ class NormalConeSearch::OfMesh : public MeshSearch {
   }
 
   const NormalConeSearch& scheme_;
-  KeptPatches kept_;
+  const SamplePatches samples_;
+  std::optional<KeptPatches> kept_;    // once a search has used proofs
   std::optional<SteppedMesh> motion_;  // of the step that it was fitted to last
 };
 
 std::unique_ptr<MeshSearch> NormalConeSearch::prepare(const Topology& mesh,
-                                                      const BoundingVolumeTree& tree,
-                                                      PacedStop& pace) const {
+                                                      const BoundingVolumeTree&, PacedStop&) const {
   const auto maker = contour_maker(mesh);
-  return std::make_unique<OfMesh>(*this, KeptPatches(PatchContours(mesh, tree, *maker, &pace),
-                                                     sample_patches(mesh, *maker), mesh, tree));
+  return std::make_unique<OfMesh>(*this, sample_patches(mesh, *maker));
 }
 
 }  // namespace assay::detector

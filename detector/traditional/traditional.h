@@ -27,8 +27,9 @@ class NormalConeSearch : public TreeSearch {
   explicit NormalConeSearch(Asked asked = Asked::all) : asked_(asked) {}
   Asked asked() const { return asked_; }
 
-  // Finds the contours of all nodes. They depend on the mesh and the tree alone, not on a step.
-  // The result proves patches apart; without it this is a TreeSearch. A search takes 0.1 us a
+  // The result proves patches apart; without it this is a TreeSearch. Its first search that uses
+  // proofs finds the contours of all nodes, 0.3 us a triangle. They depend on the mesh and the tree
+  // alone, so all searches of a result must be given the same ones. A search takes 0.1 us a
   // triangle for the cones, beside the descent, unless the input says that proofs are not used.
   // For provable_shares 1 to 8 patches of 96 triangles are tried, 7 us each, and if some of them
   // are not free, up to 16 of 36 triangles and 32 of 12 (patch_contours.h), 3 us and 1 us each.

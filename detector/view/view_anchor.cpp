@@ -185,6 +185,7 @@ class AnchorChoice {
 };
 
 std::size_t most_planes(Effort effort, const Component& component) {
+  if (effort == Effort::brief) return 1024;
   if (effort != Effort::quick) return ViewPlanes::most_planes;
   return std::clamp<std::size_t>(component.triangles.size() / 8, 64, 1000);
 }

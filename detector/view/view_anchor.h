@@ -25,6 +25,7 @@ struct ViewAnchor {
 // How many triangles are looked at to find a place.
 enum class Effort : std::uint8_t {
   thorough,  // at most 20,000 triangles
+  brief,     // at most 1,024 triangles
   quick,     // every eighth triangle, 64 to 1,000 of them
   // None. The place is the mean of the vertices; a line goes from there halfway to one of the
   // vertices. 2 us.

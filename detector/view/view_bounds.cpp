@@ -44,8 +44,8 @@
 #include <cmath>
 
 #include "detector/exact/bernstein.h"
+#include "detector/mesh/for_all.h"
 #include "detector/mesh/topology.h"
-#include "detector/parallel/for_all.h"
 
 namespace assay::detector {
 namespace {

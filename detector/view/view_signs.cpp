@@ -6,7 +6,7 @@
 
 #include "detector/exact/real_root.h"
 #include "detector/exact/root_isolation.h"
-#include "detector/parallel/for_all.h"
+#include "detector/mesh/for_all.h"
 #include "detector/view/view_bounds.h"
 
 namespace assay::detector {

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <vector>
 
-#include "detector/parallel/for_all.h"
+#include "detector/mesh/for_all.h"
 #include "reports/bench/interleave.h"
 
 namespace assay::reports {

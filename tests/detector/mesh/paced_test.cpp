@@ -1,7 +1,7 @@
 // What is made of a mesh, in preprocessing or at the start of a step, asks the stop function after
 // every so much work, and ends where that says so. Counted is the work, not the time.
 #include "detector/mesh/mesh_checks.h"
-#include "detector/mesh/paced_stop.h"
+#include "detector/mesh/sort_by_key.h"
 #include "detector/mesh/surface.h"
 #include "detector/search/feature_pairs.h"
 #include "detector/search/representatives.h"
@@ -77,6 +77,39 @@ TEST(PacedSort, IsStableAndCanBeEnded) {
   });
 }
 
+// Keys of several digits, and more items than one worker takes at once.
+TEST(PacedSort, DoesNotDependOnTheWorkers) {
+  using Item = std::pair<std::uint64_t, int>;
+  std::mt19937_64 engine(4);
+  for (const std::size_t count : {100u, 30'000u}) {
+    std::vector<Item> items(count), room;
+    int place = 0;
+    for (auto& item : items) item = {engine() >> (engine() % 64), place++};
+    auto expected = items;
+    std::sort(expected.begin(), expected.end());
+    for (const std::uint32_t threads : {1, 3}) {
+      const Workers workers(threads);
+      PacedStop pace(never_stops, workers);
+      auto sorted = items;
+      const auto key = [](const Item& item) { return item.first; };
+      ASSERT_TRUE(sort_by_key(sorted, room, ~std::uint64_t{0}, key, pace));
+      EXPECT_EQ(sorted, expected);
+    }
+  }
+}
+
+TEST_F(Paced, ATreeDoesNotDependOnTheWorkers) {
+  const BoundingVolumeTree alone(topology_, mesh_.x_t0);
+  const Workers workers(3);
+  PacedStop pace(never_stops, workers);
+  const BoundingVolumeTree shared(topology_, mesh_.x_t0, &pace);
+  ASSERT_EQ(shared.node_count(), alone.node_count());
+  for (std::int32_t node = 0; node < static_cast<std::int32_t>(alone.node_count()); ++node) {
+    ASSERT_EQ(shared.child(node), alone.child(node)) << node;
+    ASSERT_EQ(shared.component(node), alone.component(node)) << node;
+  }
+}
+
 TEST_F(Paced, ChecksOfTheMesh) {
   expect_paced(11 * count_, [&](PacedStop& pace) {
     const auto problem = check_triangles(rows_, vertices_, pace);
@@ -138,12 +171,18 @@ TEST_F(Paced, PointsAndRepresentatives) {
 TEST_F(Paced, NormalCones) {
   const NormalConeSearch search;
   BoundingVolumeTree tree(topology_, mesh_.x_t0);
-  expect_paced(60 * count_, [&](PacedStop& pace) { search.prepare(topology_, tree, pace); });
+  ContourMaker maker(topology_);
+  expect_paced(60 * count_, [&](PacedStop& pace) {
+    const PatchContours contours(topology_, tree, maker, &pace);
+  });
   PacedStop never(never_stops);
   const auto of_mesh = search.prepare(topology_, tree, never);
   const Marks marks(tree);
   const PairTables tables = EveryPair().candidates();
   of_mesh->fit(tree, topology_, {mesh_.x_t0, mesh_.x_t1}, never);
+  SearchCounts first_counts;  // of the search that finds the contours
+  ASSERT_TRUE(of_mesh->search({topology_, tree, marks, tables, &never}, first_counts,
+                              [](std::int32_t, std::int32_t) { return true; }));
   expect_paced(30 * count_, [&](PacedStop& pace) {
     SearchCounts counts;
     const auto sink = [&](std::int32_t, std::int32_t) {

@@ -2,7 +2,7 @@
 
 #include <mutex>
 
-#include "detector/parallel/for_all.h"
+#include "detector/mesh/for_all.h"
 #include "tests/test.h"
 
 namespace assay::detector {

@@ -2,7 +2,7 @@
 #include <thread>
 
 #include "detector/detector.h"
-#include "detector/parallel/for_all.h"
+#include "detector/mesh/for_all.h"
 #include "detector/state/layers.h"
 #include "detector/step/release_rule.h"
 #include "tests/detector/points.h"

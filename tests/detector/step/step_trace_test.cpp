@@ -19,6 +19,7 @@ class Traced {
     auto made = assemble(triangles, x, options, noted_stages(options, trace_));
     EXPECT_TRUE(made.has_value());
     detector_ = std::make_unique<Detector>(std::move(made.value()));
+    detector_->state();  // makes what the first step with views would make
     trace_.taken();
   }
   Notes step(const Positions& x_t0, const Positions& x_t1, Answer expected) {
