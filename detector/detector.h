@@ -79,6 +79,16 @@ class Detector {
                       std::span<const ViewPrimitive> primitives = {},
                       const StopFunction& stop = {});
 
+  // Whether there is a contact by the time `until`, and which is first: an evaluate that asks for
+  // Pairs::first, whatever the options say. `free` says that there is none at any time in
+  // [0, until]; a contact at `until` is one. A search that already knows a contact at some time
+  // gives that time for `until`, and nothing later is looked at.
+  // There is something to commit afterwards only if `until` is 1, because nothing is known of the
+  // rest of the step otherwise.
+  // Errors: those of evaluate; wrong_bound, if `until` is not in [0,1].
+  StepResult first_contact(const PositionsView& x_t0, const PositionsView& x_t1, double until = 1,
+                           const StopFunction& stop = {});
+
   // Advances the state to the end of the step evaluated last. Error: nothing_to_commit, if there
   // is no such step or if its evaluation had no answer (error, undecided).
   std::optional<Problem> commit();

@@ -1,8 +1,10 @@
 #include "detector/search/pair_search.h"
 
 #include <atomic>
+#include <optional>
 
 #include "detector/parallel/for_all.h"
+#include "detector/search/search_rounds.h"
 
 namespace assay::detector {
 namespace {
@@ -253,21 +255,30 @@ struct Lane {
   Descent descent;
 };
 
-bool run_in_lanes(Hunt& hunt, const PatchProofs* proofs, std::span<const NodePair> pairs,
-                  PacedStop& pace, SearchCounts& counts) {
-  std::vector<std::unique_ptr<Lane>> lanes;
-  for (std::size_t i = 0; i < pace.workers()->count(); ++i)
-    lanes.push_back(std::make_unique<Lane>(hunt, proofs, pace.stop(), i));
-  pace.workers()->share_out(pairs.size(), 1, [&](const LoopPiece& piece) {
-    lanes[piece.lane]->descent.run(pairs[piece.begin]);
-  });
-  bool completed = true;
-  for (const auto& lane : lanes) {
-    completed = lane->descent.finish() && completed;
-    counts += lane->counts;
+// The lanes of a search.
+class Lanes {
+ public:
+  Lanes(Hunt& hunt, const PatchProofs* proofs, PacedStop& pace) : workers_(*pace.workers()) {
+    for (std::size_t i = 0; i < workers_.count(); ++i)
+      lanes_.push_back(std::make_unique<Lane>(hunt, proofs, pace.stop(), i));
   }
-  return completed;
-}
+  // Searches below all these pairs. False if the search has ended early.
+  bool run(std::span<const NodePair> pairs) {
+    workers_.share_out(pairs.size(), 1, [&](const LoopPiece& piece) {
+      lanes_[piece.lane]->descent.run(pairs[piece.begin]);
+    });
+    bool completed = true;
+    for (const auto& lane : lanes_) completed = lane->descent.finish() && completed;
+    return completed;
+  }
+  void add_counts_to(SearchCounts& counts) const {
+    for (const auto& lane : lanes_) counts += lane->counts;
+  }
+
+ private:
+  const Workers& workers_;
+  std::vector<std::unique_ptr<Lane>> lanes_;
+};
 
 }  // namespace
 
@@ -288,12 +299,21 @@ bool TreeSearch::descend(const SearchInput& input, PatchProofs* proofs, SearchCo
   Hunt hunt(input, skipping_ == Skipping::on, sink);
   Descent descent(hunt, proofs, 0, counts);
   const bool has_lanes = has_workers(input.pace) && sink.takes_lanes();
-  const std::size_t wanted = has_lanes ? pairs_of_lane * input.pace->workers()->count() : 1;
+  const std::size_t wanted = input.between ? pairs_in_rounds
+                             : has_lanes   ? pairs_of_lane * input.pace->workers()->count()
+                                           : 1;
   const auto pairs = descent.cut(wanted);
-  if (has_lanes && pairs.size() >= wanted)
-    return descent.finish() && run_in_lanes(hunt, proofs, pairs, *input.pace, counts);
-  for (const auto& pair : pairs) descent.run(pair);
-  return descent.finish();
+  if (!descent.finish()) return false;
+  std::optional<Lanes> lanes;
+  if (has_lanes && pairs.size() >= wanted) lanes.emplace(hunt, proofs, *input.pace);
+  const auto run = [&](std::span<const NodePair> some) {
+    if (lanes) return lanes->run(some);
+    for (const auto& pair : some) descent.run(pair);
+    return descent.finish();
+  };
+  const bool completed = input.between ? run_in_rounds(input, pairs, run) : run(pairs);
+  if (lanes) lanes->add_counts_to(counts);
+  return completed;
 }
 
 bool ExhaustiveSearch::search(const SearchInput& input, SearchCounts& counts,
