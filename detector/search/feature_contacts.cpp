@@ -130,7 +130,9 @@ void FeatureContacts::test(FeatureKey key, Lane& lane) const {
       return;
     }
     ++lane.counts.elementary_tests;
-    const ContactResult result = elementary_.test(points, want_);
+    const bool is_bounded = bound_ && bound_->has_unique_times && bound_->until < 1;
+    const ContactResult result = is_bounded ? elementary_.test_until(points, want_, bound_->until)
+                                            : elementary_.test(points, want_);
     lane.counts.rungs.add(result.rung);
     if (!result.contact || (bound_ && bound_->leaves_out(result.time))) return;
     if (kind_of(key) == FeatureKind::vertex_face) {
