@@ -112,8 +112,8 @@ class Detector {
   // it` for `contact`.
   // The state stays as it is, and commit() advances it to `positions` if share is above 0.
   // Errors: those of evaluate; proves_nothing with arithmetic double_precision or single_precision.
-  // Cost: evaluate of the step and, unless that is free, evaluate once more for each place that is
-  // tried. That is one nearly always; on public sequences it took 1.0 to 1.9 times evaluate.
+  // Cost: first_contact of the step and, unless that is free, once more for each place that is
+  // tried, which is one nearly always.
   StepLimit limit(const PositionsView& x_t0, const PositionsView& x_t1,
                   const StopFunction& stop = {});
 

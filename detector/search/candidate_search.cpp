@@ -84,7 +84,7 @@ bool CandidateSearch::tighten() {
   // cannot tell from a contact. So it must not depend on which contact was found before.
   const double useful = bound.has_unique_times ? bound.until : asked_until;
   // A refit costs a few percent of the search, so it has to save about as much.
-  if (useful > fitted / 2) return true;
+  if (useful > fitted / 2 || useful == fitted) return true;
   const ShortenedStep shortened(motion_, useful, pace_);
   if (pace_.stopped() || !tree.refit(mesh_, shortened.motion(), pace_, shortened.slack()))
     return false;

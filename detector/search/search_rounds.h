@@ -7,6 +7,7 @@
 // number of workers, so neither do candidates and counts.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <span>
 #include <vector>
@@ -18,17 +19,16 @@ namespace assay::detector {
 // How many pairs of nodes such a search is cut into, if it does not end before that.
 inline constexpr std::size_t pairs_in_rounds = 512;
 
-// The same items in the order of their numbers with the bits reversed.
-template <class Item>
-std::vector<Item> spread_out(const std::vector<Item>& items) {
-  std::vector<Item> spread;
-  spread.reserve(items.size());
-  const std::size_t count = std::bit_ceil(items.size());
+// The numbers below `count`, ordered by their bits reversed.
+inline std::vector<std::size_t> spread_numbers(std::size_t count) {
+  std::vector<std::size_t> spread;
+  spread.reserve(count);
+  const std::size_t beyond = std::bit_ceil(count);
   std::size_t reversed = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (reversed < items.size()) spread.push_back(items[reversed]);
+  for (std::size_t i = 0; i < beyond; ++i) {
+    if (reversed < count) spread.push_back(reversed);
     // Adds one to the reversed number: the carry runs from the highest bit down.
-    std::size_t bit = count / 2;
+    std::size_t bit = beyond / 2;
     for (; reversed & bit; bit /= 2) reversed ^= bit;
     reversed |= bit;
   }
@@ -37,18 +37,24 @@ std::vector<Item> spread_out(const std::vector<Item>& items) {
 
 // Calls run(span of pairs) for one round after the other, and input.between() between two of them.
 // False if one of them returned false. REQUIRES input.between, and that run() has given all that it
-// found to the sink when it returns.
+// found to the sink when it returns. Within a round the pairs keep their order, because neighbours
+// find what they read in the caches.
 template <class NodePair, class Run>
 bool run_in_rounds(const SearchInput& input, const std::vector<NodePair>& pairs, Run run) {
-  const std::vector<NodePair> order = spread_out(pairs);
-  const auto left = std::span(order);
-  // In 64ths of the pairs. A round costs a refit at most, which is a few percent of the search.
+  std::vector<std::size_t> numbers = spread_numbers(pairs.size());
+  std::vector<NodePair> round;
+  // In 64ths of the pairs.
   constexpr std::size_t ends[] = {1, 4, 16, 32, 64};
   std::size_t begin = 0;
   for (const std::size_t part : ends) {
-    const std::size_t end = (part * order.size() + 63) / 64;
-    if (begin > 0 && begin < end && !input.between()) return false;
-    if (begin < end && !run(left.subspan(begin, end - begin))) return false;
+    const std::size_t end = (part * numbers.size() + 63) / 64;
+    if (begin == end) continue;
+    if (begin > 0 && !input.between()) return false;
+    const auto of_round = std::span(numbers).subspan(begin, end - begin);
+    std::sort(of_round.begin(), of_round.end());
+    round.clear();
+    for (const auto n : of_round) round.push_back(pairs[n]);
+    if (!run(std::span<const NodePair>(round))) return false;
     begin = end;
   }
   return true;
