@@ -57,7 +57,7 @@ TEST(ShortenedStep, AtTheStartItIsExact) {
 TEST(ShortenedStep, WhatMeetsByTheBoundIsNotApart) {
   std::mt19937_64 engine(43);
   const auto full = [&] { return std::ldexp(static_cast<double>(engine() >> 11), -53); };
-  constexpr double until = 1. / 3;
+  constexpr double until = .9;
   const auto exactly = [&](const Positions& x_t0, const Positions& x_t1,
                            Eigen::Index v) -> Rational {
     return Rational(x_t0(v, 0)) + Rational(until) * (Rational(x_t1(v, 0)) - Rational(x_t0(v, 0)));
@@ -67,7 +67,7 @@ TEST(ShortenedStep, WhatMeetsByTheBoundIsNotApart) {
     Positions x_t0 = Positions::Zero(2, 3), x_t1 = Positions::Zero(2, 3);
     x_t0(0, 0) = full();
     x_t1(0, 0) = 1 + full();
-    x_t0(1, 0) = x_t0(0, 0) + full();
+    x_t0(1, 0) = x_t0(0, 0) + 8 * full();
     const double there = place_between(x_t0(0, 0), x_t1(0, 0), until);
     x_t1(1, 0) = (there - (1 - until) * x_t0(1, 0)) / until;
     while (exactly(x_t0, x_t1, 1) > exactly(x_t0, x_t1, 0))
