@@ -1,7 +1,6 @@
 #include "detector/detector.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <string>
 
@@ -9,6 +8,7 @@
 #include "detector/mesh/mesh_checks.h"
 #include "detector/mesh/paced_stop.h"
 #include "detector/parallel/workers.h"
+#include "detector/search/shortened_step.h"
 #include "detector/state/state_bytes.h"
 #include "detector/step/step.h"
 
@@ -44,12 +44,7 @@ std::optional<Problem> check_separation(const Options& options) {
 Positions partial_step(const PositionsView& x_t0, const PositionsView& x_t1, double share) {
   Positions x(x_t0.rows(), 3);
   for (Eigen::Index v = 0; v < x_t0.rows(); ++v) {
-    for (Eigen::Index k = 0; k < 3; ++k) {
-      const double from = x_t0(v, k), to = x_t1(v, k), way = to - from;
-      // The difference of the greatest doubles is none.
-      const double at = std::isfinite(way) ? from + share * way : (1 - share) * from + share * to;
-      x(v, k) = std::clamp(at, std::min(from, to), std::max(from, to));
-    }
+    for (Eigen::Index k = 0; k < 3; ++k) x(v, k) = place_between(x_t0(v, k), x_t1(v, k), share);
   }
   return x;
 }
@@ -74,6 +69,12 @@ Expected<SavedState> SavedState::read(std::span<const std::uint8_t> bytes) {
 struct Detector::Parts {
   StepContext context;
   std::optional<StepState> committed, evaluated;
+
+  StepResult answer(const SteppedMesh& step, const StepQuestion& question,
+                    std::span<const ViewPrimitive> primitives, const StopFunction& stop) {
+    evaluated.reset();
+    return evaluate_step(context, committed, step, question, primitives, stop, evaluated);
+  }
 };
 
 Detector::Detector(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -140,9 +141,17 @@ Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView&
 
 StepResult Detector::evaluate(const PositionsView& x_t0, const PositionsView& x_t1,
                               std::span<const ViewPrimitive> primitives, const StopFunction& stop) {
+  return parts_->answer({x_t0, x_t1}, {parts_->context.options.pairs}, primitives, stop);
+}
+
+StepResult Detector::first_contact(const PositionsView& x_t0, const PositionsView& x_t1,
+                                   double until, const StopFunction& stop) {
+  if (until >= 0 && until <= 1)
+    return parts_->answer({x_t0, x_t1}, {Pairs::first, until}, {}, stop);
   parts_->evaluated.reset();
-  return evaluate_step(parts_->context, parts_->committed, {x_t0, x_t1}, primitives, stop,
-                       parts_->evaluated);
+  StepResult refused;
+  refused.problem = {InputError::wrong_bound, "the bound is not a time from 0 to 1"};
+  return refused;
 }
 
 std::optional<Problem> Detector::commit() {
@@ -172,7 +181,8 @@ StepLimit Detector::limit(const PositionsView& x_t0, const PositionsView& x_t1,
                                                      " proves no step free; exact and bounded do"};
     return limit;
   }
-  StepResult whole = evaluate(x_t0, x_t1, {}, stop);
+  // The first contact alone decides where the way ends, and what is committed is a free step.
+  StepResult whole = first_contact(x_t0, x_t1, 1, stop);
   limit.answer = whole.answer;
   limit.problem = std::move(whole.problem);
   limit.first = whole.first;
@@ -190,7 +200,7 @@ StepLimit Detector::limit(const PositionsView& x_t0, const PositionsView& x_t1,
     const Positions x = partial_step(x_t0, x_t1, share);
     if (x == x_t0) return limit;
     if (!(share < whole.first.lo)) continue;  // among the least of all doubles
-    const Answer answer = evaluate(x_t0, x, {}, stop).answer;
+    const Answer answer = first_contact(x_t0, x, 1, stop).answer;
     if (answer == Answer::collision) continue;
     if (answer == Answer::free) {
       limit.share = share;

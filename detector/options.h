@@ -54,8 +54,11 @@ constexpr auto names_of(Start) {
 
 // Which pairs in contact a step reports.
 enum class Pairs : std::uint8_t {
-  all,    // the complete pair set of the step (K with closure, L7)
-  first,  // those found through K: the first contact time is right, the set is not complete (L6)
+  all,  // the complete pair set of the step (K with closure, L7)
+  // Pairs in contact at the first time: each connected part of the contact graph at that time holds
+  // one of them (L6). As soon as a contact is found, nothing later is looked at. Of many contacts
+  // this takes a third of the time of `all` or less, and as much where there is none.
+  first,
 };
 constexpr auto names_of(Pairs) {
   return std::to_array<Named<Pairs>>({{Pairs::all, "all"}, {Pairs::first, "first"}});

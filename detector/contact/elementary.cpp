@@ -3,6 +3,7 @@
 #include "detector/contact/contact_doubles.h"
 #include "detector/contact/contact_exact.h"
 #include "detector/contact/contact_filter.h"
+#include "detector/contact/contact_until.h"
 
 namespace assay::detector {
 
@@ -29,6 +30,19 @@ ContactResult test_contact_past_axis(const FourPoints& query, Want want) {
 
 bool ElementaryTest::is_apart_along_an_axis(const FourPoints& query) const {
   return separated_along_an_axis(query);
+}
+
+ContactResult ElementaryTest::test_until(const FourPoints& query, Want want, double until) const {
+  if (separation() > 0) return test(query, want);
+  switch (surely_later(query, until)) {
+    case Later::by_doubles:
+      return {false, {}, ContactRung::filter};
+    case Later::by_integers:
+      return {false, {}, ContactRung::fixed};
+    case Later::no:
+      break;
+  }
+  return test(query, want);
 }
 
 namespace {

@@ -43,6 +43,9 @@ class ElementaryTest {
   virtual ContactResult test(const FourPoints& query, Want want) const {
     return test_contact_past_axis(query, want);
   }
+  // The same, where a contact later than `until` is of no interest: then the answer may be no.
+  // REQUIRES until in [0,1], and a test whose times are unique enclosures.
+  virtual ContactResult test_until(const FourPoints& query, Want want, double until) const;
   // Whether the open segment strictly pierces the open triangle at one instant. In this way the
   // detector finds two triangles that met before the step began.
   virtual bool pierces(const Point& e0, const Point& e1, const std::array<Point, 3>& face) const {

@@ -29,6 +29,7 @@ enum class InputError : std::uint8_t {
   wrong_relation = 15,          // what CountedPairs says of pairs cannot be so
   wrong_separation = 16,        // no distance, or with options that do not answer it
   proves_nothing = 17,          // a limit is asked for in an arithmetic that promises nothing
+  wrong_bound = 18,             // a first contact is asked for by what is no time of the step
 };
 constexpr auto names_of(InputError) {
   using enum InputError;
@@ -48,7 +49,8 @@ constexpr auto names_of(InputError) {
                                            {triangle_of_two_bodies, "triangle_of_two_bodies"},
                                            {wrong_relation, "wrong_relation"},
                                            {wrong_separation, "wrong_separation"},
-                                           {proves_nothing, "proves_nothing"}});
+                                           {proves_nothing, "proves_nothing"},
+                                           {wrong_bound, "wrong_bound"}});
 }
 
 struct Problem {

@@ -50,6 +50,16 @@ struct TimeEnclosure {
   friend auto operator<=>(const TimeEnclosure&, const TimeEnclosure&) = default;
 };
 
+// The time by which a contact has to be, to be looked for: until == 1 leaves out none. Unique
+// enclosures tell whether a time is later. Of others, what may be earlier is not left out.
+struct TimeBound {
+  double until = 1;
+  bool has_unique_times = true;  // as in exact arithmetic
+  bool leaves_out(const TimeEnclosure& time) const {
+    return (has_unique_times ? time.hi : time.lo) > until;
+  }
+};
+
 // A distance: the exact sum of two doubles, such as the offsets of two bodies. The second may be
 // negative, for a distance just below a double. REQUIRES both finite, and first and sum >= 0.
 struct Separation {

@@ -51,6 +51,7 @@ enum {
   ASSAY_BUILTIN_WRONG_RELATION = 15,   /* (likewise) */
   ASSAY_BUILTIN_WRONG_SEPARATION = 16, /* no distance, or with options that do not answer it */
   ASSAY_BUILTIN_PROVES_NOTHING = 17,   /* a limit is asked for in double or float */
+  ASSAY_BUILTIN_WRONG_BOUND = 18,      /* (not met in C: nobody gives a bound there) */
   ASSAY_BUILTIN_WRONG_OPTIONS = 64,    /* an option has no such value; struct_size is wrong */
   ASSAY_BUILTIN_SMALL_BUFFER = 65,     /* the state takes more bytes than the buffer has */
   ASSAY_BUILTIN_TOO_MANY = 66,         /* more than 2^31 - 1 triangles or vertices */

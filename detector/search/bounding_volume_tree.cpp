@@ -325,21 +325,22 @@ void BoundingVolumeTree::refit(const Topology& mesh, const SteppedMesh& motion) 
   refit(mesh, motion, pace);
 }
 
-bool BoundingVolumeTree::refit(const Topology& mesh, const SteppedMesh& motion, PacedStop& pace) {
+bool BoundingVolumeTree::refit(const Topology& mesh, const SteppedMesh& motion, PacedStop& pace,
+                               double slack) {
   constexpr std::uint64_t work_of_node = 4;
   forget_fit();
   RoundedPositions points;  // given back before the search takes room for its own
   if (!points.assign(motion, pace)) return false;
   grid_ = points.grid();
-  const FloatLanes by = grid_.margin(separation_) / 2;
+  const FloatLanes by = grid_.margin(separation_ + slack) / 2;
   const bool completed = for_each_upward(work_of_node, &pace, [&](std::int32_t node) {
     const std::int32_t child = child_[at(node)];
     boxes_[at(node)] = child < 0 ? grown(points.box(mesh.triangles[at(~child)]), by)
                                  : join(boxes_[at(child)], boxes_[at(child) + 1]);
   });
   if (!completed || !wide_.refit(mesh, points, by, pace)) return false;
-  if (completed) fitted_to_ = Arrays(motion);
-  return completed;
+  if (slack == 0) fitted_to_ = Arrays(motion);
+  return true;
 }
 
 bool BoundingVolumeTree::fit_once(const Topology& mesh, const SteppedMesh& motion,

@@ -84,8 +84,9 @@ class BoundingVolumeTree {
   // Makes the boxes those of the triangles as they move over the step. O(M): one pass over the
   // nodes from the last to the first.
   void refit(const Topology& mesh, const SteppedMesh& motion);
-  // The same. False if `pace` was stopped; some boxes are then those of another step.
-  bool refit(const Topology& mesh, const SteppedMesh& motion, PacedStop& pace);
+  // The same. False if `pace` was stopped; some boxes are then those of another step. With a slack
+  // the boxes are grown as if so much were added to the distance; no later fit_once rests on them.
+  bool refit(const Topology& mesh, const SteppedMesh& motion, PacedStop& pace, double slack = 0);
   // Does nothing if the boxes were last fitted to the same arrays of positions; else as refit. So
   // the stages of a step that search the same motion fit the boxes once. REQUIRES that positions in
   // these arrays have not changed since forget_fit().

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "detector/parallel/workers.h"
+#include "detector/search/shortened_step.h"
 
 namespace assay::detector {
 CandidateSearch::CandidateSearch(const SearchStages& stages, const Topology& mesh,
@@ -17,6 +18,7 @@ CandidateSearch::CandidateSearch(const SearchStages& stages, const Topology& mes
       mesh_(mesh),
       tree_(tree),
       memory_(memory),
+      motion_(motion),
       stop_(pace.stop()),
       pace_(pace),
       contacts_(mesh, motion, stages.elementary, Want::first_time, memory.representatives,
@@ -69,7 +71,30 @@ double CandidateSearch::asked_share() const {
   return pairs == 0 ? 0 : static_cast<double>(asked) / static_cast<double>(pairs);
 }
 
+void CandidateSearch::look_for_first(const TimeBound& bound, BoundingVolumeTree& tree) {
+  first_.emplace(First{bound, tree, bound.until});
+  contacts_.leave_out_later_than(bound);
+}
+
+bool CandidateSearch::tighten() {
+  auto& [bound, tree, asked_until, fitted] = *first_;
+  bound.until = std::min(bound.until, contacts_.least_end());
+  contacts_.leave_out_later_than(bound);
+  // If times are not unique, what is found depends on which pairs are tested: those that doubles
+  // cannot tell from a contact. So it must not depend on which contact was found before.
+  const double useful = bound.has_unique_times ? bound.until : asked_until;
+  // A refit costs a few percent of the search, so it has to save about as much.
+  if (useful > fitted / 2 || useful == fitted) return true;
+  const ShortenedStep shortened(motion_, useful, pace_);
+  if (pace_.stopped() || !tree.refit(mesh_, shortened.motion(), pace_, shortened.slack()))
+    return false;
+  contacts_.take_near_in(shortened.motion(), shortened.slack(), &pace_);
+  fitted = useful;
+  return !pace_.stopped();
+}
+
 bool CandidateSearch::search(const PairTables& tables, bool uses_proofs) {
+  if (first_ && !tighten()) return false;
   const auto& types = memory_.marks.types;
   struct alignas(64) Asking {
     std::size_t pairs_until = 0;
@@ -92,8 +117,8 @@ bool CandidateSearch::search(const PairTables& tables, bool uses_proofs) {
       return contacts_.add_candidate(a, b, may_pierce, stop_, lane);
     });
   };
-  const SearchInput input = {mesh_,  tree_,       memory_.marks,   tables,
-                             &pace_, uses_proofs, stages_.relation};
+  SearchInput input = {mesh_, tree_, memory_.marks, tables, &pace_, uses_proofs, stages_.relation};
+  if (first_) input.between = [&] { return contacts_.run(stop_, &pace_) && tighten(); };
   return stages_.search.search(input, counts_, PairSink::in_lanes(take)) &&
          contacts_.run(stop_, &pace_);
 }

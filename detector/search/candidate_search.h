@@ -39,6 +39,13 @@ class CandidateSearch {
   CandidateSearch(const SearchStages& stages, const Topology& mesh, const BoundingVolumeTree& tree,
                   SearchMemory& memory, const SteppedMesh& motion, const PacedStop& pace);
 
+  // From now on only the first contact is looked for, and none later than the bound. As soon as a
+  // contact is found that counts, those later than it are left out, and boxes need to cover no
+  // more of the step. What is found then holds the first contact, and the pairs in contact at that
+  // time which the whole search would hold. `tree`: that of the constructor, which is refitted.
+  // REQUIRES that nothing was collected yet.
+  void look_for_first(const TimeBound& bound, BoundingVolumeTree& tree);
+
   // A step calls mark, collect and, if it closes the set of pairs, close; each returns false if it
   // was stopped.
 
@@ -74,6 +81,9 @@ class CandidateSearch {
 
  private:
   bool search(const PairTables& tables, bool uses_proofs);
+  // Takes the earliest contact so far for the bound. False if it was stopped. REQUIRES that all
+  // candidates so far were tested.
+  bool tighten();
   bool change_types(std::span<const Marking::Change> changes);
   // Brings the representatives up to the marks.
   bool follow_marks();
@@ -83,12 +93,21 @@ class CandidateSearch {
   const Topology& mesh_;
   const BoundingVolumeTree& tree_;
   SearchMemory& memory_;
+  SteppedMesh motion_;
   const StopFunction& stop_;
   PacedStop pace_;
   FeatureContacts contacts_;
   SearchCounts counts_;
   MarkingCounts marking_counts_;
   std::uint64_t closure_rounds_ = 0;
+  // Where the first contact is looked for: what it is found by.
+  struct First {
+    TimeBound bound;
+    BoundingVolumeTree& tree;
+    double asked_until;
+    double fitted = 1;  // the boxes cover the step up to here
+  };
+  std::optional<First> first_;
 };
 
 }  // namespace assay::detector

@@ -120,6 +120,7 @@ void FeatureContacts::test(FeatureKey key, Lane& lane) const {
                                           motion_.start(face[2])};
     if (!elementary_.pierces(e0, e1, corners)) return;
     const TimeEnclosure time = elementary_.piercing_time(e0, e1, corners);
+    if (bound_ && bound_->leaves_out(time)) return;
     const Feature feature{FeatureKind::piercing, {e[0], e[1], face[0], face[1], face[2]}};
     for (const auto t : mesh_.edge_triangles.row(first)) add(t, second, time, feature);
   } else {
@@ -129,9 +130,11 @@ void FeatureContacts::test(FeatureKey key, Lane& lane) const {
       return;
     }
     ++lane.counts.elementary_tests;
-    const ContactResult result = elementary_.test(points, want_);
+    const bool is_bounded = bound_ && bound_->has_unique_times && bound_->until < 1;
+    const ContactResult result = is_bounded ? elementary_.test_until(points, want_, bound_->until)
+                                            : elementary_.test(points, want_);
     lane.counts.rungs.add(result.rung);
-    if (!result.contact) return;
+    if (!result.contact || (bound_ && bound_->leaves_out(result.time))) return;
     if (kind_of(key) == FeatureKind::vertex_face) {
       const Feature feature{FeatureKind::vertex_face, {first, face[0], face[1], face[2], -1}};
       for (const auto t : mesh_.vertex_triangles.row(first)) add(t, second, result.time, feature);
@@ -162,6 +165,28 @@ void FeatureContacts::sort_features(FeatureKey key, std::size_t found_before, La
       lane.found_ignored = true;
     }
   }
+}
+
+// Only contacts that count bound a search for the first one.
+void FeatureContacts::note_ends(std::size_t found_before, std::size_t counted_before,
+                                Lane& lane) const {
+  if (relation_ && relation_->is_of_features()) {
+    for (const auto& contact : std::span(lane.found_counted).subspan(counted_before))
+      lane.least_end = std::min(lane.least_end, contact.time.hi);
+    return;
+  }
+  for (const auto& contact : std::span(lane.found).subspan(found_before)) {
+    if (contact.time.hi < lane.least_end &&
+        (!relation_ || relation_->counts(mesh_, contact.pair))) {
+      lane.least_end = contact.time.hi;
+    }
+  }
+}
+
+double FeatureContacts::least_end() const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& lane : lanes_) least = std::min(least, lane->least_end);
+  return least;
 }
 
 constexpr std::size_t pairs_between_stops = 64;
@@ -221,9 +246,13 @@ bool FeatureContacts::run(Lane& lane, const StopFunction& stop) {
   for (std::size_t i = 0; i < lane.untested.size(); ++i) {
     if (i % tests_between_stops == 0 && stop && stop()) return false;
     const std::size_t found_before = lane.found.size();
+    const std::size_t counted_before = lane.found_counted.size();
     test(lane.untested[i], lane);
-    if (relation_ && relation_->is_of_features() && lane.found.size() > found_before)
-      sort_features(lane.untested[i], found_before, lane);
+    if (lane.found.size() > found_before) {
+      if (relation_ && relation_->is_of_features())
+        sort_features(lane.untested[i], found_before, lane);
+      if (bound_) note_ends(found_before, counted_before, lane);
+    }
     if (lane.found.size() >= found_at_once && !hand_over(lane, stop)) return false;
   }
   lane.untested.clear();

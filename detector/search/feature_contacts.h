@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -105,6 +106,17 @@ class FeatureContacts {
   // REQUIRES that no candidate has come yet.
   void sort_by(const PairRelation* relation) { relation_ = relation; }
 
+  // From now on what is found later than this is dropped. REQUIRES that no lane works.
+  void leave_out_later_than(const TimeBound& bound) { bound_ = bound; }
+  // The least upper end of the times of the contacts that count and were found under a bound;
+  // infinity if there is none. REQUIRES that no lane works.
+  double least_end() const;
+  // From now on pairs of features are taken that come near in this motion, of the same vertices,
+  // by as much more than the separation as the slack. They are tested over the whole step.
+  void take_near_in(const SteppedMesh& motion, double slack, PacedStop* pace) {
+    pairs_.refit(motion, pace, elementary_.separation() + slack);
+  }
+
   // How many lanes candidates come in (parallel/workers.h): one until this is called.
   void make_lanes(std::size_t count);
 
@@ -149,12 +161,14 @@ class FeatureContacts {
     // The same for counted_, with a relation of features.
     std::vector<PairContact> found_counted;
     bool found_ignored = false;
+    double least_end = std::numeric_limits<double>::infinity();
     NarrowCounts counts;
     double test_time = 0;
   };
   bool run(Lane& lane, const StopFunction& stop);
   void test(FeatureKey key, Lane& lane) const;
   void sort_features(FeatureKey key, std::size_t found_before, Lane& lane) const;
+  void note_ends(std::size_t found_before, std::size_t counted_before, Lane& lane) const;
   bool counts(std::int32_t a, std::int32_t b) const;
   // Whether some triangle pair that holds the two features counts.
   bool some_pair_counts(FeatureKey key) const;
@@ -175,6 +189,7 @@ class FeatureContacts {
   PairContacts contacts_;
   const PairRelation* relation_ = nullptr;
   PairContacts counted_;  // with a relation of features alone
+  std::optional<TimeBound> bound_;
 };
 
 }  // namespace assay::detector

@@ -125,17 +125,18 @@ FloatLanes diagonals(const Point& y) {
 
 }  // namespace
 
-FeaturePoints::FeaturePoints(const SteppedMesh& motion, PacedStop* pace, double separation) {
+void FeaturePoints::assign(const SteppedMesh& motion, PacedStop* pace, double separation) {
   constexpr std::uint64_t work_of_vertex = 8;
   const FloatGrid f(motion, pace);
   if (pace && pace->stopped()) return;
+  margin_ = {};
   if (separation > 0) {
     const float along = f.diagonal_margin(separation);
     margin_.axes = f.margin(separation);
     margin_.diagonals = FloatLanes{along, along, along, along};
   }
   const auto count = static_cast<std::size_t>(motion.size());
-  points_ = std::make_unique_for_overwrite<FeaturePoint[]>(count);
+  if (!points_) points_ = std::make_unique_for_overwrite<FeaturePoint[]>(count);
   for_all_paced(count, work_of_vertex, pace, [&](std::size_t v) {
     const auto vertex = static_cast<std::int32_t>(v);
     const RoundedPoint axes = f(motion, vertex);

@@ -81,7 +81,11 @@ class FeaturePoints {
  public:
   // If `pace` was stopped, they must not be used.
   explicit FeaturePoints(const SteppedMesh& motion, PacedStop* pace = nullptr,
-                         double separation = 0);
+                         double separation = 0) {
+    assign(motion, pace, separation);
+  }
+  // Makes them those of another motion of as many vertices, in the same memory.
+  void assign(const SteppedMesh& motion, PacedStop* pace, double separation);
   // By how much features have to be apart that are farther apart than the separation.
   const FeatureMargin& margin() const { return margin_; }
   const FeaturePoint& operator[](std::int32_t vertex) const {
@@ -167,6 +171,10 @@ class FeaturePairs {
   // Says what the searches to come ask for. Until it is called they ask for everything, and
   // nothing was asked for before.
   void ask(const AskedTypes& asked);
+  // From now on the boxes of features are those of this motion, of the same vertices.
+  void refit(const SteppedMesh& motion, PacedStop* pace, double separation) {
+    points_.assign(motion, pace, separation);
+  }
 
   // Appends the feature pairs that (a, b) stands for, at most max_keys. With may_pierce it also
   // appends edges that may pierce the other triangle at t=0. 15 to 30 ns.

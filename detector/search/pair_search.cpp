@@ -3,6 +3,7 @@
 #include <atomic>
 
 #include "detector/mesh/for_all.h"
+#include "detector/search/search_lanes.h"
 
 namespace assay::detector {
 namespace {
@@ -253,22 +254,6 @@ struct Lane {
   Descent descent;
 };
 
-bool run_in_lanes(Hunt& hunt, const PatchProofs* proofs, std::span<const NodePair> pairs,
-                  PacedStop& pace, SearchCounts& counts) {
-  std::vector<std::unique_ptr<Lane>> lanes;
-  for (std::size_t i = 0; i < pace.workers()->count(); ++i)
-    lanes.push_back(std::make_unique<Lane>(hunt, proofs, pace.stop(), i));
-  pace.workers()->share_out(pairs.size(), 1, [&](const LoopPiece& piece) {
-    lanes[piece.lane]->descent.run(pairs[piece.begin]);
-  });
-  bool completed = true;
-  for (const auto& lane : lanes) {
-    completed = lane->descent.finish() && completed;
-    counts += lane->counts;
-  }
-  return completed;
-}
-
 }  // namespace
 
 std::unique_ptr<MeshSearch> PairSearch::prepare(const Topology&, const BoundingVolumeTree&,
@@ -283,17 +268,11 @@ bool TreeSearch::search(const SearchInput& input, SearchCounts& counts,
 
 bool TreeSearch::descend(const SearchInput& input, PatchProofs* proofs, SearchCounts& counts,
                          const PairSink& sink) const {
-  // With so many pairs of nodes for each lane, all lanes get about the same amount of work.
-  constexpr std::size_t pairs_of_lane = 64;
   Hunt hunt(input, skipping_ == Skipping::on, sink);
   Descent descent(hunt, proofs, 0, counts);
-  const bool has_lanes = has_workers(input.pace) && sink.takes_lanes();
-  const std::size_t wanted = has_lanes ? pairs_of_lane * input.pace->workers()->count() : 1;
-  const auto pairs = descent.cut(wanted);
-  if (has_lanes && pairs.size() >= wanted)
-    return descent.finish() && run_in_lanes(hunt, proofs, pairs, *input.pace, counts);
-  for (const auto& pair : pairs) descent.run(pair);
-  return descent.finish();
+  return run_descent(input, sink.takes_lanes(), descent, counts, [&](std::size_t lane) {
+    return std::make_unique<Lane>(hunt, proofs, input.pace->stop(), lane);
+  });
 }
 
 bool ExhaustiveSearch::search(const SearchInput& input, SearchCounts& counts,

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <bit>
 
-#include "detector/mesh/for_all.h"
+#include "detector/search/search_lanes.h"
 
 namespace assay::detector {
 namespace {
@@ -230,38 +230,21 @@ class WideDescent {
   std::vector<CandidatePair> found_;  // not yet handed over
 };
 
+struct WideLane {
+  WideLane(WideHunt& hunt, std::size_t index) : descent(hunt, index, counts) {}
+  SearchCounts counts;
+  WideDescent descent;
+};
+
 }  // namespace
 
 bool WideSearch::search(const SearchInput& input, SearchCounts& counts,
                         const PairSink& sink) const {
-  // With so many pairs of nodes for each lane, all lanes get about the same amount of work.
-  constexpr std::size_t pairs_of_lane = 64;
   WideHunt hunt(input, sink);
   WideDescent descent(hunt, 0, counts);
-  const bool has_lanes = has_workers(input.pace) && sink.takes_lanes();
-  const std::size_t wanted = has_lanes ? pairs_of_lane * input.pace->workers()->count() : 1;
-  const auto pairs = descent.cut(wanted);
-  if (!has_lanes || pairs.size() < wanted) {
-    for (const auto& pair : pairs) descent.run(pair);
-    return descent.finish();
-  }
-  if (!descent.finish()) return false;
-  struct alignas(64) Lane {
-    SearchCounts counts;
-    std::unique_ptr<WideDescent> descent;
-  };
-  std::vector<Lane> lanes(input.pace->workers()->count());
-  for (std::size_t i = 0; i < lanes.size(); ++i)
-    lanes[i].descent = std::make_unique<WideDescent>(hunt, i, lanes[i].counts);
-  input.pace->workers()->share_out(pairs.size(), 1, [&](const LoopPiece& piece) {
-    lanes[piece.lane].descent->run(pairs[piece.begin]);
+  return run_descent(input, sink.takes_lanes(), descent, counts, [&](std::size_t lane) {
+    return std::make_unique<WideLane>(hunt, lane);
   });
-  bool completed = true;
-  for (const auto& lane : lanes) {
-    completed = lane.descent->finish() && completed;
-    counts += lane.counts;
-  }
-  return completed;
 }
 
 }  // namespace assay::detector

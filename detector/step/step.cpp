@@ -165,8 +165,9 @@ StepResult undecided() {
 }  // namespace
 
 StepResult evaluate_step(StepContext& context, const std::optional<StepState>& known,
-                         const SteppedMesh& mesh, std::span<const ViewPrimitive> primitives,
-                         const StopFunction& asked, std::optional<StepState>& next) {
+                         const SteppedMesh& mesh, const StepQuestion& question,
+                         std::span<const ViewPrimitive> primitives, const StopFunction& asked,
+                         std::optional<StepState>& next) {
   SharedStop shared(asked);
   const StopFunction stop = shared.function();
   PacedStop pace(stop, context.workers);
@@ -186,7 +187,7 @@ StepResult evaluate_step(StepContext& context, const std::optional<StepState>& k
     const bool moves_ghosts = !context.surface.is_closed() && policy.is_due();
     if (moves_ghosts && !move_ghosts(context, mesh, pace, ghosts)) return undecided();
     const SteppedMesh motion = moves_ghosts ? SteppedMesh{ghosts.all_t0, ghosts.all_t1} : mesh;
-    StepRun step(context, goes_on ? &*known : nullptr, motion, policy, stop);
+    StepRun step(context, goes_on ? &*known : nullptr, motion, question, policy, stop);
     const bool completed = run_stages(step, mesh, primitives);
     result = step.finish(completed, mesh, primitives.empty(), next);
     if (!result.primitives.empty()) result.apexes = std::move(ghosts.apexes);

@@ -27,11 +27,18 @@ inline bool make_first_views(StepContext& context, PacedStop& pace) {
                             pace);
 }
 
+// What a step is asked for.
+struct StepQuestion {
+  Pairs pairs;
+  double until = 1;  // with Pairs::first: a later contact is of no interest
+};
+
 // Answers the step, going on from `known`, the state of the last commit if there is one. If the
-// answer is free or collision, `next` is set to the state at the end of the step. REQUIRES that
-// `next` is empty; without an answer it stays so.
+// answer is free or collision, and the step is asked about to its end, `next` is set to the state
+// at that end. REQUIRES that `next` is empty; otherwise it stays so.
 StepResult evaluate_step(StepContext& context, const std::optional<StepState>& known,
-                         const SteppedMesh& mesh, std::span<const ViewPrimitive> primitives,
-                         const StopFunction& stop, std::optional<StepState>& next);
+                         const SteppedMesh& mesh, const StepQuestion& question,
+                         std::span<const ViewPrimitive> primitives, const StopFunction& stop,
+                         std::optional<StepState>& next);
 
 }  // namespace assay::detector

@@ -74,7 +74,7 @@ TimeEnclosure least_time(std::span<const PairContact> pairs) {
 }  // namespace
 
 StepRun::StepRun(StepContext& context, const StepState* known, const SteppedMesh& motion,
-                 CullingPolicy& policy, const StopFunction& stop)
+                 const StepQuestion& question, CullingPolicy& policy, const StopFunction& stop)
     : context_(context),
       mesh_(context.surface.mesh),
       policy_(policy),
@@ -86,6 +86,7 @@ StepRun::StepRun(StepContext& context, const StepState* known, const SteppedMesh
              .motion = motion,
              .known = known,
              .relation = context.relation.count_all() ? nullptr : &context.relation},
+      question_(question),
       cost_{.pace = PacedStop(stop, context.workers)} {
   context_.tree.forget_fit();  // the caller may have written new positions into the same arrays
   marks_.clean.assign(mesh_.triangles.size(), 0);
@@ -201,6 +202,7 @@ bool StepRun::mark_types() {
   search_.emplace(SearchStages{*stages.pair_rule, *stages.marking, *context_.pair_search,
                                *stages.elementary, given_.relation},
                   mesh_, given_.tree, context_.search, given_.motion, cost_.pace);
+  if (looks_for_first()) search_->look_for_first(by_time(question_.until), given_.tree);
   Stopwatch watch(result_.times.broad_phase);
   return search_->mark(types);
 }
@@ -222,12 +224,19 @@ bool StepRun::find_pairs() {
 bool StepRun::close_pairs() {
   if (!marks_.has_views()) return true;
   Stopwatch watch(result_.times.closure);
-  if (context_.options.pairs != Pairs::all) {
+  if (looks_for_first()) {
     const auto ignored = search_->found_ignored();
     if (!ignored) return false;
     if (!*ignored) return true;
   }
   return is_closed_ = search_->close();
+}
+
+// Where times are not unique, the pairs that may be in contact at the first time are kept.
+void StepRun::keep_first() {
+  const TimeBound first = by_time(least_time(result_.pairs).hi);
+  std::erase_if(result_.pairs,
+                [&](const PairContact& contact) { return first.leaves_out(contact.time); });
 }
 
 bool StepRun::take_found() {
@@ -238,6 +247,7 @@ bool StepRun::take_found() {
     std::swap(all_contacts_, result_.pairs);
     is_sorted = search_->take_counted(all_contacts_, result_.pairs);
   }
+  if (looks_for_first()) keep_first();
   cost_.counts.search = search_->search_counts();
   cost_.counts.marking = search_->marking_counts();
   cost_.counts.narrow = search_->narrow_counts();
@@ -256,13 +266,13 @@ StepResult StepRun::finish(bool completed, const SteppedMesh& mesh, bool has_own
                    : result_.pairs.empty() ? Answer::free
                                            : Answer::collision;
   result_.first = least_time(result_.pairs);
-  if (completed) {
+  if (completed) result_.views = policy_.use();
+  if (completed && question_.until == 1) {
     // Set whole or, if memory fails, not at all.
     next = state_at_end(given_, marks_, cost_.pace, *context_.stages.release,
                         given_.relation ? all_contacts_ : result_.pairs, is_complete(),
                         mesh.vertices_t1);
     next->policy = policy_.next(cost_.counts, has_own_primitives);
-    result_.views = policy_.use();
   }
   result_.signs = std::move(marks_.signs);
   result_.primitives = std::move(marks_.primitives);

@@ -17,7 +17,7 @@ class StepRun {
   // `motion`: of the mesh, and of its apexes if the ghosts move in this step. The references must
   // outlive this object.
   StepRun(StepContext& context, const StepState* known, const SteppedMesh& motion,
-          CullingPolicy& policy, const StopFunction& stop);
+          const StepQuestion& question, CullingPolicy& policy, const StopFunction& stop);
 
   // Places the primitives, if they are due. `mesh` is the motion of the mesh alone; `given` holds
   // no primitive, one, or one for each component.
@@ -53,8 +53,8 @@ class StepRun {
   // missed, because L3 speaks of all contacts (L19).
   bool close_pairs();
 
-  // The result. If the step was completed, `next` is set to the state at its end (L8). The flag
-  // has_own_primitives says that the caller gave no primitives.
+  // The result. If the step was completed, and was asked about to its end, `next` is set to the
+  // state there (L8). The flag has_own_primitives says that the caller gave no primitives.
   StepResult finish(bool completed, const SteppedMesh& mesh, bool has_own_primitives,
                     std::optional<StepState>& next);
 
@@ -62,15 +62,26 @@ class StepRun {
   // What the search found goes into the result, also if it was stopped. False if it was stopped
   // while contacts were sorted into those that count and others.
   bool take_found();
-  // Whether the pairs found are all that are in contact in the step.
+  // Whether the first contact alone is looked for.
+  bool looks_for_first() const { return question_.pairs == Pairs::first; }
+  TimeBound by_time(double until) const {
+    return {until, context_.options.arithmetic == Arithmetic::exact};
+  }
+  // Leaves, of the pairs that count, those in contact at the first time.
+  void keep_first();
+  // Whether the pairs found are all that are in contact in the step. A search for the first contact
+  // leaves out later ones as soon as it has found one that counts. Until then it finds what K
+  // holds, and with views that is all only if the closure has made it so.
   bool is_complete() const {
-    return !marks_.has_views() || context_.options.pairs == Pairs::all || is_closed_;
+    if (!looks_for_first()) return true;
+    return result_.pairs.empty() && (!marks_.has_views() || is_closed_);
   }
 
   StepContext& context_;
   const Topology& mesh_;
   CullingPolicy& policy_;
   const GivenStep given_;
+  const StepQuestion question_;
   StepMarks marks_;
   StepCost cost_;
   std::optional<CandidateSearch> search_;  // from mark_types() to finish()

@@ -78,7 +78,7 @@ bool has_account(CaseFacts& facts, std::size_t s) {
 TriangleFlags in_doubt_after(CaseFacts& facts, std::size_t s) {
   TriangleFlags flags = account_of_dirty(facts, s);
   const bool has_views = facts.has_views(s);
-  const bool incomplete = has_views && facts.options().pairs != detector::Pairs::all &&
+  const bool incomplete = facts.options().pairs != detector::Pairs::all &&
                           facts.judgement(s).answer == detector::Answer::collision;
   for (std::size_t t = 0; t < flags.size(); ++t) {
     const bool swept_clean =

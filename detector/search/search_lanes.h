@@ -1,0 +1,103 @@
+// How a descent is shared out: in lanes, and in rounds if it looks for the first contact.
+//
+// A descent is cut into pairs of nodes near the root, and each worker takes one of these after the
+// other. The work for a pair of nodes does not depend on other pairs.
+//
+// What is found in one round bounds the next: contacts later than the earliest one so far are of
+// no interest, so boxes need to cover only the time up to it. A round is a share of the pairs of
+// nodes that the descent was cut into. They are taken in an order that spreads each round over the
+// whole mesh, because contacts mostly lie side by side. Neither rounds nor order depend on the
+// number of workers, so neither do candidates and counts.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <span>
+#include <vector>
+
+#include "detector/mesh/for_all.h"
+#include "detector/search/pair_search.h"
+
+namespace assay::detector {
+
+// How many pairs of nodes such a search is cut into, if it does not end before that.
+inline constexpr std::size_t pairs_in_rounds = 512;
+
+// The numbers below `count`, ordered by their bits reversed.
+inline std::vector<std::size_t> spread_numbers(std::size_t count) {
+  std::vector<std::size_t> spread;
+  spread.reserve(count);
+  const std::size_t beyond = std::bit_ceil(count);
+  std::size_t reversed = 0;
+  for (std::size_t i = 0; i < beyond; ++i) {
+    if (reversed < count) spread.push_back(reversed);
+    // Adds one to the reversed number: the carry runs from the highest bit down.
+    std::size_t bit = beyond / 2;
+    for (; reversed & bit; bit /= 2) reversed ^= bit;
+    reversed |= bit;
+  }
+  return spread;
+}
+
+// Calls run(span of pairs) for one round after the other, and input.between() between two of them.
+// False if one of them returned false. REQUIRES input.between, and that run() has given all that it
+// found to the sink when it returns. Within a round the pairs keep their order, because neighbours
+// find what they read in the caches.
+template <class NodePair, class Run>
+bool run_in_rounds(const SearchInput& input, const std::vector<NodePair>& pairs, Run run) {
+  std::vector<std::size_t> numbers = spread_numbers(pairs.size());
+  std::vector<NodePair> round;
+  // In 64ths of the pairs.
+  constexpr std::size_t ends[] = {1, 4, 16, 32, 64};
+  std::size_t begin = 0;
+  for (const std::size_t part : ends) {
+    const std::size_t end = (part * numbers.size() + 63) / 64;
+    if (begin == end) continue;
+    if (begin > 0 && !input.between()) return false;
+    const auto of_round = std::span(numbers).subspan(begin, end - begin);
+    std::sort(of_round.begin(), of_round.end());
+    round.clear();
+    for (const auto n : of_round) round.push_back(pairs[n]);
+    if (!run(std::span<const NodePair>(round))) return false;
+    begin = end;
+  }
+  return true;
+}
+
+// Runs a descent. It gives cut(wanted), which cuts it into so many pairs of nodes or a few more
+// (fewer if it ends before that), run(pair), and finish(), which hands over what was found last and
+// says whether the search goes on. make_lane(index) makes a lane, with a descent and counts of its
+// own. False if the search has ended early.
+template <class Descent, class MakeLane>
+bool run_descent(const SearchInput& input, bool takes_lanes, Descent& descent,
+                 SearchCounts& counts, MakeLane make_lane) {
+  // With so many pairs of nodes for each lane, all lanes get about the same amount of work.
+  constexpr std::size_t pairs_of_lane = 64;
+  const bool has_lanes = takes_lanes && has_workers(input.pace);
+  const std::size_t wanted = input.between ? pairs_in_rounds
+                             : has_lanes   ? pairs_of_lane * input.pace->workers()->count()
+                                           : 1;
+  const auto pairs = descent.cut(wanted);
+  if (!descent.finish()) return false;
+  std::vector<decltype(make_lane(std::size_t{0}))> lanes;
+  if (has_lanes && pairs.size() >= wanted) {
+    for (std::size_t i = 0; i < input.pace->workers()->count(); ++i) lanes.push_back(make_lane(i));
+  }
+  const auto run = [&](const auto& some) {
+    if (lanes.empty()) {
+      for (const auto& pair : some) descent.run(pair);
+      return descent.finish();
+    }
+    input.pace->workers()->share_out(some.size(), 1, [&](const LoopPiece& piece) {
+      lanes[piece.lane]->descent.run(some[piece.begin]);
+    });
+    bool completed = true;
+    for (const auto& lane : lanes) completed = lane->descent.finish() && completed;
+    return completed;
+  };
+  const bool completed = input.between ? run_in_rounds(input, pairs, run) : run(pairs);
+  for (const auto& lane : lanes) counts += lane->counts;
+  return completed;
+}
+
+}  // namespace assay::detector

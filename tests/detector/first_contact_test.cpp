@@ -1,0 +1,192 @@
+// Pairs::first and Detector::first_contact: what is bounded by the earliest contact found so far
+// gives the first time and the pairs at it, as all pairs have them.
+#include "detector/detector.h"
+#include "detector/state/step_state.h"
+#include "tests/detector/contact/same_contacts.h"
+#include "tests/detector/search/search_meshes.h"
+
+namespace assay::detector {
+namespace {
+
+// A mesh of sheets of `size` squares a side that lie above each other at the start, and in the
+// opposite order at the end. With `height` 0 they are where SearchMeshes puts them.
+struct Moving {
+  explicit Moving(const tests::MovingMesh& mesh, int size = 0, double height = 0)
+      : x_t0(mesh.x_t0), x_t1(mesh.x_t1) {
+    for (Eigen::Index v = 0; v < x_t0.rows(); ++v) {
+      const double above = height * static_cast<double>(v / ((size + 1) * (size + 1)));
+      x_t0(v, 2) += above;
+      x_t1(v, 2) -= above;
+    }
+    triangles.resize(static_cast<Eigen::Index>(mesh.topology.triangles.size()), 3);
+    for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+      const auto& corners = mesh.topology.triangles[static_cast<std::size_t>(t)];
+      triangles.row(t) << corners[0], corners[1], corners[2];
+    }
+  }
+  Detector detector(Options options) const {
+    return std::move(Detector::create(triangles, x_t0, options).value());
+  }
+  Triangles triangles;
+  Positions x_t0, x_t1;
+};
+
+std::vector<PairContact> at_first(const StepResult& all) {
+  std::vector<PairContact> pairs;
+  for (const auto& contact : all.pairs) {
+    if (contact.time == all.first) pairs.push_back(contact);
+  }
+  return pairs;
+}
+
+class FirstContact : public testing::TestWithParam<Culling> {};
+
+TEST_P(FirstContact, L6_IsThatOfAllPairs) {
+  tests::SearchMeshes random(23);
+  const bool sees_all = !uses_views(GetParam());
+  int collisions = 0, inside = 0;
+  for (int i = 0; i < 24; ++i) {
+    const int size = 3 + i % 12;
+    const Moving mesh(random.sheets(2 + i % 2, size, i % 3 == 0), size, i % 4 == 0 ? 0 : 9);
+    const auto all = mesh.detector({GetParam()}).evaluate(mesh.x_t0, mesh.x_t1);
+    auto asked = mesh.detector({GetParam(), Start::verified, Pairs::first});
+    const auto first = asked.evaluate(mesh.x_t0, mesh.x_t1);
+    ASSERT_EQ(first.answer, all.answer);
+    if (all.answer != Answer::collision) continue;
+    ++collisions;
+    inside += all.first.lo > 0;
+    ASSERT_EQ(first.first, all.first);
+    ASSERT_FALSE(first.pairs.empty());
+    for (const auto& contact : first.pairs) EXPECT_EQ(contact.time, all.first);
+    if (sees_all) {
+      EXPECT_EQ(first.pairs.size(), at_first(all).size());
+    }
+  }
+  EXPECT_GT(collisions, 12);
+  EXPECT_GT(inside, 10);
+}
+
+TEST_P(FirstContact, L6_ByABoundIsThereJustIfItIsNotLater) {
+  tests::SearchMeshes random(29);
+  int bounded = 0, between = 0;
+  for (int i = 0; i < 24; ++i) {
+    const int size = 3 + i % 6;
+    const Moving mesh(random.sheets(2, size, i % 3 == 0), size, i % 4 == 0 ? .5 : 9);
+    auto detector = mesh.detector({GetParam()});
+    const auto all = detector.evaluate(mesh.x_t0, mesh.x_t1);
+    const auto by = [&](double until) {
+      return detector.first_contact(mesh.x_t0, mesh.x_t1, until);
+    };
+    if (all.answer == Answer::free) {
+      EXPECT_EQ(by(.5).answer, Answer::free);
+      EXPECT_TRUE(detector.commit()) << "nothing is known of the rest of the step";
+      EXPECT_EQ(by(1).answer, Answer::free);
+      EXPECT_FALSE(detector.commit());
+      continue;
+    }
+    for (const double until : {all.first.hi, 1., .5 * all.first.hi + .5}) {
+      const auto result = by(until);
+      EXPECT_EQ(result.answer, Answer::collision);
+      EXPECT_EQ(result.first, all.first);
+    }
+    if (all.first.hi == 0) continue;
+    ++bounded;
+    between += all.first.lo < all.first.hi;
+    for (const double until : {std::nextafter(all.first.hi, 0.), all.first.hi / 2, 0.})
+      EXPECT_EQ(by(until).answer, Answer::free) << until << " of " << all.first.hi;
+  }
+  EXPECT_GT(bounded, 5);
+  EXPECT_GT(between, 3);
+}
+
+TEST_P(FirstContact, DoesNotDependOnThreads) {
+  const Moving mesh(tests::SearchMeshes(11).sheets(2, 40, false));
+  const auto result_of = [&](std::uint32_t threads) {
+    Options options{GetParam(), Start::verified, Pairs::first};
+    options.threads = threads;
+    return mesh.detector(options).evaluate(mesh.x_t0, mesh.x_t1);
+  };
+  const auto expected = result_of(1);
+  ASSERT_EQ(expected.answer, Answer::collision);
+  for (const std::uint32_t threads : {2u, 3u}) {
+    const auto result = result_of(threads);
+    tests::expect_same_contacts(result, expected);
+    EXPECT_EQ(result.counts.search.box_tests, expected.counts.search.box_tests);
+    EXPECT_EQ(result.counts.search.candidate_pairs, expected.counts.search.candidate_pairs);
+    EXPECT_EQ(result.counts.narrow.elementary_tests, expected.counts.narrow.elementary_tests);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Cullings, FirstContact, testing::ValuesIn(all_values<Culling>),
+                         [](const auto& tested) {
+                           std::string name = name_of(tested.param);
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+// Two sheets of 7,000 triangles each that come flat upon each other, all at the same time.
+TEST(FirstContact, OfManyAtOnceIsFoundWithFewTests) {
+  const auto flat = [](double height) {
+    constexpr int side = 60;
+    Positions x(2 * side * side, 3);
+    for (Eigen::Index v = 0; v < x.rows(); ++v) {
+      const auto i = v % (side * side);
+      const bool above = v >= side * side;
+      x.row(v) << static_cast<double>(i / side) + (above ? .25 : 0),
+          static_cast<double>(i % side) + (above ? .125 : 0), above ? height : 0;
+    }
+    return x;
+  };
+  constexpr int side = 60;
+  std::vector<tests::Corners> rows;
+  for (int s = 0; s < 2; ++s) {
+    for (int i = 0; i + 1 < side; ++i) {
+      for (int j = 0; j + 1 < side; ++j) {
+        const int v = (s * side + i) * side + j;
+        rows.push_back({v, v + side, v + side + 1});
+        rows.push_back({v, v + side + 1, v + 1});
+      }
+    }
+  }
+  const Triangles triangles = tests::triangles(rows);
+  Positions start = flat(1), end = flat(-1);
+  end(2 * side * side - 7, 2) = -1.5;  // this vertex comes first
+  const auto result_of = [&](Pairs pairs) {
+    return Detector::create(triangles, start, {Culling::bvh, Start::verified, pairs})
+        .value()
+        .evaluate(start, end);
+  };
+  const auto all = result_of(Pairs::all), first = result_of(Pairs::first);
+  ASSERT_EQ(all.answer, Answer::collision);
+  EXPECT_GT(all.pairs.size(), 10'000u);
+  EXPECT_EQ(first.first, all.first);
+  EXPECT_EQ(first.pairs.size(), at_first(all).size());
+  EXPECT_LT(first.pairs.size(), 20u);
+}
+
+TEST(FirstContact, L15_AfterACollisionNothingIsKnown) {
+  const Moving mesh(tests::SearchMeshes(11).sheets(2, 8, false));
+  for (const auto culling : all_values<Culling>) {
+    auto detector = mesh.detector({culling, Start::verified, Pairs::first});
+    const auto collides = detector.evaluate(mesh.x_t0, mesh.x_t1);
+    ASSERT_EQ(collides.answer, Answer::collision);
+    ASSERT_FALSE(detector.commit());
+    const auto& state = *detector.state().fields().committed;
+    EXPECT_FALSE(state.met_is_complete);
+    EXPECT_EQ(std::count(state.clean.begin(), state.clean.end(), 1), 0);
+  }
+}
+
+TEST(FirstContact, ABoundThatIsNoTimeIsRefused) {
+  const Positions x = tests::octahedron_positions(1);
+  auto detector = std::move(Detector::create(tests::octahedron(), x, {}).value());
+  for (const double until : {-.5, 1.5, std::numeric_limits<double>::quiet_NaN()}) {
+    const auto result = detector.first_contact(x, x, until);
+    EXPECT_EQ(result.answer, Answer::error);
+    ASSERT_TRUE(result.problem);
+    EXPECT_EQ(result.problem->error, InputError::wrong_bound);
+  }
+}
+
+}  // namespace
+}  // namespace assay::detector
