@@ -21,12 +21,14 @@ namespace {
 // one axis mean no contact. Otherwise a contact is decided if the cubic has only one root there
 // and each dependency at most one. SignAtRoot then says which sign the dependency has at the root
 // of the cubic. What is still undecided when a piece is max_fixed_depth halvings deep stays open:
-// roots that are close together, double roots inside a piece, and collinear points.
+// roots that are close together, double roots inside a piece, and points that are collinear inside
+// a piece or throughout. If they are collinear at an end, their differences along an axis decide.
 //
 // Points that are coplanar throughout have no cubic. Suppose that there is no contact where the
-// piece begins. Then each axis whose dependencies do not all vanish has both strict signs there,
-// and at the first contact it has them no longer. Hence one of its dependencies vanishes at that
-// time, so the roots of the dependencies of one such axis are all that has to be tried.
+// piece begins. Then each axis whose dependencies do not all vanish identically has both strict
+// signs just after that, and at the first contact it has them no longer. Hence one of its
+// dependencies vanishes at that time, so the roots of the dependencies of one such axis are all
+// that has to be tried.
 template <std::size_t W>
 class FixedSearch {
  public:
@@ -34,6 +36,7 @@ class FixedSearch {
   // first primitive: 1 for vertex-face, 2 for edge-edge. REQUIRES query.bits() <= most_bits<W>.
   FixedSearch(const QueryIntegers& query, int first_group, Want want)
       : bits_(query.bits()),
+        first_group_(static_cast<std::size_t>(first_group)),
         want_(want),
         products_(query, first_group),
         b_(products_.coplanarity()) {}
@@ -71,7 +74,26 @@ class FixedSearch {
       time_ = {time, time};
       return Decision::yes;
     }
-    return Decision::open;  // collinear
+    time_ = {time, time};
+    return meet_on_line(time) ? Decision::yes : Decision::no;
+  }
+
+  // Whether there is a contact at the end of a piece, where the points are collinear: along the
+  // first axis on which they do not coincide, the groups must not be apart.
+  bool meet_on_line(double time) const {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      SignSet signs;
+      bool coincide = false;
+      for (std::size_t i = 0; i < first_group_; ++i) {
+        for (std::size_t j = first_group_; j < 4; ++j) {
+          const int sign = products_.difference(i, j, axis, time).sign();
+          signs.add(sign);
+          coincide |= sign == 0;
+        }
+      }
+      if (signs.any()) return coincide || signs.both();
+    }
+    return true;
   }
 
   // Looks for a contact in the piece without its beginning.
@@ -199,6 +221,7 @@ class FixedSearch {
   }
 
   int bits_;
+  std::size_t first_group_;
   Want want_;
   FixedProducts<W> products_;
   FixedCubic<Triple> b_;
