@@ -140,28 +140,56 @@ class FixedSearch {
     return Decision::open;  // collinear
   }
 
+  // Looks at the roots of the dependencies of this axis. REQUIRES that not all of them vanish.
   Decision look_at_changes(Piece& piece, std::size_t axis) {
-    std::optional<TimeEnclosure> first;
+    const auto& dependency = piece.dependency(axis, products_);
+    std::array<PieceSigns, 4> signs;
     for (std::size_t i = 0; i < 4; ++i) {
-      const auto& l = piece.dependency(axis, products_)[i];
-      const PieceSigns signs = piece_signs(l);
-      if (signs.known()) continue;
-      if (signs.changes > 1) return Decision::open;
-      const auto cubic = raised<W>(l);
-      const Decision found = look_at_root(piece, cubic, signs.first);
+      signs[i] = piece_signs(dependency[i]);
+      if (signs[i].changes > 1) return Decision::open;
+    }
+    std::optional<std::size_t> first;
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (signs[i].known() || (first && !is_before(dependency[i], signs[i].first,
+                                                   dependency[*first], signs[*first].first))) {
+        continue;
+      }
+      const Decision found = look_at_root(piece, dependency[i], signs[i].first);
       if (found == Decision::open) return Decision::open;
       if (found == Decision::no) continue;
       if (want_ == Want::yes_no) return Decision::yes;
-      const auto over_step = products_.dependency(axis)[i];
-      auto whole = raised<W>(over_step);
-      whole[0] = Triple(over_step[0]);
-      whole[3] = Triple(over_step[2]);
-      const TimeEnclosure time = bracket(piece, whole, cubic, signs.first);
-      if (!first || !(*first <= time)) first = time;
+      first = i;
     }
     if (!first) return Decision::no;
-    time_ = *first;
+    const auto over_step = products_.dependency(axis)[*first];
+    auto whole = raised<W>(over_step);
+    whole[0] = Triple(over_step[0]);
+    whole[3] = Triple(over_step[2]);
+    time_ = bracket(piece, whole, raised<W>(dependency[*first]), signs[*first].first);
     return Decision::yes;
+  }
+
+  using Quadratic = FixedQuadratic<typename Piece::Minor>;
+
+  // Whether the root of a comes before that of b. REQUIRES that each has one root in the open
+  // piece and that sign before it.
+  static bool is_before(const Quadratic& a, int before_a, const Quadratic& b, int before_b) {
+    return sign_at_root<W>(b, a, before_a) == before_b;
+  }
+
+  // Decides whether there is a contact at the root of `quadratic` in the open piece. REQUIRES that
+  // it has one root there and the sign `before` before it, and that the points are coplanar.
+  Decision look_at_root(Piece& piece, const Quadratic& quadratic, int before) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      SignSet there;
+      for (const auto& l : piece.dependency(axis, products_)) {
+        const PieceSigns signs = piece_signs(l);
+        there.add(signs.known() ? signs.first : sign_at_root<W>(l, quadratic, before));
+      }
+      if (there.both()) return Decision::no;
+      if (there.any()) return Decision::yes;
+    }
+    return Decision::open;  // collinear
   }
 
   // Decides by the signs that are known throughout the open piece. If both strict signs occur
