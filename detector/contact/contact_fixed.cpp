@@ -21,8 +21,9 @@ namespace {
 // one axis mean no contact. Otherwise a contact is decided if the cubic has only one root there
 // and each dependency at most one. SignAtRoot then says which sign the dependency has at the root
 // of the cubic. What is still undecided when a piece is max_fixed_depth halvings deep stays open:
-// roots that are close together, double roots inside a piece, and points that are collinear inside
-// a piece or throughout. If they are collinear at an end, their differences along an axis decide.
+// roots that are close together, double roots inside a piece, and points that become collinear
+// inside a piece. Where they are collinear at an end, or throughout, their differences along an axis
+// decide.
 //
 // Points that are coplanar throughout have no cubic. Suppose that there is no contact where the
 // piece begins. Then each axis whose dependencies do not all vanish identically has both strict
@@ -75,22 +76,25 @@ class FixedSearch {
       return Decision::yes;
     }
     time_ = {time, time};
-    return meet_on_line(time) ? Decision::yes : Decision::no;
+    constexpr std::uint64_t parts = std::uint64_t{1} << max_fixed_depth;
+    const auto behind = static_cast<std::uint64_t>(time * parts);
+    const bool meet = meet_on_line(
+        [&](const Ends& d) { return (d[0].times(parts - behind) + d[1].times(behind)).sign(); });
+    return meet ? Decision::yes : Decision::no;
   }
 
-  // Whether there is a contact at the end of a piece, where the points are collinear: along the
-  // first axis on which they do not coincide, the groups must not be apart.
-  bool meet_on_line(double time) const {
+  // Whether there is a contact where the points are collinear: along the first axis on which they
+  // do not coincide, the groups must not be apart.
+  template <class SignThere>
+  bool meet_on_line(SignThere sign_there) const {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       SignSet signs;
       bool coincide = false;
-      for (std::size_t i = 0; i < first_group_; ++i) {
-        for (std::size_t j = first_group_; j < 4; ++j) {
-          const int sign = products_.difference(i, j, axis, time).sign();
-          signs.add(sign);
-          coincide |= sign == 0;
-        }
-      }
+      for_each_difference(axis, [&](const Ends& d) {
+        const int sign = sign_there(d);
+        signs.add(sign);
+        coincide |= sign == 0;
+      });
       if (signs.any()) return coincide || signs.both();
     }
     return true;
@@ -137,7 +141,46 @@ class FixedSearch {
         return found == Decision::open ? look_at_changes(piece, axis) : found;
       }
     }
-    return Decision::open;  // collinear
+    return look_at_collinear(piece);
+  }
+
+  // For points that are collinear throughout. If they are apart at t=0 they meet first where a
+  // difference along an axis vanishes, at p = d_0 / (d_0 - d_1) with its values at the two ends. A
+  // difference e has the sign of (d_0 e_1 - d_1 e_0) / (d_0 - d_1) there.
+  Decision look_at_collinear(Piece& piece) {
+    std::optional<Ends> first;
+    for (std::size_t axis = 0; axis < 3 && !first; ++axis) {
+      bool vanish = true;
+      for_each_difference(axis, [&](const Ends& d) {
+        vanish &= d[0].is_zero() && d[1].is_zero();
+        if (d[0].sign() * d[1].sign() >= 0) return;
+        if (first && sign_at_zero_of(d, *first) != (*first)[0].sign()) return;
+        if (meet_on_line([&](const Ends& e) { return sign_at_zero_of(d, e); })) first = d;
+      });
+      if (!vanish) break;
+    }
+    if (!first) return Decision::no;
+    if (want_ == Want::yes_no) return Decision::yes;
+    const Triple d0((*first)[0]), d1((*first)[1]);
+    const FixedCubic<Triple> whole = {d0, d0 + d0 + d1, d0 + d1 + d1, d1};
+    time_ = bracket(piece, whole, {d0 + d0 + d0, whole[1], whole[2], d1 + d1 + d1}, d0.sign());
+    return Decision::yes;
+  }
+
+  using Ends = std::array<typename FixedProducts<W>::Coordinate, 2>;
+
+  static int sign_at_zero_of(const Ends& d, const Ends& e) {
+    return (d[0] * e[1] - d[1] * e[0]).sign() * d[0].sign();
+  }
+
+  // The differences of points of the two groups along this axis, at t=0 and at t=1.
+  template <class Visit>
+  void for_each_difference(std::size_t axis, Visit visit) const {
+    for (std::size_t i = 0; i < first_group_; ++i) {
+      for (std::size_t j = first_group_; j < 4; ++j) {
+        visit(Ends{products_.difference(i, j, 0, axis), products_.difference(i, j, 1, axis)});
+      }
+    }
   }
 
   // Looks at the roots of the dependencies of this axis. REQUIRES that not all of them vanish.

@@ -153,18 +153,12 @@ class FixedProducts {
     return l;
   }
 
-  // Coordinate `axis` of x_i - x_j at a time k / 2^max_fixed_depth, up to a positive factor.
-  // REQUIRES that `time` is one.
-  Coordinate difference(std::size_t i, std::size_t j, std::size_t axis, double time) const {
-    constexpr std::uint64_t parts = std::uint64_t{1} << max_fixed_depth;
-    const auto behind = static_cast<std::uint64_t>(time * parts);
-    const auto at = [&](std::size_t end) {
-      const auto from_origin = [&](std::size_t p) {
-        return p == 0 ? Coordinate() : u_[p - 1][end][axis];
-      };
-      return from_origin(i) - from_origin(j);
+  // Coordinate `axis` of x_i - x_j at t=0 (end 0) or t=1 (end 1).
+  Coordinate difference(std::size_t i, std::size_t j, std::size_t end, std::size_t axis) const {
+    const auto from_origin = [&](std::size_t p) {
+      return p == 0 ? Coordinate() : u_[p - 1][end][axis];
     };
-    return at(0).times(parts - behind) + at(1).times(behind);
+    return from_origin(i) - from_origin(j);
   }
 
  private:
