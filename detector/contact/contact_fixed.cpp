@@ -21,9 +21,8 @@ namespace {
 // one axis mean no contact. Otherwise a contact is decided if the cubic has only one root there
 // and each dependency at most one. SignAtRoot then says which sign the dependency has at the root
 // of the cubic. What is still undecided when a piece is max_fixed_depth halvings deep stays open:
-// roots that are close together, double roots inside a piece, and points that become collinear
-// inside a piece. Where they are collinear at an end, or throughout, their differences along an axis
-// decide.
+// roots that are close together, and double roots inside a piece. Where all dependencies vanish the
+// points are collinear, and their differences along an axis decide.
 //
 // Points that are coplanar throughout have no cubic. Suppose that there is no contact where the
 // piece begins. Then each axis whose dependencies do not all vanish identically has both strict
@@ -173,6 +172,13 @@ class FixedSearch {
     return (d[0] * e[1] - d[1] * e[0]).sign() * d[0].sign();
   }
 
+  // A difference at an end of a piece, up to a positive factor.
+  static auto value_at(double time, const Ends& d) {
+    constexpr std::uint64_t parts = std::uint64_t{1} << max_fixed_depth;
+    const auto behind = static_cast<std::uint64_t>(time * parts);
+    return d[0].times(parts - behind) + d[1].times(behind);
+  }
+
   // The differences of points of the two groups along this axis, at t=0 and at t=1.
   template <class Visit>
   void for_each_difference(std::size_t axis, Visit visit) const {
@@ -232,7 +238,13 @@ class FixedSearch {
       if (there.both()) return Decision::no;
       if (there.any()) return Decision::yes;
     }
-    return Decision::open;  // collinear
+    const bool meet = meet_on_line([&](const Ends& d) {
+      using Minor = typename Piece::Minor;
+      const Minor lo(value_at(piece.lo, d)), hi(value_at(piece.hi, d));
+      if (lo.sign() * hi.sign() > 0) return lo.sign();
+      return sign_at_root<W>({lo + lo, lo + hi, hi + hi}, quadratic, before);
+    });
+    return meet ? Decision::yes : Decision::no;
   }
 
   // Decides by the signs that are known throughout the open piece. If both strict signs occur
