@@ -21,12 +21,14 @@ namespace {
 // one axis mean no contact. Otherwise a contact is decided if the cubic has only one root there
 // and each dependency at most one. SignAtRoot then says which sign the dependency has at the root
 // of the cubic. What is still undecided when a piece is max_fixed_depth halvings deep stays open:
-// roots that are close together, double roots inside a piece, and collinear points.
+// roots that are close together, and double roots inside a piece. Where all dependencies vanish the
+// points are collinear, and their differences along an axis decide.
 //
 // Points that are coplanar throughout have no cubic. Suppose that there is no contact where the
-// piece begins. Then each axis whose dependencies do not all vanish has both strict signs there,
-// and at the first contact it has them no longer. Hence one of its dependencies vanishes at that
-// time, so the roots of the dependencies of one such axis are all that has to be tried.
+// piece begins. Then each axis whose dependencies do not all vanish identically has both strict
+// signs just after that, and at the first contact it has them no longer. Hence one of its
+// dependencies vanishes at that time, so the roots of the dependencies of one such axis are all
+// that has to be tried.
 template <std::size_t W>
 class FixedSearch {
  public:
@@ -34,6 +36,7 @@ class FixedSearch {
   // first primitive: 1 for vertex-face, 2 for edge-edge. REQUIRES query.bits() <= most_bits<W>.
   FixedSearch(const QueryIntegers& query, int first_group, Want want)
       : bits_(query.bits()),
+        first_group_(static_cast<std::size_t>(first_group)),
         want_(want),
         products_(query, first_group),
         b_(products_.coplanarity()) {}
@@ -71,7 +74,29 @@ class FixedSearch {
       time_ = {time, time};
       return Decision::yes;
     }
-    return Decision::open;  // collinear
+    time_ = {time, time};
+    constexpr std::uint64_t parts = std::uint64_t{1} << max_fixed_depth;
+    const auto behind = static_cast<std::uint64_t>(time * parts);
+    const bool meet = meet_on_line(
+        [&](const Ends& d) { return (d[0].times(parts - behind) + d[1].times(behind)).sign(); });
+    return meet ? Decision::yes : Decision::no;
+  }
+
+  // Whether there is a contact where the points are collinear: along the first axis on which they
+  // do not coincide, the groups must not be apart.
+  template <class SignThere>
+  bool meet_on_line(SignThere sign_there) const {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      SignSet signs;
+      bool coincide = false;
+      for_each_difference(axis, [&](const Ends& d) {
+        const int sign = sign_there(d);
+        signs.add(sign);
+        coincide |= sign == 0;
+      });
+      if (signs.any()) return coincide || signs.both();
+    }
+    return true;
   }
 
   // Looks for a contact in the piece without its beginning.
@@ -115,31 +140,111 @@ class FixedSearch {
         return found == Decision::open ? look_at_changes(piece, axis) : found;
       }
     }
-    return Decision::open;  // collinear
+    return look_at_collinear(piece);
   }
 
+  // For points that are collinear throughout. If they are apart at t=0 they meet first where a
+  // difference along an axis vanishes, at p = d_0 / (d_0 - d_1) with its values at the two ends. A
+  // difference e has the sign of (d_0 e_1 - d_1 e_0) / (d_0 - d_1) there.
+  Decision look_at_collinear(Piece& piece) {
+    std::optional<Ends> first;
+    for (std::size_t axis = 0; axis < 3 && !first; ++axis) {
+      bool vanish = true;
+      for_each_difference(axis, [&](const Ends& d) {
+        vanish &= d[0].is_zero() && d[1].is_zero();
+        if (d[0].sign() * d[1].sign() >= 0) return;
+        if (first && sign_at_zero_of(d, *first) != (*first)[0].sign()) return;
+        if (meet_on_line([&](const Ends& e) { return sign_at_zero_of(d, e); })) first = d;
+      });
+      if (!vanish) break;
+    }
+    if (!first) return Decision::no;
+    if (want_ == Want::yes_no) return Decision::yes;
+    const Triple d0((*first)[0]), d1((*first)[1]);
+    const FixedCubic<Triple> whole = {d0, d0 + d0 + d1, d0 + d1 + d1, d1};
+    time_ = bracket(piece, whole, {d0 + d0 + d0, whole[1], whole[2], d1 + d1 + d1}, d0.sign());
+    return Decision::yes;
+  }
+
+  using Ends = std::array<typename FixedProducts<W>::Coordinate, 2>;
+
+  static int sign_at_zero_of(const Ends& d, const Ends& e) {
+    return (d[0] * e[1] - d[1] * e[0]).sign() * d[0].sign();
+  }
+
+  // A difference at an end of a piece, up to a positive factor.
+  static auto value_at(double time, const Ends& d) {
+    constexpr std::uint64_t parts = std::uint64_t{1} << max_fixed_depth;
+    const auto behind = static_cast<std::uint64_t>(time * parts);
+    return d[0].times(parts - behind) + d[1].times(behind);
+  }
+
+  // The differences of points of the two groups along this axis, at t=0 and at t=1.
+  template <class Visit>
+  void for_each_difference(std::size_t axis, Visit visit) const {
+    for (std::size_t i = 0; i < first_group_; ++i) {
+      for (std::size_t j = first_group_; j < 4; ++j) {
+        visit(Ends{products_.difference(i, j, 0, axis), products_.difference(i, j, 1, axis)});
+      }
+    }
+  }
+
+  // Looks at the roots of the dependencies of this axis. REQUIRES that not all of them vanish.
   Decision look_at_changes(Piece& piece, std::size_t axis) {
-    std::optional<TimeEnclosure> first;
+    const auto& dependency = piece.dependency(axis, products_);
+    std::array<PieceSigns, 4> signs;
     for (std::size_t i = 0; i < 4; ++i) {
-      const auto& l = piece.dependency(axis, products_)[i];
-      const PieceSigns signs = piece_signs(l);
-      if (signs.known()) continue;
-      if (signs.changes > 1) return Decision::open;
-      const auto cubic = raised<W>(l);
-      const Decision found = look_at_root(piece, cubic, signs.first);
+      signs[i] = piece_signs(dependency[i]);
+      if (signs[i].changes > 1) return Decision::open;
+    }
+    std::optional<std::size_t> first;
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (signs[i].known() || (first && !is_before(dependency[i], signs[i].first,
+                                                   dependency[*first], signs[*first].first))) {
+        continue;
+      }
+      const Decision found = look_at_root(piece, dependency[i], signs[i].first);
       if (found == Decision::open) return Decision::open;
       if (found == Decision::no) continue;
       if (want_ == Want::yes_no) return Decision::yes;
-      const auto over_step = products_.dependency(axis)[i];
-      auto whole = raised<W>(over_step);
-      whole[0] = Triple(over_step[0]);
-      whole[3] = Triple(over_step[2]);
-      const TimeEnclosure time = bracket(piece, whole, cubic, signs.first);
-      if (!first || !(*first <= time)) first = time;
+      first = i;
     }
     if (!first) return Decision::no;
-    time_ = *first;
+    const auto over_step = products_.dependency(axis)[*first];
+    auto whole = raised<W>(over_step);
+    whole[0] = Triple(over_step[0]);
+    whole[3] = Triple(over_step[2]);
+    time_ = bracket(piece, whole, raised<W>(dependency[*first]), signs[*first].first);
     return Decision::yes;
+  }
+
+  using Quadratic = FixedQuadratic<typename Piece::Minor>;
+
+  // Whether the root of a comes before that of b. REQUIRES that each has one root in the open
+  // piece and that sign before it.
+  static bool is_before(const Quadratic& a, int before_a, const Quadratic& b, int before_b) {
+    return sign_at_root<W>(b, a, before_a) == before_b;
+  }
+
+  // Decides whether there is a contact at the root of `quadratic` in the open piece. REQUIRES that
+  // it has one root there and the sign `before` before it, and that the points are coplanar.
+  Decision look_at_root(Piece& piece, const Quadratic& quadratic, int before) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      SignSet there;
+      for (const auto& l : piece.dependency(axis, products_)) {
+        const PieceSigns signs = piece_signs(l);
+        there.add(signs.known() ? signs.first : sign_at_root<W>(l, quadratic, before));
+      }
+      if (there.both()) return Decision::no;
+      if (there.any()) return Decision::yes;
+    }
+    const bool meet = meet_on_line([&](const Ends& d) {
+      using Minor = typename Piece::Minor;
+      const Minor lo(value_at(piece.lo, d)), hi(value_at(piece.hi, d));
+      if (lo.sign() * hi.sign() > 0) return lo.sign();
+      return sign_at_root<W>({lo + lo, lo + hi, hi + hi}, quadratic, before);
+    });
+    return meet ? Decision::yes : Decision::no;
   }
 
   // Decides by the signs that are known throughout the open piece. If both strict signs occur
@@ -199,6 +304,7 @@ class FixedSearch {
   }
 
   int bits_;
+  std::size_t first_group_;
   Want want_;
   FixedProducts<W> products_;
   FixedCubic<Triple> b_;

@@ -13,6 +13,7 @@
 //   B0 = w0.n00, B3 = w1.n11            | 3 * 2^(3c + 4)                        | 3c + 6
 //   3 B0, 3 B3                          | 9 * 2^(3c + 4)                        | 3c + 8
 //   B1 = w0.m + w1.n00, B2 likewise     | 3 * 2^(3c + 5) + 3 * 2^(3c + 4)       | 3c + 8
+//   x at a time k / 16, times 16        | 16 times as much                      | c + 5
 //   a dependency, halved undivided      | 4 times as much a halving             | 2 more a halving
 //   the cubic, halved undivided         | 8 times as much a halving             | 3 more a halving
 //
@@ -150,6 +151,14 @@ class FixedProducts {
       for (auto& c : l[i]) c = -c;
     }
     return l;
+  }
+
+  // Coordinate `axis` of x_i - x_j at t=0 (end 0) or t=1 (end 1).
+  Coordinate difference(std::size_t i, std::size_t j, std::size_t end, std::size_t axis) const {
+    const auto from_origin = [&](std::size_t p) {
+      return p == 0 ? Coordinate() : u_[p - 1][end][axis];
+    };
+    return from_origin(i) - from_origin(j);
   }
 
  private:

@@ -95,6 +95,41 @@ class FixedRoot {
   FixedCubic<Coefficient> c_;
 };
 
+// The sign of a quadratic Q at the root p of a quadratic L in (0,1), both in Bernstein coefficients.
+// REQUIRES that L has exactly one root there, and the sign l_before before it.
+//
+// With L = l2 s^2 + l1 s + l0, l2 not 0, l2 Q = q2 L + R, R = a s + b. So Q has at p the sign of R,
+// or the other one if l2 < 0. If R vanishes at -b/a in (0,1), the sign of L there tells the order of
+// -b/a and p, as below. If l2 = 0, Q is computed at p = -l0/l1. With c as below:
+//
+//   quantity                          | below, in size            | bits
+//   q0..q2, l0..l2: by powers of s    | 4 * 2^(2c + 14)           | 2c + 16
+//   a, b                              | 2 * 2^(4c + 32)           | 4c + 33
+//   a^2 L(-b/a)                       | 3 * 2^(10c + 82)          | 10c + 84
+//   l1^2 Q(-l0/l1)                    | 3 * 2^(6c + 48)           | 6c + 50
+//
+// They are products of factors with a limb more than W for each c, so all of them fit.
+template <std::size_t W>
+int sign_at_root(const FixedQuadratic<FixedInteger<2 * W>>& quadratic,
+                 const FixedQuadratic<FixedInteger<2 * W>>& other, int l_before) {
+  using Power = FixedInteger<2 * W + 1>;
+  const auto powers = [](const FixedQuadratic<FixedInteger<2 * W>>& bernstein) {
+    const Power b0(bernstein[0]), d0 = Power(bernstein[1]) - b0;
+    return std::array{b0, d0 + d0, Power(bernstein[2]) - Power(bernstein[1]) - d0};
+  };
+  const auto q = powers(quadratic), l = powers(other);
+  if (l[2].is_zero())
+    return (q[2] * (l[0] * l[0]) - q[1] * (l[0] * l[1]) + q[0] * (l[1] * l[1])).sign();
+  const auto a = l[2] * q[1] - q[2] * l[1], b = l[2] * q[0] - q[2] * l[0];
+  const int at_0 = b.sign(), at_1 = (a + b).sign();
+  int of_remainder = at_0 != 0 ? at_0 : at_1;
+  if (at_0 * at_1 < 0) {
+    const int there = (l[2] * (b * b) - l[1] * (a * b) + l[0] * (a * a)).sign();
+    of_remainder = there == 0 ? 0 : there == l_before ? at_1 : at_0;
+  }
+  return l[2].negative() ? -of_remainder : of_remainder;
+}
+
 // The sign of a quadratic L at the root r of a cubic F in (0,1). REQUIRES that each of them has
 // exactly one root in (0,1). It is found by a resultant: no interval has to be made small, and
 // common roots are no special case.

@@ -171,8 +171,13 @@ int sign_beyond(T value, T bound) {
 // off by at most `bound`, 1 and -1 are the sign of the polynomial over the whole interval.
 template <class T, std::size_t n>
 int sure_sign(const std::array<T, n>& b, T bound) {
-  const auto [least, greatest] = std::minmax_element(b.begin(), b.end());
-  return *least > bound ? 1 : *greatest < -bound ? -1 : 0;
+  // By values and not by places, which would take branches.
+  T least = b[0], greatest = b[0];
+  for (std::size_t i = 1; i < n; ++i) {
+    least = std::min(least, b[i]);
+    greatest = std::max(greatest, b[i]);
+  }
+  return least > bound ? 1 : greatest < -bound ? -1 : 0;
 }
 
 }  // namespace assay::detector
