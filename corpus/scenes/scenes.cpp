@@ -9,6 +9,7 @@
 
 #include "corpus/scenes/box_with_arm.h"
 #include "corpus/scenes/deformations.h"
+#include "corpus/scenes/many_contacts.h"
 #include "corpus/scenes/shapes.h"
 #include "corpus/scenes/trigonometry.h"
 
@@ -135,7 +136,20 @@ Sequence winding_spiral(const SceneOptions& options) {
   return deform(ribbon_shape(options.size), Extent{}, wind, options.frames);
 }
 
-constexpr std::array<SceneInfo, 14> infos = {{
+// A scene that has a mesh for each time.
+template <Mesh (*shape)(int size, double s)>
+Sequence play(const SceneOptions& options) {
+  Sequence sequence;
+  for (int f = 0; f < options.frames; ++f) {
+    Mesh mesh =
+        shape(options.size, options.frames > 1 ? static_cast<double>(f) / (options.frames - 1) : 0);
+    if (f == 0) sequence.triangles = std::move(mesh.triangles);
+    sequence.frames.push_back(std::move(mesh.positions));
+  }
+  return sequence;
+}
+
+constexpr std::array<SceneInfo, 18> infos = {{
     {"breathing-sphere", "a sphere that swells and shrinks unevenly; positive from its centre",
      1280, 11, true, true},
     {"two-spheres", "two separate spheres, one swells while the other shrinks; no contact", 1280,
@@ -160,12 +174,22 @@ constexpr std::array<SceneInfo, 14> infos = {{
      41, false, false},
     {"winding-spiral", "a ribbon winds up to a narrow spiral and unwinds again; no contact", 784,
      81, false, false, 41},
+    {"layered-cloth", "layers of cloth slide and bulge into each other; 50 from 1,600 triangles on",
+     1600, 11, false, false},
+    {"pile-of-bodies", "bodies of 80 triangles are pressed together, turning", 1600, 11, true,
+     false},
+    {"tightening-knot", "a closed tube in a trefoil knot is drawn tight until it meets itself",
+     1536, 11, true, false},
+    {"combed-hair", "hanging strips are combed to one side and the other, through each other", 1584,
+     11, false, false},
 }};
 // In the order of `infos`.
-constexpr std::array<Frames, 14> makers = {
-    breathing_sphere, two_spheres,     dented_sphere, bend_scene,       twist_scene,
-    open_tube,        pinching_torus,  folding_sheet, crumpling_sphere, arm_in_box,
-    ball_in_tube,     inverted_sleeve, crossing_fans, winding_spiral};
+constexpr std::array<Frames, 18> makers = {
+    breathing_sphere,      two_spheres,      dented_sphere,       bend_scene,
+    twist_scene,           open_tube,        pinching_torus,      folding_sheet,
+    crumpling_sphere,      arm_in_box,       ball_in_tube,        inverted_sleeve,
+    crossing_fans,         winding_spiral,   play<layered_cloth>, play<pile_of_bodies>,
+    play<tightening_knot>, play<combed_hair>};
 
 Problem wrong_option(std::string_view scene, std::string_view detail) {
   return problem_in({}, fmt::format("scene {}: {}", scene, detail));

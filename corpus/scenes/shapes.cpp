@@ -1,8 +1,9 @@
 #include "corpus/scenes/shapes.h"
 
 #include <cmath>
+#include <compare>
+#include <iterator>
 #include <map>
-#include <utility>
 
 #include "corpus/scenes/trigonometry.h"
 
@@ -30,9 +31,12 @@ constexpr std::array<std::array<int, 3>, 20> ico_faces = {
      {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
      {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
 
-// A vertex of a split face, as weights of icosahedron corners in the order of the corners, without
-// those that are zero. Neighbouring faces make the same key for a vertex on their common edge.
-using Weights = std::map<int, int>;
+// A vertex of a split face: its weight for each corner of the face, by ascending corner.
+struct Weighted {
+  int corner, weight;
+  friend auto operator<=>(const Weighted&, const Weighted&) = default;
+};
+using Weights = std::array<Weighted, 3>;
 
 Point on_sphere(const Weights& weights) {
   Point x{};
@@ -44,6 +48,10 @@ Point on_sphere(const Weights& weights) {
   const double length = std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
   return {x[0] / length, x[1] / length, x[2] / length};
 }
+
+// What neighbouring faces know the vertices of their common edge by: the weights without those
+// that are zero.
+using Shared = std::vector<Weighted>;
 
 // The rectangle between two corners in the plane z = 0: columns x rows squares of two triangles.
 Mesh grid(int columns, int rows, const Point& lo, const Point& hi) {
@@ -67,16 +75,23 @@ Mesh grid(int columns, int rows, const Point& lo, const Point& hi) {
 Mesh sphere_shape(int size) {
   const int f = nearest_resolution(size, 1, [](int n) { return 20 * n * n; });
   MeshMaker maker;
-  std::map<Weights, std::int32_t> known;
+  std::map<Shared, std::int32_t> known;
+  std::vector<std::int32_t> of_face;
   for (const auto& [a, b, c] : ico_faces) {
+    constexpr std::int32_t none = -1;
+    of_face.assign(static_cast<std::size_t>((f + 1) * (f + 1)), none);
     const auto vertex = [&, a = a, b = b, c = c](int i, int j) {
-      Weights weights;
-      if (i > 0) weights[b] = i;
-      if (j > 0) weights[c] = j;
-      if (f - i - j > 0) weights[a] = f - i - j;
-      const auto [place, is_new] = known.try_emplace(weights, 0);
+      std::int32_t& number = of_face[static_cast<std::size_t>(i * (f + 1) + j)];
+      if (number != none) return number;
+      Weights weights = {{{a, f - i - j}, {b, i}, {c, j}}};
+      std::sort(weights.begin(), weights.end());
+      Shared shared;
+      std::copy_if(weights.begin(), weights.end(), std::back_inserter(shared),
+                   [](const Weighted& one) { return one.weight > 0; });
+      if (shared.size() == weights.size()) return number = maker.vertex(on_sphere(weights));
+      const auto [place, is_new] = known.try_emplace(shared, 0);
       if (is_new) place->second = maker.vertex(on_sphere(weights));
-      return place->second;
+      return number = place->second;
     };
     for (int i = 0; i < f; ++i) {
       for (int j = 0; i + j < f; ++j) {

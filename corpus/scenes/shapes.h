@@ -37,6 +37,41 @@ int nearest_resolution(int size, int least, Count count) {
   return size - count(n) <= count(n + 1) - size ? n : n + 1;
 }
 
+// Adds a grid of (columns + 1) x (rows + 1) vertices, two triangles a cell, to a MeshMaker or
+// anything else with `vertex` and `quad`; place(k, i) says where the vertex of column k and row i
+// is. Returns the first vertex.
+template <class Maker, class Place>
+std::int32_t add_sheet(Maker& maker, int columns, int rows, const Place& place) {
+  std::int32_t first = 0;
+  for (int i = 0; i <= rows; ++i) {
+    for (int k = 0; k <= columns; ++k) {
+      const std::int32_t vertex = maker.vertex(place(k, i));
+      if (i == 0 && k == 0) first = vertex;
+    }
+  }
+  const auto at = [&](int k, int i) { return first + i * (columns + 1) + k; };
+  for (int i = 0; i < rows; ++i) {
+    for (int k = 0; k < columns; ++k)
+      maker.quad(at(k, i), at(k + 1, i), at(k + 1, i + 1), at(k, i + 1));
+  }
+  return first;
+}
+
+// The cells of a cubic grid that has room for so many bodies.
+class CubicGrid {
+ public:
+  CubicGrid(int bodies, double pitch)
+      : side_(nearest_resolution(bodies, 1, [](int k) { return k * k * k; }) + 1), pitch_(pitch) {}
+  detector::Point cell(int body) const {
+    return {pitch_ * (body % side_), pitch_ * (body / side_ % side_),
+            pitch_ * (body / side_ / side_)};
+  }
+
+ private:
+  int side_;
+  double pitch_;
+};
+
 // Puts a mesh together vertex by vertex.
 
 class MeshMaker {

@@ -38,6 +38,11 @@ corpus::Sequence bench_scene(const std::string& name, int triangles, int frames)
   return corpus::make_scene(name, {triangles, frames, {}}).value();
 }
 
+corpus::Sequence bench_step(const std::string& name, int triangles, int frames, std::size_t step) {
+  auto scene = bench_scene(name, triangles, frames);
+  return {std::move(scene.triangles), {scene.frames[step], scene.frames[step + 1]}};
+}
+
 std::optional<corpus::Sequence> step_at_first_contact(const std::string& name, int triangles) {
   constexpr int frames = 41;
   const auto scene = bench_scene(name, triangles, frames);

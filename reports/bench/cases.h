@@ -16,6 +16,9 @@ namespace assay::reports {
 // A scene of corpus/. It cannot fail, because names and sizes are those of the benches.
 corpus::Sequence bench_scene(const std::string& name, int triangles, int frames);
 
+// Two of the frames of a scene: the step from frame `step` on.
+corpus::Sequence bench_step(const std::string& name, int triangles, int frames, std::size_t step);
+
 // Two frames of a scene around its first contact: the fastest vertex moves by the mean length of
 // an edge, and the first contact is in the middle. On a fine mesh a step between frames of the
 // scene itself would be many edges long, and its pairs would grow faster than the mesh. Nothing if

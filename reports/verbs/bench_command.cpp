@@ -31,12 +31,17 @@ struct Suite {
   RunSuite* run;
   bool has_picture = false;
 };
-constexpr Suite suites[] = {
-    {"elementary", elementary_suite},     {"view", view_suite},
-    {"growth", growth_suite, true},       {"claims", claims_suite, true},
-    {"stability", stability_suite, true}, {"speed-error", speed_error_suite, true},
-    {"sequences", sequences_suite},       {"threads", threads_suite},
-    {"peers", peers_suite, true},         {"harness", harness_suite}};
+constexpr Suite suites[] = {{"elementary", elementary_suite},
+                            {"view", view_suite},
+                            {"growth", growth_suite, true},
+                            {"sizes", sizes_suite},
+                            {"claims", claims_suite, true},
+                            {"stability", stability_suite, true},
+                            {"speed-error", speed_error_suite, true},
+                            {"sequences", sequences_suite},
+                            {"threads", threads_suite},
+                            {"peers", peers_suite, true},
+                            {"harness", harness_suite}};
 
 const Suite* suite_named(std::string_view name) {
   const auto* found = std::find_if(std::begin(suites), std::end(suites),

@@ -8,7 +8,9 @@
 namespace assay::properties {
 namespace {
 
+using corpus::add_sheet;
 using corpus::cos_turn;
+using corpus::CubicGrid;
 using corpus::nearest_resolution;
 using corpus::sin_turn;
 
@@ -126,7 +128,7 @@ Draft bundle_of_tubes(Random& random, int triangles) {
 Draft soup_of_bodies(Random& random, int triangles) {
   constexpr double pitch = 2, size = 0.45, way = 1.6;
   const int bodies = triangles / 4;
-  const Grid grid(bodies, pitch);
+  const CubicGrid grid(bodies, pitch);
   Draft draft;
   draft.frames.emplace_back();
   Points end;

@@ -1,7 +1,5 @@
 #include "properties/generators/sizes/large_shapes.h"
 
-#include "corpus/scenes/shapes.h"
-
 namespace assay::properties {
 
 Point any_point(Random& random, double most) {
@@ -15,15 +13,6 @@ void add_tetrahedron(Draft& draft, const Point& middle, double size, const Point
   for (const auto& c : corners) draft.vertex(middle + size * (c + cross(tilt, c)));
   for (const Face& f : {Face{0, 1, 2}, Face{0, 3, 1}, Face{0, 2, 3}, Face{1, 3, 2}})
     draft.faces.push_back({v + f[0], v + f[1], v + f[2]});
-}
-
-Grid::Grid(int bodies, double pitch)
-    : side_(corpus::nearest_resolution(bodies, 1, [](int k) { return k * k * k; }) + 1),
-      pitch_(pitch) {}
-
-Point Grid::cell(int body) const {
-  return {pitch_ * (body % side_), pitch_ * (body / side_ % side_),
-          pitch_ * (body / side_ / side_)};
 }
 
 }  // namespace assay::properties

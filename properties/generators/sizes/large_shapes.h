@@ -14,38 +14,13 @@ struct LargeShape {
   Draft (*make)(Random& random, int triangles);
 };
 
-// What they are made of.
+// What they are made of, beside the sheets and grids of corpus/scenes/shapes.h.
 
 // Each coordinate between -most and most.
 Point any_point(Random& random, double most);
 
-// A grid of (columns + 1) x (rows + 1) vertices, two triangles a cell; `place` says where each is.
-template <class Place>
-void add_sheet(Draft& draft, int columns, int rows, const Place& place) {
-  const auto first = draft.vertices();
-  for (int i = 0; i <= rows; ++i) {
-    for (int k = 0; k <= columns; ++k) draft.vertex(place(k, i));
-  }
-  const auto at_cell = [&](int k, int i) { return first + i * (columns + 1) + k; };
-  for (int i = 0; i < rows; ++i) {
-    for (int k = 0; k < columns; ++k)
-      draft.quad(at_cell(k, i), at_cell(k + 1, i), at_cell(k + 1, i + 1), at_cell(k, i + 1));
-  }
-}
-
 // A tetrahedron whose corners are `size` from `middle` along each axis, before it is tilted.
 void add_tetrahedron(Draft& draft, const Point& middle, double size, const Point& tilt);
-
-// The cells of a cubic grid that has room for so many bodies.
-class Grid {
- public:
-  Grid(int bodies, double pitch);
-  Point cell(int body) const;
-
- private:
-  int side_;
-  double pitch_;
-};
 
 // dense_shapes.cpp: many contacts, which fill buffers, or many boxes that meet. How many there are
 // for each triangle does not grow with the size, so that the oracle judges a case in seconds.

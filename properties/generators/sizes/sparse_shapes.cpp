@@ -8,7 +8,9 @@
 namespace assay::properties {
 namespace {
 
+using corpus::add_sheet;
 using corpus::cos_turn;
+using corpus::CubicGrid;
 using corpus::nearest_resolution;
 using corpus::sin_turn;
 
@@ -53,7 +55,7 @@ Draft many_components(Random& random, int triangles) {
   constexpr double pitch = 3, size = 0.5;
   constexpr int every = 50;
   const int bodies = triangles / 4;
-  const Grid grid(bodies, pitch);
+  const CubicGrid grid(bodies, pitch);
   Draft draft;
   draft.frames.emplace_back();
   Points end;

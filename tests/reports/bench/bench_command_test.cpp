@@ -253,6 +253,19 @@ TEST_F(Suites, Growth) {
   }
 }
 
+TEST_F(Suites, Sizes) {
+  const auto report = run(sizes_suite);
+  for (const char* row :
+       {"crumpled body: step, bvh", "pile of 1,000 bodies: step, bvh, first over all",
+        "knot: the oracle's judgement", "hair of 5,000 strips: create, auto over bvh",
+        "cloth of 50 layers: memory", "one large body: one thread over two"}) {
+    EXPECT_TRUE(has(report, row)) << row;
+  }
+  const auto scenes = to_json(report, "version")["sizes"];
+  EXPECT_EQ(scenes.size(), 6u);
+  for (const auto& scene : scenes) EXPECT_GT(scene["triangles"], 300) << scene;
+}
+
 TEST_F(Suites, Claims) {
   const auto report = run(claims_suite);
   for (const char* row :

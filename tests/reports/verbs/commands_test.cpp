@@ -66,7 +66,9 @@ TEST_F(Commands, EverySceneAgreesAndSaysWhetherItCollides) {
   const auto free = words(
                  "breathing-sphere two-spheres twist open-tube arm-in-box ball-in-tube "
                  "inverted-sleeve crossing-fans winding-spiral"),
-             colliding = words("dented-sphere bend pinching-torus folding-sheet crumpling-sphere");
+             colliding = words(
+                 "dented-sphere bend pinching-torus folding-sheet crumpling-sphere layered-cloth "
+                 "pile-of-bodies tightening-knot combed-hair");
   ASSERT_EQ(free.size() + colliding.size(), corpus::scenes().size());
   for (const auto& scene : corpus::scenes()) {
     const std::string name(scene.name);
