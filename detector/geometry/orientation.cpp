@@ -20,29 +20,50 @@ int exact_orientation(const Point& a, const Point& b, const Point& c, const Poin
   return det.sign();
 }
 
-// Whether doubles prove that both ends of the segment are strictly on one side of the triangle's
-// plane. It computes two orientations with the bound of orientation.h, with M_k the largest
-// |coordinate k| of all four differences.
-bool surely_on_one_side(const Point& e0, const Point& e1, const std::array<Point, 3>& face) {
-  double u[4][3], magnitude[3] = {0, 0, 0};
-  const std::array<const Point*, 4> points = {&face[1], &face[2], &e0, &e1};
-  for (std::size_t j = 0; j < 4; ++j) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      u[j][k] = (*points[j])[k] - face[0][k];
-      magnitude[k] = std::max(magnitude[k], std::abs(u[j][k]));
+// Four differences of points, with the bound of orientation.h for each orientation of three of
+// them: M_k is the largest |coordinate k| of all four.
+struct Differences {
+  Differences(const Point& origin, const std::array<const Point*, 4>& points) {
+    double magnitude[3] = {0, 0, 0};
+    for (std::size_t j = 0; j < 4; ++j) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        u[j][k] = (*points[j])[k] - origin[k];
+        magnitude[k] = std::max(magnitude[k], std::abs(u[j][k]));
+      }
     }
+    in_range = true;
+    for (const double m : magnitude) in_range &= m > least_magnitude && m < greatest_magnitude;
+    bound = orientation_error<ProvedBounds> * (magnitude[0] * magnitude[1] * magnitude[2]);
   }
-  const bool in_range = std::all_of(magnitude, magnitude + 3, [](double m) {
-    return m > least_magnitude && m < greatest_magnitude;
-  });
-  if (!in_range) return false;
-  const double n[3] = {u[0][1] * u[1][2] - u[0][2] * u[1][1], u[0][2] * u[1][0] - u[0][0] * u[1][2],
-                       u[0][0] * u[1][1] - u[0][1] * u[1][0]};
-  const double side0 = u[2][0] * n[0] + u[2][1] * n[1] + u[2][2] * n[2];
-  const double side1 = u[3][0] * n[0] + u[3][1] * n[1] + u[3][2] * n[2];
-  const double bound =
-      orientation_error<ProvedBounds> * (magnitude[0] * magnitude[1] * magnitude[2]);
-  return (side0 > bound && side1 > bound) || (side0 < -bound && side1 < -bound);
+  // u[i] . (u[j] x u[k])
+  double volume(std::size_t i, std::size_t j, std::size_t k) const {
+    const double n[3] = {u[j][1] * u[k][2] - u[j][2] * u[k][1],
+                         u[j][2] * u[k][0] - u[j][0] * u[k][2],
+                         u[j][0] * u[k][1] - u[j][1] * u[k][0]};
+    return u[i][0] * n[0] + u[i][1] * n[1] + u[i][2] * n[2];
+  }
+
+  double u[4][3], bound;
+  bool in_range;
+};
+
+// Whether doubles prove that both ends of the segment are strictly on one side of the triangle's
+// plane.
+bool surely_on_one_side(const Point& e0, const Point& e1, const std::array<Point, 3>& face) {
+  const Differences from(face[0], {&face[1], &face[2], &e0, &e1});
+  const double side0 = from.volume(2, 0, 1), side1 = from.volume(3, 0, 1);
+  return from.in_range && ((side0 > from.bound && side1 > from.bound) ||
+                           (side0 < -from.bound && side1 < -from.bound));
+}
+
+// Whether doubles prove that the segment's line passes outside of the triangle: two of its edges
+// turn around the line in opposite senses.
+bool surely_turns_both_ways(const Point& e0, const Point& e1, const std::array<Point, 3>& face) {
+  const Differences from(e0, {&e1, &face[0], &face[1], &face[2]});
+  const double turns[3] = {from.volume(0, 1, 2), from.volume(0, 2, 3), from.volume(0, 3, 1)};
+  const double least = std::min({turns[0], turns[1], turns[2]}),
+               greatest = std::max({turns[0], turns[1], turns[2]});
+  return from.in_range && least < -from.bound && greatest > from.bound;
 }
 
 }  // namespace
@@ -53,7 +74,7 @@ int orientation(const Point& a, const Point& b, const Point& c, const Point& d) 
 }
 
 bool segment_pierces_triangle(const Point& e0, const Point& e1, const std::array<Point, 3>& face) {
-  if (surely_on_one_side(e0, e1, face)) return false;
+  if (surely_on_one_side(e0, e1, face) || surely_turns_both_ways(e0, e1, face)) return false;
   const int side0 = orientation(face[0], face[1], face[2], e0);
   if (side0 == 0) return false;
   if (orientation(face[0], face[1], face[2], e1) != -side0) return false;

@@ -108,14 +108,17 @@ bool CandidateSearch::search(const PairTables& tables, bool uses_proofs) {
       until = pairs_between_stops;
     }
     until -= std::min(until, pairs.size());
-    return std::all_of(pairs.begin(), pairs.end(), [&](const CandidatePair& pair) {
-      const auto [a, b] = pair;
+    constexpr std::size_t ahead = 4;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      const auto [a, b] = pairs[i];
+      if (i + ahead < pairs.size()) contacts_.expect(pairs[i + ahead].b);
       // A clean triangle is in no contact with its own component at t=0.
       const bool may_pierce =
           (types[at(a)] == TriangleType::dirty && types[at(b)] == TriangleType::dirty) ||
           !same_component(a, b);
-      return contacts_.add_candidate(a, b, may_pierce, stop_, lane);
-    });
+      if (!contacts_.add_candidate(a, b, may_pierce, stop_, lane)) return false;
+    }
+    return true;
   };
   SearchInput input = {mesh_, tree_, memory_.marks, tables, &pace_, uses_proofs, stages_.relation};
   if (first_) input.between = [&] { return contacts_.run(stop_, &pace_) && tighten(); };

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detector/parallel/for_all.h"
+#include "detector/mesh/for_all.h"
 
 namespace assay::detector {
 

@@ -144,12 +144,13 @@ class WideDescent {
   }
 
   void find(const WideTree::Node& a, const WideTree::Node& b, const LaneSets& sets) {
+    const std::size_t before = found_.size();
     for (std::size_t i = 0; i < a.count; ++i) {
       const auto t = tree_.child(a.first_slot + i);
-      counts_.candidate_pairs += static_cast<std::uint64_t>(std::popcount(sets[i]));
       for (std::uint32_t left = sets[i]; left != 0; left &= left - 1)
         found_.push_back({t, tree_.child(b.first_slot + lowest(left))});
     }
+    counts_.candidate_pairs += found_.size() - before;
     if (found_.size() >= found_at_once) hand_over();
   }
 
