@@ -56,8 +56,9 @@ constexpr auto names_of(Start) {
 enum class Pairs : std::uint8_t {
   all,  // the complete pair set of the step (K with closure, L7)
   // Pairs in contact at the first time: each connected part of the contact graph at that time holds
-  // one of them (L6). As soon as a contact is found, nothing later is looked at. Of many contacts
-  // this takes a third of the time of `all` or less, and as much where there is none.
+  // one of them (L6). As soon as a contact is found, nothing later is looked at. This took 0.1 to
+  // 0.45 of the time of `all` on scenes of many contacts, 0.92 on rod-twist, and a few percent more
+  // than `all` where there is no contact.
   first,
 };
 constexpr auto names_of(Pairs) {

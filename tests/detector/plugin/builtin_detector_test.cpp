@@ -50,7 +50,8 @@ TEST_F(BuiltinDetector, NumbersAreThoseOfTheLists) {
                               {"triangle_of_two_bodies", ASSAY_BUILTIN_TRIANGLE_OF_TWO_BODIES},
                               {"wrong_relation", ASSAY_BUILTIN_WRONG_RELATION},
                               {"wrong_separation", ASSAY_BUILTIN_WRONG_SEPARATION},
-                              {"proves_nothing", ASSAY_BUILTIN_PROVES_NOTHING}});
+                              {"proves_nothing", ASSAY_BUILTIN_PROVES_NOTHING},
+                              {"wrong_bound", ASSAY_BUILTIN_WRONG_BOUND}});
 }
 
 TEST_F(BuiltinDetector, EveryOptionReachesTheDetector) {
@@ -185,7 +186,7 @@ TEST_F(BuiltinDetector, EveryErrorHasItsName) {
   std::map<std::string, int> names;
   for (std::int32_t code = -3; code < 300; ++code) ++names[assay_builtin_error_name(code)];
   EXPECT_EQ(names["no_error"], 1);
-  EXPECT_EQ(names.size(), 23u) << "17 of the detector, 4 of the interface, none, unknown";
+  EXPECT_EQ(names.size(), 24u) << "18 of the detector, 4 of the interface, none, unknown";
   EXPECT_STREQ(assay_builtin_error_name(ASSAY_BUILTIN_FOREIGN_STATE), "foreign_state");
   EXPECT_STREQ(assay_builtin_error_name(ASSAY_BUILTIN_SMALL_BUFFER), "small_buffer");
 }
