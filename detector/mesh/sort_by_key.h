@@ -6,6 +6,7 @@
 #pragma once
 
 #include <bit>
+#include <utility>
 
 #include "detector/mesh/for_all.h"
 

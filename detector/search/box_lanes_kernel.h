@@ -97,26 +97,31 @@ ASSAY_INLINE bool meet_at_start(const FeatureLanes& a, const FeatureLanes& b) {
   return !some((a.hi_t0 < b.lo_t0) | (b.hi_t0 < a.lo_t0));
 }
 
-ASSAY_INLINE void corner(FeatureLanes& out, const float* at, const Lanes& margin) {
+ASSAY_INLINE void corner(FeatureLanes& out, const float* at) {
   load(out.lo_t0, at);
   load(out.lo_t1, at + floats_of_corner / 2);
-  out.hi_t0 = out.lo_t0 + margin;
-  out.hi_t1 = out.lo_t1 + margin;
+  out.hi_t0 = out.lo_t0;
+  out.hi_t1 = out.lo_t1;
 }
 
-ASSAY_INLINE void edge(FeatureLanes& out, const TriangleCorners& corners, std::size_t i,
-                       const Lanes& margin) {
+ASSAY_INLINE void grow(FeatureLanes& box, const Lanes& margin) {
+  box.hi_t0 += margin;
+  box.hi_t1 += margin;
+}
+
+ASSAY_INLINE void edge(FeatureLanes& out, const TriangleCorners& corners, std::size_t i) {
   FeatureLanes p, q;
-  corner(p, corners[i == 2 ? 0 : i + 1], margin);
-  corner(q, corners[i == 0 ? 2 : i - 1], margin);
+  corner(p, corners[i == 2 ? 0 : i + 1]);
+  corner(q, corners[i == 0 ? 2 : i - 1]);
   join(out, p, q);
 }
 
 ASSAY_INLINE void face(FeatureLanes& out, const TriangleCorners& corners, const Lanes& margin) {
   FeatureLanes p;
-  edge(out, corners, 0, margin);
-  corner(p, corners[0], margin);
+  edge(out, corners, 0);
+  corner(p, corners[0]);
   join(out, out, p);
+  grow(out, margin);
 }
 
 ASSAY_INLINE std::size_t lowest(std::uint32_t bits) {
@@ -129,7 +134,8 @@ ASSAY_INLINE std::uint32_t corners_that_meet(const TriangleCorners& corners, std
   std::uint32_t found = 0;
   for (; asked != 0; asked &= asked - 1) {
     FeatureLanes p;
-    corner(p, corners[lowest(asked)], margin);
+    corner(p, corners[lowest(asked)]);
+    grow(p, margin);
     if (meet(p, other)) found |= asked & -asked;
   }
   return found;
@@ -152,7 +158,8 @@ std::uint32_t compare_features_lanes(const TriangleCorners& a, const TriangleCor
   FeatureLanes boxes_b[3];
   for (; left != 0; left &= left - 1) {
     const std::size_t j = lowest(left);
-    edge(boxes_b[j], b, j, by);
+    edge(boxes_b[j], b, j);
+    grow(boxes_b[j], by);
     if (!meet(boxes_b[j], face_a)) {
       edges_b &= ~(1u << j);
     } else if (starts_b >> j & 1 && meet_at_start(boxes_b[j], face_a)) {
@@ -163,7 +170,8 @@ std::uint32_t compare_features_lanes(const TriangleCorners& a, const TriangleCor
     std::uint32_t partners = edges >> (3 * i) & edges_b;
     if (!(partners | (starts_a >> i & 1))) continue;
     FeatureLanes box;
-    edge(box, a, i, by);
+    edge(box, a, i);
+    grow(box, by);
     if (!meet(box, face_b)) continue;
     if (starts_a >> i & 1 && meet_at_start(box, face_b)) found |= feature_bits::edge_at_start(i);
     for (; partners != 0; partners &= partners - 1) {

@@ -108,10 +108,7 @@ bool CandidateSearch::search(const PairTables& tables, bool uses_proofs) {
       until = pairs_between_stops;
     }
     until -= std::min(until, pairs.size());
-    constexpr std::size_t ahead = 4;
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-      const auto [a, b] = pairs[i];
-      if (i + ahead < pairs.size()) contacts_.expect(pairs[i + ahead].b);
+    for (const auto& [a, b] : pairs) {
       // A clean triangle is in no contact with its own component at t=0.
       const bool may_pierce =
           (types[at(a)] == TriangleType::dirty && types[at(b)] == TriangleType::dirty) ||

@@ -127,9 +127,6 @@ class FeatureContacts {
   bool add_candidate(std::int32_t a, std::int32_t b, bool may_pierce, const StopFunction& stop = {},
                      std::size_t lane = 0);
 
-  // Says that a candidate pair with this triangle will come soon.
-  void expect(std::int32_t triangle) const { pairs_.expect(triangle); }
-
   // Tests the feature pairs that are left, with the workers of `pace` if it has some. Returns
   // false if `stop` asked for an end; the contacts found until then are kept.
   bool run(const StopFunction& stop, const PacedStop* pace = nullptr);

@@ -176,11 +176,6 @@ class FeaturePairs {
     points_.assign(motion, pace, separation);
   }
 
-  // Has the caches fetch what append() reads of this triangle.
-  void expect(std::int32_t t) const {
-    for (const auto v : mesh_.triangles[at(t)]) __builtin_prefetch(&points_[v]);
-  }
-
   // Appends the feature pairs that (a, b) stands for, at most max_keys. With may_pierce it also
   // appends edges that may pierce the other triangle at t=0. 15 to 30 ns.
   static constexpr std::size_t max_keys = 15 + 6;
