@@ -95,12 +95,12 @@ class FixedRoot {
   FixedCubic<Coefficient> c_;
 };
 
-// The sign of a quadratic Q at the root p of a quadratic L in (0,1), both in Bernstein coefficients.
-// REQUIRES that L has exactly one root there, and the sign l_before before it.
+// The sign of a quadratic Q at the root p of a quadratic L in (0,1), both in Bernstein
+// coefficients. REQUIRES that L has exactly one root there, and the sign l_before before it.
 //
 // With L = l2 s^2 + l1 s + l0, l2 not 0, l2 Q = q2 L + R, R = a s + b. So Q has at p the sign of R,
-// or the other one if l2 < 0. If R vanishes at -b/a in (0,1), the sign of L there tells the order of
-// -b/a and p, as below. If l2 = 0, Q is computed at p = -l0/l1. With c as below:
+// or the other one if l2 < 0. If R vanishes at -b/a in (0,1), the sign of L there tells the order
+// of -b/a and p, as below. If l2 = 0, Q is computed at p = -l0/l1. With c as below:
 //
 //   quantity                          | below, in size            | bits
 //   q0..q2, l0..l2: by powers of s    | 4 * 2^(2c + 14)           | 2c + 16

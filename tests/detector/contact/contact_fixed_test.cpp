@@ -117,6 +117,42 @@ TEST(ContactFixed, SettlesMirrorImages) {
   });
 }
 
+// Points of one line, throughout or at an instant, are settled: the time is that at which
+// differences along an axis say so.
+TEST(ContactFixed, SettlesPointsOfOneLine) {
+  Draw draw;
+  const auto integer = [&] { return static_cast<double>(draw.between(-9, 9)); };
+  expect_agreement("on one line throughout", 10000, 0, [&] {
+    const Point way = {integer(), integer(), integer()};
+    auto query = draw.query([] { return 0.; });
+    for (auto& p : query.points) {
+      const double from = integer(), to = integer();
+      for (std::size_t k = 0; k < 3; ++k) {
+        p.t0[k] = from * way[k];
+        p.t1[k] = to * way[k] + 3;
+      }
+    }
+    return query;
+  });
+  expect_agreement("through one point at once", 5000, 0, [&] {
+    auto query = draw.query([&] { return draw.full(); });
+    for (auto& p : query.points) {
+      for (std::size_t k = 0; k < 3; ++k) p.t1[k] = -p.t0[k];
+    }
+    return query;
+  });
+  expect_agreement("upright edges that turn over, in one plane", 5000, 200, [&] {
+    const auto upright = [](double x0, double x1, double z0, double z1) {
+      return MovingPoint{{x0, 0, z0}, {x1, 0, z1}};
+    };
+    const double a0 = draw.full(), a1 = draw.full(), b0 = draw.full(), b1 = draw.full();
+    const double low = draw.full(), high = draw.full(), speed = draw.full();
+    return FourPoints{{upright(a0, a1, low, high), upright(b0, b1, low, high),
+                       upright(a0, a1, high, speed), upright(b0, b1, high, speed)},
+                      2};
+  });
+}
+
 // The largest coordinates that a width admits, in all signs: nothing wraps.
 TEST(ContactFixed, WidthsHoldTheirBounds) {
   Draw draw;
