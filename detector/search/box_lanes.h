@@ -25,7 +25,7 @@ using LaneSets = std::uint8_t[box_lanes::width];
 // A corner of a triangle over the step: its rounded coordinates and a 0, sums along the four
 // diagonals (feature_pairs.h), both at t=0, and the same at t=1.
 inline constexpr std::size_t floats_of_corner = 16;
-using TriangleCorners = const float*[3];
+using TriangleCorners = const float* [3];
 
 // Which features of two triangles may meet, as bits.
 namespace feature_bits {

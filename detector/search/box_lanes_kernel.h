@@ -17,9 +17,7 @@ namespace {
 typedef float Lanes __attribute__((vector_size(32)));
 typedef int LaneMask __attribute__((vector_size(32)));
 
-ASSAY_INLINE void load(Lanes& out, const float* from) {
-  __builtin_memcpy(&out, from, sizeof(out));
-}
+ASSAY_INLINE void load(Lanes& out, const float* from) { __builtin_memcpy(&out, from, sizeof(out)); }
 
 ASSAY_INLINE std::uint32_t bits_of(const LaneMask& mask) {
 #if defined(__AVX2__)

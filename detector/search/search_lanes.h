@@ -69,8 +69,8 @@ bool run_in_rounds(const SearchInput& input, const std::vector<NodePair>& pairs,
 // says whether the search goes on. make_lane(index) makes a lane, with a descent and counts of its
 // own. False if the search has ended early.
 template <class Descent, class MakeLane>
-bool run_descent(const SearchInput& input, bool takes_lanes, Descent& descent,
-                 SearchCounts& counts, MakeLane make_lane) {
+bool run_descent(const SearchInput& input, bool takes_lanes, Descent& descent, SearchCounts& counts,
+                 MakeLane make_lane) {
   // With so many pairs of nodes for each lane, all lanes get about the same amount of work.
   constexpr std::size_t pairs_of_lane = 64;
   const bool has_lanes = takes_lanes && has_workers(input.pace);

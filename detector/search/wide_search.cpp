@@ -243,9 +243,8 @@ bool WideSearch::search(const SearchInput& input, SearchCounts& counts,
                         const PairSink& sink) const {
   WideHunt hunt(input, sink);
   WideDescent descent(hunt, 0, counts);
-  return run_descent(input, sink.takes_lanes(), descent, counts, [&](std::size_t lane) {
-    return std::make_unique<WideLane>(hunt, lane);
-  });
+  return run_descent(input, sink.takes_lanes(), descent, counts,
+                     [&](std::size_t lane) { return std::make_unique<WideLane>(hunt, lane); });
 }
 
 }  // namespace assay::detector

@@ -15,7 +15,7 @@ using box_lanes::width;
 
 // The twelve bounds of a box, in the order of the rows.
 std::array<float, rows> bounds_of(const MovingBox& box) {
-  const auto &[a, b, c, d] = box;
+  const auto& [a, b, c, d] = box;
   return {a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2], d[0], d[1], d[2]};
 }
 
@@ -56,8 +56,8 @@ struct WideTree::Builder {
         const bool may_open = small   ? subtrees[i].triangles() > 1
                               : mixed ? is_mixed(subtrees[i])
                                       : !is_small(subtrees[i]);
-        if (may_open && (largest == width ||
-                         subtrees[i].triangles() > subtrees[largest].triangles())) {
+        if (may_open &&
+            (largest == width || subtrees[i].triangles() > subtrees[largest].triangles())) {
           largest = i;
         }
       }
@@ -122,7 +122,7 @@ void WideTree::refit_node(std::int32_t n, const Topology& mesh, const RoundedPos
     for (std::size_t row = 0; row < rows; ++row) {
       first[row * node.count + i] = bounds[row];
       const bool is_lower = row / 3 % 2 == 0;
-      own[row] = i == 0      ? bounds[row]
+      own[row] = i == 0     ? bounds[row]
                  : is_lower ? std::min(own[row], bounds[row])
                             : std::max(own[row], bounds[row]);
     }

@@ -69,7 +69,7 @@ class WideTree {
   std::vector<std::int32_t> binary_of_;  // by node
   std::vector<Slot> slots_;
   std::unique_ptr<float[]> boxes_, own_;  // the first refit writes them
-  std::vector<std::int32_t> inner_;  // the nodes that hold nodes, ascending
+  std::vector<std::int32_t> inner_;       // the nodes that hold nodes, ascending
 };
 
 }  // namespace assay::detector

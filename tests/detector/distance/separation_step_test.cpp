@@ -5,6 +5,7 @@
 #include "detector/search/feature_pairs.h"
 #include "tests/detector/contact/same_contacts.h"
 #include "tests/detector/distance/rational_distance.h"
+#include "tests/detector/search/compared_features.h"
 #include "tests/detector/search/search_meshes.h"
 
 namespace assay::tests {
@@ -271,8 +272,7 @@ TEST(SeparationStep, L16_MarginsOfBoxes) {
     }
     if (round % 4 == 3) d *= 0x1p1020;
     const FeaturePoints points({x[0], x[1]}, nullptr, d);
-    const FeatureBox a = feature_box(points[0]), b = feature_box(points[1]);
-    const bool is_apart = apart(a, b, points.margin());
+    const bool is_apart = are_apart(points, {0, 0}, {1, 1}, points.margin());
     bool is_farther = false;
     for (const auto& n : directions) {
       const auto gap = [&](const Positions& frame) {

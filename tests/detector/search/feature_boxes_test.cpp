@@ -2,8 +2,8 @@
 #include <boost/multiprecision/cpp_int.hpp>
 
 #include "detector/detector.h"
-#include "detector/search/feature_pairs.h"
 #include "tests/detector/points.h"
+#include "tests/detector/search/compared_features.h"
 
 namespace assay::tests {
 namespace {
@@ -26,24 +26,6 @@ bool ordered(const Positions& x_t0, const Positions& x_t1, std::int32_t a, std::
     if ((t0 < 0 && t1 < 0) || (t0 > 0 && t1 > 0)) return true;
   }
   return false;
-}
-
-// Whether edges of these ends, or the points of equal ends, are apart, by a margin for axes and
-// diagonals. Both instruction sets have to agree.
-bool are_apart(const FeaturePoints& points, std::array<std::int32_t, 2> a,
-               std::array<std::int32_t, 2> b, const FeatureMargin& margin) {
-  const auto corners = [&](const std::array<std::int32_t, 2>& ends, TriangleCorners& out) {
-    out[0] = out[1] = points[ends[0]].floats();
-    out[2] = points[ends[1]].floats();
-  };
-  TriangleCorners of_a, of_b;
-  corners(a, of_a);
-  corners(b, of_b);
-  const auto found = [&](const BoxKernels& kernels) {
-    return kernels.compare_features(of_a, of_b, margin.floats(), feature_bits::edges(0, 0));
-  };
-  EXPECT_EQ(found(box_kernels()), found(plain_box_kernels()));
-  return found(box_kernels()) == 0;
 }
 
 // With this margin axes tell nothing apart.

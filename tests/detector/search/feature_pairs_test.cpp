@@ -2,12 +2,43 @@
 #include "detector/search/feature_pairs.h"
 
 #include "detector/search/candidate_search.h"
+#include "detector/search/wide_search.h"
 #include "tests/detector/search/search_meshes.h"
 
 namespace assay::tests {
 namespace {
 
 using namespace detector;
+
+// A box along axes and diagonals at both ends of the step, in the order of FeaturePoint.
+struct Box {
+  std::array<float, floats_of_corner> lo, hi;
+
+  static Box of(const FeaturePoints& points, std::span<const std::int32_t> vertices) {
+    Box box;
+    for (std::size_t k = 0; k < floats_of_corner; ++k) {
+      box.lo[k] = box.hi[k] = points[vertices[0]].floats()[k];
+      for (const auto v : vertices) {
+        box.lo[k] = std::min(box.lo[k], points[v].floats()[k]);
+        box.hi[k] = std::max(box.hi[k], points[v].floats()[k]);
+      }
+    }
+    return box;
+  }
+
+  static bool apart(const Box& a, const Box& b, const FeatureMargin& margin, bool at_start) {
+    constexpr std::size_t lanes = floats_of_corner / 2;
+    for (std::size_t k = 0; k < lanes; ++k) {
+      const float by = margin.floats()[k];
+      const auto below = [&](const Box& p, const Box& q, std::size_t i) {
+        return p.hi[i] + by < q.lo[i];
+      };
+      if (below(a, b, k) && (at_start || below(a, b, k + lanes))) return true;
+      if (below(b, a, k) && (at_start || below(b, a, k + lanes))) return true;
+    }
+    return false;
+  }
+};
 
 // All feature pairs of a triangle pair whose boxes are not apart, by the definition.
 class BruteForce {
@@ -29,23 +60,24 @@ class BruteForce {
   }
 
  private:
-  FeatureBox edge_box(std::int32_t e) const {
-    return feature_box(points_[mesh_.edges[at(e)][0]], points_[mesh_.edges[at(e)][1]]);
+  Box edge_box(std::int32_t e) const { return Box::of(points_, mesh_.edges[at(e)]); }
+  bool apart(const Box& a, const Box& b, bool at_start = false) const {
+    return Box::apart(a, b, points_.margin(), at_start);
   }
   void add_one_way(std::int32_t a, std::int32_t b, bool may_pierce,
                    std::set<FeatureKey>& out) const {
     const auto& face = mesh_.triangles[at(b)];
-    const FeatureBox face_box = feature_box(points_[face[0]], points_[face[1]], points_[face[2]]);
+    const Box face_box = Box::of(points_, face);
     const auto holds = [&](std::int32_t v) {
       return std::find(face.begin(), face.end(), v) != face.end();
     };
     for (const auto v : mesh_.triangles[at(a)]) {
-      if (holds(v) || apart(feature_box(points_[v]), face_box)) continue;
+      if (holds(v) || apart(Box::of(points_, {&v, 1}), face_box)) continue;
       out.insert(key_of(FeatureKind::vertex_face, v, b));
     }
     for (const auto e : mesh_.triangle_edges[at(a)]) {
       if (!may_pierce || holds(mesh_.edges[at(e)][0]) || holds(mesh_.edges[at(e)][1])) continue;
-      if (apart(edge_box(e), face_box) || apart_at_start(edge_box(e).axes, face_box.axes)) continue;
+      if (apart(edge_box(e), face_box) || apart(edge_box(e), face_box, true)) continue;
       out.insert(key_of(FeatureKind::piercing, e, b));
     }
   }
@@ -83,7 +115,7 @@ class Sequence {
     const SearchInput input{mesh, tree_, memory_.marks, tables};
     SearchCounts counts;
     std::vector<FeatureKey> found;
-    TreeSearch().search(input, counts, [&](std::int32_t a, std::int32_t b) {
+    WideSearch().search(input, counts, [&](std::int32_t a, std::int32_t b) {
       const std::size_t before = found.size();
       if (random_.below(2)) std::swap(a, b);
       pairs_.append(a, b, may_pierce(a, b), found);

@@ -6,6 +6,7 @@
 
 #include "detector/search/feature_pairs.h"
 #include "detector/search/search_lanes.h"
+#include "tests/detector/search/compared_features.h"
 #include "tests/test.h"
 
 namespace assay::detector {
@@ -77,7 +78,7 @@ TEST(ShortenedStep, WhatMeetsByTheBoundIsNotApart) {
     const auto& end = shortened.motion().vertices_t1;
     in_old_order += end(0, 0) < end(1, 0);
     const FeaturePoints points(shortened.motion(), nullptr, shortened.slack());
-    EXPECT_FALSE(apart(feature_box(points[0]), feature_box(points[1]), points.margin()));
+    EXPECT_FALSE(tests::are_apart(points, {0, 0}, {1, 1}, points.margin()));
   }
   EXPECT_GT(in_old_order, 10);
 }
