@@ -5,10 +5,10 @@
 #include <string>
 
 #include "detector/assembly.h"
+#include "detector/boxes/shortened_step.h"
 #include "detector/mesh/mesh_checks.h"
 #include "detector/mesh/paced_stop.h"
 #include "detector/parallel/workers.h"
-#include "detector/search/shortened_step.h"
 #include "detector/state/state_bytes.h"
 #include "detector/step/step.h"
 

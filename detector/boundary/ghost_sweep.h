@@ -4,11 +4,11 @@
 #include <span>
 #include <vector>
 
+#include "detector/boxes/moving_box.h"
 #include "detector/contact/elementary.h"
 #include "detector/mesh/paced_stop.h"
 #include "detector/mesh/step_counts.h"
 #include "detector/mesh/surface.h"
-#include "detector/search/moving_box.h"
 #include "detector/search/pair_search.h"
 
 namespace assay::detector {

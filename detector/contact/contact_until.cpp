@@ -3,7 +3,7 @@
 // Order along an axis. If the two groups are strictly ordered along an axis at t=0 and in the same
 // sense at `until`, they are so between, because every point moves linearly.
 //   Doubles: with M the largest size of a coordinate along the axis, x + until (y - x) is off by
-//   less than 8 M u + 2^-1073 (search/shortened_step.h), and so each of two bounds that are
+//   less than 8 M u + 2^-1073 (boxes/shortened_step.h), and so each of two bounds that are
 //   compared.
 //   Integers: (2^62 - m) x + m y, where m 2^-62 is `until` rounded up, which proves no less. It has
 //   62 bits more than a coordinate, so W + 1 limbs hold it.

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "detector/boxes/shortened_step.h"
 #include "detector/parallel/workers.h"
-#include "detector/search/shortened_step.h"
 
 namespace assay::detector {
 CandidateSearch::CandidateSearch(const SearchStages& stages, const Topology& mesh,

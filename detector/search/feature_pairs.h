@@ -14,9 +14,9 @@
 #include <memory>
 #include <vector>
 
+#include "detector/boxes/box_lanes.h"
+#include "detector/boxes/moving_box.h"
 #include "detector/mesh/step_types.h"
-#include "detector/search/box_lanes.h"
-#include "detector/search/moving_box.h"
 #include "detector/search/pair_rule.h"
 #include "detector/search/representatives.h"
 

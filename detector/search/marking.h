@@ -16,8 +16,8 @@
 #include <span>
 #include <vector>
 
+#include "detector/boxes/bounding_volume_tree.h"
 #include "detector/mesh/step_counts.h"
-#include "detector/search/bounding_volume_tree.h"
 #include "detector/search/pair_rule.h"
 
 namespace assay::detector {

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "detector/search/bounding_volume_tree.h"
+#include "detector/boxes/bounding_volume_tree.h"
 
 namespace assay::detector {
 

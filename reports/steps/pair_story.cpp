@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "detector/boundary/boundary_handler.h"
-#include "detector/search/moving_box.h"
+#include "detector/boxes/moving_box.h"
 #include "oracle/distance/step_distance.h"
 #include "oracle/instant/layers.h"
 #include "oracle/mesh/pair_relation.h"

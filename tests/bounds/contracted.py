@@ -12,7 +12,7 @@ from pathlib import Path
 # Sources with filters. Compiled once more for a machine that has contracted operations.
 FILTERS = ["contact/contact_doubles.cpp", "contact/contact_filter.cpp", "contact/contact_fixed.cpp",
            "distance/near_filter.cpp", "distance/near_exact.cpp", "distance/nearest_places.cpp",
-           "geometry/orientation.cpp", "geometry/winding.cpp", "search/moving_box.cpp",
+           "geometry/orientation.cpp", "geometry/winding.cpp", "boxes/moving_box.cpp",
            "search/feature_pairs.cpp", "traditional/moving_contour.cpp", "view/view_bounds.cpp",
            "view/view_filter.cpp", "view/view_lanes_avx512.cpp"]
 # Of x86-64 (vfmadd213pd, vfnmsub...) and of 64-bit ARM (fmadd, fmla, fmls...).

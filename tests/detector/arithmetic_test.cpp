@@ -1,13 +1,13 @@
 // What the arithmetics without integers promise, stage by stage, against exact arithmetic: bounded
 // is silent rather than wrong, double and float are wrong where they are known to be.
 #include "detector/boundary/ghost_sweep.h"
+#include "detector/boxes/moving_box.h"
 #include "detector/contact/contact_doubles.h"
 #include "detector/contact/contact_exact.h"
 #include "detector/detector.h"
 #include "detector/exact/real_root.h"
 #include "detector/geometry/orientation.h"
 #include "detector/geometry/winding.h"
-#include "detector/search/moving_box.h"
 #include "detector/view/view_signs.h"
 #include "tests/detector/points.h"
 

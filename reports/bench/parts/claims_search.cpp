@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "detector/search/bounding_volume_tree.h"
+#include "detector/boxes/bounding_volume_tree.h"
 #include "detector/search/marking.h"
 #include "detector/search/pair_rule.h"
 #include "detector/search/pair_search.h"

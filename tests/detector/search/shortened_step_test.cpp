@@ -1,5 +1,5 @@
 // The places at a time, against exact arithmetic: they are off by less than the slack allows.
-#include "detector/search/shortened_step.h"
+#include "detector/boxes/shortened_step.h"
 
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>

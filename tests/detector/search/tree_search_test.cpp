@@ -1,5 +1,5 @@
 // Searches of the tree: by one box, and what they cost.
-#include "detector/search/bounding_volume_tree.h"
+#include "detector/boxes/bounding_volume_tree.h"
 #include "detector/search/marking.h"
 #include "detector/search/pair_search.h"
 #include "tests/detector/search/search_meshes.h"

@@ -17,9 +17,9 @@
 #include <memory>
 #include <vector>
 
+#include "detector/boxes/box_lanes.h"
+#include "detector/boxes/moving_box.h"
 #include "detector/mesh/topology.h"
-#include "detector/search/box_lanes.h"
-#include "detector/search/moving_box.h"
 
 namespace assay::detector {
 

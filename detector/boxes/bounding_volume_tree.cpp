@@ -1,4 +1,4 @@
-#include "detector/search/bounding_volume_tree.h"
+#include "detector/boxes/bounding_volume_tree.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
-#include "detector/search/box_lanes.h"
+#include "detector/boxes/box_lanes.h"
 
-#include "detector/search/box_lanes_kernel.h"
+#include "detector/boxes/box_lanes_kernel.h"
 
 namespace assay::detector {
 

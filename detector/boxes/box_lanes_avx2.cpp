@@ -1,8 +1,8 @@
 // Compiled with the flags of this instruction set alone (detector/CMakeLists.txt).
-#include "detector/search/box_lanes.h"
+#include "detector/boxes/box_lanes.h"
 
 #ifdef __AVX2__
-#include "detector/search/box_lanes_kernel.h"
+#include "detector/boxes/box_lanes_kernel.h"
 #endif
 
 namespace assay::detector {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "detector/search/box_lanes.h"
+#include "detector/boxes/box_lanes.h"
 #if defined(__AVX2__) || defined(__SSE__)
 #include <immintrin.h>
 #endif

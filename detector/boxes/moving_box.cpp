@@ -1,4 +1,4 @@
-#include "detector/search/moving_box.h"
+#include "detector/boxes/moving_box.h"
 
 #include <algorithm>
 #include <cmath>

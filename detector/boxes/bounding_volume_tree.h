@@ -14,11 +14,11 @@
 #include <optional>
 #include <vector>
 
+#include "detector/boxes/moving_box.h"
+#include "detector/boxes/wide_tree.h"
 #include "detector/mesh/for_all.h"
 #include "detector/mesh/step_types.h"
 #include "detector/mesh/topology.h"
-#include "detector/search/moving_box.h"
-#include "detector/search/wide_tree.h"
 
 namespace assay::detector {
 

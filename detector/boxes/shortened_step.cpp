@@ -1,4 +1,4 @@
-#include "detector/search/shortened_step.h"
+#include "detector/boxes/shortened_step.h"
 
 #include <algorithm>
 #include <cmath>

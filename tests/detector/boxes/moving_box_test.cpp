@@ -1,9 +1,9 @@
 // Boxes in floats: what they tell apart is apart, in doubles and at all times.
-#include "detector/search/moving_box.h"
+#include "detector/boxes/moving_box.h"
 
+#include "detector/boxes/bounding_volume_tree.h"
 #include "detector/mesh/paced_stop.h"
 #include "detector/parallel/workers.h"
-#include "detector/search/bounding_volume_tree.h"
 #include "tests/detector/points.h"
 
 namespace assay::tests {

@@ -1,11 +1,11 @@
-#include "detector/search/wide_tree.h"
+#include "detector/boxes/wide_tree.h"
 
 #include <algorithm>
 #include <array>
 #include <cstring>
 
+#include "detector/boxes/bounding_volume_tree.h"
 #include "detector/mesh/for_all.h"
-#include "detector/search/bounding_volume_tree.h"
 
 namespace assay::detector {
 namespace {
