@@ -72,7 +72,9 @@ bool sort_by_key(std::vector<Item>& items, std::vector<Item>& room, std::uint64_
     return !(pace && pace->after(work_if_small * items.size()));
   }
   const auto bits = static_cast<unsigned>(std::bit_width(greatest | 1));
-  const auto [width, of_chunk, sets] = sorting::Chunks(items.size(), bits, pace);
+  const sorting::Chunks cut(items.size(), bits, pace);
+  const auto width = cut.digit_bits;
+  const auto of_chunk = cut.of_chunk, sets = cut.sets_of_counts;
   const std::size_t digits = std::size_t{1} << width,
                     chunks = (items.size() + of_chunk - 1) / of_chunk;
   std::vector<std::uint32_t> places(sets * digits);

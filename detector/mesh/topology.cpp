@@ -29,7 +29,7 @@ bool set_starts(std::size_t rows, std::size_t items, RowOf row_of,
 
 // The triangles at each vertex, ascending.
 bool find_triangles_of_vertices(Topology& mesh, std::size_t vertex_count, PacedStop& pace) {
-  auto& [starts, items] = mesh.vertex_triangles;
+  auto &starts = mesh.vertex_triangles.starts, &items = mesh.vertex_triangles.items;
   const auto vertex = [&](std::int32_t corner) {
     return mesh.triangles[at(corner / 3)][at(corner % 3)];
   };

@@ -125,8 +125,11 @@ constexpr double cost_of_open = 15;
 // are not free, a proof is asked for at each of the many smaller ones. Worths: proofs leave out
 // pairs of neighbours, of which about half lie within small patches that are free, three quarters
 // within medium ones, and nearly all within large ones.
-constexpr double cost_of_cones = 0.6, cost_of_small = 2, cost_of_medium = 1, worth_of_small = 0.5,
-                 worth_of_medium = 0.25, worth_of_large = 0.2, least_provable = 0.5;
+// A search with proofs descends the binary tree. So each candidate that is left costs more than
+// the wide descent would take for it.
+constexpr double cost_of_cones = 0.9, cost_of_small = 3, cost_of_medium = 1.5, cost_of_left = 0.6,
+                 worth_of_small = 0.5, worth_of_medium = 0.25, worth_of_large = 0.2,
+                 least_provable = 0.5;
 
 // With views K asks for pairs along the borders between V+ and V- alone. Patches there are cut up
 // into small ones before they are free, and proofs leave out 0.3 to 0.4 of what they do elsewhere.
@@ -239,7 +242,9 @@ bool CostModel::worth_proving(const ProvableShares& provable, double asked, std:
   const double worth = worth_of_small * small + worth_of_medium * medium + worth_of_large * large;
   const double hoped = worth * asked * static_cast<double>(adjacent_);
   const double cost = cost_of_cones + cost_of_small * (1 - medium) + cost_of_medium * (1 - large);
-  proves_ = small >= least_provable && hoped >= cost * static_cast<double>(triangles);
+  const double left = std::max(0.0, asked * static_cast<double>(expected_candidates()) - hoped);
+  proves_ = small >= least_provable &&
+            hoped >= cost * static_cast<double>(triangles) + cost_of_left * left;
   return proves_;
 }
 

@@ -7,6 +7,7 @@
 #include "detector/geometry/winding.h"
 #include "detector/mesh/for_all.h"
 #include "detector/search/feature_contacts.h"
+#include "detector/search/wide_search.h"
 #include "detector/state/layers.h"
 #include "detector/view/view_signs.h"
 
@@ -39,7 +40,7 @@ bool find_static_contacts(const GivenStep& step, StepCost& cost,
     if (pairs++ % pairs_between_stops == 0 && step.stop && step.stop()) return false;
     return contacts.add_candidate(a, b, true, step.stop);
   };
-  if (!TreeSearch().search({mesh, step.tree, marks, tables}, counts, sink) ||
+  if (!WideSearch().search({mesh, step.tree, marks, tables}, counts, sink) ||
       !contacts.run(step.stop)) {
     return false;
   }

@@ -42,6 +42,7 @@
 #include <optional>
 
 #include "detector/parallel/workers.h"
+#include "detector/search/wide_search.h"
 #include "detector/traditional/patch_contours.h"
 
 namespace assay::detector {
@@ -171,7 +172,7 @@ class NormalConeSearch::OfMesh : public MeshSearch {
   }
 
   bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) override {
-    if (!input.uses_proofs) return scheme_.descend(input, nullptr, counts, sink);
+    if (!input.uses_proofs) return WideSearch().search(input, counts, sink);
     if (!kept_ && !keep_contours(input)) return false;
     PatchCones cones(scheme_, *kept_, *motion_, input, counts);
     if (cones.is_stopped()) return false;

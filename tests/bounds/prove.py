@@ -73,7 +73,7 @@ def copy(target, change):
             if text.count(line) != 1:
                 sys.exit(f"{source}: not once in it: {line}")
             text = text.replace(line, other)
-        in_floats = source.parent.name == "search"
+        in_floats = source.parent.name in ("boxes", "search")
         for pattern, other in RULES + (FLOAT_RULES if in_floats else []):
             text = pattern.sub(other, text)
         place = target / source.relative_to(ROOT)
