@@ -85,7 +85,7 @@ struct SearchInput {
   bool uses_proofs = true;  // whether proofs, if the search has any, are worth their cost
   // Null: everything counts. Else the search leaves out the pairs of components that do not meet.
   const PairRelation* relation = nullptr;
-  // Empty: the search is done in one go. Else it is done in rounds (search_rounds.h), and this is
+  // Empty: the search is done in one go. Else it is done in rounds (search_lanes.h), and this is
   // called between two of them, when the sink has all that was found and no lane works. It may
   // refit the tree, to a shorter part of the step. If it returns false the search stops. A search
   // may leave this out; the first contact is then found at the cost of all.

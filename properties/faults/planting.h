@@ -32,10 +32,14 @@ constexpr void at_place_of(const Use& use) {
   std::apply([&](const auto&... place) { (look(place.first, place.second), ...); }, stage_places);
 }
 
-// The standard stages, except that `Wrong` replaces the stage from which it derives.
+// The standard stages, except that `Wrong` replaces the stage from which it derives. Wrong marks
+// are searched by the binary descent, which reads the flags of every node; the wide one reads
+// those of every third level, or fewer.
 template <class Wrong>
 detector::Stages with(const detector::Options& options) {
   detector::Stages stages = detector::standard_stages(options);
+  if constexpr (std::is_base_of_v<detector::Marking, Wrong>)
+    stages.pair_search = std::make_shared<detector::TreeSearch>();
   at_place_of<Wrong>([&](auto stage, const char*) { stages.*stage = std::make_shared<Wrong>(); });
   return stages;
 }
