@@ -65,12 +65,6 @@ inline bool apart(const MovingBox& a, const MovingBox& b) {
              ((b.hi_t0 < a.lo_t0) & (b.hi_t1 < a.lo_t1)));
 }
 
-// The same for points that are ordered by more than a margin, by axis.
-inline bool apart(const MovingBox& a, const MovingBox& b, FloatLanes margin) {
-  return any(((a.hi_t0 + margin < b.lo_t0) & (a.hi_t1 + margin < b.lo_t1)) |
-             ((b.hi_t0 + margin < a.lo_t0) & (b.hi_t1 + margin < a.lo_t1)));
-}
-
 inline MovingBox grown(const MovingBox& box, FloatLanes by) {
   return {box.lo_t0 - by, box.hi_t0 + by, box.lo_t1 - by, box.hi_t1 + by};
 }

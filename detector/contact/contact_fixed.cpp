@@ -75,10 +75,7 @@ class FixedSearch {
       return Decision::yes;
     }
     time_ = {time, time};
-    constexpr std::uint64_t parts = std::uint64_t{1} << max_fixed_depth;
-    const auto behind = static_cast<std::uint64_t>(time * parts);
-    const bool meet = meet_on_line(
-        [&](const Ends& d) { return (d[0].times(parts - behind) + d[1].times(behind)).sign(); });
+    const bool meet = meet_on_line([&](const Ends& d) { return value_at(time, d).sign(); });
     return meet ? Decision::yes : Decision::no;
   }
 

@@ -1,4 +1,5 @@
 // Boxes in floats, of triangles and of features, with the margins of a distance.
+#include "detector/boxes/box_lanes_kernel.h"
 #include "detector/search/feature_pairs.cpp"
 #include "tests/bounds/claims.h"
 
@@ -65,21 +66,37 @@ Script order(int a, int b, int sum, int below, int margin, const Recorded& dista
   return s;
 }
 
+// Compares two points, with a margin, as the lanes do it. Returns the sum of the first coordinate
+// and the margin.
+int compared_in_lanes(const Float& x, const Float& y, const Float& margin) {
+  std::array<Float, floats_of_corner> of_x, of_y;
+  of_x.fill(x);
+  of_y.fill(y);
+  FeatureLanes a, b;
+  corner(a, of_x.data());
+  corner(b, of_y.data());
+  grow(a, margin);
+  grow(b, margin);
+  meet(a, b);
+  meet_at_start(a, b);
+  return a.hi_t0.number.node;
+}
+
 void claim_axes(Claims& claims, bool grows) {
   const Points p;
   const Recorded d = free_number("d", 0, 8, 0.5);
   const FloatLanes fa = p.grid(p.x, 0), fb = p.grid(p.x, 1);
   FloatLanes margin = p.grid.margin(d);
-  MovingBox a = box_of(RoundedPoint{fa, fa}), b = box_of(RoundedPoint{fb, fb});
+  int sum = 0;
   if (grows) {
     for (Float& m : margin.lanes) m = Float::of(m.number / 2);  // as the tree does
-    a = grown(a, margin);
-    b = grown(b, margin);
+    const MovingBox a = grown(box_of(RoundedPoint{fa, fa}), margin),
+                    b = grown(box_of(RoundedPoint{fb, fb}), margin);
     apart(a, b);
+    sum = a.hi_t0[0].number.node;
   } else {
-    apart(a, b, margin);
+    sum = compared_in_lanes(fa[0], fb[0], margin[0]);
   }
-  const int sum = grows ? a.hi_t0[0].number.node : (fa[0] + margin[0]).number.node;
   claims.write("boxes", order(fa[0].number.node, fb[0].number.node, sum, partner_of(sum),
                               margin[0].number.node, d));
   begin_anew();
@@ -90,10 +107,8 @@ void claim_diagonals(Claims& claims, bool is_far) {
   const Recorded d = free_number("d", 0, 8, 0.5);
   const FloatLanes fa = diagonals(p.grid.scaled(p.x, 0)), fb = diagonals(p.grid.scaled(p.x, 1));
   const Float margin = is_far ? p.grid.diagonal_margin(d) : FeatureMargin::least;
-  apart(box_of(RoundedPoint{fa, fa}), box_of(RoundedPoint{fb, fb}),
-        FloatLanes{margin, margin, margin, margin});
   for (std::size_t k = 0; k < 4; ++k) {
-    const int sum = (fa[k] + margin).number.node;
+    const int sum = compared_in_lanes(fa[k], fb[k], margin);
     Script script = order(fa[k].number.node, fb[k].number.node, sum, partner_of(sum),
                           node_of(margin.number), d);
     if (is_far) {

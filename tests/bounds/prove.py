@@ -42,6 +42,15 @@ LINES = {
     "contact/contact_doubles.cpp": [
         ("Cubic left_of(Cubic f, double s) {", "Cubic left_of(Cubic f, double s) {\n  bounds::cut(s);"),
     ],
+    # One lane.
+    "boxes/box_lanes_kernel.h": [
+        ("typedef float Lanes __attribute__((vector_size(32)));", "using Lanes = bounds::Float;"),
+        ("typedef int LaneMask __attribute__((vector_size(32)));", "using LaneMask = int;"),
+        ("__builtin_memcpy(&out, from, sizeof(out));", "out = *from;"),
+        ("#if defined(__AVX2__) || defined(__SSE__)", "#if 0"),
+        ("#if defined(__AVX2__)", "#if 1\n  return static_cast<std::uint32_t>(mask);\n#elif 0"),
+        ("#elif defined(__SSE__)", "#elif 0"),
+    ],
     "view/view_lanes_kernel.h": [
         ("typedef double Lanes __attribute__((vector_size(8 * ASSAY_LANES)));",
          "using Lanes = bounds::RecordedLanes;"),

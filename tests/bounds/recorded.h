@@ -265,6 +265,7 @@ struct Float {
   friend Float operator-(const Float& a, const Float& b) {
     return of(rounded(Op::subtract, a.number, b.number));
   }
+  friend Float& operator+=(Float& a, const Float& b) { return a = a + b; }
   friend bool operator<(const Float& a, const Float& b) { return a.number < b.number; }
   friend bool operator>(const Float& a, const Float& b) { return b < a; }
 };
