@@ -11,7 +11,8 @@ const BoxKernels& plain_box_kernels() { return kernels_of_this_file; }
 
 const BoxKernels& box_kernels() {
 #if defined(__x86_64__) || defined(__i386__)
-  static const bool has_avx2 = avx2_box_kernels && __builtin_cpu_supports("avx2");
+  static const bool has_avx2 =
+      avx2_box_kernels && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("popcnt");
   if (has_avx2) return *avx2_box_kernels;
 #endif
   return kernels_of_this_file;

@@ -1,6 +1,6 @@
 #include "detector/search/pair_search.h"
 
-#include <atomic>
+#include <utility>
 
 #include "detector/mesh/for_all.h"
 #include "detector/search/search_lanes.h"
@@ -13,61 +13,25 @@ struct NodePair {
   std::int32_t a, b;
 };
 
-// What the lanes of a search share.
-struct Hunt {
-  Hunt(const SearchInput& searched, bool skips_nodes, const PairSink& taker)
-      : input(searched),
-        tree(searched.tree),
-        flags(searched.marks.node_flags.data()),
-        within(searched.tables.within),
-        across(searched.tables.across),
-        either(within.joined_with(across)),
-        skips(skips_nodes),
-        sink(taker) {}
-
-  // The table for pairs of these two components; an empty one if they do not meet.
-  const PairTable& table_of(std::int32_t c, std::int32_t d) const {
-    if (!input.components_meet(c, d)) return nothing;
-    return c == d ? within : across;
-  }
-
-  const SearchInput& input;
-  const BoundingVolumeTree& tree;
-  const std::uint8_t* flags;
-  const PairTable within, across, either, nothing = {};
-  const bool skips;
-  const PairSink& sink;
-  std::atomic<bool> is_stopped = false;
-};
-
 // The descent of one lane.
 class Descent {
  public:
-  Descent(Hunt& hunt, PatchProofs* proofs, std::size_t lane, SearchCounts& counts)
+  Descent(Hunt& hunt, bool skips, PatchProofs* proofs, std::size_t lane, SearchCounts& counts)
       : hunt_(hunt),
-        tree_(hunt.tree),
+        tree_(hunt.input.tree),
         flags_(hunt.flags),
-        skips_(hunt.skips),
+        skips_(skips),
         proofs_(proofs),
-        lane_(lane),
-        counts_(counts) {
-    found_.reserve(found_at_once);
-  }
+        counts_(counts),
+        found_(hunt, lane) {}
 
-  // Cuts the descent of the root against itself into as many pairs of nodes as wanted or a few
-  // more, splitting the highest first. There may be fewer if the descent ends before that.
   std::vector<NodePair> cut(std::size_t wanted) {
     arrive(BoundingVolumeTree::root, BoundingVolumeTree::root);
-    std::vector<NodePair> left;
-    for (std::size_t first = 0;; ++first) {
-      left.insert(left.end(), stack_.begin(), stack_.end());
-      stack_.clear();
-      if (first == left.size() || left.size() - first >= wanted || is_ended()) {
-        left.erase(left.begin(), left.begin() + static_cast<std::ptrdiff_t>(first));
-        return left;
-      }
-      split(left[first]);
-    }
+    const auto split_into = [&](const NodePair& pair, std::vector<NodePair>& below) {
+      split(pair);
+      std::swap(below, stack_);
+    };
+    return cut_below(std::exchange(stack_, {}), wanted, split_into, [&] { return is_ended(); });
   }
 
   // Searches all that lies below the pair.
@@ -89,13 +53,11 @@ class Descent {
 
   // Hands over what was found last. False if the search has ended early.
   bool finish() {
-    hand_over();
+    found_.hand_over(is_ended());
     return !is_ended();
   }
 
  private:
-  static constexpr std::size_t found_at_once = 256;
-
   bool is_ended() const {
     return hunt_.is_stopped.load(std::memory_order_relaxed) || (proofs_ && proofs_->is_stopped());
   }
@@ -208,8 +170,8 @@ class Descent {
       return;
     }
     ++counts_.candidate_pairs;
-    found_.push_back({tree_.triangle(a), tree_.triangle(b)});
-    if (found_.size() == found_at_once) hand_over();
+    found_.add(tree_.triangle(a), tree_.triangle(b));
+    if (found_.are_enough()) found_.hand_over(is_ended());
   }
 
   // Goes on to the only child of `node` that may hold a partner of `other`, if there is only one.
@@ -226,28 +188,23 @@ class Descent {
     return true;
   }
 
-  void hand_over() {
-    if (!found_.empty() && !is_ended() && !hunt_.sink(found_, lane_)) hunt_.is_stopped = true;
-    found_.clear();
-  }
-
   Hunt& hunt_;
   const BoundingVolumeTree& tree_;
   const std::uint8_t* const flags_;
   const bool skips_;
   PatchProofs* const proofs_;  // or null
-  const std::size_t lane_;
   SearchCounts& counts_;
   std::vector<NodePair> above_, stack_;
-  std::vector<CandidatePair> found_;  // not yet handed over
+  FoundPairs found_;
 };
 
 // One of several lanes; each takes the next pair of nodes when it is done with the last one.
 struct Lane {
-  Lane(Hunt& hunt, const PatchProofs* all_proofs, const StopFunction& stop, std::size_t index)
+  Lane(Hunt& hunt, bool skips, const PatchProofs* all_proofs, const StopFunction& stop,
+       std::size_t index)
       : pace(stop),
         proofs(all_proofs ? all_proofs->in_lane(index, counts, pace) : nullptr),
-        descent(hunt, proofs.get(), index, counts) {}
+        descent(hunt, skips, proofs.get(), index, counts) {}
   SearchCounts counts;
   PacedStop pace;
   std::unique_ptr<PatchProofs> proofs;
@@ -268,10 +225,11 @@ bool TreeSearch::search(const SearchInput& input, SearchCounts& counts,
 
 bool TreeSearch::descend(const SearchInput& input, PatchProofs* proofs, SearchCounts& counts,
                          const PairSink& sink) const {
-  Hunt hunt(input, skipping_ == Skipping::on, sink);
-  Descent descent(hunt, proofs, 0, counts);
+  Hunt hunt(input, sink);
+  const bool skips = skipping_ == Skipping::on;
+  Descent descent(hunt, skips, proofs, 0, counts);
   return run_descent(input, sink.takes_lanes(), descent, counts, [&](std::size_t lane) {
-    return std::make_unique<Lane>(hunt, proofs, input.pace->stop(), lane);
+    return std::make_unique<Lane>(hunt, skips, proofs, input.pace->stop(), lane);
   });
 }
 

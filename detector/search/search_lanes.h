@@ -11,6 +11,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <span>
 #include <vector>
@@ -19,6 +20,70 @@
 #include "detector/search/pair_search.h"
 
 namespace assay::detector {
+
+// What the lanes of a descent share.
+struct Hunt {
+  Hunt(const SearchInput& searched, const PairSink& taker)
+      : input(searched),
+        flags(searched.marks.node_flags.data()),
+        within(searched.tables.within),
+        across(searched.tables.across),
+        either(within.joined_with(across)),
+        sink(taker) {}
+
+  // The table for pairs of these two components, neither of them mixed_components; an empty one if
+  // they do not meet.
+  const PairTable& table_of(std::int32_t c, std::int32_t d) const {
+    if (!input.components_meet(c, d)) return nothing;
+    return c == d ? within : across;
+  }
+
+  const SearchInput& input;
+  const std::uint8_t* const flags;  // by binary node
+  const PairTable within, across, either, nothing = {};
+  const PairSink& sink;
+  std::atomic<bool> is_stopped = false;
+};
+
+// The candidates that one lane has found, on their way to the sink.
+class FoundPairs {
+ public:
+  FoundPairs(Hunt& hunt, std::size_t lane) : hunt_(hunt), lane_(lane) {
+    // A wide node has up to 64 pairs with another one.
+    found_.reserve(at_once + 64);
+  }
+  void add(std::int32_t a, std::int32_t b) { found_.push_back({a, b}); }
+  std::size_t size() const { return found_.size(); }
+  bool are_enough() const { return found_.size() >= at_once; }
+  void hand_over(bool is_ended) {
+    if (!found_.empty() && !is_ended && !hunt_.sink(found_, lane_)) hunt_.is_stopped = true;
+    found_.clear();
+  }
+
+ private:
+  static constexpr std::size_t at_once = 256;
+  Hunt& hunt_;
+  const std::size_t lane_;
+  std::vector<CandidatePair> found_;
+};
+
+// Cuts what lies below these pairs of nodes into as many pairs as wanted or a few more, splitting
+// the highest first. There may be fewer if the descent ends before that. split(pair, out) appends
+// the pairs below one.
+template <class NodePair, class Split, class IsEnded>
+std::vector<NodePair> cut_below(std::vector<NodePair> left, std::size_t wanted, Split split,
+                                IsEnded is_ended) {
+  std::vector<NodePair> below;
+  for (std::size_t first = 0;; ++first) {
+    if (first == left.size() || left.size() - first >= wanted || is_ended()) {
+      left.erase(left.begin(), left.begin() + static_cast<std::ptrdiff_t>(first));
+      return left;
+    }
+    below.clear();
+    split(left[first], below);
+    left.insert(left.end(), below.begin(), below.end());
+  }
+}
 
 // How many pairs of nodes such a search is cut into, if it does not end before that.
 inline constexpr std::size_t pairs_in_rounds = 512;

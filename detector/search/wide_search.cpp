@@ -1,7 +1,7 @@
 #include "detector/search/wide_search.h"
 
-#include <atomic>
 #include <bit>
+#include <utility>
 
 #include "detector/search/search_lanes.h"
 
@@ -15,16 +15,12 @@ struct WidePair {
   std::int32_t a, b;
 };
 
-// What the lanes of a search share.
-struct WideHunt {
+// What the lanes of this search share besides.
+struct WideHunt : Hunt {
   WideHunt(const SearchInput& searched, const PairSink& taker)
-      : input(searched),
+      : Hunt(searched, taker),
         binary(searched.tree),
         tree(searched.tree.wide()),
-        flags(searched.marks.node_flags.data()),
-        within(searched.tables.within),
-        across(searched.tables.across),
-        sink(taker),
         kernels(box_kernels()) {
     // In a step without views all triangles have one flag.
     const auto all = flags[BoundingVolumeTree::root];
@@ -32,21 +28,10 @@ struct WideHunt {
                       !searched.relation;
   }
 
-  // The table for pairs of these two components; an empty one if they do not meet.
-  const PairTable& table_of(std::int32_t c, std::int32_t d) const {
-    if (!input.components_meet(c, d)) return nothing;
-    return c == d ? within : across;
-  }
-
-  const SearchInput& input;
   const BoundingVolumeTree& binary;
   const WideTree& tree;
-  const std::uint8_t* flags;
-  const PairTable within, across, nothing = {};
-  const PairSink& sink;
   const BoxKernels& kernels;
   bool asks_everything = false;
-  std::atomic<bool> is_stopped = false;
 };
 
 // The flags of a node's children, a byte each.
@@ -67,23 +52,15 @@ struct ChildFlags {
 class WideDescent {
  public:
   WideDescent(WideHunt& hunt, std::size_t lane, SearchCounts& counts)
-      : hunt_(hunt), tree_(hunt.tree), lane_(lane), counts_(counts) {
-    found_.reserve(found_at_once + width * width);
-  }
+      : hunt_(hunt), tree_(hunt.tree), counts_(counts), found_(hunt, lane) {}
 
-  // Cuts the descent of the root against itself into as many pairs of nodes as wanted or a few
-  // more, splitting the highest first. There may be fewer if the descent ends before that.
   std::vector<WidePair> cut(std::size_t wanted) {
-    std::vector<WidePair> left = {{WideTree::root, WideTree::root}};
-    for (std::size_t first = 0;; ++first) {
-      if (first == left.size() || left.size() - first >= wanted || is_ended()) {
-        left.erase(left.begin(), left.begin() + static_cast<std::ptrdiff_t>(first));
-        return left;
-      }
-      split(left[first]);
-      left.insert(left.end(), stack_.begin(), stack_.end());
-      stack_.clear();
-    }
+    const auto split_into = [&](const WidePair& pair, std::vector<WidePair>& below) {
+      split(pair);
+      std::swap(below, stack_);
+    };
+    return cut_below<WidePair>({{WideTree::root, WideTree::root}}, wanted, split_into,
+                               [&] { return is_ended(); });
   }
 
   // Searches all that lies below the pair.
@@ -99,13 +76,11 @@ class WideDescent {
 
   // Hands over what was found last. False if the search has ended early.
   bool finish() {
-    hand_over();
+    found_.hand_over(is_ended());
     return !is_ended();
   }
 
  private:
-  static constexpr std::size_t found_at_once = 256;
-
   bool is_ended() const { return hunt_.is_stopped.load(std::memory_order_relaxed); }
 
   void split(const WidePair& p) {
@@ -148,10 +123,10 @@ class WideDescent {
     for (std::size_t i = 0; i < a.count; ++i) {
       const auto t = tree_.child(a.first_slot + i);
       for (std::uint32_t left = sets[i]; left != 0; left &= left - 1)
-        found_.push_back({t, tree_.child(b.first_slot + lowest(left))});
+        found_.add(t, tree_.child(b.first_slot + lowest(left)));
     }
     counts_.candidate_pairs += found_.size() - before;
-    if (found_.size() >= found_at_once) hand_over();
+    if (found_.are_enough()) found_.hand_over(is_ended());
   }
 
   // The children each against itself. A single triangle holds no pair.
@@ -200,7 +175,7 @@ class WideDescent {
     const auto c = component(a), d = component(b);
     const auto p = hunt_.flags[at(a)], q = hunt_.flags[at(b)];
     if (c != mixed_components && d != mixed_components) return hunt_.table_of(c, d).asks(p, q);
-    return hunt_.within.asks(p, q) || hunt_.across.asks(p, q);
+    return hunt_.either.asks(p, q);
   }
 
   std::int32_t component(std::int32_t binary) const { return hunt_.binary.component(binary); }
@@ -218,17 +193,11 @@ class WideDescent {
     return static_cast<std::size_t>(std::countr_zero(set));
   }
 
-  void hand_over() {
-    if (!found_.empty() && !is_ended() && !hunt_.sink(found_, lane_)) hunt_.is_stopped = true;
-    found_.clear();
-  }
-
   WideHunt& hunt_;
   const WideTree& tree_;
-  const std::size_t lane_;
   SearchCounts& counts_;
   std::vector<WidePair> stack_;
-  std::vector<CandidatePair> found_;  // not yet handed over
+  FoundPairs found_;
 };
 
 struct WideLane {

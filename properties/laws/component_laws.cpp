@@ -30,6 +30,11 @@ Observation pairs_of_two_components_need_no_signs(CaseFacts& facts, std::size_t 
   for (const auto& contact : facts.judgement(s).pairs) {
     if (facts.same_component(contact.pair)) continue;
     if (!is_left_out_by_signs(facts, s, contact.pair)) continue;
+    // Who asks for the first contact is told of no later one.
+    if (facts.options().pairs == detector::Pairs::first &&
+        contact.time > facts.judgement(s).first) {
+      continue;
+    }
     premise_held = true;
     const auto same = [&](const PairContact& c) {
       return c.pair == contact.pair && c.time == contact.time;

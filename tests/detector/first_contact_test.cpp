@@ -171,7 +171,8 @@ TEST(FirstContact, L15_AfterACollisionNothingIsKnown) {
     const auto collides = detector.evaluate(mesh.x_t0, mesh.x_t1);
     ASSERT_EQ(collides.answer, Answer::collision);
     ASSERT_FALSE(detector.commit());
-    const auto& state = *detector.state().fields().committed;
+    const SavedState saved = detector.state();
+    const auto& state = *saved.fields().committed;
     EXPECT_FALSE(state.met_is_complete);
     EXPECT_EQ(std::count(state.clean.begin(), state.clean.end(), 1), 0);
   }

@@ -76,7 +76,7 @@ TEST(PlantedFaults, OnlyTheNamedStageIsReplaced) {
     SCOPED_TRACE(fault.name);
     const detector::Stages wrong = fault.stages(fault.options);
     detector::Stages right = detector::standard_stages(fault.options);
-    // Wrong marks come with the binary descent (planting.h).
+    // Wrong marks come with the binary descent (properties/faults/planting.h).
     if (fault.stage == "marking") right.pair_search = std::make_shared<detector::TreeSearch>();
     std::map<std::string_view, bool> replaced = {
         {"classifier", typeid(*wrong.classifier) != typeid(*right.classifier)},

@@ -6,33 +6,14 @@
 #include "detector/contact/fixed_products.h"
 #include "detector/contact/fixed_root.h"
 #include "detector/exact/real_root.h"
+#include "tests/detector/contact/query_draw.h"
 #include "tests/detector/exact/tarski.h"
 #include "tests/test.h"
 
 namespace assay::detector {
 namespace {
 
-class Draw {
- public:
-  int between(int lo, int hi) { return std::uniform_int_distribution<int>(lo, hi)(engine_); }
-
-  template <class Coordinate>
-  FourPoints query(Coordinate coordinate) {
-    FourPoints q;
-    q.first_group = between(1, 2);
-    for (auto& p : q.points) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        p.t0[k] = coordinate();
-        p.t1[k] = coordinate();
-      }
-    }
-    return q;
-  }
-  double full() { return std::ldexp(static_cast<double>(engine_() >> 11), -53) - .5; }
-
- private:
-  std::mt19937_64 engine_{31};
-};
+;
 
 struct Tally {
   int queries = 0, contacts = 0, open = 0;
@@ -74,7 +55,7 @@ void expect_agreement(const char* queries_named, int queries, int most_open, con
 }
 
 TEST(ContactFixed, AgreesWithTheGeneralPath) {
-  Draw draw;
+  tests::QueryDraw draw(31);
   expect_agreement("small integers", 20000, 200,
                    [&] { return draw.query([&] { return draw.between(-2, 2); }); });
   expect_agreement("integers", 10000, 30,
@@ -92,7 +73,7 @@ TEST(ContactFixed, AgreesWithTheGeneralPath) {
 // Edges that mirror each other in the plane z = 0 meet end to end, or cross where they are: common
 // roots of the cubic and of the dependencies.
 TEST(ContactFixed, SettlesMirrorImages) {
-  Draw draw;
+  tests::QueryDraw draw(31);
   const auto mirrored = [](MovingPoint p) {
     p.t0[2] = -p.t0[2];
     p.t1[2] = -p.t1[2];
@@ -120,7 +101,7 @@ TEST(ContactFixed, SettlesMirrorImages) {
 // Points of one line, throughout or at an instant, are settled: the time is that at which
 // differences along an axis say so.
 TEST(ContactFixed, SettlesPointsOfOneLine) {
-  Draw draw;
+  tests::QueryDraw draw(31);
   const auto integer = [&] { return static_cast<double>(draw.between(-9, 9)); };
   expect_agreement("on one line throughout", 10000, 0, [&] {
     const Point way = {integer(), integer(), integer()};
@@ -155,7 +136,7 @@ TEST(ContactFixed, SettlesPointsOfOneLine) {
 
 // The largest coordinates that a width admits, in all signs: nothing wraps.
 TEST(ContactFixed, WidthsHoldTheirBounds) {
-  Draw draw;
+  tests::QueryDraw draw(31);
   for (const int bits : {most_bits<1>, most_bits<2>, most_bits<5>}) {
     const double most = std::ldexp(1 - 0x1p-53, bits), unit = 1;
     const FourPoints scale = {{MovingPoint{{most, most, most}, {unit, unit, unit}}, {}, {}, {}}, 1};
@@ -187,7 +168,7 @@ TEST(ContactFixed, FindsTimesNearZero) {
 TEST(ContactFixed, SignAtRootIsThatOfATarskiQuery) {
   using Triple = FixedInteger<3>;
   using Minor = FixedInteger<2>;
-  Draw draw;
+  tests::QueryDraw draw(31);
   const Polynomial t = Polynomial::linear(0, 1), s = Polynomial::linear(1, 0);
   int compared = 0, zeros = 0;
   for (int i = 0; i < 60000; ++i) {

@@ -4,31 +4,13 @@
 #include <cmath>
 
 #include "detector/contact/elementary.h"
+#include "tests/detector/contact/query_draw.h"
 #include "tests/test.h"
 
 namespace assay::detector {
 namespace {
 
-class UntilDraw {
- public:
-  int between(int lo, int hi) { return std::uniform_int_distribution<int>(lo, hi)(engine_); }
-  double full() { return std::ldexp(static_cast<double>(engine_() >> 11), -53) - .5; }
-  template <class Coordinate>
-  FourPoints query(Coordinate coordinate) {
-    FourPoints q;
-    q.first_group = between(1, 2);
-    for (auto& p : q.points) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        p.t0[k] = coordinate();
-        p.t1[k] = coordinate();
-      }
-    }
-    return q;
-  }
-
- private:
-  std::mt19937_64 engine_{37};
-};
+;
 
 struct Told {
   int before = 0, by_doubles = 0, by_integers = 0;
@@ -53,7 +35,7 @@ void ask_about(const FourPoints& query, Told& told) {
 }
 
 TEST(ContactUntil, NeverPassesAContact) {
-  UntilDraw draw;
+  tests::QueryDraw draw(37);
   Told fine, coarse, large;
   for (int i = 0; i < 20'000; ++i) {
     ask_about(draw.query([&] { return draw.full(); }), fine);
@@ -68,7 +50,7 @@ TEST(ContactUntil, NeverPassesAContact) {
 // A vertex in the plane of a face, on its way to it: the cubic vanishes, and only the order along
 // the way tells. The bound is one double before the contact.
 TEST(ContactUntil, InOnePlaneOrderTellsToTheLastBit) {
-  UntilDraw draw;
+  tests::QueryDraw draw(37);
   int contacts = 0;
   for (int i = 0; i < 2'000; ++i) {
     FourPoints query = draw.query([&] { return draw.full(); });

@@ -26,6 +26,17 @@ Found found_by(const PairSearch& search, const SearchInput& input) {
   return found;
 }
 
+// A mesh whose tree is fitted to its motion, with all triangles of V+.
+struct Fitted {
+  explicit Fitted(const MovingMesh& of) : mesh(of), tree(of.topology, of.x_t0), marks(tree) {
+    tree.refit(mesh.topology, {mesh.x_t0, mesh.x_t1});
+  }
+  MovingMesh mesh;
+  BoundingVolumeTree tree;
+  Marks marks;
+  const PairTables everything = {PairTable::everything(), PairTable::everything()};
+};
+
 PairTables some_tables(int which) {
   PairTables tables = which % 2 == 0 ? PairRule().candidates() : EveryPair().candidates();
   if (which % 3 == 2) tables.across = PairTable();
@@ -36,12 +47,10 @@ TEST(WideSearch, L3_FindsThePairsOfTheBinaryDescentOnceEach) {
   SearchMeshes random(11);
   std::size_t candidates = 0, parts = 0;
   for (int i = 0; i < 60; ++i) {
-    const MovingMesh mesh = random.sheets(1 + i % 7, 1 + i % 6, i % 5 == 0);
-    BoundingVolumeTree tree(mesh.topology, mesh.x_t0);
-    tree.refit(mesh.topology, {mesh.x_t0, mesh.x_t1});
+    Fitted fitted(random.sheets(1 + i % 7, 1 + i % 6, i % 5 == 0));
+    auto& [mesh, tree, marks, everything] = fitted;
     std::vector<TriangleType> types(mesh.topology.triangles.size(), TriangleType::violated);
     if (i % 4 != 0) random.change(types, 2);
-    Marks marks(tree);
     MarkingCounts marking;
     Marking().bring_to(types, tree, marks, marking);
     const PairTables tables = some_tables(i);
@@ -59,16 +68,13 @@ TEST(WideSearch, L3_FindsThePairsOfTheBinaryDescentOnceEach) {
 
 TEST(WideSearch, LanesDoNotShow) {
   SearchMeshes random(12);
-  const MovingMesh mesh = random.sheets(4, 24, false);
-  BoundingVolumeTree tree(mesh.topology, mesh.x_t0);
-  tree.refit(mesh.topology, {mesh.x_t0, mesh.x_t1});
-  Marks marks(tree);
-  const PairTables tables = {PairTable::everything(), PairTable::everything()};
+  const Fitted fitted(random.sheets(4, 24, false));
   const auto searched = [&](std::uint32_t threads) {
     const Workers workers(threads);
     PacedStop pace(never_stops, workers);
     std::vector<std::vector<CandidatePair>> of_lanes(workers.count());
-    const SearchInput input{mesh.topology, tree, marks, tables, &pace};
+    const SearchInput input{fitted.mesh.topology, fitted.tree, fitted.marks, fitted.everything,
+                            &pace};
     SearchCounts counts;
     const auto take = [&](std::span<const CandidatePair> pairs, std::size_t lane) {
       of_lanes[lane].insert(of_lanes[lane].end(), pairs.begin(), pairs.end());
@@ -89,15 +95,12 @@ TEST(WideSearch, LanesDoNotShow) {
 
 TEST(WideSearch, EndsWhereTheSinkSaysSo) {
   SearchMeshes random(13);
-  const MovingMesh mesh = random.sheets(2, 20, false);
-  BoundingVolumeTree tree(mesh.topology, mesh.x_t0);
-  tree.refit(mesh.topology, {mesh.x_t0, mesh.x_t1});
-  Marks marks(tree);
-  const PairTables tables = {PairTable::everything(), PairTable::everything()};
+  const Fitted fitted(random.sheets(2, 20, false));
+  const SearchInput input{fitted.mesh.topology, fitted.tree, fitted.marks, fitted.everything};
   SearchCounts counts;
   std::size_t seen = 0;
-  EXPECT_FALSE(WideSearch().search({mesh.topology, tree, marks, tables}, counts,
-                                   [&](std::int32_t, std::int32_t) { return ++seen < 5; }));
+  EXPECT_FALSE(
+      WideSearch().search(input, counts, [&](std::int32_t, std::int32_t) { return ++seen < 5; }));
   EXPECT_EQ(seen, 5u);
 }
 

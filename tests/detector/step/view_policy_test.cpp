@@ -134,12 +134,12 @@ TEST(ViewPolicy, CandidatesAreThoseOfTheLastSearchThatProvedNothing) {
   const TwoOpen mesh;
   PolicyState before;
   before.candidates = 500;
-  CostModel policy(mesh.surface, 100, before);
+  CostModel policy(mesh.surface, 500, before);
   StepCounts counts;
   EXPECT_EQ(policy.next(counts, true).candidates, 500u) << "nothing was searched";
   counts.search.candidate_pairs = 300;
   EXPECT_EQ(policy.next(counts, true).candidates, 300u);
-  ASSERT_TRUE(policy.worth_proving({1, 1}, 1, 0));
+  ASSERT_TRUE(policy.worth_proving({1, 1, 1}, 1, 0));
   EXPECT_EQ(policy.next(counts, true).candidates, 500u) << "proofs have left out some";
 }
 
