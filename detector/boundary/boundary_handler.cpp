@@ -62,6 +62,7 @@ bool BoundaryHandler::sweep(const GhostSweep& sweep, std::span<const std::int32_
                             const StopFunction& stop, std::vector<std::uint8_t>& touched,
                             GhostCounts& counts) const {
   if (ghosts.empty()) return true;
+  sweep.tree.join_boxes(nullptr);  // if the step has not done it
   const Topology& all = sweep.surface.all();
   const auto holes = make_hole_trees(all, ghosts, sweep.tree.grid(), sweep.motion);
   const auto component = all.component_of_triangle[at(ghosts[0])];

@@ -293,7 +293,6 @@ BoundingVolumeTree::BoundingVolumeTree(const Topology& mesh, const PositionsView
   if (!Builder(*this, mesh, pace).run(x)) return;
   make_blocks();
   wide_ = WideTree(*this, pace);
-  boxes_ = std::make_unique_for_overwrite<MovingBox[]>(nodes);
 }
 
 void BoundingVolumeTree::make_blocks() {
@@ -327,20 +326,39 @@ void BoundingVolumeTree::refit(const Topology& mesh, const SteppedMesh& motion) 
 
 bool BoundingVolumeTree::refit(const Topology& mesh, const SteppedMesh& motion, PacedStop& pace,
                                double slack) {
-  constexpr std::uint64_t work_of_node = 4;
   forget_fit();
+  boxes_are_joined_ = false;
   RoundedPositions points;  // given back before the search takes room for its own
   if (!points.assign(motion, pace)) return false;
   grid_ = points.grid();
   const FloatLanes by = grid_.margin(separation_ + slack) / 2;
-  const bool completed = for_each_upward(work_of_node, &pace, [&](std::int32_t node) {
-    const std::int32_t child = child_[at(node)];
-    boxes_[at(node)] = child < 0 ? grown(points.box(mesh.triangles[at(~child)]), by)
-                                 : join(boxes_[at(child)], boxes_[at(child) + 1]);
-  });
-  if (!completed || !wide_.refit(mesh, points, by, pace)) return false;
+  if (!wide_.refit(mesh, points, by, pace)) return false;
   if (slack == 0) fitted_to_ = Arrays(motion);
   return true;
+}
+
+bool BoundingVolumeTree::join_boxes(PacedStop* pace) const {
+  if (boxes_are_joined_) return true;
+  constexpr std::uint64_t work_of_node = 2;
+  constexpr std::size_t nodes_of_piece = 512;
+  if (!boxes_) boxes_ = std::make_unique_for_overwrite<MovingBox[]>(node_count());
+  const auto take_leaves = [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (; begin < end; ++begin) {
+      const auto n = static_cast<std::int32_t>(begin);
+      const WideTree::Node& node = wide_.node(n);
+      if (!node.holds_triangles) continue;
+      for (std::size_t i = 0; i < node.count; ++i)
+        boxes_[at(wide_.binary(node.first_slot + i))] = box_of(wide_.children(n), i);
+    }
+  };
+  const auto join_children = [&](std::int32_t node) {
+    const std::int32_t child = child_[at(node)];
+    if (child >= 0) boxes_[at(node)] = join(boxes_[at(child)], boxes_[at(child) + 1]);
+  };
+  boxes_are_joined_ =
+      for_all_pieces(wide_.node_count(), nodes_of_piece, work_of_node, pace, take_leaves) &&
+      for_each_upward(work_of_node, pace, join_children);
+  return boxes_are_joined_;
 }
 
 bool BoundingVolumeTree::fit_once(const Topology& mesh, const SteppedMesh& motion,

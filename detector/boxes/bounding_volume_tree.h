@@ -1,12 +1,13 @@
-// The bounding volume tree over the triangles of a mesh. It is built once for a topology, and its
-// boxes are refitted to every step that searches.
+// The bounding volume tree over the triangles of a mesh. It is built once for a topology, and
+// fitted to every step that searches. What is fitted is its wide form (wide_tree.h), which most
+// searches read. The boxes of its own nodes are joined from that when a step needs them.
 //
 // Nodes are numbered so that the two children of a node come after it and are neighbours (2k+1 and
 // 2k+2 for some k), and so that all nodes below a node have consecutive numbers. A search
-// therefore reads both children from neighbouring cache lines, and a refit is a backward pass over
-// one subtree after the other. Components are split from each other before their triangles are, so
+// therefore reads both children from neighbouring cache lines, and boxes are joined by a backward
+// pass over one subtree after the other. Components are split from each other before their triangles are, so
 // only the topmost nodes hold triangles of several components.
-// Memory: 158 bytes a triangle, 128 of them boxes.
+// Memory: 100 bytes a triangle, 70 of them the wide form; 128 more once its own boxes are joined.
 #pragma once
 
 #include <cstdint>
@@ -69,7 +70,14 @@ class BoundingVolumeTree {
 
   const FloatGrid& grid() const { return grid_; }
   // The box over the step of the last refit.
-  const MovingBox& box(std::int32_t node) const { return boxes_[at(node)]; }
+  const MovingBox& box(std::int32_t node) const {
+    if (!boxes_are_joined_) join_boxes(nullptr);
+    return boxes_[at(node)];
+  }
+  // Joins the boxes of all nodes from those of the wide tree, unless that was done since the last
+  // refit; box() does it too. Few steps need them: those that sweep ghosts or prove patches apart.
+  // Call it before several threads ask for boxes. O(M). False if `pace` was stopped.
+  bool join_boxes(PacedStop* pace) const;
   // The box of any triangle, a ghost for example, on the same grid as the boxes of the nodes and
   // so comparable with them. Corners are rows of the two views.
   MovingBox box_of_triangle(const std::array<std::int32_t, 3>& corners,
@@ -118,8 +126,9 @@ class BoundingVolumeTree {
   std::vector<std::int32_t> parent_;  // by pair of siblings
   std::vector<std::int32_t> leaf_;    // by triangle
   std::vector<std::int32_t> component_;
-  std::vector<std::int32_t> component_root_;  // by component
-  std::unique_ptr<MovingBox[]> boxes_;  // by node; the first refit writes them, in all threads
+  std::vector<std::int32_t> component_root_;    // by component
+  mutable std::unique_ptr<MovingBox[]> boxes_;  // by node; nothing until they are first joined
+  mutable bool boxes_are_joined_ = false;
   WideTree wide_;
   double separation_ = 0;
   std::optional<Arrays> fitted_to_;

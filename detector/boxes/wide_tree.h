@@ -25,6 +25,15 @@ namespace assay::detector {
 
 class BoundingVolumeTree;
 
+// Box i of the rows.
+inline MovingBox box_of(const BoxRows& rows, std::size_t i) {
+  const auto three = [&](std::size_t row) {
+    const float* const first = rows.first + row * rows.count + i;
+    return FloatLanes{first[0], first[rows.count], first[2 * rows.count], 0};
+  };
+  return {three(0), three(3), three(6), three(9)};
+}
+
 class WideTree {
  public:
   WideTree() = default;

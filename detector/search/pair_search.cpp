@@ -225,6 +225,7 @@ bool TreeSearch::search(const SearchInput& input, SearchCounts& counts,
 
 bool TreeSearch::descend(const SearchInput& input, PatchProofs* proofs, SearchCounts& counts,
                          const PairSink& sink) const {
+  if (!input.tree.join_boxes(input.pace)) return false;
   Hunt hunt(input, sink);
   const bool skips = skipping_ == Skipping::on;
   Descent descent(hunt, skips, proofs, 0, counts);
