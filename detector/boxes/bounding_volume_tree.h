@@ -5,9 +5,9 @@
 // Nodes are numbered so that the two children of a node come after it and are neighbours (2k+1 and
 // 2k+2 for some k), and so that all nodes below a node have consecutive numbers. A search
 // therefore reads both children from neighbouring cache lines, and boxes are joined by a backward
-// pass over one subtree after the other. Components are split from each other before their triangles are, so
-// only the topmost nodes hold triangles of several components.
-// Memory: 100 bytes a triangle, 70 of them the wide form; 128 more once its own boxes are joined.
+// pass over one subtree after the other. Components are split from each other before their
+// triangles are, so only the topmost nodes hold triangles of several components. Memory: 100 bytes
+// a triangle, 70 of them the wide form; 128 more once its own boxes are joined.
 #pragma once
 
 #include <cstdint>

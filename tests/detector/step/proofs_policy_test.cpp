@@ -108,8 +108,10 @@ TEST(ProofsPolicy, WhatIsHopedForIsHeldAgainstTheCostOfCones) {
   const std::size_t triangles = surface.mesh.triangles.size();
   CostModel policy(surface, adjacent, {});
   EXPECT_TRUE(policy.worth_proving({1, 1, 1}, 1, triangles));
-  EXPECT_TRUE(policy.worth_proving({1, .75, .5}, 1, triangles));
-  EXPECT_TRUE(policy.worth_proving({1, 1, 0}, 1, triangles)) << "medium patches are free";
+  EXPECT_TRUE(policy.worth_proving({1, 1, .75}, 1, triangles));
+  EXPECT_FALSE(policy.worth_proving({1, .75, .5}, 1, triangles))
+      << "proofs for small ones cost more";
+  EXPECT_FALSE(policy.worth_proving({1, 1, 0}, 1, triangles)) << "no large patch is free";
   EXPECT_FALSE(policy.worth_proving({.4, 1, 1}, 1, triangles)) << "few patches are free";
   EXPECT_FALSE(policy.worth_proving({.7, 0, 0}, 1, triangles)) << "only small patches are free";
   EXPECT_FALSE(policy.worth_proving({1, 1, 1}, .05, triangles)) << "few neighbours are asked for";
