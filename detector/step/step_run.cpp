@@ -162,10 +162,8 @@ bool StepRun::find_start() {
 bool StepRun::sweep_ghosts() {
   if (!marks_.has_views() || marks_.all_free() || given_.surface.is_closed()) return true;
   Stopwatch watch(result_.times.ghosts);
-  if (!given_.tree.fit_once(mesh_, given_.motion, cost_.pace) ||
-      !given_.tree.join_boxes(&cost_.pace)) {
-    return false;
-  }
+  if (!given_.tree.fit_once(mesh_, given_.motion, cost_.pace)) return false;
+  if (!given_.tree.join_boxes(&cost_.pace)) return false;
   GhostSweep sweep{given_.surface, given_.tree, given_.motion, given_.elementary, !given_.known};
   marks_.near_ghosts.assign(mesh_.triangles.size(), 0);
   sweep.near = &marks_.near_ghosts;
