@@ -40,7 +40,8 @@ std::vector<ApexRule> BoundaryHandler::choose_apexes(const Surface& surface,
                                                      const StopFunction& stop) const {
   if (surface.is_closed()) return {};
   PacedStop pace(stop);
-  if (!tree.refit(surface.mesh, {x, x}, pace)) return std::vector<ApexRule>(surface.loops.size());
+  if (!tree.refit(surface.mesh, {x, x}, pace) || !tree.join_boxes(&pace))
+    return std::vector<ApexRule>(surface.loops.size());
   return ApexChoice(surface, tree, x, elementary, stop).run().rules;
 }
 

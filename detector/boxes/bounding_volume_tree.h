@@ -10,6 +10,7 @@
 // a triangle, 70 of them the wide form; 128 more once its own boxes are joined.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -69,14 +70,14 @@ class BoundingVolumeTree {
   const WideTree& wide() const { return wide_; }
 
   const FloatGrid& grid() const { return grid_; }
-  // The box over the step of the last refit.
+  // The box over the step of the last refit. REQUIRES join_boxes() since then.
   const MovingBox& box(std::int32_t node) const {
-    if (!boxes_are_joined_) join_boxes(nullptr);
+    assert(boxes_are_joined_);
     return boxes_[at(node)];
   }
   // Joins the boxes of all nodes from those of the wide tree, unless that was done since the last
-  // refit; box() does it too. Few steps need them: those that sweep ghosts or prove patches apart.
-  // Call it before several threads ask for boxes. O(M). False if `pace` was stopped.
+  // refit. Few steps need them: those that sweep ghosts or prove patches apart. One thread calls
+  // it, before several ask for boxes. O(M). False if `pace` was stopped.
   bool join_boxes(PacedStop* pace) const;
   // The box of any triangle, a ghost for example, on the same grid as the boxes of the nodes and
   // so comparable with them. Corners are rows of the two views.

@@ -225,11 +225,15 @@ bool TreeSearch::search(const SearchInput& input, SearchCounts& counts,
 
 bool TreeSearch::descend(const SearchInput& input, PatchProofs* proofs, SearchCounts& counts,
                          const PairSink& sink) const {
-  if (!input.tree.join_boxes(input.pace)) return false;
-  Hunt hunt(input, sink);
+  SearchInput joined = input;
+  const auto join = [&] { return input.tree.join_boxes(input.pace); };
+  // What is done between two rounds may fit the boxes to a shorter step.
+  if (input.between) joined.between = [&] { return input.between() && join(); };
+  if (!join()) return false;
+  Hunt hunt(joined, sink);
   const bool skips = skipping_ == Skipping::on;
   Descent descent(hunt, skips, proofs, 0, counts);
-  return run_descent(input, sink.takes_lanes(), descent, counts, [&](std::size_t lane) {
+  return run_descent(joined, sink.takes_lanes(), descent, counts, [&](std::size_t lane) {
     return std::make_unique<Lane>(hunt, skips, proofs, input.pace->stop(), lane);
   });
 }

@@ -77,6 +77,7 @@ SampledSigns sample_signs(const GivenStep& step, const ViewPrimitive& primitive,
 // Whether more than `limit` triangles lie in the boxes of ghosts of components that are not free.
 bool has_more_ghost_pairs(const GivenStep& step, const StepMarks& marks, double limit,
                           PacedStop& pace) {
+  if (!step.tree.join_boxes(&pace)) return true;
   // The workers add up the pairs of their ghosts. None of them goes on when the sum is too large,
   // and whether it is depends on no order, although the sum that is then reached does.
   std::atomic<double> pairs = 0;

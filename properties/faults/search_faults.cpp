@@ -70,7 +70,8 @@ struct GatheredFromFirstChild : detector::Marking {
 class SkippedForOneSet : public detector::TreeSearch {
  public:
   bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override {
-    return visit(input, BoundingVolumeTree::root, BoundingVolumeTree::root, counts, sink);
+    return input.tree.join_boxes(input.pace) &&
+           visit(input, BoundingVolumeTree::root, BoundingVolumeTree::root, counts, sink);
   }
 
  private:

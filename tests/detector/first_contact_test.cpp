@@ -100,7 +100,7 @@ TEST_P(FirstContact, L6_ByABoundIsThereJustIfItIsNotLater) {
 }
 
 TEST_P(FirstContact, DoesNotDependOnThreads) {
-  const Moving mesh(tests::SearchMeshes(11).sheets(2, 40, false));
+  const Moving mesh(tests::SearchMeshes(11).sheets(2, 20, false));
   const auto result_of = [&](std::uint32_t threads) {
     Options options{GetParam(), Start::verified, Pairs::first};
     options.threads = threads;

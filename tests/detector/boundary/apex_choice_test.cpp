@@ -56,6 +56,7 @@ ApexChoice::Result choose(const Mesh& mesh, const StopFunction& stop = {}) {
   const Surface surface = make_surface(mesh.triangles, mesh.x.rows());
   BoundingVolumeTree tree(surface.mesh, mesh.x);
   tree.refit(surface.mesh, {mesh.x, mesh.x});
+  tree.join_boxes(nullptr);
   return ApexChoice(surface, tree, mesh.x, ElementaryTest(), stop).run();
 }
 

@@ -43,6 +43,7 @@ class SharedSweep : public testing::Test {
     const SteppedMesh motion{all_t0, all_t1};
     BoundingVolumeTree tree(surface.mesh, start_);
     tree.refit(surface.mesh, motion);
+    tree.join_boxes(nullptr);
     Swept swept;
     swept.touched.assign(surface.mesh.triangles.size(), 0);
     swept.near = swept.touched;

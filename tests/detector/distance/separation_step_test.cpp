@@ -300,6 +300,7 @@ TEST(SeparationStep, L16_MarginsOfBoxes) {
        {std::pair(2.999, false), std::pair(3.0, true), std::pair(1e300, true)}) {
     tree.grow_boxes(distance);
     tree.refit(make_topology(two, 6), {y, y});
+    tree.join_boxes(nullptr);
     EXPECT_EQ(!apart(tree.box(tree.leaf_of(0)), tree.box(tree.leaf_of(1))), meet) << distance;
   }
 }

@@ -17,6 +17,7 @@ TEST(SearchBox, FindsWhatIsNotApartAndStopsWhenTold) {
     const MovingMesh mesh = meshes.sheets(3, 4, i % 2 == 0);
     BoundingVolumeTree tree(mesh.topology, mesh.x_t0);
     tree.refit(mesh.topology, {mesh.x_t0, mesh.x_t1});
+    tree.join_boxes(nullptr);
     const auto box = tree.box_of_triangle(mesh.topology.triangles[7], {mesh.x_t0, mesh.x_t1});
     std::set<std::int32_t> expected, found;
     for (std::size_t t = 0; t < mesh.topology.triangles.size(); ++t) {
