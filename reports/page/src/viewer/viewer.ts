@@ -112,10 +112,12 @@ export class Viewer {
     };
     const views = this.scene.steps.some((s) => s.views !== null);
     const hasGhosts = this.scene.steps.some((s) => (s.views?.ghosts.length ?? 0) > 0);
+    // Where no sets are to be told by their colours, nothing hides a triangle of the pair.
+    this.solids.seeThrough(!views);
     return html(
       "div",
       { class: "toggles" },
-      box("see-through", false, (on) => this.solids.seeThrough(on)),
+      box("see-through", !views, (on) => this.solids.seeThrough(on)),
       hasGhosts ? box("ghosts", true, (on) => (this.ghosts = on)) : null,
       views ? box("view primitive", true, (on) => (this.primitive = on)) : null,
     );
