@@ -7,6 +7,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "corpus/digest.h"
 #include "detector/step_result.h"
 #include "properties/campaign/ledger/run_folder.h"
 #include "properties/laws/law.h"
@@ -259,6 +260,17 @@ class PathsOfPage {
   std::set<std::string, std::greater<>> others_;  // a folder after what lies in it
 };
 
+// A run stores no version, but it does store which program it was. If that is this one, its version
+// is known.
+Json versions_of_run(const properties::RunFindings& findings) {
+  const auto own = corpus::sha256_of_file("/proc/self/exe");
+  if (!own || findings.run.digests.program != own.value()) return nullptr;
+  const auto commit = commit_text();
+  return {{"assay", ASSAY_VERSION},
+          {"commit", commit.empty() ? Json() : Json(commit)},
+          {"libraries", version_text()}};
+}
+
 }  // namespace
 
 Json run_json(const properties::RunFindings& findings, const properties::Judgement& judgement,
@@ -269,6 +281,7 @@ Json run_json(const properties::RunFindings& findings, const properties::Judgeme
   Json predicate = is_certificate ? statement.at("predicate")
                                   : make_predicate(findings, judgement, findings.run.plan, "");
   paths.tell_in(predicate);
+  if (predicate["versions"].is_null()) predicate["versions"] = versions_of_run(findings);
   auto laws = law_statements(predicate["laws"]);
   return {{"folder", (has_place ? findings.folder.filename() : findings.folder).string()},
           {"library", findings.library.empty() ? Json() : Json(paths.told(findings.library))},

@@ -6,7 +6,7 @@ import { failureFacts } from "./failure_facts";
 import { pairTable } from "./pair_table";
 import { legend } from "./legend";
 import type { Failure, Run } from "./report";
-import { counted } from "./words";
+import { counted, sum } from "./words";
 import { picture, staticPicture, Viewer } from "./viewer/viewer";
 
 export interface FailuresView {
@@ -55,13 +55,13 @@ export function failures(run: Run, names: string[], address: (place: string) => 
     } else {
       const sets = legend(scene);
       try {
-        viewer = new Viewer(scene, (time) => sets.show(time));
+        viewer = new Viewer(scene, sets.show);
         detail.append(viewer.element);
       } catch {
         detail.append(staticPicture(failure));
       }
       detail.append(sets.element, pairTable(scene, (step, pair) => viewer?.showPair(step, pair)));
-      sets.show(scene.shown.step);
+      if (!viewer) sets.show(scene.shown.step, scene.shown.pair);
     }
     detail.append(failureFacts(run, failure));
   };
@@ -80,7 +80,7 @@ export function failures(run: Run, names: string[], address: (place: string) => 
     "failures",
     "Failures",
     ...(all.length === 0
-      ? [html("p", {}, "None was met.")]
+      ? [html("p", {}, `None was met in ${counted(sum(run.findings.strata.map((s) => s.trials)), "trial")}.`)]
       : [
           html(
             "p",

@@ -61,6 +61,7 @@ export function history(runs: Run[]): HTMLElement {
       ],
       numbered,
     ),
+    html("h3", {}, "Worst bound of each run"),
     logPlot(
       "Worst bound of each run",
       numbered.map(({ run, index }) => ({

@@ -38,7 +38,7 @@ const searched = (s: NonNullable<Findings["search"]>): string =>
 function sizesOf(list: Findings["judged_up_to"]): string[] {
   const sizes = new Map<number, string[]>();
   for (const { claim, triangles } of list) sizes.set(triangles, [...(sizes.get(triangles) ?? []), claim]);
-  return [...sizes].sort(([a], [b]) => b - a).map(([triangles, claims]) => `up to ${count(triangles)} triangles: ${claims.join(", ")}`);
+  return [...sizes].sort(([a], [b]) => b - a).map(([triangles, claims]) => `${triangles === 0 ? "none yet" : `up to ${count(triangles)} triangles`}: ${claims.join(", ")}`);
 }
 
 // What nobody judged: claims, parts of the library, families.

@@ -71,7 +71,7 @@ function about(run: Run): HTMLElement {
   ]);
 }
 
-function notes({ findings: { times }, subject, verdict }: Run): string[] {
+function notes({ findings: { times, versions }, subject, verdict }: Run): string[] {
   const disturbed = sum(times.strata.map((s) => s.disturbed));
   return [
     disturbed === 0 ? "" : `${counted(disturbed, "trial was", "trials were")} disturbed from outside, and ran again.`,
@@ -80,7 +80,7 @@ function notes({ findings: { times }, subject, verdict }: Run): string[] {
       : `${counted(times.near_the_limit, "trial", "trials")} took more than a third of the time that a case may take.`,
     subject !== null || verdict === "unverified"
       ? ""
-      : "No certificate stands beside this run, so neither a date nor the program\u2019s version is stored: assay certify issues one.",
+      : `No certificate stands beside this run, so ${versions ? "no date" : "neither a date nor the program\u2019s version"} is stored: assay certify issues one.`,
   ].filter((note) => note !== "");
 }
 

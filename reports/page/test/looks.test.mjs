@@ -126,6 +126,10 @@ test("beside a defect is its smallest mesh in 3D, and on paper there are all of 
   const differences = at.page.locator(".detail tbody td:last-child");
   assert.equal(await differences.getByText("missing", { exact: true }).count(), 1);
   assert.ok((await differences.getByText("left out by the contract").count()) > 0);
+  await at.page.locator(".detail tbody button").nth(1).click();
+  const pair = await at.page.locator(".detail tbody button").nth(1).textContent();
+  const told = await at.page.locator(".detail .legend").innerText();
+  for (const triangle of pair.split(" and ")) assert.match(told, new RegExp(`triangle ${triangle}\\s`));
   await at.page.emulateMedia({ media: "print" });
   assert.equal(await visible(at.page, "canvas").count(), 0);
   const pictures = visible(at.page, ".printed-only article img");

@@ -198,6 +198,16 @@ TEST_F(Runs, APageTellsNoFolderOfTheMachineThatItIsMadeOn) {
   }
 }
 
+// A run stores the digest of its program alone.
+TEST_F(Runs, TheVersionIsKnownWhereTheSameProgramMakesThePage) {
+  auto findings = read_run(RunToStore().store(scratch / "run"));
+  const auto own = reports::run_json(findings, judge(findings));
+  EXPECT_TRUE(own["findings"]["versions"]["assay"].is_string()) << own["findings"]["versions"];
+  findings.run.digests.program->front() ^= 1;
+  const auto other = reports::run_json(findings, judge(findings));
+  EXPECT_TRUE(other["findings"]["versions"].is_null());
+}
+
 TEST_F(Runs, WhatALawSaysStandsBesideIt) {
   RunToStore run;
   run.judge("closed-generic", 2, 'H');

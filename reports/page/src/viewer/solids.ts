@@ -73,7 +73,7 @@ export class Solids {
   seeThrough(on: boolean): void {
     const material = this.faces.material;
     material.transparent = on;
-    material.opacity = on ? 0.6 : 1;
+    material.opacity = on ? 0.7 : 1;
     material.depthWrite = !on;
     material.needsUpdate = true;
   }

@@ -30,7 +30,7 @@ export class Viewer {
   // Throws where there is no WebGL.
   constructor(
     private readonly scene: Scene,
-    private readonly onTime: (time: number) => void,
+    private readonly onShown: (time: number, pair: [number, number] | null) => void,
   ) {
     this.motion = new Motion(scene);
     this.pair = scene.shown.pair;
@@ -91,7 +91,7 @@ export class Viewer {
     this.controls.describe(`step ${index + 1} of ${this.motion.length}, t = ${shortTime(t)}`);
     this.solids.show(this.controls.time, this.pair, this.ghosts, this.primitive);
     this.stage.draw();
-    this.onTime(this.controls.time);
+    this.onShown(this.controls.time, this.pair);
   }
 
   private drawMarks(): void {
