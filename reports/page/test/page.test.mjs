@@ -216,15 +216,19 @@ test("under a distance: nearest points, the segment between them, how near", asy
   t.after(() => at.close());
   const links = at.page.locator(".failures .list a");
   assert.ok((await links.count()) > 0);
+  let looked = 0;
   for (let i = 0; i < (await links.count()); ++i) {
     await links.nth(i).click();
     const label = await at.page.locator(".detail .mark-distance").textContent();
     assert.match(label, /^distance (0|0\.0\d+), d 0\.01$/);
     const items = await at.page.locator(".detail .legend li").allTextContents();
     assert.ok(items.includes("nearest points when first near; d 0.01"), items.join());
-    // Whoever comes closer, comes closer to the pair.
-    for (let k = 0; k < 50; ++k) await at.page.locator(".detail canvas").press("+");
-    if (!label.startsWith("distance 0,")) {
+    // Whoever comes closer, comes closer to the pair: in three of them, because drawing takes long.
+    if (!label.startsWith("distance 0,") && ++looked <= 3) {
+      await at.page.locator(".detail canvas").press("+");
+      await at.page.locator(".detail canvas").evaluate((canvas) => {
+        for (let k = 1; k < 50; ++k) canvas.dispatchEvent(new KeyboardEvent("keydown", { key: "+" }));
+      });
       assert.equal(await at.page.locator(".detail .mark-exact circle").count(), 2, label);
       // The camera looks at the middle of the segment, which perspective moves along it on the screen.
       // The marks follow the camera, which may still be on its way for some frames.
@@ -242,6 +246,7 @@ test("under a distance: nearest points, the segment between them, how near", asy
       assert.ok(!isBeside("x", "width") && !isBeside("y", "height"), JSON.stringify({ segment, frame }));
     }
   }
+  assert.ok(looked > 0);
   assert.deepEqual(at.seen.problems, []);
 });
 
