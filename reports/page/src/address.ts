@@ -29,6 +29,15 @@ export function namesOf(signatures: string[]): string[] {
   });
 }
 
+// Makes `hash` the address of the page, so that it can be sent, and left by going back.
+export function remember(hash: string): void {
+  try {
+    history.pushState(null, "", hash);
+  } catch {
+    // A page in a frame has no address that could change.
+  }
+}
+
 // Calls back for each link within the page that is followed, in place of the browser, which would
 // leave a page that stands in a frame of another one.
 export function onFollow(then: (hash: string, link: HTMLAnchorElement) => void): void {
@@ -37,11 +46,7 @@ export function onFollow(then: (hash: string, link: HTMLAnchorElement) => void):
     const hash = link?.getAttribute("href");
     if (!link || !hash?.startsWith("#") || event.ctrlKey || event.metaKey || event.shiftKey) return;
     event.preventDefault();
-    try {
-      history.pushState(null, "", hash);
-    } catch {
-      // A page in a frame has no address that could change.
-    }
+    remember(hash);
     then(hash, link);
   });
 }

@@ -1,5 +1,5 @@
 // The page: what it shows of each run, and which run it shows.
-import { addressIn, contents, failurePlace, goTo, namesOf, onFollow, parseAddress } from "./address";
+import { addressIn, contents, failurePlace, goTo, namesOf, onFollow, parseAddress, remember } from "./address";
 import { cases, laws, worlds } from "./cases";
 import { certificate } from "./certificate";
 import { html } from "./dom";
@@ -70,7 +70,11 @@ function show(page: HTMLElement, report: Report): void {
   const place = html("div", {});
   const choice = html("select", {
     "aria-label": "Run",
-    change: () => open(addressIn(Number(choice.value))("")),
+    change: () => {
+      const hash = addressIn(Number(choice.value))("");
+      remember(hash);
+      open(hash);
+    },
   });
   report.runs.forEach((run, i) => choice.append(html("option", { value: i }, `${i + 1}: ${run.folder} (${run.verdict})`)));
   let shown: RunView | null = null;

@@ -206,6 +206,7 @@ describe("the page", () => {
     assert.notEqual(await at.page.locator(".verdict h1").textContent(), "Defect");
     assert.equal(await at.page.locator(".detail canvas").count(), 0);
     await at.page.getByLabel("Run", { exact: true }).selectOption("1");
+    assert.equal(await at.page.evaluate(() => location.hash), "#run-2/");
     assert.equal(await at.page.locator(".verdict h1").textContent(), "Defect");
     assert.equal(await at.page.locator(".detail canvas").count(), 1);
   });
