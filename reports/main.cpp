@@ -95,7 +95,8 @@ int run(const Words& words) {
   if (words[0] == "help" || is_help(words[0]))
     return help({words.begin() + 1, words.end()}, manuals);
   if (words[0] == "version" || words[0] == "--version") {
-    fmt::print("{}\n", reports::version_text());
+    const auto commit = reports::commit_text();
+    fmt::print("{}\n{}", reports::version_text(), commit.empty() ? "" : "commit " + commit + "\n");
     return reports::exit_holds;
   }
   const auto verb = std::ranges::find(manuals, words[0], &reports::VerbManual::name);

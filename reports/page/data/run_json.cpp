@@ -6,6 +6,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "corpus/digest.h"
 #include "detector/step_result.h"
 #include "properties/campaign/ledger/run_folder.h"
 #include "reports/campaign/failure_text.h"
@@ -195,15 +196,17 @@ std::string show(Json& json, SceneMaker& scenes, const properties::StoredFailure
 Json run_json(const properties::RunFindings& findings, const properties::Judgement& judgement,
               const Json& statement, const std::string& unverified) {
   const bool is_certificate = statement.is_object();
-  return {
-      {"folder", findings.folder.string()},
-      {"library", findings.library.empty() ? Json() : Json(findings.library)},
-      {"verdict", unverified.empty() ? judgement.verdict : "unverified"},
-      {"why",
-       unverified.empty() ? why_text(judgement) : "the certificate does not verify: " + unverified},
-      {"subject", is_certificate ? statement.at("subject") : Json()},
-      {"findings", is_certificate ? statement.at("predicate")
-                                  : make_predicate(findings, judgement, findings.run.plan, "")}};
+  // A run keeps no file of its campaign, so the digest is that of the text.
+  const auto& plan = findings.run.plan;
+  const auto campaign = corpus::sha256_of(properties::plan_text(plan) + "\n");
+  return {{"folder", findings.folder.string()},
+          {"library", findings.library.empty() ? Json() : Json(findings.library)},
+          {"verdict", unverified.empty() ? judgement.verdict : "unverified"},
+          {"why", unverified.empty() ? why_text(judgement)
+                                     : "the certificate does not verify: " + unverified},
+          {"subject", is_certificate ? statement.at("subject") : Json()},
+          {"findings", is_certificate ? statement.at("predicate")
+                                      : make_predicate(findings, judgement, plan, campaign)}};
 }
 
 Json failure_scenes(const properties::RunFindings& findings) {

@@ -39,6 +39,14 @@ TEST(Help, IsOneTextHoweverItIsAsked) {
   expect_refused(run_assay("help chekc"), "unknown verb 'chekc'; did you mean check?");
 }
 
+TEST(Help, TheVersionNamesItsCommit) {
+  const auto version = run_assay("version").out;
+  EXPECT_EQ(version.rfind("assay ", 0), 0u);
+  const bool has_commit =
+      std::regex_search(version, std::regex("\ncommit [0-9a-f]{40}(-dirty)?\n$"));
+  EXPECT_EQ(has_commit, std::filesystem::exists(ASSAY_SOURCE_DIR "/.git")) << version;
+}
+
 TEST(Help, OfEachVerbIsWholeAndFitsOnATerminal) {
   for (const auto& verb : verbs()) {
     SCOPED_TRACE(verb);
