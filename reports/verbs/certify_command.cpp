@@ -12,6 +12,7 @@
 #include <set>
 
 #include "corpus/digest.h"
+#include "corpus/meant_word.h"
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/ledger/binding.h"
 #include "properties/campaign/ledger/run_folder.h"
@@ -296,17 +297,19 @@ Expected<int> run_certify(const CampaignWords& words) {
 
 void add_options(Verb& verb, CampaignWords& words) {
   words.campaign = "smoke";
-  verb.add("--campaign", words.campaign,
+  verb.add("--campaign NAME|FILE", words.campaign,
            "smoke, quick, nightly, release, or a campaign file (.json)")
-      .shows_default();
+      .shows_default()
+      .among(corpus::names_among(properties::named_plans()), true);
   add_campaign_options(verb, words);
-  verb.add("--out", words.out, "Folder for the certificate; shards that it holds are taken")
-      .required();
+  verb.add("--out DIR", words.out, "Folder for the certificate; shards that it holds are taken")
+      .required()
+      .in(OptionGroup::output);
 }
 
 }  // namespace
 
-Action add_certify(CLI::App& app) {
+AddedVerb add_certify(CLI::App& app) {
   return make_verb(app, "certify",
                    "Corpus, campaign, planted faults, self-test, speed: a certificate, or a defect",
                    add_options, run_certify);

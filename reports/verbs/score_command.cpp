@@ -31,16 +31,18 @@ Expected<int> run_score(const ScoreRequest& request) {
 }
 
 void add_options(Verb& verb, ScoreRequest& request) {
-  verb.add("results", request.results,
+  verb.add("RESULTS", request.results,
            "Results of vectors.py, assay_vectors.h or answer-vectors, a file a product")
       .required();
-  verb.add("--set", request.set, "The folder of the set that was asked").shows_default();
-  verb.add("--out", request.page, "Write the matrix of all products here (.html)");
+  verb.add("--set DIR", request.set,
+           "The folder of the set that was asked (default: the shipped one)");
+  verb.add("--out FILE", request.page, "Write the matrix of all products here (.html)")
+      .in(OptionGroup::output);
 }
 
 }  // namespace
 
-Action add_score(CLI::App& app) {
+AddedVerb add_score(CLI::App& app) {
   return make_verb(app, "score", "Answers to a conformance set, judged", add_options, run_score);
 }
 

@@ -44,7 +44,9 @@ Expected<int> write_vectors(const VectorsRequest& request) {
 }
 
 void add_options(Verb& verb, VectorsRequest& request) {
-  verb.add("--out", request.out, "Folder for set.json, a file for each group, and csv/").required();
+  verb.add("--out DIR", request.out, "Folder for set.json, a file for each group, and csv/")
+      .required()
+      .in(OptionGroup::output);
   add_choice(verb, "--profile", request.profile, all_names<properties::VectorProfile>(),
              from_name<properties::VectorProfile>,
              "core (default): about 1,000 cases; full: about 20,000");
@@ -53,7 +55,7 @@ void add_options(Verb& verb, VectorsRequest& request) {
 
 }  // namespace
 
-Action add_vectors(CLI::App& app) {
+AddedVerb add_vectors(CLI::App& app) {
   return make_verb(app, "vectors", "Write the conformance set, the same bytes on every machine",
                    add_options, write_vectors);
 }
