@@ -1,6 +1,7 @@
 // `assay score` judges what products answered to a conformance set.
 #include <fmt/format.h>
 
+#include "reports/terminal/shipped.h"
 #include "reports/terminal/text_file.h"
 #include "reports/vectors/matrix_page.h"
 #include "reports/verbs/verbs.h"
@@ -10,13 +11,18 @@ namespace {
 
 struct ScoreRequest {
   std::vector<std::string> results;
-  std::string set = ASSAY_VECTORS_DIR;
+  std::string set;   // empty: the shipped one
   std::string page;  // empty: not written
 };
 
 Expected<int> run_score(const ScoreRequest& request) {
   BOOST_OUTCOME_TRY(may_write(request.page, request.results));
-  BOOST_OUTCOME_TRY(read, properties::read_set(request.set));
+  std::string set = request.set;
+  if (set.empty()) {
+    BOOST_OUTCOME_TRY(corpus, shipped_corpus());
+    set = corpus / "vectors";
+  }
+  BOOST_OUTCOME_TRY(read, properties::read_set(set));
   std::vector<JudgedResults> all;
   for (const auto& file : request.results) {
     BOOST_OUTCOME_TRY(results, properties::read_results(file, read));

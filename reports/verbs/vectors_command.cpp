@@ -7,6 +7,7 @@
 #include "properties/vectors/choice.h"
 #include "properties/vectors/set_files.h"
 #include "reports/terminal/progress.h"
+#include "reports/terminal/shipped.h"
 #include "reports/terminal/words.h"
 #include "reports/verbs/verbs.h"
 
@@ -21,12 +22,12 @@ struct VectorsRequest {
 
 Expected<int> write_vectors(const VectorsRequest& request) {
   Progress progress("vectors", std::chrono::seconds(10));
-  const std::filesystem::path curated = ASSAY_CORPUS_DIR;
-  BOOST_OUTCOME_TRY(
-      set,
-      properties::choose_vectors(
-          {request.profile, curated, curated.parent_path() / "vectors" / "found.json", request.jobs,
-           [&](std::string_view group) { progress.phase(std::string(group)); }}));
+  BOOST_OUTCOME_TRY(corpus, shipped_corpus());
+  BOOST_OUTCOME_TRY(set, properties::choose_vectors({request.profile, corpus / "curated",
+                                                     corpus / "vectors" / "found.json",
+                                                     request.jobs, [&](std::string_view group) {
+                                                       progress.phase(std::string(group));
+                                                     }}));
   progress.finish();
   BOOST_OUTCOME_TRYV(properties::write_set(request.out, set));
   std::size_t all = 0;

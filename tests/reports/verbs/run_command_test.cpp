@@ -212,12 +212,30 @@ TEST_F(Run, WithoutItsWorkerItEndsWithALine) {
   // The program beside which no worker stands.
   const std::string moved = scratch / "assay";
   std::filesystem::copy_file(ASSAY_PROGRAM, moved);
-  const int status = std::system(
-      (moved + " run --campaign " + plan + " --out " + out + " >" + (scratch / "text") + " 2>&1")
-          .c_str());
+  const int status =
+      std::system(("ASSAY_CORPUS=" ASSAY_SOURCE_DIR "/corpus " + moved + " run --campaign " + plan +
+                   " --out " + out + " >" + (scratch / "text") + " 2>&1")
+                      .c_str());
   EXPECT_EQ(WEXITSTATUS(status), 2);
   const auto text = read_text(scratch / "text");
   EXPECT_TRUE(contains(text, "assay: cannot start " + (scratch / "assay-worker"))) << text;
+}
+
+TEST_F(Run, WithoutItsCorpusItEndsWithALine) {
+  const std::string moved = scratch / "bin/assay";
+  std::filesystem::create_directories(scratch / "bin");
+  std::filesystem::copy_file(ASSAY_PROGRAM, moved);
+  const auto line_of = [&](const std::string& variables) {
+    const int status = std::system((variables + moved + " run --campaign " + plan + " --out " +
+                                    out + " >" + (scratch / "text") + " 2>&1")
+                                       .c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 2);
+    return read_text(scratch / "text");
+  };
+  EXPECT_TRUE(contains(line_of(""), "assay: the shipped corpus is not at " +
+                                        (scratch / "share/assay/corpus") +
+                                        "; ASSAY_CORPUS names its folder"));
+  EXPECT_TRUE(contains(line_of("ASSAY_CORPUS=/nowhere "), "assay: ASSAY_CORPUS is /nowhere: "));
 }
 
 // If the system gives no more descriptors, some of the workers cannot be had. That says nothing of
