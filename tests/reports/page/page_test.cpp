@@ -236,7 +236,7 @@ TEST_F(Runs, EveryFieldIsDocumented) {
   std::set<std::string> names;
   names_of({{"schema", "assay-report/3"}, {"version", ""}, {"runs", {json}}}, names);
   EXPECT_GT(names.size(), 40u);
-  const auto readme = read_text(std::string(ASSAY_SOURCE_DIR) + "/reports/README.md");
+  const auto readme = read_text(std::string(ASSAY_SOURCE_DIR) + "/reports/page/README.md");
   const auto begin = readme.find("schema `assay-report/3`");
   ASSERT_NE(begin, std::string::npos);
   const auto documented = readme.substr(begin, readme.find("\n## ", begin) - begin);

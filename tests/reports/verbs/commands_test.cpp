@@ -41,12 +41,12 @@ TEST_F(Commands, L5_BreathingSphereIsFreeAllPositiveWithoutBoxTests) {
   }
 }
 
-// As far as a step that collides has it; reports/README.md, the table of assay-check/1.
+// As far as a step that collides has it; reports/check/README.md, the table of assay-check/1.
 TEST_F(Commands, EveryFieldOfTheReportIsInTheReadme) {
   const auto frames = make_scene("bend", 200, 12);
   run_assay("check " + frames + " --json " + (scratch / "report.json"));
   const auto report = json::parse(read_text(scratch / "report.json"));
-  auto readme = read_text(std::string(ASSAY_SOURCE_DIR) + "/reports/README.md");
+  auto readme = read_text(std::string(ASSAY_SOURCE_DIR) + "/reports/check/README.md");
   readme.erase(0, readme.find("schema `assay-check/1`\n"));
   readme.erase(readme.find("\n## "));
   const auto expect_named = [&](const json& fields, const std::string& mark) {
