@@ -16,7 +16,7 @@ constexpr int max_depth = 20, max_depth_after_open = 6, max_halvings = 64;
 struct BoundedSearch {
   using Piece = ContactPiece<double>;
 
-  bool may_halve(int depth) {
+  bool may_halve(int depth, bool) {
     return depth < (result.contact ? max_depth_after_open : max_depth) && halvings++ < max_halvings;
   }
 
@@ -164,7 +164,7 @@ template <class Number>
 struct PlainSearch {
   using Piece = ContactPiece<Number>;
 
-  bool may_halve(int depth) const { return depth < max_plain_depth; }
+  bool may_halve(int depth, bool) const { return depth < max_plain_depth; }
 
   // Takes the place of integers: it takes the signs at a root as computed. It does not see a root
   // at which F does not change its sign. If the points are coplanar throughout the piece, it looks

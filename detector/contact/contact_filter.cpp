@@ -8,7 +8,11 @@ namespace {
 struct FilterSearch {
   using Piece = ContactPiece<double>;
 
-  bool may_halve(int depth) const { return depth < max_filter_depth; }
+  bool may_halve(int depth, bool ends_are_sure) {
+    const bool may_end_sure = all_free && ends_are_sure;
+    return depth < (may_end_sure ? max_filter_depth : max_unsure_depth) &&
+           halvings++ < max_filter_halvings;
+  }
 
   bool open(const Piece&) {
     all_free = false;
@@ -29,6 +33,7 @@ struct FilterSearch {
 
   Want want;
   bool all_free = true;  // of the pieces seen so far
+  int halvings = 0;
   FilterResult result{Decision::no};
 };
 

@@ -28,8 +28,12 @@ struct FilterResult {
 // us.
 FilterResult filter_contact(const FourPoints& query, Want want);
 
-// How often pieces are halved. No more, because integers (contact_fixed.h) cost about as much as
-// the pieces of two more levels.
-inline constexpr int max_filter_depth = 2;
+// How often pieces are halved. A halving takes 40 ns, and integers (contact_fixed.h) take 2 us. So
+// where the sign of the cubic is sure at both ends of a piece, halving soon finds the part with the
+// root, and the signs of the dependencies there: of 5,171 queries of a simulation it settles all
+// but 37, and two levels leave 1,097 open. Where it is not sure, as at a contact just at t=0 or of
+// points that stay coplanar, more halvings would mostly be in vain, and so they would be after a
+// piece that stays open.
+inline constexpr int max_filter_depth = 8, max_unsure_depth = 2, max_filter_halvings = 16;
 
 }  // namespace assay::detector

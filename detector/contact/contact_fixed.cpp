@@ -347,8 +347,11 @@ std::optional<TimeEnclosure> fixed_bracketed_time(const FourPoints& query, doubl
     const FixedProducts<W> products(integers, query.first_group);
     const FixedRoot<W> root(products.coplanarity(), integers.bits());
     const int sign_lo = root.sign_at(lo);
-    assert(sign_lo != 0 && root.sign_at(hi) == -sign_lo);
-    return root.bracket(sign_lo, lo, hi, guess);
+    assert(sign_lo != 0);
+    const TimeEnclosure time = root.bracket(sign_lo, lo, hi, guess);
+    // An end that has moved is one at which the sign was seen.
+    assert(time.hi != hi || root.sign_at(hi) == -sign_lo);
+    return time;
   });
 }
 

@@ -51,12 +51,13 @@ struct ContactPiece {
 
 // Visits pieces of the step in time order. `Search` says what to do with them by three functions:
 //
-//   bool may_halve(int depth);
+//   bool may_halve(int depth, bool ends_are_sure);
 //   bool open(const Piece&);
 //   void contact(const Piece&, Number f_bound, int f_lo);
 //
 // A piece that is surely without contact is passed over. A piece that the signs do not settle is
-// split if may_halve(depth) returns true. If not, the search calls open(piece), and ends if that
+// split if may_halve() returns true; it is told whether the signs of F at both
+// ends are sure. If not, the search calls open(piece), and ends if that
 // returns true. contact() is called for a piece with a contact at each root of F: F changes its
 // sign over the piece, beginning with the sign f_lo, and its coefficients are off by at most
 // f_bound. After contact() the search ends.
@@ -161,7 +162,7 @@ class ContactPieces {
         return true;
       }
     }
-    if (!search_.may_halve(depth)) return search_.open(piece);
+    if (!search_.may_halve(depth, f_lo * f_hi != 0)) return search_.open(piece);
     Piece left, right;
     halve(piece.f, left.f, right.f);
     for (std::size_t k = 0; k < 3; ++k) {

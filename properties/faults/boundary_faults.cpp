@@ -214,6 +214,7 @@ template <std::ptrdiff_t common>
 struct LoopNeighboursSkipped : BoundaryHandler {
   bool sweep(const GhostSweep& s, GhostIndices ghosts, const StopFunction&, Flags& touched,
              GhostCounts& counts) const override {
+    s.tree.join_boxes(nullptr);
     for (const auto ghost : ghosts) {
       Flags by_this(touched.size(), 0);
       const detector::HoleTree alone(s.surface.all(), {&ghost, 1}, s.tree.grid(), s.motion);

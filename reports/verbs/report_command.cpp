@@ -54,8 +54,9 @@ Expected<int> run_report(const ReportRequest& request) {
   const Json data = {
       {"schema", "assay-report/3"}, {"version", version_text()}, {"runs", std::move(runs)}};
   BOOST_OUTCOME_TRY(write_text_file(request.out, page_text(page_template(), data)));
-  for (const auto& run : data["runs"]) {
-    fmt::print("{}: {}; {}\n", run["folder"].get<std::string>(), run["verdict"].get<std::string>(),
+  for (std::size_t i = 0; i < request.folders.size(); ++i) {
+    const auto& run = data["runs"][i];
+    fmt::print("{}: {}; {}\n", request.folders[i], run["verdict"].get<std::string>(),
                run["why"].get<std::string>());
   }
   fmt::print("page {}: opens in a browser, without a network\n", request.out);

@@ -11,7 +11,7 @@ using namespace detector;
 
 // Goes down to the first piece of the greatest depth.
 struct Descent {
-  bool may_halve(int depth) const { return depth < max_depth; }
+  bool may_halve(int depth, bool) const { return depth < max_depth; }
   bool open(const ContactPiece<Recorded>&) { return true; }
   void contact(const ContactPiece<Recorded>&, const Recorded&, int) {}
 };

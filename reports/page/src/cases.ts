@@ -1,29 +1,42 @@
 // What the cases were: laws met, sizes, contacts, set pairs.
-import { html, section, table } from "./dom";
+import { folded, html, section, table } from "./dom";
 import { barPlot } from "./plots";
-import type { Findings } from "./report";
-import { count } from "./words";
+import type { Findings, Run } from "./report";
+import { count, counted } from "./words";
 
-export function laws(f: Findings): HTMLElement | null {
+export function laws({ findings: { laws: told }, law_statements: statements }: Run): HTMLElement | null {
   type Law = NonNullable<Findings["laws"]>["laws"][number];
-  const wanted = f.laws?.wanted_premises ?? 0;
-  const shown = (f.laws?.laws ?? []).filter((law) => law.premises > 0 || wanted > 0);
+  const wanted = told?.wanted_premises ?? 0;
+  const shown = (told?.laws ?? []).filter((law) => law.premises > 0 || wanted > 0);
   if (shown.length === 0) return null;
   const close = (l: Law): string => (l.premises ? `${Math.round((100 * l.close) / l.premises)} %` : "\u2013");
-  return section(
-    "laws",
-    "Laws",
-    html("p", {}, "How often each law\u2019s premise held, how often it was close to being broken, and how often it was."),
+  const rowsOf = (caption: string, list: Law[]): HTMLElement =>
     table(
-      "Laws",
+      caption,
       [
-        { head: "law", cell: (l: Law) => l.law },
+        { head: "law", cell: (l: Law) => html("span", {}, statements[l.law] ?? l.law, html("span", { class: "about" }, l.law.startsWith(l.number) ? l.law : `${l.number}: ${l.law}`)) },
         { head: "premise", cell: (l: Law) => count(l.premises) + (l.premises < wanted ? " (too few)" : ""), number: true },
         { head: "close", cell: close, number: true },
         { head: "broken", cell: (l: Law) => count(l.broken), number: true },
       ],
-      shown,
+      list,
+    );
+  const isBad = (l: Law): boolean => l.broken > 0 || l.premises < wanted;
+  const bad = shown.filter(isBad);
+  const broken = shown.filter((l) => l.broken > 0).length;
+  const fewest = Math.min(...shown.map((l) => l.premises));
+  return section(
+    "laws",
+    "Laws",
+    html(
+      "p",
+      {},
+      html("strong", {}, `${counted(shown.length, "law")} of the theory were put to the cases: ${broken === 0 ? "none was broken" : `${broken} of them were broken`}.`),
+      ` The premise of each held in ${count(fewest)} steps or more${wanted > 0 ? `, where ${count(wanted)} are wanted` : ""}. ` +
+        "A step is close when little was missing to break the law or to leave its premise.",
     ),
+    bad.length === 0 ? null : rowsOf("Laws that were broken, or met too seldom", bad),
+    shown.length === bad.length ? null : folded(`What they say: ${counted(shown.length - bad.length, "law that holds", "laws that hold")}`, rowsOf("Laws, and how often each was met", shown.filter((l) => !isBad(l)))),
   );
 }
 
@@ -61,11 +74,13 @@ function together(lists: [number, number, number][][]): { label: string; value: 
 export function cases(f: Findings): HTMLElement {
   const { distributions, set_pairs: sets } = f.cases;
   const tags = Object.entries(f.cases.tags).sort((a, b) => a[0].localeCompare(b[0]));
+  const sizes = together(distributions.map((d) => d.triangles));
+  if (sizes.length === 0) return section("cases", "The cases", html("p", {}, "No case was judged."));
   return section(
     "cases",
     "The cases",
     html("h3", {}, "Cases by number of triangles"),
-    barPlot("Cases by number of triangles", together(distributions.map((d) => d.triangles))),
+    barPlot("Cases by number of triangles", sizes),
     html("h3", {}, "Cases by pairs in contact"),
     barPlot("Cases by number of pairs in contact", together(distributions.map((d) => d.pairs))),
     sets.length === 0
@@ -81,10 +96,8 @@ export function cases(f: Findings): HTMLElement {
         ),
     tags.length === 0
       ? null
-      : html(
-          "details",
-          {},
-          html("summary", {}, `${tags.length} tags: what the generator put into the cases`),
+      : folded(
+          `${tags.length} tags: what the generator put into the cases`,
           table(
             "Cases by tag",
             [

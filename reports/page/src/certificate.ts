@@ -1,6 +1,7 @@
-// What a certificate adds to a run: its subject, the corpus, speed, waivers, the checks of the oracle.
-import { html, section, table } from "./dom";
-import { replayLine } from "./failure_facts";
+// What a certificate adds to a run: the corpus, speed, waivers, the checks of the oracle. What was
+// judged, to the byte.
+import { facts, html, section, table } from "./dom";
+import { pasteNote, replayLine } from "./failure_facts";
 import type { Findings, Run } from "./report";
 import { count, counted } from "./words";
 
@@ -106,27 +107,32 @@ function selfTest(t: Findings["self_test"]): HTMLElement {
   return section("oracle", "The oracle, checked", html("p", {}, text));
 }
 
-function subject(subjects: NonNullable<Run["subject"]>, f: Findings): HTMLElement {
+// What exactly was judged, to the byte.
+function digests(run: Run): HTMLElement {
+  const f = run.findings;
   const { issued, seconds } = f.times;
-  const rows = [
-    ...subjects.flatMap((s) => [
-      ["Detector", s.name] as const,
-      ...Object.entries(s.digest).map(([kind, digest]) => [kind, digest] as const),
+  const told = run.subject ?? [];
+  const words: Record<string, string> = { sha256: "its SHA-256", gitCommit: "its commit" };
+  const rows: [string, (Node | string)[] | string | null][] = [
+    ...told.flatMap((s): [string, string | Node[]][] => [
+      ["Detector", s.name],
+      ...Object.entries(s.digest).map(([kind, digest]): [string, Node[]] => [words[kind] ?? kind, [html("code", {}, digest)]]),
     ]),
-    ...Object.entries(f.digests).flatMap(([kind, digest]) => (digest ? [[`digest of ${kind}`, digest] as const] : [])),
-    ["Issued", issued ?? "not stated"] as const,
-    ["Took", seconds === null ? "not stated" : `${Math.round(seconds)} s`] as const,
+    ...Object.entries(f.digests).map(([kind, digest]): [string, Node[] | null] => [`digest of ${kind}`, digest ? [html("code", {}, digest)] : null]),
+    ["Issued", issued],
+    ["Took", seconds === null ? null : `${Math.round(seconds)} s`],
   ];
   return section(
-    "certificate",
-    "Certificate",
-    html("p", {}, "It speaks of exactly these bytes, and of ", f.confidence.speaks_of, "."),
-    html("dl", { class: "digests" }, ...rows.flatMap(([name, value]) => [html("dt", {}, name), html("dd", {}, value)])),
-    html("h3", {}, "To make and to verify it"),
-    ...f.replay.map(replayLine),
+    "digests",
+    run.subject ? "Certificate" : "Digests",
+    html("p", {}, `${run.subject ? "It speaks" : "The run speaks"} of exactly these bytes (SHA-256), and of ${f.confidence.speaks_of}.`),
+    facts(rows),
+    ...(f.replay.length === 0 ? [] : [html("h3", {}, "To make and to verify it"), ...f.replay.map(replayLine), pasteNote(run)]),
   );
 }
 
-export function certificate({ subject: of, findings: f }: Run): (HTMLElement | null)[] {
-  return of === null ? [] : [corpus(f.corpus), selfTest(f.self_test), speed(f), waivers(f.waivers), subject(of, f)];
+export function certificate(run: Run): (HTMLElement | null)[] {
+  const f = run.findings;
+  const own = run.subject === null ? [] : [corpus(f.corpus), selfTest(f.self_test), speed(f), waivers(f.waivers)];
+  return [...own, digests(run)];
 }

@@ -1,6 +1,6 @@
 // Elements made in one expression. All text goes in as text: nothing of the data is ever markup.
 
-type Child = Node | string | null;
+export type Child = Node | string | null;
 type Attributes = Record<string, string | number | boolean | ((event: Event) => void)>;
 
 function fill(element: Element, attributes: Attributes, children: Child[]): void {
@@ -39,6 +39,14 @@ export interface Column<Row> {
   short?: boolean; // never broken into lines
 }
 
+// Says of each table whether it is wider than its place, so that it can say that it scrolls.
+const widths = new ResizeObserver((entries) => {
+  for (const { target } of entries) {
+    const scroll = target.closest(".scroll")!;
+    scroll.classList.toggle("is-wide", scroll.scrollWidth > scroll.clientWidth + 1);
+  }
+});
+
 // A table that scrolls by itself where the window is narrow. Rows that are `aside` are grey.
 export function table<Row>(
   caption: string,
@@ -46,25 +54,43 @@ export function table<Row>(
   rows: Row[],
   aside: (row: Row) => boolean = () => false,
 ): HTMLElement {
-  const kind = (column: Column<Row>): Attributes => 
+  const kind = (column: Column<Row>): Attributes =>
     column.number ? { class: "number" } : column.short ? { class: "short" } : {};
   const head = html("tr", {}, ...columns.map((c) => html("th", { scope: "col", ...kind(c) }, c.head)));
   const body = rows.map((row) =>
     html("tr", aside(row) ? { class: "quiet" } : {}, ...columns.map((c) => html("td", kind(c), c.cell(row)))),
   );
-  return html(
-    "div",
-    { class: "scroll", tabindex: 0, role: "region", "aria-label": caption },
-    html(
-      "table",
-      {},
-      html("caption", {}, caption),
-      html("thead", {}, head),
-      html("tbody", {}, ...body),
-    ),
+  const made = html(
+    "table",
+    {},
+    html("caption", {}, html("span", {}, caption)),
+    html("thead", {}, head),
+    html("tbody", {}, ...body),
   );
+  const scroll = html("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": caption }, made);
+  widths.observe(scroll);
+  widths.observe(made);
+  return scroll;
 }
 
 export function section(id: string, title: string, ...children: Child[]): HTMLElement {
-  return html("section", { id, "aria-labelledby": `${id}-title` }, html("h2", { id: `${id}-title` }, title), ...children);
+  const heading = html("h2", { id: `${id}-title` }, title);
+  return html("section", { id, tabindex: -1, "aria-labelledby": heading.id }, heading, ...children);
 }
+
+// Names with their values, each of one or more lines. A name without a value is left out.
+export function facts(rows: [string, Child[] | string | null][]): HTMLElement {
+  const shown = rows.filter(([, value]) => value !== null && value.length > 0);
+  return html(
+    "dl",
+    {},
+    ...shown.flatMap(([name, value]) => [
+      html("dt", {}, name),
+      html("dd", {}, ...(Array.isArray(value) ? value.map((line) => html("div", {}, line)) : [value])),
+    ]),
+  );
+}
+
+// A part that is folded until somebody wants it; it is unfolded on paper.
+export const folded = (title: string, ...children: Child[]): HTMLElement =>
+  html("details", {}, html("summary", {}, title), ...children);

@@ -1,6 +1,6 @@
 // What is known of a failure besides its picture, and the line that replays it.
-import { html } from "./dom";
-import type { Answer, Failure } from "./report";
+import { facts, folded, html } from "./dom";
+import type { Answer, Failure, Run } from "./report";
 import { counted, size, time } from "./words";
 
 export function replayLine(line: string): HTMLElement {
@@ -40,10 +40,15 @@ async function copy(text: string): Promise<boolean> {
 const said = ({ answer, first_time }: Answer): string =>
   first_time === null ? answer : `${answer}, first contact ${time(first_time)}`;
 
-export function failureFacts(failure: Failure): HTMLElement {
+export function pasteNote({ folder, subject }: Run): HTMLElement {
+  return html("p", { class: "note" }, `To be pasted in the folder of this ${subject ? "certificate" : "run"} (${folder}), where assay is on the PATH.`);
+}
+
+export function failureFacts(run: Run, failure: Failure): HTMLElement {
   const rows: [string, string | null][] = [];
   const law = failure.configuration.split(", law ")[1];
   rows.push([law ? "Law" : "Claim", law ?? failure.signature.split(":")[0] ?? null]);
+  if (law) rows.push(["It says", run.law_statements[law] ?? null]);
   rows.push(["Configuration", failure.configuration]);
   rows.push(["Case", failure.case]);
   rows.push(["Mesh as met", failure.before ? size(failure.before) : null]);
@@ -67,11 +72,6 @@ export function failureFacts(failure: Failure): HTMLElement {
   }
   if (failure.now && failure.now !== failure.what) rows.push(["In the mesh as met", failure.what]);
   if (failure.flaky) rows.push(["Repeatable", "no: two runs of it differ, a replay may hold"]);
-  const facts = html(
-    "dl",
-    {},
-    ...rows.flatMap(([name, value]) => (value ? [html("dt", {}, name), html("dd", {}, value)] : [])),
-  );
   const others = failure.others.map((o) =>
     html("li", {}, `${o.id} (${o.configuration}): ${o.what}`, replayLine(o.replay)),
   );
@@ -80,13 +80,9 @@ export function failureFacts(failure: Failure): HTMLElement {
     {},
     html("h4", {}, "Replay"),
     replayLine(failure.replay),
-    html("p", { class: "note" }, "It can be pasted in any folder where assay is on the PATH."),
-    facts,
-    failure.printed === null
-      ? null
-      : html("details", {}, html("summary", {}, "What it printed"), html("pre", { class: "printed" }, failure.printed)),
-    others.length === 0
-      ? null
-      : html("details", {}, html("summary", {}, `${others.length} more of this kind`), html("ul", {}, ...others)),
+    pasteNote(run),
+    facts(rows),
+    failure.printed === null ? null : folded("What it printed", html("pre", { class: "printed" }, failure.printed)),
+    others.length === 0 ? null : folded(`${others.length} more of this kind`, html("ul", { class: "others" }, ...others)),
   );
 }

@@ -1,74 +1,111 @@
-// The failures: a list of their signatures, and one of them in full with its mesh.
+// The failures: a list of their signatures, and one of them in full with its mesh. On paper, where
+// none can be chosen, all of them are in full, with a picture each.
+import { failurePlace } from "./address";
 import { html, section } from "./dom";
 import { failureFacts } from "./failure_facts";
 import { pairTable } from "./pair_table";
 import { legend } from "./legend";
 import type { Failure, Run } from "./report";
-import { counted } from "./words";
+import { counted, sum } from "./words";
 import { picture, staticPicture, Viewer } from "./viewer/viewer";
 
 export interface FailuresView {
   element: HTMLElement;
+  all: Failure[];
+  open: (name: string) => HTMLElement | null; // the place where it is shown; null: there is none of this name
   viewer: () => Viewer | null;
+  close: () => void;
 }
 
-export function failures(run: Run): FailuresView {
-  let viewer: Viewer | null = null;
-  const detail = html("div", { class: "detail", "aria-live": "polite" });
-  const buttons: HTMLButtonElement[] = [];
+const head = (failure: Failure): HTMLElement[] => [
+  html("h3", {}, failure.signature),
+  html("p", {}, failure.now ?? failure.what),
+];
 
-  const show = (failure: Failure, chosen: HTMLButtonElement): void => {
+const notShown = (failure: Failure): HTMLElement =>
+  html("p", { class: "note" }, `Not shown: ${failure.not_shown ?? "it has no step"}.`);
+
+const printed = (run: Run, failure: Failure): HTMLElement =>
+  html(
+    "article",
+    {},
+    ...head(failure),
+    failure.scene?.steps.length ? picture(failure) : notShown(failure),
+    failure.scene?.steps.length ? pairTable(failure.scene, () => {}) : null,
+    failureFacts(run, failure),
+  );
+
+export function failures(run: Run, names: string[], address: (place: string) => string): FailuresView {
+  let viewer: Viewer | null = null;
+  const detail = html("div", { class: "detail", tabindex: -1, "aria-live": "polite" });
+
+  const close = (): void => {
     viewer?.close();
     viewer = null;
-    for (const button of buttons) button.setAttribute("aria-pressed", String(button === chosen));
-    detail.replaceChildren(html("h3", {}, failure.signature), html("p", {}, failure.now ?? failure.what));
+  };
+
+  const show = (failure: Failure, chosen: HTMLElement): void => {
+    close();
+    for (const link of links) link.removeAttribute("aria-current");
+    chosen.setAttribute("aria-current", "true");
+    detail.replaceChildren(...head(failure));
     const scene = failure.scene;
     if (!scene || scene.steps.length === 0) {
-      detail.append(html("p", { class: "note" }, `Not shown: ${failure.not_shown ?? "it has no step"}.`));
+      detail.append(notShown(failure));
     } else {
       const sets = legend(scene);
       try {
-        viewer = new Viewer(scene, (time) => sets.show(time));
-        detail.append(viewer.element, html("div", { class: "printed-only" }, picture(failure)));
+        viewer = new Viewer(scene, sets.show);
+        detail.append(viewer.element);
       } catch {
         detail.append(staticPicture(failure));
       }
       detail.append(sets.element, pairTable(scene, (step, pair) => viewer?.showPair(step, pair)));
-      sets.show(scene.shown.step);
+      if (!viewer) sets.show(scene.shown.step, scene.shown.pair);
     }
-    detail.append(failureFacts(failure));
+    detail.append(failureFacts(run, failure));
   };
 
   // In the order of the findings, so that the first is the one that the verdict names.
   const all = run.findings.failures.map((told, i): Failure => ({ ...told, ...run.failures[i]! }));
-  for (const failure of all) {
-    const button = html(
-      "button",
-      { type: "button", "aria-pressed": "false", click: () => show(failure, button) },
+  const links = all.map((failure, i) =>
+    html(
+      "a",
+      { href: address(failurePlace + names[i]!) },
       html("strong", {}, failure.signature),
       html("span", {}, `${failure.configuration}; met ${counted(failure.met, "time")}`),
-    );
-    buttons.push(button);
-  }
+    ),
+  );
   const element = section(
     "failures",
     "Failures",
-    all.length === 0
-      ? html("p", {}, "None was met.")
-      : html(
-          "p",
-          {},
-          `${counted(all.length, "kind")}, told apart by claim, difference, stage and feature. Each has the smallest mesh that was found for it.`,
-        ),
-    all.length === 0
-      ? null
-      : html("div", { class: "failures" }, html("div", { class: "list", role: "group", "aria-label": "Failures" }, ...buttons), detail),
+    ...(all.length === 0
+      ? [html("p", {}, `None was met in ${counted(sum(run.findings.strata.map((s) => s.trials)), "trial")}.`)]
+      : [
+          html(
+            "p",
+            {},
+            `${counted(all.length, "kind")}, told apart by claim, difference, stage and feature. The plainest cause comes first, however often it was met, and the verdict names it. Each has the smallest mesh that was found for it.`,
+          ),
+          html(
+            "div",
+            { class: "failures" },
+            html("div", { class: "list", role: "group", "aria-label": "Failures" }, ...links),
+            detail,
+          ),
+          html("div", { class: "printed-only" }, ...all.map((failure) => printed(run, failure))),
+        ]),
   );
+  const openAt = (i: number): HTMLElement | null => {
+    if (!all[i]) return null;
+    show(all[i], links[i]!);
+    return detail;
+  };
   return {
     element,
-    viewer: () => {
-      if (!viewer && buttons[0] && detail.childElementCount === 0) buttons[0].click();
-      return viewer;
-    },
+    all,
+    open: (name) => openAt(names.indexOf(name)),
+    viewer: () => viewer,
+    close,
   };
 }

@@ -1,6 +1,7 @@
 // Several runs side by side, in the order in which they were given.
-import { html, section, table } from "./dom";
-import { kindOf, verdictWord } from "./overview";
+import { addressIn } from "./address";
+import { folded, html, section, table } from "./dom";
+import { kindOf, named, verdictWord } from "./overview";
 import { logPlot } from "./plots";
 import type { Run } from "./report";
 import { open } from "./strata";
@@ -32,10 +33,10 @@ function kinds(runs: Run[]): HTMLElement | null {
     ],
     all,
   );
-  return html("details", { open: all.length <= 12 }, html("summary", {}, `${all.length} kinds of failure, by run`), counts);
+  return all.length <= 12 ? counts : folded(`${all.length} kinds of failure, by run`, counts);
 }
 
-export function history(runs: Run[], choose: (index: number) => void): HTMLElement {
+export function history(runs: Run[]): HTMLElement {
   const numbered = runs.map((run, index) => ({ run, index }));
   type Row = (typeof numbered)[number];
   return section(
@@ -47,11 +48,11 @@ export function history(runs: Run[], choose: (index: number) => void): HTMLEleme
       [
         {
           head: "run",
-          cell: (r: Row) =>
-            html("button", { type: "button", class: "plain", click: () => choose(r.index) }, `${r.index + 1}: ${r.run.folder}`),
+          cell: (r: Row) => html("a", { href: addressIn(r.index)("") }, `${r.index + 1}: ${r.run.folder}`),
         },
         { head: "campaign", cell: (r: Row) => nameOf(r.run) },
-        { head: "detector", cell: (r: Row) => r.run.findings.detector.name },
+        { head: "detector", cell: (r: Row) => named(r.run.findings).name },
+        { head: "version", cell: (r: Row) => named(r.run.findings).version ?? "\u2013" },
         { head: "verdict", cell: (r: Row) => html("span", { class: `tag ${kindOf(r.run.verdict)}` }, verdictWord(r.run.verdict)) },
         { head: "trials", cell: (r: Row) => count(trials(r.run)), number: true },
         { head: "with a defect", cell: (r: Row) => count(withDefect(r.run)), number: true },
@@ -60,6 +61,7 @@ export function history(runs: Run[], choose: (index: number) => void): HTMLEleme
       ],
       numbered,
     ),
+    html("h3", {}, "Worst bound of each run"),
     logPlot(
       "Worst bound of each run",
       numbered.map(({ run, index }) => ({

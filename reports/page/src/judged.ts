@@ -1,9 +1,9 @@
 // What the verdict is about: the detector's claims, under which contract, how a plug-in was kept
 // apart, the campaign; and what a plug-in does whatever it claims.
 import type { Rate, TimesOff } from "../made/certificate";
-import { html, section, table } from "./dom";
+import { facts, html, section, table } from "./dom";
 import type { Findings, Stratum } from "./report";
-import { count } from "./words";
+import { count, counted } from "./words";
 
 // Configurations that claim the same are one line.
 function claimsOf(f: Findings): string[] {
@@ -38,7 +38,7 @@ const searched = (s: NonNullable<Findings["search"]>): string =>
 function sizesOf(list: Findings["judged_up_to"]): string[] {
   const sizes = new Map<number, string[]>();
   for (const { claim, triangles } of list) sizes.set(triangles, [...(sizes.get(triangles) ?? []), claim]);
-  return [...sizes].sort(([a], [b]) => b - a).map(([triangles, claims]) => `up to ${count(triangles)} triangles: ${claims.join(", ")}`);
+  return [...sizes].sort(([a], [b]) => b - a).map(([triangles, claims]) => `${triangles === 0 ? "none yet" : `up to ${count(triangles)} triangles`}: ${claims.join(", ")}`);
 }
 
 // What nobody judged: claims, parts of the library, families.
@@ -55,37 +55,37 @@ const isolations: Record<string, string> = {
 
 export function judged(f: Findings): HTMLElement {
   const { contract } = f.detector;
-  const rows: [string, string[]][] = [
+  const rows: [string, string[] | null][] = [
     ["Claims", claimsOf(f)],
-    ...(f.detector.query_claims.length === 0 || f.judged_up_to.length === 0
-      ? []
-      : ([["Claims of its query", [f.detector.query_claims.join(", ")]]] as [string, string[]][])),
-    ...(notJudged(f).length === 0 ? [] : ([["Not judged", notJudged(f)]] as [string, string[]][])),
-    ...(f.judged_up_to.length === 0 ? [] : ([["Tried on meshes", sizesOf(f.judged_up_to)]] as [string, string[]][])),
+    ["Claims of its query", f.detector.query_claims.length === 0 || f.judged_up_to.length === 0 ? null : [f.detector.query_claims.join(", ")]],
+    ["Not judged", notJudged(f)],
+    ["Tried on meshes", sizesOf(f.judged_up_to)],
     ["Contract", [contract.leaves_out.length === 0 ? "leaves nothing out" : contract.leaves_out.join(", ")]],
-    ...(f.isolation === null ? [] : ([["Isolation", [isolations[f.isolation] ?? f.isolation]]] as [string, string[]][])),
-    ...(f.repeated === null ? [] : ([["Larger meshes", repeated(f.repeated)]] as [string, string[]][])),
-    ...(f.search === null ? [] : ([["Search", [searched(f.search)]]] as [string, string[]][])),
+    ["Isolation", f.isolation === null ? null : [isolations[f.isolation] ?? f.isolation]],
+    ["Larger meshes", f.repeated === null ? null : repeated(f.repeated)],
+    ["Search", f.search === null ? null : [searched(f.search)]],
     ["Campaign", [`${f.campaign.name}, seed ${f.campaign.seed}${f.campaign.is_default_seed ? ", the default one, whose cases everybody knows" : ""}`]],
   ];
   return section(
     "judged",
     "What was judged",
     html("p", {}, "The verdict speaks of these claims, under this contract, and of no others. What is not judged holds for nobody. Of meshes larger than those that tried a claim it says nothing."),
-    html(
-      "dl",
-      { class: "judged" },
-      ...rows.flatMap(([name, lines]) => [html("dt", {}, name), html("dd", {}, ...lines.map((line) => html("div", {}, line)))]),
-    ),
+    facts(rows),
     ...measures(f),
   );
 }
 
-const rate = ({ of, in: all, interval }: Rate): string =>
-  all === 0 ? "\u2013" : `${count(of)} of ${count(all)} (${percent(interval[0])} to ${percent(interval[1])})`;
+const rate = ({ of, in: all, interval }: Rate): HTMLElement | string =>
+  all === 0 ? "\u2013" : lines(`${count(of)} of ${count(all)}`, `${percent(interval[0])} to ${percent(interval[1])}`);
 const percent = (x: number): string => `${(100 * x).toPrecision(2)} %`;
-const off = ({ steps, median, p99, worst }: TimesOff): string =>
-  steps === 0 ? "none" : `${count(steps)}: ${[median, p99, worst].map((x) => x.toPrecision(2)).join(", ")}`;
+
+// Lines of a cell.
+const lines = (...of: string[]): HTMLElement => html("span", {}, ...of.map((line) => html("span", { class: "line" }, line)));
+
+const off = ({ steps, median, p99, worst }: TimesOff): HTMLElement | string =>
+  steps === 0
+    ? "none"
+    : lines(`${counted(steps, "step")}`, `median ${median.toPrecision(2)}`, `99 of 100 ${p99.toPrecision(2)}`, `worst ${worst.toPrecision(2)}`);
 
 // Beside the least possible: the pairs in contact.
 const candidatesText = ({ steps, given, least, over_least }: NonNullable<Stratum["measures"]>["candidates"]): string =>
@@ -110,7 +110,7 @@ function measures(f: Findings): HTMLElement[] {
   const limits = rows.some(({ measures }) => measures.limits.free + measures.limits.contact > 0);
   const refuses = rows.some(({ measures }) => measures.left_out.refused > 0);
   return [
-    html("p", {}, "Counted whatever is claimed. Intervals have a confidence of 95 %. Late and early: how many steps, and of these the median, 99 of 100 and the worst, in shares of the step."),
+    html("p", {}, "Counted whatever is claimed. Intervals have a confidence of 95 %. Late and early are shares of the step: the median of the steps that are, what 99 of 100 stay below, the worst."),
     table(
       "What the detector does, whatever it claims",
       [

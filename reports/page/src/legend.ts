@@ -16,24 +16,30 @@ const meaning: Record<SetName, string> = {
 const swatch = (kind: string, words: string): HTMLElement =>
   html("li", {}, html("span", { class: `swatch ${kind}` }), words);
 
-export function legend(scene: Scene): { element: HTMLElement; show: (time: number) => void } {
+export interface Legend {
+  element: HTMLElement;
+  show: (time: number, pair: [number, number] | null) => void;
+}
+
+export function legend(scene: Scene): Legend {
   const list = html("ul", { class: "legend" });
-  const pairItems = (): HTMLElement[] => {
-    const [a, b] = scene.shown.pair ?? [];
-    const others = scene.triangles.length - (scene.shown.pair ? 2 : 0);
+  const pairItems = (pair: [number, number] | null): HTMLElement[] => {
+    const [a, b] = pair ?? [];
+    const others = scene.triangles.length - (pair ? 2 : 0);
     return [
       ...(a === undefined ? [] : [swatch(setClass(pairSets[0]), `triangle ${a}`)]),
       ...(b === undefined ? [] : [swatch(setClass(pairSets[1]), `triangle ${b}`)]),
       ...(others > 0 ? [swatch(setClass("none"), `${meaning.none}: ${others}`)] : []),
     ];
   };
-  let last = -1;
-  const show = (time: number): void => {
+  let last = "";
+  const show = (time: number, pair: [number, number] | null): void => {
     const step = Math.min(scene.steps.length - 1, Math.max(0, Math.floor(time)));
-    if (step === last) return;
-    last = step;
+    const now = [step, ...(pair ?? [])].join();
+    if (now === last) return;
+    last = now;
     const sets = scene.steps[step]!.views?.sets;
-    const items = !sets ? pairItems() : setNames.flatMap((name) => {
+    const items = !sets ? pairItems(pair) : setNames.flatMap((name) => {
       const size = sets.filter((s) => s === name).length;
       if (size === 0) return [];
       return [swatch(setClass(name), `${meaning[name]}: ${size}`)];

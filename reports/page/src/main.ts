@@ -1,28 +1,59 @@
 // The page: what it shows of each run, and which run it shows.
+import { addressIn, contents, failurePlace, goTo, namesOf, onFollow, parseAddress, remember } from "./address";
 import { cases, laws, worlds } from "./cases";
 import { certificate } from "./certificate";
 import { html } from "./dom";
 import { failures, type FailuresView } from "./failures";
 import { faults } from "./faults";
+import { gates } from "./gates";
 import { history } from "./history";
 import { judged } from "./judged";
-import { gates, overview, verdictWord } from "./overview";
+import { overview, titleOf } from "./overview";
+import { unfoldOnPaper } from "./paper";
 import type { Report, Run } from "./report";
 import { strata } from "./strata";
 
 declare global {
   interface Window {
-    // The time and the vertices that the viewer shows, or null. For tests.
+    // The time and the vertices that the viewer of the failures shows, or null. For tests.
     assayViewerState?: () => { time: number; vertices: number[][] } | null;
   }
 }
 
-function runView(run: Run): { element: HTMLElement; failures: FailuresView } {
-  const failed = failures(run);
-  const element = html("div", { class: "run" });
-  const parts = [overview(run), gates(run.findings), judged(run.findings), failed.element, strata(run.findings), faults(run.findings), worlds(run.findings), ...certificate(run), laws(run.findings), cases(run.findings)];
-  for (const part of parts) if (part) element.append(part);
-  return { element, failures: failed };
+interface RunView {
+  element: HTMLElement;
+  failures: FailuresView;
+  close: () => void;
+}
+
+function runView(run: Run, address: (place: string) => string, beside: HTMLElement | null): RunView {
+  const { findings } = run;
+  const names = namesOf(findings.failures.map((f) => f.signature));
+  const failed = failures(run, names, address);
+  const first = failed.all[0];
+  const top = overview(run, first ? { failure: first, name: names[0]! } : null, address);
+  const all = [
+    beside,
+    first ? failed.element : null,
+    gates(findings, names, address),
+    judged(findings),
+    first ? null : failed.element,
+    strata(findings),
+    faults(findings),
+    worlds(findings),
+    ...certificate(run),
+    laws(run),
+    cases(findings),
+  ];
+  const sections = all.filter((part) => part !== null);
+  return {
+    element: html("div", { class: "run" }, top.element, contents(sections, address), ...sections),
+    failures: failed,
+    close: () => {
+      top.close();
+      failed.close();
+    },
+  };
 }
 
 function read(): Report | null {
@@ -35,37 +66,59 @@ function read(): Report | null {
 }
 
 function show(page: HTMLElement, report: Report): void {
+  const many = report.runs.length > 1;
   const place = html("div", {});
-  const choice = html("select", { "aria-label": "Run", change: () => choose(Number(choice.value)) });
-  let shown: FailuresView | null = null;
+  const choice = html("select", {
+    "aria-label": "Run",
+    change: () => {
+      const hash = addressIn(Number(choice.value))("");
+      remember(hash);
+      open(hash);
+    },
+  });
   report.runs.forEach((run, i) => choice.append(html("option", { value: i }, `${i + 1}: ${run.folder} (${run.verdict})`)));
+  let shown: RunView | null = null;
+  let index = -1;
 
-  const choose = (index: number): void => {
-    shown?.viewer()?.close();
-    const view = runView(report.runs[index]!);
-    shown = view.failures;
-    choice.value = String(index);
-    const run = report.runs[index]!;
-    document.title = `${run.findings.detector.name}: ${verdictWord(run.verdict)} \u2013 Assay report`;
-    place.replaceChildren(view.element);
-    view.failures.viewer();
+  const choose = (next: number): void => {
+    const run = report.runs[next]!;
+    const address = addressIn(many ? next : null);
+    shown?.close();
+    index = next;
+    choice.value = String(next);
+    document.title = titleOf(run);
+    shown = runView(run, address, many ? history(report.runs) : null);
+    place.replaceChildren(shown.element);
+    const [first] = namesOf(run.findings.failures.map((f) => f.signature));
+    if (first !== undefined) shown.failures.open(first);
   };
 
-  const many = report.runs.length > 1;
+  // Shows what an address names; without a run in it, of the run that is shown.
+  const open = (hash: string, withFocus = true): void => {
+    const { run, place: at } = parseAddress(hash);
+    if (run !== null && run !== index && report.runs[run]) choose(run);
+    const target = at.startsWith(failurePlace)
+      ? shown?.failures.open(at.slice(failurePlace.length))
+      : document.getElementById(at);
+    if (target) goTo(target, withFocus);
+  };
+
   page.append(
     html(
       "header",
       {},
-      html("h1", {}, "Assay report"),
-      html("p", { class: "note" }, "Continuous self-collision detection, judged by an exact oracle."),
+      html("p", { class: "note" }, "Assay report: a continuous self-collision detector, judged by an exact oracle."),
       many ? html("label", { class: "choice" }, "Run ", choice) : null,
     ),
-    many ? history(report.runs, (index) => choose(index)) : "",
     place,
     html("footer", {}, `${report.version}. Schema ${report.schema}.`),
   );
   choose(report.runs.length - 1);
-  window.assayViewerState = () => shown?.viewer()?.state() ?? null;
+  if (location.hash) open(location.hash);
+  addEventListener("hashchange", () => open(location.hash));
+  onFollow((hash, link) => open(hash, link.closest(".list") === null));
+  unfoldOnPaper();
+  window.assayViewerState = () => shown?.failures.viewer()?.state() ?? null;
 }
 
 const page = document.getElementById("page")!;

@@ -1,7 +1,9 @@
-// What the run comes to, what its bounds speak of, and the gates in their order.
-import { html, section } from "./dom";
-import type { Findings, Run } from "./report";
-import { count, counted, sum } from "./words";
+// The first screen: what a run comes to, what that speaks of, and beside a defect its smallest mesh.
+import { failurePlace } from "./address";
+import { facts, html } from "./dom";
+import type { Failure, Findings, Run } from "./report";
+import { capital, count, counted, sum } from "./words";
+import { staticPicture, Viewer } from "./viewer/viewer";
 
 const sentences: Record<Run["verdict"], string> = {
   certified: "Certified",
@@ -24,82 +26,107 @@ export const kindOf = (verdict: Run["verdict"]): string =>
 
 export const verdictWord = (verdict: Run["verdict"]): string => sentences[verdict] ?? verdict;
 
-export function overview(run: Run): HTMLElement {
-  const { campaign, detector, strata, times } = run.findings;
+// A plug-in is called by its name and its version, and its first configuration by its name alone.
+export function named({ detector, versions }: Findings): { name: string; version: string | null } {
+  if (detector.built_in) return { name: detector.name, version: versions?.assay ?? null };
+  const name = detector.configurations[0]?.name ?? "";
+  return detector.name.startsWith(`${name} `)
+    ? { name, version: detector.name.slice(name.length + 1) }
+    : { name: detector.name, version: null };
+}
+
+// What tells a page from others in a row of tabs comes first.
+export function titleOf({ verdict, findings }: Run): string {
+  const { name, version } = named(findings);
+  const { campaign } = findings;
+  return `${verdictWord(verdict)}: ${name}${version ? ` ${version}` : ""} \u2013 ${campaign.name}, seed ${campaign.seed} \u2013 Assay report`;
+}
+
+const dirty = "-dirty";
+const commitText = (commit: string): string =>
+  commit.endsWith(dirty) ? `${commit.slice(0, -dirty.length)}, and changes that are in no commit` : commit;
+
+// "2026-01-31T12:00:00Z" is "2026-01-31, 12:00 UTC".
+const dayText = (issued: string): string => issued.replace(/T(\d\d:\d\d):\d\dZ$/, ", $1 UTC");
+
+function about(run: Run): HTMLElement {
+  const { campaign, detector, digests, strata, times, versions } = run.findings;
+  const { name, version } = named(run.findings);
   // "2/8" is the second of eight.
   const shards = Number(campaign.shards[0]?.split("/")[1] ?? 1);
+  const digest = detector.built_in ? digests.worker : digests.plugin;
+  const { length } = detector.configurations;
+  return facts([
+    ["Detector", `${name}${length === 1 ? "" : `, in ${counted(length, "configuration")}`}`],
+    ["Version", version],
+    ["Judged by", detector.built_in || !versions ? null : `assay ${versions.assay}`],
+    ["Commit", versions?.commit ? `${detector.built_in ? "" : "of assay: "}${commitText(versions.commit)}` : null],
+    ["Date", times.issued === null ? null : dayText(times.issued)],
+    [detector.built_in ? "Its program, SHA-256" : "Its library, SHA-256", digest === null ? null : [html("code", {}, digest)]],
+    [
+      "Campaign",
+      `${campaign.name}, seed ${campaign.seed}${shards === 1 ? "" : `, ${campaign.shards.length} of ${shards} shards`}; ` +
+        `${count(sum(strata.map((s) => s.trials)))} of ${count(sum(strata.map((s) => s.planned)))} trials`,
+    ],
+  ]);
+}
+
+function notes({ findings: { times, versions }, subject, verdict }: Run): string[] {
   const disturbed = sum(times.strata.map((s) => s.disturbed));
-  return html(
+  return [
+    disturbed === 0 ? "" : `${counted(disturbed, "trial was", "trials were")} disturbed from outside, and ran again.`,
+    times.near_the_limit === 0
+      ? ""
+      : `${counted(times.near_the_limit, "trial", "trials")} took more than a third of the time that a case may take.`,
+    subject !== null || verdict === "unverified"
+      ? ""
+      : `No certificate stands beside this run, so ${versions ? "no date" : "neither a date nor the program\u2019s version"} is stored: assay certify issues one.`,
+  ].filter((note) => note !== "");
+}
+
+export interface Overview {
+  element: HTMLElement;
+  close: () => void;
+}
+
+// The mesh is drawn in 3D once `start` is called, when the page has its place.
+function smallestMesh(failure: Failure, address: string): { element: HTMLElement; start: () => Viewer | null } {
+  const place = html("div", {});
+  const element = html(
+    "div",
+    { class: "first-mesh" },
+    place,
+    html("p", { class: "note" }, "The smallest mesh of ", html("a", { href: address }, failure.signature), ": ", failure.now ?? failure.what),
+  );
+  const start = (): Viewer | null => {
+    try {
+      const viewer = new Viewer(failure.scene!, () => {});
+      place.append(viewer.element);
+      return viewer;
+    } catch {
+      place.append(staticPicture(failure));
+      return null;
+    }
+  };
+  return { element, start };
+}
+
+export function overview(run: Run, first: { failure: Failure; name: string } | null, address: (place: string) => string): Overview {
+  const shown = first?.failure.scene?.steps.length ? first : null;
+  const mesh = shown ? smallestMesh(shown.failure, address(failurePlace + shown.name)) : null;
+  const element = html(
     "div",
     { class: `verdict ${kindOf(run.verdict)}` },
-    html("p", { class: "word" }, verdictWord(run.verdict)),
-    html("p", {}, run.why),
     html(
-      "p",
-      { class: "note" },
-      `Detector: ${detector.name} (${counted(detector.configurations.length, "configuration")}); ` +
-        `campaign ${campaign.name}, seed ${campaign.seed}${shards === 1 ? "" : `, ${campaign.shards.length} of ${shards} shards`}; ` +
-        `${count(sum(strata.map((s) => s.trials)))} of ${count(sum(strata.map((s) => s.planned)))} trials.` +
-        (disturbed === 0
-          ? ""
-          : ` ${counted(disturbed, "trial was", "trials were")} disturbed from outside, and ran again.`) +
-        (times.near_the_limit === 0
-          ? ""
-          : ` ${counted(times.near_the_limit, "trial", "trials")} took more than a third of the time that a case may take.`),
+      "div",
+      {},
+      html("h1", {}, verdictWord(run.verdict)),
+      html("p", {}, `${capital(run.why)}.`),
+      about(run),
+      ...notes(run).map((note) => html("p", { class: "note" }, note)),
     ),
-    run.subject === null && run.verdict !== "unverified"
-      ? html("p", { class: "note" }, "No certificate stands beside this run: assay certify issues one.")
-      : null,
+    mesh?.element ?? null,
   );
-}
-
-const signs: Record<Findings["gates"][number]["state"], string> = { holds: "\u2713", fails: "\u2717", "not judged": "\u2013" };
-
-// Each in a line, those beyond the third behind a click.
-function reasons(lines: string[]): HTMLElement[] {
-  const few = 3;
-  const shown = lines.slice(0, few).map((line) => html("span", { class: "reason" }, line));
-  if (lines.length <= few) return shown;
-  const rest = lines.slice(few).map((line) => html("span", { class: "reason" }, line));
-  return [...shown, html("details", {}, html("summary", {}, `${rest.length} more`), ...rest)];
-}
-
-export function gates({ gates: list }: Findings): HTMLElement {
-  const first = list.find((g) => g.state === "fails");
-  return section(
-    "gates",
-    "Gates",
-    html(
-      "ol",
-      { class: "gates" },
-      ...list.map((gate) =>
-        html(
-          "li",
-          { class: gate.state.replace(" ", "-") },
-          html("span", { class: "sign", "aria-hidden": "true" }, signs[gate.state]),
-          html(
-            "span",
-            {},
-            html("strong", {}, `${gate.gate}: ${gate.state}`),
-            ` (asked: ${gate.asks})`,
-            ...reasons(gate.reasons),
-          ),
-        ),
-      ),
-    ),
-    first ? html("p", {}, `The first that fails is \u201c${first.gate}\u201d.`) : null,
-  );
-}
-
-export function scope({ confidence }: Findings): HTMLElement {
-  const percent = Math.round(100 * confidence.family);
-  return html(
-    "div",
-    { class: "scope" },
-    html("p", {}, html("strong", {}, "What the bounds speak of: "),
-      "the share of cases, of this campaign\u2019s random generator, in which the detector would not hold. " +
-      "They say nothing of other meshes, yours included, beyond what those have in common with the generator\u2019s."),
-    html("p", {}, `All ${count(confidence.bounds)} bounds hold together with a confidence of ${percent} %, without those of the strata of sizes (size-\u2026), of which each stands alone ` +
-      "(exact one-sided Clopper and Pearson, Bonferroni). A trial is a whole case; undecided ones count against the detector."),
-  );
+  const viewer = mesh?.start() ?? null;
+  return { element, close: () => viewer?.close() };
 }

@@ -70,11 +70,12 @@ export type Stratum = Findings["strata"][number];
 
 export interface Run {
   folder: string;
-  library: string | null;
+  library: string | null; // from that folder
   verdict: Findings["verdict"] | "unverified";
   why: string;
   subject: Statement["subject"] | null; // null: no certificate that verifies
   findings: Findings;
+  law_statements: Record<string, string>; // by the names of the laws
   failures: ShownFailure[]; // in the order of those of the findings
 }
 

@@ -1,6 +1,5 @@
 // Strata with their counts and bounds.
 import { html, section, table } from "./dom";
-import { scope } from "./overview";
 import { logPlot } from "./plots";
 import type { Findings, Stratum } from "./report";
 import { count, counted, share } from "./words";
@@ -27,6 +26,19 @@ function stepsPerSecond(f: Findings, { family, steps }: Stratum): string {
   const times = f.times.strata.find((t) => t.family === family);
   const seconds = times ? 1e-6 * (times.oracle_us + times.detector_us) : 0;
   return seconds > 0 ? count(Math.round(steps / seconds)) : "\u2013";
+}
+
+function scope({ confidence }: Findings): HTMLElement {
+  const percent = Math.round(100 * confidence.family);
+  return html(
+    "div",
+    { class: "scope" },
+    html("p", {}, html("strong", {}, "What the bounds speak of: "),
+      "the share of cases, of this campaign\u2019s random generator, in which the detector would not hold. " +
+      "They say nothing of other meshes, yours included, beyond what those have in common with the generator\u2019s."),
+    html("p", {}, `All ${count(confidence.bounds)} bounds hold together with a confidence of ${percent} %, without those of the strata of sizes (size-\u2026), of which each stands alone ` +
+      "(exact one-sided Clopper and Pearson, Bonferroni). A trial is a whole case; undecided ones count against the detector."),
+  );
 }
 
 export function strata(f: Findings): HTMLElement {

@@ -4,6 +4,8 @@ import type { Interval } from "./report";
 
 export const sum = (numbers: number[]): number => numbers.reduce((a, b) => a + b, 0);
 
+export const capital = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
+
 export const count = (n: number): string => n.toLocaleString("en-US");
 
 export const counted = (n: number, one: string, many = `${one}s`): string =>

@@ -4,11 +4,13 @@ import { chromium } from "playwright-core";
 const drawnByProcessor = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 const without3d = ["--disable-3d-apis"];
 
-export async function open(file, { webgl = true, scheme = "light", width = 1280 } = {}) {
-  const browser = await chromium.launch({
+export const launch = ({ webgl = true } = {}) =>
+  chromium.launch({
     executablePath: process.env.ASSAY_CHROMIUM ?? "/usr/bin/chromium",
     args: ["--no-sandbox", ...(webgl ? drawnByProcessor : without3d)],
   });
+
+export async function openIn(browser, file, { scheme = "light", width = 1280 } = {}) {
   const context = await browser.newContext({
     colorScheme: scheme,
     viewport: { width, height: 900 },
@@ -25,7 +27,13 @@ export async function open(file, { webgl = true, scheme = "light", width = 1280 
   });
   page.on("pageerror", (error) => seen.problems.push(error.message));
   await page.goto(`file://${file}`);
-  return { browser, page, seen, close: () => browser.close() };
+  return { browser, page, seen, close: () => context.close() };
+}
+
+// The same in a browser of its own.
+export async function open(file, options = {}) {
+  const browser = await launch(options);
+  return { ...(await openIn(browser, file, options)), close: () => browser.close() };
 }
 
 // What the viewer shows now.

@@ -2,6 +2,7 @@
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/ledger/merge.h"
 #include "properties/faults/fault.h"
+#include "properties/laws/law.h"
 #include "reports/page/data/run_json.h"
 #include "tests/problem_words.h"
 #include "tests/reports/program.h"
@@ -169,6 +170,55 @@ TEST_F(Runs, APlugInsLibraryIsReadBack) {
   EXPECT_EQ(findings.run.detector.configurations.size(), 10u);
 }
 
+TEST_F(Runs, APageTellsNoFolderOfTheMachineThatItIsMadeOn) {
+  RunToStore run;
+  const std::string outside = "/somewhere/else/a detector.so";
+  for (const auto& library : {outside, (scratch / "beside/own.so")}) {
+    run.request.plugin = library;
+    run.request.detector.built_in = false;
+    run.judge("broken", 1, 'D');
+    run.fail("B1_one_vertex_own_nearest", "free-sound: answered free", "a line")
+        .fail("A1_winding2_allpositive", "free-sound: answered free", "another");
+    const std::string name = library == outside ? "one" : "other";
+    const auto findings = read_run(run.store(scratch / name));
+    auto page = reports::run_json(findings, judge(findings));
+    page["failures"] = reports::failure_scenes(findings);
+    const std::string told = library == outside ? "a detector.so" : "../beside/own.so";
+    const std::string word = library == outside ? "'a detector.so'" : told;
+    EXPECT_EQ(page["folder"], name);
+    EXPECT_EQ(page["library"], told);
+    const auto end = "-smallest.json --detector " + word;
+    for (const auto& line : {page["findings"]["failures"][0]["replay"].get<std::string>(),
+                             page["failures"][0]["others"][0]["replay"].get<std::string>()}) {
+      EXPECT_TRUE(line.starts_with("assay replay failures/")) << line;
+      EXPECT_TRUE(line.ends_with(end)) << line;
+    }
+    EXPECT_EQ(page.dump().find(scratch / ""), std::string::npos) << page.dump();
+    run = RunToStore();
+  }
+}
+
+// A run stores the digest of its program alone.
+TEST_F(Runs, TheVersionIsKnownWhereTheSameProgramMakesThePage) {
+  auto findings = read_run(RunToStore().store(scratch / "run"));
+  const auto own = reports::run_json(findings, judge(findings));
+  EXPECT_TRUE(own["findings"]["versions"]["assay"].is_string()) << own["findings"]["versions"];
+  findings.run.digests.program->front() ^= 1;
+  const auto other = reports::run_json(findings, judge(findings));
+  EXPECT_TRUE(other["findings"]["versions"].is_null());
+}
+
+TEST_F(Runs, WhatALawSaysStandsBesideIt) {
+  RunToStore run;
+  run.judge("closed-generic", 2, 'H');
+  run.trials[0].counts.laws["L4_AllPositiveIsCollisionFree_Line"].premise = 3;
+  run.trials[1].counts.laws["L4_OfAnotherBuild"].premise = 1;
+  const auto page = page_of(run, "laws");
+  EXPECT_FALSE(page["law_statements"].contains("L4_OfAnotherBuild"));
+  EXPECT_EQ(page["law_statements"]["L4_AllPositiveIsCollisionFree_Line"],
+            properties::law_named("L4_AllPositiveIsCollisionFree_Line")->statement);
+}
+
 TEST_F(Runs, WhatAPlugInPrintedStandsWithItsFailure) {
   RunToStore run;
   run.request.plugin = "some/where.so";
@@ -209,7 +259,7 @@ TEST_F(Runs, BoundsAreThoseOfTheTerminal) {
 // Every field of assay-report/3, `runs[].strata[].n` as "n".
 void names_of(const Json& json, std::set<std::string>& names) {
   // Those of the predicate stand in the certificate's table, which its schema holds them to.
-  const std::set<std::string> free_keys = {"findings"};
+  const std::set<std::string> free_keys = {"findings", "law_statements"};
   if (json.is_object()) {
     for (const auto& [key, value] : json.items()) {
       names.insert(key);

@@ -57,6 +57,7 @@ export class Solids {
     this.group.add(this.faces, this.edges, this.ghostFaces, this.ghostEdges);
     this.group.add(this.pairLines, this.primitiveLines);
     for (const child of this.group.children) child.frustumCulled = false;
+    this.pairLines.renderOrder = this.primitiveLines.renderOrder = 1; // over faces that are see-through
     this.recolour(palette);
   }
 
@@ -72,7 +73,7 @@ export class Solids {
   seeThrough(on: boolean): void {
     const material = this.faces.material;
     material.transparent = on;
-    material.opacity = on ? 0.45 : 1;
+    material.opacity = on ? 0.7 : 1;
     material.depthWrite = !on;
     material.needsUpdate = true;
   }

@@ -30,7 +30,7 @@ export class Viewer {
   // Throws where there is no WebGL.
   constructor(
     private readonly scene: Scene,
-    private readonly onTime: (time: number) => void,
+    private readonly onShown: (time: number, pair: [number, number] | null) => void,
   ) {
     this.motion = new Motion(scene);
     this.pair = scene.shown.pair;
@@ -91,7 +91,7 @@ export class Viewer {
     this.controls.describe(`step ${index + 1} of ${this.motion.length}, t = ${shortTime(t)}`);
     this.solids.show(this.controls.time, this.pair, this.ghosts, this.primitive);
     this.stage.draw();
-    this.onTime(this.controls.time);
+    this.onShown(this.controls.time, this.pair);
   }
 
   private drawMarks(): void {
@@ -112,10 +112,12 @@ export class Viewer {
     };
     const views = this.scene.steps.some((s) => s.views !== null);
     const hasGhosts = this.scene.steps.some((s) => (s.views?.ghosts.length ?? 0) > 0);
+    // Where no sets are to be told by their colours, nothing hides a triangle of the pair.
+    this.solids.seeThrough(!views);
     return html(
       "div",
       { class: "toggles" },
-      box("see-through", false, (on) => this.solids.seeThrough(on)),
+      box("see-through", !views, (on) => this.solids.seeThrough(on)),
       hasGhosts ? box("ghosts", true, (on) => (this.ghosts = on)) : null,
       views ? box("view primitive", true, (on) => (this.primitive = on)) : null,
     );

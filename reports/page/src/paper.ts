@@ -1,0 +1,15 @@
+// What is folded on the screen is unfolded on paper, where nobody can open it.
+
+export function unfoldOnPaper(): void {
+  const opened: HTMLDetailsElement[] = [];
+  const set = (onPaper: boolean): void => {
+    if (onPaper)
+      for (const part of document.querySelectorAll<HTMLDetailsElement>("details:not([open])")) opened.push(part);
+    for (const part of opened) part.open = onPaper;
+    if (!onPaper) opened.length = 0;
+  };
+  // Not every browser tells both of them, and not each of them says when paper is only looked at.
+  matchMedia("print").addEventListener("change", (event) => set(event.matches));
+  addEventListener("beforeprint", () => set(true));
+  addEventListener("afterprint", () => set(false));
+}
