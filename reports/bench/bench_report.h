@@ -1,6 +1,6 @@
 // The result of a suite of benches: rows, wrong answers, and what else a suite tells, in forms that
 // do not depend on the suite. It is written as text, as JSON (schema assay-bench/1,
-// reports/README.md) and as CSV, each in one way.
+// reports/bench/README.md) and as CSV, each in one way.
 #pragma once
 
 #include <map>
@@ -18,7 +18,7 @@ namespace assay::reports {
 
 // What the suites of `assay bench` want to see: speeds, memory and shares, each under a name that
 // ends with its unit. A name without a unit is a ratio. Suites hand these values to their rows;
-// reports/README.md says which row is held against which of them.
+// reports/bench/README.md says which row is held against which of them.
 //
 // Only a bound that somebody chose has a name here. The others stand in their rows: no wrong
 // answer (at_most(0)), every answer the same (at_least(100) %), cheaper than what it replaces

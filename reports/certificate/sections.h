@@ -1,5 +1,5 @@
-// The parts of a certificate's predicate (schema assay-certificate/6, reports/README.md). Each
-// function renders a part of the findings or gates as JSON.
+// The parts of a certificate's predicate (schema assay-certificate/6,
+// reports/certificate/README.md). Each function renders a part of the findings or gates as JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>

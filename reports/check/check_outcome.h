@@ -57,8 +57,8 @@ struct CheckOutcome {
   int exit_code(bool fail_on_collision) const;
 };
 
-// The report of `check`, schema assay-check/1 (documented in reports/README.md). `steps`: an entry
-// for each step that was judged (steps/step_json.h).
+// The report of `check`, schema assay-check/1 (documented in reports/check/README.md). `steps`: an
+// entry for each step that was judged (steps/step_json.h).
 nlohmann::ordered_json check_report(const std::vector<std::string>& files,
                                     const detector::Topology& mesh, const StepAnswers& answers,
                                     const CheckOutcome& outcome, nlohmann::ordered_json steps);

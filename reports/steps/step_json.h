@@ -1,4 +1,4 @@
-// JSON of `check`, schema assay-check/1 (documented in reports/README.md).
+// JSON of `check`, schema assay-check/1 (documented in reports/check/README.md).
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -19,9 +19,12 @@
 #include "properties/worker/worker_process.h"
 #include "reports/check/detector_choice.h"
 #include "reports/judge/log_check.h"
+#include "reports/pictures/case_scene.h"
+#include "reports/pictures/strip_svg.h"
 #include "reports/steps/case_export.h"
 #include "reports/steps/pair_story.h"
 #include "reports/steps/step_text.h"
+#include "reports/terminal/text_file.h"
 #include "reports/terminal/words.h"
 #include "reports/verbs/verbs.h"
 
@@ -180,6 +183,22 @@ bool print_broken_laws(const corpus::Case& c, const properties::DetectorUnderTes
   return !tally.broken.empty();
 }
 
+// The first step in which something that counts meets, as a strip beside the exported files. No
+// strip of a mesh that is too large for a picture.
+Expected<void> write_strip(const std::string& folder, const corpus::Case& c,
+                           const std::vector<oracle::StepJudgement>& judgements,
+                           const properties::Contract& contract) {
+  if (c.triangles.rows() > most_shown_triangles) return outcome::success();
+  const auto script = corpus::steps_of(c);
+  for (std::size_t s = 0; s < script.size(); ++s) {
+    const auto truth = truth_of(c, judgements[s], contract);
+    if (!truth.first) continue;
+    return write_text_file((std::filesystem::path(folder) / "strip.svg").string(),
+                           strip_svg(c, script[s], *truth.first, properties::printable(c.about)));
+  }
+  return outcome::success();
+}
+
 // A case is made of the text of its id, so a campaign's name that is misspelt makes another case.
 std::string misspelt(const std::string& id) {
   const auto campaign = id.substr(0, id.find(':'));
@@ -255,6 +274,7 @@ Expected<int> run_replay(const ReplayRequest& request) {
                                 : std::vector<properties::CaseRun>{};
   if (!request.export_folder.empty()) {
     BOOST_OUTCOME_TRY(export_case(request.export_folder, *seen, subject.detector, truth));
+    BOOST_OUTCOME_TRY(write_strip(request.export_folder, *seen, truth, contract));
   }
   fmt::print("{}: {}{}\n", properties::printable(c.id),
              properties::size_text(properties::size_of(c)),
@@ -295,8 +315,9 @@ void add_options(Verb& verb, ReplayRequest& request) {
            "Its id, CAMPAIGN:SEED:FAMILY:INDEX, or a file; LOG#N: step N of a log")
       .required();
   verb.add("--export DIR", request.export_folder,
-           "Write frames as OBJ and a test in C++ into this folder: plain arrays beside a "
-           "GoogleTest, or of a plug-in beside a program that loads it")
+           "Write frames as OBJ, a picture of the first contact and a test in C++ into this "
+           "folder: plain arrays beside a GoogleTest, or of a plug-in beside a program that loads "
+           "it")
       .in(OptionGroup::output);
   add_choice(verb, "--why A,B", request.why, "A,B: two triangles", parse_pair,
              "A,B: why this pair of triangles was or was not tested");

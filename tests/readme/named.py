@@ -29,6 +29,8 @@ def wrong_names(command, clone, build):
     if words[:2] == ["cmake", "--build"]:
         return [wrong for target in words[words.index("--target") + 1:]
                 for wrong in no_target(target, clone, build)]
+    if words[0] == "ninja":
+        return [wrong for target in words[3:] for wrong in no_target(target, clone, build)]
     return not_in_help(words, clone)
 
 

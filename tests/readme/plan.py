@@ -1,4 +1,4 @@
-"""What the test does with every chunk of every README.
+"""What the test does with every chunk of every README and every other page (*.md).
 
 A command is run as it stands, in the order of the README, in a folder laid out like a fresh clone with
 the program built. It has to end with 0.
@@ -28,16 +28,20 @@ BOUNDS = "the tests bounds, bounds_changes and bounds_contracted run it"
 
 # What the reader is to have at hand: made before the first command of that README.
 GIVEN = {
-    "README.md": [
-        "cc -std=c99 -shared -fPIC -I. tests/plugins/example.c -o libmine.so",
-    ],
     "detector/plugin/README.md": [
         "cc -std=c99 -shared -fPIC -I. tests/plugins/example.c -o libmine.so",
         "assay scene bend --size 200 --frames 4 --out .",
     ],
-    "reports/README.md": [
+    "reports/campaign/README.md": [
         "cc -std=c99 -shared -fPIC -I. tests/plugins/example.c -o libmine.so",
     ],
+}
+# And before the first of those that take minutes, what a page takes from one that was read before. A
+# run proves as much as a certificate does, in less time.
+GIVEN_SLOW = {
+    "README.md": ["assay run --campaign smoke --out build/certify"],
+    "reports/certificate/README.md": ["assay certify --campaign smoke --out build/certify"],
+    "reports/judge/TEN_MINUTES.md": ["assay run --campaign smoke --out build/certify"],
 }
 
 QUICK = {
@@ -50,16 +54,35 @@ QUICK = {
         'RC_PARAMS="seed=7 max_success=1000 max_discard_ratio=100" ctest --preset law -R Laws.L3 --verbose',
     ],
     "README.md": [
-        "build/release/assay scene bend --size 2000 --frames 12 --out build/bend",
-        "build/release/assay check build/bend/frame_*.ply",
-        "build/release/assay check --culling view-line --json build/report.json build/bend/frame_*.ply",
-        "build/release/assay check corpus/curated/B1_one_vertex_own_nearest.json",
-        "build/release/assay list scenes",
-        "build/release/assay scene twist --mesh build/bend/frame_0000.ply --frames 4 --out build/twist",
-        "build/release/assay check-queries corpus/queries/example_vf.csv --method detector-exact",
-        "build/release/assay replay quick:1:closed-generic:5 --why 0,5",
-        "build/release/assay replay corpus/curated/B1_one_vertex_own_nearest.json --export build/export",
-        "build/release/assay list faults",
+        "export PATH=$PWD/build/release:$PATH",
+    ],
+    "reports/check/README.md": [
+        "assay scene bend --size 2000 --frames 12 --out build/bend",
+        "assay check build/bend/frame_*.ply",
+        "assay check --culling view-line --json build/report.json build/bend/frame_*.ply",
+        "assay check corpus/curated/B1_one_vertex_own_nearest.json",
+        "assay list scenes",
+        "assay scene twist --mesh build/bend/frame_0000.ply --frames 4 --out build/twist",
+    ],
+    "reports/queries/README.md": [
+        "assay check-queries corpus/queries/example_vf.csv --method detector-exact",
+    ],
+    "reports/campaign/README.md": [
+        "assay replay quick:1:closed-generic:5 --why 0,5",
+        "assay replay corpus/curated/B1_one_vertex_own_nearest.json --export build/export",
+        "assay list faults",
+    ],
+    "reports/judge/TEN_MINUTES.md": [
+        "export PATH=$PWD/build/release:$PATH",
+        "cp tests/plugins/additive_ccd.cpp my_ccd.cpp",
+        "c++ -std=c++17 -O2 -shared -fPIC -I . my_ccd.cpp -o my_ccd.so",
+        "assay check-queries --detector ./my_ccd.so corpus/queries/example_vf.csv",
+        "sed -i 's/^  const double u = share.*/&\\n  s = share(ab * u - ag, aa);/' my_ccd.cpp",
+        "c++ -std=c++20 -O2 -I . tests/recording/cloth.cpp -o cloth",
+        "./cloth steps.log slip",
+        "assay judge steps.log --out build/judged",
+        "./cloth steps.log",
+        "assay judge steps.log",
     ],
     "reports/python/README.md": [
         "export PYTHONPATH=$PWD/build/release/python",
@@ -77,15 +100,34 @@ SLOW = {
         "ctest --preset planted --verbose",
     ],
     "README.md": [
-        "build/release/assay self-test --jobs 2",
-        "build/release/assay bench --suite speed-error --svg reports/pictures/speed-error.svg",
-        "build/release/assay bench --suite peers --svg reports/pictures/peers.svg",
-        "build/release/assay run --campaign smoke --out build/smoke",
-        "build/release/assay run --campaign smoke --detector ./libmine.so --power build/smoke --out build/mine",
-        "build/release/assay certify --campaign quick --out build/quick",
-        "build/release/assay verify build/quick/certificate.json",
-        "build/release/assay report build/quick --out build/quick/report.html",
+        "assay run --campaign smoke --detector build/release/peers/cubic_double.so --power build/certify --out build/cubic",
+    ],
+    "reports/queries/README.md": [
+        "assay self-test --jobs 2",
+    ],
+    "reports/bench/README.md": [
+        "assay bench --suite speed-error --svg reports/pictures/speed-error.svg",
+    ],
+    "corpus/peers/README.md": [
+        "assay bench --suite peers --svg reports/pictures/peers.svg",
+    ],
+    "reports/campaign/README.md": [
+        "assay run --campaign smoke --out build/smoke",
+        "assay run --campaign smoke --detector ./libmine.so --power build/smoke --out build/mine",
+        "assay run --campaign smoke --out proof",
+        "assay run --campaign smoke --detector ./libmine.so --power proof --out mine",
         "reports/nightly --out build/night --campaign quick --shards 4",
+    ],
+    "reports/certificate/README.md": [
+        "assay certify --campaign quick --out build/quick",
+        "assay report build/quick --out build/quick/report.html",
+        "assay verify build/certify",
+        "assay verify build/certify --again 0.05",
+    ],
+    "reports/judge/TEN_MINUTES.md": [
+        "assay run --campaign smoke --detector ./my_ccd.so --power build/certify --out build/mine",
+        "assay replay build/mine/failures/search-smoke-1-001-173-my-CCD-smallest.json --detector ./my_ccd.so",
+        "assay run --campaign smoke --detector ./my_ccd.so --power build/certify --out build/mine-mended",
     ],
     "detector/README.md": [
         "cmake -S detector -B build/detector && cmake --build build/detector",
@@ -94,31 +136,57 @@ SLOW = {
         "assay run --campaign smoke --out proof",
         "assay run --campaign smoke --detector ./libmine.so --power proof --out mine",
     ],
-    "reports/README.md": [
-        "assay run --campaign smoke --out proof",
-        "assay run --campaign smoke --detector ./libmine.so --power proof --out mine",
-    ],
+}
+
+# Commands that find what is wrong with a detector, and end so: the codes in their order, where a page
+# has the same command twice.
+ENDS = {
+    "README.md": {
+        "assay run --campaign smoke --detector build/release/peers/cubic_double.so --power build/certify --out build/cubic": [1],
+    },
+    "reports/judge/TEN_MINUTES.md": {
+        "assay run --campaign smoke --detector ./my_ccd.so --power build/certify --out build/mine": [1],
+        "assay replay build/mine/failures/search-smoke-1-001-173-my-CCD-smallest.json --detector ./my_ccd.so": [1, 0],
+        "assay judge steps.log --out build/judged": [1],
+    },
 }
 
 # What a README shows of what a command prints: the entry of NO_COMMAND that begins the chunk. Each
 # line of it, but for times, has to be a line that the command prints now.
 SHOWN = {
     "README.md": {
-        "build/release/assay check build/bend/frame_*.ply": "step 11: collision at",
-        "build/release/assay run --campaign smoke --out build/smoke": "canary pair/zero-zero-dropped",
+        "assay run --campaign smoke --detector build/release/peers/cubic_double.so --power build/certify --out build/cubic":
+            "DEFECT free-sound: answered free",
+    },
+    "reports/check/README.md": {
+        "assay check build/bend/frame_*.ply": "step 11: collision at",
+    },
+    "reports/campaign/README.md": {
+        "assay run --campaign smoke --out build/smoke": "canary pair/zero-zero-dropped",
+    },
+    "reports/judge/TEN_MINUTES.md": {
+        "assay run --campaign smoke --detector ./my_ccd.so --power build/certify --out build/mine": "claims     FAILS",
+        "assay run --campaign smoke --detector ./my_ccd.so --power build/certify --out build/mine-mended": "claims     holds",
+        "assay judge steps.log --out build/judged": "step 111: free; DIFFER",
+        "assay judge steps.log": "500 of 500 steps judged",
     },
 }
 
 NOT_RUN = {
     "README.md": {
-        "build/release/assay run --campaign smoke --detector build/release/peers/bullet_bernstein.so --out build/bullet":
-            "ends with 1, for it finds defects, and wants Bullet; PeersSuite judges all peers that are present",
-        "build/release/assay check --detector python:mine:MyDetector build/bend/frame_*.ply":
-            "of a file of the reader's; tests/reports/python judges such",
-        "python3 corpus/vectors/vectors.py run -- ./your_program":
-            "of a program of the reader's; tests/corpus/vectors runs such",
         "reports/certify": "installs packages and builds; the slow list certifies by the program",
+        "ninja -C build/release peer_cubic_double": LENT,
+    },
+    "reports/judge/TEN_MINUTES.md": {
+        "reports/certify": "installs packages and builds; the slow list certifies by the program",
+    },
+    "reports/bench/README.md": {
+        "python3 reports/pictures/sequences.py assay reports/pictures/sequences.svg":
+            "takes a minute, and prints times",
+    },
+    ".github/CONTRIBUTING.md": {
         "tests/run": RECURSION,
+        "tests/run --whole": RECURSION,
     },
     "corpus/vectors/README.md": {
         "python3 corpus/vectors/vectors.py run -- ./plain": MISSES,
@@ -126,7 +194,7 @@ NOT_RUN = {
         "build/release/assay vectors --out build/vectors": SET_TESTS,
         "build/release/assay verify-vectors corpus/vectors": SET_TESTS,
     },
-    "reports/README.md": {
+    "reports/campaign/README.md": {
         "reports/nightly --out build/night": NIGHT,
         "reports/nightly --out build/night --by parallel --hosts hosts.txt":
             NIGHT + ", on hosts that ssh has to reach",
@@ -169,14 +237,33 @@ NOT_RUN = {
 PYTHON = "Python; tests/reports/python/examples_test.py runs all of it"
 NO_COMMAND = {
     "README.md": {
-        "claims     FAILS": "what `assay run` prints of a detector that misses contacts",
-        "building build/release (log": "what reports/certify and tests/run print",
         "verdict: certified in": "what reports/certify prints",
+        "DEFECT free-sound: answered free": "what `assay run` prints of the cubic",
+    },
+    "reports/check/README.md": {
         "step 11: collision at": "what `assay check` prints",
-        "arithmetic culling": "the table of `assay bench --suite speed-error`",
-        "built-in, exact, bvh": "the table of `assay bench --suite peers`",
+        "step 1: near at t = 0.5": "what `assay check --separation` prints",
+    },
+    "reports/campaign/README.md": {
         "canary pair/zero-zero-dropped": "what `assay run` prints",
-        "frames, cases, queries, scenes": "a drawing of the rooms",
+    },
+    "reports/certificate/README.md": {
+        "runs-on: ubuntu-latest": "a workflow of GitHub Actions",
+    },
+    "reports/bench/README.md": {
+        "twist ": "the table of sequences.py",
+        "arithmetic culling": "the table of `assay bench --suite speed-error`",
+    },
+    "reports/judge/TEN_MINUTES.md": {
+        '#include "detector/plugin/assay_detector.hpp"': "C++; a test compares it with the file",
+        "claims     FAILS": "what `assay run` prints",
+        "my CCD: defect": "what `assay replay` prints before the fault is mended",
+        "claims     holds": "what `assay run` prints",
+        "step 111: free; DIFFER": "what `assay judge` prints",
+        "500 of 500 steps judged": "what `assay judge` prints",
+    },
+    "reports/queries/README.md": {
+        "oracle: 5 queries (5 within": "what `assay check-queries --separation` prints",
     },
     "corpus/README.md": {
         "83                      an array": "the bytes of a record; tests/detector/plugin reads them",
@@ -194,7 +281,7 @@ NO_COMMAND = {
     "detector/plugin/README.md": {
         "/* A detector by boxes": "C, the plug-in that is compiled above; a test compares the two",
         "// A detector by spheres": "C++; a test compiles and runs it, and compares the two",
-        "find_package(assay 0.2": "CMake; tests/consumer/plugin builds plug-ins so",
+        "find_package(assay 0.3": "CMake; tests/consumer/plugin builds plug-ins so",
         "c++ -std=c++17 -O2 -shared -fPIC $(pkg-config": "a shell's; tests/consumer/pkg_config.sh builds so",
         'home="${ASSAY:-/usr}"': "a job; a test runs it, and compares the two",
         "assay_builtin_save(handle": "C; tests/consumer compiles a whole program like it",
@@ -218,10 +305,5 @@ NO_COMMAND = {
         'words = {"name": "mine"': PYTHON,
         "import textbook": PYTHON,
         'print(assay.run("campaign.json"': PYTHON,
-    },
-    "reports/README.md": {
-        "runs-on: ubuntu-latest": "a workflow of GitHub Actions",
-        "step 1: near at t = 0.5": "what `assay check --separation` prints",
-        "oracle: 5 queries (5 within": "what `assay check-queries --separation` prints",
     },
 }

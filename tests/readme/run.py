@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Runs the commands of all READMEs as they stand. plan.py says which, and how the others are checked.
+"""Runs the commands of all READMEs and other pages as they stand, and looks up their links. plan.py says
+which are run, and how the others are checked.
 
 usage: run.py --build BUILD [--slow|--shown]      BUILD: the build tree of preset release
 """
@@ -17,7 +18,9 @@ from named import is_synopsis, wrong_names
 
 ROOT = Path(__file__).resolve().parents[2]
 # What begins like this is a command, whatever stands around it.
-COMMAND = re.compile(r"(\w+=\S+ +)*(build/release/|reports/|tests/|assay |ctest |cmake |python3 |cc )")
+COMMAND = re.compile(
+    r"(\w+=\S+ +)*(build/release/|reports/|tests/|assay |ctest |cmake |ninja |python3 |cc )")
+LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
 WORKFLOW_STEP = re.compile(r"(?:- )?run: (build/release/assay .*)")
 QUICK_SECONDS, SLOW_SECONDS = 60, 3600  # of one command
 
@@ -32,8 +35,8 @@ def without_times(text):
 
 
 def readmes():
-    return sorted(str(f.relative_to(ROOT)) for f in ROOT.rglob("README.md")
-                  if not {"build", "node_modules"} & set(f.relative_to(ROOT).parts))
+    return sorted(str(f.relative_to(ROOT)) for f in ROOT.rglob("*.md")
+                  if not {"build", "node_modules", ".git"} & set(f.relative_to(ROOT).parts))
 
 
 class ReadmeTest:
@@ -46,6 +49,7 @@ class ReadmeTest:
         self.not_run = plan.NOT_RUN.get(name, {})
         self.no_command = plan.NO_COMMAND.get(name, {})
         self.met = set()  # entries of the plan
+        self.ends = {c: [*codes] for c, codes in plan.ENDS.get(name, {}).items()}
         self.chunks = chunks_of((ROOT / name).read_text())
         self.clone = None  # made for the first command
 
@@ -55,6 +59,7 @@ class ReadmeTest:
 
     def run(self):
         print(self.name, flush=True)
+        self.check_links()
         for chunk in self.chunks:
             text = self.no_command_of(chunk)
             for line, command in chunk.commands():
@@ -67,6 +72,12 @@ class ReadmeTest:
         for entry in [*self.quick, *self.slow, *self.not_run, *self.no_command]:
             if entry not in self.met:
                 self.wrong(0, f"in plan.py, and not in this README: {entry}")
+
+    def check_links(self):
+        for number, line in enumerate((ROOT / self.name).read_text().splitlines(), 1):
+            for target in LINK.findall(line):
+                if "://" not in target and not ((ROOT / self.name).parent / target).exists():
+                    self.wrong(number, f"there is no {target}, and a link to it")
 
     def no_command_of(self, chunk):
         """The entry of plan.NO_COMMAND that one of the chunk's lines begins with."""
@@ -99,8 +110,10 @@ class ReadmeTest:
         seconds = SLOW_SECONDS if command in self.slow else QUICK_SECONDS
         code, printed = self.place().run(command, seconds)
         print(f"  {time.monotonic() - started:6.1f} s     {command}", flush=True)
-        if code != 0:
-            self.wrong(line, f"ends with {code}: {command}\n{printed[-2000:]}")
+        codes = self.ends.get(command, [])
+        wanted = codes.pop(0) if codes else 0
+        if code != wanted:
+            self.wrong(line, f"ends with {code}, not {wanted}: {command}\n{printed[-2000:]}")
         elif entry := plan.SHOWN.get(self.name, {}).get(command):
             self.compare_shown(entry, printed)
 
@@ -120,8 +133,11 @@ class ReadmeTest:
             folder = self.options.build / "readme" / (
                 "slow" if self.options.slow else "shown" if self.options.shown else "quick")
             self.clone = Clone(folder, ROOT, self.options.build)
-            for command in plan.GIVEN.get(self.name, []):
-                code, printed = self.clone.run(command, QUICK_SECONDS)
+            given = plan.GIVEN.get(self.name, [])
+            if self.options.slow or self.options.shown:
+                given = given + plan.GIVEN_SLOW.get(self.name, [])
+            for command in given:
+                code, printed = self.clone.run(command, SLOW_SECONDS)
                 if code != 0:
                     sys.exit(f"what {self.name} takes as given ends with {code}: {command}\n{printed}")
         return self.clone
@@ -137,7 +153,9 @@ def main():
     names = readmes()
     for name in names:
         ReadmeTest(name, options, wrongs).run()
-    for name in {*plan.QUICK, *plan.SLOW, *plan.NOT_RUN, *plan.NO_COMMAND, *plan.GIVEN} - {*names}:
+    plans = (plan.QUICK, plan.SLOW, plan.NOT_RUN, plan.NO_COMMAND, plan.GIVEN, plan.GIVEN_SLOW,
+             plan.ENDS, plan.SHOWN)
+    for name in {name for one in plans for name in one} - {*names}:
         wrongs.append(f"plan.py speaks of {name}, and there is none")
     print("\n".join(["", *wrongs, f"{len(names)} READMEs, {len(wrongs)} wrong"]))
     return 1 if wrongs else 0

@@ -19,7 +19,7 @@ from .plugin import detector_word, environment
 PathLike = Union[str, "os.PathLike[str]"]
 Progress = Optional[Callable[[str], None]]
 
-# Exit codes of README.md at the top.
+# Exit codes of reports/README.md.
 _OUTCOMES = {0: "holds", 1: "defect", 3: "undecided", 4: "unsound", 5: "collision"}
 _USAGE = 2
 

@@ -249,5 +249,16 @@ TEST(Plugins, ThePageShowsTheExampleThatIsTested) {
   EXPECT_NE(page.find("```cpp\n" + in_cpp + "```\n"), std::string::npos);
 }
 
+// Its class to the end of describe(), and the line behind which one is missing.
+TEST(Plugins, TenMinutesShowTheDetectorThatIsThere) {
+  const std::string page = text_of("/reports/judge/TEN_MINUTES.md");
+  const std::string source = text_of("/tests/plugins/additive_ccd.cpp");
+  const auto begin = source.find("struct AdditiveCcd {"),
+             end = source.find("  static Result query");
+  ASSERT_LT(begin, end);
+  EXPECT_NE(page.find(source.substr(begin, end - begin)), std::string::npos);
+  EXPECT_NE(source.find("\n  const double u = share("), std::string::npos);
+}
+
 }  // namespace
 }  // namespace assay::properties

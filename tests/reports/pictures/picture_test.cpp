@@ -5,6 +5,7 @@
 #include "reports/pictures/case_scene.h"
 #include "reports/pictures/contact_places.h"
 #include "reports/pictures/mesh_svg.h"
+#include "reports/pictures/strip_svg.h"
 #include "tests/reports/stored_run.h"
 #include "tests/sinking_corner.h"
 
@@ -282,6 +283,38 @@ TEST(Picture, CoordinatesOfAnySizeStayOnIt) {
     EXPECT_EQ(count_of(svg, "nan"), 0u) << scale;
     EXPECT_EQ(count_of(svg, "inf"), 0u) << scale;
     EXPECT_EQ(count_of(svg, "<polygon"), 12u + 2u) << scale;
+  }
+}
+
+// A spike goes through a face: whole before, and parted by the face at the end.
+TEST(Strip, ShowsTheStartTheContactAndTheEnd) {
+  const auto c =
+      corpus::read_case(std::string(ASSAY_SOURCE_DIR) + "/corpus/peers/meshes/missed.json").value();
+  detector::PairContact contact{
+      {0, 1}, {0.5, 0.5}, {detector::FeatureKind::vertex_face, {3, 0, 1, 2, -1}}};
+  const auto step = corpus::steps_of(c).front();
+  const auto svg = reports::strip_svg(c, step, contact, "<missed>");
+  EXPECT_EQ(count_of(svg, ">t = 0<"), 1u) << svg;
+  EXPECT_EQ(count_of(svg, ">t = 0.5: they meet<"), 1u);
+  EXPECT_EQ(count_of(svg, ">t = 1<"), 1u);
+  EXPECT_EQ(count_of(svg, "<circle class=\"place\""), 1u) << "where they meet";
+  EXPECT_EQ(count_of(svg, "<line class=\"cut\""), 1u) << "what they share at the end";
+  EXPECT_EQ(count_of(svg, "<line class=\"way\""), 6u) << "of three vertices, at two times";
+  EXPECT_EQ(count_of(svg, "prefers-color-scheme: dark"), 1u);
+  EXPECT_EQ(count_of(svg, "&lt;missed&gt;"), 1u);
+  EXPECT_EQ(svg, reports::strip_svg(c, step, contact, "<missed>"));
+}
+
+TEST(Strip, TakesCoordinatesOfAnySize) {
+  for (const double scale : {1e-310, 1e-200, 1e200, 1e307}) {
+    auto c = corpus::read_case(std::string(ASSAY_SOURCE_DIR) + "/corpus/peers/meshes/missed.json")
+                 .value();
+    for (auto& frame : c.frames) frame *= scale;
+    const auto svg =
+        reports::strip_svg(c, corpus::steps_of(c).front(), {{0, 1}, {0.5, 0.5}, {}}, "x");
+    EXPECT_EQ(count_of(svg, "nan"), 0u) << scale;
+    EXPECT_EQ(count_of(svg, "inf"), 0u) << scale;
+    EXPECT_EQ(count_of(svg, ">t = 1<"), 1u) << scale;
   }
 }
 
