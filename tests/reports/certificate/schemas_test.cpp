@@ -1,5 +1,5 @@
 // The JSON Schemas of what the program reads and writes. What tests let it write with --json is
-// held to them by tests/reports/program.h; here are the others, and what all schemas have in common.
+// held to them by tests/reports/program.h. Here are the others, and what all schemas share.
 #include "properties/campaign/plan.h"
 #include "tests/reports/program.h"
 

@@ -67,7 +67,9 @@ std::vector<Pasted> lines_to_paste(const Scratch& scratch) {
   for (std::sregex_iterator match(out.begin(), out.end(), marked), end; match != end; ++match) {
     const bool is_replay = (*match)[2] == "replay" || (*match)[2] == "again";
     const std::string line = (*match)[3];
-    if (line.rfind("run the same again", 0) != 0 && lines.size() < 2)
+    // `verify --again` says how many trials it ran again.
+    const bool is_count = (*match)[2] == "again" && line.rfind("assay ", 0) != 0;
+    if (!is_count && line.rfind("run the same again", 0) != 0 && lines.size() < 2)
       lines.push_back({is_replay ? "/" : scratch / "", line});
   }
   return lines;

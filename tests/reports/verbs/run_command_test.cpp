@@ -62,7 +62,7 @@ TEST_F(Run, AnotherRunInTheSameFolderIsToldByWhatDiffers) {
   EXPECT_TRUE(contains(err, "seed ")) << err;
   EXPECT_TRUE(contains(err, "another build of the detector's library")) << err;
   err = run("--detector " + plugin("always_free")).err;
-  EXPECT_TRUE(contains(err, "detector/name ")) << err;
+  EXPECT_TRUE(contains(err, "detector \"")) << err;
 }
 
 TEST_F(Run, JobsDoNotChangeTheTallies) {
