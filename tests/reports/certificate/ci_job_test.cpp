@@ -108,6 +108,8 @@ std::vector<std::string> shell_lines(const fs::path& file, const std::string& sc
 TEST_F(CiJob, IsRunByTheFilesForGitHubAndGitLab) {
   fs::create_directory_symlink(scratch / "assay", scratch / "mine/.assay");
   copy_example();
+  fs::create_directories(scratch / "bin");
+  fs::create_directories(scratch / "assay/reports/package");
   const std::string apt = scratch / "bin/apt-get";
   scratch.write("bin/apt-get", "#!/bin/sh\necho apt-get \"$@\"\n");
   scratch.write("assay/reports/package/build",
