@@ -10,12 +10,13 @@
 #include <exception>
 #include <iostream>
 #include <new>
-#include <sstream>
 #include <system_error>
 #include <vector>
 
+#include "corpus/meant_word.h"
 #include "oracle/libraries.h"
-#include "properties/words.h"
+#include "reports/manual/help_text.h"
+#include "reports/manual/pages.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/words.h"
 #include "reports/verbs/verbs.h"
@@ -24,63 +25,91 @@ namespace {
 
 using namespace assay;
 
-// The verbs, in the order of `assay --help`.
-constexpr reports::Action (*verbs[])(CLI::App&) = {
-    reports::add_check,          reports::add_judge,          reports::add_check_queries,
-    reports::add_scene,          reports::add_self_test,      reports::add_run,
-    reports::add_replay,         reports::add_shrink,         reports::add_bench,
-    reports::add_report,         reports::add_merge,          reports::add_verify,
-    reports::add_list,           reports::add_certify,        reports::add_vectors,
-    reports::add_verify_vectors, reports::add_answer_vectors, reports::add_score};
+// The verbs, in the order of `assay help`.
+constexpr reports::AddedVerb (*verbs[])(CLI::App&) = {
+    reports::add_check,   reports::add_judge,          reports::add_check_queries,
+    reports::add_run,     reports::add_certify,        reports::add_bench,
+    reports::add_list,    reports::add_replay,         reports::add_shrink,
+    reports::add_verify,  reports::add_report,         reports::add_merge,
+    reports::add_vectors, reports::add_verify_vectors, reports::add_answer_vectors,
+    reports::add_score,   reports::add_scene,          reports::add_self_test};
 
-// CLI11 lists what it did not expect from the end.
-std::string complaint_of(const CLI::ParseError& wrong, const CLI::App& app) {
-  if (dynamic_cast<const CLI::ExtrasError*>(&wrong) == nullptr) return wrong.what();
-  return fmt::format("not expected: {}", fmt::join(app.remaining(true), " "));
+using Words = std::vector<std::string>;
+using Manuals = std::vector<reports::VerbManual>;
+
+int refuse_verb(const std::string& word, const Manuals& manuals) {
+  return reports::refuse(fmt::format("unknown verb '{}'{} (assay help lists verbs)", word,
+                                     corpus::did_you_mean(corpus::names_among(manuals), word)));
 }
 
-std::string meant_by(const std::string& word, CLI::App& app) {
-  for (const auto* verb : app.get_subcommands({})) {
-    if (properties::is_nearly(verb->get_name(), word))
-      return fmt::format("; did you mean {}?", verb->get_name());
+// `help`, `help VERB`; `help --write DIR` is for whoever installs man pages and completion.
+int help(const Words& words, const Manuals& manuals) {
+  if (words.empty()) {
+    fmt::print("{}", reports::help_text(manuals));
+    return reports::exit_holds;
   }
-  return "";
+  if (words.size() == 2 && words[0] == "--write") {
+    const auto written = reports::write_pages(words[1], manuals);
+    return written ? reports::exit_holds : reports::refuse(written.error());
+  }
+  const auto asked = std::ranges::find(manuals, words[0], &reports::VerbManual::name);
+  if (asked == manuals.end()) return refuse_verb(words[0], manuals);
+  fmt::print("{}", reports::help_text(*asked));
+  return reports::exit_holds;
 }
 
-int run(int argc, char** argv) {
-  CLI::App app(
-      "Assay certifies continuous self-collision detectors for deforming triangle meshes.");
-  app.set_version_flag("--version", [] { return reports::version_text(); });
-  app.require_subcommand(1);
+// One line that says what is wrong with the words of a verb. What was not expected goes first:
+// where an option is misspelt, that is why another one is missing.
+std::string complaint_of(const CLI::ParseError& wrong, const Words& unexpected,
+                         const reports::VerbManual& verb) {
+  if (!unexpected.empty()) {
+    const auto option = std::ranges::find_if(unexpected, [](auto& word) { return word[0] == '-'; });
+    const auto name = option == unexpected.end() ? "" : option->substr(0, option->find('='));
+    return fmt::format("not expected: {}{}", fmt::join(unexpected, " "),
+                       corpus::did_you_mean(corpus::names_among(verb.options), name));
+  }
+  std::string text = wrong.what();
+  const auto reword = [&](const std::string& before, const std::string& between,
+                          const std::string& behind) {
+    const auto at = text.find(before);
+    if (at == std::string::npos) return;
+    text = text.substr(0, at) + between + text.substr(at + before.size()) + behind;
+  };
+  if (dynamic_cast<const CLI::ExcludesError*>(&wrong))
+    reword(" excludes ", " and ", " do not go together");
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&wrong)) reword(": 1 required ", ": ", "");
+  return text;
+}
 
-  std::vector<reports::Action> actions;
-  for (const auto add_verb : verbs) actions.push_back(add_verb(app));
-
+int run(const Words& words) {
+  CLI::App app;
+  app.set_help_flag();
+  std::vector<reports::AddedVerb> added;
+  Manuals manuals;
+  for (const auto add_verb : verbs) {
+    added.push_back(add_verb(app));
+    manuals.push_back(added.back().manual);
+  }
+  if (words.empty()) return reports::refuse("name a verb (assay help lists verbs)");
+  const auto is_help = [](const std::string& word) { return word == "--help" || word == "-h"; };
+  if (words[0] == "help" || is_help(words[0]))
+    return help({words.begin() + 1, words.end()}, manuals);
+  if (words[0] == "version" || words[0] == "--version") {
+    const auto commit = reports::commit_text();
+    fmt::print("{}\n{}", reports::version_text(), commit.empty() ? "" : "commit " + commit + "\n");
+    return reports::exit_holds;
+  }
+  const auto verb = std::ranges::find(manuals, words[0], &reports::VerbManual::name);
+  if (verb == manuals.end()) return refuse_verb(words[0], manuals);
+  if (std::any_of(words.begin() + 1, words.end(), is_help)) return help({verb->name}, manuals);
   try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& asked) {
-    std::ostringstream text;
-    const int code = app.exit(asked, text, text);
-    fmt::print("{}", text.str());
-    return code;
+    app.parse(Words(words.rbegin(), words.rend()));
   } catch (const CLI::ParseError& wrong) {
-    const std::string first = argc > 1 ? argv[1] : "";
-    const auto known =
-        app.get_subcommands([&](const CLI::App* verb) { return verb->get_name() == first; });
-    if (known.empty()) {
-      const bool is_word = !first.empty() && first[0] != '-';
-      return reports::refuse((is_word
-                                  ? fmt::format("unknown verb '{}'{}", first, meant_by(first, app))
-                                  : complaint_of(wrong, app)) +
-                             " (assay --help lists verbs)");
-    }
-    return reports::refuse(
-        fmt::format("{} (assay {} --help lists options)", complaint_of(wrong, app), first));
+    return reports::refuse(fmt::format("{} (assay {} --help lists options)",
+                                       complaint_of(wrong, app.remaining(true), *verb),
+                                       verb->name));
   }
-  const auto all = app.get_subcommands({});
-  const auto chosen =
-      std::find_if(all.begin(), all.end(), [](auto* verb) { return verb->parsed(); });
-  return actions[static_cast<std::size_t>(chosen - all.begin())]();
+  return added[static_cast<std::size_t>(verb - manuals.begin())].act();
 }
 
 // The program may end at once, because a store is whole at any moment.
@@ -111,7 +140,7 @@ int main(int argc, char** argv) {
   // program prints through stdio.
   std::cout.setstate(std::ios_base::badbit);
   try {
-    const int code = run(argc, argv);
+    const int code = run(Words(argv + 1, argv + argc));
     return reports::output_was_written() ? code : reports::exit_usage;
   } catch (const std::bad_alloc&) {
     return reports::refuse(no_memory);

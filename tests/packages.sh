@@ -65,16 +65,39 @@ ensure_packages() {
   rm -f "$log"
 }
 
-# build_preset PRESET TARGET...: configures build/PRESET and builds the targets, quietly unless it
-# fails. A compile of the algebraic kernel takes 0.6 GB and more under a sanitizer.
+# show_build SECONDS: shows how far a build is, by the lines of Ninja on its input: on a terminal in
+# one line that is rewritten each second, elsewhere in a line each SECONDS.
+show_build() {
+  local line step='' started=$SECONDS shown=$SECONDS between=$1
+  [ ! -t 1 ] || between=1
+  while :; do
+    if IFS= read -r -t 1 line; then
+      case $line in \[[0-9]*/[0-9]*\]\ *) step=${line#[} step=${step%%]*} ;; esac
+    elif [ $? -le 128 ]; then
+      break # the end of the input; more than 128 says that nothing came for a second
+    fi
+    [ $((SECONDS - shown)) -ge "$between" ] || continue
+    shown=$SECONDS
+    line="${step:+${step/\// of } steps, }$((shown - started)) s"
+    if [ -t 1 ]; then printf '\r\033[K  %s' "$line"; else printf '  %s\n' "$line"; fi
+  done
+  [ ! -t 1 ] || printf '\r\033[K'
+}
+
+# build_preset PRESET TARGET...: configures build/PRESET and builds the targets, and shows no more
+# than how far it is unless it fails. A compile of the algebraic kernel takes 0.6 GB and more under a
+# sanitizer.
 build_preset() {
   local preset=$1 log started=$SECONDS
   shift
   log=build/$preset.log
   mkdir -p build
   echo "building build/$preset (log: $log)"
-  if ! cmake --preset "$preset" >"$log" 2>&1 ||
-    ! cmake --build "build/$preset" --target "$@" >>"$log" 2>&1; then
+  if ! (
+    set -o pipefail
+    { cmake --preset "$preset" && cmake --build "build/$preset" --target "$@"; } 2>&1 |
+      tee "$log" | show_build 30
+  ); then
     grep -E 'error|Error|FAILED' "$log" | head -n 20 >&2
     echo "the build failed; see $log" >&2
     return 1

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "corpus/meant_word.h"
 #include "corpus/scenes/box_with_arm.h"
 #include "corpus/scenes/deformations.h"
 #include "corpus/scenes/many_contacts.h"
@@ -201,12 +202,12 @@ bool is_valid(const Mesh& mesh) {
 }
 
 Problem unknown_scene(std::string_view name) {
-  std::string names;
-  for (const SceneInfo& info : infos) {
-    names += names.empty() ? "" : ", ";
-    names += info.name;
-  }
-  return problem_in({}, fmt::format("no scene is named {}; there are {}", name, names));
+  const auto names = names_among(infos);
+  const auto meant = did_you_mean(names, name);
+  return problem_in(
+      {},
+      fmt::format("no scene is named {}{}", name,
+                  meant.empty() ? fmt::format("; there are {}", fmt::join(names, ", ")) : meant));
 }
 
 Expected<Sequence> make(std::size_t i, SceneOptions options) {

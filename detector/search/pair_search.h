@@ -183,7 +183,8 @@ class ExhaustiveSearch : public PairSearch {
 };
 
 // Gives the sink each triangle whose box is not apart from `box`, in a single descent. REQUIRES a
-// box of tree.box_of_triangle, and joined boxes (BoundingVolumeTree::join_boxes). False if the sink stopped it by returning false.
+// box of tree.box_of_triangle, and joined boxes (BoundingVolumeTree::join_boxes). False if the sink
+// stopped it by returning false.
 bool search_box(const BoundingVolumeTree& tree, const MovingBox& box, SearchCounts& counts,
                 const std::function<bool(std::int32_t)>& sink);
 

@@ -63,9 +63,6 @@ struct CampaignPlan {
 // smoke, quick, nightly, release, faults.
 const std::vector<CampaignPlan>& named_plans();
 
-// The built-in campaign whose name this seems to be, misspelt; null if there is none.
-const CampaignPlan* plan_meant_by(std::string_view name);
-
 // A plan by its name, or from a file: schema `assay-campaign/1`, see properties/README.md.
 corpus::Expected<CampaignPlan> find_plan(const std::string& name_or_file);
 

@@ -4,6 +4,7 @@
 
 #include "corpus/file_bytes.h"
 #include "corpus/json_fields.h"
+#include "corpus/meant_word.h"
 #include "detector/mesh/problem.h"
 #include "properties/campaign/plan.h"
 #include "properties/queries/query_families.h"
@@ -300,22 +301,15 @@ corpus::Expected<CampaignPlan> read_plan(const std::string& file, const IsThatOn
 
 }  // namespace
 
-const CampaignPlan* plan_meant_by(std::string_view name) {
-  for (const auto& plan : named_plans()) {
-    if (is_nearly(plan.name, name)) return &plan;
-  }
-  return nullptr;
-}
-
 corpus::Expected<CampaignPlan> find_plan(const std::string& name_or_file) {
   for (const auto& plan : named_plans()) {
     if (plan.name == name_or_file) return plan;
   }
-  const auto* meant = plan_meant_by(name_or_file);
   std::error_code ignored;
-  if (meant && !std::filesystem::exists(name_or_file, ignored)) {
-    return corpus::problem_in(name_or_file,
-                              "is no campaign and no file; did you mean " + meant->name + "?");
+  if (!std::filesystem::exists(name_or_file, ignored)) {
+    return corpus::problem_in(
+        name_or_file, "is no campaign and no file" +
+                          corpus::did_you_mean(corpus::names_among(named_plans()), name_or_file));
   }
   return read_plan(name_or_file, is_the_same_but_for_time);
 }

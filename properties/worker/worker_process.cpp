@@ -362,9 +362,19 @@ const Isolation& WorkerProcess::isolation() const { return parts_->isolation; }
 std::uint64_t WorkerProcess::starts() const { return parts_->starts; }
 std::uint64_t WorkerProcess::disturbances() const { return parts_->told + parts_->untold; }
 
-std::filesystem::path worker_program() {
+std::filesystem::path program_folder() {
   std::error_code ignored;
-  return std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() / "assay-worker";
+  return std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path();
+}
+
+std::filesystem::path worker_program() {
+  const auto programs = program_folder();
+  const auto installed = programs / ".." / "libexec" / "assay" / "assay-worker";
+  std::error_code ignored;
+  const auto beside = programs / "assay-worker";
+  if (std::filesystem::exists(beside, ignored) || !std::filesystem::exists(installed, ignored))
+    return beside;
+  return installed.lexically_normal();
 }
 
 }  // namespace assay::properties

@@ -95,7 +95,11 @@ class WorkerProcess {
   std::unique_ptr<Parts> parts_;
 };
 
-// The path of assay-worker, in the folder of the running program.
+// The folder of the running program.
+std::filesystem::path program_folder();
+
+// The path of assay-worker: in the folder of the running program as it was built, or where it is
+// installed, in ../libexec/assay.
 std::filesystem::path worker_program();
 
 }  // namespace assay::properties

@@ -10,6 +10,7 @@
 #include "reports/check/detector_choice.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/progress.h"
+#include "reports/terminal/shipped.h"
 
 namespace assay::reports {
 
@@ -170,8 +171,9 @@ class CampaignTerminal : public properties::CampaignObserver {
 
 Expected<void> run_on_terminal(const properties::CampaignRequest& request, properties::Store& store,
                                const std::string& out) {
+  BOOST_OUTCOME_TRY(corpus, shipped_corpus());
   CampaignTerminal terminal(request, out);
-  BOOST_OUTCOME_TRY(properties::run_campaign(request, ASSAY_CORPUS_DIR, store, terminal));
+  BOOST_OUTCOME_TRY(properties::run_campaign(request, corpus / "curated", store, terminal));
   return terminal.written();
 }
 

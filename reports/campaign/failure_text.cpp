@@ -70,7 +70,7 @@ std::string trial_text(const properties::RunFindings& findings,
                                 trial.triangles, trial.steps, trial.steps == 1 ? "" : "s");
   const auto* kept = kept_of(findings, trial.id);
   if (!kept) {
-    return out + fmt::format("              replay: {} replay {}{}\n", this_program(), trial.id,
+    return out + fmt::format("              replay: {} replay {}{}\n", this_program(true), trial.id,
                              detector_words(findings.library, findings.run.detector.threads));
   }
   const auto file = slow_file(*kept, !kept->smallest.empty());

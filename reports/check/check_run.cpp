@@ -326,7 +326,8 @@ class CheckRun {
     const auto name = [&](const std::vector<std::string>& files) {
       const bool file_a_frame = files.size() == steps_.frames();
       for (std::size_t i = 0; i < files.size(); ++i) {
-        if (!file_a_frame || i == s || i == s + 1) input += " " + files[i];
+        if (!file_a_frame || i == s || i == s + 1)
+          input += " " + shell_word(absolute_path(files[i]));
       }
     };
     if (question_.bodies.empty()) name(question_.files);

@@ -67,7 +67,7 @@ Expected<CheckAnswer> judge_log(const LogName& name, const LogQuestion& question
     if (error) return Problem{fmt::format("{}: {}", question.out, error.message())};
     const auto replay = [&](std::uint64_t number) {
       return fmt::format("{} replay {}", this_program(true),
-                         shell_word(fmt::format("{}#{}", name.file, number)));
+                         shell_word(fmt::format("{}#{}", absolute_path(name.file), number)));
     };
     kept = std::make_unique<KeptFailures>(question.out, name.file, replay, std::move(again),
                                           question.shrink_seconds);

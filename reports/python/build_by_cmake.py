@@ -3,6 +3,7 @@
 import shutil
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 from setuptools.command.build_py import build_py
@@ -14,7 +15,8 @@ BUILD = SOURCES / "build" / "release"
 
 
 class BuildPy(build_py):
-    """The package, and in it modules, the plug-in that serves detectors in Python, programs."""
+    """The package, and in it modules, the plug-in that serves detectors in Python, programs and
+    what these read."""
 
     def run(self):
         super().run()
@@ -30,6 +32,9 @@ class BuildPy(build_py):
             shutil.copy2(library, package)
         for program in ("assay", "assay-worker"):
             shutil.copy2(BUILD / program, package / "bin")
+        with tempfile.TemporaryDirectory() as prefix:
+            subprocess.run(["cmake", "--install", str(BUILD), "--prefix", prefix], check=True)
+            shutil.copytree(Path(prefix, "share", "assay"), package / "share" / "assay", dirs_exist_ok=True)
 
 
 class EggInfo(egg_info):

@@ -202,6 +202,7 @@ py::tuple answers(const py::object& x_t0, const py::object& x_t1, int first_grou
 
 PYBIND11_MODULE(_detector, module) {
   using namespace assay::python;
+  module.attr("VERSION") = ASSAY_VERSION;
   module.attr("OPTIONS") = words_of_options();
   py::class_<SavedState>(module, "State")
       .def("__bytes__", bytes_of)

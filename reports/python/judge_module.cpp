@@ -9,11 +9,14 @@
 #include <memory>
 #include <optional>
 
+#include "corpus/cases/case_file.h"
 #include "corpus/formats/sequence_reader.h"
 #include "detector/mesh/mesh_checks.h"
 #include "oracle/distance/step_distance.h"
+#include "properties/campaign/gates/findings.h"
 #include "properties/judging/case_options.h"
 #include "reports/check/separation_check.h"
+#include "reports/page/data/run_json.h"
 #include "reports/pictures/contact_places.h"
 #include "reports/python/arrays.h"
 #include "reports/python/calls.h"
@@ -240,6 +243,13 @@ py::array contact_points(const py::object& triangles, const py::object& x_t0,
   return points;
 }
 
+py::tuple mesh_and_frames(detector::Triangles& triangles,
+                          std::vector<detector::Positions>& frames) {
+  py::list positions;
+  for (auto& frame : frames) positions.append(owning_array(std::move(frame)));
+  return py::make_tuple(owning_array(std::move(triangles)), positions);
+}
+
 // Returns the triangles, and a list of the positions of each frame.
 py::tuple read_sequence(const std::vector<std::string>& files) {
   const std::vector<std::filesystem::path> paths(files.begin(), files.end());
@@ -248,9 +258,24 @@ py::tuple read_sequence(const std::vector<std::string>& files) {
     return corpus::read_sequence(paths);
   }();
   if (!sequence) throw py::value_error(sequence.error().message);
-  py::list frames;
-  for (auto& frame : sequence.value().frames) frames.append(owning_array(std::move(frame)));
-  return py::make_tuple(owning_array(std::move(sequence.value().triangles)), frames);
+  return mesh_and_frames(sequence.value().triangles, sequence.value().frames);
+}
+
+// The same of a case file.
+py::tuple read_case(const std::string& file) {
+  auto c = corpus::read_case(file);
+  if (!c) throw py::value_error(c.error().message);
+  return mesh_and_frames(c.value().triangles, c.value().frames);
+}
+
+// What a certificate would say of the run in a folder, as JSON (assay-certificate/6).
+std::string findings(const std::string& folder) {
+  const auto found = properties::read_findings(folder);
+  if (!found) throw py::value_error(found.error().message);
+  const auto judgement =
+      properties::judge(found.value(), properties::asked_of_a_run(found.value()));
+  return reports::run_json(found.value(), judgement)["findings"].dump(
+      -1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 }  // namespace
@@ -264,4 +289,6 @@ PYBIND11_MODULE(_judge, module) {
   module.def("check_files", check_files);
   module.def("contact_points", contact_points);
   module.def("read_sequence", read_sequence);
+  module.def("read_case", read_case);
+  module.def("findings", findings);
 }

@@ -120,7 +120,7 @@ Expected<int> self_test_of_plugin(const QuerySelfTest& request) {
   fmt::print("{}", detector.text());
   for (const auto& name : replays)
     fmt::print("replay: {} self-test --replay {}{}\n", this_program(true), name,
-               detector_words(request.detector.library, request.detector.threads));
+               detector_words(absolute_path(request.detector.library), request.detector.threads));
   if (test.was_over()) fmt::print("stopped at the time limit\n");
   const int code = detector.exit_code();
   return code == exit_holds && test.was_over() ? exit_undecided : code;

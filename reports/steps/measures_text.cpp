@@ -20,12 +20,12 @@ std::string rate_text(const properties::Rate& rate) {
                      100 * rate.interval.lo, 100 * rate.interval.hi);
 }
 
-// Gives "3: 0.002 0.01 0.5", for example: the number of steps that are off, then of these steps the
+// "3 by 0.002 (99 %: 0.01) to 0.5": the number of steps that are off, then of these steps the
 // median, the value that 99 of 100 do not exceed, and the worst.
 std::string off_text(const properties::TimesOff& off) {
   if (off.steps == 0) return "none";
-  return fmt::format("{}: {:.2g} {:.2g} {:.2g}", off.steps, off.quantile(0.5), off.quantile(0.99),
-                     off.quantile(1));
+  return fmt::format("{} by {:.2g} (99 %: {:.2g}) to {:.2g}", off.steps, off.quantile(0.5),
+                     off.quantile(0.99), off.quantile(1));
 }
 
 std::string off_sentence(const char* word, const properties::TimesOff& off) {
@@ -33,7 +33,19 @@ std::string off_sentence(const char* word, const properties::TimesOff& off) {
                      off.steps == 1 ? "" : "s", off.quantile(1));
 }
 
-constexpr const char* row_format = "{:>32} {:>14} {:>10} {:>24} {:>24} {:>14} {:>26}";
+constexpr const char* row_format = "{:>32} {:>14} {:>10} {:>34} {:>34} {:>14} {:>26}";
+
+// The members of a contract that say of which pairs the detector need not tell, in words.
+std::vector<std::string> pairs_left_out(const properties::Contract& contract) {
+  properties::Contract of_pairs;
+  of_pairs.adjacency = contract.adjacency;
+  of_pairs.features = contract.features;
+  of_pairs.counts = contract.counts;
+  of_pairs.rings = contract.rings;
+  of_pairs.rest_distance = contract.rest_distance;
+  of_pairs.separation = contract.separation;
+  return properties::phrases_of(of_pairs);
+}
 
 // Tells on what the claim `deterministic` was tried besides the trials.
 std::string repeated_text(const std::vector<properties::Repetition>& repeated) {
@@ -97,8 +109,8 @@ std::string found_text(std::uint64_t at_random, std::uint64_t by_curated_case_al
 
 std::string measures_head() {
   return fmt::format(row_format, "free steps answered collision", "answered free", "spurious",
-                     "late: median p99 worst", "early: median p99 worst", "left out",
-                     "candidates / least");
+                     "late: steps by median to worst", "early: steps by median to worst",
+                     "left out", "candidates / least");
 }
 
 std::string measures_row(const properties::StepMeasures& m) {
@@ -143,9 +155,10 @@ std::string measures_sentence(const properties::StepMeasures& m) {
 std::string measures_text(const properties::RunFindings& findings) {
   if (findings.run.detector.built_in) return "";
   std::string out = fmt::format(
-      "whatever is claimed (intervals of 95 %, in per cent; late, early: steps, and of these the "
-      "median, p99 and worst in shares of the step; left out: "
-      "cases + steps)\n{:24} {}\n",
+      "whatever is claimed (intervals of 95 %, in per cent; late, early: how many first times are "
+      "after or before the oracle's, and by which share of the step: in the median, in 99 of 100 "
+      "of "
+      "them at most, and at worst; left out: cases + steps)\n{:24} {}\n",
       "stratum", measures_head());
   for (const auto& stratum : findings.run.plan.strata)
     out += fmt::format("{:24} {}\n", stratum.family,
@@ -154,8 +167,11 @@ std::string measures_text(const properties::RunFindings& findings) {
   out += fmt::format("{:24} {}\n", "all", measures_row(all));
   if (all.refused > 0) out += fmt::format("refused: capacity, in {} steps\n", all.refused);
   if (all.left_out_misses > 0)
-    out += fmt::format("the contract leaves out what would have been a miss in {} steps\n",
-                       all.left_out_misses);
+    out += fmt::format(
+        "in {} steps it does not report a contact, and need not by its contract ({}): without "
+        "that, "
+        "these were misses\n",
+        all.left_out_misses, joined(pairs_left_out(findings.run.detector.contract), ", "));
   out += limits_text(all.errors.limits) + repeated_text(findings.evidence.repeated);
   for (const auto& [claim, reason] : properties::not_judged(findings))
     out += fmt::format("not judged: {}, for {}\n", claim, reason);

@@ -19,6 +19,7 @@
 
 #include "properties/judging/subject.h"
 #include "reports/terminal/complaint.h"
+#include "reports/terminal/manual.h"
 
 namespace CLI {
 class App;
@@ -29,68 +30,85 @@ namespace assay::reports {
 
 // A check of the word after an option.
 struct Check {
-  std::string words;  // for --help: "all, first", "NUMBER > 0"
+  std::string words;  // the words that it may be, such as "all, first"; or their form
   // One clear line that says what is wrong with the word; empty if nothing is.
   std::function<std::string(const std::string& word)> complaint;
 };
 
 class VerbOption {
  public:
-  explicit VerbOption(CLI::Option* option) : option_(option) {}
+  VerbOption(CLI::Option* option, OptionManual& manual) : option_(option), manual_(manual) {}
   VerbOption required();
   VerbOption with(const Check& check);
   VerbOption in_range(std::uint64_t least, std::uint64_t most);
-  // --help shows the value that the target has now.
+  // Help shows the value that the target has now.
   VerbOption shows_default();
   // The two may not be given together.
   VerbOption excludes(VerbOption other);
+  // Under which title help shows it: OptionGroup::question, or input for words without an option,
+  // unless told otherwise.
+  VerbOption in(OptionGroup group);
+  // Words that it may be; `or_others`: of which there are others, such as files.
+  VerbOption among(std::vector<std::string> words, bool or_others = false);
 
  private:
   CLI::Option* option_;
+  OptionManual& manual_;  // of a Verb
 };
 
 class Verb {
  public:
   Verb(CLI::App& app, const std::string& name, const std::string& about);
 
-  // Adds an option ("--out"), or a word without one ("file"). The target keeps its value if the
-  // option is not given. It must outlive the parsing.
+  // Adds an option with what stands behind it ("--out DIR"), or a word without one ("FILE"). The
+  // target keeps its value if the option is not given. It must outlive the parsing.
   // Targets are words, lists of them, numbers and optional numbers: those of option_words.cpp.
   template <class Target>
   VerbOption add(const std::string& name, Target& target, const std::string& about);
   VerbOption add_flag(const std::string& name, bool& target, const std::string& about);
-  // `take` is called with the word, once it has passed the checks.
+  // `take` is called with the word, once it has passed the checks. If nothing stands behind the
+  // name, the words of its check are all that there are.
   VerbOption add_word(const std::string& name, std::function<void(const std::string& word)> take,
                       const std::string& about);
 
+  const VerbManual& manual() const { return manual_; }
+
  private:
+  OptionManual& note(const std::string& name, const std::string& about);
   CLI::App* app_;
+  VerbManual manual_;
 };
 
-// What a verb does once its command line is parsed. Returns the exit code.
-using Action = std::function<int()>;
+// A verb of the command line: what it says of itself, and what it does once the command line is
+// parsed, which returns the exit code.
+struct AddedVerb {
+  VerbManual manual;
+  std::function<int()> act;
+};
 
 // Makes a verb with these options and this action, which returns the exit code, or the problem with
 // which the verb is refused. The action keeps the request alive: it holds the defaults, and the
 // options write into it.
 template <class Request>
-Action make_verb(CLI::App& app, const char* name, const char* about,
-                 void (*add_options)(Verb&, Request&), Expected<int> (*run)(const Request&)) {
+AddedVerb make_verb(CLI::App& app, const char* name, const char* about,
+                    void (*add_options)(Verb&, Request&), Expected<int> (*run)(const Request&)) {
   const auto request = std::make_shared<Request>();
   Verb verb(app, name, about);
   add_options(verb, *request);
-  return [request, run] {
-    const auto code = run(*request);
-    return code ? code.value() : refuse(code.error());
-  };
+  return {verb.manual(), [request, run] {
+            const auto code = run(*request);
+            return code ? code.value() : refuse(code.error());
+          }};
 }
+
+// One line that says which words are wanted in place of this one, and which may have been meant.
+std::string wrong_word(const std::string& word, const std::string& wanted);
 
 // A check that takes the words that `parse` takes: a fixed set, or words of a certain form.
 template <class Parse>
 Check one_of(const std::string& words, Parse parse) {
   return {words, [words, parse](const std::string& word) {
-            return parse(word) ? std::string()
-                               : fmt::format("'{}' is wrong, wanted: {}", word, words);
+            return parse(word) ? std::string() : wrong_word(word, words);
           }};
 }
 

@@ -37,8 +37,10 @@ Expected<int> answer_vectors(const AnswerVectorsRequest& request) {
 }
 
 void add_options(Verb& verb, AnswerVectorsRequest& request) {
-  verb.add("folder", request.folder, "The folder that holds set.json").required();
-  verb.add("--out", request.out, "Where the results file goes").required();
+  verb.add("DIR", request.folder, "The folder that holds set.json").required();
+  verb.add("--out FILE", request.out, "Where the results file goes")
+      .required()
+      .in(OptionGroup::output);
   add_choice(verb, "--arithmetic", request.arithmetic, all_names<detector::Arithmetic>(),
              from_name<detector::Arithmetic>, "What the built-in detector computes in")
       .excludes(add_detector(verb, request.detector));
@@ -47,7 +49,7 @@ void add_options(Verb& verb, AnswerVectorsRequest& request) {
 
 }  // namespace
 
-Action add_answer_vectors(CLI::App& app) {
+AddedVerb add_answer_vectors(CLI::App& app) {
   return make_verb(app, "answer-vectors",
                    "Let a plug-in, or the built-in detector, answer a conformance set", add_options,
                    answer_vectors);

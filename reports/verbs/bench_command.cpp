@@ -6,6 +6,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "corpus/meant_word.h"
 #include "reports/bench/pictures.h"
 #include "reports/bench/suites.h"
 #include "reports/bench/workers/detector_suite.h"
@@ -112,38 +113,41 @@ Expected<int> run_bench(const BenchRequest& request) try {
 void add_options(Verb& verb, BenchRequest& request) {
   const char* data = std::getenv("ASSAY_DATA");
   request.settings.data = data && *data ? data : "../shared/data";
-  std::vector<std::string_view> names;
-  for (const auto& suite : suites) names.push_back(suite.name);
-  auto suite = verb.add("--suite", request.suite, "What to measure")
-                   .with(one_of(fmt::format("{}", fmt::join(names, ", ")), suite_named));
+  const auto names = corpus::names_among(suites);
+  auto suite = verb.add("--suite NAME", request.suite, "What to measure")
+                   .with(one_of(fmt::format("{}", fmt::join(names, ", ")), suite_named))
+                   .among(names);
   add_detector(verb, request.detector,
                "In place of a suite: a plug-in's library, timed beside the built-in detector on "
                "scenes and public sequences, its answers judged by its claims")
       .excludes(suite);
-  verb.add("--case-seconds", request.settings.case_seconds,
+  verb.add("--case-seconds SECONDS", request.settings.case_seconds,
            "Processor seconds that a plug-in may take for a sequence")
       .with(positive())
-      .shows_default();
+      .shows_default()
+      .in(OptionGroup::limits);
   add_jobs(verb, request.settings.jobs);
   verb.add_flag("--quick", request.is_quick,
                 "A tenth of sizes and rounds: a first look, in a tenth of the time or so");
-  verb.add("--data", request.settings.data,
+  verb.add("--data DIR", request.settings.data,
            "Folder of the public data (default $ASSAY_DATA, else ../shared/data); rows of "
            "what is not there say so");
   request.settings.peers = (properties::worker_program().parent_path() / "peers").string();
-  verb.add("--peers", request.settings.peers,
+  verb.add("--peers DIR", request.settings.peers,
            "Suite peers: folder of the plug-ins (default: peers beside the program, where target "
            "`peers` builds them)");
-  verb.add("--json", request.json_file, "Write all figures here (assay-bench/1)");
-  verb.add("--csv", request.csv_file, "Write the raw samples here");
-  verb.add("--svg", request.svg_file,
+  verb.add("--json FILE", request.json_file, "Write all figures here (assay-bench/1)")
+      .in(OptionGroup::output);
+  verb.add("--csv FILE", request.csv_file, "Write the raw samples here").in(OptionGroup::output);
+  verb.add("--svg FILE", request.svg_file,
            "Draw the suite's picture here (growth, claims, stability, speed-error, peers; needs "
-           "gnuplot)");
+           "gnuplot)")
+      .in(OptionGroup::output);
 }
 
 }  // namespace
 
-Action add_bench(CLI::App& app) {
+AddedVerb add_bench(CLI::App& app) {
   return make_verb(app, "bench", "Speeds and memory beside what is wanted", add_options, run_bench);
 }
 

@@ -12,6 +12,7 @@
 #include <set>
 
 #include "corpus/digest.h"
+#include "corpus/meant_word.h"
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/ledger/binding.h"
 #include "properties/campaign/ledger/run_folder.h"
@@ -25,6 +26,7 @@
 #include "reports/certificate/statement.h"
 #include "reports/certificate/summary.h"
 #include "reports/terminal/progress.h"
+#include "reports/terminal/shipped.h"
 #include "reports/terminal/text_file.h"
 #include "reports/terminal/words.h"
 #include "reports/verbs/verbs.h"
@@ -34,8 +36,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 using properties::stored_shards;
-
-constexpr const char* known_failures = ASSAY_CORPUS_DIR "/../known.json";
 
 // Whether the folder holds shards of several, or a merged store. Then no trial is run here.
 bool holds_shards(const std::filesystem::path& out) {
@@ -48,10 +48,11 @@ bool holds_shards(const std::filesystem::path& out) {
 class Certification {
  public:
   Certification(const CampaignWords& words, const properties::CampaignRequest& request,
-                properties::Checks checks)
+                std::filesystem::path corpus, properties::Checks checks)
       : words_(words),
         request_(request),
         out_(words.out),
+        corpus_(std::move(corpus)),
         checks_(std::move(checks)),
         begin_(Clock::now()) {}
 
@@ -91,7 +92,7 @@ class Certification {
   // If the owner gives cases or waivers, their digests are taken together with those of the
   // shipped ones.
   properties::InputDigests input_digests() const {
-    std::string cases = corpus_digest(ASSAY_CORPUS_DIR);
+    std::string cases = corpus_digest(corpus_ / "curated");
     if (request_.own_cases) cases = corpus::sha256_of(cases + request_.own_cases->digest);
     std::optional<std::string> waivers;
     for (const auto& file : waiver_files()) {
@@ -103,7 +104,7 @@ class Certification {
   }
 
   std::vector<std::filesystem::path> waiver_files() const {
-    std::vector<std::filesystem::path> files = {known_failures};
+    std::vector<std::filesystem::path> files = {corpus_ / "known.json"};
     if (request_.own_cases) {
       if (const auto own = owner_waivers(words_.own_cases)) files.push_back(*own);
     }
@@ -141,7 +142,7 @@ class Certification {
       keep(row);
     };
     const auto on_failure = [&](const auto& failure) { corpus_failures_.push_back(failure); };
-    auto done = check_corpus(request_, ASSAY_CORPUS_DIR, on_row, on_failure);
+    auto done = check_corpus(request_, corpus_ / "curated", on_row, on_failure);
     if (done) check_own_cases(request_, on_row, on_failure);
     return done;
   }
@@ -273,6 +274,7 @@ class Certification {
   const CampaignWords& words_;
   const properties::CampaignRequest& request_;
   const std::filesystem::path out_;
+  const std::filesystem::path corpus_;
   properties::Checks checks_;
   std::optional<properties::Store> store_;  // the store of the trials that are run here
   std::map<std::string, properties::WholeShard>
@@ -282,6 +284,7 @@ class Certification {
 };
 
 Expected<int> run_certify(const CampaignWords& words) {
+  BOOST_OUTCOME_TRY(corpus, shipped_corpus());
   BOOST_OUTCOME_TRY(request, ask_for_campaign(words));
   if (request.power && holds_shards(words.out))
     return Problem{
@@ -291,22 +294,24 @@ Expected<int> run_certify(const CampaignWords& words) {
   BOOST_OUTCOME_TRY(checks, properties::Checks::open(words.out, request));
   fmt::print("the shipped corpus, campaign {}, self-test and speed; writes {}\n", request.plan.name,
              words.out);
-  return Certification(words, request, std::move(checks)).run();
+  return Certification(words, request, corpus, std::move(checks)).run();
 }
 
 void add_options(Verb& verb, CampaignWords& words) {
   words.campaign = "smoke";
-  verb.add("--campaign", words.campaign,
+  verb.add("--campaign NAME|FILE", words.campaign,
            "smoke, quick, nightly, release, or a campaign file (.json)")
-      .shows_default();
+      .shows_default()
+      .among(corpus::names_among(properties::named_plans()), true);
   add_campaign_options(verb, words);
-  verb.add("--out", words.out, "Folder for the certificate; shards that it holds are taken")
-      .required();
+  verb.add("--out DIR", words.out, "Folder for the certificate; shards that it holds are taken")
+      .required()
+      .in(OptionGroup::output);
 }
 
 }  // namespace
 
-Action add_certify(CLI::App& app) {
+AddedVerb add_certify(CLI::App& app) {
   return make_verb(app, "certify",
                    "Corpus, campaign, planted faults, self-test, speed: a certificate, or a defect",
                    add_options, run_certify);

@@ -37,14 +37,17 @@ Expected<std::unique_ptr<KeptFailures>> kept_failures(const CheckRequest& reques
     again = std::move(subject);
   }
   const auto replay = [&request](std::uint64_t number) {
-    if (!request.question.answers.empty())
-      return fmt::format("{} check {} --answers {}", this_program(true), joined(request.files, " "),
-                         shell_word(request.question.answers));
+    if (!request.question.answers.empty()) {
+      std::string frames;
+      for (const auto& file : request.files) frames += " " + shell_word(absolute_path(file));
+      return fmt::format("{} check{} --answers {}", this_program(true), frames,
+                         shell_word(absolute_path(request.question.answers)));
+    }
     const auto file = std::filesystem::path(request.keep) / fmt::format("step-{}", number);
     const auto& of = request.question.detector;
     return fmt::format("{} replay {}{}", this_program(true),
-                       shell_word((file / "case.json").string()),
-                       detector_words(of.library, of.threads));
+                       shell_word(absolute_path(file / "case.json")),
+                       detector_words(absolute_path(of.library), of.threads));
   };
   return std::make_unique<KeptFailures>(request.keep, joined(request.files, " "), replay,
                                         std::move(again));
@@ -55,7 +58,9 @@ Expected<int> run_check(const CheckRequest& request) {
   question.files = request.files;
   for (const auto& files : question.bodies)
     question.files.insert(question.files.end(), files.begin(), files.end());
-  if (question.files.empty()) return Problem{"frames is required, or --body for each mesh"};
+  if (question.files.empty())
+    return Problem{
+        "FRAME is required: two frames or more, or one case file; or --body for each mesh"};
   for (const auto& word : request.apart) question.apart.push_back(*two_numbers(word));
   if (!question.apart.empty() && question.bodies.empty())
     return Problem{"--apart is of bodies, which --body names"};
@@ -98,20 +103,21 @@ Expected<int> run_check(const CheckRequest& request) {
 
 void add_options(Verb& verb, CheckRequest& request) {
   const auto frames =
-      verb.add("frames", request.files,
+      verb.add("FRAME", request.files,
                "Two or more frames (OBJ, PLY, OFF; .gz too), or one case file (.json)");
-  verb.add("--body", request.question.bodies,
+  verb.add("--body FRAME", request.question.bodies,
            "The frames of one of several meshes, which become bodies of one; numbered from 0. One "
            "frame: it stands still")
       .excludes(frames);
-  verb.add("--apart", request.apart, "A,B: bodies that do not meet; A,A: one that meets not itself")
+  verb.add("--apart A,B", request.apart,
+           "A,B: bodies that do not meet; A,A: one that meets not itself")
       .with(one_of("A,B: two bodies by number", two_numbers));
   auto plugin =
       add_detector_alone(verb, request.question.detector,
                          "A plug-in's library, or python:MODULE:CLASS (default: the built-in)");
   add_threads(verb, request.question.threads);
   auto answers =
-      verb.add("--answers", request.question.answers,
+      verb.add("--answers FILE", request.question.answers,
                "Judge the answers of this table (step,answer,time) in place of a detector")
           .excludes(plugin);
   add_choice(verb, "--adjacency", request.question.adjacency, all_names<properties::Adjacency>(),
@@ -130,12 +136,12 @@ void add_options(Verb& verb, CheckRequest& request) {
   const auto no_oracle = verb.add_flag("--no-oracle", request.question.no_oracle,
                                        "Detector only; prints `not judged`");
   const auto second_opinion =
-      verb.add("--second-opinion", request.question.second_opinion,
+      verb.add("--second-opinion SHARE", request.question.second_opinion,
                "Check the oracle itself by other methods, on this share of its questions")
           .with(share())
           .excludes(no_oracle);
   auto separation =
-      verb.add("--separation", request.separation,
+      verb.add("--separation LENGTH", request.separation,
                "Ask the oracle alone which triangles that share no vertex come within this "
                "distance, when first, and how near any two come")
           .with(length())
@@ -143,7 +149,7 @@ void add_options(Verb& verb, CheckRequest& request) {
           .excludes(answers)
           .excludes(no_oracle)
           .excludes(second_opinion);
-  auto offset = verb.add("--offset", request.offsets,
+  auto offset = verb.add("--offset LENGTH", request.offsets,
                          "The same with a length for each --body, in their order: the distance of "
                          "two triangles is the sum of their bodies' lengths")
                     .with(length())
@@ -163,17 +169,19 @@ void add_options(Verb& verb, CheckRequest& request) {
   verb.add_flag("--fail-on-collision", request.fail_on_collision,
                 "Exit code 5 when they agree on a collision, or a step comes within --separation");
   verb.add(
-          "--keep", request.keep,
+          "--keep DIR", request.keep,
           "Keep failing steps here: the part of the mesh that shows each, as case, OBJ and C++; of "
           "a plug-in shrunk")
       .excludes(separation)
-      .excludes(offset);
-  verb.add("--json", request.json_file, "Write the report here (assay-check/1)");
+      .excludes(offset)
+      .in(OptionGroup::output);
+  verb.add("--json FILE", request.json_file, "Write the report here (assay-check/1)")
+      .in(OptionGroup::output);
 }
 
 }  // namespace
 
-Action add_check(CLI::App& app) {
+AddedVerb add_check(CLI::App& app) {
   return make_verb(app, "check", "Detector against oracle on the steps of one mesh", add_options,
                    run_check);
 }

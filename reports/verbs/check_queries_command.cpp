@@ -128,8 +128,8 @@ Expected<int> run_check_queries(const CheckQueriesRequest& request) {
 }
 
 void add_options(Verb& verb, CheckQueriesRequest& request) {
-  verb.add("files", request.files, "Query files (.csv, .csv.gz)").required();
-  verb.add("--truth", request.truths, "Labels (.json), one file for each query file");
+  verb.add("FILE", request.files, "Query files (.csv, .csv.gz)").required();
+  verb.add("--truth FILE", request.truths, "Labels (.json), one file for each query file");
   std::vector<const char*> words;
   for (const auto& method : properties::named_methods()) words.push_back(method.name);
   const auto parse = [](std::string_view word) -> std::optional<const properties::QueryMethod*> {
@@ -140,18 +140,20 @@ void add_options(Verb& verb, CheckQueriesRequest& request) {
   };
   const auto method = add_choice(verb, "--method", request.method, joined(words, ", "), parse,
                                  "Who answers (default oracle)");
-  verb.add("--separation", request.separation,
+  verb.add("--separation LENGTH", request.separation,
            "Ask for this distance, and not for contact, where a query's rows say none")
       .with(length());
   add_detector(verb, request.detector, "A plug-in's library: its query answers").excludes(method);
-  verb.add("--json", request.json_file, "Write the report here (assay-queries/1)");
+  verb.add("--json FILE", request.json_file, "Write the report here (assay-queries/1)")
+      .in(OptionGroup::output);
 }
 
 }  // namespace
 
-Action add_check_queries(CLI::App& app) {
-  return make_verb(app, "check-queries", "Labelled VF and EE queries against their truth",
-                   add_options, run_check_queries);
+AddedVerb add_check_queries(CLI::App& app) {
+  return make_verb(app, "check-queries",
+                   "Labelled vertex-face and edge-edge queries against their truth", add_options,
+                   run_check_queries);
 }
 
 }  // namespace assay::reports

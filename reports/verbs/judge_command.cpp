@@ -92,25 +92,27 @@ Expected<int> run_judge(const JudgeRequest& request) {
 
 void add_options(Verb& verb, JudgeRequest& request) {
   auto& question = request.question;
-  verb.add("logs", request.logs,
+  verb.add("LOG", request.logs,
            "Logs that a recorder wrote (assay_record.h, assay.Recorder); LOG#N: step N alone")
       .required();
-  verb.add("--share", request.share, "Judge this share of the steps").with(reports::share());
-  add_choice(verb, "--shard", question.selection.shard, "I/N with 1 <= I <= N", shard_of,
+  verb.add("--share SHARE", request.share, "Judge this share of the steps").with(reports::share());
+  add_choice(verb, "--shard I/N", question.selection.shard, "I/N with 1 <= I <= N", shard_of,
              "I/N: the part of the steps that this process judges, one of N");
-  verb.add("--from", request.from, "Go on with this step, counted from 1")
+  verb.add("--from N", request.from, "Go on with this step, counted from 1")
       .in_range(1, std::numeric_limits<std::int64_t>::max());
   verb.add_flag("--follow", question.selection.follow,
                 "Wait for steps until the recorder ends the log");
-  verb.add("--out", question.out,
-           "Keep failing steps here: the part of the mesh that shows each, as case, OBJ and C++");
+  verb.add("--out DIR", question.out,
+           "Keep failing steps here: the part of the mesh that shows each, as case, OBJ and C++")
+      .in(OptionGroup::output);
   add_detector(verb, question.again,
                "A plug-in of the same code: it is asked again about what is kept, and that is "
                "shrunk");
-  verb.add("--shrink-time", question.shrink_seconds, "Seconds at most for each")
+  verb.add("--shrink-time SECONDS", question.shrink_seconds, "Seconds at most for each")
       .with(positive())
-      .shows_default();
-  verb.add("--second-opinion", question.check.second_opinion,
+      .shows_default()
+      .in(OptionGroup::limits);
+  verb.add("--second-opinion SHARE", question.check.second_opinion,
            "Check the oracle itself by other methods, on this share of its questions")
       .with(reports::share());
   add_jobs(verb, question.check.jobs);
@@ -118,14 +120,17 @@ void add_options(Verb& verb, JudgeRequest& request) {
   verb.add_flag("--fail-on-collision", request.fail_on_collision,
                 "Exit code 5 when a collision is recorded, and no answer breaks a claim");
   verb.add_flag("--all-steps", request.all_steps,
-                "Print every step, not only those that are not as claimed");
-  verb.add("--junit", request.junit_file, "Write what each claim came to here, as JUnit XML");
-  verb.add("--json", request.json_file, "Write the report of one log here (assay-check/1)");
+                "Print every step, not only those that are not as claimed")
+      .in(OptionGroup::output);
+  verb.add("--junit FILE", request.junit_file, "Write what each claim came to here, as JUnit XML")
+      .in(OptionGroup::output);
+  verb.add("--json FILE", request.json_file, "Write the report of one log here (assay-check/1)")
+      .in(OptionGroup::output);
 }
 
 }  // namespace
 
-Action add_judge(CLI::App& app) {
+AddedVerb add_judge(CLI::App& app) {
   return make_verb(app, "judge", "The recorded answers of a simulator against oracle", add_options,
                    run_judge);
 }

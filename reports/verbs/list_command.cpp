@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "corpus/meant_word.h"
 #include "corpus/scenes/scenes.h"
 #include "properties/campaign/gates/findings.h"
 #include "properties/faults/fault.h"
@@ -17,8 +18,8 @@ namespace assay::reports {
 namespace {
 
 struct ListRequest {
-  std::string list = "scenes";  // scenes, laws, faults, campaigns, failures, slow
-  std::string folder;           // the folder of a run, for the last two
+  std::string list;    // one of `lists`; empty: which lists there are
+  std::string folder;  // of a run, for lists of a run
 };
 
 Expected<int> list_scenes(const std::string&) {
@@ -83,12 +84,22 @@ Expected<int> list_slow(const std::string& folder) {
 
 struct List {
   const char* name;
+  const char* about;
   bool is_of_a_run;  // and needs its folder
   Expected<int> (*print)(const std::string& folder);
 };
-constexpr List lists[] = {{"scenes", false, list_scenes},    {"laws", false, list_laws},
-                          {"faults", false, list_faults},    {"campaigns", false, list_campaigns},
-                          {"failures", true, list_failures}, {"slow", true, list_slow}};
+constexpr List lists[] = {
+    {"scenes", "kinematic scenes, for `assay scene`", false, list_scenes},
+    {"laws", "the theorems that are tested, each in a sentence", false, list_laws},
+    {"faults", "the planted faults that a campaign has to find", false, list_faults},
+    {"campaigns", "campaigns, for `assay run` and `assay certify`", false, list_campaigns},
+    {"failures", "what failed in the run in DIR, each with its replay line", true, list_failures},
+    {"slow", "the slowest cases of the run in DIR", true, list_slow}};
+
+void print_lists() {
+  for (const auto& list : lists)
+    fmt::print("{:16}{}\n", std::string(list.name) + (list.is_of_a_run ? " DIR" : ""), list.about);
+}
 
 const List* list_named(const std::string& name) {
   const auto* found = std::find_if(std::begin(lists), std::end(lists),
@@ -97,6 +108,10 @@ const List* list_named(const std::string& name) {
 }
 
 Expected<int> run_list(const ListRequest& request) {
+  if (request.list.empty()) {
+    print_lists();
+    return exit_holds;
+  }
   const auto& list = *list_named(request.list);
   if (list.is_of_a_run && request.folder.empty())
     return Problem{fmt::format("list {} needs the folder of a run", list.name)};
@@ -106,14 +121,16 @@ Expected<int> run_list(const ListRequest& request) {
 }
 
 void add_options(Verb& verb, ListRequest& request) {
-  verb.add("what", request.list, "scenes, laws, faults, campaigns, failures, slow")
-      .with(one_of("scenes, laws, faults, campaigns, failures, slow", list_named));
-  verb.add("folder", request.folder, "Of a run, for failures and slow");
+  const auto names = corpus::names_among(lists);
+  verb.add("LIST", request.list, "Which; without it, what the lists are")
+      .with(one_of(fmt::format("{}", fmt::join(names, ", ")), list_named))
+      .among(names);
+  verb.add("DIR", request.folder, "Of a run, for failures and slow");
 }
 
 }  // namespace
 
-Action add_list(CLI::App& app) {
+AddedVerb add_list(CLI::App& app) {
   return make_verb(app, "list", "List scenes, laws, faults, campaigns, failures, or slow cases",
                    add_options, run_list);
 }

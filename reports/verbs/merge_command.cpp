@@ -79,13 +79,15 @@ Expected<int> run_merge(const MergeRequest& request) {
 }
 
 void add_options(Verb& verb, MergeRequest& request) {
-  verb.add("folders", request.folders, "Folders of `assay run`, or of `assay merge`").required();
-  verb.add("--out", request.out, "Folder for merged.sqlite and the failing meshes").required();
+  verb.add("DIR", request.folders, "Folders of `assay run`, or of `assay merge`").required();
+  verb.add("--out DIR", request.out, "Folder for merged.sqlite and the failing meshes")
+      .required()
+      .in(OptionGroup::output);
 }
 
 }  // namespace
 
-Action add_merge(CLI::App& app) {
+AddedVerb add_merge(CLI::App& app) {
   return make_verb(app, "merge", "The stores of several shards become one", add_options, run_merge);
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "corpus/meant_word.h"
 #include "detector/step_result.h"
 #include "properties/campaign/request.h"
 #include "properties/campaign/trials/case_tally.h"
@@ -118,31 +119,56 @@ std::string sets_text(const detector::StepResult& result) {
                      result.dirty);
 }
 
-void print_run(const properties::Configuration& configuration, const properties::CaseRun& run,
-               const properties::JudgedTrial& verdict) {
-  fmt::print("{}: {}{}\n", configuration.name, properties::name_of(verdict.outcome),
-             run.explanation.empty() ? "" : " (" + run.explanation + ")");
+// What one configuration came to, without its name.
+std::string run_text(const properties::CaseRun& run, const properties::JudgedTrial& verdict) {
+  std::string text = fmt::format("{}{}\n", properties::name_of(verdict.outcome),
+                                 run.explanation.empty() ? "" : " (" + run.explanation + ")");
   for (std::size_t s = 0; s < run.steps.size(); ++s) {
     const auto& result = run.steps[s];
     if (s < run.candidates.size() && run.candidates[s])
-      fmt::print("  step {}: {} candidate pairs\n", s + 1, run.candidates[s]->size());
+      text += fmt::format("  step {}: {} candidate pairs\n", s + 1, run.candidates[s]->size());
     const auto error = error_of(run, s);
-    if (!error.empty()) fmt::print("  {}\n", error);
+    if (!error.empty()) text += fmt::format("  {}\n", error);
     if (!run.has_answers) continue;
-    fmt::print("  step {}: {}{}, {} pairs{}\n", s + 1, properties::name_of(result.answer),
-               result.answer == detector::Answer::collision
-                   ? fmt::format(" at t = {}", time_text(result.first))
-                   : "",
-               result.pairs.size(), sets_text(result));
+    text += fmt::format("  step {}: {}{}, {} pairs{}\n", s + 1, properties::name_of(result.answer),
+                        result.answer == detector::Answer::collision
+                            ? fmt::format(" at t = {}", time_text(result.first))
+                            : "",
+                        result.pairs.size(), sets_text(result));
   }
   if (verdict.failure) {
     const auto where = fmt::format("step {}: ", verdict.failure->step + 1);
     const auto& told = verdict.failure->explanation;
-    fmt::print("  DEFECT {} in {}{}\n", verdict.failure->signature(), where,
-               told.starts_with(where) ? told.substr(where.size()) : told);
+    text += fmt::format("  DEFECT {} in {}{}\n", verdict.failure->signature(), where,
+                        told.starts_with(where) ? told.substr(where.size()) : told);
   }
-  if (verdict.outcome != Outcome::holds) fmt::print("{}", printed_text(run.printed));
+  if (verdict.outcome != Outcome::holds) text += printed_text(run.printed);
+  return text;
 }
+
+// What configurations came to: one text of all that came to the same.
+class RunTexts {
+ public:
+  void add(const std::string& configuration, const std::string& text) {
+    const auto same = std::ranges::find(texts_, text, &Told::text);
+    if (same == texts_.end()) {
+      texts_.push_back({{configuration}, text});
+    } else {
+      same->configurations.push_back(configuration);
+    }
+  }
+  void print() const {
+    for (const auto& told : texts_)
+      fmt::print("{}: {}", fmt::join(told.configurations, ", "), told.text);
+  }
+
+ private:
+  struct Told {
+    std::vector<std::string> configurations;
+    std::string text;
+  };
+  std::vector<Told> texts_;
+};
 
 // Prints the broken laws. Returns whether there are any.
 bool print_broken_laws(const corpus::Case& c, const properties::DetectorUnderTest& detector,
@@ -176,13 +202,8 @@ Expected<void> write_strip(const std::string& folder, const corpus::Case& c,
 // A case is made of the text of its id, so a campaign's name that is misspelt makes another case.
 std::string misspelt(const std::string& id) {
   const auto campaign = id.substr(0, id.find(':'));
-  const auto plans = properties::named_plans();
-  const bool is_named = std::any_of(plans.begin(), plans.end(),
-                                    [&](const auto& plan) { return plan.name == campaign; });
-  const auto* meant = is_named ? nullptr : properties::plan_meant_by(campaign);
-  return meant ? fmt::format("{}: there is no campaign {}; did you mean {}?", id, campaign,
-                             meant->name)
-               : "";
+  const auto meant = corpus::did_you_mean(corpus::names_among(properties::named_plans()), campaign);
+  return meant.empty() ? "" : fmt::format("{}: there is no campaign {}{}", id, campaign, meant);
 }
 
 // A step of a log, judged again.
@@ -261,18 +282,19 @@ Expected<int> run_replay(const ReplayRequest& request) {
   if (vouched) fmt::print("as in the campaign, the detector is given its start as clean\n");
   print_steps(*seen, truth, contract);
   int code = exit_holds;
+  RunTexts texts;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const auto& configuration = subject.detector.configurations[i];
     const auto verdict = properties::judge_trial(
         *seen, truth, runs[i], configuration, subject.detector, asks_twice ? &again[i] : nullptr);
-    print_run(configuration, runs[i], verdict);
+    std::string text = run_text(runs[i], verdict);
     if (verdict.outcome == Outcome::defect) code = exit_defect;
     const bool is_open = verdict.outcome == Outcome::undecided || verdict.outcome == Outcome::error;
     if (is_open && code == exit_holds) code = exit_undecided;
-    if (request.why) {
-      fmt::print("{}", pair_story(c, configuration.options, *request.why, truth));
-    }
+    if (request.why) text += pair_story(c, configuration.options, *request.why, truth);
+    texts.add(configuration.name, text);
   }
+  texts.print();
   if (subject.detector.built_in && print_broken_laws(c, subject.detector, runs, truth)) {
     code = exit_defect;
   }
@@ -289,21 +311,22 @@ std::optional<detector::TrianglePair> parse_pair(const std::string& word) {
 }
 
 void add_options(Verb& verb, ReplayRequest& request) {
-  verb.add("case", request.id_or_file,
+  verb.add("CASE", request.id_or_file,
            "Its id, CAMPAIGN:SEED:FAMILY:INDEX, or a file; LOG#N: step N of a log")
       .required();
-  verb.add(
-      "--export", request.export_folder,
-      "Write frames as OBJ, a picture of the first contact and a test in C++ into this folder: "
-      "plain arrays beside a GoogleTest, or of a plug-in beside a program that loads it");
-  add_choice(verb, "--why", request.why, "A,B: two triangles", parse_pair,
+  verb.add("--export DIR", request.export_folder,
+           "Write frames as OBJ, a picture of the first contact and a test in C++ into this "
+           "folder: plain arrays beside a GoogleTest, or of a plug-in beside a program that loads "
+           "it")
+      .in(OptionGroup::output);
+  add_choice(verb, "--why A,B", request.why, "A,B: two triangles", parse_pair,
              "A,B: why this pair of triangles was or was not tested");
   add_detector(verb, request.detector);
 }
 
 }  // namespace
 
-Action add_replay(CLI::App& app) {
+AddedVerb add_replay(CLI::App& app) {
   return make_verb(app, "replay", "One case of a campaign again, or a case file", add_options,
                    run_replay);
 }

@@ -64,13 +64,13 @@ Expected<int> run_report(const ReportRequest& request) {
 }
 
 void add_options(Verb& verb, ReportRequest& request) {
-  verb.add("folders", request.folders, "Folders of runs, the oldest first").required();
-  verb.add("--out", request.out, "The page (.html)").required();
+  verb.add("DIR", request.folders, "Folders of runs, the oldest first").required();
+  verb.add("--out FILE", request.out, "The page (.html)").required().in(OptionGroup::output);
 }
 
 }  // namespace
 
-Action add_report(CLI::App& app) {
+AddedVerb add_report(CLI::App& app) {
   return make_verb(app, "report", "Runs as one HTML page that works offline", add_options,
                    run_report);
 }

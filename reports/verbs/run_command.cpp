@@ -1,6 +1,7 @@
 // `assay run` runs one shard of a campaign, and tells what it comes to.
 #include <fmt/format.h>
 
+#include "corpus/meant_word.h"
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/ledger/binding.h"
 #include "properties/campaign/ledger/run_folder.h"
@@ -43,9 +44,7 @@ Expected<int> conclude(const properties::CampaignRequest& request,
   const bool is_complete = !findings.has_more_to_do();
   if (!findings.evidence.slow.empty())
     fmt::print("slow cases: {} list slow {}\n", this_program(), shell_word(out));
-  if (!findings.failures.empty()) {
-    fmt::print("next: {} list failures {}\n", this_program(), shell_word(out));
-  } else if (!is_complete) {
+  if (!is_complete && findings.failures.empty()) {
     fmt::print("next: run the same again to go on, with --time for another limit\n");
   } else if (judgement.exit_code != exit_holds) {
     fmt::print("next: {} report {} --out {}\n", this_program(), shell_word(out),
@@ -106,18 +105,21 @@ Expected<int> run_campaign(const RunRequest& command) {
 
 void add_options(Verb& verb, RunRequest& request) {
   request.words.campaign = "quick";
-  verb.add("--campaign", request.words.campaign,
+  verb.add("--campaign NAME|FILE", request.words.campaign,
            "smoke, quick, nightly, release, faults, or a campaign file (.json)")
-      .shows_default();
+      .shows_default()
+      .among(corpus::names_among(properties::named_plans()), true);
   add_campaign_options(verb, request.words);
-  add_choice(verb, "--shard", request.shard, "I/N with 1 <= I <= N", shard_of,
+  add_choice(verb, "--shard I/N", request.shard, "I/N with 1 <= I <= N", shard_of,
              "I/N: the part of the cases that this run makes (default 1/1)");
-  verb.add("--out", request.words.out, "Folder for the store and the failing meshes").required();
+  verb.add("--out DIR", request.words.out, "Folder for the store and the failing meshes")
+      .required()
+      .in(OptionGroup::output);
 }
 
 }  // namespace
 
-Action add_run(CLI::App& app) {
+AddedVerb add_run(CLI::App& app) {
   return make_verb(app, "run",
                    "A campaign of random cases: detector against oracle, laws, planted faults",
                    add_options, run_campaign);

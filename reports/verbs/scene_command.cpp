@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "corpus/formats/mesh_writer.h"
+#include "corpus/meant_word.h"
 #include "corpus/scenes/scenes.h"
 #include "reports/terminal/words.h"
 #include "reports/verbs/verbs.h"
@@ -53,16 +54,20 @@ Expected<int> run_scene(const SceneRequest& request) {
 }
 
 void add_options(Verb& verb, SceneRequest& request) {
-  verb.add("name", request.name, "One of `assay list scenes`").required();
-  verb.add("--mesh", request.mesh_file, "Deform this mesh instead of the scene's own");
-  verb.add("--size", request.size, "Triangles wanted").with(positive());
-  verb.add("--frames", request.frames, "Frames").with(positive());
-  verb.add("--out", request.out, "Folder for frame_0000.ply, ...").required();
+  verb.add("SCENE", request.name, "One of `assay list scenes`")
+      .required()
+      .among(corpus::names_among(corpus::scenes()));
+  verb.add("--mesh FILE", request.mesh_file, "Deform this mesh instead of the scene's own");
+  verb.add("--size N", request.size, "Triangles wanted").in_range(1, 1'000'000'000);
+  verb.add("--frames N", request.frames, "Frames").in_range(1, 1'000'000'000);
+  verb.add("--out DIR", request.out, "Folder for frame_0000.ply, ...")
+      .required()
+      .in(OptionGroup::output);
 }
 
 }  // namespace
 
-Action add_scene(CLI::App& app) {
+AddedVerb add_scene(CLI::App& app) {
   return make_verb(app, "scene", "Write the frames of a kinematic scene", add_options, run_scene);
 }
 

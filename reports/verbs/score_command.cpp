@@ -1,6 +1,7 @@
 // `assay score` judges what products answered to a conformance set.
 #include <fmt/format.h>
 
+#include "reports/terminal/shipped.h"
 #include "reports/terminal/text_file.h"
 #include "reports/vectors/matrix_page.h"
 #include "reports/verbs/verbs.h"
@@ -10,13 +11,18 @@ namespace {
 
 struct ScoreRequest {
   std::vector<std::string> results;
-  std::string set = ASSAY_VECTORS_DIR;
+  std::string set;   // empty: the shipped one
   std::string page;  // empty: not written
 };
 
 Expected<int> run_score(const ScoreRequest& request) {
   BOOST_OUTCOME_TRY(may_write(request.page, request.results));
-  BOOST_OUTCOME_TRY(read, properties::read_set(request.set));
+  std::string set = request.set;
+  if (set.empty()) {
+    BOOST_OUTCOME_TRY(corpus, shipped_corpus());
+    set = corpus / "vectors";
+  }
+  BOOST_OUTCOME_TRY(read, properties::read_set(set));
   std::vector<JudgedResults> all;
   for (const auto& file : request.results) {
     BOOST_OUTCOME_TRY(results, properties::read_results(file, read));
@@ -31,16 +37,18 @@ Expected<int> run_score(const ScoreRequest& request) {
 }
 
 void add_options(Verb& verb, ScoreRequest& request) {
-  verb.add("results", request.results,
+  verb.add("RESULTS", request.results,
            "Results of vectors.py, assay_vectors.h or answer-vectors, a file a product")
       .required();
-  verb.add("--set", request.set, "The folder of the set that was asked").shows_default();
-  verb.add("--out", request.page, "Write the matrix of all products here (.html)");
+  verb.add("--set DIR", request.set,
+           "The folder of the set that was asked (default: the shipped one)");
+  verb.add("--out FILE", request.page, "Write the matrix of all products here (.html)")
+      .in(OptionGroup::output);
 }
 
 }  // namespace
 
-Action add_score(CLI::App& app) {
+AddedVerb add_score(CLI::App& app) {
   return make_verb(app, "score", "Answers to a conformance set, judged", add_options, run_score);
 }
 

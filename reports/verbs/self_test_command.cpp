@@ -133,21 +133,22 @@ Expected<int> run_self_test(const SelfTestRequest& request) {
 
 void add_options(Verb& verb, SelfTestRequest& request) {
   add_seed(verb, request.seed, "Of all random queries");
-  verb.add("--queries", request.queries,
+  verb.add("--queries N", request.queries,
            "Random small-integer queries; the other families follow this number")
       .in_range(1, 1'000'000'000)
       .shows_default();
-  verb.add("--time", request.time_limit, "Limit in seconds; what is left is undecided")
-      .with(positive());
+  verb.add("--time SECONDS", request.time_limit, "Limit in seconds; what is left is undecided")
+      .with(positive())
+      .in(OptionGroup::limits);
   add_jobs(verb, request.jobs);
   add_detector(verb, request.detector,
                "A plug-in's library: its query answers the same queries, and the oracle judges it");
-  verb.add("--replay", request.replay, "One case again, by its name family:seed:index");
+  verb.add("--replay CASE", request.replay, "One case again, by its name family:seed:index");
 }
 
 }  // namespace
 
-Action add_self_test(CLI::App& app) {
+AddedVerb add_self_test(CLI::App& app) {
   return make_verb(app, "self-test", "The oracle against every other method on elementary queries",
                    add_options, run_self_test);
 }

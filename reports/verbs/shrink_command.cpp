@@ -109,23 +109,28 @@ Expected<int> run_shrink(const ShrinkRequest& request) {
              !reduction.fixed_point     ? "; the time was over"
              : reduction.fails_from > 0 ? "; " + properties::fails_from_text(reduction.fails_from)
                                         : "",
-             picture_file(request.out), this_program(true), shell_word(request.out),
-             detector_words(request.detector.library, request.detector.threads));
+             picture_file(request.out), this_program(true), shell_word(absolute_path(request.out)),
+             detector_words(absolute_path(request.detector.library), request.detector.threads));
   return exit_defect;
 }
 
 void add_options(Verb& verb, ShrinkRequest& request) {
-  verb.add("files", request.files,
+  verb.add("FILE", request.files,
            "A case file (.json), frames of one mesh, or LOG#N: step N of a log")
       .required();
-  verb.add("--out", request.out, "Where the smallest case goes").required();
-  verb.add("--time", request.seconds, "Seconds at most").with(positive()).shows_default();
+  verb.add("--out FILE", request.out, "Where the smallest case goes")
+      .required()
+      .in(OptionGroup::output);
+  verb.add("--time SECONDS", request.seconds, "Seconds at most")
+      .with(positive())
+      .shows_default()
+      .in(OptionGroup::limits);
   add_detector(verb, request.detector);
 }
 
 }  // namespace
 
-Action add_shrink(CLI::App& app) {
+AddedVerb add_shrink(CLI::App& app) {
   return make_verb(app, "shrink", "The smallest case that fails as a given one does", add_options,
                    run_shrink);
 }

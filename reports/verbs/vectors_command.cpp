@@ -7,6 +7,7 @@
 #include "properties/vectors/choice.h"
 #include "properties/vectors/set_files.h"
 #include "reports/terminal/progress.h"
+#include "reports/terminal/shipped.h"
 #include "reports/terminal/words.h"
 #include "reports/verbs/verbs.h"
 
@@ -21,12 +22,12 @@ struct VectorsRequest {
 
 Expected<int> write_vectors(const VectorsRequest& request) {
   Progress progress("vectors", std::chrono::seconds(10));
-  const std::filesystem::path curated = ASSAY_CORPUS_DIR;
-  BOOST_OUTCOME_TRY(
-      set,
-      properties::choose_vectors(
-          {request.profile, curated, curated.parent_path() / "vectors" / "found.json", request.jobs,
-           [&](std::string_view group) { progress.phase(std::string(group)); }}));
+  BOOST_OUTCOME_TRY(corpus, shipped_corpus());
+  BOOST_OUTCOME_TRY(set, properties::choose_vectors({request.profile, corpus / "curated",
+                                                     corpus / "vectors" / "found.json",
+                                                     request.jobs, [&](std::string_view group) {
+                                                       progress.phase(std::string(group));
+                                                     }}));
   progress.finish();
   BOOST_OUTCOME_TRYV(properties::write_set(request.out, set));
   std::size_t all = 0;
@@ -44,7 +45,9 @@ Expected<int> write_vectors(const VectorsRequest& request) {
 }
 
 void add_options(Verb& verb, VectorsRequest& request) {
-  verb.add("--out", request.out, "Folder for set.json, a file for each group, and csv/").required();
+  verb.add("--out DIR", request.out, "Folder for set.json, a file for each group, and csv/")
+      .required()
+      .in(OptionGroup::output);
   add_choice(verb, "--profile", request.profile, all_names<properties::VectorProfile>(),
              from_name<properties::VectorProfile>,
              "core (default): about 1,000 cases; full: about 20,000");
@@ -53,7 +56,7 @@ void add_options(Verb& verb, VectorsRequest& request) {
 
 }  // namespace
 
-Action add_vectors(CLI::App& app) {
+AddedVerb add_vectors(CLI::App& app) {
   return make_verb(app, "vectors", "Write the conformance set, the same bytes on every machine",
                    add_options, write_vectors);
 }

@@ -9,23 +9,23 @@
 namespace assay::reports {
 
 // Each function adds its verb, with all its options, to the command line.
-Action add_answer_vectors(CLI::App& app);
-Action add_bench(CLI::App& app);
-Action add_certify(CLI::App& app);
-Action add_check(CLI::App& app);
-Action add_check_queries(CLI::App& app);
-Action add_judge(CLI::App& app);
-Action add_list(CLI::App& app);
-Action add_merge(CLI::App& app);
-Action add_replay(CLI::App& app);
-Action add_report(CLI::App& app);
-Action add_run(CLI::App& app);
-Action add_scene(CLI::App& app);
-Action add_score(CLI::App& app);
-Action add_self_test(CLI::App& app);
-Action add_shrink(CLI::App& app);
-Action add_vectors(CLI::App& app);
-Action add_verify(CLI::App& app);
-Action add_verify_vectors(CLI::App& app);
+AddedVerb add_answer_vectors(CLI::App& app);
+AddedVerb add_bench(CLI::App& app);
+AddedVerb add_certify(CLI::App& app);
+AddedVerb add_check(CLI::App& app);
+AddedVerb add_check_queries(CLI::App& app);
+AddedVerb add_judge(CLI::App& app);
+AddedVerb add_list(CLI::App& app);
+AddedVerb add_merge(CLI::App& app);
+AddedVerb add_replay(CLI::App& app);
+AddedVerb add_report(CLI::App& app);
+AddedVerb add_run(CLI::App& app);
+AddedVerb add_scene(CLI::App& app);
+AddedVerb add_score(CLI::App& app);
+AddedVerb add_self_test(CLI::App& app);
+AddedVerb add_shrink(CLI::App& app);
+AddedVerb add_vectors(CLI::App& app);
+AddedVerb add_verify(CLI::App& app);
+AddedVerb add_verify_vectors(CLI::App& app);
 
 }  // namespace assay::reports

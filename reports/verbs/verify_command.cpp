@@ -105,15 +105,15 @@ Expected<int> run_verify(const VerifyRequest& request) {
 }
 
 void add_options(Verb& verb, VerifyRequest& request) {
-  verb.add("certificate", request.certificates,
+  verb.add("CERTIFICATE", request.certificates,
            "OUT/certificate.json, or OUT; several nights of one detector are pooled")
       .required();
-  verb.add("--again", request.again,
+  verb.add("--again SHARE", request.again,
            "SHARE of the trials, above 0, at most 1: they are run once more and have to come to "
            "what is stored")
       .with(share());
   verb.add_word(
-          "--seed",
+          "--seed N",
           [&](const std::string& word) { request.seed = whole_number_of<std::uint64_t>(word); },
           "Of the choice of --again (default: a fresh one, printed)")
       .with(whole_number());
@@ -124,7 +124,7 @@ void add_options(Verb& verb, VerifyRequest& request) {
 
 }  // namespace
 
-Action add_verify(CLI::App& app) {
+AddedVerb add_verify(CLI::App& app) {
   return make_verb(app, "verify", "A certificate against the files beside it", add_options,
                    run_verify);
 }

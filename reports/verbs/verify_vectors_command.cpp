@@ -51,8 +51,8 @@ Expected<int> verify_vectors(const VerifyVectorsRequest& request) {
 }
 
 void add_options(Verb& verb, VerifyVectorsRequest& request) {
-  verb.add("folder", request.folder, "The folder that holds set.json").required();
-  verb.add("--neighbours", request.neighbours,
+  verb.add("DIR", request.folder, "The folder that holds set.json").required();
+  verb.add("--neighbours N", request.neighbours,
            "Ask all methods about so many queries beside those of the set, too")
       .in_range(0, 1'000'000'000);
   add_jobs(verb, request.jobs);
@@ -60,7 +60,7 @@ void add_options(Verb& verb, VerifyVectorsRequest& request) {
 
 }  // namespace
 
-Action add_verify_vectors(CLI::App& app) {
+AddedVerb add_verify_vectors(CLI::App& app) {
   return make_verb(app, "verify-vectors",
                    "Find the answers of a conformance set once more, by several methods",
                    add_options, verify_vectors);

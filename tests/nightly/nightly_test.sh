@@ -12,6 +12,7 @@ scratch=$(mktemp -d)
 assay=$scratch/bin/assay
 mkdir "$scratch/bin"
 cp "$1" "$(dirname "$1")/assay-worker" "$scratch/bin/"
+ln -s "$(dirname "$1")/share" "$scratch/share"
 # shellcheck source=tests/nightly/slurm_cluster.sh
 . "$here/slurm_cluster.sh"
 cleanup() {

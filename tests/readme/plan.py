@@ -282,7 +282,8 @@ NO_COMMAND = {
         "/* A detector by boxes": "C, the plug-in that is compiled above; a test compares the two",
         "// A detector by spheres": "C++; a test compiles and runs it, and compares the two",
         "find_package(assay 0.3": "CMake; tests/consumer/plugin builds plug-ins so",
-        'assay="$ASSAY/build/release/assay"': "a job; a test runs it, and compares the two",
+        "c++ -std=c++17 -O2 -shared -fPIC $(pkg-config": "a shell's; tests/consumer/pkg_config.sh builds so",
+        'home="${ASSAY:-/usr}"': "a job; a test runs it, and compares the two",
         "assay_builtin_save(handle": "C; tests/consumer compiles a whole program like it",
         '#include "detector/plugin/assay_record.h"': "C; tests/recording compiles and runs it",
     },
@@ -294,6 +295,7 @@ NO_COMMAND = {
         "WorkerProcess worker(": "C++; the tests of the worker are made of such lines",
     },
     "reports/python/README.md": {
+        "/usr/bin/python3 -m pip wheel": "builds; install_test does so",
         "/usr/bin/python3 -m venv": "installs; install_test does so",
         "import numpy as np": PYTHON,
         "before = detector.state()": PYTHON,

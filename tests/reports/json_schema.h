@@ -20,21 +20,34 @@ inline bool is_of_type(const SchemaJson& value, const std::string& type) {
   return type == "null" && value.is_null();
 }
 
+inline SchemaJson schema_named(const std::string& name) {
+  std::ifstream file(ASSAY_SOURCE_DIR "/reports/certificate/" + name + ".schema.json");
+  return SchemaJson::parse(file);
+}
+
 // One line for each place where `value` is not what `schema` says. References are looked up in
-// `whole`, the schema that this is a part of.
+// `whole`, the schema that this is a part of, or in another one: "urn:assay:certificate:6#/...".
 inline void check_schema(const SchemaJson& whole, const SchemaJson& schema, const SchemaJson& value,
                          const std::string& place, std::vector<std::string>& wrong) {
   static const std::set<std::string> known = {
       "$schema",    "$id",   "$defs",    "$ref",     "title",    "const",
       "enum",       "anyOf", "type",     "pattern",  "minimum",  "maximum",
-      "properties", "items", "minItems", "maxItems", "required", "additionalProperties"};
+      "properties", "items", "minItems", "maxItems", "required", "additionalProperties",
+      "description"};
   const auto fail = [&](const std::string& why) { wrong.push_back(place + ": " + why); };
   for (const auto& [key, unused] : schema.items()) {
     if (!known.contains(key)) fail("keyword " + key + " is checked by nobody");
   }
   if (schema.contains("$ref")) {
-    const auto part = schema["$ref"].get<std::string>().substr(1);  // behind "#"
-    return check_schema(whole, whole.at(SchemaJson::json_pointer(part)), value, place, wrong);
+    const auto named = schema["$ref"].get<std::string>();
+    const auto hash = named.find('#');
+    const SchemaJson::json_pointer part(named.substr(hash + 1));
+    if (hash == 0) return check_schema(whole, whole.at(part), value, place, wrong);
+    const std::string before = "urn:assay:";
+    const auto other =
+        schema_named(named.substr(before.size(), named.find(':', before.size()) - before.size()));
+    if (other["$id"] != named.substr(0, hash)) return fail("no schema " + named);
+    return check_schema(other, other.at(part), value, place, wrong);
   }
   if (schema.contains("anyOf") &&
       std::none_of(schema["anyOf"].begin(), schema["anyOf"].end(), [&](const SchemaJson& one) {
@@ -86,13 +99,16 @@ inline void check_schema(const SchemaJson& whole, const SchemaJson& schema, cons
   }
 }
 
-// Holds a certificate to its schema.
-inline void expect_certificate_schema(const SchemaJson& statement) {
-  std::ifstream file(ASSAY_SOURCE_DIR "/reports/certificate/certificate.schema.json");
-  const auto schema = SchemaJson::parse(file);
+// Holds a value to the schema of this name.
+inline void expect_schema(const std::string& name, const SchemaJson& value) {
+  const auto schema = schema_named(name);
   std::vector<std::string> wrong;
-  check_schema(schema, schema, statement, "", wrong);
-  for (const auto& line : wrong) ADD_FAILURE() << line;
+  check_schema(schema, schema, value, "", wrong);
+  for (const auto& line : wrong) ADD_FAILURE() << name << line;
+}
+
+inline void expect_certificate_schema(const SchemaJson& statement) {
+  expect_schema("certificate", statement);
 }
 
 }  // namespace assay::tests

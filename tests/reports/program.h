@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tests/reports/json_schema.h"
 #include "tests/test.h"
 
 namespace assay::tests {
@@ -57,12 +58,25 @@ struct Outcome {
   std::string out, err;
 };
 
+// What a test lets the program write with --json is held to its schema, whatever the test is about.
+inline void expect_json_of_schema(const std::string& arguments) {
+  std::smatch match;
+  if (!std::regex_search(arguments, match, std::regex("--json[ =]'?([^ ']+)"))) return;
+  const auto json = SchemaJson::parse(read_text(match[1]), nullptr, false);
+  // The program refuses some files that tests name.
+  if (!json.is_object()) return;
+  const auto schema = json.value("schema", std::string("assay-none/0"));
+  const auto name = schema.substr(schema.find('-') + 1);
+  expect_schema(name.substr(0, name.find('/')), json);
+}
+
 // `prefix`: a command that runs the program, such as one that gives up rights.
 inline Outcome run_assay(const std::string& arguments, const std::string& prefix = "") {
   const Scratch scratch;
   const std::string command = prefix + ASSAY_PROGRAM + " " + arguments + " >" + (scratch / "out") +
                               " 2>" + (scratch / "err") + " </dev/null";
   const int status = std::system(command.c_str());
+  expect_json_of_schema(arguments);
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(scratch / "out"),
           read_text(scratch / "err")};
 }

@@ -59,6 +59,29 @@ std::optional<std::string> plugin_digest(const CampaignRequest& request) {
   return digest ? std::optional(digest.value()) : std::nullopt;
 }
 
+Json member(const Json& json, const std::string& key) {
+  if (json.is_object()) return json.value(key, Json());
+  const auto index = std::stoul(key);
+  return index < json.size() ? json[index] : Json();
+}
+
+// "seed 1 and 2": the first member in which the two differ, with its path, and both values.
+std::string first_difference(const std::string& part, const Json& a, const Json& b) {
+  if (!a.is_structured() || !b.is_structured())
+    return fmt::format("{} {} and {}", part, a.is_null() ? "none" : corpus::json_text(a),
+                       b.is_null() ? "none" : corpus::json_text(b));
+  // Its name says more than any other member does.
+  const bool are_named = a.is_object() && b.is_object() && a.contains("name") && b.contains("name");
+  if (are_named && a["name"] != b["name"]) return first_difference(part, a["name"], b["name"]);
+  for (const auto* list : {&a, &b}) {
+    for (const auto& [key, unused] : list->items()) {
+      const auto mine = member(a, key), its = member(b, key);
+      if (mine != its) return first_difference(part + "/" + key, mine, its);
+    }
+  }
+  return part;
+}
+
 }  // namespace
 
 std::string binding_of(const CampaignRequest& request) {
@@ -134,23 +157,36 @@ std::string difference_of(const std::string& a, const std::string& b) {
              right = corpus::parse_sorted_json(b, "binding");
   const bool are_objects = left && right && left.value().is_object() && right.value().is_object();
   if (!are_objects) return "one of them says not of what it is";
-  const Json one = left.value().flatten(), other = right.value().flatten();
-  for (const auto& [key, value] : one.items()) {
-    if (key == "/shard") continue;
-    constexpr std::string_view digests = "/digests/";
-    if (key.starts_with(digests) && other.contains(key) && other[key] != value)
-      return fmt::format("another {} (by SHA-256)", key.substr(digests.size()));
-    if (!other.contains(key))
-      return fmt::format("{} {} and none", key.substr(1), corpus::json_text(value));
-    if (other[key] != value)
-      return fmt::format("{} {} and {}", key.substr(1), corpus::json_text(value),
-                         corpus::json_text(other[key]));
+  std::vector<std::string> differences;
+  const auto parts_of = [](Json binding) {
+    binding.erase("shard");
+    // What comes of a build is not told beside it.
+    Json& digests = binding["digests"];
+    const bool is_build = digests.is_object() && digests.contains("program");
+    binding["build"] = is_build ? Json{digests["program"], digests["worker"]} : Json();
+    if (is_build) {
+      binding["library"] = digests["plugin"];
+      binding.erase("digests");
+    }
+    return binding;
+  };
+  const Json one = parts_of(left.value()), other = parts_of(right.value());
+  const bool is_other_build = one["build"] != other["build"];
+  if (is_other_build) differences.emplace_back("another build of assay");
+  Json all = one;
+  all.update(other);
+  for (const auto& [part, unused] : all.items()) {
+    const Json mine = one.value(part, Json()), its = other.value(part, Json());
+    if (mine == its || part == "build") continue;
+    if (part == "library") {
+      differences.emplace_back("another build of the detector's library");
+    } else if (part == "own_cases") {
+      differences.emplace_back("other cases of one's own");
+    } else if (!(is_other_build && part == "planted_faults")) {
+      differences.push_back(first_difference(part, mine, its));
+    }
   }
-  for (const auto& [key, value] : other.items()) {
-    if (!one.contains(key))
-      return fmt::format("{} none and {}", key.substr(1), corpus::json_text(value));
-  }
-  return "";
+  return fmt::format("{}", fmt::join(differences, ", "));
 }
 
 }  // namespace assay::properties

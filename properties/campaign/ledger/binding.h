@@ -61,7 +61,8 @@ Expected<BoundRun> read_binding(const std::string& text, const std::filesystem::
 // The same binding for another shard; nothing if the text is no binding.
 std::optional<std::string> with_shard(const std::string& binding, const std::string& shard);
 
-// How two bindings differ, leaving their shards aside: "seed 1 and 2". Empty if they do not.
+// How two bindings differ, leaving their shards aside: "seed 1 and 2, another build of assay".
+// Empty if they do not.
 std::string difference_of(const std::string& a, const std::string& b);
 
 // SHA-256 over the first cases of every family, which changes if the generator makes other cases.

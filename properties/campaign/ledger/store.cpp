@@ -134,7 +134,7 @@ Expected<Store> Store::open(const std::filesystem::path& file, const std::string
     const auto bound = unchecked_binding(parts->db);
     if (bound && *bound != binding) {
       if (const auto older = other_schema(*bound)) throw refused_schema(file, *older);
-      throw StoreProblem(fmt::format("{}: holds another run: {}; give another folder",
+      throw StoreProblem(fmt::format("{}: holds another run: {}; go on in a new folder: --out NEW",
                                      file.string(), difference_of(*bound, binding)));
     }
     check_tables(parts->db, true);

@@ -47,7 +47,7 @@ std::string gap_in(const assay_detector_api& table) {
 
 std::string nothing_described(const assay_detector_api& table) {
   const std::string text = text_of_error(table);
-  return "describe() returns nothing" + (text.empty() ? text : ": " + text);
+  return text.empty() ? "describe() returns nothing" : "describe(): " + text;
 }
 
 // False if the number is no value of the enum.

@@ -30,11 +30,12 @@ std::vector<std::string> parts_of(const std::string& text, char separator) {
 }
 
 // The places where the package may be: in the build folder, around the programs (as pip puts it),
-// or where CMake installs it.
+// or where CMake installs it: the worker is then in libexec/assay.
 std::vector<std::filesystem::path> places_beside(const std::filesystem::path& programs) {
   std::vector<std::filesystem::path> places = {programs / "python" / "assay", programs / ".."};
   std::error_code none;
-  for (const auto& entry : std::filesystem::directory_iterator(programs / ".." / "lib", none)) {
+  const auto libraries = programs / ".." / ".." / "lib";
+  for (const auto& entry : std::filesystem::directory_iterator(libraries, none)) {
     if (entry.path().filename().string().starts_with("python3"))
       places.push_back(entry.path() / "dist-packages" / "assay");
   }

@@ -276,10 +276,13 @@ Json versions_of_run(const properties::RunFindings& findings) {
 Json run_json(const properties::RunFindings& findings, const properties::Judgement& judgement,
               const Json& statement, const std::string& unverified) {
   const bool is_certificate = statement.is_object();
+  // A run keeps no file of its campaign, so the digest is that of the text.
+  const auto& plan = findings.run.plan;
+  const auto campaign = corpus::sha256_of(properties::plan_text(plan) + "\n");
   const PathsOfPage paths(findings);
   const bool has_place = findings.folder.is_absolute();
   Json predicate = is_certificate ? statement.at("predicate")
-                                  : make_predicate(findings, judgement, findings.run.plan, "");
+                                  : make_predicate(findings, judgement, plan, campaign);
   paths.tell_in(predicate);
   if (predicate["versions"].is_null()) predicate["versions"] = versions_of_run(findings);
   auto laws = law_statements(predicate["laws"]);

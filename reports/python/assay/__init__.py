@@ -8,6 +8,9 @@
 reports/python/README.md has an example of everything.
 """
 
+from typing import List
+
+from ._detector import VERSION as __version__
 from .detector import OPTIONS, Detector, State, edge_edge, vertex_face
 from .errors import AssayError, InputError
 from .frames import Frames, read_frames
@@ -26,7 +29,7 @@ from .judging import (
     least_distance,
 )
 from .hosting import BeyondCapacity, Refused
-from .programs import Outcome, Page, certify, replay, report, run
+from .programs import Failure, Outcome, Page, certify, replay, report, run
 from .recorder import Recorder
 from .results import (
     DIRTY,
@@ -40,3 +43,52 @@ from .results import (
     StepTimes,
 )
 from .vtk import write_vtk
+
+__all__ = [
+    "AssayError",
+    "BeyondCapacity",
+    "CheckReport",
+    "CheckedStep",
+    "Contact",
+    "Contacts",
+    "DIRTY",
+    "Detector",
+    "FEATURE_KINDS",
+    "Failure",
+    "Frames",
+    "InputError",
+    "Judgement",
+    "LeastDistance",
+    "Limit",
+    "OPTIONS",
+    "Outcome",
+    "Page",
+    "Recorder",
+    "Refused",
+    "SeparationReport",
+    "SeparationStep",
+    "State",
+    "StepCounts",
+    "StepDiff",
+    "StepResult",
+    "StepTimes",
+    "VIOLATED",
+    "WrongTime",
+    "certify",
+    "check",
+    "edge_edge",
+    "first_time_within",
+    "judge",
+    "least_distance",
+    "read_frames",
+    "replay",
+    "report",
+    "run",
+    "vertex_face",
+    "write_vtk",
+]
+
+
+def __dir__() -> List[str]:
+    """What is for users; the modules of the package are its own."""
+    return [*__all__, "__version__", "__doc__", "__file__"]

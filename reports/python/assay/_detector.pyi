@@ -3,6 +3,7 @@ from typing import Any, Dict, Optional, Tuple
 import numpy as np
 import numpy.typing as npt
 
+VERSION: str
 OPTIONS: Dict[str, Tuple[str, ...]]
 
 class State:

@@ -30,6 +30,10 @@ def check_files(
 def read_sequence(
     files: List[str],
 ) -> Tuple[npt.NDArray[np.int32], List[npt.NDArray[np.float64]]]: ...
+def read_case(
+    file: str,
+) -> Tuple[npt.NDArray[np.int32], List[npt.NDArray[np.float64]]]: ...
+def findings(folder: str) -> str: ...
 def contact_points(
     triangles: npt.ArrayLike,
     x_t0: npt.ArrayLike,

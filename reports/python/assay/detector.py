@@ -1,6 +1,8 @@
 """The production detector and its elementary test."""
 
-import numpy.typing as npt
+from __future__ import annotations
+
+from numpy.typing import ArrayLike
 
 from . import _detector
 from .results import Contacts, Limit, StepResult, step_result
@@ -52,8 +54,8 @@ class Detector:
 
     def __init__(
         self,
-        triangles: npt.ArrayLike,
-        positions: npt.ArrayLike,
+        triangles: ArrayLike,
+        positions: ArrayLike,
         culling: str = "auto",
         *,
         start: str = "verified",
@@ -69,8 +71,14 @@ class Detector:
             raise ValueError("threads: 0 (all cores) to 1024 are wanted")
         self._detector = _detector.Detector(triangles, positions, options, threads)
         self._triangles = triangles
+        usual = {"start": "verified", "pairs": "all"}
+        chosen = [f"{name} {word}" for name, word in options.items() if word != usual.get(name)]
+        self._words = ", ".join(chosen)
 
-    def evaluate(self, x_t0: npt.ArrayLike, x_t1: npt.ArrayLike) -> StepResult:
+    def __repr__(self) -> str:
+        return f"<assay.Detector: {len(self._triangles)} triangles, {self._words}>"
+
+    def evaluate(self, x_t0: ArrayLike, x_t1: ArrayLike) -> StepResult:
         """The step from x_t0 to x_t1, real numbers (n, 3) each; the state stays as it is."""
         return step_result(self._detector.evaluate(x_t0, x_t1), self._triangles, x_t0, x_t1)
 
@@ -78,11 +86,11 @@ class Detector:
         """Advances the state to the end of the step or limit asked for last. InputError without one."""
         self._detector.commit()
 
-    def step(self, x_t0: npt.ArrayLike, x_t1: npt.ArrayLike) -> StepResult:
+    def step(self, x_t0: ArrayLike, x_t1: ArrayLike) -> StepResult:
         """evaluate() and commit()."""
         return step_result(self._detector.step(x_t0, x_t1), self._triangles, x_t0, x_t1)
 
-    def limit(self, x_t0: npt.ArrayLike, x_t1: npt.ArrayLike) -> Limit:
+    def limit(self, x_t0: ArrayLike, x_t1: ArrayLike) -> Limit:
         """How far the step may be gone; the state stays as it is.
 
         To limit.positions the straight way is free, rounding included; commit() then goes there. A
@@ -107,7 +115,7 @@ class Detector:
         self._detector.reset()
 
 
-def vertex_face(x_t0: npt.ArrayLike, x_t1: npt.ArrayLike) -> Contacts:
+def vertex_face(x_t0: ArrayLike, x_t1: ArrayLike) -> Contacts:
     """Whether and when vertices and faces first meet, exactly; about a microsecond a query.
 
     x_t0, x_t1: real numbers (k, 4, 3), the vertex and the three corners of the face at both ends of
@@ -116,6 +124,6 @@ def vertex_face(x_t0: npt.ArrayLike, x_t1: npt.ArrayLike) -> Contacts:
     return Contacts(*_detector.vertex_face(x_t0, x_t1))
 
 
-def edge_edge(x_t0: npt.ArrayLike, x_t1: npt.ArrayLike) -> Contacts:
+def edge_edge(x_t0: ArrayLike, x_t1: ArrayLike) -> Contacts:
     """The same of edges: the two ends of the one, then those of the other."""
     return Contacts(*_detector.edge_edge(x_t0, x_t1))

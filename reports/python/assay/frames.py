@@ -1,5 +1,7 @@
 """Frames of one mesh, from files or arrays."""
 
+from __future__ import annotations
+
 import glob
 import os
 import re
@@ -7,7 +9,6 @@ from dataclasses import dataclass, field
 from typing import Iterable, List, Sequence, Union
 
 import numpy as np
-import numpy.typing as npt
 
 from .results import Float64Array, Int32Array
 
@@ -18,19 +19,22 @@ _OWN = re.compile(r"\.(obj|ply|off)(\.gz)?$", re.IGNORECASE)
 _NO_SURFACE = {"vertex", "line", "line3"}
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Frames:
     """One mesh that deforms; consecutive frames are the ends of a step.
 
     triangles: int32 (m, 3); positions: a list of float64 (n, 3), one a frame; files: where from.
     """
 
-    triangles: Int32Array = field(repr=False)
-    positions: List[Float64Array] = field(repr=False)
+    triangles: Int32Array
+    positions: List[Float64Array]
     files: List[str] = field(default_factory=list)
 
     def __len__(self) -> int:
         return len(self.positions)
+
+    def __repr__(self) -> str:
+        return f"<assay.Frames: {len(self)} frames of {len(self.triangles)} triangles>"
 
 
 def read_frames(paths: Union[Path, Iterable[Path]]) -> Frames:

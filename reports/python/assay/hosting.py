@@ -46,6 +46,41 @@ class BeyondCapacity(Exception):
     """The mesh or the step is more than the detector holds: `refused: capacity`."""
 
 
+class AskedAgain(BaseException):
+    """The module that is imported asks for a judgement: a script without a guard. What it has
+    defined by then is all that its class can use, so nothing more of it is run."""
+
+    def __init__(self, module):
+        super().__init__()
+        self.module = module
+
+
+_imported = None  # the module that is being imported for its class
+
+
+def stop_if_imported():
+    """Ends the import of a module that judges its own class as it is imported."""
+    if _imported is not None:
+        raise AskedAgain(sys.modules.get(_imported))
+
+
+def class_of(module, name):
+    """The class of that name. ValueError: the module has none, or not yet when it judges one."""
+    global _imported
+    _imported = module
+    try:
+        found, judges = importlib.import_module(module), False
+    except AskedAgain as asked:
+        found, judges = asked.module, True
+    finally:
+        _imported = None
+    if not hasattr(found, name):
+        late = ": it judges another one before, without if __name__ == '__main__'" if judges else ""
+        raise ValueError(f"{module} has no class {name}{late}")
+    sys.modules[module] = found
+    return getattr(found, name)
+
+
 class Hosted:
     """A class by its word "MODULE:CLASS", described in numbers of the plug-in interface.
 
@@ -55,7 +90,7 @@ class Hosted:
 
     def __init__(self, word, claims, members):
         module, _, name = word.partition(":")
-        self.kind = getattr(importlib.import_module(module), name)
+        self.kind = class_of(module, name)
         self.name = str(getattr(self.kind, "name", name))
         self.version = str(getattr(self.kind, "version", "0"))
         contract = getattr(self.kind, "contract", {})
@@ -159,7 +194,9 @@ def tell(error):
     traceback.print_exception(error, file=sys.stderr)
     line = f"{type(error).__name__}: {error}"
     frames = traceback.extract_tb(error.__traceback__)
-    if frames:
+    if frames and frames[-1].filename == __file__ and isinstance(error, ValueError):
+        line = str(error)  # what is asked of a class here, and is not so
+    elif frames:
         line += f" ({frames[-1].filename}:{frames[-1].lineno}, in {frames[-1].name})"
     return "error", line
 

@@ -1,5 +1,7 @@
 """The oracle, and a detector's steps against it."""
 
+from __future__ import annotations
+
 import json
 import math
 import os
@@ -7,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, Union, overload
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 
 from .frames import Frames, as_frames
 from .plugin import detector_word, surroundings
@@ -71,7 +73,12 @@ class CheckedStep:
 
 
 class _Report:
+    outcome: str
+    steps: Sequence[Any]
     text: str
+
+    def __repr__(self) -> str:
+        return f"<assay.{type(self).__name__}: {self.outcome}, {len(self.steps)} steps>"
 
     def __str__(self) -> str:
         return self.text
@@ -80,7 +87,7 @@ class _Report:
         raise TypeError("a report is no verdict: compare its outcome with a word")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class CheckReport(_Report):
     """What `assay check` says of the steps of a mesh.
 
@@ -123,7 +130,7 @@ class SeparationStep:
     least: Optional[LeastDistance]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class SeparationReport(_Report):
     """What `assay check --separation` says of the steps of a mesh.
 
@@ -141,9 +148,9 @@ class SeparationReport(_Report):
 
 
 def judge(
-    triangles: npt.ArrayLike,
-    x_t0: npt.ArrayLike,
-    x_t1: npt.ArrayLike,
+    triangles: ArrayLike,
+    x_t0: ArrayLike,
+    x_t1: ArrayLike,
     *,
     separation: float = 0,
     jobs: Optional[int] = None,
@@ -168,9 +175,9 @@ def _length(separation: float) -> float:
 
 
 def first_time_within(
-    triangles: npt.ArrayLike,
-    x_t0: npt.ArrayLike,
-    x_t1: npt.ArrayLike,
+    triangles: ArrayLike,
+    x_t0: ArrayLike,
+    x_t1: ArrayLike,
     separation: float,
     *,
     jobs: Optional[int] = None,
@@ -188,9 +195,9 @@ def first_time_within(
 
 
 def least_distance(
-    triangles: npt.ArrayLike,
-    x_t0: npt.ArrayLike,
-    x_t1: npt.ArrayLike,
+    triangles: ArrayLike,
+    x_t0: ArrayLike,
+    x_t1: ArrayLike,
     *,
     jobs: Optional[int] = None,
 ) -> Optional[LeastDistance]:
@@ -221,7 +228,7 @@ def check(
     time: Optional[float] = None,
     memory: Optional[str] = None,
     isolation: Optional[str] = None,
-    bodies: Optional[npt.ArrayLike] = None,
+    bodies: Optional[ArrayLike] = None,
     apart: Sequence[Tuple[int, int]] = (),
     progress: Optional[Callable[[str], None]] = None,
 ) -> Union[CheckReport, SeparationReport]:
@@ -238,7 +245,8 @@ def check(
     when first, and how near any two come; the answer is then a SeparationReport.
 
     ValueError: input that is refused, with the line that says why. Ctrl-C ends it, but for a
-    plug-in's process, which ends with its step or at `time`.
+    plug-in's process, which ends with its step or at `time`. A class that is slow may take long:
+    `time` is a limit in seconds, and `progress=print` shows each step as it is judged.
     """
     from . import _judge
 

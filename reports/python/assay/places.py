@@ -12,9 +12,11 @@ _FOLDERS = (_HERE / "bin", _HERE.parent.parent, *(up / "bin" for up in _HERE.par
 
 
 def program(name: str = "assay") -> Path:
-    """The program `assay`, or `assay-worker` beside it. ASSAY_PROGRAM names another `assay`."""
+    """The program `assay`, or its `assay-worker`. ASSAY_PROGRAM names another `assay`."""
     named = os.environ.get("ASSAY_PROGRAM")
     for folder in (Path(named).parent,) if named else _FOLDERS:
-        if os.access(folder / "assay", os.X_OK) and os.access(folder / "assay-worker", os.X_OK):
-            return folder / name
+        for workers in (folder, folder.parent / "libexec" / "assay"):
+            found = {"assay": folder / "assay", "assay-worker": workers / "assay-worker"}
+            if all(os.access(file, os.X_OK) for file in found.values()):
+                return found[name]
     raise AssayError("the programs assay and assay-worker are not beside the package", 2)

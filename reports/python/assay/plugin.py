@@ -11,9 +11,12 @@ import sys
 from pathlib import Path
 from typing import Any, Dict, Iterator, Tuple
 
+from . import hosting
+
 
 def detector_word(detector: Any) -> str:
     """What `--detector` is given: a library's name, "python:MODULE:CLASS", or that of a class."""
+    hosting.stop_if_imported()
     if isinstance(detector, type):
         module, _ = _place(detector)
         return f"python:{module}:{detector.__qualname__}"
@@ -55,7 +58,9 @@ def _place(kind: type) -> Tuple[str, str]:
     try:
         file = Path(inspect.getfile(kind)).absolute()
     except (OSError, TypeError):
-        raise ValueError(f"{kind.__qualname__}: it stands in no file, so no process can import it") from None
+        why = "a class of a notebook or a prompt stands in no file that another process can import"
+        how = "write it to one (%%writefile mine.py), and import it from there"
+        raise ValueError(f"{kind.__qualname__}: {why}; {how}") from None
     if "." in kind.__qualname__:
         raise ValueError(f"{kind.__qualname__}: a class at the top of its module is wanted")
     if kind.__module__ == "__main__":

@@ -1,6 +1,9 @@
 """Verbs of the program `assay`, run as it is: campaigns, certificates, replays and pages."""
 
+from __future__ import annotations
+
 import html
+import json
 import os
 import signal
 import subprocess
@@ -9,6 +12,7 @@ from pathlib import Path
 from typing import Any, Callable, Dict, List, Optional, Union
 
 from .errors import AssayError
+from .frames import Frames
 from .places import program
 from .plugin import detector_word, environment
 
@@ -20,14 +24,57 @@ _OUTCOMES = {0: "holds", 1: "defect", 3: "undecided", 4: "unsound", 5: "collisio
 _USAGE = 2
 
 
-@dataclass(frozen=True)
+class Failure(Dict[str, Any]):
+    """A kind of failure, as the run's findings have it: signature, claim, met, what, file, ...
+
+    file: the smallest mesh that shows it, a case file. reports/README.md says what the others are.
+    """
+
+    def frames(self) -> Frames:
+        """The smallest mesh: its triangles (m, 3), and positions (n, 3) of each frame."""
+        from . import _judge
+
+        return Frames(*_judge.read_case(self["file"]), [self["file"]])
+
+
+@dataclass(frozen=True, repr=False)
 class Outcome:
-    """What a verb came to: a word for its exit code, what it printed, and its folder or file."""
+    """What a verb came to: a word for its exit code, what it printed, and its folder or file.
+
+    strata, failures: of run() and certify(), a dict each: pandas.DataFrame(outcome.strata).
+    """
 
     outcome: str
     code: int
     text: str
     out: Optional[Path] = None
+
+    @property
+    def strata(self) -> List[Dict[str, Any]]:
+        """Each family of cases: how many were judged, failed, ..., and the bound on the risk."""
+        strata: List[Dict[str, Any]] = self._findings()["strata"]
+        return strata
+
+    @property
+    def failures(self) -> List[Failure]:
+        """Each kind of failure, with the smallest mesh that shows it; empty if nothing failed."""
+        folder = Path(self.out or "").absolute()
+        found = [Failure(failure) for failure in self._findings()["failures"]]
+        for failure in found:
+            failure["file"] = str(folder / failure["file"])
+        return found
+
+    def _findings(self) -> Dict[str, Any]:
+        from . import _judge
+
+        if self.out is None or not self.out.is_dir():
+            raise ValueError("only run() and certify() have strata and failures")
+        findings: Dict[str, Any] = json.loads(_judge.findings(os.fspath(self.out)))
+        return findings
+
+    def __repr__(self) -> str:
+        place = "" if self.out is None else f", {self.out}"
+        return f"<assay.{type(self).__name__}: {self.outcome}{place}>"
 
     def __str__(self) -> str:
         return self.text
@@ -36,7 +83,7 @@ class Outcome:
         raise TypeError("an outcome is no truth value: compare its outcome with 'holds'")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Page(Outcome):
     """The page of a run; a notebook shows it, with each failing mesh in 3D."""
 
@@ -69,7 +116,7 @@ def certify(
 ) -> Outcome:
     """`assay certify`: corpus, campaign, planted faults, self-test and speed; as run().
 
-    The certificate is out/certificate.json. It takes the shipped corpus from the sources.
+    The certificate is out/certificate.json.
     """
     return _of_campaign("certify", campaign, detector, out, progress, options)
 

@@ -1,10 +1,13 @@
 """What a simulator does, recorded for `assay judge`."""
 
+from __future__ import annotations
+
 import os
 from typing import Any, Dict, Iterable, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
+from numpy.typing import ArrayLike
 
 from . import _recorder, arrays, hosting
 
@@ -35,8 +38,8 @@ class Recorder:
     def __init__(
         self,
         path: Union[str, "os.PathLike[str]"],
-        triangles: npt.ArrayLike,
-        positions: npt.ArrayLike,
+        triangles: ArrayLike,
+        positions: ArrayLike,
         *,
         name: str,
         version: str = "0",
@@ -45,7 +48,7 @@ class Recorder:
         every: int = 1,
         ring: int = 0,
         overwrite: bool = False,
-        bodies: Optional[npt.ArrayLike] = None,
+        bodies: Optional[ArrayLike] = None,
         apart: Sequence[Tuple[int, int]] = (),
     ):
         if every < 0 or ring < 0:
@@ -68,18 +71,18 @@ class Recorder:
 
     def step(
         self,
-        x0: Optional[npt.ArrayLike] = None,
-        x1: Optional[npt.ArrayLike] = None,
+        x0: Optional[ArrayLike] = None,
+        x1: Optional[ArrayLike] = None,
         *,
-        dx: Optional[npt.ArrayLike] = None,
-        committed: Optional[npt.ArrayLike] = None,
+        dx: Optional[ArrayLike] = None,
+        committed: Optional[ArrayLike] = None,
         answer: Any = UNTOLD,
         first: Any = None,
-        pairs: Optional[npt.ArrayLike] = None,
-        pair_times: Optional[npt.ArrayLike] = None,
+        pairs: Optional[ArrayLike] = None,
+        pair_times: Optional[ArrayLike] = None,
         message: Optional[str] = None,
         share: Optional[float] = None,
-        positions: Optional[npt.ArrayLike] = None,
+        positions: Optional[ArrayLike] = None,
     ) -> None:
         """Records the next step, real numbers (n, 3) each.
 
@@ -130,7 +133,7 @@ class Recorder:
         if self._recorder.is_recording:
             self.end()
 
-    def _frame(self, given: Optional[npt.ArrayLike], name: str, may_be_float32: bool = True) -> Any:
+    def _frame(self, given: Optional[ArrayLike], name: str, may_be_float32: bool = True) -> Any:
         if given is None:
             return None
         frame = _frame(given, name, may_be_float32)
@@ -139,7 +142,7 @@ class Recorder:
         return frame
 
 
-def _frame(given: npt.ArrayLike, name: str, may_be_float32: bool) -> npt.NDArray[Any]:
+def _frame(given: ArrayLike, name: str, may_be_float32: bool) -> npt.NDArray[Any]:
     """Adjacent rows of three numbers, of float32 if they are that already and may be."""
     if may_be_float32 and type(given) is np.ndarray and given.dtype == np.float32:
         if given.ndim == 2 and given.shape[1] == 3:

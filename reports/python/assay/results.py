@@ -4,7 +4,9 @@ Triangles are numbered as the rows of the mesh, times are shares of the step, in
 to be between two doubles is those two, adjacent; one that is a double stands twice.
 """
 
-from dataclasses import dataclass, field
+from __future__ import annotations
+
+from dataclasses import dataclass
 from typing import Any, Mapping, Optional, Tuple
 
 import numpy as np
@@ -103,8 +105,20 @@ class StepTimes:
     total: float
 
 
-@dataclass(frozen=True, eq=False)
-class StepResult:
+class _Step:
+    """A step that was answered, in a line."""
+
+    answer: str
+    first: Optional[Tuple[float, float]]
+    pairs: Int32Array
+
+    def __repr__(self) -> str:
+        found = "" if self.first is None else f", first {self.first}, {len(self.pairs)} pairs"
+        return f"<assay.{type(self).__name__}: {self.answer}{found}>"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class StepResult(_Step):
     """What the detector answers of a step.
 
     answer: "free" or "collision".
@@ -134,9 +148,9 @@ class StepResult:
     doubts: npt.NDArray[np.uint8]
     counts: StepCounts
     milliseconds: StepTimes
-    triangles: Any = field(repr=False)
-    x_t0: Any = field(repr=False)
-    x_t1: Any = field(repr=False)
+    triangles: Any
+    x_t0: Any
+    x_t1: Any
 
     def __bool__(self) -> bool:
         raise TypeError("a result is no answer: compare result.answer with 'free' or 'collision'")
@@ -161,7 +175,7 @@ def step_result(raw: Mapping[str, Any], triangles: Any, x_t0: Any, x_t1: Any) ->
     return StepResult(**fields)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Limit:
     """How far a caller may go in a step.
 
@@ -173,8 +187,11 @@ class Limit:
     positions: Float64Array
     first: Optional[Tuple[float, float]]
 
+    def __repr__(self) -> str:
+        return f"<assay.Limit: {self.share} of the step, first {self.first}>"
 
-@dataclass(frozen=True, eq=False)
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Contacts:
     """Answers of k elementary queries.
 
@@ -185,9 +202,12 @@ class Contacts:
     lo: Float64Array
     hi: Float64Array
 
+    def __repr__(self) -> str:
+        return f"<assay.Contacts: {np.count_nonzero(self.hit)} of {len(self.hit)} meet>"
 
-@dataclass(frozen=True, eq=False)
-class Judgement:
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Judgement(_Step):
     """The oracle's answer of a step; fields as those of StepResult of the same names."""
 
     answer: str
@@ -196,9 +216,9 @@ class Judgement:
     times: Float64Array
     features: Int32Array
     feature_candidates: int
-    triangles: Any = field(repr=False)
-    x_t0: Any = field(repr=False)
-    x_t1: Any = field(repr=False)
+    triangles: Any
+    x_t0: Any
+    x_t1: Any
 
     def __bool__(self) -> bool:
         raise TypeError("a judgement is no answer: compare its answer with 'free' or 'collision'")

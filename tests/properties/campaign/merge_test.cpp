@@ -176,7 +176,7 @@ TEST_F(Merged, OtherRunsAreRefused) {
   other.plan.strata[0].cases = 10;
   refused("plan", "campaign/strata/0/cases 9 and 10");
   other.worker = "/bin/false";
-  refused("digest", "another worker (by SHA-256)");
+  refused("digest", "another build of assay");
   other.detector.configurations.pop_back();
   refused("configurations", "detector/configurations/");
 }

@@ -32,8 +32,7 @@ class ErrorTexts : public testing::Test {
 TEST_F(ErrorTexts, OfDescribe) {
   const auto description = worker("describe").describe();
   ASSERT_FALSE(description);
-  EXPECT_TRUE(
-      description.error().message.ends_with("describe() returns nothing: no describe today, 0"))
+  EXPECT_TRUE(description.error().message.ends_with(": describe(): no describe today, 0"))
       << description.error().message;
 }
 

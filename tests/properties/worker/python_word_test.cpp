@@ -19,6 +19,7 @@ class PythonWords : public testing::Test {
   void SetUp() override {
     folder_ = fs::path(testing::TempDir()) / ("python_words_" + std::to_string(::getpid()));
     write("bin/assay-worker", "");
+    write("libexec/assay/assay-worker", "");
     ::setenv("PYTHONPATH", (folder_ / "more").c_str(), 1);
   }
   void TearDown() override {
@@ -56,9 +57,13 @@ TEST_F(PythonWords, AreServedByThePackageBesideTheWorker) {
   EXPECT_TRUE(says(nowhere.error(), "python:a:B: the Python module"));
   EXPECT_FALSE(python_plugin("python:a", worker()));
 
-  for (const char* place : {"lib/python3.11/dist-packages/assay", ".", "bin/python/assay"}) {
+  // As it is installed, by CMake and by pip, and as it was built.
+  const char* const installed = "libexec/assay/assay-worker";
+  for (const auto& [place, beside] :
+       {std::pair("lib/python3.11/dist-packages/assay", folder_ / installed),
+        std::pair(".", worker()), std::pair("bin/python/assay", worker())}) {
     write(fs::path(place) / "python_detector.so", "");
-    const auto found = python_plugin("python:a:B", worker());
+    const auto found = python_plugin("python:a:B", beside);
     ASSERT_TRUE(found) << place;
     EXPECT_TRUE(fs::equivalent(found.value(), folder_ / place / "python_detector.so")) << place;
   }

@@ -28,6 +28,7 @@ Benched bench(const std::string& name, double seconds = 60) {
           .value();
   Benched out;
   out.report = detector_suite({"/nowhere", 0.01}, plugin, {}, &out.sequences);
+  tests::expect_schema("bench", to_json(out.report, "version"));
   return out;
 }
 

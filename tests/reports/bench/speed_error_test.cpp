@@ -7,6 +7,7 @@
 #include "properties/random.h"
 #include "reports/bench/cases.h"
 #include "reports/estimate.h"
+#include "tests/reports/json_schema.h"
 #include "tests/test.h"
 
 namespace assay::reports {
@@ -182,6 +183,7 @@ TEST(SpeedErrorSuite, EveryFamilyAndVariant) {
     }
   }
   const auto json = to_json(report, "version");
+  tests::expect_schema("bench", json);
   EXPECT_EQ(json["families"].size(), report.figures.at("families").size());
   EXPECT_EQ(json["families"][0]["time_over_reference"]["samples"].size(), 2u);
   EXPECT_EQ(json["variants"][0]["errors"]["unsafe"], 0);

@@ -6,6 +6,7 @@
 
 #include "detector/step/stages.h"
 #include "reports/bench/whole/stability_changes.h"
+#include "tests/reports/json_schema.h"
 #include "tests/test.h"
 
 namespace assay::reports {
@@ -229,6 +230,7 @@ TEST(Stability, ExactIsNeverWrongAndBoundedNeverMisses) {
   EXPECT_GT(wrong["float"], wrong["double"]);
 
   const auto json = to_json(report, "version");
+  tests::expect_schema("bench", json);
   ASSERT_EQ(json["heat"].size(), cells.size());
   for (const auto& cell : json["heat"]) {
     EXPECT_GT(cell["cases"], 0);

@@ -1,11 +1,13 @@
-// The job of detector/plugin/README.md, "In your CI", as a machine runs it:
-// tests/plugins/ci_job.sh.
+// What detector/plugin/README.md has for a CI, as a machine runs it: the job, and the lines of the
+// files for GitHub and GitLab that run it.
 #include "tests/reports/tiny_campaign.h"
 
 namespace assay::tests {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* job_file = "detector/plugin/ci/job.sh";
 
 class CiJob : public testing::Test {
  protected:
@@ -25,15 +27,22 @@ class CiJob : public testing::Test {
                   R"("fault_cases": 20, "fault_seeds": 1, "policy": {"self_test_queries": 20}})");
   }
 
-  // Its exit code. What it prints is in `printed`.
-  int run(const std::string& seed) {
+  // The exit code of a line in the folder of the detector. What it prints is in `printed`.
+  int run_line(const std::string& line) {
     const std::string log = scratch / "log";
-    const std::string line = "cd " + (scratch / "mine") + " && ASSAY=" + (scratch / "assay") +
-                             " CAMPAIGN=" + (scratch / "few.json") + " SEED=" + seed + " sh " +
-                             (source / "tests/plugins/ci_job.sh").string() + " >" + log + " 2>&1";
-    const int status = std::system(line.c_str());
+    const std::string words =
+        "cd " + (scratch / "mine") + " && export ASSAY=" + (scratch / "assay") +
+        " CAMPAIGN=" + (scratch / "few.json") + "; (" + line + ") >" + log + " 2>&1";
+    const int status = std::system(words.c_str());
     printed = read_text(log);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  int run(const std::string& seed, const std::string& more = "") {
+    return run_line("SEED=" + seed + " " + more + " sh " + (source / job_file).string());
+  }
+  void copy_example() const {
+    fs::copy_file(source / "tests/plugins/example_in_cpp.cpp", scratch / "mine/detector.cpp",
+                  fs::copy_options::overwrite_existing);
   }
   std::string report(const std::string& name) const {
     return read_text(scratch / "mine/reports/" + name);
@@ -43,9 +52,8 @@ class CiJob : public testing::Test {
   std::string printed;
 };
 
-TEST_F(CiJob, IsOfTenLinesAndStandsOnThePage) {
-  const auto job = read_text((source / "tests/plugins/ci_job.sh").string());
-  EXPECT_EQ(std::count(job.begin(), job.end(), '\n'), 10);
+TEST_F(CiJob, StandsOnThePage) {
+  const auto job = read_text((source / job_file).string());
   EXPECT_TRUE(
       says(read_text((source / "detector/plugin/README.md").string()), "```sh\n" + job + "```\n"));
 }
@@ -54,8 +62,7 @@ TEST_F(CiJob, EndsWithTheVerdict) {
   scratch.write("mine/detector.cpp", "this is no C++");
   EXPECT_EQ(run("1"), 2) << printed;
 
-  fs::copy_file(source / "tests/plugins/example_in_cpp.cpp", scratch / "mine/detector.cpp",
-                fs::copy_options::overwrite_existing);
+  copy_example();
   scratch.write("mine/cases/known.json",
                 R"({"schema": "assay-known/1", "waivers": [{"signature": "free-sound: mine",)"
                 R"("reason": "r", "link": "l", "expires": "9999-12-31"}]})");
@@ -69,6 +76,58 @@ TEST_F(CiJob, EndsWithTheVerdict) {
   const auto certificate = read_text(scratch / "mine/certified-2/certificate.json");
   EXPECT_TRUE(contains(certificate, "\"free-sound: mine\""));
   EXPECT_TRUE(contains(certificate, " --corpus " + (scratch / "mine/cases")));
+}
+
+TEST_F(CiJob, TakesOwnSourcesAndFlagsAndNeedsNoCases) {
+  fs::remove_all(scratch / "mine/cases");
+  copy_example();
+  scratch.write("mine/other.cpp", "#if MINE != 1\n#error not told\n#endif\n");
+  EXPECT_EQ(run("1", "SOURCES='detector.cpp other.cpp'"), 2) << printed;
+  EXPECT_FALSE(contains(printed, "cp: ")) << printed;
+  EXPECT_EQ(run("1", "SOURCES='detector.cpp other.cpp' CXXFLAGS='-DMINE=1 -g0' LDLIBS=-lm"), 0)
+      << printed;
+  // The proof is there already, and an empty folder is no case either.
+  fs::create_directories(scratch / "mine/cases");
+  EXPECT_EQ(run("2"), 0) << printed;
+  EXPECT_TRUE(contains(printed, "there is no case in it yet")) << printed;
+}
+
+// The lines of a file for a CI service that begin with one of these words, as a shell gets them.
+std::vector<std::string> shell_lines(const fs::path& file, const std::string& script) {
+  std::istringstream lines(read_text(file.string()));
+  std::vector<std::string> found;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.ends_with("/" + script)) continue;
+    line.erase(0, line.find_first_not_of(" -"));
+    if (line.starts_with("run: ")) line.erase(0, 5);
+    found.push_back(line);
+  }
+  return found;
+}
+
+TEST_F(CiJob, IsRunByTheFilesForGitHubAndGitLab) {
+  fs::create_directory_symlink(scratch / "assay", scratch / "mine/.assay");
+  copy_example();
+  const std::string apt = scratch / "bin/apt-get";
+  scratch.write("bin/apt-get", "#!/bin/sh\necho apt-get \"$@\"\n");
+  scratch.write("assay/reports/package/build",
+                "#!/bin/sh\necho built; mkdir -p .package; touch .package/assay_1_amd64.deb\n");
+  for (const std::string& file : {apt, scratch / "assay/reports/package/build"})
+    fs::permissions(file, fs::perms::owner_all);
+  for (const char* service : {"github.yml", "gitlab.yml"}) {
+    const auto file = source / "detector/plugin/ci" / service;
+    const auto install = shell_lines(file, "install.sh"), job = shell_lines(file, "job.sh");
+    ASSERT_EQ(install.size(), 1u) << service;
+    ASSERT_EQ(job.size(), 1u) << service;
+    fs::remove_all(scratch / "mine/.package");
+    for (const bool is_cached : {false, true}) {
+      EXPECT_EQ(run_line("PATH=" + (scratch / "bin") + ":$PATH; " + install[0]), 0) << printed;
+      EXPECT_EQ(contains(printed, "built\n"), !is_cached) << printed;
+      EXPECT_TRUE(contains(printed, "g++ ./.package/assay_1_amd64.deb\n")) << printed;
+    }
+    EXPECT_EQ(run_line(job[0]), 0) << service << ": " << printed;
+    EXPECT_TRUE(contains(report("summary.md"), "certified"));
+  }
 }
 
 }  // namespace

@@ -72,9 +72,9 @@ TEST_F(CheckedBodies, BadWordsAreOneLine) {
     EXPECT_EQ(refused.exit_code, 2) << arguments;
     EXPECT_TRUE(contains(refused.err, why)) << refused.err;
   };
-  expect_refused("", "frames is required");
+  expect_refused("", "FRAME is required");
   expect_refused(comes + " --apart 0,0", "--apart is of bodies");
-  expect_refused(comes + " --body " + comes, "excludes");
+  expect_refused(comes + " --body " + comes, "do not go together");
   expect_refused("--body " + comes + " --apart 0", "A,B: two bodies by number");
   expect_refused("--body " + comes + " --apart 0,3", "a pair of bodies names 3 of 1");
   expect_refused("--body " + still + " --body " + still, "one frame only");

@@ -28,7 +28,8 @@ def test_every_example_runs_as_pasted(tmp_path, monkeypatch, capsys):
         "collision (0.888888888888888",
         "holds [(), ()]",
         "2 holds",
-        "defect\njudged/report.html",
+        "defect\n[('closed-degenerate', 4, ",
+        "judged/report.html",
         "holds\nquick:1:closed-generic:5",
     ):
         assert line in printed

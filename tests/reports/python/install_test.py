@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+import assay
+
 SOURCES = Path(__file__).resolve().parents[3]
 BUILD = Path(os.environ["ASSAY_BUILD_DIR"])
 
@@ -56,8 +58,17 @@ def test_it_is_installed_by_cmake(tmp_path):
 def test_it_is_installed_by_pip(tmp_path):
     if BUILD != SOURCES / "build" / "release":
         pytest.skip("pip builds in build/release")
+    wheel = "-m pip wheel --no-build-isolation --no-index --no-deps --wheel-dir".split()
+    subprocess.run([sys.executable, *wheel, tmp_path, SOURCES], check=True)
+    (file,) = tmp_path.glob(f"assay-{assay.__version__}-*.whl")
     venv = tmp_path / "venv"
     subprocess.run([sys.executable, "-m", "venv", "--system-site-packages", venv], check=True)
-    pip = [venv / "bin" / "pip", "install", "--no-build-isolation", "--no-index", SOURCES]
-    subprocess.run(pip, check=True)
+    subprocess.run([venv / "bin" / "pip", "install", "--no-index", file], check=True)
     judged_by(venv / "bin" / "python", venv, tmp_path)
+    # The command reads the corpus that came with it.
+    score = [venv / "bin" / "assay", "score", SOURCES / "corpus/vectors/results/assay_exact.json"]
+    ended = subprocess.run(score, cwd=tmp_path, stdout=subprocess.PIPE, text=True, check=True)
+    assert "Assay" in ended.stdout
+    linked = venv / "lib" / f"python{sys.version_info.major}.{sys.version_info.minor}"
+    package = linked / "site-packages" / "assay"
+    assert not (package / "share/assay/corpus/curated").is_symlink()

@@ -181,7 +181,7 @@ def test_what_goes_wrong_is_told(mine, frames, name, outcome, text):
     [
         ("python:mine:WrongClaim", "'fast' is none of free-sound"),
         ("python:mine:WrongContract", "'colour' is none of its members"),
-        ("python:mine:Absent", "no attribute 'Absent'"),
+        ("python:mine:Absent", "mine has no class Absent"),
         ("python:absent:Mine", "No module named 'absent'"),
         ("python:mine", "python:MODULE:CLASS is wanted"),
         ("python:mi-ne:X", "python:MODULE:CLASS is wanted"),

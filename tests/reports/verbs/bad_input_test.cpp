@@ -136,7 +136,7 @@ TEST_F(BadInput, CaseFiles) {
 }
 
 TEST_F(BadInput, Options) {
-  expect_refused("", "subcommand");
+  expect_refused("", "name a verb");
   expect_refused("frobnicate", "frobnicate");
   expect_refused("check " + good + " " + good + " --culling fast",
                  "view-auto, view-point, view-line, normal-cone, bvh, none");
@@ -148,7 +148,7 @@ TEST_F(BadInput, Options) {
   expect_refused("check " + good + " " + good + " --json /nowhere/report.json", "/nowhere");
   expect_refused("check " + good + " " + good + " --json -", "-: name a file");
   expect_refused("run --campain smoke --out " + (scratch / "x"),
-                 "not expected: --campain smoke (assay run --help lists options)");
+                 "not expected: --campain smoke; did you mean --campaign? (assay run --help");
   expect_refused("chekc " + good, "unknown verb 'chekc'; did you mean check?");
   expect_refused("run --campaign smok --out " + (scratch / "x"),
                  "smok: is no campaign and no file; did you mean smoke?");

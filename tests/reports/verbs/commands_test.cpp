@@ -41,27 +41,6 @@ TEST_F(Commands, L5_BreathingSphereIsFreeAllPositiveWithoutBoxTests) {
   }
 }
 
-// As far as a step that collides has it; reports/check/README.md, the table of assay-check/1.
-TEST_F(Commands, EveryFieldOfTheReportIsInTheReadme) {
-  const auto frames = make_scene("bend", 200, 12);
-  run_assay("check " + frames + " --json " + (scratch / "report.json"));
-  const auto report = json::parse(read_text(scratch / "report.json"));
-  auto readme = read_text(std::string(ASSAY_SOURCE_DIR) + "/reports/check/README.md");
-  readme.erase(0, readme.find("schema `assay-check/1`\n"));
-  readme.erase(readme.find("\n## "));
-  const auto expect_named = [&](const json& fields, const std::string& mark) {
-    for (const auto& [name, value] : fields.items())
-      EXPECT_NE(readme.find(mark + name + mark), std::string::npos) << name;
-  };
-  ASSERT_FALSE(report["steps"].empty());
-  expect_named(report, "`");
-  for (const auto& [name, value] : report["steps"].back().items()) {
-    EXPECT_NE(readme.find("`" + name + "`"), std::string::npos) << name;
-    if (value.is_object()) expect_named(value, "");
-    if (value.is_array() && !value.empty() && value[0].is_object()) expect_named(value[0], "");
-  }
-}
-
 TEST_F(Commands, EverySceneAgreesAndSaysWhetherItCollides) {
   const auto free = words(
                  "breathing-sphere two-spheres twist open-tube arm-in-box ball-in-tube "

@@ -49,7 +49,7 @@ TEST_F(MergeCommand, BadInputIsOneLine) {
   ASSERT_EQ(run("other", "--shard 2/2 --seed 2").exit_code, 0);
   const std::string out = " --out " + scratch / "out";
   expect_refused(run_assay("merge " + scratch / "one"), "--out");
-  expect_refused(run_assay("merge" + out), "folders");
+  expect_refused(run_assay("merge" + out), "DIR is required");
   expect_refused(run_assay("merge " + scratch / "none" + out), "none: ");
   std::filesystem::create_directory(scratch / "empty");
   expect_refused(run_assay("merge " + scratch / "empty" + out), "no run is stored here");

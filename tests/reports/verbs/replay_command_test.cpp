@@ -1,4 +1,6 @@
 // `assay replay`: by id, by file, with --why and --export.
+#include <regex>
+
 #include "corpus/cases/case_file.h"
 #include "properties/campaign/trials/planned_case.h"
 #include "properties/generators/families.h"
@@ -15,12 +17,31 @@ TEST(Replay, ByIdGoesThroughEveryConfiguration) {
   EXPECT_EQ(outcome.out.find(some_id), 0u);
   for (const std::string name : {"view-auto", "view-point", "view-line", "normal-cone", "bvh",
                                  "none", "view-point/first", "view-line/bounded"}) {
-    EXPECT_TRUE(contains(outcome.out, "\n" + name + ": holds\n")) << name << outcome.out;
+    EXPECT_TRUE(
+        std::regex_search(outcome.out, std::regex("(^|, |\n)" + name + "(, [^:\n]*)?: holds\n")))
+        << name << outcome.out;
   }
   EXPECT_TRUE(contains(outcome.out, "step 1 (frame 0 to 1, committed): oracle ")) << outcome.out;
   EXPECT_EQ(run_assay(std::string("replay ") + some_id).out, outcome.out);
   // Of other rounds of a campaign.
   EXPECT_EQ(run_assay("replay quick:7.canary:broken:12").exit_code, 0);
+}
+
+TEST(Replay, SaysOnceWhatSeveralConfigurationsComeTo) {
+  const auto outcome = run_assay(std::string("replay ") + some_id + " --why 0,1");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  std::set<std::string> stories;
+  std::size_t told = 0;
+  for (auto at = outcome.out.find("\n  step 1: "); at != std::string::npos; ++told) {
+    const auto end = outcome.out.find("\n  step 1: ", at + 1);
+    // Behind it stand the names of the next ones.
+    const auto story = outcome.out.substr(at, end - at);
+    stories.insert(story.substr(0, story.rfind("detector: ")));
+    at = end;
+  }
+  EXPECT_GE(told, 2u) << outcome.out;
+  EXPECT_LE(told, 4u) << outcome.out;
+  EXPECT_EQ(stories.size(), told) << outcome.out;
 }
 
 TEST(Replay, ByFileTakesTheFilesOptions) {
@@ -94,7 +115,7 @@ TEST(Replay, WhatIsNeitherIdNorFileIsRefused) {
   expect_refused(run_assay("replay tiny:1:closed:5"), "CAMPAIGN:SEED:FAMILY:INDEX");
   expect_refused(run_assay("replay smok:1:closed-generic:5"),
                  "there is no campaign smok; did you mean smoke?");
-  expect_refused(run_assay("replay"), "case");
+  expect_refused(run_assay("replay"), "CASE is required");
   expect_refused(run_assay("replay /tmp"), "directory");
   expect_refused(run_assay("replay " + curated("A4_endpoints_only") + " --detector /nowhere.so"),
                  "no such file");

@@ -1,0 +1,9 @@
+#!/bin/sh
+# Installs Assay in a CI job: in a container of Debian 12, as root. Where a cache has kept the
+# package in .package it is taken from there; otherwise it is built of the sources around this
+# script, which takes some ten minutes.
+set -e
+sources=$(cd "$(dirname "$0")/../../.." && pwd)
+ls .package/assay_*.deb >/dev/null 2>&1 || "$sources/reports/package/build" --yes --out .package
+apt-get update -qq
+apt-get install -y -qq --no-install-recommends g++ ./.package/assay_*.deb

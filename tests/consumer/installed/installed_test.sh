@@ -1,0 +1,61 @@
+#!/bin/sh
+# installed_test.sh SOURCES BUILD: installs what is built, then hides sources and build, and asks for
+# every verb. Then packs the same for Debian and looks into the package.
+set -eu
+sources=$1 build=$2
+here=$sources/tests/consumer/installed
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+fail() {
+  echo "$*"
+  exit 1
+}
+
+cmake --install "$build" --prefix "$scratch/prefix" >"$scratch/log" || fail "$(cat "$scratch/log")"
+cd "$scratch/prefix"
+for file in bin/assay libexec/assay/assay-worker share/assay/corpus/known.json \
+  share/assay/schemas/certificate.schema.json share/doc/assay/LICENSE share/doc/assay/THIRD_PARTY \
+  include/assay/detector/detector.h include/assay/detector/plugin/assay_detector.h; do
+  [ -f "$file" ] || fail "$file is not installed"
+done
+if found=$(grep -rlF -e "$sources/" -e "$build/" .); then
+  fail "paths of the machine that built it are in: $found"
+fi
+
+# What the verbs are asked about is made by what the tests build.
+mkdir "$scratch/work"
+cp "$build/tests/plugins/plugin_example.so" "$scratch/work/libmine.so"
+cp "$here/every_verb.sh" "$here/module.py" "$scratch"
+(cd "$scratch/work" && "$build/record_example" >/dev/null)
+cat >"$scratch/all.sh" <<'ALL'
+set -eu
+[ "$1" = none ] || mount -t tmpfs none "$1"
+cd "$2"
+sh every_verb.sh "$2/prefix/bin/assay" "$2/prefix/share/assay" "$2/work"
+for package in prefix/lib/python3*/dist-packages; do
+  [ ! -d "$package" ] || (cd work && PYTHONPATH="$2/$package" /usr/bin/python3 "$2/module.py")
+done
+ALL
+# Without user namespaces the sources stay in sight; then that no path of theirs is found has to do.
+if unshare --user --map-root-user --mount true 2>/dev/null; then
+  unshare --user --map-root-user --mount sh "$scratch/all.sh" "$sources" "$scratch"
+else
+  echo "no user namespaces here: the sources stay in sight"
+  sh "$scratch/all.sh" none "$scratch"
+fi
+
+if ! command -v dpkg-shlibdeps >/dev/null || ! command -v file >/dev/null; then
+  echo "no package is made: dpkg-dev and file are not installed"
+  exit 0
+fi
+cd "$build"
+cpack -G DEB -B "$scratch/packed" >"$scratch/log" 2>&1 || fail "$(cat "$scratch/log")"
+package=$(ls "$scratch"/packed/*.deb)
+[ "$(dpkg-deb -f "$package" Version)" = "$(cat "$sources/detector/VERSION")" ] || fail "another version"
+dpkg-deb -f "$package" Depends | grep -q "libgmp10.*libmpfr6.*libseccomp2" || fail "no dependencies"
+dpkg-deb -x "$package" "$scratch/root"
+(cd "$scratch/root/usr" && find . -type f | sort) >"$scratch/packed.list"
+(cd "$scratch/prefix" && find . -type f | sort) >"$scratch/installed.list"
+diff "$scratch/installed.list" "$scratch/packed.list" || fail "the package holds other files"
+"$scratch/root/usr/bin/assay" check \
+  "$scratch/root/usr/share/assay/corpus/curated/B1_one_vertex_own_nearest.json" >/dev/null

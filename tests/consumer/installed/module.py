@@ -1,0 +1,25 @@
+"""The Python module as it is installed: the detector, the judge, and a class that is judged."""
+
+import assay
+from assay.places import program
+
+triangles = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]
+frames = triangles, [[[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, z]] for z in (1.0, -1.0)]
+
+
+class Mine:
+    claims = ["free-sound", "total"]
+
+    def create(self, triangles, positions):
+        self.detector = assay.Detector(triangles, positions)
+
+    def evaluate(self, x_t0, x_t1):
+        return self.detector.evaluate(x_t0, x_t1)
+
+
+if __name__ == "__main__":
+    assert assay.judge(triangles, *frames[1]).answer == "collision"
+    assert assay.check(frames, Mine).outcome == "holds"
+    ran = assay.run("few.json", Mine, out="python", power="proof")
+    assert ran.outcome == "holds" and ran.strata and not ran.failures, ran.text
+    print(assay.__version__, program())

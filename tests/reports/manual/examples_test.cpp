@@ -1,0 +1,114 @@
+// The examples of help run as they stand.
+#include <regex>
+
+#include "corpus/cases/case_file.h"
+#include "reports/terminal/manual.h"
+#include "tests/recorded_log.h"
+#include "tests/reports/tiny_campaign.h"
+
+namespace assay::tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What the examples name and do not make: frames and queries of the reader's, a log, a plug-in.
+void prepare(const Scratch& scratch) {
+  const auto read = corpus::parse_case(read_text(curated("A4_endpoints_only")), "A4");
+  ASSERT_TRUE(read);
+  const auto& c = read.value();
+  const auto export_case =
+      run_assay("replay " + curated("A4_endpoints_only") + " --export " + (scratch / "export"));
+  ASSERT_EQ(export_case.exit_code, 0) << export_case.err;
+  fs::copy_file(scratch / "export/frame_0000.obj", scratch / "frame_0.obj");
+  fs::copy_file(scratch / "export/frame_0001.obj", scratch / "frame_1.obj");
+  fs::copy_file(std::string(ASSAY_SOURCE_DIR) + "/corpus/queries/example_vf.csv",
+                scratch / "queries_vf.csv");
+  fs::copy_file(plugin("always_free"), scratch / "detector.so");
+  LogWriter log(scratch / "simulation.log", c.triangles, c.frames[0]);
+  detector::StepResult free;
+  free.answer = detector::Answer::free;
+  log.step(&c.frames[0], c.frames[1], free);
+  log.step(&c.frames[1], c.frames[0], free);
+  log.end();
+  fs::create_directory(scratch / "vectors");
+  fs::copy(std::string(ASSAY_SOURCE_DIR) + "/corpus/vectors", scratch / "vectors",
+           fs::copy_options::recursive);
+  scratch.write("tiny.json", plan_text(16));
+}
+
+// Smoke takes a minute, so a smaller campaign stands in its place.
+std::string made_small(std::string command) {
+  const std::string smoke = "--campaign smoke";
+  const auto at = command.find(smoke);
+  return at == std::string::npos ? command
+                                 : command.replace(at, smoke.size(), "--campaign tiny.json");
+}
+
+// Runs a line in a folder, in a shell that finds the program. What it prints is in files of the
+// scratch folder.
+int code_of(const Scratch& scratch, const std::string& folder, const std::string& line) {
+  const int status =
+      std::system(("cd " + folder + " && PATH=" + (scratch / "bin") + ":$PATH && { " + line +
+                   "; } >" + (scratch / "out") + " 2>" + (scratch / "err") + " </dev/null")
+                      .c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+struct Pasted {
+  std::string folder, line;
+};
+
+// The lines to paste that are printed: `next` where one stands, what replays a failure anywhere.
+// Two of a command are enough.
+std::vector<Pasted> lines_to_paste(const Scratch& scratch) {
+  const auto out = read_text(scratch / "out");
+  const std::regex marked("(^|\n) *(next|slow cases|replay|again): (.*)");
+  std::vector<Pasted> lines;
+  for (std::sregex_iterator match(out.begin(), out.end(), marked), end; match != end; ++match) {
+    const bool is_replay = (*match)[2] == "replay" || (*match)[2] == "again";
+    const std::string line = (*match)[3];
+    if (line.rfind("run the same again", 0) != 0 && lines.size() < 2)
+      lines.push_back({is_replay ? "/" : scratch / "", line});
+  }
+  return lines;
+}
+
+// The set takes minutes; vectors_are_made and vectors_hold run these two verbs.
+bool is_of_the_set(const std::string& command) {
+  return contains(command, "assay vectors ") || contains(command, "assay verify-vectors ");
+}
+
+TEST(Examples, RunAsTheyStandAndSoDoTheLinesThatTheyPrint) {
+  const Scratch scratch;
+  prepare(scratch);
+  fs::create_directory(scratch / "bin");
+  fs::create_symlink(ASSAY_PROGRAM, scratch / "bin/assay");
+  int seen = 0, pasted = 0;
+  for (const auto& verb : reports::verbs_with_examples()) {
+    const auto manual = reports::manual_of(verb, "");
+    for (const auto& [command, about] : manual.examples) {
+      SCOPED_TRACE(command);
+      EXPECT_EQ(command.rfind("assay " + verb, 0), 0u);
+      ++seen;
+      if (is_of_the_set(command)) continue;
+      const int code = code_of(scratch, scratch / "", made_small(command));
+      EXPECT_NE(code, 2) << read_text(scratch / "err");
+      EXPECT_TRUE(std::any_of(manual.exit_codes.begin(), manual.exit_codes.end(),
+                              [&](const auto& known) { return known.first == code; }))
+          << code << read_text(scratch / "out") << read_text(scratch / "err");
+      for (const auto& [folder, line] : lines_to_paste(scratch)) {
+        if (is_of_the_set(line)) continue;
+        SCOPED_TRACE(line);
+        ++pasted;
+        const int code_of_line = code_of(scratch, folder, line);
+        EXPECT_TRUE(code_of_line == 0 || code_of_line == 1 || code_of_line == 3)
+            << code_of_line << read_text(scratch / "err");
+      }
+    }
+  }
+  EXPECT_GE(seen, 18);
+  EXPECT_GE(pasted, 8);
+}
+
+}  // namespace
+}  // namespace assay::tests

@@ -1,0 +1,126 @@
+// Help: all verbs, and each verb with its options in groups, examples and exit codes.
+#include <regex>
+
+#include "tests/reports/tiny_campaign.h"
+
+namespace assay::tests {
+namespace {
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+// The verbs that `assay help` lists.
+std::vector<std::string> verbs() {
+  std::vector<std::string> found;
+  for (const auto& line : lines_of(run_assay("help").out)) {
+    const std::regex row("^  ([a-z][-a-z]*)  +[A-Z].*");
+    std::smatch match;
+    if (std::regex_match(line, match, row) && match[1] != "help" && match[1] != "version")
+      found.push_back(match[1]);
+  }
+  return found;
+}
+
+TEST(Help, IsOneTextHoweverItIsAsked) {
+  const auto all = run_assay("help");
+  EXPECT_EQ(all.exit_code, 0);
+  EXPECT_EQ(run_assay("--help").out, all.out);
+  EXPECT_EQ(run_assay("-h").out, all.out);
+  EXPECT_EQ(verbs().size(), 18u);
+  const auto run = run_assay("help run");
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_EQ(run_assay("run --help").out, run.out);
+  EXPECT_EQ(run_assay("run --campaign smoke -h").out, run.out);
+  EXPECT_EQ(run_assay("version").out, run_assay("--version").out);
+  expect_refused(run_assay("help chekc"), "unknown verb 'chekc'; did you mean check?");
+}
+
+TEST(Help, TheVersionNamesItsCommit) {
+  const auto version = run_assay("version").out;
+  EXPECT_EQ(version.rfind("assay ", 0), 0u);
+  const bool has_commit =
+      std::regex_search(version, std::regex("\ncommit [0-9a-f]{40}(-dirty)?\n$"));
+  EXPECT_EQ(has_commit, std::filesystem::exists(ASSAY_SOURCE_DIR "/.git")) << version;
+}
+
+TEST(Help, OfEachVerbIsWholeAndFitsOnATerminal) {
+  for (const auto& verb : verbs()) {
+    SCOPED_TRACE(verb);
+    const auto help = run_assay("help " + verb);
+    EXPECT_EQ(help.exit_code, 0);
+    EXPECT_EQ(help.out.rfind("usage: assay " + verb, 0), 0u) << help.out;
+    for (const std::string part : {"\nInput\n", "\nWhat is asked\n", "\nWhat is written\n"}) {
+      const bool is_empty = contains(help.out, part) && !contains(help.out, part + "  ");
+      EXPECT_FALSE(is_empty) << part << help.out;
+    }
+    EXPECT_TRUE(contains(help.out, "\nExamples\n  assay " + verb)) << help.out;
+    EXPECT_TRUE(contains(help.out, "\nExit codes\n  0  ")) << help.out;
+    for (const std::string word : {"TEXT", "UINT", "FLOAT", "INT ", "REQUIRED", "OPTIONS"})
+      EXPECT_FALSE(contains(help.out, word)) << word << help.out;
+    for (const auto& line : lines_of(help.out)) {
+      EXPECT_TRUE(line.size() <= 80 || contains(line, "assay " + verb)) << line;
+    }
+  }
+}
+
+TEST(Help, SaysTheExitCodesOfTheDesign) {
+  const auto check = run_assay("help check").out;
+  for (const std::string line :
+       {"  0  all claims hold\n", "  1  a defect\n", "  2  usage or input error\n",
+        "  3  too much undecided\n", "  4  the harness failed its own check\n",
+        "  5  collision, with --fail-on-collision\n"}) {
+    EXPECT_TRUE(contains(check, line)) << line;
+    EXPECT_TRUE(contains(run_assay("help").out, line)) << line;
+  }
+  EXPECT_FALSE(contains(run_assay("help scene").out, "  1  "));
+}
+
+TEST(Help, ShowsWordsAndDefaults) {
+  const auto check = run_assay("help check").out;
+  EXPECT_TRUE(contains(check, "usage: assay check [FRAME...] [OPTION...]\n")) << check;
+  EXPECT_TRUE(contains(check, "--pairs WORD")) << check;
+  EXPECT_TRUE(contains(check, "(default all): all, first")) << check;
+  const auto run = run_assay("help run").out;
+  EXPECT_TRUE(contains(run, "usage: assay run --out DIR [OPTION...]\n")) << run;
+  EXPECT_TRUE(contains(run, "(default quick)")) << run;
+}
+
+TEST(Help, WordsThatAreMisspeltMeanOthers) {
+  const Scratch scratch;
+  const auto out = " --out " + (scratch / "out");
+  expect_refused(run_assay("run --campain smoke" + out),
+                 "not expected: --campain smoke; did you mean --campaign? (assay run --help");
+  // The option that is missing is the one that is misspelt.
+  expect_refused(run_assay("run --otu=" + (scratch / "out")), "did you mean --out?");
+  expect_refused(run_assay("run one two --seeed 3" + out),
+                 "not expected: one two --seeed 3; did you mean --seed?");
+  expect_refused(run_assay("run --campaign smok" + out), "did you mean smoke?");
+  expect_refused(run_assay("scene bned" + out), "no scene is named bned; did you mean bend?");
+  expect_refused(run_assay("list scnes"), "did you mean scenes?");
+  expect_refused(run_assay("bench --suite elementry"), "did you mean elementary?");
+  expect_refused(run_assay("check a.obj b.obj --culling bhv"), "did you mean bvh?");
+  expect_refused(run_assay("run --out"), "--out: DIR missing (assay run --help lists options)");
+  expect_refused(run_assay("check a b --no-oracle --second-opinion 0.5"),
+                 "--no-oracle and --second-opinion do not go together");
+  expect_refused(run_assay("check a b --jobs many"),
+                 "--jobs: 'many' is not a whole number from 1 to 1024");
+  expect_refused(run_assay(""), "name a verb (assay help lists verbs)");
+}
+
+TEST(Help, ListAloneSaysWhichListsThereAre) {
+  const auto lists = run_assay("list");
+  EXPECT_EQ(lists.exit_code, 0);
+  for (const std::string list : {"scenes", "laws", "faults", "campaigns"}) {
+    EXPECT_TRUE(contains(lists.out, "\n" + list + " ") || lists.out.rfind(list, 0) == 0) << list;
+    EXPECT_EQ(run_assay("list " + list).exit_code, 0);
+  }
+  EXPECT_TRUE(contains(lists.out, "\nfailures DIR "));
+  EXPECT_TRUE(contains(lists.out, "\nslow DIR "));
+}
+
+}  // namespace
+}  // namespace assay::tests
