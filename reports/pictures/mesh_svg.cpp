@@ -181,7 +181,8 @@ class Picture {
     return fmt::format(
         "<polygon points=\"{}\" fill=\"none\" stroke=\"#d6336c\" stroke-width=\"2\" "
         "stroke-linejoin=\"round\"/>\n<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" "
-        "fill=\"#777\">{}</text>\n",
+        "font-weight=\"bold\" fill=\"#111\" stroke=\"#fff\" stroke-width=\"3\" "
+        "paint-order=\"stroke\">{}</text>\n",
         points(i), centre[0], centre[1] + 4, i);
   }
   // A circle if the two places are one in the picture, else two smaller ones and the segment.

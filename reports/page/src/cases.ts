@@ -32,7 +32,7 @@ export function laws({ findings: { laws: told }, law_statements: statements }: R
       "p",
       {},
       html("strong", {}, `${counted(shown.length, "law")} of the theory were put to the cases: ${broken === 0 ? "none was broken" : `${broken} of them were broken`}.`),
-      ` The premise of each held in ${count(fewest)} steps or more${wanted > 0 ? `, where ${count(wanted)} are wanted` : ""}. ` +
+      ` The premise of each held in ${counted(fewest, "step")} or more${wanted > 0 ? `, where ${count(wanted)} are wanted` : ""}. ` +
         "A step is close when little was missing to break the law or to leave its premise.",
     ),
     bad.length === 0 ? null : rowsOf("Laws that were broken, or met too seldom", bad),

@@ -59,8 +59,13 @@ function about(run: Run): HTMLElement {
   return facts([
     ["Detector", `${name}${length === 1 ? "" : `, in ${counted(length, "configuration")}`}`],
     ["Version", version],
-    ["Judged by", detector.built_in || !versions ? null : `assay ${versions.assay}`],
-    ["Commit", versions?.commit ? `${detector.built_in ? "" : "of assay: "}${commitText(versions.commit)}` : null],
+    ["Commit", detector.built_in && versions?.commit ? commitText(versions.commit) : null],
+    [
+      "Judged by",
+      detector.built_in || !versions
+        ? null
+        : `assay ${versions.assay}${versions.commit ? `, commit ${commitText(versions.commit)}` : ""}`,
+    ],
     ["Date", times.issued === null ? null : dayText(times.issued)],
     [detector.built_in ? "Its program, SHA-256" : "Its library, SHA-256", digest === null ? null : [html("code", {}, digest)]],
     [
