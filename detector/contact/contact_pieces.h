@@ -56,11 +56,10 @@ struct ContactPiece {
 //   void contact(const Piece&, Number f_bound, int f_lo);
 //
 // A piece that is surely without contact is passed over. A piece that the signs do not settle is
-// split if may_halve() returns true; it is told whether the signs of F at both
-// ends are sure. If not, the search calls open(piece), and ends if that
-// returns true. contact() is called for a piece with a contact at each root of F: F changes its
-// sign over the piece, beginning with the sign f_lo, and its coefficients are off by at most
-// f_bound. After contact() the search ends.
+// split if may_halve() returns true; it is told whether the signs of F at both ends are sure. If
+// not, the search calls open(piece), and ends if that returns true. contact() is called for a piece
+// with a contact at each root of F: F changes its sign over the piece, beginning with the sign
+// f_lo, and its coefficients are off by at most f_bound. After contact() the search ends.
 template <class Bounds, class Search>
 class ContactPieces {
  public:

@@ -119,16 +119,17 @@ constexpr double cost_of_test = 1.5, cost_of_ghost_pair = 9, cost_of_crossing = 
 // A sample costs about what 500 triangles cost the view test, and an eighth of it suffices if
 // doubles tell nearly all of these signs. It is drawn from all but the smallest components. A
 // triangle whose sign doubles leave open takes integers, for 3 us.
-constexpr std::size_t sample_size = 64, first_sample = 8, worth_sampling = 256;
+constexpr std::size_t sample_size = 64, first_sample = 8, worth_sampling = 32;
 constexpr double cost_of_open = 15;
 
 // Costs in candidates a triangle: contours, which are found for the first search with proofs, take
-// 0.3 us a triangle, and so do cones with the binary descent in place of the wide one. If patches of a hundred triangles are not free, a proof is asked for at each of
-// the many smaller ones. Worths: proofs leave out pairs of neighbours, of which about half lie
-// within small patches that are free, three quarters within medium ones, and nearly all within
-// large ones. Each candidate that is left costs more in the binary descent, too. Measured on steps
-// of 20,000 to 25,000 triangles against culling bvh: with all patches free 3.5 to 4.9 candidates a
-// triangle, with 0.4 of the large ones 7.1, with 0.6 of them and many contacts 10.
+// 0.3 us a triangle, and so do cones with the binary descent in place of the wide one. If patches
+// of a hundred triangles are not free, a proof is asked for at each of the many smaller ones.
+// Worths: proofs leave out pairs of neighbours, of which about half lie within small patches that
+// are free, three quarters within medium ones, and nearly all within large ones. Each candidate
+// that is left costs more in the binary descent, too. Measured on steps of 20,000 to 25,000
+// triangles against culling bvh: with all patches free 3.5 to 4.9 candidates a triangle, with 0.4
+// of the large ones 7.1, with 0.6 of them and many contacts 10.
 constexpr double cost_of_contours = 2, cost_of_cones = 3, cost_of_small = 3, cost_of_medium = 3,
                  cost_of_left = 0.6, worth_of_small = 0.5, worth_of_medium = 0.25,
                  worth_of_large = 0.2, least_provable = 0.5;

@@ -89,6 +89,7 @@ void compare_a_look(const corpus::Case& step, int rounds, BenchReport& report) {
   const Topology mesh = make_topology(step.triangles, step.frames[0].rows());
   BoundingVolumeTree tree(mesh, step.frames[0]);
   tree.refit(mesh, {step.frames[0], step.frames[1]});
+  tree.join_boxes(nullptr);
   Marks marks(tree);
   MarkingCounts unused;
   Marking().bring_to(types_of(views.result()), tree, marks, unused);

@@ -177,7 +177,7 @@ TEST(SeparationStep, ThreadsDoNotShow) {
 
 // A detector answers each step by itself, whatever it has committed before.
 TEST(SeparationStep, StepsDoNotDependOnEarlierOnes) {
-  const auto mesh = SearchMeshes(13).sheets(2, 8, true);
+  const auto mesh = SearchMeshes(13).sheets(2, 5, true);
   Triangles rows(static_cast<Eigen::Index>(mesh.topology.triangles.size()), 3);
   for (Eigen::Index t = 0; t < rows.rows(); ++t) {
     const auto& corners = mesh.topology.triangles[static_cast<std::size_t>(t)];

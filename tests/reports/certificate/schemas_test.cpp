@@ -1,5 +1,5 @@
-// The JSON Schemas of what the program reads and writes. What tests let it write with --json is
-// held to them by tests/reports/program.h. Here are the others, and what all schemas share.
+// The JSON Schemas of what the program reads and writes. The file tests/reports/program.h holds to
+// them what tests let the program write with --json. Here are the others, and what all share.
 #include "properties/campaign/plan.h"
 #include "tests/reports/program.h"
 
