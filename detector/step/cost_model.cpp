@@ -122,17 +122,16 @@ constexpr double cost_of_test = 1.5, cost_of_ghost_pair = 9, cost_of_crossing = 
 constexpr std::size_t sample_size = 64, first_sample = 8, worth_sampling = 32;
 constexpr double cost_of_open = 15;
 
-// Costs in candidates a triangle: contours, which are found for the first search with proofs, take
-// 0.3 us a triangle, and so do cones with the binary descent in place of the wide one. If patches
-// of a hundred triangles are not free, a proof is asked for at each of the many smaller ones.
-// Worths: proofs leave out pairs of neighbours, of which about half lie within small patches that
-// are free, three quarters within medium ones, and nearly all within large ones. Each candidate
-// that is left costs more in the binary descent, too. Measured on steps of 20,000 to 25,000
-// triangles against culling bvh: with all patches free 3.5 to 4.9 candidates a triangle, with 0.4
-// of the large ones 7.1, with 0.6 of them and many contacts 10.
-constexpr double cost_of_contours = 2, cost_of_cones = 3, cost_of_small = 3, cost_of_medium = 3,
-                 cost_of_left = 0.6, worth_of_small = 0.5, worth_of_medium = 0.25,
-                 worth_of_large = 0.2, least_provable = 0.5;
+// Costs in candidates a triangle: cones, and the binary descent in place of the wide one, take 0.3
+// us a triangle. If patches of a hundred triangles are not free, a proof is asked for at each of
+// the many smaller ones. Worths: proofs leave out pairs of neighbours, of which about half lie
+// within small patches that are free, three quarters within medium ones, and nearly all within
+// large ones. Each candidate that is left costs more in the binary descent, too. Measured on steps
+// of 20,000 to 25,000 triangles against culling bvh: with all patches free 3.5 to 4.9 candidates a
+// triangle, with 0.4 of the large ones 7.1, with 0.6 of them and many contacts 10.
+constexpr double cost_of_cones = 3, cost_of_small = 3, cost_of_medium = 3, cost_of_left = 0.6,
+                 worth_of_small = 0.5, worth_of_medium = 0.25, worth_of_large = 0.2,
+                 least_provable = 0.5;
 
 // With views K asks for pairs along the borders between V+ and V- alone. Patches there are cut up
 // into small ones before they are free, and proofs leave out 0.3 to 0.4 of what they do elsewhere.
@@ -244,9 +243,7 @@ bool CostModel::worth_proving(const ProvableShares& provable, double asked, std:
   const auto [small, medium, large] = provable;
   const double worth = worth_of_small * small + worth_of_medium * medium + worth_of_large * large;
   const double hoped = worth * asked * static_cast<double>(adjacent_);
-  const bool has_contours = state_.candidates > 0;  // or they are found now
-  const double cost = (has_contours ? 0 : cost_of_contours) + cost_of_cones +
-                      cost_of_small * (1 - medium) + cost_of_medium * (1 - large);
+  const double cost = cost_of_cones + cost_of_small * (1 - medium) + cost_of_medium * (1 - large);
   const double left = std::max(0.0, asked * static_cast<double>(expected_candidates()) - hoped);
   proves_ = small >= least_provable &&
             hoped >= cost * static_cast<double>(triangles) + cost_of_left * left;

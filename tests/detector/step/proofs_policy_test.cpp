@@ -106,11 +106,8 @@ TEST(ProofsPolicy, WhatIsHopedForIsHeldAgainstTheCostOfCones) {
   const Surface surface = make_surface(sheet.triangles, sheet.flat.rows());
   const std::uint64_t adjacent = adjacent_pairs(surface.mesh);
   const std::size_t triangles = surface.mesh.triangles.size();
-  PolicyState later;  // a search came before and left its number of candidates
-  later.candidates = adjacent;
-  CostModel policy(surface, adjacent, later), first(surface, adjacent, {});
+  CostModel policy(surface, adjacent, {});
   EXPECT_TRUE(policy.worth_proving({1, 1, 1}, 1, triangles));
-  EXPECT_FALSE(first.worth_proving({1, 1, 1}, 1, triangles)) << "contours would have to be found";
   EXPECT_TRUE(policy.worth_proving({1, 1, .75}, 1, triangles));
   EXPECT_FALSE(policy.worth_proving({1, .75, .5}, 1, triangles))
       << "proofs for small ones cost more";
