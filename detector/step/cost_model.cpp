@@ -119,7 +119,7 @@ constexpr double cost_of_test = 1.5, cost_of_ghost_pair = 9, cost_of_crossing = 
 // A sample costs about what 500 triangles cost the view test, and an eighth of it suffices if
 // doubles tell nearly all of these signs. It is drawn from all but the smallest components. A
 // triangle whose sign doubles leave open takes integers, for 3 us.
-constexpr std::size_t sample_size = 64, first_sample = 8, worth_sampling = 32;
+constexpr std::size_t sample_size = 64, first_sample = 8, worth_sampling = 256;
 constexpr double cost_of_open = 15;
 
 // Costs in candidates a triangle: cones, and the binary descent in place of the wide one, take 0.3

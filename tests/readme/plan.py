@@ -247,9 +247,6 @@ NO_COMMAND = {
     "reports/campaign/README.md": {
         "canary pair/zero-zero-dropped": "what `assay run` prints",
     },
-    "reports/certificate/README.md": {
-        "runs-on: ubuntu-latest": "a workflow of GitHub Actions",
-    },
     "reports/bench/README.md": {
         "twist ": "the table of sequences.py",
         "arithmetic culling": "the table of `assay bench --suite speed-error`",

@@ -4,6 +4,6 @@
 # script, which takes some ten minutes.
 set -e
 sources=$(cd "$(dirname "$0")/../../.." && pwd)
-ls .package/assay_*.deb >/dev/null 2>&1 || "$sources/reports/package/build" --yes --out .package
+ls .package/assay_*.deb >/dev/null 2>&1 || "$sources/reports/package/pack" --yes --out .package
 apt-get update -qq
 apt-get install -y -qq --no-install-recommends g++ ./.package/assay_*.deb

@@ -112,9 +112,9 @@ TEST_F(CiJob, IsRunByTheFilesForGitHubAndGitLab) {
   fs::create_directories(scratch / "assay/reports/package");
   const std::string apt = scratch / "bin/apt-get";
   scratch.write("bin/apt-get", "#!/bin/sh\necho apt-get \"$@\"\n");
-  scratch.write("assay/reports/package/build",
+  scratch.write("assay/reports/package/pack",
                 "#!/bin/sh\necho built; mkdir -p .package; touch .package/assay_1_amd64.deb\n");
-  for (const std::string& file : {apt, scratch / "assay/reports/package/build"})
+  for (const std::string& file : {apt, scratch / "assay/reports/package/pack"})
     fs::permissions(file, fs::perms::owner_all);
   for (const char* service : {"github.yml", "gitlab.yml"}) {
     const auto file = source / "detector/plugin/ci" / service;

@@ -270,7 +270,7 @@ TEST_F(Certify, BadInputIsOneLine) {
   expect_refused(certify("--detector " + plan), "not a detector plug-in");
   expect_refused(run_assay("certify --campaign nowhere --out " + out), "nowhere");
   expect_refused(run_assay("verify " + scratch / "none.json"), "no such file");
-  expect_refused(run_assay("verify"), "certificate");
+  expect_refused(run_assay("verify"), "CERTIFICATE is required");
   expect_refused(run_assay("verify --again 0 " + plan), "--again");
   expect_refused(run_assay("verify --again 1.5 " + plan), "--again");
   expect_refused(run_assay("verify --seed 3 " + plan), "--again");

@@ -68,7 +68,7 @@ TEST_F(Report, WrongFoldersAndPlacesAreRefusedInOneLine) {
   expect_refused(run_assay("report " + (scratch / "empty") + " --out " + page),
                  "no run is stored here");
   expect_refused(run_assay("report " + tiny("a")), "--out");
-  expect_refused(run_assay("report --out " + page), "folders");
+  expect_refused(run_assay("report --out " + page), "DIR is required");
   expect_refused(run_assay("report " + tiny("a") + " --out " + (scratch / "no/such/page.html")),
                  "folder does not exist");
   expect_refused(run_assay("report " + tiny("a") + " " + (scratch / "empty") + " --out " + page),
