@@ -27,19 +27,19 @@ fi
 for place in proc dev sys; do mount --rbind --make-rslave "/$place" "$bare/$place"; done
 cp /etc/resolv.conf "$bare/etc/resolv.conf"
 
-rm -rf "$bare/root/assay" && mkdir -p "$bare/root/assay/work"
+rm -rf "$bare/root/assay" && mkdir -p "$bare/root/assay/mine"
 (cd "$build" && cpack -G DEB -B "$bare/root/assay" >/dev/null)
 rm -rf "$bare/root/assay/_CPack_Packages"
 cp "$here/every_verb.sh" "$here/module.py" "$bare/root/assay"
-cp "$build/tests/plugins/plugin_example.so" "$bare/root/assay/work/libmine.so"
-(cd "$bare/root/assay/work" && "$build/record_example" >/dev/null)
+cp "$build/tests/plugins/plugin_example.so" "$bare/root/assay/mine/libmine.so"
+(cd "$bare/root/assay/mine" && "$build/record_example" >/dev/null)
 ls -l "$bare"/root/assay/*.deb
 chroot "$bare" sh -euc '
   export DEBIAN_FRONTEND=noninteractive
   apt-get update -qq
   apt-get install -y -qq /root/assay/*.deb >/dev/null
   cd /root/assay
-  sh every_verb.sh /usr/bin/assay /usr/share/assay /root/assay/work whole
-  cd work
-  python3 ../module.py
+  sh every_verb.sh /usr/bin/assay /usr/share/assay /root/assay/mine whole
+  cd mine
+  python3 ../module.py /usr
   python3 -m assay --version'

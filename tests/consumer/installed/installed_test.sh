@@ -18,22 +18,25 @@ for file in bin/assay libexec/assay/assay-worker share/assay/corpus/known.json \
   include/assay/detector/detector.h include/assay/detector/plugin/assay_detector.h; do
   [ -f "$file" ] || fail "$file is not installed"
 done
+if [ -d "$build/python/assay" ]; then
+  ls lib/python3*/dist-packages/assay/__init__.py >/dev/null || fail "the Python module is not installed"
+fi
 if found=$(grep -rlF -e "$sources/" -e "$build/" .); then
   fail "paths of the machine that built it are in: $found"
 fi
 
 # What the verbs are asked about is made by what the tests build.
-mkdir "$scratch/work"
-cp "$build/tests/plugins/plugin_example.so" "$scratch/work/libmine.so"
+mkdir "$scratch/mine"
+cp "$build/tests/plugins/plugin_example.so" "$scratch/mine/libmine.so"
 cp "$here/every_verb.sh" "$here/module.py" "$scratch"
-(cd "$scratch/work" && "$build/record_example" >/dev/null)
+(cd "$scratch/mine" && "$build/record_example" >/dev/null)
 cat >"$scratch/all.sh" <<'ALL'
 set -eu
 [ "$1" = none ] || mount -t tmpfs none "$1"
 cd "$2"
-sh every_verb.sh "$2/prefix/bin/assay" "$2/prefix/share/assay" "$2/work"
+sh every_verb.sh "$2/prefix/bin/assay" "$2/prefix/share/assay" "$2/mine"
 for package in prefix/lib/python3*/dist-packages; do
-  [ ! -d "$package" ] || (cd work && PYTHONPATH="$2/$package" /usr/bin/python3 "$2/module.py")
+  [ ! -d "$package" ] || (cd mine && PYTHONPATH="$2/$package" /usr/bin/python3 "$2/module.py" "$2/prefix")
 done
 ALL
 # Without user namespaces the sources stay in sight; then that no path of theirs is found has to do.

@@ -1,4 +1,8 @@
-"""The Python module as it is installed: the detector, the judge, and a class that is judged."""
+"""The Python module as it is installed below the folder that is named: the detector, the judge, and
+a class that is judged; by a campaign too where few.json and its proof are there."""
+
+import sys
+from pathlib import Path
 
 import assay
 from assay.places import program
@@ -18,8 +22,12 @@ class Mine:
 
 
 if __name__ == "__main__":
+    folder = Path(sys.argv[1]).resolve()
+    for place in (assay.__file__, program()):
+        assert folder in Path(place).resolve().parents, f"{place} is not below {folder}"
     assert assay.judge(triangles, *frames[1]).answer == "collision"
     assert assay.check(frames, Mine).outcome == "holds"
-    ran = assay.run("few.json", Mine, out="python", power="proof")
-    assert ran.outcome == "holds" and ran.strata and not ran.failures, ran.text
+    if Path("few.json").exists():
+        ran = assay.run("few.json", Mine, out="python", power="proof")
+        assert ran.outcome == "holds" and ran.strata and not ran.failures, ran.text
     print(assay.__version__, program())

@@ -2,6 +2,7 @@
 
 #include "detector/contact/contact_exact.h"
 #include "detector/contact/contact_filter.h"
+#include "tests/detector/contact/query_draw.h"
 #include "tests/detector/points.h"
 #include "tests/detector/small_stack.h"
 
@@ -83,6 +84,28 @@ void expect_named_queries() {
 
 TEST(ElementaryTest, NamedQueriesAndTheRungThatDecides) {
   tests::on_small_stack(expect_named_queries);
+}
+
+// The vertex moves across an edge's line and then through the face, or past it, a 64th beside that
+// line. The signs are sure at the ends of the step alone, and of short pieces within it.
+TEST(ElementaryTest, TheFilterSettlesWhatPassesNearAnEdge) {
+  tests::QueryDraw draw(7);
+  int settled = 0, hits = 0;
+  constexpr int rounds = 400;
+  for (int i = 0; i < rounds; ++i) {
+    const double way = .5 + draw.full() / 2, at_face = .5 + draw.full() / 2;
+    const double beside = draw.between(0, 1) == 0 ? -0x1p-6 : 0x1p-6;
+    const FourPoints query = vertex_moves({.4, beside - way * at_face, at_face},
+                                          {.4, beside + way * (1 - at_face), at_face - 1});
+    const ContactResult result = test_contact(query, Want::first_time);
+    const auto truth = general_first_contact(query);
+    ASSERT_EQ(result.contact, truth.has_value()) << i;
+    if (truth) EXPECT_EQ(result.time, *truth) << i;
+    hits += result.contact;
+    settled += result.rung == ContactRung::filter;
+  }
+  EXPECT_GT(hits, rounds / 3);
+  EXPECT_GT(settled, rounds * 9 / 10);
 }
 
 TEST(ElementaryTest, IrrationalTimeIsEnclosedInAdjacentDoubles) {
