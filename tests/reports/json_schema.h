@@ -21,7 +21,7 @@ inline bool is_of_type(const SchemaJson& value, const std::string& type) {
 }
 
 inline SchemaJson schema_named(const std::string& name) {
-  std::ifstream file(ASSAY_SOURCE_DIR "/reports/certificate/" + name + ".schema.json");
+  std::ifstream file(ASSAY_SOURCE_DIR "/reports/schemas/" + name + ".schema.json");
   return SchemaJson::parse(file);
 }
 

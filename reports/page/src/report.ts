@@ -1,4 +1,4 @@
-// The data of the page: schema assay-report/3, documented in reports/README.md. What a run came to is
+// The data of the page: schema assay-report/3, reports/schemas/report.schema.json. What a run came to is
 // the predicate of a certificate, whose types are made from its schema (types.mjs).
 import type { Statement } from "../made/certificate";
 

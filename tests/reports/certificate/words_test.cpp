@@ -24,7 +24,7 @@ Words claims() {
 
 TEST(Words, OfTheSchemaAreThoseOfClaimsAndGates) {
   const auto types =
-      nlohmann::json::parse(text_of("reports/certificate/certificate.schema.json")).at("$defs");
+      nlohmann::json::parse(text_of("reports/schemas/certificate.schema.json")).at("$defs");
   EXPECT_EQ(types.at("claim").at("enum"), nlohmann::json(claims()));
   Words gates;
   for (const auto& rule : properties::gate_rules) gates.emplace_back(rule.name);
