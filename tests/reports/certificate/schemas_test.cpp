@@ -37,7 +37,7 @@ void values_of(const SchemaJson& json, const std::string& key, std::vector<Schem
 }
 
 TEST(Schemas, EachNamesItsFormatAndNothingThatIsNotThere) {
-  for (const auto& file : json_files("reports/certificate")) {
+  for (const auto& file : json_files("reports/schemas")) {
     SCOPED_TRACE(file);
     const auto schema = parsed(file);
     const auto name = file.stem().stem().string();
