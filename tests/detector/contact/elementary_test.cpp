@@ -100,7 +100,9 @@ TEST(ElementaryTest, TheFilterSettlesWhatPassesNearAnEdge) {
     const ContactResult result = test_contact(query, Want::first_time);
     const auto truth = general_first_contact(query);
     ASSERT_EQ(result.contact, truth.has_value()) << i;
-    if (truth) EXPECT_EQ(result.time, *truth) << i;
+    if (truth) {
+      EXPECT_EQ(result.time, *truth) << i;
+    }
     hits += result.contact;
     settled += result.rung == ContactRung::filter;
   }
