@@ -183,8 +183,8 @@ struct PlainSearch {
   bool touches(const Piece& piece, Number s) {
     for (const auto& axis : piece.dependencies) {
       bool positive = false, negative = false;
-      for (const auto& l : axis) {
-        const Number value = value_at(l, s);
+      for (std::size_t i = 0; i < 4; ++i) {
+        const Number value = value_at(QuadraticOf<Number>{axis[0][i], axis[1][i], axis[2][i]}, s);
         positive |= value > 0;
         negative |= value < 0;
       }

@@ -44,8 +44,8 @@ constexpr auto quadratic_error(int depth) {
 template <class Number>
 struct ContactPiece {
   CubicOf<Number> f;
-  // L_k,i of the notation, by axis k and point i.
-  std::array<std::array<QuadraticOf<Number>, 4>, 3> dependencies;
+  // L_k,i of the notation, by axis k: coefficients, each of all four points i side by side.
+  std::array<QuadraticOf<std::array<Number, 4>>, 3> dependencies;
   Number lo, hi;  // dyadic: exact
 };
 
@@ -131,10 +131,14 @@ class ContactPieces {
                                                          cross(u_[0], u_[1])};
     for (std::size_t k = 0; k < 3; ++k) {
       auto& l = piece.dependencies[k];
-      for (std::size_t i = 0; i < 3; ++i) l[i + 1] = {lam[i].b0[k], lam[i].b1[k], lam[i].b2[k]};
-      for (std::size_t c = 0; c < 3; ++c) l[0][c] = -(l[1][c] + l[2][c] + l[3][c]);
-      for (int i = query_.first_group; i < 4; ++i) {
-        for (Number& c : l[static_cast<std::size_t>(i)]) c = -c;
+      for (std::size_t i = 0; i < 3; ++i) {
+        l[0][i + 1] = lam[i].b0[k];
+        l[1][i + 1] = lam[i].b1[k];
+        l[2][i + 1] = lam[i].b2[k];
+      }
+      for (auto& c : l) {
+        c[0] = -(c[1] + c[2] + c[3]);
+        for (auto i = static_cast<std::size_t>(query_.first_group); i < 4; ++i) c[i] = -c[i];
       }
       scale_[k] = magnitude_[(k + 1) % 3] * magnitude_[(k + 2) % 3];
     }
@@ -149,11 +153,19 @@ class ContactPieces {
     for (std::size_t k = 0; k < 3; ++k) {
       const Number bound = quadratic_error<Bounds>(depth) * scale_[k];
       bool positive = false, negative = false, open = false;
-      for (const auto& l : piece.dependencies[k]) {
-        const int sign = sure_sign(l, bound);
-        positive |= sign > 0;
-        negative |= sign < 0;
-        open |= sign == 0;
+      const auto& l = piece.dependencies[k];
+      auto least = l[0], greatest = l[0];
+      for (std::size_t c = 1; c < 3; ++c) {
+        for (std::size_t i = 0; i < 4; ++i) {
+          least[i] = std::min(least[i], l[c][i]);
+          greatest[i] = std::max(greatest[i], l[c][i]);
+        }
+      }
+      for (std::size_t i = 0; i < 4; ++i) {
+        const bool above = least[i] > bound, below = greatest[i] < -bound;
+        positive |= above;
+        negative |= below;
+        open |= !above && !below;
       }
       if (positive && negative) return false;
       if (!open && f_changes_sign) {
@@ -165,9 +177,7 @@ class ContactPieces {
     Piece left, right;
     halve(piece.f, left.f, right.f);
     for (std::size_t k = 0; k < 3; ++k) {
-      for (std::size_t i = 0; i < 4; ++i) {
-        halve(piece.dependencies[k][i], left.dependencies[k][i], right.dependencies[k][i]);
-      }
+      halve(piece.dependencies[k], left.dependencies[k], right.dependencies[k]);
     }
     left.lo = piece.lo;
     right.hi = piece.hi;

@@ -47,6 +47,11 @@ ContactResult ElementaryTest::test_until(const FourPoints& query, Want want, dou
 
 namespace {
 
+class ExactTest : public ElementaryTest {
+ public:
+  const QueryKernels* first_rungs() const override { return &query_kernels(); }
+};
+
 class BoundedTest : public ElementaryTest {
  public:
   ContactResult test(const FourPoints& query, Want want) const override {
@@ -85,7 +90,7 @@ std::shared_ptr<const ElementaryTest> make_elementary_test(Arithmetic arithmetic
     case Arithmetic::exact:
       break;
   }
-  return std::make_shared<ElementaryTest>();
+  return std::make_shared<ExactTest>();
 }
 
 ContactResult test_contact(const FourPoints& query, Want want, Arithmetic arithmetic) {

@@ -9,6 +9,7 @@
 
 #include <memory>
 
+#include "detector/contact/lanes/query_lanes.h"
 #include "detector/geometry/orientation.h"
 #include "detector/mesh/step_counts.h"
 #include "detector/mesh/step_types.h"
@@ -38,6 +39,9 @@ class ElementaryTest {
   virtual ~ElementaryTest() = default;
   // The distance that is asked about: 0 asks for contacts, d > 0 for features that come within d.
   virtual double separation() const { return 0; }
+  // If not null: many queries may go through these first, and what they settle need not be asked.
+  // A stage of one's own is asked for every query, unless it says otherwise.
+  virtual const QueryKernels* first_rungs() const { return nullptr; }
   // The axis rung (contact_filter.h).
   virtual bool is_apart_along_an_axis(const FourPoints& query) const;
   virtual ContactResult test(const FourPoints& query, Want want) const {

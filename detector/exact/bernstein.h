@@ -146,6 +146,20 @@ void halve(const std::array<T, n>& b, std::array<T, n>& left, std::array<T, n>& 
   }
 }
 
+// The same for m polynomials whose coefficients lie side by side.
+template <class T, std::size_t m, std::size_t n>
+void halve(const std::array<std::array<T, m>, n>& b, std::array<std::array<T, m>, n>& left,
+           std::array<std::array<T, m>, n>& right) {
+  auto row = b;
+  for (std::size_t level = 0; level < n; ++level) {
+    left[level] = row[0];
+    right[n - 1 - level] = row[n - 1 - level];
+    for (std::size_t i = 0; i + 1 + level < n; ++i) {
+      for (std::size_t j = 0; j < m; ++j) row[i][j] = (row[i][j] + row[i + 1][j]) / 2;
+    }
+  }
+}
+
 // Raises `magnitude` to the largest size of each coordinate of v over the step, where it is less.
 template <class T>
 void grow(std::array<T, 3>& magnitude, const MovingVectorOf<T>& v) {

@@ -49,20 +49,36 @@ FeatureContacts::FeatureContacts(const Topology& mesh, const SteppedMesh& motion
 
 FeatureContacts::~FeatureContacts() = default;
 
-FourPoints FeatureContacts::query(FeatureKey key) const {
-  const auto point = [&](std::int32_t v) { return motion_.path(v); };
-  if (kind_of(key) == FeatureKind::vertex_face) {
-    const auto& f = mesh_.triangles[at(second_of(key))];
-    return {{point(first_of(key)), point(f[0]), point(f[1]), point(f[2])}, 1};
+QueryVertices FeatureContacts::vertices_of(FeatureKey key) const {
+  const auto first = first_of(key), second = second_of(key);
+  if (kind_of(key) == FeatureKind::edge_edge) {
+    const auto &a = mesh_.edges[at(first)], &b = mesh_.edges[at(second)];
+    return {{a[0], a[1], b[0], b[1], -1}};
   }
-  const auto &a = mesh_.edges[at(first_of(key))], &b = mesh_.edges[at(second_of(key))];
-  return {{point(a[0]), point(a[1]), point(b[0]), point(b[1])}, 2};
+  const auto& f = mesh_.triangles[at(second)];
+  if (kind_of(key) == FeatureKind::vertex_face) return {{first, f[0], f[1], f[2], -1}};
+  const auto& e = mesh_.edges[at(first)];
+  return {{e[0], e[1], f[0], f[1], f[2]}};
+}
+
+FourPoints FeatureContacts::query(FeatureKey key) const {
+  const QueryVertices vertices = vertices_of(key);
+  const auto point = [&](std::size_t i) { return motion_.path(vertices.v[i]); };
+  return {{point(0), point(1), point(2), point(3)},
+          kind_of(key) == FeatureKind::vertex_face ? 1 : 2};
 }
 
 void FeatureContacts::make_lanes(std::size_t count) {
   while (lanes_.size() < count) {
     lanes_.push_back(std::make_unique<Lane>());
-    lanes_.back()->untested.reserve(tests_at_once + FeaturePairs::max_keys);
+    Lane& lane = *lanes_.back();
+    constexpr std::size_t room = tests_at_once + FeaturePairs::max_keys;
+    lane.untested.reserve(room);
+    if (!elementary_.first_rungs()) continue;
+    lane.open.reserve(room);
+    lane.keys.reserve(room);
+    lane.queries.reserve(room);
+    lane.rungs.resize(room);
   }
 }
 
@@ -240,8 +256,38 @@ bool FeatureContacts::hand_over(std::vector<PairContact>& found, PairContacts& c
   return true;
 }
 
+void FeatureContacts::settle_in_lanes(const QueryKernels& kernels, Lane& lane) const {
+  const QueryInput input = query_input(motion_);
+  const std::pair<FeatureKind, QueryKernel> kernel_of[] = {
+      {FeatureKind::vertex_face, kernels.vertex_face},
+      {FeatureKind::edge_edge, kernels.edge_edge},
+      {FeatureKind::piercing, kernels.piercing}};
+  lane.open.clear();
+  for (const auto& [kind, kernel] : kernel_of) {
+    lane.keys.clear();
+    lane.queries.clear();
+    for (const FeatureKey key : lane.untested) {
+      if (kind_of(key) != kind) continue;
+      lane.keys.push_back(key);
+      lane.queries.push_back(vertices_of(key));
+    }
+    kernel(input, lane.queries.data(), lane.queries.size(), lane.rungs.data());
+    ContactRungCounts settled;
+    for (std::size_t i = 0; i < lane.keys.size(); ++i) {
+      settled.axis += lane.rungs[i] == LaneRung::axis;
+      settled.filter += lane.rungs[i] == LaneRung::filter;
+      if (lane.rungs[i] == LaneRung::open) lane.open.push_back(lane.keys[i]);
+    }
+    if (kind == FeatureKind::piercing) continue;  // of these nothing is counted
+    lane.counts.rungs += settled;
+    lane.counts.elementary_tests += settled.filter;
+  }
+  std::swap(lane.untested, lane.open);
+}
+
 bool FeatureContacts::run(Lane& lane, const StopFunction& stop) {
   Stopwatch watch(lane.test_time);
+  if (const QueryKernels* kernels = elementary_.first_rungs()) settle_in_lanes(*kernels, lane);
   constexpr std::size_t tests_between_stops = 256, found_at_once = 1024;
   for (std::size_t i = 0; i < lane.untested.size(); ++i) {
     if (i % tests_between_stops == 0 && stop && stop()) return false;

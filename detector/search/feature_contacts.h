@@ -157,6 +157,10 @@ class FeatureContacts {
   // What one lane has taken and found.
   struct Lane {
     std::vector<FeatureKey> untested;
+    // Room for the queries of one kind on their way through the first rungs.
+    std::vector<FeatureKey> keys, open;
+    std::vector<QueryVertices> queries;
+    std::vector<LaneRung> rungs;
     std::vector<PairContact> found;  // not yet handed over to contacts_
     // The same for counted_, with a relation of features.
     std::vector<PairContact> found_counted;
@@ -166,6 +170,8 @@ class FeatureContacts {
     double test_time = 0;
   };
   bool run(Lane& lane, const StopFunction& stop);
+  // Drops from the untested what the first rungs settle.
+  void settle_in_lanes(const QueryKernels& kernels, Lane& lane) const;
   void test(FeatureKey key, Lane& lane) const;
   void sort_features(FeatureKey key, std::size_t found_before, Lane& lane) const;
   void note_ends(std::size_t found_before, std::size_t counted_before, Lane& lane) const;
@@ -175,6 +181,7 @@ class FeatureContacts {
   bool hand_over(Lane& lane, const StopFunction& stop);
   static bool hand_over(std::vector<PairContact>& found, PairContacts& contacts,
                         const StopFunction& stop);
+  QueryVertices vertices_of(FeatureKey key) const;
   FourPoints query(FeatureKey key) const;
 
   const Topology& mesh_;

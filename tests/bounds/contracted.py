@@ -11,6 +11,7 @@ from pathlib import Path
 
 # Sources with filters. Compiled once more for a machine that has contracted operations.
 FILTERS = ["contact/contact_doubles.cpp", "contact/contact_filter.cpp", "contact/contact_fixed.cpp",
+           "contact/lanes/query_lanes_avx2.cpp",
            "distance/near_filter.cpp", "distance/near_exact.cpp", "distance/nearest_places.cpp",
            "geometry/orientation.cpp", "geometry/winding.cpp", "boxes/moving_box.cpp",
            "search/feature_pairs.cpp", "traditional/moving_contour.cpp", "view/view_bounds.cpp",

@@ -51,6 +51,11 @@ LINES = {
         ("#if defined(__AVX2__)", "#if 1\n  return static_cast<std::uint32_t>(mask);\n#elif 0"),
         ("#elif defined(__SSE__)", "#elif 0"),
     ],
+    "contact/lanes/query_lanes_kernel.h": [
+        ("typedef double Lanes __attribute__((vector_size(8 * ASSAY_LANES)));",
+         "using Lanes = bounds::RecordedLanes;"),
+        ("const Lanes size = x < Lanes{} ? -x : x;", "const Lanes size = bounds::abs(x);"),
+    ],
     "view/view_lanes_kernel.h": [
         ("typedef double Lanes __attribute__((vector_size(8 * ASSAY_LANES)));",
          "using Lanes = bounds::RecordedLanes;"),

@@ -308,6 +308,8 @@ struct RecordedMask {
   RecordedMask(int value = 0) : truth(value) {}
   operator int() const { return truth; }
   int operator[](std::size_t) const { return truth; }
+  RecordedMask& operator&=(int other) { return *this = truth & other; }
+  RecordedMask& operator|=(int other) { return *this = truth | other; }
 };
 inline RecordedMask operator<(const RecordedLanes& a, const RecordedLanes& b) {
   return static_cast<const Recorded&>(a) < static_cast<const Recorded&>(b);
@@ -367,6 +369,21 @@ void halve(const std::array<Recorded, n>& b, std::array<Recorded, n>& left,
         record.add({Op::halved, array, depth + 1, 0, Kind::plain, "", 0, 0, static_cast<int>(i)});
     left[i].node = right[i].node = node;
     left[i].kind = right[i].kind = Kind::plain;
+  }
+}
+
+template <std::size_t m, std::size_t n>
+void halve(const std::array<std::array<Recorded, m>, n>& b,
+           std::array<std::array<Recorded, m>, n>& left,
+           std::array<std::array<Recorded, m>, n>& right) {
+  for (std::size_t j = 0; j < m; ++j) {
+    std::array<Recorded, n> of_j, left_of_j, right_of_j;
+    for (std::size_t i = 0; i < n; ++i) of_j[i] = b[i][j];
+    halve(of_j, left_of_j, right_of_j);
+    for (std::size_t i = 0; i < n; ++i) {
+      left[i][j] = left_of_j[i];
+      right[i][j] = right_of_j[i];
+    }
   }
 }
 

@@ -1,0 +1,48 @@
+// The first rungs of the elementary test for many feature pairs at once, one in each lane: order
+// along an axis, and doubles with proved bounds over the whole step, as contact_filter.h looks at it
+// before it halves. Most feature pairs of a mesh are settled here. The others are left to the
+// elementary test, so answers do not depend on lanes. A lane makes the same roundings whatever the
+// instruction set is, so counts do not depend on it either.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "detector/mesh/types.h"
+
+namespace assay::detector {
+
+// The mesh vertices of a query: v f0 f1 f2, a0 a1 b0 b1, or e0 e1 f0 f1 f2.
+struct QueryVertices {
+  std::int32_t v[5];
+};
+
+// What all lanes share. The error bounds are those of contact_pieces.h and orientation.h.
+struct QueryInput {
+  const double *x_t0, *x_t1;            // rows of three coordinates
+  std::ptrdiff_t stride_t0, stride_t1;  // doubles from row to row
+  double cubic_error, dependency_error, orientation_error;
+  double least_magnitude, greatest_magnitude;  // of the range in which they hold
+};
+QueryInput query_input(const SteppedMesh& motion);
+
+// What a lane found: the groups are strictly ordered along an axis, or doubles show that there is no
+// contact (no piercing), or neither.
+enum class LaneRung : std::uint8_t { open, axis, filter };
+
+// Writes rungs[i] for queries[i], for all i < count. No allocation.
+using QueryKernel = void (*)(const QueryInput& input, const QueryVertices* queries,
+                             std::size_t count, LaneRung* rungs);
+
+// 25 to 40 ns a query.
+struct QueryKernels {
+  QueryKernel vertex_face, edge_edge;
+  QueryKernel piercing;  // at t=0; never says axis
+};
+
+// Those of the best instruction set that this machine has.
+const QueryKernels& query_kernels();
+// The plain ones, which every machine has.
+const QueryKernels& plain_query_kernels();
+
+}  // namespace assay::detector

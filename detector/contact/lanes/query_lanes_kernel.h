@@ -1,0 +1,287 @@
+// The code of query_lanes.h. It is compiled once for each instruction set, by a file that defines
+// ASSAY_LANES before it includes this one. Everything here has internal linkage, and nothing inline
+// of other headers is called, because code for one instruction set must not reach the others.
+//
+// Each lane has one query. It computes what contact_pieces.h and orientation.cpp compute, operation
+// by operation, so their error bounds hold.
+#include <cstddef>
+#include <cstdint>
+
+#include "detector/contact/lanes/query_lanes.h"
+
+namespace assay::detector {
+namespace {
+
+constexpr std::size_t lane_count = ASSAY_LANES;
+typedef double Lanes __attribute__((vector_size(8 * ASSAY_LANES)));
+using Mask = decltype(Lanes{} < Lanes{});  // integers, -1 where true
+
+#define ASSAY_INLINE inline __attribute__((always_inline))
+
+struct LaneVector {
+  Lanes k[3];
+};
+struct LaneMotion {
+  LaneVector t0, t1;
+};
+// Bernstein coefficients of a cross product.
+struct LaneCross {
+  LaneVector b0, b1, b2;
+};
+
+ASSAY_INLINE Lanes all(double value) { return value - Lanes{}; }
+
+ASSAY_INLINE void lesser(Lanes& least, const Lanes& value) {
+  least = value < least ? value : least;
+}
+
+ASSAY_INLINE void greater(Lanes& greatest, const Lanes& value) {
+  greatest = value > greatest ? value : greatest;
+}
+
+// Raises `magnitude` to the size of x where it is less.
+ASSAY_INLINE void grow(Lanes& magnitude, const Lanes& x) {
+  const Lanes size = x < Lanes{} ? -x : x;
+  greater(magnitude, size);
+}
+
+ASSAY_INLINE void subtract(LaneVector& out, const LaneVector& a, const LaneVector& b) {
+  for (std::size_t k = 0; k < 3; ++k) out.k[k] = a.k[k] - b.k[k];
+}
+
+ASSAY_INLINE void cross(LaneVector& out, const LaneVector& a, const LaneVector& b) {
+  out.k[0] = a.k[1] * b.k[2] - a.k[2] * b.k[1];
+  out.k[1] = a.k[2] * b.k[0] - a.k[0] * b.k[2];
+  out.k[2] = a.k[0] * b.k[1] - a.k[1] * b.k[0];
+}
+
+ASSAY_INLINE void dot(Lanes& out, const LaneVector& a, const LaneVector& b) {
+  out = a.k[0] * b.k[0] + a.k[1] * b.k[1] + a.k[2] * b.k[2];
+}
+
+ASSAY_INLINE void cross(LaneCross& out, const LaneMotion& a, const LaneMotion& b) {
+  LaneVector p, q;
+  cross(out.b0, a.t0, b.t0);
+  cross(out.b2, a.t1, b.t1);
+  cross(p, a.t0, b.t1);
+  cross(q, a.t1, b.t0);
+  for (std::size_t k = 0; k < 3; ++k) out.b1.k[k] = (p.k[k] + q.k[k]) / 2;
+}
+
+ASSAY_INLINE void gather(LaneVector& out, const double* x, std::ptrdiff_t stride,
+                         const QueryVertices* queries, std::size_t point) {
+  const double* row[lane_count];
+  for (std::size_t i = 0; i < lane_count; ++i) row[i] = x + stride * queries[i].v[point];
+  for (std::size_t k = 0; k < 3; ++k) {
+#if ASSAY_LANES == 2
+    out.k[k] = Lanes{row[0][k], row[1][k]};
+#else
+    out.k[k] = Lanes{row[0][k], row[1][k], row[2][k], row[3][k]};
+#endif
+  }
+}
+
+// The first `split` points are one group, the others the other one. Whether the groups are strictly
+// ordered along an axis, in the same sense at both ends of the step.
+ASSAY_INLINE void ordered(Mask& out, const LaneMotion (&p)[4], std::size_t split) {
+  out = Mask{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    Mask below = ~Mask{}, above = ~Mask{};
+    for (const auto end : {&LaneMotion::t0, &LaneMotion::t1}) {
+      Lanes lo[2], hi[2];
+      for (std::size_t i = 0; i < 4; ++i) {
+        const Lanes& x = (p[i].*end).k[k];
+        const std::size_t group = i < split ? 0 : 1;
+        if (i == 0 || i == split) {
+          lo[group] = hi[group] = x;
+        } else {
+          lesser(lo[group], x);
+          greater(hi[group], x);
+        }
+      }
+      below &= hi[0] < lo[1];
+      above &= hi[1] < lo[0];
+    }
+    out |= below | above;
+  }
+}
+
+// Whether the magnitudes are in the range in which the bounds hold.
+ASSAY_INLINE void in_range(Mask& out, const QueryInput& in, const LaneVector& magnitude,
+                           bool zero_too) {
+  out = ~Mask{};
+  for (const Lanes& m : magnitude.k) {
+    Mask holds = (m > all(in.least_magnitude)) & (m < all(in.greatest_magnitude));
+    if (zero_too) holds |= m == Lanes{};
+    out &= holds;
+  }
+}
+
+ASSAY_INLINE bool everywhere(const Mask& mask) {
+  bool result = true;
+  for (std::size_t i = 0; i < lane_count; ++i) result &= mask[i] != 0;
+  return result;
+}
+
+// Whether all coefficients of the coplanarity cubic F are surely of one sign.
+ASSAY_INLINE void never_coplanar(Mask& out, const QueryInput& in, const LaneMotion& w,
+                                 const LaneCross& n, const LaneVector& magnitude) {
+  Lanes first, middle, f[4];
+  dot(f[0], w.t0, n.b0);
+  dot(middle, w.t0, n.b1);
+  dot(first, w.t1, n.b0);
+  f[1] = (2 * middle + first) / 3;
+  dot(first, w.t0, n.b2);
+  dot(middle, w.t1, n.b1);
+  f[2] = (first + 2 * middle) / 3;
+  dot(f[3], w.t1, n.b2);
+  Lanes least = f[0], greatest = f[0];
+  for (std::size_t i = 1; i < 4; ++i) {
+    lesser(least, f[i]);
+    greater(greatest, f[i]);
+  }
+  const Lanes bound = all(in.cubic_error) * (magnitude.k[0] * magnitude.k[1] * magnitude.k[2]);
+  out = (least > bound) | (greatest < -bound);
+}
+
+// Whether along some axis two of the dependencies surely have opposite signs over the step.
+ASSAY_INLINE void never_meet(Mask& out, const QueryInput& in, const LaneCross (&lam)[3],
+                             const LaneVector& magnitude, std::size_t split) {
+  out = Mask{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Lanes bound =
+        all(in.dependency_error) * (magnitude.k[(k + 1) % 3] * magnitude.k[(k + 2) % 3]);
+    Mask positive = Mask{}, negative = Mask{};
+    Lanes l[4][3];
+    for (std::size_t i = 0; i < 3; ++i) {
+      l[i + 1][0] = lam[i].b0.k[k];
+      l[i + 1][1] = lam[i].b1.k[k];
+      l[i + 1][2] = lam[i].b2.k[k];
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+      l[0][c] = -(l[1][c] + l[2][c] + l[3][c]);
+      for (std::size_t i = split; i < 4; ++i) l[i][c] = -l[i][c];
+    }
+    for (const auto& of_point : l) {
+      Lanes least = of_point[0], greatest = of_point[0];
+      for (std::size_t c = 1; c < 3; ++c) {
+        lesser(least, of_point[c]);
+        greater(greatest, of_point[c]);
+      }
+      positive |= least > bound;
+      negative |= greatest < -bound;
+    }
+    out |= positive & negative;
+  }
+}
+
+ASSAY_INLINE void write(LaneRung* rungs, const Mask& apart, const Mask& free) {
+  for (std::size_t i = 0; i < lane_count; ++i)
+    rungs[i] = apart[i] ? LaneRung::axis : free[i] ? LaneRung::filter : LaneRung::open;
+}
+
+template <std::size_t split>
+ASSAY_INLINE void contact_group(const QueryInput& in, const QueryVertices* queries,
+                                LaneRung* rungs) {
+  LaneMotion p[4];
+  for (std::size_t i = 0; i < 4; ++i) {
+    gather(p[i].t0, in.x_t0, in.stride_t0, queries, i);
+    gather(p[i].t1, in.x_t1, in.stride_t1, queries, i);
+  }
+  LaneMotion u[3];
+  LaneVector magnitude = {};
+  for (std::size_t j = 0; j < 3; ++j) {
+    subtract(u[j].t0, p[j + 1].t0, p[0].t0);
+    subtract(u[j].t1, p[j + 1].t1, p[0].t1);
+    for (std::size_t k = 0; k < 3; ++k) {
+      grow(magnitude.k[k], u[j].t0.k[k]);
+      grow(magnitude.k[k], u[j].t1.k[k]);
+    }
+  }
+  Mask apart, holds, free, sorted;
+  ordered(apart, p, split);
+  in_range(holds, in, magnitude, true);
+  LaneCross lam[3];
+  cross(lam[0], u[1], u[2]);
+  never_coplanar(free, in, u[0], lam[0], magnitude);
+  if (!everywhere(free | apart)) {
+    cross(lam[1], u[2], u[0]);
+    cross(lam[2], u[0], u[1]);
+    never_meet(sorted, in, lam, magnitude, split);
+    free |= sorted;
+  }
+  write(rungs, apart, free & holds);
+}
+
+// u[i] . (u[j] x u[k])
+ASSAY_INLINE void volume(Lanes& out, const LaneVector (&u)[4], std::size_t i, std::size_t j,
+                         std::size_t k) {
+  LaneVector n;
+  cross(n, u[j], u[k]);
+  dot(out, u[i], n);
+}
+
+// The differences of four points from an origin, and the bound of their volumes.
+ASSAY_INLINE void differences(LaneVector (&u)[4], Lanes& bound, Mask& holds, const QueryInput& in,
+                              const LaneVector (&p)[5], const std::size_t (&points)[5]) {
+  LaneVector magnitude = {};
+  for (std::size_t j = 0; j < 4; ++j) {
+    subtract(u[j], p[points[j + 1]], p[points[0]]);
+    for (std::size_t k = 0; k < 3; ++k) grow(magnitude.k[k], u[j].k[k]);
+  }
+  in_range(holds, in, magnitude, false);
+  bound = all(in.orientation_error) * (magnitude.k[0] * magnitude.k[1] * magnitude.k[2]);
+}
+
+ASSAY_INLINE void piercing_group(const QueryInput& in, const QueryVertices* queries,
+                                 LaneRung* rungs) {
+  LaneVector p[5];
+  for (std::size_t i = 0; i < 5; ++i) gather(p[i], in.x_t0, in.stride_t0, queries, i);
+  LaneVector u[4];
+  Lanes bound, volumes[3];
+  Mask holds;
+  // Both ends of the edge are strictly on one side of the triangle's plane.
+  differences(u, bound, holds, in, p, {2, 3, 4, 0, 1});
+  volume(volumes[0], u, 2, 0, 1);
+  volume(volumes[1], u, 3, 0, 1);
+  Mask free = holds & (((volumes[0] > bound) & (volumes[1] > bound)) |
+                       ((volumes[0] < -bound) & (volumes[1] < -bound)));
+  if (!everywhere(free)) {
+    // Two edges of the triangle turn around the edge's line in opposite senses.
+    differences(u, bound, holds, in, p, {0, 1, 2, 3, 4});
+    volume(volumes[0], u, 0, 1, 2);
+    volume(volumes[1], u, 0, 2, 3);
+    volume(volumes[2], u, 0, 3, 1);
+    Lanes least = volumes[0], greatest = volumes[0];
+    for (std::size_t i = 1; i < 3; ++i) {
+      lesser(least, volumes[i]);
+      greater(greatest, volumes[i]);
+    }
+    free |= holds & (least < -bound) & (greatest > bound);
+  }
+  write(rungs, Mask{}, free);
+}
+
+typedef void (*Group)(const QueryInput&, const QueryVertices*, LaneRung*);
+
+template <Group group>
+void kernel(const QueryInput& input, const QueryVertices* queries, std::size_t count,
+            LaneRung* rungs) {
+  std::size_t i = 0;
+  for (; i + lane_count <= count; i += lane_count) group(input, queries + i, rungs + i);
+  if (i == count) return;
+  // The rest do not fill the lanes, so the last query is repeated.
+  QueryVertices rest[lane_count];
+  LaneRung rest_rungs[lane_count];
+  for (std::size_t k = 0; k < lane_count; ++k) rest[k] = queries[i + k < count ? i + k : count - 1];
+  group(input, rest, rest_rungs);
+  for (std::size_t k = 0; i + k < count; ++k) rungs[i + k] = rest_rungs[k];
+}
+
+constexpr QueryKernels kernels_of_this_file = {kernel<contact_group<1>>, kernel<contact_group<2>>,
+                                               kernel<piercing_group>};
+
+#undef ASSAY_INLINE
+
+}  // namespace
+}  // namespace assay::detector

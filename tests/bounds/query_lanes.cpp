@@ -1,0 +1,40 @@
+// The first rungs of the elementary test in lanes, of vertex and face, of two edges, and of piercing.
+// They compute what one query alone computes, so they add no script that is not there already.
+#include "detector/contact/lanes/query_lanes.cpp"
+
+#include "tests/bounds/claims.h"
+#include "tests/bounds/moving_points.h"
+
+namespace assay::bounds {
+namespace {
+
+using namespace detector;
+
+// What a group of lanes computes of a query of these points. No group of a query lies before the
+// other, so that everything is computed.
+void claim(Claims& claims, const char* name, const QueryVertices& query,
+           void (*group)(const QueryInput&, const QueryVertices*, LaneRung*)) {
+  Positions x_t0(5, 3), x_t1(5, 3);
+  for (int v = 0; v < 5; ++v) {
+    const MovingPoint p = moving_point("x", v);
+    for (int k = 0; k < 3; ++k) {
+      x_t0(v, k) = p.t0[static_cast<std::size_t>(k)];
+      x_t1(v, k) = p.t1[static_cast<std::size_t>(k)];
+    }
+  }
+  const QueryVertices queries[] = {query, query};
+  LaneRung rungs[2];
+  group(query_input({x_t0, x_t1}), queries, rungs);
+  claims.write_obligations(name);
+}
+
+void claim_query_lanes(Claims& claims) {
+  claim(claims, "contact", {{1, 0, 2, 3, 4}}, contact_group<1>);
+  claim(claims, "contact", {{0, 2, 1, 3, 4}}, contact_group<2>);
+  claim(claims, "orientation", {{0, 2, 1, 3, 4}}, piercing_group);
+}
+
+const Filter filter("query_lanes", claim_query_lanes);
+
+}  // namespace
+}  // namespace assay::bounds
