@@ -329,11 +329,33 @@ bool is_before(const PairContact& x, const PairContact& y) {
   return x.feature.vertices < y.feature.vertices;
 }
 
+// The features of a pair come one soon after the other. So what is added is mostly there already.
+constexpr std::size_t recent_places = 4096;
+
+std::size_t place_of(TrianglePair pair) {
+  const auto mixed =
+      (static_cast<std::uint64_t>(pair.a) << 32 | static_cast<std::uint32_t>(pair.b)) *
+      0x9e3779b97f4a7c15u;
+  return static_cast<std::size_t>(mixed >> 52);
+}
+
 constexpr std::size_t least_room = 1024;
 
 std::size_t with_room(std::size_t size) { return size + std::max(size / 4, least_room); }
 
 }  // namespace
+
+void PairContacts::add(const PairContact& contact) {
+  if (recent_.empty()) recent_.resize(recent_places);
+  auto& place = recent_[place_of(contact.pair)];
+  if (place < all_.size() && all_[place].pair == contact.pair) {
+    if (is_before(contact, all_[place])) all_[place] = contact;
+    return;
+  }
+  if (all_.size() == all_.capacity()) make_room({});
+  place = static_cast<std::uint32_t>(all_.size());
+  all_.push_back(contact);
+}
 
 bool PairContacts::make_room(const StopFunction& stop) {
   settle();

@@ -42,10 +42,7 @@ namespace assay::detector {
 // for each contact that comes, all in all.
 class PairContacts {
  public:
-  void add(const PairContact& contact) {
-    if (all_.size() == all_.capacity()) make_room({});
-    all_.push_back(contact);
-  }
+  void add(const PairContact& contact);
 
   // Whether a few more contacts would make the list grow in add(), where no stop function is
   // asked. Call make_room() first if so.
@@ -70,7 +67,7 @@ class PairContacts {
   // The memory that is held, in bytes.
   std::size_t bytes() const {
     return (all_.capacity() + late_.capacity()) * sizeof(PairContact) +
-           new_.size() * sizeof(TrianglePair);
+           new_.size() * sizeof(TrianglePair) + recent_.capacity() * sizeof(std::uint32_t);
   }
 
  private:
@@ -81,6 +78,9 @@ class PairContacts {
   // The first settled_ contacts of all_ are ascending, with each pair once; the late ones follow.
   std::size_t settled_ = 0;
   std::vector<PairContact> late_;  // working memory of settle()
+  // Where pairs that came lately lie in all_, by a hash of the pair. A place may hold another pair
+  // by now, so it is only a guess.
+  std::vector<std::uint32_t> recent_;
   std::deque<TrianglePair> new_;
 };
 

@@ -1,6 +1,6 @@
 // The first rungs of the elementary test for many feature pairs at once, one in each lane: order
-// along an axis, and doubles with proved bounds over the whole step, as contact_filter.h looks at it
-// before it halves. Most feature pairs of a mesh are settled here. The others are left to the
+// along an axis, and doubles with proved bounds over the whole step, as contact_filter.h looks at
+// it before it halves. Most feature pairs of a mesh are settled here. The others are left to the
 // elementary test, so answers do not depend on lanes. A lane makes the same roundings whatever the
 // instruction set is, so counts do not depend on it either.
 #pragma once
@@ -26,8 +26,8 @@ struct QueryInput {
 };
 QueryInput query_input(const SteppedMesh& motion);
 
-// What a lane found: the groups are strictly ordered along an axis, or doubles show that there is no
-// contact (no piercing), or neither.
+// What a lane found: the groups are strictly ordered along an axis, or doubles show that there is
+// no contact (no piercing), or neither.
 enum class LaneRung : std::uint8_t { open, axis, filter };
 
 // Writes rungs[i] for queries[i], for all i < count. No allocation.
