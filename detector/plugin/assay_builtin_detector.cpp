@@ -128,6 +128,18 @@ std::int32_t assay_builtin_evaluate(assay_handle* handle, const double* x_t0, co
   });
 }
 
+std::int32_t assay_builtin_first_contact(assay_handle* handle, const double* x_t0,
+                                         const double* x_t1, double until,
+                                         std::int32_t (*stop)(void* stop_data), void* stop_data,
+                                         assay_builtin_error* error) {
+  return guarded(error, [&]() -> std::int32_t {
+    StopFunction stops;
+    if (stop) stops = [=] { return stop(stop_data) != 0; };
+    handle->first_contact(x_t0, x_t1, until, stops);
+    return handle->result.problem ? refuse(error, *handle->result.problem) : done(error);
+  });
+}
+
 std::int32_t assay_builtin_limit(assay_handle* handle, const double* x_t0, const double* x_t1,
                                  assay_limit* limit, std::int32_t (*stop)(void* stop_data),
                                  void* stop_data, assay_builtin_error* error) {

@@ -51,7 +51,7 @@ enum {
   ASSAY_BUILTIN_WRONG_RELATION = 15,   /* (likewise) */
   ASSAY_BUILTIN_WRONG_SEPARATION = 16, /* no distance, or with options that do not answer it */
   ASSAY_BUILTIN_PROVES_NOTHING = 17,   /* a limit is asked for in double or float */
-  ASSAY_BUILTIN_WRONG_BOUND = 18,      /* (not met in C: nobody gives a bound there) */
+  ASSAY_BUILTIN_WRONG_BOUND = 18,      /* until is no time from 0 to 1 */
   ASSAY_BUILTIN_WRONG_OPTIONS = 64,    /* an option has no such value; struct_size is wrong */
   ASSAY_BUILTIN_SMALL_BUFFER = 65,     /* the state takes more bytes than the buffer has */
   ASSAY_BUILTIN_TOO_MANY = 66,         /* more than 2^31 - 1 triangles or vertices */
@@ -136,6 +136,15 @@ int32_t assay_builtin_evaluate(assay_handle* handle, const double* x_t0, const d
                                const assay_view_primitive* primitives, uint64_t primitive_count,
                                int32_t (*stop)(void* stop_data), void* stop_data,
                                assay_builtin_error* error);
+
+/* Whether there is a contact by the time `until`, from 0 to 1, and which is first; pairs are those at
+ * the first time, whatever the options say. ASSAY_FREE says that there is none in [0, until]. A
+ * contact at `until` is one. Nothing later is looked at, so a caller that knows a contact at some
+ * time gives that time. The table's result then tells the answer. Only after until = 1 is there
+ * something to commit. stop may be NULL. */
+int32_t assay_builtin_first_contact(assay_handle* handle, const double* x_t0, const double* x_t1,
+                                    double until, int32_t (*stop)(void* stop_data), void* stop_data,
+                                    assay_builtin_error* error);
 
 /* As the table's limit: how far the step may be gone, with its rounding. A free step has share 1.
  * Another one has 0.95 of the first contact time, and less if rounding brings that into contact

@@ -92,8 +92,17 @@ using namespace assay::detector;
 
 void assay_handle::evaluate(const double* x_t0, const double* x_t1,
                             std::span<const ViewPrimitive> primitives, const StopFunction& stop) {
-  StepResult next = detector.evaluate(PositionsMap(x_t0, vertex_count, 3),
-                                      PositionsMap(x_t1, vertex_count, 3), primitives, stop);
+  keep(detector.evaluate(PositionsMap(x_t0, vertex_count, 3), PositionsMap(x_t1, vertex_count, 3),
+                         primitives, stop));
+}
+
+void assay_handle::first_contact(const double* x_t0, const double* x_t1, double until,
+                                 const StopFunction& stop) {
+  keep(detector.first_contact(PositionsMap(x_t0, vertex_count, 3),
+                              PositionsMap(x_t1, vertex_count, 3), until, stop));
+}
+
+void assay_handle::keep(StepResult next) {
   std::vector<std::int32_t> next_pairs;
   std::vector<double> next_times;
   next_pairs.reserve(2 * next.pairs.size());

@@ -16,11 +16,16 @@ struct assay_handle {
   std::vector<std::int32_t> pairs = {};
   std::vector<double> times = {};
 
-  // As Detector::evaluate, and keeps the result. If memory runs out the handle keeps its last
+  // As those of Detector, and they keep the result. If memory runs out the handle keeps its last
   // result unchanged.
   void evaluate(const double* x_t0, const double* x_t1,
                 std::span<const assay::detector::ViewPrimitive> primitives = {},
                 const assay::detector::StopFunction& stop = {});
+  void first_contact(const double* x_t0, const double* x_t1, double until,
+                     const assay::detector::StopFunction& stop);
+
+ private:
+  void keep(assay::detector::StepResult next);
 };
 
 namespace assay::detector {

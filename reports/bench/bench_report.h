@@ -42,6 +42,7 @@ namespace wanted {
 // pairs of the rod-twist step whose moving boxes meet; few of them are hits. Of the simulation
 // queries nearly all are hits, and of the hand-made ones many are degenerate.
 inline constexpr Wanted yes_no_of_a_candidate_us = at_most(0.3);
+inline constexpr Wanted yes_no_of_a_candidate_in_lanes_us = at_most(0.1);
 inline constexpr Wanted yes_no_of_a_simulation_query_us = at_most(1);
 inline constexpr Wanted yes_no_of_a_hand_made_query_us = at_most(10);
 inline constexpr Wanted hit_with_its_time_us = at_most(3);

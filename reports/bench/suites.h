@@ -48,6 +48,8 @@ RunSuite view_suite;
 RunSuite growth_suite;
 // Scenes of the sizes and kinds that people have: times, memory, threads, the oracle's judgement.
 RunSuite sizes_suite;
+// Where the time of a step without views goes, stage by stage, and the limit that a bare loop sets.
+RunSuite stages_suite;
 // The thesis's claims about costs, the whole step against culling bvh, and the share of V+ at
 // which views break even.
 RunSuite claims_suite;

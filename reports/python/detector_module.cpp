@@ -66,6 +66,12 @@ class PythonDetector {
     });
   }
 
+  py::dict first_contact(const py::object& x_t0, const py::object& x_t1, double until) {
+    return answered(x_t0, x_t1, [&](const auto& from, const auto& to, const auto& stop) {
+      return detector_.first_contact(from, to, until, stop);
+    });
+  }
+
   py::tuple limit(const py::object& x_t0, const py::object& x_t1) {
     const PositionsArgument from(x_t0, "x_t0"), to(x_t1, "x_t1");
     threads_in_this_process(threads_);
@@ -212,6 +218,7 @@ PYBIND11_MODULE(_detector, module) {
       .def("evaluate", &PythonDetector::evaluate)
       .def("commit", &PythonDetector::commit)
       .def("step", &PythonDetector::step)
+      .def("first_contact", &PythonDetector::first_contact)
       .def("limit", &PythonDetector::limit)
       .def("state", &PythonDetector::state)
       .def("restore", &PythonDetector::restore)

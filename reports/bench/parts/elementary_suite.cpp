@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "detector/contact/elementary.h"
+#include "detector/contact/lanes/query_lanes.h"
 #include "detector/view/view_signs.h"
 #include "properties/queries/extreme_queries.h"
 #include "reports/bench/cases.h"
@@ -142,6 +143,49 @@ void labelled(const std::string& label, const std::optional<LabelledSet>& set, W
   time_hits(label, set->queries, rounds, report);
 }
 
+// The time of a query as a step asks it: first in lanes, and alone where these leave it open.
+void time_in_lanes(const std::string& label, const std::vector<FourPoints>& queries, int rounds,
+                   BenchReport& report) {
+  const auto count = static_cast<Eigen::Index>(4 * queries.size());
+  Positions x_t0(count, 3), x_t1(count, 3);
+  std::vector<QueryVertices> vertices[2];  // of vertex and face, of two edges
+  std::vector<const FourPoints*> asked[2];
+  Eigen::Index next = 0;
+  for (const auto& q : queries) {
+    const auto v = static_cast<std::int32_t>(next);
+    for (const auto& p : q.points) {
+      x_t0.row(next) << p.t0[0], p.t0[1], p.t0[2];
+      x_t1.row(next++) << p.t1[0], p.t1[1], p.t1[2];
+    }
+    const std::size_t kind = q.first_group == 1 ? 0 : 1;
+    vertices[kind].push_back({{v, v + 1, v + 2, v + 3, -1}});
+    asked[kind].push_back(&q);
+  }
+  const QueryInput input = query_input({x_t0, x_t1});
+  const QueryKernels& kernels = query_kernels();
+  std::vector<LaneRung> rungs(queries.size());
+  std::size_t left_open = 0, contacts = 0;
+  const auto answer_all = [&] {
+    left_open = contacts = 0;
+    for (const std::size_t kind : {0u, 1u}) {
+      const auto kernel = kind == 0 ? kernels.vertex_face : kernels.edge_edge;
+      kernel(input, vertices[kind].data(), vertices[kind].size(), rungs.data());
+      for (std::size_t i = 0; i < asked[kind].size(); ++i) {
+        if (rungs[i] != LaneRung::open) continue;
+        ++left_open;
+        contacts += test_contact_past_axis(*asked[kind][i], Want::yes_no).contact;
+      }
+    }
+  };
+  const auto samples = interleave(rounds, {[&] { return ns_of(answer_all); }});
+  report.add(fmt::format("yes/no in lanes, {}", label), "us",
+             scaled(median_of(samples[0]), 1e-3 / static_cast<double>(queries.size())),
+             wanted::yes_no_of_a_candidate_in_lanes_us,
+             fmt::format("{} of {} left open by the lanes", left_open, queries.size()));
+  if (contacts != hits_of(queries).size())
+    report.wrong_answers.push_back(label + ": lanes change the number of contacts");
+}
+
 void rod_twist_candidates(const BenchSettings& settings, int rounds, BenchReport& report) {
   const std::string label = "candidates of rod-twist";
   const auto step = rod_twist_step(settings);
@@ -156,6 +200,8 @@ void rod_twist_candidates(const BenchSettings& settings, int rounds, BenchReport
              fmt::format("{} of {} feature pairs whose moving boxes meet",
                          candidates.queries.size(), candidates.all),
              report);
+  time_in_lanes(label, candidates.queries, rounds, report);
+  time_in_lanes(label, candidates.queries, rounds, report);
   time_hits(label, candidates.queries, rounds, report);
 }
 

@@ -211,6 +211,42 @@ TEST_F(BuiltinDetector, IsViewedFromWhereTheCallerSays) {
   EXPECT_EQ(view_positive({1, 1, 1}, {1, 1, 1}), 7u);
 }
 
+TEST_F(BuiltinDetector, FindsTheFirstContactUpToABound) {
+  const auto handle = make(Culling::bvh);
+  auto direct = std::move(Detector::create(triangles, in, {Culling::bvh}).value());
+  const StepResult expected = direct.first_contact(in, hit);
+  ASSERT_EQ(expected.answer, Answer::collision);
+  const auto found = [&](double until) {
+    EXPECT_EQ(assay_builtin_first_contact(handle.get(), in.data(), hit.data(), until, nullptr,
+                                          nullptr, &error),
+              ASSAY_OK);
+    assay_result result = {};
+    EXPECT_EQ(table().result(handle.get(), &result), ASSAY_OK);
+    return result;
+  };
+  const assay_result whole = found(1);
+  EXPECT_EQ(whole.answer, ASSAY_COLLISION);
+  EXPECT_EQ(whole.first_lo, expected.first.lo);
+  EXPECT_EQ(whole.first_hi, expected.first.hi);
+  EXPECT_EQ(whole.pair_count, expected.pairs.size());
+  EXPECT_EQ(assay_builtin_commit(handle.get(), &error), ASSAY_OK);
+  EXPECT_EQ(found(expected.first.hi).answer, ASSAY_COLLISION);
+  EXPECT_EQ(found(expected.first.lo / 2).answer, ASSAY_FREE);
+  expect_refused(assay_builtin_commit(handle.get(), &error), ASSAY_BUILTIN_NOTHING_TO_COMMIT);
+  for (const double wrong : {-.5, 1.5, std::numeric_limits<double>::quiet_NaN()}) {
+    expect_refused(assay_builtin_first_contact(handle.get(), in.data(), hit.data(), wrong, nullptr,
+                                               nullptr, &error),
+                   ASSAY_BUILTIN_WRONG_BOUND);
+  }
+  const auto stop = [](void*) -> std::int32_t { return 1; };
+  EXPECT_EQ(
+      assay_builtin_first_contact(handle.get(), in.data(), hit.data(), 1, stop, nullptr, &error),
+      ASSAY_OK);
+  assay_result stopped = {};
+  EXPECT_EQ(table().result(handle.get(), &stopped), ASSAY_OK);
+  EXPECT_EQ(stopped.answer, ASSAY_UNDECIDED);
+}
+
 TEST_F(BuiltinDetector, L17_LimitsAStepAsTheDetectorDoes) {
   const auto handle = make(Culling::bvh);
   assay_limit limit = {-1, nullptr};

@@ -293,6 +293,16 @@ TEST_F(Suites, Sequences) {
   EXPECT_TRUE(report.wrong_answers.empty()) << report.wrong_answers[0];
 }
 
+TEST_F(Suites, Stages) {
+  const auto report = run(stages_suite);
+  for (const char* row : {"rod-twist", "layered-cloth: step", "crumpling-sphere: boxes",
+                          "crumpling-sphere: descent", "crumpling-sphere: feature pairs",
+                          "folding-sheet: the boxes of all candidates in a bare loop"}) {
+    EXPECT_TRUE(has(report, row)) << row;
+  }
+  EXPECT_TRUE(report.wrong_answers.empty()) << report.wrong_answers[0];
+}
+
 TEST_F(Suites, Threads) {
   const auto report = run(threads_suite);
   for (const char* row :

@@ -25,6 +25,21 @@ def same(a, b):
     )
 
 
+def test_a_first_contact_is_looked_for_up_to_a_bound(pair):
+    detector = assay.Detector(pair.triangles, pair.x_t0)
+    first = detector.evaluate(pair.x_t0, pair.x_t1).first
+    found = detector.first_contact(pair.x_t0, pair.x_t1, first[1])
+    assert (found.answer, found.first) == ("collision", first)
+    assert detector.first_contact(pair.x_t0, pair.x_t1).first == first
+    detector.commit()
+    assert detector.first_contact(pair.x_t0, pair.x_t1, first[0] / 2).answer == "free"
+    with pytest.raises(assay.InputError):
+        detector.commit()
+    for wrong in (-0.5, 1.5, float("nan")):
+        with pytest.raises(assay.InputError, match="the bound is not a time from 0 to 1"):
+            detector.first_contact(pair.x_t0, pair.x_t1, wrong)
+
+
 def test_a_limit_stops_before_the_contact(pair):
     detector = assay.Detector(pair.triangles, pair.x_t0)
     limit = detector.limit(pair.x_t0, pair.x_t1)
