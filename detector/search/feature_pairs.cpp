@@ -8,9 +8,45 @@
 namespace assay::detector {
 namespace {
 
-bool contains(const std::array<std::int32_t, 3>& triangle, std::int32_t vertex) {
-  return triangle[0] == vertex || triangle[1] == vertex || triangle[2] == vertex;
+using Triangle = std::array<std::int32_t, 3>;
+
+// Which corners two triangles share: bit 3 i + j is set if corner i of p is corner j of q.
+std::uint32_t shared_corners(const Triangle& p, const Triangle& q) {
+  std::uint32_t shared = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j)
+      shared |= static_cast<std::uint32_t>(p[i] == q[j]) << (3 * i + j);
+  }
+  return shared;
 }
+
+// For each set of shared corners the pairs of features without a common vertex, as feature_bits.
+constexpr std::array<std::uint32_t, 512> pairs_without_shared_corner() {
+  using namespace feature_bits;
+  std::array<std::uint32_t, 512> pairs{};
+  for (std::uint32_t shared = 0; shared < 512; ++shared) {
+    const auto row = [&](std::size_t i) { return (shared >> (3 * (i % 3)) & 7) != 0; };
+    const auto column = [&](std::size_t j) { return (shared >> (j % 3) & 0111) != 0; };
+    const auto both = [&](std::size_t i, std::size_t j) {
+      return (shared >> (3 * (i % 3) + j % 3) & 1) != 0;
+    };
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (!row(i)) pairs[shared] |= corner_on_face(i);
+      if (!column(i)) pairs[shared] |= face_on_corner(i);
+      if (!row(i + 1) && !row(i + 2)) pairs[shared] |= edge_at_start(i);
+      if (!column(i + 1) && !column(i + 2)) pairs[shared] |= face_at_start(i);
+      for (std::size_t j = 0; j < 3; ++j) {
+        if (!both(i + 1, j + 1) && !both(i + 1, j + 2) && !both(i + 2, j + 1) &&
+            !both(i + 2, j + 2)) {
+          pairs[shared] |= edges(i, j);
+        }
+      }
+    }
+  }
+  return pairs;
+}
+
+constexpr auto without_shared_corner = pairs_without_shared_corner();
 
 // Calls visit(i) for each bit i that is set, ascending.
 template <class Visit>
@@ -33,11 +69,13 @@ std::uint32_t represented_pairs(RepresentedFeatures a, RepresentedFeatures b, bo
 
 void FeaturePairs::ask(const AskedTypes& asked) {
   asked_ = asked;
-  asks_by_types_ = true;
+  // In a first search triangles of one type are all asked for, and each of their features has one
+  // representative. In a closure types change from round to round.
+  const auto another_type = std::adjacent_find(types_.begin(), types_.end(), std::not_equal_to<>());
+  asks_by_types_ = another_type != types_.end() || !asked.within_before.is_empty();
 }
 
 bool FeaturePairs::takes(bool within, const Holder& first, const Holder& second) const {
-  if (!asks_by_types_) return true;
   if (within && asked_.within_before.holds_for_some(first.types, second.types)) return false;
   if (is_single(first.types) && is_single(second.types)) return true;
   const TypeRelation& now = within ? asked_.within_now : asked_.across_now;
@@ -46,12 +84,14 @@ bool FeaturePairs::takes(bool within, const Holder& first, const Holder& second)
 
 void FeaturePairs::append(std::int32_t a, std::int32_t b, bool may_pierce,
                           std::vector<FeatureKey>& keys) const {
-  const std::uint32_t asked =
-      represented_pairs(representatives_.of(a), representatives_.of(b), may_pierce);
-  if (asked == 0) return;
-  const bool within = mesh_.component_of_triangle[at(a)] == mesh_.component_of_triangle[at(b)];
-  if (asks_by_types_ && within && asked_.within_before.holds(types_[at(a)], types_[at(b)])) return;
   const auto &p = mesh_.triangles[at(a)], &q = mesh_.triangles[at(b)];
+  const std::uint32_t asked =
+      represented_pairs(representatives_.of(a), representatives_.of(b), may_pierce) &
+      without_shared_corner[shared_corners(p, q)];
+  if (asked == 0) return;
+  const bool within =
+      asks_by_types_ && mesh_.component_of_triangle[at(a)] == mesh_.component_of_triangle[at(b)];
+  if (within && asked_.within_before.holds(types_[at(a)], types_[at(b)])) return;
   const TriangleCorners of_a = {points_[p[0]].floats(), points_[p[1]].floats(),
                                 points_[p[2]].floats()};
   const TriangleCorners of_b = {points_[q[0]].floats(), points_[q[1]].floats(),
@@ -71,44 +111,39 @@ void FeaturePairs::vertices_on_face(std::uint32_t corners, bool within, std::int
                                     std::int32_t face, std::vector<FeatureKey>& keys) const {
   for_each_bit(corners, [&](std::size_t i) {
     const std::int32_t v = mesh_.triangles[at(t)][i];
-    if (contains(mesh_.triangles[at(face)], v)) return;
     const TriangleType type = types_[at(face)];
-    if (takes(within, {types_[at(t)], representatives_.types_of_vertex(v)}, {type, set_of(type)}))
+    if (!asks_by_types_ ||
+        takes(within, {types_[at(t)], representatives_.types_of_vertex(v)}, {type, set_of(type)})) {
       keys.push_back(key_of(FeatureKind::vertex_face, v, face));
+    }
   });
 }
 
 void FeaturePairs::edges_on_edges(std::uint32_t edges, bool within, std::int32_t a, std::int32_t b,
                                   std::vector<FeatureKey>& keys) const {
-  const auto &p = mesh_.triangles[at(a)], &q = mesh_.triangles[at(b)];
   for_each_bit(edges, [&](std::size_t ij) {
-    const std::size_t i = ij / 3, j = ij % 3;
-    const auto u0 = p[(i + 1) % 3], u1 = p[(i + 2) % 3];
-    const auto v0 = q[(j + 1) % 3], v1 = q[(j + 2) % 3];
-    if (u0 == v0 || u0 == v1 || u1 == v0 || u1 == v1) return;
-    auto e = mesh_.triangle_edges[at(a)][i], f = mesh_.triangle_edges[at(b)][j];
-    Holder first{types_[at(a)], representatives_.types_of_edge(e)};
-    Holder second{types_[at(b)], representatives_.types_of_edge(f)};
-    if (e > f) {
-      // The key is the same, whichever of the two triangles comes first.
-      std::swap(e, f);
-      std::swap(first, second);
+    auto e = mesh_.triangle_edges[at(a)][ij / 3], f = mesh_.triangle_edges[at(b)][ij % 3];
+    // The key is the same, whichever of the two triangles comes first.
+    const bool turned = e > f;
+    if (turned) std::swap(e, f);
+    if (!asks_by_types_ ||
+        takes(within, {types_[at(turned ? b : a)], representatives_.types_of_edge(e)},
+              {types_[at(turned ? a : b)], representatives_.types_of_edge(f)})) {
+      keys.push_back(key_of(FeatureKind::edge_edge, e, f));
     }
-    if (takes(within, first, second)) keys.push_back(key_of(FeatureKind::edge_edge, e, f));
   });
 }
 
 void FeaturePairs::edges_through_face(std::uint32_t edges, bool within, std::int32_t t,
                                       std::int32_t face, std::vector<FeatureKey>& keys) const {
   for_each_bit(edges, [&](std::size_t i) {
-    const auto &ends = mesh_.triangles[at(t)], &corners = mesh_.triangles[at(face)];
-    if (contains(corners, ends[(i + 1) % 3]) || contains(corners, ends[(i + 2) % 3])) return;
     const std::int32_t edge = mesh_.triangle_edges[at(t)][i];
     // Inside a component only dirty triangles are asked for piercing, so there is one pair of
     // types.
     const TriangleType type = types_[at(face)];
-    if (!within && !takes(within, {types_[at(t)], representatives_.types_of_edge(edge)},
-                          {type, set_of(type)})) {
+    if (asks_by_types_ && !within &&
+        !takes(within, {types_[at(t)], representatives_.types_of_edge(edge)},
+               {type, set_of(type)})) {
       return;
     }
     keys.push_back(key_of(FeatureKind::piercing, edge, face));

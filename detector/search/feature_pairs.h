@@ -10,6 +10,7 @@
 // of them whose types are asked for is a candidate (or was proved apart, L14).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -111,6 +112,9 @@ class TypeRelation {
       }
     }
   }
+  bool is_empty() const {
+    return std::all_of(rows_.begin(), rows_.end(), [](TypeSet row) { return row == 0; });
+  }
   bool holds(TriangleType a, TriangleType b) const {
     return (rows_[static_cast<std::size_t>(a)] & set_of(b)) != 0;
   }
@@ -168,8 +172,8 @@ class FeaturePairs {
         types_(types),
         points_(motion, pace, separation) {}
 
-  // Says what the searches to come ask for. Until it is called they ask for everything, and
-  // nothing was asked for before.
+  // Says what the searches to come ask for, with the types as they are now. Until it is called they
+  // ask for everything, and nothing was asked for before.
   void ask(const AskedTypes& asked);
   // From now on the boxes of features are those of this motion, of the same vertices.
   void refit(const SteppedMesh& motion, PacedStop* pace, double separation) {
@@ -186,6 +190,7 @@ class FeaturePairs {
     TriangleType type;  // of the triangle that represents the feature here
     TypeSet types;      // of all triangles that hold it
   };
+  // REQUIRES asks_by_types_.
   bool takes(bool within, const Holder& first, const Holder& second) const;
   void vertices_on_face(std::uint32_t corners, bool within, std::int32_t t, std::int32_t face,
                         std::vector<FeatureKey>& keys) const;
