@@ -315,6 +315,7 @@ template <class Result, class Call>
 Result with_width(int bits, const Result& otherwise, Call call) {
   if (bits <= most_bits<1>) return call(std::integral_constant<std::size_t, 1>());
   if (bits <= most_bits<2>) return call(std::integral_constant<std::size_t, 2>());
+  if (bits <= most_bits<3>) return call(std::integral_constant<std::size_t, 3>());
   if (bits <= most_bits<5>) return call(std::integral_constant<std::size_t, 5>());
   return otherwise;
 }

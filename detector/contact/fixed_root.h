@@ -16,6 +16,7 @@
 
 #include "detector/contact/contact_pieces.h"
 #include "detector/contact/fixed_products.h"
+#include "detector/exact/ball.h"
 #include "detector/exact/bernstein.h"
 #include "detector/exact/polynomial.h"
 #include "detector/exact/root_isolation.h"
@@ -201,6 +202,8 @@ class SignAtRoot {
   }
 
  private:
+  // Below, products of integers take no longer than balls.
+  static constexpr std::size_t worth_balls = 3;
   using F = FixedInteger<3 * W + 1>;
   using L = FixedInteger<2 * W + 1>;
   using Step1 = FixedInteger<5 * W + 1>;
@@ -214,6 +217,9 @@ class SignAtRoot {
     const bool is_linear = l[2].is_zero();
     if (const int sure = is_linear ? sure_at_quotient(near_l) : sure_remainder(near_l)) return sure;
     if (is_linear) return sign_at_quotient(l[0], l[1]);
+    if constexpr (W >= worth_balls) {
+      if (const auto sure = sign_by_balls(l, l_before)) return *sure;
+    }
     const Step1 d2(l[2] * f_[2] - l[1] * f_[3]), d1(l[2] * f_[1] - l[0] * f_[3]), d0(l[2] * f_[0]);
     const Step2 a(l[2] * d1 - l[1] * d2), b(l[2] * d0 - l[0] * d2);
     const int at_0 = b.sign(), at_1 = (a + b).sign();
@@ -221,6 +227,21 @@ class SignAtRoot {
     const Value at_q(l[2] * (b * b) - l[1] * (a * b) + l[0] * (a * a));
     const int sign = at_q.sign();
     return sign == 0 ? 0 : sign == l_before ? at_1 : at_0;
+  }
+
+  // The same in balls, which know the size of each term, whatever the exponents of the coordinates
+  // are. Nothing where they cannot tell.
+  std::optional<int> sign_by_balls(const FixedQuadratic<L>& quadratic, int l_before) const {
+    const std::array l = {Ball(quadratic[0]), Ball(quadratic[1]), Ball(quadratic[2])};
+    const std::array f = {Ball(f_[0]), Ball(f_[1]), Ball(f_[2]), Ball(f_[3])};
+    const Ball d2 = l[2] * f[2] - l[1] * f[3], d1 = l[2] * f[1] - l[0] * f[3], d0 = l[2] * f[0];
+    const Ball a = l[2] * d1 - l[1] * d2, b = l[2] * d0 - l[0] * d2;
+    const auto at_0 = b.sign(), at_1 = (a + b).sign();
+    if (!at_0 || !at_1) return std::nullopt;
+    if (*at_0 * *at_1 >= 0) return *at_0 != 0 ? at_0 : at_1;
+    const auto at_q = (l[2] * (b * b) - l[1] * (a * b) + l[0] * (a * a)).sign();
+    if (!at_q) return std::nullopt;
+    return *at_q == 0 ? 0 : *at_q == l_before ? *at_1 : *at_0;
   }
 
   // l1^3 F(-l0/l1) = ((f3 p + f2 l1) p + f1 l1^2) p + f0 l1^3, p = -l0.

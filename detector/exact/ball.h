@@ -19,6 +19,7 @@
 #include <cmath>
 #include <optional>
 
+#include "detector/exact/fixed_integer.h"
 #include "detector/exact/integer.h"
 
 namespace assay::detector {
@@ -37,15 +38,23 @@ class Ball {
     if (value.is_zero()) return;
     const auto& backend = value.backend();
     const std::size_t size = backend.size();
-    const Limb* limbs = backend.limbs();
-    const Limb top = limbs[size - 1];
-    middle_ = static_cast<double>(top);
-    if (size > 1) middle_ += 0x1p-64 * static_cast<double>(limbs[size - 2]);
-    constexpr Limb exact_below = Limb{1} << 53;
-    if (size > 1 || top >= exact_below) radius_ = 0x1p-51 * middle_;
+    take_limbs(backend.limbs(), size);
     if (backend.sign()) middle_ = -middle_;
-    exponent_ = exponent + 64 * (static_cast<std::int64_t>(size) - 1);
-    normalize();
+    exponent_ += exponent;
+  }
+  // The same of an integer of fixed width.
+  template <std::size_t limbs>
+  explicit Ball(const FixedInteger<limbs>& value) {
+    const FixedInteger<limbs> positive = value.negative() ? -value : value;
+    std::uint64_t of_value[limbs];
+    std::size_t size = 0;
+    for (std::size_t i = 0; i < limbs; ++i) {
+      of_value[i] = positive.limb(i);
+      if (of_value[i] != 0) size = i + 1;
+    }
+    if (size == 0) return;
+    take_limbs(of_value, size);
+    if (value.negative()) middle_ = -middle_;
   }
 
   // Exactly this double. REQUIRES that it is finite.
@@ -104,6 +113,18 @@ class Ball {
   }
 
  private:
+  // Makes it the ball around the integer of these limbs, the last of which is not 0.
+  template <class Limb>
+  void take_limbs(const Limb* limbs, std::size_t size) {
+    const Limb top = limbs[size - 1];
+    middle_ = static_cast<double>(top);
+    if (size > 1) middle_ += 0x1p-64 * static_cast<double>(limbs[size - 2]);
+    constexpr Limb exact_below = Limb{1} << 53;
+    if (size > 1 || top >= exact_below) radius_ = 0x1p-51 * middle_;
+    exponent_ = 64 * (static_cast<std::int64_t>(size) - 1);
+    normalize();
+  }
+
   static constexpr double slack = 1 + 0x1p-40;
 
   bool is_zero() const { return middle_ == 0 && radius_ == 0; }

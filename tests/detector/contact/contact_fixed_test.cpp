@@ -137,7 +137,7 @@ TEST(ContactFixed, SettlesPointsOfOneLine) {
 // The largest coordinates that a width admits, in all signs: nothing wraps.
 TEST(ContactFixed, WidthsHoldTheirBounds) {
   tests::QueryDraw draw(31);
-  for (const int bits : {most_bits<1>, most_bits<2>, most_bits<5>}) {
+  for (const int bits : {most_bits<1>, most_bits<2>, most_bits<3>, most_bits<5>}) {
     const double most = std::ldexp(1 - 0x1p-53, bits), unit = 1;
     const FourPoints scale = {{MovingPoint{{most, most, most}, {unit, unit, unit}}, {}, {}, {}}, 1};
     ASSERT_EQ(QueryIntegers(scale).bits(), bits);
