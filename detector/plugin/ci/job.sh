@@ -1,9 +1,11 @@
 assay=$(command -v assay) || { echo "the shell finds no assay: is it in PATH?" >&2; exit 2; }
 bin=$(dirname "$assay") include="$(dirname "$assay")/../include/assay"
 [ -d "$include" ] || include="$bin/../.." # a checkout that is built
-campaign="${CAMPAIGN:-smoke}" out="certified-${SEED:-1}" # of this build and campaign, the proof:
-proof="proof/$({ echo "$campaign"; cat "$assay" "$bin"/assay-worker "$bin"/../libexec/assay/* "$campaign"; } \
-  2>/dev/null | sha256sum | cut -c 1-16)"
+campaign="${CAMPAIGN:-smoke}" out="certified-${SEED:-1}"
+proof="proof/$(
+  { echo "$campaign"; cat "$assay" "$bin/assay-worker" "$bin"/../libexec/assay/* "$campaign"; } \
+    2>/dev/null | sha256sum | cut -c 1-16
+)" # of this build and campaign
 [ -n "${DETECTOR-}" ] || c++ -std=c++17 -O2 -shared -fPIC -I "$include" ${CXXFLAGS-} \
   ${SOURCES:-detector.cpp} -o libmine.so ${LDLIBS-} || exit 2
 "$assay" run --campaign "$campaign" --out "$proof" || exit 4
