@@ -1,5 +1,6 @@
 assay=$(command -v assay) || { echo "the shell finds no assay: is it in PATH?" >&2; exit 2; }
-bin=$(dirname "$assay") include="$(dirname "$assay")/../include/assay"
+bin=$(dirname "$assay")
+include="$bin/../include/assay"
 [ -d "$include" ] || include="$bin/../.." # a checkout that is built
 campaign="${CAMPAIGN:-smoke}" out="certified-${SEED:-1}"
 proof="proof/$(
