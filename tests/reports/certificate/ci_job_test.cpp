@@ -93,13 +93,12 @@ TEST_F(CiJob, TakesOwnSourcesAndFlagsAndNeedsNoCases) {
 }
 
 TEST_F(CiJob, CompilesNothingWhereTheDetectorIsThere) {
-  const std::string there = "DETECTOR=" + plugin("example_in_cpp");
-  EXPECT_EQ(run("2", there), 0) << printed;
+  EXPECT_EQ(run("2", "DETECTOR=" + plugin("example_in_cpp")), 0) << printed;
   EXPECT_FALSE(fs::exists(scratch / "mine/libmine.so"));
-  // Another campaign has a proof of its own.
-  const std::string other = scratch / "tiny.json";
+  // Another campaign has a proof of its own, which is made before the detector is looked for.
+  const std::string other = scratch / "other.json";
   fs::copy_file(scratch / "few.json", other);
-  EXPECT_EQ(run("3", there + " CAMPAIGN=" + other), 0) << printed;
+  EXPECT_EQ(run("3", "DETECTOR=./none.so CAMPAIGN=" + other), 2) << printed;
   EXPECT_EQ(std::distance(fs::directory_iterator(scratch / "mine/proof"), {}), 2);
   EXPECT_EQ(run_line("PATH=/usr/bin:/bin sh " + (source / job_file).string()), 2);
   EXPECT_EQ(printed, "the shell finds no assay: is it in PATH?\n");
