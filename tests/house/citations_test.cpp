@@ -21,14 +21,13 @@ const std::set<std::string> file_types = {"md",   "h",   "cpp",  "c",     "in", 
 const std::set<std::string> placeholders = {"NAME", "ID",   "ROOM",   "INNER", "SUITE", "OUT",
                                             "DIR",  "FILE", "FOLDER", "OTHER", "CASE",  "PLUGIN"};
 // What the programs write, and what users and public data bring; "steps/s/core" is a speed.
-const std::set<std::string> not_of_the_project = {"certificate.json", "campaign.json",
-                                                  "summary.md",       "result.json",
-                                                  "mesh.json",        "compile_commands.json",
-                                                  "mesh.svg",         "mesh.x.svg",
-                                                  "hosts.txt",        "3036vf.csv",
-                                                  "textbook.py",      "results.json",
-                                                  "set.json",         "matrix.html",
-                                                  "my_ccd.cpp",       "core"};
+const std::set<std::string> not_of_the_project = {
+    "certificate.json", "campaign.json", "summary.md",
+    "result.json",      "mesh.json",     "compile_commands.json",
+    "mesh.svg",         "mesh.x.svg",    "hosts.txt",
+    "3036vf.csv",       "textbook.py",   "results.json",
+    "set.json",         "matrix.html",   "my_ccd.cpp",
+    "ccd.py",           "core"};
 const std::set<std::string> written_folders = {"build", "certified", "failures"};
 
 // The text with everything but its comments blanked out; lines stay where they are. A README is a

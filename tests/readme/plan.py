@@ -13,6 +13,8 @@ the program built. It has to end with 0.
 A synopsis has places to fill in (DIR, [--seed N], a|b), so it is never run; it needs no entry here,
 for run.py knows one when it sees it, and checks it as it does those of NOT_RUN.
 
+    TYPED     doors.py types the whole page, from nothing to a gate.
+
 A chunk that is in none of these lists fails the test, and so does an entry that no README has.
 """
 
@@ -41,7 +43,6 @@ GIVEN = {
 GIVEN_SLOW = {
     "README.md": ["assay run --campaign smoke --out build/certify"],
     "reports/certificate/README.md": ["assay certify --campaign smoke --out build/certify"],
-    "reports/judge/TEN_MINUTES.md": ["assay run --campaign smoke --out build/certify"],
 }
 
 QUICK = {
@@ -71,18 +72,6 @@ QUICK = {
         "assay replay quick:1:closed-generic:5 --why 0,5",
         "assay replay corpus/curated/B1_one_vertex_own_nearest.json --export build/export",
         "assay list faults",
-    ],
-    "reports/judge/TEN_MINUTES.md": [
-        "export PATH=$PWD/build/release:$PATH",
-        "cp tests/plugins/additive_ccd.cpp my_ccd.cpp",
-        "c++ -std=c++17 -O2 -shared -fPIC -I . my_ccd.cpp -o my_ccd.so",
-        "assay check-queries --detector ./my_ccd.so corpus/queries/example_vf.csv",
-        "sed -i 's/^  const double u = share.*/&\\n  s = share(ab * u - ag, aa);/' my_ccd.cpp",
-        "c++ -std=c++20 -O2 -I . tests/recording/cloth.cpp -o cloth",
-        "./cloth steps.log slip",
-        "assay judge steps.log --out build/judged",
-        "./cloth steps.log",
-        "assay judge steps.log",
     ],
     "reports/python/README.md": [
         "export PYTHONPATH=$PWD/build/release/python",
@@ -124,11 +113,6 @@ SLOW = {
         "assay verify build/certify",
         "assay verify build/certify --again 0.05",
     ],
-    "reports/judge/TEN_MINUTES.md": [
-        "assay run --campaign smoke --detector ./my_ccd.so --power build/certify --out build/mine",
-        "assay replay build/mine/failures/search-smoke-1-001-173-my-CCD-smallest.json --detector ./my_ccd.so",
-        "assay run --campaign smoke --detector ./my_ccd.so --power build/certify --out build/mine-mended",
-    ],
     "detector/README.md": [
         "cmake -S detector -B build/detector && cmake --build build/detector",
     ],
@@ -145,8 +129,10 @@ ENDS = {
         "assay run --campaign smoke --detector build/release/peers/cubic_double.so --power build/certify --out build/cubic": [1],
     },
     "reports/judge/TEN_MINUTES.md": {
-        "assay run --campaign smoke --detector ./my_ccd.so --power build/certify --out build/mine": [1],
-        "assay replay build/mine/failures/search-smoke-1-001-173-my-CCD-smallest.json --detector ./my_ccd.so": [1, 0],
+        "assay run --campaign detector/plugin/ci/push.json --detector ./my_ccd.so --power build/proof --out build/mine": [1],
+        "assay replay build/mine/failures/search-push-1-001-259-my-CCD-smallest.json --detector ./my_ccd.so": [1, 0],
+        "SEED=1 SOURCES=tests/plugins/additive_ccd.cpp sh detector/plugin/ci/job.sh": [1],
+        "SEED=3 sh detector/plugin/ci/job.sh": [1],
         "assay judge steps.log --out build/judged": [1],
     },
 }
@@ -165,8 +151,11 @@ SHOWN = {
         "assay run --campaign smoke --out build/smoke": "canary pair/zero-zero-dropped",
     },
     "reports/judge/TEN_MINUTES.md": {
-        "assay run --campaign smoke --detector ./my_ccd.so --power build/certify --out build/mine": "claims     FAILS",
-        "assay run --campaign smoke --detector ./my_ccd.so --power build/certify --out build/mine-mended": "claims     holds",
+        "assay run --campaign detector/plugin/ci/push.json --detector ./my_ccd.so --power build/proof --out build/mine": "claims     FAILS",
+        "assay replay build/mine/failures/search-push-1-001-259-my-CCD-smallest.json --detector ./my_ccd.so": "my CCD: defect",
+        "assay run --campaign detector/plugin/ci/push.json --detector ./my_ccd.so --power build/proof --out build/mine-mended": "claims     holds",
+        "SEED=1 SOURCES=tests/plugins/additive_ccd.cpp sh detector/plugin/ci/job.sh": "corpus     FAILS",
+        "SEED=3 sh detector/plugin/ci/job.sh": "verdict: defect",
         "assay judge steps.log --out build/judged": "step 111: free; DIFFER",
         "assay judge steps.log": "500 of 500 steps judged",
     },
@@ -176,9 +165,6 @@ NOT_RUN = {
     "README.md": {
         "reports/certify": "installs packages and builds; the slow list certifies by the program",
         "ninja -C build/release peer_cubic_double": LENT,
-    },
-    "reports/judge/TEN_MINUTES.md": {
-        "reports/certify": "installs packages and builds; the slow list certifies by the program",
     },
     "reports/bench/README.md": {
         "python3 reports/pictures/sequences.py assay reports/pictures/sequences.svg":
@@ -234,6 +220,9 @@ NOT_RUN = {
     },
 }
 
+# Pages whose every line doors.py types.
+TYPED = {"reports/judge/TEN_MINUTES.md"}
+
 PYTHON = "Python; tests/reports/python/examples_test.py runs all of it"
 NO_COMMAND = {
     "README.md": {
@@ -255,6 +244,8 @@ NO_COMMAND = {
         '#include "detector/plugin/assay_detector.hpp"': "C++; a test compares it with the file",
         "claims     FAILS": "what `assay run` prints",
         "my CCD: defect": "what `assay replay` prints before the fault is mended",
+        "corpus     FAILS": "what the job prints of a fault",
+        "verdict: defect": "what the job prints of a fault in Python",
         "claims     holds": "what `assay run` prints",
         "step 111: free; DIFFER": "what `assay judge` prints",
         "500 of 500 steps judged": "what `assay judge` prints",
@@ -280,7 +271,7 @@ NO_COMMAND = {
         "// A detector by spheres": "C++; a test compiles and runs it, and compares the two",
         "find_package(assay 0.3": "CMake; tests/consumer/plugin builds plug-ins so",
         "c++ -std=c++17 -O2 -shared -fPIC $(pkg-config": "a shell's; tests/consumer/pkg_config.sh builds so",
-        'home="${ASSAY:-/usr}"': "a job; a test runs it, and compares the two",
+        "assay=$(command -v assay)": "a job; a test runs it, and compares the two",
         "assay_builtin_save(handle": "C; tests/consumer compiles a whole program like it",
         '#include "detector/plugin/assay_record.h"': "C; tests/recording compiles and runs it",
     },

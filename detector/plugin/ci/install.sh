@@ -6,4 +6,5 @@ set -e
 sources=$(cd "$(dirname "$0")/../../.." && pwd)
 ls .package/assay_*.deb >/dev/null 2>&1 || "$sources/reports/package/pack" --yes --out .package
 apt-get update -qq
-apt-get install -y -qq --no-install-recommends g++ ./.package/assay_*.deb
+case ${DETECTOR-} in python:*) needs=python3-numpy ;; *) needs=g++ ;; esac
+apt-get install -y -qq --no-install-recommends "$needs" ./.package/assay_*.deb

@@ -31,8 +31,8 @@ class CiJob : public testing::Test {
   int run_line(const std::string& line) {
     const std::string log = scratch / "log";
     const std::string words =
-        "cd " + (scratch / "mine") + " && export ASSAY=" + (scratch / "assay") +
-        " CAMPAIGN=" + (scratch / "few.json") + "; (" + line + ") >" + log + " 2>&1";
+        "cd " + (scratch / "mine") + " && export PATH=" + (scratch / "assay/build/release") +
+        ":$PATH CAMPAIGN=" + (scratch / "few.json") + "; (" + line + ") >" + log + " 2>&1";
     const int status = std::system(words.c_str());
     printed = read_text(log);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
@@ -90,6 +90,18 @@ TEST_F(CiJob, TakesOwnSourcesAndFlagsAndNeedsNoCases) {
   fs::create_directories(scratch / "mine/cases");
   EXPECT_EQ(run("2"), 0) << printed;
   EXPECT_TRUE(contains(printed, "there is no case in it yet")) << printed;
+}
+
+TEST_F(CiJob, CompilesNothingWhereTheDetectorIsThere) {
+  EXPECT_EQ(run("2", "DETECTOR=" + plugin("example_in_cpp")), 0) << printed;
+  EXPECT_FALSE(fs::exists(scratch / "mine/libmine.so"));
+  // Another campaign has a proof of its own, which is made before the detector is looked for.
+  const std::string other = scratch / "other.json";
+  fs::copy_file(scratch / "few.json", other);
+  EXPECT_EQ(run("3", "DETECTOR=./none.so CAMPAIGN=" + other), 2) << printed;
+  EXPECT_EQ(std::distance(fs::directory_iterator(scratch / "mine/proof"), {}), 2);
+  EXPECT_EQ(run_line("PATH=/usr/bin:/bin sh " + (source / job_file).string()), 2);
+  EXPECT_EQ(printed, "the shell finds no assay: is it in PATH?\n");
 }
 
 // The lines of a file for a CI service that begin with one of these words, as a shell gets them.
