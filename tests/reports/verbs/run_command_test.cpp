@@ -8,6 +8,14 @@ namespace {
 
 class Run : public RunFixture {};
 
+// How many kinds of failure a text tells, in full or in a line.
+std::size_t defects_told(const std::string& text) {
+  std::size_t count = 0;
+  const std::string mark = "\nDEFECT ";
+  for (auto at = text.find(mark); at != std::string::npos; at = text.find(mark, at + 1)) ++count;
+  return count;
+}
+
 TEST_F(Run, SaysWhatItWillDoAndHowItEnded) {
   const auto first = run("--seed 5 --jobs 2");
   EXPECT_EQ(first.exit_code, 0) << first.out << first.err;
@@ -91,8 +99,19 @@ TEST_F(Run, ADefectHasAllThatIsNeededToSeeIt) {
   const auto pasted = outcome.out.substr(next, outcome.out.find('\n', next) - next);
   EXPECT_TRUE(contains(pasted, "/assay report '")) << outcome.out;
   EXPECT_EQ(std::system((pasted + " >/dev/null").c_str()), 0) << pasted;
-  const auto lines = replay_lines(outcome.out);
-  ASSERT_FALSE(lines.empty());
+  // One kind of failure is told in full, every other one in a line; the list has all in full.
+  const auto printed = replay_lines(outcome.out);
+  ASSERT_EQ(printed.size(), 1u) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "each with its line to replay: ")) << outcome.out;
+  const auto listed = run_assay("list failures " + out);
+  EXPECT_EQ(listed.exit_code, 0);
+  const auto lines = replay_lines(listed.out);
+  EXPECT_EQ(lines.front(), printed.front());
+  EXPECT_GT(lines.size(), 1u);
+  const std::regex in_a_line("\nDEFECT [a-z-]+: [^\n]*, met [^\n]*: 2 triangles, [^\n]*, 1 step\n");
+  std::smatch kind;
+  EXPECT_TRUE(std::regex_search(outcome.out, kind, in_a_line)) << outcome.out;
+  EXPECT_EQ(defects_told(outcome.out), lines.size()) << outcome.out;
   for (const auto& line : lines) {
     EXPECT_TRUE(contains(line, "/failures/tiny-1-")) << line;
     EXPECT_TRUE(contains(line, "-smallest.json")) << line;
@@ -112,10 +131,7 @@ TEST_F(Run, ADefectHasAllThatIsNeededToSeeIt) {
   EXPECT_TRUE(contains(read_text(folder + "/summary.md"), "## Assay: defect\n"));
   EXPECT_TRUE(contains(read_text(folder + "/junit.xml"), "<failure message="));
   EXPECT_GE(originals, smallest);
-  const auto listed = run_assay("list failures " + out);
-  EXPECT_EQ(listed.exit_code, 0);
-  EXPECT_TRUE(contains(listed.out, " times  free-sound: answered free, ")) << listed.out;
-  EXPECT_TRUE(contains(listed.out, "tiny:1:")) << listed.out;
+  EXPECT_TRUE(contains(listed.out, "  also tiny:1:")) << listed.out;
 }
 
 TEST_F(Run, PlugInsGetTheVerdictsThatTheyDeserve) {
