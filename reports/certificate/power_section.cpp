@@ -9,6 +9,7 @@
 #include "properties/reducer/mesh_size.h"
 #include "reports/campaign/failure_text.h"
 #include "reports/certificate/sections.h"
+#include "reports/certificate/told_paths.h"
 
 namespace assay::reports {
 namespace {
@@ -191,8 +192,7 @@ Json size_json(const std::string& text) {
 }  // namespace
 
 Json failures_json(const properties::RunFindings& findings) {
-  const auto& paths = findings.evidence.paths;
-  const std::string out = paths ? paths->out : findings.folder.string();
+  const auto out = stored_folder(findings);
   Json list = Json::array();
   for (const auto* failure : findings.kinds()) {
     const bool is_shrunk = !failure->smallest.empty();

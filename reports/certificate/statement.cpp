@@ -8,6 +8,7 @@
 #include "properties/campaign/gates/not_judged.h"
 #include "properties/campaign/ledger/run_folder.h"
 #include "reports/certificate/sections.h"
+#include "reports/certificate/told_paths.h"
 #include "reports/terminal/words.h"
 
 namespace assay::reports {
@@ -107,6 +108,11 @@ Json replay_json(const RunFindings& findings) {
 // will be read back from the file.
 Json in_utf8(const Json& json) { return Json::parse(corpus::json_text(json)); }
 
+Json for_any_reader(const RunFindings& findings, Json predicate) {
+  ToldPaths(findings).tell_in(predicate);
+  return in_utf8(predicate);
+}
+
 }  // namespace
 
 Json make_predicate(const RunFindings& findings, const properties::Judgement& judgement,
@@ -115,7 +121,8 @@ Json make_predicate(const RunFindings& findings, const properties::Judgement& ju
   for (const auto& problem : findings.evidence.problems) {
     if (!problem.what.empty()) problems.push_back(problem.what);
   }
-  return in_utf8(
+  return for_any_reader(
+      findings,
       {{"schema", certificate_schema},
        {"verdict", judgement.verdict},
        {"exit_code", judgement.exit_code},

@@ -246,8 +246,7 @@ class Certification {
 
   Expected<int> issue() {
     const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
-    keep(properties::Issued{fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))),
-                            seconds});
+    keep(properties::Issued{properties::time_in_utc(), seconds});
     checks_.seal();
     if (const auto& problem = checks_.problem()) return *problem;
     // The code of a plug-in may have reached the files. So there is a verdict on what was stored,

@@ -32,7 +32,8 @@ Expected<void> write_files(const properties::CampaignRequest& request,
   const auto& shard = request.shard;
   const auto part =
       shard.count == 1 ? std::string() : fmt::format("-shard-{}-of-{}", shard.index, shard.count);
-  return write_for_ci(make_predicate(findings, judgement, request.plan, ""), findings.folder, part);
+  return write_for_ci(make_predicate(findings, judgement, request.plan, ""), findings.folder, part,
+                      findings.begun);
 }
 
 Expected<int> conclude(const properties::CampaignRequest& request,

@@ -31,7 +31,10 @@ TEST_F(Run, SaysWhatItWillDoAndHowItEnded) {
   }
   EXPECT_TRUE(contains(first.out, "writes " + out + "\n"));
   EXPECT_TRUE(contains(first.out, "of 16 cases (16 distinct, 0 discarded)")) << first.out;
-  EXPECT_TRUE(contains(read_text(out + "/summary.md"), "## Assay: holds\n"));
+  const auto summary = read_text(out + "/summary.md");
+  EXPECT_TRUE(contains(summary, "## Assay: holds\n"));
+  EXPECT_TRUE(std::regex_search(summary, std::regex(" Begun 20\\d\\d-\\d\\d-\\d\\dT[0-9:]{8}Z\\.")))
+      << summary;
   EXPECT_TRUE(contains(read_text(out + "/junit.xml"), "name=\"broken, bvh\"/>"));
   EXPECT_FALSE(contains(first.out, "planted faults"));
   EXPECT_FALSE(contains(first.out, "next:"));
@@ -44,6 +47,8 @@ TEST_F(Run, SaysWhatItWillDoAndHowItEnded) {
   EXPECT_FALSE(contains(again.out, "trials in ")) << again.out;
   EXPECT_TRUE(contains(again.out, "\nholds: 0 trials with a defect"));
   EXPECT_EQ(trials_of(out), trials);
+  // Its day as well.
+  EXPECT_EQ(read_text(out + "/summary.md"), summary);
 
   for (const auto& other :
        {std::string("--seed 6"), "--seed 5 --detector " + plugin("always_free")}) {
@@ -125,9 +130,13 @@ TEST_F(Run, ADefectHasAllThatIsNeededToSeeIt) {
     smallest += contains(file.path().string(), "-smallest.json");
   }
   EXPECT_EQ(smallest, lines.size());
-  // The same line everywhere.
-  const std::string folder = scratch / "with space";
-  EXPECT_TRUE(contains(read_text(folder + "/summary.md"), "    assay " + lines[0] + "\n"));
+  // The same line for readers who have no folder of this machine.
+  const std::string folder = scratch / "with space", summary = read_text(folder + "/summary.md");
+  EXPECT_TRUE(contains(summary, "\n    assay replay failures/tiny-1-")) << summary;
+  for (const auto& told : {summary, read_text(folder + "/junit.xml")}) {
+    EXPECT_FALSE(contains(told, scratch / "")) << told;
+    EXPECT_FALSE(contains(told, ASSAY_PLUGIN_DIR)) << told;
+  }
   EXPECT_TRUE(contains(read_text(folder + "/summary.md"), "## Assay: defect\n"));
   EXPECT_TRUE(contains(read_text(folder + "/junit.xml"), "<failure message="));
   EXPECT_GE(originals, smallest);
