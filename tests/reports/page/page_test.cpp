@@ -198,7 +198,7 @@ TEST_F(Runs, APageTellsNoFolderOfTheMachineThatItIsMadeOn) {
   }
 }
 
-// As when somebody breaks the shipped detector. tests/page/run names a folder and looks at the page.
+// As when the shipped detector is broken. tests/page/run names a folder and looks at the page.
 TEST_F(Runs, AFailingBuiltInDetectorIsShownWithItsViews) {
   const char* named = std::getenv("ASSAY_FAULTY_RUN");
   const std::string folder = named ? named : scratch / "faulty";
