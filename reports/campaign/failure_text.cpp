@@ -20,7 +20,8 @@ using properties::failure_file;
 
 std::string replay_line(const std::filesystem::path& out, const std::filesystem::path& file,
                         const DetectorWords& detector) {
-  return fmt::format("assay replay {}{}", shell_word(absolute_path(out / file)),
+  return fmt::format("assay replay {}{}",
+                     shell_word(out.empty() ? file.string() : absolute_path(out / file)),
                      detector_words(absolute_path(detector.library), detector.threads));
 }
 
@@ -147,24 +148,36 @@ Expected<void> write_failures(const properties::KeptFailures& kept,
                               std::string& text) {
   if (kept.list.empty()) return outcome::success();
   const auto failures = in_order(kept.list);
-  const auto& first = failures.front();
   SceneMaker scenes(detector);
   std::set<std::string> told;
+  std::vector<const StoredFailure*> kinds;
   for (const auto& failure : failures) {
     const auto file_of = [&](bool smallest) { return out / failure_file(failure, smallest); };
     BOOST_OUTCOME_TRY(write_meshes(failure, file_of));
     if (!told.insert(failure.signature).second) continue;
     BOOST_OUTCOME_TRY(write_picture(scenes, failure, file_of, failure.signature));
-    const auto count = kept.times_met.find(failure.signature);
-    const auto times = properties::times_text(count == kept.times_met.end() ? 1 : count->second);
-    text += &failure == &first ? paragraph(failure, times, out, detector)
-                               : fmt::format("DEFECT {}{}, met {}: {}\n", failure.signature,
-                                             failure.configuration == first.configuration
-                                                 ? ""
-                                                 : " (" + failure.configuration + ")",
-                                             times, smallest_size(failure));
+    kinds.push_back(&failure);
   }
-  if (told.size() > 1)
+  const auto met = [&](const StoredFailure& failure) {
+    const auto count = kept.times_met.find(failure.signature);
+    return count == kept.times_met.end() ? 1 : count->second;
+  };
+  const auto& first =
+      **std::max_element(kinds.begin(), kinds.end(), [&](const auto* a, const auto* b) {
+        const auto rank = [&](auto* kind) {
+          return std::pair(!kind->smallest.empty(), met(*kind));
+        };
+        return rank(a) < rank(b);
+      });
+  text += paragraph(first, properties::times_text(met(first)), out, detector);
+  for (const auto* kind : kinds) {
+    const auto& [name, configuration] = std::tie(kind->signature, kind->configuration);
+    if (kind == &first) continue;
+    text += fmt::format("DEFECT {}{}, met {}: {}\n", name,
+                        configuration == first.configuration ? "" : " (" + configuration + ")",
+                        properties::times_text(met(*kind)), smallest_size(*kind));
+  }
+  if (kinds.size() > 1)
     text += fmt::format("each with its line to replay: {} list failures {}\n", this_program(),
                         shell_word(out.string()));
   return outcome::success();

@@ -12,8 +12,8 @@
 
 namespace assay::reports {
 
-// "assay replay OUT/failures/... --detector LIB.so", to be pasted in any folder. So it stands in
-// certificates and pages.
+// "assay replay OUT/failures/... --detector LIB.so", to be pasted in any folder. Without `out` it is
+// for the folder of the run: so it stands in certificates and pages.
 std::string replay_line(const std::filesystem::path& out, const std::filesystem::path& file,
                         const DetectorWords& detector);
 
@@ -25,7 +25,7 @@ DetectorWords detector_of(const properties::RunFindings& findings);
 
 // Writes OUT/failures/CASE-CONFIGURATION-original.json and -smallest.json for each stored failure,
 // under the same names in every run and shard, and a picture (.svg) of the smallest mesh of each
-// signature. `text` gets one paragraph for the least odd signature: claim, how often it was met,
+// signature. `text` gets one paragraph for the signature that was met most often: claim, how often,
 // both sizes, triangles, feature, and the line that replays it. Each other one is a line of it.
 // `detector` is the one that failed.
 Expected<void> write_failures(const properties::KeptFailures& kept,

@@ -98,10 +98,9 @@ Json replay_json(const RunFindings& findings) {
   if (!paths->data.empty()) folders += fmt::format(" --data {}", shell_word(paths->data));
   return Json::array(
       {fmt::format("assay certify --campaign {} --seed {}{}{} --out AGAIN",
-                   shell_word(properties::campaign_file(paths->out).string()), findings.run.seed,
+                   properties::campaign_file("").string(), findings.run.seed,
                    detector_words(paths->detector, findings.run.detector.threads), folders),
-       fmt::format("assay verify {}",
-                   shell_word(properties::certificate_file(paths->out).string()))});
+       fmt::format("assay verify {}", properties::certificate_file("").string())});
 }
 
 // Replaces what is not UTF-8 in the statement, such as in the name of a folder. The result is what

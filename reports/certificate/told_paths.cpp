@@ -16,16 +16,11 @@ void replace_all(std::string& text, const std::string& what, const std::string& 
 
 }  // namespace
 
-std::string stored_folder(const properties::RunFindings& findings) {
-  const auto& stored = findings.evidence.paths;
-  return stored ? stored->out : findings.folder.string();
-}
-
 ToldPaths::ToldPaths(const properties::RunFindings& findings) {
-  const auto folder = stored_folder(findings);
+  const auto& stored = findings.evidence.paths;
+  const auto folder = stored ? stored->out : findings.folder.string();
   const std::filesystem::path whole = absolute_path(std::filesystem::path(folder) / "");
   if (!folder.empty() && whole != whole.root_path()) folder_ = whole.string();
-  const auto& stored = findings.evidence.paths;
   for (const auto& path : {findings.library, stored ? stored->detector : "",
                            stored ? stored->own_cases : "", stored ? stored->data : ""}) {
     if (std::filesystem::path(path).is_absolute()) others_.insert({path, absolute_path(path)});

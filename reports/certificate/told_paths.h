@@ -25,7 +25,4 @@ class ToldPaths {
   std::set<std::string, std::greater<>> others_;  // a folder after what lies in it
 };
 
-// The folder of a run, as it was when the run was stored.
-std::string stored_folder(const properties::RunFindings& findings);
-
 }  // namespace assay::reports

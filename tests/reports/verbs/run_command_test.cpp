@@ -111,7 +111,7 @@ TEST_F(Run, ADefectHasAllThatIsNeededToSeeIt) {
   const auto listed = run_assay("list failures " + out);
   EXPECT_EQ(listed.exit_code, 0);
   const auto lines = replay_lines(listed.out);
-  EXPECT_EQ(lines.front(), printed.front());
+  EXPECT_NE(std::find(lines.begin(), lines.end(), printed.front()), lines.end());
   EXPECT_GT(lines.size(), 1u);
   const std::regex in_a_line("\nDEFECT [a-z-]+: [^\n]*, met [^\n]*: 2 triangles, [^\n]*, 1 step\n");
   std::smatch kind;
