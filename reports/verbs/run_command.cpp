@@ -64,13 +64,15 @@ Expected<void> run_own_cases(const properties::CampaignRequest& request, propert
   std::vector<properties::CorpusRow> rows;
   std::vector<properties::StoredFailure> failures;
   fmt::print("{}", corpus_heading());
+  CorpusTable table;
   check_own_cases(
       request,
       [&](const auto& row) {
-        fmt::print("{}", corpus_row_text(row));
+        table.add(row);
         rows.push_back(row);
       },
       [&](const auto& failure) { failures.push_back(failure); });
+  table.end();
   fmt::print("\n");
   return properties::keep_own_cases(store, rows, failures);
 }

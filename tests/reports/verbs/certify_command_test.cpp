@@ -82,13 +82,13 @@ TEST_F(Certify, ACertificateVerifiesAndNoFieldOrFileCanBeChanged) {
   const auto made = certify();
   ASSERT_EQ(made.exit_code, 0) << made.out << made.err;
   for (const std::string word :
-       {"curated cases      view-auto", "speed (a ratio)",
+       {"breathing-sphere   each of 10 ", "speed (a ratio)",
         "self-test of the oracle: 0 contradictions", "verdict: certified in ", "/assay verify "}) {
     EXPECT_TRUE(contains(made.out, word)) << word << "\n" << made.out;
   }
   // The row that the top README shows is this one.
   const auto readme = read_text(std::string(ASSAY_SOURCE_DIR) + "/README.md");
-  const auto row = made.out.find("curated cases      auto ");
+  const auto row = made.out.find("curated cases      each of 6 ");
   ASSERT_NE(row, std::string::npos);
   EXPECT_TRUE(
       contains(readme, "    " + made.out.substr(row, made.out.find('\n', row) - row) + "\n"))
