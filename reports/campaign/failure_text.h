@@ -12,8 +12,8 @@
 
 namespace assay::reports {
 
-// "assay replay OUT/failures/... --detector LIB.so", to be pasted in any folder. Without `out` it is
-// for the folder of the run: so it stands in certificates and pages.
+// "assay replay OUT/failures/... --detector LIB.so", to be pasted in any folder. Without `out` it
+// is for the folder of the run: so it stands in certificates and pages.
 std::string replay_line(const std::filesystem::path& out, const std::filesystem::path& file,
                         const DetectorWords& detector);
 
