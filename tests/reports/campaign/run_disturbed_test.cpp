@@ -162,10 +162,10 @@ TEST(RunDisturbed, WorkersKilledAtRandomMomentsChangeNeitherVerdictNorTallies) {
   EXPECT_EQ(read_text(out + "/junit.xml"), read_text(undisturbed + "/junit.xml"));
   // But for the time at which each run was begun.
   const auto summary = [](const std::string& folder) {
-    const auto whole = read_text(folder + "/summary.md");
+    const auto told = read_text(folder + "/summary.md");
     const std::regex begun(" Begun 20[0-9T:-]{17}Z\\.");
-    EXPECT_TRUE(std::regex_search(whole, begun)) << whole;
-    return std::regex_replace(whole, begun, "");
+    EXPECT_TRUE(std::regex_search(told, begun)) << told;
+    return std::regex_replace(told, begun, "");
   };
   EXPECT_EQ(summary(out), summary(undisturbed));
   EXPECT_TRUE(contains(read_text(out + "/summary.md"), "## Assay: holds\n"));
