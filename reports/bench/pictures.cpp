@@ -49,7 +49,7 @@ std::string plot(int width, int height, const std::string& settings,
   }
   const bool are_several = panels.size() > 1;
   return fmt::format(
-      "set terminal svg size {},{} font 'Helvetica,13' background '#ffffff' linewidth 1\n"
+      "set terminal svg size {},{} font 'Helvetica,13' linewidth 1\n"
       "set encoding utf8\n"
       "set border 3 linecolor '#555555'\n"
       "set tics nomirror textcolor '#222222'\n"
@@ -230,6 +230,7 @@ std::string heat_picture(std::span<const HeatCell> cells) {
   constexpr const char* palette =
       "set palette defined (0 '#2d1160', 0.5 '#b5367a', 0.8 '#fb8761', 1 '#fcfdda')\n";
   constexpr double dark_below = 0.7;
+  constexpr int dark_on_a_cell = 0x1a1a1a;      // no colour of `dark_scheme`: a cell stays as it is
   constexpr int row_height = 26, around = 130;  // in pixels
   std::vector<std::string> rows, columns;
   std::map<std::pair<std::size_t, std::size_t>, HeatCell> totals;
@@ -245,9 +246,9 @@ std::string heat_picture(std::span<const HeatCell> cells) {
   for (const auto& [place, total] : totals) {
     if (total.cases == 0) continue;
     const double share = static_cast<double>(total.right) / total.cases;
-    data +=
-        fmt::format("{} {} {} {} {}\n", place.second, place.first, share,
-                    share < dark_below ? 0xffffff : 0x222222, quoted_for_gnuplot(words_of(total)));
+    data += fmt::format("{} {} {} {} {}\n", place.second, place.first, share,
+                        share < dark_below ? 0xffffff : dark_on_a_cell,
+                        quoted_for_gnuplot(words_of(total)));
   }
   panel.series = {{data, "using 1:2:3 with image pixels"},
                   {data, "using 1:2:5:4 with labels textcolor rgb variable noenhanced"}};
@@ -349,6 +350,28 @@ int run(std::FILE* in, std::FILE* out, std::FILE* err) {
 
 }  // namespace
 
+namespace {
+
+// gnuplot knows one scheme. In a dark one letters and lines follow, as in the other pictures; the
+// ground is that of the page.
+constexpr std::string_view dark_scheme = R"css(<style>@media (prefers-color-scheme: dark) {
+[fill="black"], [fill="rgb(34,34,34)"] { fill: #e6edf3 }
+[stroke="black"], [stroke="rgb(  0,   0,   0)"] { stroke: #e6edf3 }
+[stroke="rgb( 85,  85,  85)"] { stroke: #9da7b1 }
+[stroke="rgb(221, 221, 221)"] { stroke: #3d444d }
+[color="black"], [color="rgb( 51,  51,  51)"] { color: #e6edf3 }
+}</style>
+)css";
+
+std::string in_both_schemes(std::string svg) {
+  constexpr std::string_view before = "<g id=\"gnuplot_canvas\">";
+  const auto at = svg.find(before);
+  if (at != std::string::npos) svg.insert(at, dark_scheme);
+  return svg;
+}
+
+}  // namespace
+
 Drawing draw(const std::string& script) {
   const TemporaryFile in(std::tmpfile()), out(std::tmpfile()), err(std::tmpfile());
   if (!in || !out || !err) return {{}, "no temporary file could be made to draw with"};
@@ -365,7 +388,7 @@ Drawing draw(const std::string& script) {
     for (char& c : said) c = c == '\n' ? ' ' : c;
     return {{}, "gnuplot drew nothing: " + said};
   }
-  return {std::move(svg), {}};
+  return {in_both_schemes(std::move(svg)), {}};
 }
 
 std::string cannot_draw() { return draw("set terminal svg\nplot x\n").problem; }

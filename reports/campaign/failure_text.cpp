@@ -20,7 +20,8 @@ using properties::failure_file;
 
 std::string replay_line(const std::filesystem::path& out, const std::filesystem::path& file,
                         const DetectorWords& detector) {
-  return fmt::format("assay replay {}{}", shell_word(absolute_path(out / file)),
+  return fmt::format("assay replay {}{}",
+                     shell_word(out.empty() ? file.string() : absolute_path(out / file)),
                      detector_words(absolute_path(detector.library), detector.threads));
 }
 
@@ -110,39 +111,93 @@ Expected<void> write_picture(SceneMaker& scenes, const Kept& kept, const FileOf&
                               title);
 }
 
-}  // namespace
+using properties::StoredFailure;
 
-Expected<void> write_failures(const properties::KeptFailures& kept,
-                              const std::filesystem::path& out, const DetectorWords& detector,
-                              std::string& text) {
-  auto failures = kept.list;
-  if (failures.empty()) return outcome::success();
+// The shrunk ones first, and the least odd of these. The first of each signature stands for it.
+std::vector<StoredFailure> in_order(std::vector<StoredFailure> failures) {
   std::stable_sort(failures.begin(), failures.end(), [](const auto& a, const auto& b) {
     return properties::LeastOddFirst()(a.signature, b.signature);
   });
   std::stable_partition(failures.begin(), failures.end(),
                         [](const auto& failure) { return !failure.smallest.empty(); });
+  return failures;
+}
+
+std::string smallest_size(const StoredFailure& failure) {
+  return size_of_mesh(failure.smallest.empty() ? failure.mesh : failure.smallest);
+}
+
+// A kind of failure: one of its failures, in full.
+std::string paragraph(const StoredFailure& failure, const std::string& times,
+                      const std::filesystem::path& out, const DetectorWords& detector) {
+  const bool is_shrunk = !failure.smallest.empty();
+  const auto file = failure_file(failure, is_shrunk);
+  return fmt::format(
+      "\nDEFECT {} ({}), met {}\n  {}\n  case {}: {}{}\n{}  picture {}\n  replay: {}\n{}",
+      failure.signature, failure.configuration, times, shown_explanation(failure), failure.id,
+      size_of_mesh(failure.mesh), is_shrunk ? " -> " + size_of_mesh(failure.smallest) : "",
+      failure.flaky ? "  two runs of it differ: a replay may hold\n" : "",
+      picture_file(absolute_path(out / file)), pasted(replay_line(out, file, detector)),
+      printed_text(failure.printed));
+}
+
+}  // namespace
+
+Expected<void> write_failures(const properties::KeptFailures& kept,
+                              const std::filesystem::path& out, const DetectorWords& detector,
+                              std::string& text) {
+  if (kept.list.empty()) return outcome::success();
+  const auto failures = in_order(kept.list);
   SceneMaker scenes(detector);
   std::set<std::string> told;
+  std::vector<const StoredFailure*> kinds;
   for (const auto& failure : failures) {
     const auto file_of = [&](bool smallest) { return out / failure_file(failure, smallest); };
     BOOST_OUTCOME_TRY(write_meshes(failure, file_of));
     if (!told.insert(failure.signature).second) continue;
     BOOST_OUTCOME_TRY(write_picture(scenes, failure, file_of, failure.signature));
-    const bool is_shrunk = !failure.smallest.empty();
-    const auto count = kept.times_met.find(failure.signature);
-    text += fmt::format(
-        "\nDEFECT {} ({}), met {}\n  {}\n  case {}: {}{}\n{}  picture {}\n  replay: {}\n{}",
-        failure.signature, failure.configuration,
-        properties::times_text(count == kept.times_met.end() ? 1 : count->second),
-        shown_explanation(failure), failure.id, size_of_mesh(failure.mesh),
-        is_shrunk ? " -> " + size_of_mesh(failure.smallest) : "",
-        failure.flaky ? "  two runs of it differ: a replay may hold\n" : "",
-        picture_file(file_of(is_shrunk).string()),
-        pasted(replay_line(out, failure_file(failure, is_shrunk), detector)),
-        printed_text(failure.printed));
+    kinds.push_back(&failure);
   }
+  const auto met = [&](const StoredFailure& failure) {
+    const auto count = kept.times_met.find(failure.signature);
+    return count == kept.times_met.end() ? 1 : count->second;
+  };
+  const auto& first =
+      **std::max_element(kinds.begin(), kinds.end(), [&](const auto* a, const auto* b) {
+        const auto rank = [&](auto* kind) {
+          return std::pair(!kind->smallest.empty(), met(*kind));
+        };
+        return rank(a) < rank(b);
+      });
+  text += paragraph(first, properties::times_text(met(first)), out, detector);
+  for (const auto* kind : kinds) {
+    const auto& [name, configuration] = std::tie(kind->signature, kind->configuration);
+    if (kind == &first) continue;
+    text += fmt::format("DEFECT {}{}, met {}: {}\n", name,
+                        configuration == first.configuration ? "" : " (" + configuration + ")",
+                        properties::times_text(met(*kind)), smallest_size(*kind));
+  }
+  if (kinds.size() > 1)
+    text += fmt::format("each with its line to replay: {} list failures {}\n", this_program(),
+                        shell_word(out.string()));
   return outcome::success();
+}
+
+std::string failures_text(const properties::RunFindings& findings) {
+  std::string out;
+  std::set<std::string> told;
+  const auto failures = in_order(findings.failures);
+  for (const auto& shown : failures) {
+    if (!told.insert(shown.signature).second) continue;
+    out += paragraph(shown, properties::times_text(findings.met_count(shown)), findings.folder,
+                     detector_of(findings));
+    for (const auto& other : failures) {
+      if (&other != &shown && other.signature == shown.signature)
+        out +=
+            fmt::format("  also {} ({}): {}\n", other.id, other.configuration, other.explanation);
+    }
+  }
+  return out.empty() ? "no failures\n" : out;
 }
 
 Expected<void> write_slow_cases(const std::vector<SlowCase>& cases,

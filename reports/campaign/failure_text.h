@@ -12,8 +12,8 @@
 
 namespace assay::reports {
 
-// "assay replay OUT/failures/... --detector LIB.so", to be pasted in any folder. So it stands in
-// certificates and pages.
+// "assay replay OUT/failures/... --detector LIB.so", to be pasted in any folder. Without `out` it
+// is for the folder of the run: so it stands in certificates and pages.
 std::string replay_line(const std::filesystem::path& out, const std::filesystem::path& file,
                         const DetectorWords& detector);
 
@@ -25,11 +25,15 @@ DetectorWords detector_of(const properties::RunFindings& findings);
 
 // Writes OUT/failures/CASE-CONFIGURATION-original.json and -smallest.json for each stored failure,
 // under the same names in every run and shard, and a picture (.svg) of the smallest mesh of each
-// signature. `text` gets one paragraph for each signature: claim, how often it was met, both
-// sizes, triangles, feature, and the line that replays it. `detector` is the one that failed.
+// signature. `text` gets one paragraph for the signature that was met most often: claim, how often,
+// both sizes, triangles, feature, and the line that replays it. Each other one is a line of it.
+// `detector` is the one that failed.
 Expected<void> write_failures(const properties::KeptFailures& kept,
                               const std::filesystem::path& out, const DetectorWords& detector,
                               std::string& text);
+
+// A paragraph for each signature of a run's failures, and a line for each further case of it.
+std::string failures_text(const properties::RunFindings& findings);
 
 // Writes two files for each case that was kept, OUT/slow/ID-CONFIGURATION-original.json and
 // -smallest.json, and a picture of the smaller one.

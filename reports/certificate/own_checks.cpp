@@ -259,13 +259,32 @@ std::string corpus_heading() {
                      "cases", "steps", "collisions", "pairs", "defects");
 }
 
-std::string corpus_row_text(const CorpusRow& row) {
-  std::string text =
-      fmt::format("{:<18} {:<18} {:>6} {:>6} {:>11} {:>7} {:>8}\n", row.input, row.configuration,
-                  row.cases, row.steps, row.collisions, row.pairs, row.defects);
-  for (const auto& open : row.open) text += fmt::format("  {}: {}\n", open.id, open.what);
-  for (const auto& failed : row.failed) text += fmt::format("  {}: {}\n", failed.id, failed.what);
-  return text;
+void CorpusTable::add(const CorpusRow& row) {
+  if (!rows_.empty() && rows_.front().input != row.input) end();
+  rows_.push_back(row);
+}
+
+void CorpusTable::end() {
+  const auto counts = [](const CorpusRow& row) {
+    return std::tuple(row.cases, row.steps, row.collisions, row.pairs, row.defects,
+                      row.open.size() + row.failed.size());
+  };
+  const bool share_one =
+      rows_.size() > 1 && rows_.front().open.empty() && rows_.front().failed.empty() &&
+      std::all_of(rows_.begin(), rows_.end(),
+                  [&](const auto& row) { return counts(row) == counts(rows_.front()); });
+  if (share_one) {
+    rows_.front().configuration = fmt::format("each of {}", rows_.size());
+    rows_.resize(1);
+  }
+  for (const auto& row : rows_) {
+    fmt::print("{:<18} {:<18} {:>6} {:>6} {:>11} {:>7} {:>8}\n", row.input, row.configuration,
+               row.cases, row.steps, row.collisions, row.pairs, row.defects);
+    for (const auto& open : row.open) fmt::print("  {}: {}\n", open.id, open.what);
+    for (const auto& failed : row.failed) fmt::print("  {}: {}\n", failed.id, failed.what);
+  }
+  std::fflush(stdout);
+  rows_.clear();
 }
 
 std::string corpus_digest(const std::filesystem::path& corpus) {

@@ -32,10 +32,19 @@ Expected<void> check_corpus(const properties::CampaignRequest& request,
 void check_own_cases(const properties::CampaignRequest& request, const OnCorpusRow& on_row,
                      const OnCorpusFailure& on_failure);
 
-// The text of a row on the terminal, with one line for each case that fails, and the heading above
-// the rows.
+// The heading above the rows on the terminal.
 std::string corpus_heading();
-std::string corpus_row_text(const properties::CorpusRow& row);
+
+// Collects the rows of an input, and prints them when the next input begins or `end` is called. If
+// all configurations came to the same, and to nothing that has to be told, they share one row.
+class CorpusTable {
+ public:
+  void add(const properties::CorpusRow& row);
+  void end();
+
+ private:
+  std::vector<properties::CorpusRow> rows_;
+};
 
 // SHA-256 over names and bytes of the case files.
 std::string corpus_digest(const std::filesystem::path& corpus);

@@ -191,8 +191,6 @@ Json size_json(const std::string& text) {
 }  // namespace
 
 Json failures_json(const properties::RunFindings& findings) {
-  const auto& paths = findings.evidence.paths;
-  const std::string out = paths ? paths->out : findings.folder.string();
   Json list = Json::array();
   for (const auto* failure : findings.kinds()) {
     const bool is_shrunk = !failure->smallest.empty();
@@ -210,7 +208,7 @@ Json failures_json(const properties::RunFindings& findings) {
                     {"after", is_shrunk ? size_json(failure->smallest) : Json(nullptr)},
                     {"file", name.generic_string()},
                     {"sha256", corpus::sha256_of(mesh)},
-                    {"replay", replay_line(out, name, detector_of(findings))}});
+                    {"replay", replay_line("", name, detector_of(findings))}});
   }
   return list;
 }

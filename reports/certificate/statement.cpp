@@ -8,6 +8,7 @@
 #include "properties/campaign/gates/not_judged.h"
 #include "properties/campaign/ledger/run_folder.h"
 #include "reports/certificate/sections.h"
+#include "reports/certificate/told_paths.h"
 #include "reports/terminal/words.h"
 
 namespace assay::reports {
@@ -97,15 +98,19 @@ Json replay_json(const RunFindings& findings) {
   if (!paths->data.empty()) folders += fmt::format(" --data {}", shell_word(paths->data));
   return Json::array(
       {fmt::format("assay certify --campaign {} --seed {}{}{} --out AGAIN",
-                   shell_word(properties::campaign_file(paths->out).string()), findings.run.seed,
+                   properties::campaign_file("").string(), findings.run.seed,
                    detector_words(paths->detector, findings.run.detector.threads), folders),
-       fmt::format("assay verify {}",
-                   shell_word(properties::certificate_file(paths->out).string()))});
+       fmt::format("assay verify {}", properties::certificate_file("").string())});
 }
 
 // Replaces what is not UTF-8 in the statement, such as in the name of a folder. The result is what
 // will be read back from the file.
 Json in_utf8(const Json& json) { return Json::parse(corpus::json_text(json)); }
+
+Json for_any_reader(const RunFindings& findings, Json predicate) {
+  ToldPaths(findings).tell_in(predicate);
+  return in_utf8(predicate);
+}
 
 }  // namespace
 
@@ -115,7 +120,8 @@ Json make_predicate(const RunFindings& findings, const properties::Judgement& ju
   for (const auto& problem : findings.evidence.problems) {
     if (!problem.what.empty()) problems.push_back(problem.what);
   }
-  return in_utf8(
+  return for_any_reader(
+      findings,
       {{"schema", certificate_schema},
        {"verdict", judgement.verdict},
        {"exit_code", judgement.exit_code},

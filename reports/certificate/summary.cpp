@@ -65,7 +65,8 @@ std::string strata_text(const Json& p) {
 }
 
 std::string failures_text(const Json& p) {
-  std::string out;
+  std::string out =
+      p["failures"].empty() ? "" : "\nLines to replay are for the folder of the run.\n";
   for (const auto& failure : p["failures"]) {
     const auto& after = failure["after"];
     out += fmt::format("\n**{}** ({}{}), {}{}\n\n    {}\n", cell(failure["signature"]),
@@ -131,10 +132,16 @@ std::string met_text(const Json& failure) {
                                                       : "met in the corpus alone";
 }
 
-std::string summary_text(const Json& p) {
+std::string summary_text(const Json& p, const std::string& begun) {
   const auto& power = p["power"];
   std::string out = fmt::format("## Assay: {}\n\n", cell(p["verdict"]));
   out += fmt::format("{}: {}.", cell(p["detector"]["name"]), cell(judged_text(p)));
+  const auto& issued = p["times"]["issued"];
+  if (!issued.is_null()) {
+    out += fmt::format(" Issued {}.", cell(issued));
+  } else if (!begun.empty()) {
+    out += fmt::format(" Begun {}.", cell(begun));
+  }
   if (count(power["planted"]) > 0)
     out += fmt::format(
         " {} of {} planted faults found: {}.", count(power["found"]), count(power["planted"]),
@@ -156,10 +163,11 @@ std::string summary_text(const Json& p) {
 }
 
 Expected<void> write_for_ci(const Json& predicate, const std::filesystem::path& out,
-                            const std::string& part) {
+                            const std::string& part, const std::string& begun) {
   auto written = write_text_file((out / ("junit" + part + ".xml")).string(), junit_text(predicate));
   if (!written) return written;
-  return write_text_file((out / ("summary" + part + ".md")).string(), summary_text(predicate));
+  return write_text_file((out / ("summary" + part + ".md")).string(),
+                         summary_text(predicate, begun));
 }
 
 std::string judged_text(const Json& p) {
@@ -307,7 +315,8 @@ Suite failures_suite(const Json& p) {
     const bool is_waived = failure["waived"].get<bool>();
     suite.cases.push_back(
         {text(failure["signature"]), is_waived ? TestState::skipped : TestState::failed,
-         is_waived ? "waived: " + line : line + "replay: " + text(failure["replay"])});
+         is_waived ? "waived: " + line
+                   : line + "replay, in the folder of the run: " + text(failure["replay"])});
   }
   return suite;
 }

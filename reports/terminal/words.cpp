@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <boost/version.hpp>
 #include <cstdlib>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -50,6 +51,15 @@ std::string this_program(bool from_anywhere) {
   if (!is_below || from_anywhere) return shell_word(own.string());
   // A name alone would be looked for on the PATH.
   return shell_word((here.has_parent_path() ? here : "." / here).string());
+}
+
+std::string this_command() {
+  std::ifstream typed("/proc/self/cmdline", std::ios::binary);
+  std::string word, line = this_program();
+  for (bool is_program = true; std::getline(typed, word, '\0'); is_program = false) {
+    if (!is_program) line += " " + shell_word(word);
+  }
+  return line;
 }
 
 std::string absolute_path(const std::filesystem::path& path) {

@@ -31,6 +31,8 @@ std::string shell_word(const std::string& word);
 // this folder if it lies below, "build/release/assay"; `from_anywhere` always its whole path.
 // The line that a certificate or a page holds begins with "assay" on every machine.
 std::string this_program(bool from_anywhere = false);
+// The whole command as it was typed, to be pasted in the same folder.
+std::string this_command();
 
 // The path of the same file that can be used from any folder; empty for none. The word of a
 // detector in Python stays as it is.

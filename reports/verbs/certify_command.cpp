@@ -136,14 +136,15 @@ class Certification {
   Expected<void> run_corpus() {
     fmt::print("{}", corpus_heading());
     checks_.drop(properties::CorpusRow::kind);
+    CorpusTable table;
     const auto on_row = [&](const properties::CorpusRow& row) {
-      fmt::print("{}", corpus_row_text(row));
-      std::fflush(stdout);
+      table.add(row);
       keep(row);
     };
     const auto on_failure = [&](const auto& failure) { corpus_failures_.push_back(failure); };
     auto done = check_corpus(request_, corpus_ / "curated", on_row, on_failure);
     if (done) check_own_cases(request_, on_row, on_failure);
+    table.end();
     return done;
   }
 
@@ -246,8 +247,7 @@ class Certification {
 
   Expected<int> issue() {
     const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
-    keep(properties::Issued{fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))),
-                            seconds});
+    keep(properties::Issued{properties::time_in_utc(), seconds});
     checks_.seal();
     if (const auto& problem = checks_.problem()) return *problem;
     // The code of a plug-in may have reached the files. So there is a verdict on what was stored,

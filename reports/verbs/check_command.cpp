@@ -81,7 +81,11 @@ Expected<int> run_check(const CheckRequest& request) {
     std::fflush(stdout);
   }};
   BOOST_OUTCOME_TRY(kept, kept_failures(request));
-  if (kept) terminal.failed = [&](const FailedStep& failed) { return kept->keep(failed); };
+  bool has_failed = false;
+  terminal.failed = [&](const FailedStep& failed) -> Expected<std::string> {
+    has_failed = true;
+    return kept ? kept->keep(failed) : "";
+  };
   if (request.separation || !request.offsets.empty()) {
     const AskedDistance d = {request.separation.value_or(0), request.offsets};
     BOOST_OUTCOME_TRY(near,
@@ -94,6 +98,8 @@ Expected<int> run_check(const CheckRequest& request) {
   BOOST_OUTCOME_TRY(answer, check_mesh(question, input, properties::worker_program(), terminal));
   if (kept) {
     BOOST_OUTCOME_TRYV(kept->write_page(answer.outcome));
+  } else if (has_failed) {
+    fmt::print("next: {} --keep kept\n", this_command());
   }
   if (question.wants_report) {
     BOOST_OUTCOME_TRY(write_json_file(request.json_file, answer.report));

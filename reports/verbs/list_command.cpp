@@ -11,7 +11,6 @@
 #include "properties/faults/fault.h"
 #include "properties/laws/law.h"
 #include "reports/campaign/failure_text.h"
-#include "reports/check/detector_choice.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {
@@ -64,15 +63,7 @@ Expected<int> list_campaigns(const std::string&) {
 
 Expected<int> list_failures(const std::string& folder) {
   BOOST_OUTCOME_TRY(findings, properties::read_findings(folder));
-  std::string told;
-  for (const auto& failure : findings.failures) {
-    if (failure.signature != told)
-      fmt::print("{:>8} times  {}\n", findings.met_count(failure), failure.signature);
-    told = failure.signature;
-    fmt::print("    {} ({}): {}\n{}", failure.id, failure.configuration, failure.explanation,
-               printed_text(failure.printed));
-  }
-  if (told.empty()) fmt::print("no failures\n");
+  fmt::print("{}", failures_text(findings));
   return exit_holds;
 }
 

@@ -32,7 +32,8 @@ Expected<void> write_files(const properties::CampaignRequest& request,
   const auto& shard = request.shard;
   const auto part =
       shard.count == 1 ? std::string() : fmt::format("-shard-{}-of-{}", shard.index, shard.count);
-  return write_for_ci(make_predicate(findings, judgement, request.plan, ""), findings.folder, part);
+  return write_for_ci(make_predicate(findings, judgement, request.plan, ""), findings.folder, part,
+                      findings.begun);
 }
 
 Expected<int> conclude(const properties::CampaignRequest& request,
@@ -63,13 +64,15 @@ Expected<void> run_own_cases(const properties::CampaignRequest& request, propert
   std::vector<properties::CorpusRow> rows;
   std::vector<properties::StoredFailure> failures;
   fmt::print("{}", corpus_heading());
+  CorpusTable table;
   check_own_cases(
       request,
       [&](const auto& row) {
-        fmt::print("{}", corpus_row_text(row));
+        table.add(row);
         rows.push_back(row);
       },
       [&](const auto& failure) { failures.push_back(failure); });
+  table.end();
   fmt::print("\n");
   return properties::keep_own_cases(store, rows, failures);
 }

@@ -35,6 +35,7 @@ struct RunToStore {
   std::vector<properties::TrialRecord> trials;
   std::vector<properties::StoredFailure> failures;
   std::vector<properties::Row> evidence;
+  std::string begun;  // empty: not stored
 
   // Of the built-in detector, two families of ten cases, a bound wanted of the first.
   RunToStore() {
@@ -92,6 +93,7 @@ struct RunToStore {
     if (!opened) return folder;
     properties::Store* const made = &opened.value();
     properties::note_library(*made, request);
+    if (!begun.empty()) made->set_note("begun", begun);
     for (const auto& found : evidence) made->set(found);
     // Every defect was met as the first failure.
     const auto signature = failures.empty() ? "all-pairs: missing" : failures[0].signature;

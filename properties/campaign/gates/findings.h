@@ -37,6 +37,7 @@ struct RunFindings {
   std::vector<StoredFailure> failures;
   EvidenceFacts evidence;
   std::string library;  // the plug-in's library as the run was told; empty: not known
+  std::string begun;    // when, in UTC; of several stores the earliest; empty: not known
   // SHA-256 over all rows but times and paths. It is the same for the same campaign, however long
   // that took and wherever it was kept.
   std::string rows;

@@ -153,6 +153,8 @@ class Reader {
     if (!digest) throw StoreProblem(digest.error().message);
     found_.files.push_back({file.filename().string(), digest.value()});
     if (const auto library = noted_library(store)) found_.library = *library;
+    const auto begun = noted_begin(store);
+    if (begun && (found_.begun.empty() || *begun < found_.begun)) found_.begun = *begun;
     take_rows(store, file, binding.shard);
   }
 

@@ -1,9 +1,11 @@
 #include "properties/campaign/ledger/run_folder.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
+#include <ctime>
 
 #include "properties/campaign/ledger/binding.h"
 #include "properties/worker/plugin/python_word.h"
@@ -12,7 +14,7 @@ namespace assay::properties {
 
 namespace {
 
-constexpr const char* library_note = "library";
+constexpr const char *library_note = "library", *begin_note = "begun";
 
 }  // namespace
 
@@ -59,6 +61,16 @@ void note_library(Store& store, const CampaignRequest& request) {
 }
 
 std::optional<std::string> noted_library(const Store& store) { return store.note(library_note); }
+
+std::string time_in_utc() {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+}
+
+void note_begin(Store& store) {
+  if (!store.note(begin_note)) store.set_note(begin_note, time_in_utc());
+}
+
+std::optional<std::string> noted_begin(const Store& store) { return store.note(begin_note); }
 
 std::filesystem::path failure_file(const StoredFailure& failure, bool smallest) {
   std::string stem = fmt::format("{}-{}", failure.id, failure.configuration);

@@ -51,6 +51,14 @@ Expected<WholeShard> make_whole(const std::filesystem::path& file, const Campaig
 void note_library(Store& store, const CampaignRequest& request);
 std::optional<std::string> noted_library(const Store& store);
 
+// Now, in UTC: 2026-01-31T12:00:00Z. No verdict rests on it.
+std::string time_in_utc();
+
+// Stores when the run was begun, unless that is stored already, and finds it again. Of several
+// stores that are merged, the earliest stays. Both throw StoreProblem, as above.
+void note_begin(Store& store);
+std::optional<std::string> noted_begin(const Store& store);
+
 // The file of a failure below OUT, the same in every run that finds the failure:
 // failures/tiny-1-broken-3-bvh-smallest.json.
 std::filesystem::path failure_file(const StoredFailure& failure, bool smallest);

@@ -38,6 +38,7 @@ class CampaignRun {
 
   void run() {
     note_library(store_, request_);
+    note_begin(store_);
     if (request_.plugin) note_isolation();
     observer_.on_begin(store_.trial_count());
     const Canary canary = meet_canary(request_);

@@ -13,6 +13,7 @@
 #include "properties/laws/law.h"
 #include "reports/campaign/failure_text.h"
 #include "reports/certificate/statement.h"
+#include "reports/certificate/told_paths.h"
 #include "reports/pictures/case_scene.h"
 #include "reports/pictures/mesh_svg.h"
 #include "reports/steps/step_json.h"
@@ -172,7 +173,7 @@ Json other_json(const properties::RunFindings& run, const properties::StoredFail
   return {{"id", failure.id},
           {"configuration", failure.configuration},
           {"what", shown_explanation(failure)},
-          {"replay", replay_line(run.folder, file, detector_of(run))}};
+          {"replay", replay_line("", file, detector_of(run))}};
 }
 
 // Why the mesh of a failure is not shown; empty if it was.
@@ -204,62 +205,6 @@ Json law_statements(const Json& laws) {
   return statements;
 }
 
-// A page goes to readers who have none of the folders of the machine that it is made on. So its
-// lines are for the run's own folder, and a path is told as it goes from there, or by its last name
-// where it goes through the root.
-class PathsOfPage {
- public:
-  explicit PathsOfPage(const properties::RunFindings& findings) {
-    const auto& stored = findings.evidence.paths;
-    // The folder as it was when the certificate was issued, and as it is now.
-    for (const auto& folder : {stored ? stored->out : "", findings.folder.string()}) {
-      const std::filesystem::path whole = absolute_path(std::filesystem::path(folder) / "");
-      if (!folder.empty() && whole != whole.root_path()) folders_.push_back(whole.string());
-    }
-    for (const auto& path : {findings.library, stored ? stored->detector : "",
-                             stored ? stored->own_cases : "", stored ? stored->data : ""}) {
-      if (std::filesystem::path(path).is_absolute()) others_.insert({path, absolute_path(path)});
-    }
-  }
-
-  std::string told(const std::string& path) const {
-    const std::filesystem::path whole = absolute_path(path);
-    if (whole.is_relative() || folders_.empty()) return path;
-    const auto from = std::filesystem::path(folders_.front()).parent_path();
-    const auto common = std::mismatch(whole.begin(), whole.end(), from.begin(), from.end()).first;
-    constexpr std::ptrdiff_t root_alone = 1;
-    return std::distance(whole.begin(), common) > root_alone
-               ? whole.lexically_relative(from).string()
-               : whole.filename().string();
-  }
-
-  // Tells all paths so in each text of `json`.
-  void tell_in(Json& json) const {
-    if (json.is_structured()) {
-      for (auto& part : json) tell_in(part);
-    } else if (json.is_string()) {
-      tell_in(json.get_ref<std::string&>());
-    }
-  }
-
- private:
-  void tell_in(std::string& text) const {
-    for (const auto& path : others_) {
-      replace_all(text, shell_word(path), shell_word(told(path)));
-      replace_all(text, path, told(path));
-    }
-    for (const auto& folder : folders_) replace_all(text, folder, "");
-  }
-
-  static void replace_all(std::string& text, const std::string& what, const std::string& by) {
-    for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
-      text.replace(at, what.size(), by);
-  }
-
-  std::vector<std::string> folders_;              // each ends with a slash, and is not the root
-  std::set<std::string, std::greater<>> others_;  // a folder after what lies in it
-};
-
 // A run stores no version, but it does store which program it was. If that is this one, its version
 // is known.
 Json versions_of_run(const properties::RunFindings& findings) {
@@ -279,18 +224,18 @@ Json run_json(const properties::RunFindings& findings, const properties::Judgeme
   // A run keeps no file of its campaign, so the digest is that of the text.
   const auto& plan = findings.run.plan;
   const auto campaign = corpus::sha256_of(properties::plan_text(plan) + "\n");
-  const PathsOfPage paths(findings);
   const bool has_place = findings.folder.is_absolute();
   Json predicate = is_certificate ? statement.at("predicate")
                                   : make_predicate(findings, judgement, plan, campaign);
-  paths.tell_in(predicate);
   if (predicate["versions"].is_null()) predicate["versions"] = versions_of_run(findings);
   auto laws = law_statements(predicate["laws"]);
   return {{"folder", (has_place ? findings.folder.filename() : findings.folder).string()},
-          {"library", findings.library.empty() ? Json() : Json(paths.told(findings.library))},
+          {"library",
+           findings.library.empty() ? Json() : Json(ToldPaths(findings).told(findings.library))},
           {"verdict", unverified.empty() ? judgement.verdict : "unverified"},
           {"why", unverified.empty() ? why_text(judgement)
                                      : "the certificate does not verify: " + unverified},
+          {"begun", findings.begun.empty() ? Json() : Json(findings.begun)},
           {"subject", is_certificate ? statement.at("subject") : Json()},
           {"findings", std::move(predicate)},
           {"law_statements", std::move(laws)}};
@@ -298,7 +243,6 @@ Json run_json(const properties::RunFindings& findings, const properties::Judgeme
 
 Json failure_scenes(const properties::RunFindings& findings) {
   SceneMaker scenes(detector_at_hand(findings));
-  const PathsOfPage paths(findings);
   Json list = Json::array();
   for (const auto* kind : findings.kinds()) {
     Json json = {{"stage", nullptr}, {"now", nullptr},       {"scene", nullptr},
@@ -312,7 +256,7 @@ Json failure_scenes(const properties::RunFindings& findings) {
     }
     list.push_back(std::move(json));
   }
-  paths.tell_in(list);
+  ToldPaths(findings).tell_in(list);
   return list;
 }
 

@@ -67,6 +67,7 @@ function about(run: Run): HTMLElement {
         : `assay ${versions.assay}${versions.commit ? `, commit ${commitText(versions.commit)}` : ""}`,
     ],
     ["Date", times.issued === null ? null : dayText(times.issued)],
+    ["Begun", times.issued !== null || run.begun === null ? null : dayText(run.begun)],
     [detector.built_in ? "Its program, SHA-256" : "Its library, SHA-256", digest === null ? null : [html("code", {}, digest)]],
     [
       "Campaign",
@@ -76,7 +77,8 @@ function about(run: Run): HTMLElement {
   ]);
 }
 
-function notes({ findings: { times, versions }, subject, verdict }: Run): string[] {
+function notes({ findings: { times, versions }, subject, verdict, begun }: Run): string[] {
+  const absent = [begun === null ? "no date" : "", versions ? "" : "no version of the program"].filter((word) => word !== "");
   const disturbed = sum(times.strata.map((s) => s.disturbed));
   return [
     disturbed === 0 ? "" : `${counted(disturbed, "trial was", "trials were")} disturbed from outside, and ran again.`,
@@ -85,7 +87,7 @@ function notes({ findings: { times, versions }, subject, verdict }: Run): string
       : `${counted(times.near_the_limit, "trial", "trials")} took more than a third of the time that a case may take.`,
     subject !== null || verdict === "unverified"
       ? ""
-      : `No certificate stands beside this run, so ${versions ? "no date" : "neither a date nor the program\u2019s version"} is stored: assay certify issues one.`,
+      : `No certificate stands beside this run${absent.length > 0 ? `, so ${absent.join(" and ")} is stored` : ""}: assay certify issues one.`,
   ].filter((note) => note !== "");
 }
 

@@ -73,6 +73,7 @@ export interface Run {
   library: string | null; // from that folder
   verdict: Findings["verdict"] | "unverified";
   why: string;
+  begun: string | null; // in UTC; null: not stored
   subject: Statement["subject"] | null; // null: no certificate that verifies
   findings: Findings;
   law_statements: Record<string, string>; // by the names of the laws

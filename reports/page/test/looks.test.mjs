@@ -1,6 +1,7 @@
 // How pages look: a certificate, a defect of a plug-in with a contract, a night of which shards are
-// missing, and a run without a trial; in light, in dark, on a telephone and on paper. ASSAY_LOOKS is
-// the folder that holds them. The pictures go into its folder `looks`, for the eyes of a reviewer.
+// missing, a run without a trial, and a built-in detector that fails; in light, in dark, on a
+// telephone and on paper. ASSAY_LOOKS is the folder that holds them. The pictures go into its folder
+// `looks`, for the eyes of a reviewer.
 import assert from "node:assert/strict";
 import { mkdirSync } from "node:fs";
 import { after, before, describe, test } from "node:test";
@@ -8,7 +9,7 @@ import { launch, openIn } from "./browser.mjs";
 import { complaints } from "./measure.mjs";
 
 const folder = process.env.ASSAY_LOOKS;
-const names = ["certificate", "defect", "night", "empty"];
+const names = ["certificate", "defect", "night", "empty", "faulty"];
 const looks = {
   light: { width: 1280 },
   dark: { width: 1280, scheme: "dark" },

@@ -137,7 +137,8 @@ describe("the page", () => {
     const told = await at.page.locator(".verdict").innerText();
     assert.match(told, /Detector\s+brute force, fast math\s+Version\s+1\s+Judged by\s+assay \d+\.\d+\.\d+[\s,]/);
     assert.match(told, /Its library, SHA-256\s+[0-9a-f]{64}/);
-    assert.match(told, /No certificate stands beside this run, so no date is stored/);
+    assert.match(told, /Begun\s+20\d\d-\d\d-\d\d, \d\d:\d\d UTC/);
+    assert.match(told, /No certificate stands beside this run: assay certify issues one/);
   });
 
   test("the contents lead to each section", async () => {

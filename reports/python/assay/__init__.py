@@ -29,6 +29,7 @@ from .judging import (
     least_distance,
 )
 from .hosting import BeyondCapacity, Refused
+from .plots import plot
 from .programs import Failure, Outcome, Page, certify, replay, report, run
 from .recorder import Recorder
 from .results import (
@@ -80,6 +81,7 @@ __all__ = [
     "first_time_within",
     "judge",
     "least_distance",
+    "plot",
     "read_frames",
     "replay",
     "report",

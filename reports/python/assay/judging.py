@@ -6,7 +6,7 @@ import json
 import math
 import os
 from dataclasses import dataclass
-from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, Union, overload
+from typing import Any, Dict, List, Optional, Sequence, Tuple, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from .frames import Frames, as_frames
 from .plugin import detector_word, surroundings
 from .places import program
+from .progress import Progress, listener
 from .results import Judgement
 
 Interval = Tuple[float, float]
@@ -230,7 +231,7 @@ def check(
     isolation: Optional[str] = None,
     bodies: Optional[ArrayLike] = None,
     apart: Sequence[Tuple[int, int]] = (),
-    progress: Optional[Callable[[str], None]] = None,
+    progress: Progress = None,
 ) -> Union[CheckReport, SeparationReport]:
     """Each step through the detector and the oracle, and the diff: `assay check`.
 
@@ -238,7 +239,8 @@ def check(
     file. detector: None for the built-in one, of which the next four options are; the name of a
     plug-in's library; "python:MODULE:CLASS"; or a class, which another process imports by its
     module. jobs: threads of the oracle; threads: of the detector, 0: all cores, and a plug-in is
-    told 1. time, memory, isolation: as on the command line. progress: called with what is printed.
+    told 1. time, memory, isolation: as on the command line. progress: called with what is printed;
+    True prints it to stderr.
     bodies: (n,) the number of each vertex's body, from 0 on; apart: pairs of bodies that do not
     meet, or a body paired with itself: neither is of a case file, which says itself what counts.
     separation: the oracle alone says which triangles that share no vertex come within this distance,
@@ -246,7 +248,7 @@ def check(
 
     ValueError: input that is refused, with the line that says why. Ctrl-C ends it, but for a
     plug-in's process, which ends with its step or at `time`. A class that is slow may take long:
-    `time` is a limit in seconds, and `progress=print` shows each step as it is judged.
+    `time` is a limit in seconds, and `progress=True` shows each step as it is judged.
     """
     from . import _judge
 
@@ -270,16 +272,17 @@ def check(
         "bodies": None if bodies is None else np.asarray(bodies, np.int32).tolist(),
         "apart": [list(pair) for pair in apart],
     }
+    told = listener(progress)
     worker = str(program("assay-worker")) if detector is not None else ""
     with surroundings(detector):
         if isinstance(frames, (str, os.PathLike)):
             if bodies is not None or apart:
                 raise ValueError("bodies and apart are of meshes, and not of a case file")
-            answer = _judge.check_files([os.fspath(frames)], asked, worker, progress)
+            answer = _judge.check_files([os.fspath(frames)], asked, worker, told)
         else:
             mesh: Frames = as_frames(frames)
             asked["files"] = mesh.files
-            answer = _judge.check_arrays(mesh.triangles, mesh.positions, asked, worker, progress)
+            answer = _judge.check_arrays(mesh.triangles, mesh.positions, asked, worker, told)
     return _report(*answer) if separation is None else _separation_report(*answer)
 
 

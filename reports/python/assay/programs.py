@@ -9,15 +9,15 @@ import signal
 import subprocess
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Callable, Dict, List, Optional, Union
+from typing import Any, Dict, List, Optional, Union
 
 from .errors import AssayError
 from .frames import Frames
 from .places import program
 from .plugin import detector_word, environment
+from .progress import Progress, listener
 
 PathLike = Union[str, "os.PathLike[str]"]
-Progress = Optional[Callable[[str], None]]
 
 # Exit codes of reports/README.md.
 _OUTCOMES = {0: "holds", 1: "defect", 3: "undecided", 4: "unsound", 5: "collision"}
@@ -98,8 +98,8 @@ def run(
     """`assay run`: a campaign of random cases.
 
     campaign: "smoke", "quick", ..., or a file. detector: as of check(). out: the folder of the run.
-    progress: called with each line as it is printed. options: as on the command line, without the
-    dashes: seed=1, time=60, jobs=2, power="proof", ...
+    progress: called with each line as it is printed; True prints it to stderr. options: as on the
+    command line, without the dashes: seed=1, time=60, jobs=2, power="proof", ...
 
     AssayError: it could not begin, with its line. Ctrl-C stops it; the same call goes on with it.
     """
@@ -166,6 +166,7 @@ def _called(
 
 def _printed(command: List[str], variables: Dict[str, str], progress: Progress) -> Outcome:
     lines: List[str] = []
+    told = listener(progress, "\n")
     # In a session of its own, so that ctrl-C comes to it once, from here.
     with subprocess.Popen(
         command,
@@ -180,8 +181,8 @@ def _printed(command: List[str], variables: Dict[str, str], progress: Progress) 
         try:
             for line in child.stdout:
                 lines.append(line)
-                if progress:
-                    progress(line.rstrip("\n"))
+                if told:
+                    told(line.rstrip("\n"))
             code = child.wait()
         except BaseException:
             child.send_signal(signal.SIGINT)

@@ -36,7 +36,7 @@ TEST(Junit, FailsWhereTheCertificateDoes) {
   for (const std::string word :
        {"name=\"broken, bvh\">\n      <failure message=\"19 of 20 trials hold, 1 defects",
         "name=\"free-sound: missing\">\n      <failure message=\"a &amp; b &lt; c (bvh), met once",
-        "replay: assay replay ", "name=\"claims\">\n      <failure"}) {
+        "replay, in the folder of the run: assay replay ", "name=\"claims\">\n      <failure"}) {
     EXPECT_TRUE(contains(text, word)) << word << "\n" << text;
   }
   EXPECT_EQ(xml_escaped("<a b=\"c\">&\x01"), "&lt;a b=&quot;c&quot;&gt;&amp;?");
@@ -87,6 +87,16 @@ TEST(Summary, NamesVerdictGatesAndFailures) {
         "All 3 bounds together hold with confidence 95 %"}) {
     EXPECT_TRUE(contains(text, word)) << word << "\n" << text;
   }
+}
+
+TEST(Summary, ACertificateTellsItsDayAndARunThatOfItsBegin) {
+  auto findings = good_findings();
+  findings.evidence.issued.reset();
+  const auto predicate = judged(findings);
+  EXPECT_TRUE(contains(summary_text(predicate, "2026-01-31T12:00:00Z"), " Begun 2026-01-31T12:00"));
+  EXPECT_FALSE(contains(summary_text(predicate), "Begun"));
+  findings.evidence.issued = {"2026-02-01T12:00:00Z", 4};
+  EXPECT_TRUE(contains(summary_text(judged(findings)), " Issued 2026-02-01T12:00:00Z."));
 }
 
 // A verdict says nothing of what was not judged, so the summary names both, and the contract.

@@ -1,7 +1,9 @@
 // The JSON Schemas of what the program reads and writes. The file tests/reports/program.h holds to
 // them what tests let the program write with --json. Here are the others, and what all share.
 #include "properties/campaign/plan.h"
+#include "tests/recorded_log.h"
 #include "tests/reports/program.h"
+#include "tests/reports/stored_run.h"
 
 namespace assay::tests {
 namespace {
@@ -44,8 +46,10 @@ TEST(Schemas, EachNamesItsFormatAndNothingThatIsNotThere) {
     const std::string id = schema["$id"];
     EXPECT_EQ(id.rfind("urn:assay:" + name + ":", 0), 0u) << id;
     const auto number = id.substr(id.rfind(':') + 1);
-    EXPECT_NE(read_text(file.string()).find("{\"const\": \"assay-" + name + "/" + number + "\"}"),
-              std::string::npos);
+    // A log has its number in its first record.
+    const auto stated = name == "log" ? "\"const\": " + number
+                                      : "{\"const\": \"assay-" + name + "/" + number + "\"}";
+    EXPECT_NE(read_text(file.string()).find(stated), std::string::npos);
     std::vector<SchemaJson> references;
     values_of(schema, "$ref", references);
     for (const std::string reference : references) {
@@ -66,6 +70,91 @@ TEST(Schemas, TheShippedCasesAreOfTheirs) {
   expect_schema("known", parsed(ASSAY_SOURCE_DIR "/corpus/known.json"));
   expect_schema("known", SchemaJson::parse(R"({"schema": "assay-known/1", "waivers": [
       {"signature": "a", "reason": "b", "link": "c", "expires": "2026-12-31"}]})"));
+}
+
+// Typed arrays (RFC 8746) as lists of numbers.
+SchemaJson as_lists(const SchemaJson& json) {
+  if (json.is_object()) {
+    SchemaJson object = SchemaJson::object();
+    for (const auto& [key, value] : json.items()) object[key] = as_lists(value);
+    return object;
+  }
+  if (!json.is_binary()) return json;
+  const auto& bytes = json.get_binary();
+  const auto list = [&]<class T>(T) {
+    std::vector<T> numbers(bytes.size() / sizeof(T));
+    std::memcpy(numbers.data(), bytes.data(), bytes.size());
+    return SchemaJson(numbers);
+  };
+  constexpr std::uint64_t sint32 = 78, float32 = 85;
+  return bytes.subtype() == sint32    ? list(std::int32_t{})
+         : bytes.subtype() == float32 ? list(float{})
+                                      : list(double{});
+}
+
+// The bodies of a log, each behind the head of its record and before its checksum.
+std::vector<SchemaJson> records_of(const std::string& file) {
+  const auto bytes = read_text(file);
+  constexpr std::size_t head = 17, length_at = 9, checksum = 5;
+  std::vector<SchemaJson> records;
+  for (std::size_t at = 0; at + head < bytes.size();) {
+    std::size_t length = 0;
+    for (std::size_t i = length_at; i < head; ++i)
+      length = length << 8 | static_cast<std::uint8_t>(bytes[at + i]);
+    const auto body = bytes.substr(at + head, length);
+    records.push_back(
+        as_lists(SchemaJson::from_cbor(body, true, true, SchemaJson::cbor_tag_handler_t::store)));
+    at += head + length + checksum;
+  }
+  return records;
+}
+
+TEST(Schemas, RecordsOfLogsAreOfTheirs) {
+  const Scratch scratch;
+  const auto c = one_above_another(0.5, -0.5);
+  detector::StepResult met;
+  met.answer = detector::Answer::collision;
+  met.first = {0.5, 0.5};
+  met.pairs.push_back({});
+  met.pairs.back().pair = {0, 1};
+  met.pairs.back().time = {0.5, 0.5};
+  {
+    LogWriter log(scratch / "steps.log", c.triangles, c.frames[0]);
+    log.step(&c.frames[0], c.frames[1], met);
+    log.note("it touches the floor");
+    assay_record_step_data data = {};
+    data.dx = LogWriter::array(c.frames[0]);
+    data.committed = LogWriter::array(c.frames[1]);
+    log.step(data);
+    log.end();
+  }
+  assay_recorder recorder;
+  const std::int32_t body[] = {0, 0, 0, 1, 1, 1};
+  const float places[18] = {};
+  assay_counted_pairs counted = {};
+  counted.body = body;
+  const auto path = scratch / "counted.log";
+  const assay_record_settings settings = {path.c_str(), 1, 0, 1};
+  const auto description = all_claims_description();
+  ASSERT_EQ(assay_record_begin(&recorder, &settings, &description, c.triangles.data(), 2,
+                               {places, 1}, 6, &counted),
+            ASSAY_OK);
+  ASSERT_EQ(assay_record_end(&recorder), ASSAY_OK);
+  std::set<std::string> types;
+  for (const std::string file : {"steps.log", "counted.log"}) {
+    for (const auto& record : records_of(scratch / file)) {
+      expect_schema("log", record);
+      types.insert(record["type"].get<std::string>());
+      if (record["type"] == "begin") {
+        EXPECT_EQ(record["triangles"].size(), 6u);
+        EXPECT_EQ(record["positions"].size(), 18u);
+        EXPECT_EQ(record.contains("counted"), file == "counted.log");
+      }
+    }
+  }
+  EXPECT_EQ(types, (std::set<std::string>{"begin", "step", "note", "end"}));
+  EXPECT_FALSE(wrong_in("log", {{"type", "step"}, {"record", 1}}).empty());
+  EXPECT_FALSE(wrong_in("log", {{"type", "end"}, {"record", 1}, {"steps", 2}, {"x", 0}}).empty());
 }
 
 TEST(Schemas, CampaignsAreOfTheirs) {

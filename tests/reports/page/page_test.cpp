@@ -198,6 +198,45 @@ TEST_F(Runs, APageTellsNoFolderOfTheMachineThatItIsMadeOn) {
   }
 }
 
+// As when the shipped detector is broken. tests/page/run names a folder and looks at the page.
+TEST_F(Runs, AFailingBuiltInDetectorIsShownWithItsViews) {
+  const char* named = std::getenv("ASSAY_FAULTY_RUN");
+  const std::string folder = named ? named : scratch / "faulty";
+  RunToStore run;
+  run.begun = "2026-01-31T12:00:00Z";
+  run.meet_canary(3)
+      .judge("broken", 3, 'D')
+      .judge("closed-generic", 10, 'H')
+      .fail("F_ghosts_move", "free-sound: answered free, vertex-face, t inside",
+            "triangles 0 and 3 meet; answered free")
+      .fail("A1_winding2_allpositive", "all-pairs: missing pair, edge-edge, t inside, moving",
+            "triangles 1 and 2 meet; not reported");
+  const auto findings = read_run(run.store(folder));
+  const auto scenes = reports::failure_scenes(findings);
+  ASSERT_EQ(scenes.size(), 2u);
+  for (const auto& shown : scenes) EXPECT_TRUE(shown["scene"].is_object()) << shown["not_shown"];
+  const bool has_ghosts = std::any_of(scenes.begin(), scenes.end(), [](const Json& shown) {
+    return !shown.at("scene").at("steps").at(0).at("views").at("ghosts").empty();
+  });
+  EXPECT_TRUE(has_ghosts);
+}
+
+// Shards begin one after another. What began before that was stored says nothing.
+TEST_F(Runs, TheDayOnWhichTheFirstShardBeganIsTold) {
+  RunToStore run;
+  run.request.plan.strata = {{"closed-generic", 10, 0}};
+  const std::string folder = scratch / "shards";
+  for (const std::uint64_t shard : {1, 2}) {
+    run.request.shard = {shard, 2};
+    run.begun = shard == 1 ? "2026-02-01T00:10:00Z" : "2026-01-31T23:50:00Z";
+    run.store(folder);
+  }
+  const auto findings = read_run(folder);
+  const auto page = reports::run_json(findings, judge(findings));
+  EXPECT_EQ(page["begun"], "2026-01-31T23:50:00Z");
+  EXPECT_TRUE(page_of(RunToStore(), "older")["begun"].is_null());
+}
+
 // A run stores the digest of its program alone.
 TEST_F(Runs, TheVersionIsKnownWhereTheSameProgramMakesThePage) {
   auto findings = read_run(RunToStore().store(scratch / "run"));

@@ -62,12 +62,33 @@ TEST(PictureScripts, WordsAreQuoted) {
   EXPECT_EQ(quoted_for_gnuplot("a \"b\" \\ c"), "\"a \\\"b\\\" \\\\ c\"");
 }
 
+// On a dark page a white ground is a slab, and dark letters are not seen.
+void expect_both_schemes(const std::string& svg) {
+  const auto canvas = svg.find("<g id=\"gnuplot_canvas\">");
+  ASSERT_NE(canvas, std::string::npos);
+  EXPECT_LT(svg.find("@media (prefers-color-scheme: dark)"), canvas);
+  EXPECT_NE(svg.find("\n<rect x=\"0\" y=\"0\"", canvas), std::string::npos);
+  EXPECT_EQ(svg.find("fill=\"#ffffff\"", canvas), std::string::npos);
+  // What the scheme changes is what gnuplot writes.
+  EXPECT_NE(svg.find("fill=\"rgb(34,34,34)\"", canvas), std::string::npos);
+}
+
+TEST(Gnuplot, CommittedPicturesAreReadableInBothSchemes) {
+  for (const auto* name : {"peers", "speed-error"}) {
+    std::ostringstream svg;
+    const auto file = std::string(ASSAY_SOURCE_DIR) + "/reports/pictures/" + name + ".svg";
+    svg << std::ifstream(file).rdbuf();
+    expect_both_schemes(svg.str());
+  }
+}
+
 TEST(Gnuplot, DrawsEveryPicture) {
   if (const auto problem = cannot_draw(); !problem.empty()) GTEST_SKIP() << problem;
   for (const auto picture : {errors, shares, growth, heat}) {
     const auto drawing = draw(picture());
     EXPECT_EQ(drawing.problem, "");
     EXPECT_NE(drawing.svg.find("</svg>"), std::string::npos);
+    expect_both_schemes(drawing.svg);
     EXPECT_EQ(count(drawing.svg, "nan"), 0u);
     EXPECT_EQ(drawing.svg, draw(picture()).svg);  // the same figures, the same bytes
   }

@@ -101,6 +101,38 @@ def mine(tmp_path, monkeypatch):
     return tmp_path
 
 
+def test_progress_goes_to_stderr_line_by_line(mine, pair, capfd):
+    report = assay.check((pair.triangles, [pair.x_t0, pair.x_t1]), progress=True)
+    assert capfd.readouterr() == ("", report.text)
+    outcome = assay.run("few.json", "python:mine:Blind", out="judged", progress=True)
+    assert capfd.readouterr() == ("", outcome.text)
+
+
+def test_errors_stand_beside_times_in_a_picture(mine):
+    pytest.importorskip("matplotlib").use("svg")
+    outcome = assay.run("few.json", "python:mine:Blind", out="judged")
+    figure = assay.plot(outcome, outcome)
+    missed, alarms = figure.axes
+    assert missed.get_xscale() == "log" and missed.get_title() == "a contact, answered free"
+    assert [drawn.get_label() for drawn in missed.containers] == ["blind 0", "blind 0"]
+    (stratum,) = outcome.strata
+    assert stratum["measures"]["answered_free"]["of"] >= 1
+    (time,), (share,) = missed.containers[0].lines[0].get_data()
+    assert time > 0 and share == 100 * stratum["measures"]["answered_free"]["share"]
+    figure.savefig("errors.svg")
+    assert "answered collision" in Path("errors.svg").read_text()
+    with pytest.raises(ValueError, match="name an outcome"):
+        assay.plot()
+    with pytest.raises(ValueError, match="own detector"):
+        assay.plot(assay.run("few.json", out="shipped"))
+
+
+def test_without_matplotlib_a_plot_names_the_package(mine, monkeypatch):
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    with pytest.raises(ImportError, match=r"^assay.plot needs matplotlib \(Debian: python3-matplotlib"):
+        assay.plot()
+
+
 def test_a_run_has_its_strata_and_failures_as_lists(mine):
     outcome = assay.run("few.json", "python:mine:Blind", out="judged")
     assert repr(outcome) == "<assay.Outcome: defect, judged>"

@@ -123,6 +123,26 @@ TEST_F(JudgeCommand, CheckKeepsWhatAPluginFailsOnShrunk) {
   EXPECT_EQ(run_assay("replay " + file + " --detector " + plugin("always_free")).exit_code, 1);
 }
 
+// Whoever did not ask for it gets the line that does, and it runs as it is pasted.
+TEST_F(JudgeCommand, CheckSaysHowToKeepWhatFails) {
+  const auto words = "check" + frames() + " --detector '" + plugin("always_free") + "'";
+  const auto checked = run_assay(words, "cd " + (scratch_ / "") + " && ");
+  EXPECT_EQ(checked.exit_code, 1) << checked.err;
+  const std::string mark = "\nnext: ";
+  const auto at = checked.out.find(mark);
+  ASSERT_NE(at, std::string::npos) << checked.out;
+  const auto line = checked.out.substr(at + mark.size());
+  EXPECT_NE(std::system(
+                ("cd " + (scratch_ / "") + " && " + line.substr(0, line.size() - 1) + " >/dev/null")
+                    .c_str()),
+            0);
+  const auto file = fmt::format("{}/kept/step-{}/smallest.json", scratch_ / "", collision_ + 1);
+  EXPECT_TRUE(std::filesystem::exists(file)) << line;
+  const auto held = run_assay("check" + frames());
+  EXPECT_EQ(held.exit_code, 0);
+  EXPECT_FALSE(says(held.out, "next: ")) << held.out;
+}
+
 TEST_F(JudgeCommand, ReportsWhatCheckReportsOfTheSameSteps) {
   const auto checked = run_assay("check" + frames() + " --detector " + plugin("wrapped_builtin") +
                                  " --json " + (scratch_ / "check.json"));

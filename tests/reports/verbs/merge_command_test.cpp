@@ -41,7 +41,7 @@ TEST_F(MergeCommand, ShardsComeToWhatOneRunComesTo) {
     EXPECT_EQ(run_assay(line).exit_code, 1) << line;
   }
   EXPECT_TRUE(
-      contains(run_assay("list failures " + out).out, " times  free-sound: answered free, "));
+      contains(run_assay("list failures " + out).out, "\nDEFECT free-sound: answered free, "));
 }
 
 TEST_F(MergeCommand, BadInputIsOneLine) {

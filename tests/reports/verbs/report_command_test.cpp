@@ -83,17 +83,18 @@ TEST_F(Report, ARunThatFailsLeavesPicturesAndItsReplayLineOnThePage) {
                              " --out " + out);
   EXPECT_EQ(run.exit_code, 1) << run.out << run.err;
   ASSERT_TRUE(contains(run.out, ".svg")) << run.out;
+  const auto listed = run_assay("list failures " + out).out;
   std::size_t pictures = 0;
   for (const auto& file : std::filesystem::directory_iterator(out + "/failures")) {
     if (file.path().extension() != ".svg") continue;
     ++pictures;
     EXPECT_TRUE(read_text(file.path()).starts_with("<svg"));
-    EXPECT_TRUE(contains(run.out, file.path())) << file.path();
+    EXPECT_TRUE(contains(listed, file.path())) << file.path();
   }
   EXPECT_EQ(pictures, signatures_of(out).size());
   EXPECT_EQ(run_assay("report " + out + " --out " + page).exit_code, 0);
   const auto text = read_text(page);
-  const auto lines = replay_lines(run.out);
+  const auto lines = replay_lines(listed);
   ASSERT_FALSE(lines.empty());
   // The page goes to readers of other machines: its lines are for the folder of the run.
   for (auto line : lines) {
