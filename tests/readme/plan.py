@@ -126,7 +126,7 @@ SLOW = {
     ],
     "reports/judge/TEN_MINUTES.md": [
         "assay run --campaign smoke --detector ./my_ccd.so --power build/certify --out build/mine",
-        "assay replay build/mine/failures/search-smoke-1-001-173-my-CCD-smallest.json --detector ./my_ccd.so",
+        "assay replay build/mine/failures/search-smoke-1-001-155-my-CCD-smallest.json --detector ./my_ccd.so",
         "assay run --campaign smoke --detector ./my_ccd.so --power build/certify --out build/mine-mended",
     ],
     "detector/README.md": [
@@ -146,7 +146,7 @@ ENDS = {
     },
     "reports/judge/TEN_MINUTES.md": {
         "assay run --campaign smoke --detector ./my_ccd.so --power build/certify --out build/mine": [1],
-        "assay replay build/mine/failures/search-smoke-1-001-173-my-CCD-smallest.json --detector ./my_ccd.so": [1, 0],
+        "assay replay build/mine/failures/search-smoke-1-001-155-my-CCD-smallest.json --detector ./my_ccd.so": [1, 0],
         "assay judge steps.log --out build/judged": [1],
     },
 }
