@@ -77,7 +77,7 @@ QUICK = {
         "cp tests/plugins/additive_ccd.cpp my_ccd.cpp",
         "c++ -std=c++17 -O2 -shared -fPIC -I . my_ccd.cpp -o my_ccd.so",
         "assay check-queries --detector ./my_ccd.so corpus/queries/example_vf.csv",
-        "sed -i 's/^  const double u = share.*/&\\n  s = share(ab * u - ag, aa);/' my_ccd.cpp",
+        "sed -i 's/^  const double u = share.*/&\\n  s = share(ab * u - dot(a, gap), dot(a, a));/' my_ccd.cpp",
         "c++ -std=c++20 -O2 -I . tests/recording/cloth.cpp -o cloth",
         "./cloth steps.log slip",
         "assay judge steps.log --out build/judged",
