@@ -85,24 +85,9 @@ void send(MovingPoint& p, const Point& place, double t, bool by_its_start) {
   }
 }
 
-// Lets the two features meet at a time: at a corner, on an edge, or inside, at simple shares.
 void meet(Random& random, Candidate& made, const MoveContext&) {
   if (!made.focus) return;
-  FourPoints q = query_at(made.c, *made.focus);
-  const double t = menu_time(random, q);
-  constexpr double shares[] = {0, 0.25, 0.5, 0.5, 0.75, 1.0 / 3};
-  const double s = one_of(random, shares), u = one_of(random, shares);
-  auto at = [&](std::size_t i) { return place_of(q.points[i], t); };
-  const bool by_its_start = random.one_in(4);
-  if (q.first_group == 1) {
-    send(q.points[0], mixed(mixed(at(1), at(2), s), at(3), u), t, by_its_start);
-  } else {
-    const Point where = mixed(at(2), at(3), u), other = at(1);
-    Point place;
-    for (std::size_t k = 0; k < 3; ++k) place[k] = other[k] + (where[k] - other[k]) / (1 - s);
-    send(q.points[0], place, t, by_its_start);
-  }
-  set_query(made.c, *made.focus, q);
+  set_query(made.c, *made.focus, brought_together(random, query_at(made.c, *made.focus)));
 }
 
 double neighbour(double x, int steps, Coordinates coordinates) {
@@ -382,5 +367,22 @@ constexpr Move of_features[] = {
 }  // namespace
 
 std::span<const Move> feature_moves() { return of_features; }
+
+FourPoints brought_together(Random& random, FourPoints q) {
+  const double t = menu_time(random, q);
+  constexpr double shares[] = {0, 0.25, 0.5, 0.5, 0.75, 1.0 / 3};
+  const double s = one_of(random, shares), u = one_of(random, shares);
+  auto at = [&](std::size_t i) { return place_of(q.points[i], t); };
+  const bool by_its_start = random.one_in(4);
+  if (q.first_group == 1) {
+    send(q.points[0], mixed(mixed(at(1), at(2), s), at(3), u), t, by_its_start);
+  } else {
+    const Point where = mixed(at(2), at(3), u), other = at(1);
+    Point place;
+    for (std::size_t k = 0; k < 3; ++k) place[k] = other[k] + (where[k] - other[k]) / (1 - s);
+    send(q.points[0], place, t, by_its_start);
+  }
+  return q;
+}
 
 }  // namespace assay::properties

@@ -228,8 +228,8 @@ constexpr Move of_meshes[] = {
      edit_mesh},
     {"unite", "another mesh beside this one", true, 2, unite},
     {"renumber", "triangles in another order", true, 1, renumber},
-    {"view", "another view primitive", true, 2, view},
-    {"aside", "Newton steps of a view primitive and a triangle", true, 4, look_aside},
+    {"view", "another view primitive", true, 2, view, true},
+    {"aside", "Newton steps of a view primitive and a triangle", true, 4, look_aside, true},
 };
 
 }  // namespace

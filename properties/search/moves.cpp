@@ -12,9 +12,9 @@ double greatest_of(const corpus::Case& c) {
 
 std::span<const Move> moves() {
   static const std::vector<Move> all = [] {
-    const auto of_features = feature_moves(), of_meshes = mesh_moves();
-    std::vector<Move> list(of_features.begin(), of_features.end());
-    list.insert(list.end(), of_meshes.begin(), of_meshes.end());
+    std::vector<Move> list;
+    for (const auto& some : {feature_moves(), mesh_moves(), side_moves()})
+      list.insert(list.end(), some.begin(), some.end());
     return list;
   }();
   return all;

@@ -34,14 +34,20 @@ struct Move {
   bool of_mesh;  // never of an elementary query: it changes triangles or steps
   int weight;    // it is drawn as often as this, in comparison
   void (*make)(Random&, Candidate&, const MoveContext&);
+  bool of_view = false;  // it changes nothing but a view primitive, or moves the mesh to suit one
 };
 
 // The first lets the features meet, the second changes the size.
 std::span<const Move> moves();
 
-// The two lists of which it is made.
+// The three lists of which it is made.
 std::span<const Move> feature_moves();
 std::span<const Move> mesh_moves();
+std::span<const Move> side_moves();
+
+// The query with another path of its first point: so that the two features meet at a time, at a
+// corner, on an edge or inside; both are drawn from simple numbers.
+detector::FourPoints brought_together(Random& random, detector::FourPoints query);
 
 // The greatest magnitude of a coordinate.
 double greatest_of(const corpus::Case& c);

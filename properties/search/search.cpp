@@ -129,7 +129,8 @@ struct Swarm {
     for (int tries = 0; moves.size() < 4 || tries == 0; ++tries) {
       moves.clear();
       for (const Move& move : properties::moves()) {
-        if (begin == 0 || random.one_in(2))
+        const bool is_on = begin == 0 || random.one_in(2);
+        if (is_on && (space.gives_views || !move.of_view))
           moves.insert(moves.end(), static_cast<std::size_t>(move.weight), &move);
       }
     }
@@ -139,11 +140,14 @@ struct Swarm {
           sources.insert(sources.end(), static_cast<std::size_t>(source.weight), &source);
       }
     }
-    constexpr Eigen::Index sizes[] = {4, 4, 8, 12, 24};
-    most_triangles = sizes[random.below(static_cast<int>(std::size(sizes)))];
-    most_frames = static_cast<std::size_t>(random.between(2, 5));
-    // Small fresh cases are cheap, and find what is frequent; moves find what is rare.
-    fresh_one_in = begin > 0 && random.one_in(2) ? 1 : random.between(2, 6);
+    // Fresh cases find what is frequent, in meshes of any size that trials have; moves find what is
+    // rare, and small meshes are cheap.
+    const bool is_fresh = begin > 0 && random.one_in(2);
+    constexpr Eigen::Index moved_sizes[] = {4, 4, 8, 12, 24},
+                           fresh_sizes[] = {4, 4, 8, 12, 24, 40, 200};
+    most_triangles = is_fresh ? one_of(random, fresh_sizes) : one_of(random, moved_sizes);
+    most_frames = static_cast<std::size_t>(is_fresh ? 9 : random.between(2, 5));
+    fresh_one_in = is_fresh ? 1 : random.between(2, 6);
   }
 };
 

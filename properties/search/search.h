@@ -42,11 +42,14 @@ struct SearchSpace {
   std::vector<CaseSource> sources;
   // Brings a case into a range of the contract; applied to fresh cases.
   std::function<corpus::Case(corpus::Case)> bring;
+  // The detector is given the view primitives of cases; if not, none is moved.
+  bool gives_views = true;
 };
 
 // A part of a search that depends on nothing but its name: it begins with an empty archive. For
 // some cases at a time about half of the moves and sources are switched off, as the name draws,
 // and meshes are of a size of their own, because what helps to find one fault keeps others away.
+// For about half of the cases there are no moves at all, and meshes may be as large as in trials.
 struct SearchLane {
   std::string id;           // what the ids of its cases begin with
   std::uint64_t cases = 0;  // so many are asked

@@ -25,8 +25,9 @@ using Four = std::array<Vec, 4>;
 // The distance of the segments p0 p1 and p2 p3.
 double between_segments(const Four& p) {
   const Vec a = p[1] - p[0], b = p[3] - p[2], gap = p[0] - p[2];
-  const double aa = dot(a, a), bb = dot(b, b), ab = dot(a, b), ag = dot(a, gap), bg = dot(b, gap);
-  double s = share(ab * bg - ag * bb, aa * bb - ab * ab);
+  const double bb = dot(b, b), ab = dot(a, b), bg = dot(b, gap);
+  const Vec n = cross(a, b);  // aa * bb - ab * ab of nearly parallel edges is rounding alone
+  double s = share(dot(n, cross(b, gap)), dot(n, n));
   const double u = share(ab * s + bg, bb);
   return length(gap + s * a - u * b);
 }

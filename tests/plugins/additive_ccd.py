@@ -36,8 +36,9 @@ def share(part, whole):
 def between_segments(p):
     """The distance of the segments p0 p1 and p2 p3."""
     a, b, gap = minus(p[1], p[0]), minus(p[3], p[2]), minus(p[0], p[2])
-    aa, bb, ab, ag, bg = dot(a, a), dot(b, b), dot(a, b), dot(a, gap), dot(b, gap)
-    s = share(ab * bg - ag * bb, aa * bb - ab * ab)
+    bb, ab, bg = dot(b, b), dot(a, b), dot(b, gap)
+    n = cross(a, b)  # aa * bb - ab * ab of nearly parallel edges is rounding alone
+    s = share(dot(n, cross(b, gap)), dot(n, n))
     u = share(ab * s + bg, bb)
     return length(minus(plus(gap, times(s, a)), times(u, b)))
 

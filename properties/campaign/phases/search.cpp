@@ -33,7 +33,8 @@ class ShardSearch {
         space_{request.detector.contract, case_sources(sources_asked(request, corpus)),
                [&request](corpus::Case c) {
                  return brought_into_contract(std::move(c), request.detector.contract);
-               }} {
+               },
+               request.detector.built_in} {
     const EvidenceFacts stored = facts_in(store);
     for (const auto& lane : stored.search) {
       stored_.insert(lane.lane);

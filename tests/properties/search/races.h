@@ -113,7 +113,8 @@ inline SearchSpace racing_space(const Runner& runner) {
   const auto& contract = runner.detector.contract;
   return {contract,
           case_sources({true, false, ASSAY_SOURCE_DIR "/corpus/curated", runner.shows_it_as_it_is}),
-          [&contract](corpus::Case c) { return brought_into_contract(std::move(c), contract); }};
+          [&contract](corpus::Case c) { return brought_into_contract(std::move(c), contract); },
+          runner.detector.built_in};
 }
 
 inline FirstDefect race_by_search(const Runner& runner, int seed, const RaceLimits& limits) {
