@@ -27,13 +27,22 @@ using LaneSets = std::uint8_t[box_lanes::width];
 inline constexpr std::size_t floats_of_corner = 16;
 using TriangleCorners = const float* [3];
 
-// Which features of two triangles may meet, as bits.
+// Which features of two triangles may meet, as bits. They are always inlined, because code for one
+// instruction set calls them (box_lanes_kernel.h).
 namespace feature_bits {
-constexpr std::uint32_t corner_on_face(std::size_t i) { return 1u << i; }
-constexpr std::uint32_t face_on_corner(std::size_t j) { return 1u << (3 + j); }
-constexpr std::uint32_t edges(std::size_t i, std::size_t j) { return 1u << (6 + 3 * i + j); }
-constexpr std::uint32_t edge_at_start(std::size_t i) { return 1u << (15 + i); }
-constexpr std::uint32_t face_at_start(std::size_t j) { return 1u << (18 + j); }
+[[gnu::always_inline]] constexpr std::uint32_t corner_on_face(std::size_t i) { return 1u << i; }
+[[gnu::always_inline]] constexpr std::uint32_t face_on_corner(std::size_t j) {
+  return 1u << (3 + j);
+}
+[[gnu::always_inline]] constexpr std::uint32_t edges(std::size_t i, std::size_t j) {
+  return 1u << (6 + 3 * i + j);
+}
+[[gnu::always_inline]] constexpr std::uint32_t edge_at_start(std::size_t i) {
+  return 1u << (15 + i);
+}
+[[gnu::always_inline]] constexpr std::uint32_t face_at_start(std::size_t j) {
+  return 1u << (18 + j);
+}
 }  // namespace feature_bits
 
 struct BoxKernels {

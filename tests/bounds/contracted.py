@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Looks for contracted operations (a product and a sum rounded once) in the detector's object code."""
+"""Looks for contracted operations (a product and a sum rounded once) in the detector's object code, and for
+functions that code for one instruction set shares with the rest."""
 import argparse
 import json
 import re
@@ -69,6 +70,16 @@ def main():
             if count:
                 print(f"{source}: {count} contracted operations where the machine has them")
             failed += count
+    # A linker keeps one of all copies of an inline function. That of a file for one instruction set would
+    # end the program on a machine without it.
+    for source in sorted(Path(__file__).resolve().parents[2].glob("detector/*/**/*_avx*.cpp")):
+        out = work / (source.stem + ".O0.o")
+        name = str(source).split("/detector/")[1]
+        subprocess.run(compile_command(options, name, ["-O0"], out), check=True, cwd=build)
+        symbols = subprocess.run(["nm", "-C", str(out)], check=True, capture_output=True, text=True)
+        for line in re.findall(r" [WVu] .*", symbols.stdout):
+            failed += 1
+            print(f"{name}: holds what other files may hold, too:{line}")
     # That it would be seen.
     if not compiled("contact/contact_filter.cpp", ["-ffp-contract=fast"]):
         sys.exit("contact_filter.cpp: nothing is contracted where it may be; what is looked for here?")

@@ -2,6 +2,7 @@
 
 #include "detector/contact/contact_pieces.h"
 #include "detector/geometry/orientation.h"
+#include "detector/mesh/types.h"
 
 #define ASSAY_LANES 2
 #include "detector/contact/lanes/query_lanes_kernel.h"

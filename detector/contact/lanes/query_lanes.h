@@ -8,9 +8,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "detector/mesh/types.h"
-
 namespace assay::detector {
+
+struct SteppedMesh;  // mesh/types.h, which code for one instruction set must not include
 
 // The mesh vertices of a query: v f0 f1 f2, a0 a1 b0 b1, or e0 e1 f0 f1 f2.
 struct QueryVertices {

@@ -87,7 +87,8 @@ ASSAY_INLINE void ordered(Mask& out, const LaneMotion (&p)[4], std::size_t split
   out = Mask{};
   for (std::size_t k = 0; k < 3; ++k) {
     Mask below = ~Mask{}, above = ~Mask{};
-    for (const auto end : {&LaneMotion::t0, &LaneMotion::t1}) {
+    constexpr LaneVector LaneMotion::*ends[] = {&LaneMotion::t0, &LaneMotion::t1};
+    for (const auto end : ends) {
       Lanes lo[2], hi[2];
       for (std::size_t i = 0; i < 4; ++i) {
         const Lanes& x = (p[i].*end).k[k];
