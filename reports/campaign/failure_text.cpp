@@ -178,7 +178,7 @@ Expected<void> write_failures(const properties::KeptFailures& kept,
                         properties::times_text(met(*kind)), smallest_size(*kind));
   }
   if (kinds.size() > 1)
-    text += fmt::format("each with its line to replay: {} list failures {}\n", this_program(),
+    text += fmt::format("each with the line that replays it: {} list failures {}\n", this_program(),
                         shell_word(out.string()));
   return outcome::success();
 }

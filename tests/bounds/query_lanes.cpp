@@ -1,5 +1,6 @@
-// The first rungs of the elementary test in lanes, of vertex and face, of two edges, and of piercing.
-// They compute what one query alone computes, so they add no script that is not there already.
+// The first rungs of the elementary test in lanes, of vertex and face, of two edges, and of
+// piercing. They compute what one query alone computes, so they add no script that is not there
+// already.
 #include "detector/contact/lanes/query_lanes.cpp"
 
 #include "tests/bounds/claims.h"

@@ -107,7 +107,7 @@ TEST_F(Run, ADefectHasAllThatIsNeededToSeeIt) {
   // One kind of failure is told in full, every other one in a line; the list has all in full.
   const auto printed = replay_lines(outcome.out);
   ASSERT_EQ(printed.size(), 1u) << outcome.out;
-  EXPECT_TRUE(contains(outcome.out, "each with its line to replay: ")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "each with the line that replays it: ")) << outcome.out;
   const auto listed = run_assay("list failures " + out);
   EXPECT_EQ(listed.exit_code, 0);
   const auto lines = replay_lines(listed.out);
