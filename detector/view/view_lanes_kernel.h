@@ -16,16 +16,11 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "detector/exact/double_lanes.h"
 #include "detector/view/view_lanes.h"
 
 namespace assay::detector {
 namespace {
-
-constexpr std::size_t lane_count = ASSAY_LANES;
-typedef double Lanes __attribute__((vector_size(8 * ASSAY_LANES)));
-using Mask = decltype(Lanes{} < Lanes{});  // integers, -1 where true
-
-#define ASSAY_INLINE inline __attribute__((always_inline))
 
 struct LaneVector {
   Lanes x, y, z;
@@ -36,8 +31,6 @@ struct LaneMotion {
 struct LaneCubic {
   Lanes b0, b1, b2, b3;  // the middle two times 3
 };
-
-ASSAY_INLINE Lanes all(double value) { return value - Lanes{}; }
 
 ASSAY_INLINE void subtract(LaneVector& out, const LaneVector& a, const LaneVector& b) {
   out = {a.x - b.x, a.y - b.y, a.z - b.z};
@@ -57,14 +50,6 @@ ASSAY_INLINE void dot(Lanes& out, const LaneVector& a, const LaneVector& b) {
 
 ASSAY_INLINE void dot(Lanes& out, const LaneVector& a, const double (&b)[3]) {
   out = a.x * b[0] + a.y * b[1] + a.z * b[2];
-}
-
-ASSAY_INLINE void lesser(Lanes& least, const Lanes& value) {
-  least = value < least ? value : least;
-}
-
-ASSAY_INLINE void greater(Lanes& greatest, const Lanes& value) {
-  greatest = value > greatest ? value : greatest;
 }
 
 // The nearest number of [0,1].

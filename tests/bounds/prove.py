@@ -51,14 +51,14 @@ LINES = {
         ("#if defined(__AVX2__)", "#if 1\n  return static_cast<std::uint32_t>(mask);\n#elif 0"),
         ("#elif defined(__SSE__)", "#elif 0"),
     ],
-    "contact/lanes/query_lanes_kernel.h": [
+    "exact/double_lanes.h": [
         ("typedef double Lanes __attribute__((vector_size(8 * ASSAY_LANES)));",
          "using Lanes = bounds::RecordedLanes;"),
+    ],
+    "contact/lanes/query_lanes_kernel.h": [
         ("const Lanes size = x < Lanes{} ? -x : x;", "const Lanes size = bounds::abs(x);"),
     ],
     "view/view_lanes_kernel.h": [
-        ("typedef double Lanes __attribute__((vector_size(8 * ASSAY_LANES)));",
-         "using Lanes = bounds::RecordedLanes;"),
         ("ASSAY_INLINE void clamp_to_unit(Lanes& s) {",
          "ASSAY_INLINE void clamp_to_unit(Lanes& s) {\n  if (bounds::cut(s)) return;"),
     ],

@@ -8,15 +8,10 @@
 #include <cstdint>
 
 #include "detector/contact/lanes/query_lanes.h"
+#include "detector/exact/double_lanes.h"
 
 namespace assay::detector {
 namespace {
-
-constexpr std::size_t lane_count = ASSAY_LANES;
-typedef double Lanes __attribute__((vector_size(8 * ASSAY_LANES)));
-using Mask = decltype(Lanes{} < Lanes{});  // integers, -1 where true
-
-#define ASSAY_INLINE inline __attribute__((always_inline))
 
 struct LaneVector {
   Lanes k[3];
@@ -28,16 +23,6 @@ struct LaneMotion {
 struct LaneCross {
   LaneVector b0, b1, b2;
 };
-
-ASSAY_INLINE Lanes all(double value) { return value - Lanes{}; }
-
-ASSAY_INLINE void lesser(Lanes& least, const Lanes& value) {
-  least = value < least ? value : least;
-}
-
-ASSAY_INLINE void greater(Lanes& greatest, const Lanes& value) {
-  greatest = value > greatest ? value : greatest;
-}
 
 // Raises `magnitude` to the size of x where it is less.
 ASSAY_INLINE void grow(Lanes& magnitude, const Lanes& x) {
@@ -281,8 +266,6 @@ void kernel(const QueryInput& input, const QueryVertices* queries, std::size_t c
 
 constexpr QueryKernels kernels_of_this_file = {kernel<contact_group<1>>, kernel<contact_group<2>>,
                                                kernel<piercing_group>};
-
-#undef ASSAY_INLINE
 
 }  // namespace
 }  // namespace assay::detector
