@@ -78,8 +78,8 @@ class PairContacts {
   // The first settled_ contacts of all_ are ascending, with each pair once; the late ones follow.
   std::size_t settled_ = 0;
   std::vector<PairContact> late_;  // working memory of settle()
-  // Where pairs that came lately lie in all_, by a hash of the pair; 16 KB. A place may hold another
-  // pair by now, so it is only a guess.
+  // Where pairs that came lately lie in all_, by a hash of the pair; 16 KB. By now a place may hold
+  // another pair, so it is only a guess.
   std::vector<std::uint32_t> recent_;
   std::deque<TrianglePair> new_;
 };
