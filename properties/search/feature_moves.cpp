@@ -349,19 +349,21 @@ void shake(Random& random, Candidate& made, const MoveContext&) {
 }
 
 constexpr Move of_features[] = {
-    {"meet", "the features meet at a time and place", false, 5, meet},
-    {"scale", "scaled by a power of two, or moved away", false, 2, scale},
-    {"newton", "Newton steps onto one degeneracy, or onto two at once", false, 6, newton},
-    {"ulps", "some coordinates go to neighbouring numbers", false, 2, ulps},
-    {"walk", "a walk by ulps along which the gap shrinks", false, 2, walk},
-    {"grid", "all coordinates are rounded to few bits", false, 2, grid},
-    {"flatten", "the features lie in one plane", false, 3, flatten},
-    {"plane", "the features lie in one plane but for rounding", false, 3, near_a_plane},
-    {"graze", "vertex and face touch and part again: a double root", false, 2, graze},
-    {"align", "parallel edges, or a face without area", false, 2, align},
-    {"transplant", "the paths of the features of another case", false, 2, transplant},
-    {"rest", "points rest, or go the other way", false, 2, rest},
-    {"shake", "all vertices, or some, move a little", false, 3, shake},
+    {"meet", "the features meet at a time and place", MoveKind::features, 5, meet},
+    {"scale", "scaled by a power of two, or moved away", MoveKind::features, 2, scale},
+    {"newton", "Newton steps onto one degeneracy, or onto two at once", MoveKind::features, 6,
+     newton},
+    {"ulps", "some coordinates go to neighbouring numbers", MoveKind::features, 2, ulps},
+    {"walk", "a walk by ulps along which the gap shrinks", MoveKind::features, 2, walk},
+    {"grid", "all coordinates are rounded to few bits", MoveKind::features, 2, grid},
+    {"flatten", "the features lie in one plane", MoveKind::features, 3, flatten},
+    {"plane", "the features lie in one plane but for rounding", MoveKind::features, 3,
+     near_a_plane},
+    {"graze", "vertex and face touch and part again: a double root", MoveKind::features, 2, graze},
+    {"align", "parallel edges, or a face without area", MoveKind::features, 2, align},
+    {"transplant", "the paths of the features of another case", MoveKind::features, 2, transplant},
+    {"rest", "points rest, or go the other way", MoveKind::features, 2, rest},
+    {"shake", "all vertices, or some, move a little", MoveKind::features, 3, shake},
 };
 
 }  // namespace

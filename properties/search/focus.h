@@ -5,6 +5,7 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "corpus/cases/case_file.h"
 #include "detector/mesh/step_types.h"
@@ -19,6 +20,7 @@ struct Focus {
   int first_group = 1;
   double time = 0;  // when they meet, or are nearest of a few times, as doubles see it
   std::optional<detector::PairContact> contact;
+  std::vector<detector::TrianglePair> pairs;  // all that meet first
 };
 
 // REQUIRES the oracle's judgement of each step under the contract. Where nothing meets, a few pairs
@@ -31,5 +33,24 @@ detector::FourPoints query_at(const corpus::Case& c, const Focus& focus);
 
 // Puts the paths of the four points into the two frames of the step.
 void set_query(corpus::Case& c, const Focus& focus, const detector::FourPoints& query);
+
+// The pair in contact; else two triangles of which each holds one of the features.
+detector::TrianglePair pair_in_focus(const corpus::Case& c, const Focus& focus);
+
+// Whether what meets first meets within one component, not between two.
+bool is_within_a_component(const corpus::Case& c, const Focus& focus);
+
+// Whether a culling by views may leave out what meets first.
+//
+// Two triangles of one component that are both seen from behind are left out, and so are two that
+// are both seen from the front. A case in which all that meets first is of such pairs is found only
+// by what a detector knows of its start and of its ghosts (L3, L11); one in which that is nearly
+// so, only by an exact view test. Example: two layers of a roll, seen from its axis, of which the
+// inner one goes through the outer one.
+//
+// From 0 to 1: how far that pair of the first ones which is least alike has one sign, at a few
+// times as doubles see them. It is 1 if all are of one sign, and 0 without a contact, without a
+// view primitive, and where two components meet. About 2 us for a pair.
+double seen_alike(const corpus::Case& c, const Focus& focus);
 
 }  // namespace assay::properties

@@ -13,7 +13,7 @@ double greatest_of(const corpus::Case& c) {
 std::span<const Move> moves() {
   static const std::vector<Move> all = [] {
     std::vector<Move> list;
-    for (const auto& some : {feature_moves(), mesh_moves(), side_moves()})
+    for (const auto& some : {feature_moves(), step_moves(), mesh_moves(), view_moves()})
       list.insert(list.end(), some.begin(), some.end());
     return list;
   }();

@@ -28,22 +28,39 @@ struct MoveContext {
   const Candidate* other = nullptr;
 };
 
+// What a move changes. An elementary query is changed by moves of features alone.
+enum class MoveKind : std::uint8_t {
+  features,  // the four points in focus, or all coordinates alike
+  steps,     // frames and the script
+  mesh,      // triangles
+  view,      // a view primitive, or the mesh to suit one
+};
+
 struct Move {
   std::string_view name;
   std::string_view about;
-  bool of_mesh;  // never of an elementary query: it changes triangles or steps
-  int weight;    // it is drawn as often as this, in comparison
+  MoveKind kind;
+  int weight;  // it is drawn as often as this, in comparison
   void (*make)(Random&, Candidate&, const MoveContext&);
-  bool of_view = false;  // it changes nothing but a view primitive, or moves the mesh to suit one
 };
 
 // The first lets the features meet, the second changes the size.
 std::span<const Move> moves();
 
-// The three lists of which it is made.
+// The lists of which it is made.
 std::span<const Move> feature_moves();
+std::span<const Move> step_moves();
 std::span<const Move> mesh_moves();
-std::span<const Move> side_moves();
+std::span<const Move> view_moves();
+
+// Lets a vertex go through a triangle along a ray of a view-point. Vertices move along rays or
+// rest, so no triangle changes its sign: what meets is of one sign. In a clean closed mesh a
+// triangle of the other sign is met before (L3).
+void pass_by_ray(Random& random, Candidate& made, const MoveContext& context);
+
+// The mesh once more inside itself, or around itself. The two hang together at a corner or two, so
+// they are one component, and their layers differ (L9).
+void nest(Random& random, Candidate& made, const MoveContext& context);
 
 // The query with another path of its first point: so that the two features meet at a time, at a
 // corner, on an edge or inside; both are drawn from simple numbers.

@@ -10,6 +10,7 @@
 #include "properties/judging/contracted_case.h"
 #include "properties/search/gap.h"
 #include "properties/search/moves.h"
+#include "properties/search/swarm.h"
 #include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
@@ -63,6 +64,8 @@ struct Scored {
   Candidate found;
   std::string cause, cell;
   double score = 0;
+  bool is_within_a_component = false;
+  double alike = 0;  // what meets first (focus.h)
 };
 
 std::string word_of_hardest(const Gap& gap) {
@@ -71,26 +74,34 @@ std::string word_of_hardest(const Gap& gap) {
 }
 
 std::optional<Scored> scored(const corpus::Case& c, const SearchedCase& judged,
-                             const Contract& contract, Random& random) {
-  const auto focus = focus_of(c, judged.truth, contract, random);
+                             const SearchSpace& space, Random& random) {
+  const auto focus = focus_of(c, judged.truth, space.contract, random);
   if (!focus) return std::nullopt;
-  const bool of_distance = contract.separation > 0;
-  const Gap gap = gap_of(query_at(c, *focus), focus->time, contract.separation);
+  const double separation = space.contract.separation;
+  const Gap gap = gap_of(query_at(c, *focus), focus->time, separation);
   Scored scored{{c, focus}, "no contact", "", nearness(gap) + error_bits(judged)};
   if (focus->contact) {
     const auto step = corpus::steps_of(c)[focus->step];
     const detector::SteppedMesh motion{start_of(c, step), end_of(c, step)};
+    const auto& contact = *focus->contact;
     scored.cause =
-        text_of(says_query(c) ? cause_of_query(c.triangles, motion, *focus->contact, of_distance)
-                              : cause_of(c.triangles, motion, *focus->contact, of_distance));
+        text_of(says_query(c) ? cause_of_query(c.triangles, motion, contact, separation > 0)
+                              : cause_of(c.triangles, motion, contact, separation > 0));
   }
-  scored.cell = fmt::format("{}; {}; {}; {}", scored.cause, focus->first_group,
-                            word_of_hardest(gap), ways_of(judged));
+  if (space.gives_views && focus->contact && !says_query(c)) {
+    scored.is_within_a_component = is_within_a_component(c, *focus);
+    scored.alike = seen_alike(c, *focus);
+  }
+  constexpr double bits_of_sight = 24, steps_of_sight = 8;
+  scored.score += bits_of_sight * scored.alike;
+  scored.cell = fmt::format("{}; {}; {}; {}; {}; {}", scored.cause, focus->first_group,
+                            word_of_hardest(gap), ways_of(judged), scored.is_within_a_component,
+                            std::floor(steps_of_sight * scored.alike));
   return scored;
 }
 
-// The best case of each cell: of a cause, a kind of features, what is hardest, and how the
-// detector went.
+// The best case of each cell: of a cause, a kind of features, what is hardest, how the detector
+// went, and how a culling sees it.
 class Archive {
  public:
   // Of two equally good cases the later stays, so that the search drifts.
@@ -98,57 +109,28 @@ class Archive {
     causes_.insert(one.cause);
     const auto [place, is_new] = cells_.try_emplace(one.cell, cases_.size());
     if (is_new) {
+      if (one.is_within_a_component) within_.push_back(cases_.size());
+      if (one.alike == 1) alike_.push_back(cases_.size());
       cases_.push_back(std::move(one));
     } else if (one.score >= cases_[place->second].score) {
       cases_[place->second] = std::move(one);
     }
   }
-  const Candidate* draw(Random& random) const {
-    if (cases_.empty()) return nullptr;
-    return &cases_[static_cast<std::size_t>(random.below(static_cast<int>(cases_.size())))].found;
+  // Null if there is none of this kind.
+  const Candidate* draw(Random& random, Parents parents = Parents::any) const {
+    if (parents == Parents::any) return cases_.empty() ? nullptr : &one_of(random, cases_).found;
+    // What is alike is rare, so half of the draws are of it.
+    const bool is_alike = parents == Parents::alike || (!alike_.empty() && random.one_in(2));
+    const auto& places = is_alike ? alike_ : within_;
+    return places.empty() ? nullptr : &cases_[one_of(random, places)].found;
   }
   std::set<std::string> take_causes() { return std::move(causes_); }
 
  private:
   std::map<std::string, std::size_t> cells_;
   std::vector<Scored> cases_;
+  std::vector<std::size_t> within_, alike_;  // places of such cases
   std::set<std::string> causes_;
-};
-
-// What a lane is free to do for a while.
-struct Swarm {
-  std::vector<const Move*> moves;          // each as often as its weight
-  std::vector<const CaseSource*> sources;  // the same
-  Eigen::Index most_triangles = 0;
-  std::size_t most_frames = 0;
-  int fresh_one_in = 0;
-
-  // All is switched on at the beginning of a lane.
-  Swarm(const SearchLane& lane, const SearchSpace& space, std::uint64_t begin) {
-    Random random(fmt::format("{}:swarm:{}", lane.id, begin));
-    for (int tries = 0; moves.size() < 4 || tries == 0; ++tries) {
-      moves.clear();
-      for (const Move& move : properties::moves()) {
-        const bool is_on = begin == 0 || random.one_in(2);
-        if (is_on && (space.gives_views || !move.of_view))
-          moves.insert(moves.end(), static_cast<std::size_t>(move.weight), &move);
-      }
-    }
-    while (sources.empty()) {
-      for (const auto& source : space.sources) {
-        if (begin == 0 || random.one_in(2))
-          sources.insert(sources.end(), static_cast<std::size_t>(source.weight), &source);
-      }
-    }
-    // Fresh cases find what is frequent, in meshes of any size that trials have; moves find what is
-    // rare, and small meshes are cheap.
-    const bool is_fresh = begin > 0 && random.one_in(2);
-    constexpr Eigen::Index moved_sizes[] = {4, 4, 8, 12, 24},
-                           fresh_sizes[] = {4, 4, 8, 12, 24, 40, 200};
-    most_triangles = is_fresh ? one_of(random, fresh_sizes) : one_of(random, moved_sizes);
-    most_frames = static_cast<std::size_t>(is_fresh ? 9 : random.between(2, 5));
-    fresh_one_in = is_fresh ? 1 : random.between(2, 6);
-  }
 };
 
 // Whether all is a number: moves may overflow.
@@ -166,14 +148,14 @@ bool is_finite(const corpus::Case& c) {
 class LaneSearch {
  public:
   LaneSearch(const SearchLane& lane, const SearchSpace& space)
-      : lane_(lane), space_(space), swarm_(lane, space, 0) {}
+      : lane_(lane), space_(space), swarm_(lane.id, space, 0) {}
 
   LaneResult run(const JudgeCases& judge, const std::function<bool()>& stop) {
     while (result_.cases < lane_.cases) {
       if (stop && stop()) return std::move(result_);
       constexpr std::uint64_t together = 8, cases_of_a_swarm = 32, most_idle = 20;
       if (renew_ || of_swarm_ >= cases_of_a_swarm) {
-        swarm_ = Swarm(lane_, space_, drawn_);
+        swarm_ = Swarm(lane_.id, space_, drawn_);
         of_swarm_ = 0;
       }
       std::vector<corpus::Case> batch;
@@ -215,32 +197,40 @@ class LaneSearch {
   }
 
   corpus::Case draw(Random& random, const std::string& id) const {
+    const Candidate* parent =
+        random.one_in(swarm_.fresh_one_in) ? nullptr : archive_.draw(random, swarm_.parents);
+    return parent ? moved(random, *parent) : fresh(random, id);
+  }
+
+  corpus::Case fresh(Random& random, const std::string& id) const {
     Candidate made;
-    const Candidate* parent = random.one_in(swarm_.fresh_one_in) ? nullptr : archive_.draw(random);
-    if (!parent) {
-      const auto place = random.below(static_cast<int>(swarm_.sources.size()));
-      const auto& source = *swarm_.sources[static_cast<std::size_t>(place)];
-      made.c = source.draw(random, id, swarm_.most_triangles);
-      if (made.c.frames.size() < 2) return made.c;
-      made.c = space_.bring(std::move(made.c));
-      // Under such a contract most fresh cases that are taken are in no contact.
-      const bool leaves_contacts_out = space_.contract.start != StartRule::any;
-      if (!random.one_in(leaves_contacts_out ? 2 : 4)) return made.c;
-      made.focus = focus_of(made.c, {}, space_.contract, random);
-      moves()[0].make(random, made, {space_.contract});
-      if (space_.contract.has_range() && random.one_in(3))
-        moves()[1].make(random, made, {space_.contract});
+    made.c = one_of(random, swarm_.sources)->draw(random, id, swarm_.most_triangles);
+    if (made.c.frames.size() < 2) return made.c;
+    made.c = space_.bring(std::move(made.c));
+    const MoveContext context{space_.contract};
+    if (is_of_culling(swarm_.theme) && random.one_in(2)) {
+      if (random.one_in(2)) nest(random, made, context);
+      pass_by_ray(random, made, context);
       return made.c;
     }
-    made = *parent;
+    // Under such a contract most fresh cases that are taken are in no contact.
+    const bool leaves_contacts_out = space_.contract.start != StartRule::any;
+    if (!random.one_in(leaves_contacts_out ? 2 : 4)) return made.c;
+    made.focus = focus_of(made.c, {}, space_.contract, random);
+    moves()[0].make(random, made, context);
+    if (space_.contract.has_range() && random.one_in(3)) moves()[1].make(random, made, context);
+    return made.c;
+  }
+
+  corpus::Case moved(Random& random, const Candidate& parent) const {
+    Candidate made = parent;
     made.c.expected = {};
     const MoveContext context{space_.contract, archive_.draw(random)};
     do {
-      const auto place = random.below(static_cast<int>(swarm_.moves.size()));
-      const Move& move = *swarm_.moves[static_cast<std::size_t>(place)];
-      if (!move.of_mesh || !says_query(made.c)) move.make(random, made, context);
+      const Move& move = *one_of(random, swarm_.moves);
+      if (move.kind == MoveKind::features || !says_query(made.c)) move.make(random, made, context);
     } while (random.one_in(2) && is_finite(made.c));
-    if (is_same(made.c, parent->c)) made.c.frames.clear();
+    if (is_same(made.c, parent.c)) made.c.frames.clear();
     return made.c;
   }
 
@@ -264,7 +254,7 @@ class LaneSearch {
       return;
     }
     Random random(c.id + ":focus");
-    if (auto one = scored(c, judged, space_.contract, random)) archive_.offer(std::move(*one));
+    if (auto one = scored(c, judged, space_, random)) archive_.offer(std::move(*one));
   }
 
   const SearchLane& lane_;

@@ -52,7 +52,7 @@ TEST(Moves, OfFeaturesLeaveAQueryAQuery) {
   Contract contract;
   contract.coordinates = Coordinates::float32;
   for (const Move& move : moves()) {
-    if (move.of_mesh) continue;
+    if (move.kind != MoveKind::features) continue;
     for (std::uint64_t i = 0; i < 40; ++i) {
       Random random("queries:" + std::to_string(i));
       Candidate made =
@@ -88,7 +88,7 @@ TEST(Moves, TwoTrianglesHoldTheFeaturesOfTheQuery) {
     const auto query = query_generators()[1].make(9, i).query;
     const auto c = two_triangles(query, random, "pair");
     ASSERT_TRUE(is_valid(c)) << i;
-    const Focus focus{0, {0, 1, 2, 3}, query.first_group, 0, {}};
+    const Focus focus{0, {0, 1, 2, 3}, query.first_group, 0, {}, {}};
     const auto held = query_at(c, focus);
     for (std::size_t p = 0; p < 4; ++p) {
       EXPECT_EQ(held.points[p].t0, query.points[p].t0);

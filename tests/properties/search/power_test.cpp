@@ -2,7 +2,8 @@
 // others.
 //
 // ASSAY_RACE_SEEDS=15 ASSAY_RACE_SECONDS=20 properties_search_tests --gtest_filter=*Table* prints
-// the table, of the faults in ASSAY_RACE_FAULTS (names with commas; "all") and of the peers.
+// the table, of the faults in ASSAY_RACE_FAULTS (names with commas; "all") and of the peers. The
+// seeds begin with ASSAY_RACE_FIRST, or with 1.
 //
 // ASSAY_CAUSES_SECONDS=60 with --gtest_filter=*Causes* counts the distinct causes on each peer.
 #include <gtest/gtest.h>
@@ -25,9 +26,16 @@ struct Racers {
   int random_missed = 0, search_missed = 0;
 };
 
+std::string word_from(const char* name) {
+  const char* word = std::getenv(name);
+  return word ? word : "";
+}
+
 Racers race(const test::Runner& runner, int seeds, const test::RaceLimits& limits) {
   Racers racers;
-  for (int seed = 1; seed <= seeds; ++seed) {
+  const auto first = word_from("ASSAY_RACE_FIRST");
+  const int begin = first.empty() ? 1 : std::stoi(first);
+  for (int seed = begin; seed < begin + seeds; ++seed) {
     const auto by_search = test::race_by_search(runner, seed, limits);
     const auto at_random = test::race_at_random(runner, seed, limits);
     racers.random.push_back(at_random.seconds);
@@ -38,11 +46,6 @@ Racers race(const test::Runner& runner, int seeds, const test::RaceLimits& limit
     racers.search_missed += by_search.found ? 0 : 1;
   }
   return racers;
-}
-
-std::string word_from(const char* name) {
-  const char* word = std::getenv(name);
-  return word ? word : "";
 }
 
 void print_row(const std::string& name, const Racers& racers) {

@@ -69,7 +69,13 @@ inline std::optional<Runner> runner_of_peer(const std::string& name) {
 struct FirstDefect {
   bool found = false;
   std::uint64_t cases = 0;
-  double seconds = 0;  // of processor time
+  double seconds = 0;            // of processor time
+  std::uint64_t candidates = 0;  // of the oracle, in all cases: a measure of work that is no clock
+
+  void count(const SearchedCase& judged) {
+    ++cases;
+    for (const auto& step : judged.truth) candidates += step.feature_candidates;
+  }
 };
 
 // How long a racer may run.
@@ -100,8 +106,9 @@ inline FirstDefect race_at_random(const Runner& runner, int seed, const RaceLimi
     const auto c =
         case_within(runner.detector.contract, family,
                     fmt::format("race:{}:{}:{}", seed, family.name, first.cases / known.size()));
-    ++first.cases;
-    if (!c.seen || !judged_by(runner, *c.seen).trials[0].failure) continue;
+    const auto judged = c.seen ? judged_by(runner, *c.seen) : SearchedCase{};
+    first.count(judged);
+    if (!c.seen || !judged.trials[0].failure) continue;
     first.found = true;
     break;
   }
@@ -126,7 +133,7 @@ inline FirstDefect race_by_search(const Runner& runner, int seed, const RaceLimi
     for (const auto& c : cases) {
       judged.push_back(first.found ? SearchedCase{} : judged_by(runner, c));
       if (first.found) continue;
-      ++first.cases;
+      first.count(judged.back());
       if (!judged.back().trials[0].failure) continue;
       first.found = true;
       first.seconds = clock.seconds();
