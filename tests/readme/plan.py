@@ -129,8 +129,8 @@ ENDS = {
         "assay run --campaign smoke --detector build/release/peers/cubic_double.so --power build/certify --out build/cubic": [1],
     },
     "reports/judge/TEN_MINUTES.md": {
-        "assay run --campaign detector/plugin/ci/push.json --detector ./my_ccd.so --power build/proof --out build/mine": [1],
-        "assay replay build/mine/failures/search-push-1-002-225-my-CCD-smallest.json --detector ./my_ccd.so": [1, 0],
+        "assay run --campaign detector/plugin/ci/push.json --seed 2 --detector ./my_ccd.so --power build/proof --out build/mine": [1],
+        "assay replay build/mine/failures/search-push-2-002-524-my-CCD-smallest.json --detector ./my_ccd.so": [1, 0],
         "SEED=1 SOURCES=tests/plugins/additive_ccd.cpp sh detector/plugin/ci/job.sh": [1],
         "SEED=3 sh detector/plugin/ci/job.sh": [1],
         "assay judge steps.log --out build/judged": [1],
@@ -151,9 +151,9 @@ SHOWN = {
         "assay run --campaign smoke --out build/smoke": "canary pair/zero-zero-dropped",
     },
     "reports/judge/TEN_MINUTES.md": {
-        "assay run --campaign detector/plugin/ci/push.json --detector ./my_ccd.so --power build/proof --out build/mine": "claims     FAILS",
-        "assay replay build/mine/failures/search-push-1-002-225-my-CCD-smallest.json --detector ./my_ccd.so": "my CCD: defect",
-        "assay run --campaign detector/plugin/ci/push.json --detector ./my_ccd.so --power build/proof --out build/mine-mended": "claims     holds",
+        "assay run --campaign detector/plugin/ci/push.json --seed 2 --detector ./my_ccd.so --power build/proof --out build/mine": "claims     FAILS",
+        "assay replay build/mine/failures/search-push-2-002-524-my-CCD-smallest.json --detector ./my_ccd.so": "my CCD: defect",
+        "assay run --campaign detector/plugin/ci/push.json --seed 2 --detector ./my_ccd.so --power build/proof --out build/mine-mended": "claims     holds",
         "SEED=1 SOURCES=tests/plugins/additive_ccd.cpp sh detector/plugin/ci/job.sh": "corpus     FAILS",
         "SEED=3 sh detector/plugin/ci/job.sh": "verdict: defect",
         "assay judge steps.log --out build/judged": "step 111: free; DIFFER",
