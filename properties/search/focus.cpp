@@ -118,7 +118,7 @@ std::optional<Focus> focus_of(const corpus::Case& c, std::span<const oracle::Ste
     focus.time = first->time.lo;
     focus.contact = first;
     for (const auto& contact : truth[s].pairs) {
-      if (contact.time.lo <= first->time.hi) focus.pairs.push_back(contact.pair);
+      if (contact.time == first->time) focus.pairs.push_back(contact.pair);
     }
     set_feature(focus, first->feature);
     return focus;

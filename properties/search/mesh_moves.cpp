@@ -137,10 +137,10 @@ constexpr Move of_meshes[] = {
 std::span<const Move> mesh_moves() { return of_meshes; }
 
 void nest(Random& random, Candidate& made, const MoveContext&) {
-  auto& c = made.c;
   constexpr Eigen::Index most_triangles = 24;
-  const auto count = c.triangles.rows();
-  if (!is_plain(c) || count > most_triangles) return;
+  const auto count = made.c.triangles.rows();
+  if (!is_plain(made.c) || count > most_triangles) return;
+  corpus::Case c = made.c;
   const int triangle = random.below(static_cast<int>(count)), corner = random.below(3);
   const auto held = c.triangles(triangle, corner);
   const auto also_held = random.one_in(2) ? c.triangles(triangle, (corner + 1) % 3) : held;
@@ -161,7 +161,7 @@ void nest(Random& random, Candidate& made, const MoveContext&) {
   }
   auto nested = with_triangles(c, triangles);
   if (!is_valid(nested)) return;
-  c = std::move(nested);
+  made.c = std::move(nested);
   made.focus.reset();
 }
 

@@ -15,8 +15,8 @@
 
 namespace assay::properties {
 
-// A case in the making. Moves that change the mesh lose the focus, and those that need one then do
-// nothing.
+// A case in the making. A move after which the triangles or vertices in focus are others loses the
+// focus, and moves that need one then do nothing.
 struct Candidate {
   corpus::Case c;
   std::optional<Focus> focus;
@@ -54,8 +54,9 @@ std::span<const Move> mesh_moves();
 std::span<const Move> view_moves();
 
 // Lets a vertex go through a triangle along a ray of a view-point. Vertices move along rays or
-// rest, so no triangle changes its sign: what meets is of one sign. In a clean closed mesh a
-// triangle of the other sign is met before (L3).
+// rest, so no triangle changes its sign, and the triangle and those of the vertex are of one sign.
+// In a clean closed mesh one of the other sign is met before (L3). The point may become a short
+// line.
 void pass_by_ray(Random& random, Candidate& made, const MoveContext& context);
 
 // The mesh once more inside itself, or around itself. The two hang together at a corner or two, so

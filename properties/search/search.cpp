@@ -57,7 +57,7 @@ bool is_same(const corpus::Case& a, const corpus::Case& b) {
   return a.triangles.rows() == b.triangles.rows() &&
          a.frames.front().rows() == b.frames.front().rows() && a.triangles == b.triangles &&
          a.frames == b.frames && a.script == b.script && a.view.has_value() == b.view.has_value() &&
-         !a.view;
+         (!a.view || (a.view->q0 == b.view->q0 && a.view->q1 == b.view->q1));
 }
 
 struct Scored {
@@ -203,13 +203,16 @@ class LaneSearch {
   }
 
   corpus::Case fresh(Random& random, const std::string& id) const {
+    const bool is_on_a_ray = is_of_culling(swarm_.theme) && random.one_in(2);
+    const bool is_nested = is_on_a_ray && random.one_in(2);
     Candidate made;
-    made.c = one_of(random, swarm_.sources)->draw(random, id, swarm_.most_triangles);
+    made.c = one_of(random, swarm_.sources)
+                 ->draw(random, id, swarm_.most_triangles / (is_nested ? 2 : 1));
     if (made.c.frames.size() < 2) return made.c;
     made.c = space_.bring(std::move(made.c));
     const MoveContext context{space_.contract};
-    if (is_of_culling(swarm_.theme) && random.one_in(2)) {
-      if (random.one_in(2)) nest(random, made, context);
+    if (is_nested) nest(random, made, context);
+    if (is_on_a_ray) {
       pass_by_ray(random, made, context);
       return made.c;
     }

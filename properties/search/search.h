@@ -47,11 +47,11 @@ struct SearchSpace {
 };
 
 // A part of a search that depends on nothing but its name: it begins with an empty archive. For
-// some cases at a time it has a theme, and meshes are of a size of their own, because what helps to
-// find one fault keeps others away; about half of the moves and sources are switched off. Half of
-// the themes are fresh cases alone. Others move small meshes onto degeneracies, or, for a detector
-// that is given views, seek what is found by no view: contacts within a sheet or between nested
-// shells that are seen from one side, and other pasts of such steps.
+// some cases at a time it has a theme (swarm.h), with meshes of a size of their own, because what
+// helps to find one fault keeps others away. Some themes are fresh cases alone. Others move small
+// meshes onto degeneracies, or, for a detector that is given views, seek what is found by no view:
+// contacts within a sheet or between nested shells that are seen from one side, and other pasts of
+// such steps.
 struct SearchLane {
   std::string id;           // what the ids of its cases begin with
   std::uint64_t cases = 0;  // so many are asked

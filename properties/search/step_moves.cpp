@@ -13,7 +13,7 @@ namespace {
 
 using detector::FourPoints;
 
-// Puts a frame before that of this number; the view primitive is where it is in that one.
+// Puts a frame before that of this number, and the view primitive of that frame with it.
 void insert_frame(corpus::Case& c, std::int32_t place, detector::Positions x) {
   const auto script = corpus::steps_of(c);
   c.frames.insert(c.frames.begin() + place, std::move(x));
@@ -29,6 +29,31 @@ void insert_frame(corpus::Case& c, std::int32_t place, detector::Positions x) {
   }
 }
 
+// The step of this number in two parts, or its second part alone.
+void split_step(corpus::Case& c, std::size_t place, double share, bool has_first_part) {
+  const auto step = corpus::steps_of(c)[place];
+  const auto& x0 = c.frames[detector::at(step.from)];
+  const detector::Positions middle = x0 + share * (c.frames[detector::at(step.to)] - x0);
+  std::vector<detector::Point> views;  // in the middle: of q0, and of q1
+  if (c.view) {
+    for (const auto* ends : {&c.view->q0, &c.view->q1}) {
+      if (ends->empty()) continue;
+      const auto& from = (*ends)[detector::at(step.from)];
+      const auto& to = (*ends)[detector::at(step.to)];
+      auto& view = views.emplace_back();
+      for (std::size_t k = 0; k < 3; ++k) view[k] = from[k] + share * (to[k] - from[k]);
+    }
+  }
+  const auto part = std::max(step.from, step.to);
+  insert_frame(c, part, middle);
+  if (!views.empty()) c.view->q0[detector::at(part)] = views[0];
+  if (views.size() == 2) c.view->q1[detector::at(part)] = views[1];
+  const auto from = c.script[place].from;
+  c.script[place].from = part;
+  if (has_first_part)
+    c.script.insert(c.script.begin() + static_cast<std::ptrdiff_t>(place), {from, part, true});
+}
+
 // Another past of the step in focus: the same step, after other steps, from another place, in two
 // parts. What a detector carries from step to step is then different.
 constexpr std::size_t most_frames = 6, most_steps = 8;
@@ -42,8 +67,6 @@ void past(Random& random, Candidate& made, const MoveContext&) {
                          : static_cast<std::size_t>(random.below(static_cast<int>(script.size())));
   const auto step = script[place];
   const auto here = script.begin() + static_cast<std::ptrdiff_t>(place);
-  const auto& x0 = c.frames[detector::at(step.from)];
-  const auto& x1 = c.frames[detector::at(step.to)];
   std::size_t before = 0;  // so many steps more stand before the one in focus
   switch (random.below(8)) {
     case 0:  // a step at rest before it, taken or looked at
@@ -70,26 +93,22 @@ void past(Random& random, Candidate& made, const MoveContext&) {
       return;
     }
     case 4:
-    case 5: {  // in two parts, or the second part alone
+    case 5: {
       if (step.from == step.to) return;
       constexpr double shares[] = {0.5, 0.25, 0.75, 0.875};
       const double share = one_of(random, shares);
-      const detector::Positions middle = x0 + share * (x1 - x0);
-      const bool whole = random.one_in(2);
-      insert_frame(c, std::max(step.from, step.to), middle);
-      const auto part = std::max(step.from, step.to);
-      auto& split = c.script[place];
-      const auto first = split.from;
-      split.from = part;
-      if (whole) {
-        c.script.insert(c.script.begin() + static_cast<std::ptrdiff_t>(place), {first, part, true});
-        if (made.focus) ++made.focus->step;
-      }
-      if (made.focus && share >= made.focus->time) made.focus->time = 0;
+      const bool has_first_part = random.one_in(2);
+      split_step(c, place, share, has_first_part);
+      if (!made.focus) return;
+      double& time = made.focus->time;
+      const bool is_in_first = time <= share;
+      if (is_in_first && !has_first_part) return made.focus.reset();
+      made.focus->step += has_first_part && !is_in_first ? 1 : 0;
+      time = is_in_first ? time / share : (time - share) / (1 - share);
       return;
     }
     case 6: {  // a step from elsewhere, which leads here or rests there
-      detector::Positions there = x0;
+      detector::Positions there = c.frames[detector::at(step.from)];
       const double amount = std::ldexp(greatest_of(c), -random.between(0, 4));
       const bool rigid = random.one_in(3);
       for (Eigen::Index v = 0; v < there.rows(); ++v) {

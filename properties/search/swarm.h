@@ -1,6 +1,7 @@
 // What a lane of the search does for a while: which moves it makes, where its cases come from, how
 // large they are. What helps to find one fault keeps others away, so each swarm has a theme, and
-// within it about half of the moves and sources are switched off, as its name draws.
+// within it about half of the sources are switched off, as its name draws; in themes of many moves
+// about half of these, too.
 #pragma once
 
 #include <string>

@@ -123,9 +123,10 @@ std::optional<Row> place_behind(Random& random, const std::vector<Side>& sides) 
   return Row(middle - (least + one_of(random, farther) * size) * way);
 }
 
-// A view primitive from which the pair in focus, all that meets first, or the whole mesh faces away
-// at both ends of the step and at some places between. What meets nevertheless, meets because a triangle turns on
-// the way, or because a ghost is touched (L4, L11).
+// A view primitive from which the pair in focus, all that meets first, or the whole mesh faces away,
+// or which it faces, at both ends of the step and at some places between; one that moves is behind
+// it in each frame. What meets nevertheless, meets because a triangle turns on the way, or because
+// a ghost is touched (L4, L11).
 void face_away(Random& random, Candidate& made, const MoveContext&) {
   auto& c = made.c;
   if (c.ghosts || !made.focus || c.triangles.rows() == 0) return;
@@ -241,8 +242,12 @@ void put_into_a_plane(Random& random, Candidate& made) {
   };
   const Row p = corner(0), normal = (corner(1) - p).cross(corner(2) - p);
   if (!(normal.squaredNorm() > 0)) return;
-  const auto [x, y, z] = c.view->q0.front();
-  const Row by = (p - Row(x, y, z)).dot(normal) / normal.squaredNorm() * normal;
+  const auto q = [&](std::int32_t frame) {
+    const auto [a, b, d] = c.view->q0[detector::at(frame)];
+    return Row(a, b, d);
+  };
+  const Row seen_from = q(step.from) + time * (q(step.to) - q(step.from));
+  const Row by = (p - seen_from).dot(normal) / normal.squaredNorm() * normal;
   for (auto* ends : {&c.view->q0, &c.view->q1}) {
     for (auto& end : *ends) end = {end[0] + by[0], end[1] + by[1], end[2] + by[2]};
   }

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "properties/queries/query_families.h"
 #include "properties/search/moves.h"
 #include "properties/search/sources.h"
@@ -69,13 +71,16 @@ TEST(SeenAlike, IsZeroWithoutAViewAndForTwoComponents) {
     frame.conservativeResize(6, 3);
     frame.row(5) << 9, 0.5, 3;
   }
-  EXPECT_FALSE(is_within_a_component(c, focus_in(c)));
-  EXPECT_EQ(seen_alike(c, focus_in(c)), 0);
+  const Focus focus = focus_in(c);
+  ASSERT_FALSE(focus.pairs.empty());
+  EXPECT_FALSE(is_within_a_component(c, focus));
+  EXPECT_EQ(seen_alike(c, focus), 0);
 }
 
 // L3: in a clean closed mesh some pair that meets first is not of one sign.
 TEST(SeenAlike, L3_IsLessInACleanClosedMesh) {
   int met = 0;
+  double most = 0;
   for (std::uint64_t i = 0; i < 200; ++i) {
     Random random(fmt::format("alike:{}", i));
     auto c = tetrahedron(query_generators()[8].make(9, i).query, "tetrahedron");
@@ -84,11 +89,53 @@ TEST(SeenAlike, L3_IsLessInACleanClosedMesh) {
     ++met;
     Candidate made{c, focus_of(c, truth, Contract{}, random)};
     for (const Move& move : view_moves()) {
-      if (move.name == "gaze" || move.name == "view") move.make(random, made, {Contract{}});
-      EXPECT_LT(seen_alike(made.c, *made.focus), 1) << i << " " << move.name;
+      if (move.name != "gaze" && move.name != "view") continue;
+      move.make(random, made, {Contract{}});
+      const double alike = seen_alike(made.c, *made.focus);
+      EXPECT_LT(alike, 1) << i << " " << move.name;
+      most = std::max(most, alike);
     }
   }
   EXPECT_GE(met, 30);
+  EXPECT_GT(most, 0.75);
+}
+
+// Whatever went before it, the step in focus is the same, or a part of it, seen from the same place.
+TEST(Past, KeepsTheStepInFocus) {
+  const Contract contract;
+  const auto before = [&] {
+    auto c = two_layers();
+    c.view->q0[1] = {0.5, 0, 0};
+    return c;
+  }();
+  const Focus focus = focus_in(before);
+  const auto query = query_at(before, focus);
+  const auto past = std::find_if(moves().begin(), moves().end(),
+                                 [](const Move& move) { return move.name == "past"; });
+  int kept = 0, parts = 0;
+  for (int i = 0; i < 100; ++i) {
+    Random random(fmt::format("past:{}", i));
+    Candidate made{before, focus};
+    past->make(random, made, {contract});
+    if (!made.focus) continue;
+    const auto now = query_at(made.c, *made.focus);
+    const auto view = corpus::view_of_step(made.c, made.focus->step)->q0;
+    // Where the features meet, the view is that of this time.
+    const double t = made.focus->time, x = view.t0[0] + t * (view.t1[0] - view.t0[0]);
+    EXPECT_DOUBLE_EQ(x, 0.5 * focus.time) << i;
+    for (std::size_t p = 0; p < 4; ++p) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto place = [&](const detector::MovingPoint& path, double time) {
+          return path.t0[k] + time * (path.t1[k] - path.t0[k]);
+        };
+        EXPECT_DOUBLE_EQ(place(now.points[p], t), place(query.points[p], focus.time)) << i;
+      }
+    }
+    (now.points[0].t0 == query.points[0].t0 && now.points[0].t1 == query.points[0].t1 ? kept
+                                                                                      : parts)++;
+  }
+  EXPECT_GE(kept, 40);
+  EXPECT_GE(parts, 5);
 }
 
 // Two shells of one component, of which the inner one goes through the outer one.

@@ -5,7 +5,8 @@
 // the table, of the faults in ASSAY_RACE_FAULTS (names with commas; "all") and of the peers. The
 // seeds begin with ASSAY_RACE_FIRST, or with 1.
 //
-// ASSAY_CAUSES_SECONDS=60 with --gtest_filter=*Causes* counts the distinct causes on each peer.
+// ASSAY_CAUSES_SECONDS=60 with --gtest_filter=*Causes* counts the distinct causes on each peer, or
+// on those in ASSAY_RACE_PEERS.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -48,6 +49,12 @@ Racers race(const test::Runner& runner, int seeds, const test::RaceLimits& limit
   return racers;
 }
 
+// Whether the list of the variable, names with commas, holds a name or says "all".
+bool is_named(const char* variable, std::string_view name) {
+  const auto names = word_from(variable);
+  return names == "all" || ("," + names + ",").find(fmt::format(",{},", name)) != std::string::npos;
+}
+
 void print_row(const std::string& name, const Racers& racers) {
   const double random = median_of(racers.random), search = median_of(racers.search);
   fmt::print("{:40} {:>8.0f} {:>9.3f} {:>3} {:>8.0f} {:>9.3f} {:>3} {:>7.2f}\n", name,
@@ -59,7 +66,7 @@ void print_row(const std::string& name, const Racers& racers) {
 TEST(Power, Table) {
   const auto seeds = word_from("ASSAY_RACE_SEEDS");
   if (seeds.empty()) GTEST_SKIP() << "ASSAY_RACE_SEEDS is not set";
-  const auto limit = word_from("ASSAY_RACE_SECONDS"), names = word_from("ASSAY_RACE_FAULTS");
+  const auto limit = word_from("ASSAY_RACE_SECONDS");
   const test::RaceLimits limits{1'000'000'000, limit.empty() ? 20 : std::stod(limit)};
   fmt::print("{:40} {:>8} {:>9} {:>3} {:>8} {:>9} {:>3} {:>7}\n", "detector", "random", "s", "no",
              "search", "s", "no", "ratio");
@@ -69,10 +76,7 @@ TEST(Power, Table) {
   }
   for (const auto& fault : faults()) {
     if (fault.status != FaultStatus::planted || fault.is_disturbed) continue;
-    const bool is_asked =
-        names == "all" ||
-        ("," + names + ",").find("," + std::string(fault.name) + ",") != std::string::npos;
-    if (is_asked)
+    if (is_named("ASSAY_RACE_FAULTS", fault.name))
       print_row(std::string(fault.name), race(test::runner_of(fault), std::stoi(seeds), limits));
   }
 }
@@ -82,7 +86,9 @@ TEST(Power, Causes) {
   if (seconds.empty()) GTEST_SKIP() << "ASSAY_CAUSES_SECONDS is not set";
   for (const char* peer :
        {"cubic_double", "cubic_float", "cubic_eigen", "fcl_elementary", "bullet_bernstein"}) {
-    const auto runner = test::runner_of_peer(peer);
+    const bool is_asked =
+        word_from("ASSAY_RACE_PEERS").empty() || is_named("ASSAY_RACE_PEERS", peer);
+    const auto runner = is_asked ? test::runner_of_peer(peer) : std::nullopt;
     if (!runner) continue;
     const auto by_search = test::signatures_by_search(*runner, std::stod(seconds));
     const auto at_random = test::signatures_at_random(*runner, std::stod(seconds));

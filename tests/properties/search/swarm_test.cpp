@@ -18,7 +18,7 @@ class Swarms : public testing::Test {
   }
 };
 
-TEST_F(Swarms, HaveAllThemesInTurn) {
+TEST_F(Swarms, HaveAllThemes) {
   const auto of_views = space(true), without = space(false);
   std::set<Theme> themes, themes_without;
   for (std::uint64_t begin = 0; begin < 100; ++begin) {
@@ -49,6 +49,12 @@ TEST_F(Swarms, AreDrawnByTheirNames) {
     EXPECT_FALSE(one.moves.empty());
     EXPECT_GE(one.most_frames, 2);
   }
+  std::vector<Theme> here, elsewhere;
+  for (std::uint64_t begin = 1; begin < 20; ++begin) {
+    here.push_back(Swarm("lane", of_views, begin).theme);
+    elsewhere.push_back(Swarm("other", of_views, begin).theme);
+  }
+  EXPECT_NE(here, elsewhere);
 }
 
 }  // namespace
