@@ -123,10 +123,10 @@ std::optional<Row> place_behind(Random& random, const std::vector<Side>& sides) 
   return Row(middle - (least + one_of(random, farther) * size) * way);
 }
 
-// A view primitive from which the pair in focus, all that meets first, or the whole mesh faces away,
-// or which it faces, at both ends of the step and at some places between; one that moves is behind
-// it in each frame. What meets nevertheless, meets because a triangle turns on the way, or because
-// a ghost is touched (L4, L11).
+// A view primitive from which the pair in focus, all that meets first, or the whole mesh faces
+// away, or which it faces, at both ends of the step and at some places between; one that moves is
+// behind it in each frame. What meets nevertheless, meets because a triangle turns on the way, or
+// because a ghost is touched (L4, L11).
 void face_away(Random& random, Candidate& made, const MoveContext&) {
   auto& c = made.c;
   if (c.ghosts || !made.focus || c.triangles.rows() == 0) return;

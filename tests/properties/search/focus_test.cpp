@@ -100,7 +100,8 @@ TEST(SeenAlike, L3_IsLessInACleanClosedMesh) {
   EXPECT_GT(most, 0.75);
 }
 
-// Whatever went before it, the step in focus is the same, or a part of it, seen from the same place.
+// Whatever went before it, the step in focus is the same, or a part of it, seen from the same
+// place.
 TEST(Past, KeepsTheStepInFocus) {
   const Contract contract;
   const auto before = [&] {
