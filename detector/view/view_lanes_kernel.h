@@ -198,7 +198,7 @@ ASSAY_INLINE void middle_group(const LaneInput& in, const std::int32_t* triangle
   const LaneCubic &h0 = line.h0, &h1 = line.h1;
   const Lanes d0 = h1.b0 - h0.b0, d1 = h1.b1 - h0.b1, d2 = h1.b2 - h0.b2, d3 = h1.b3 - h0.b3;
   Lanes s_least = all(1), s_greatest = {};  // the range of s over the step and the corners
-  Lanes end_least, end_greatest;            // the range of the corners' values at t=0 and t=1
+  Lanes end_least = {}, end_greatest = {};  // the range of the corners' values at t=0 and t=1
   for (int corner = 0; corner < 3; ++corner) {
     LaneMotion w = line.w;
     if (corner > 0) {

@@ -10,6 +10,7 @@
 #include "corpus/atomic_file.h"
 #include "corpus/digest.h"
 #include "corpus/file_bytes.h"
+#include "corpus/json_fields.h"
 #include "properties/reducer/case_edits.h"
 #include "properties/vectors/exact_csv.h"
 #include "properties/worker/plugin/query_case.h"
