@@ -131,9 +131,9 @@ void CheckOutcome::judge_claims(const properties::DetectorUnderTest& plugin,
   for (const auto claim : list_of(plugin.claims)) claims.emplace_back(name_of(claim));
   not_judged = properties::not_judged(claims, plugin.contract, measures);
   for (const auto& claim : claims) {
-    const bool is_judged = std::none_of(not_judged.begin(), not_judged.end(),
-                                        [&](const auto& one) { return one.claim == claim; });
-    if (is_judged) held.push_back(claim);
+    const bool is_held = std::none_of(not_judged.begin(), not_judged.end(),
+                                      [&](const auto& one) { return one.claim == claim; });
+    if (is_held) held.push_back(claim);
   }
 }
 
