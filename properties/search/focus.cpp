@@ -161,7 +161,6 @@ void set_query(corpus::Case& c, const Focus& focus, const detector::FourPoints& 
   }
 }
 
-// The pair in contact; else two triangles of which each holds one of the features.
 detector::TrianglePair pair_in_focus(const corpus::Case& c, const Focus& focus) {
   if (focus.contact) return focus.contact->pair;
   const auto holder = [&](std::int32_t vertex) {

@@ -31,7 +31,8 @@ struct MoveContext {
 // What a move changes. An elementary query is changed by moves of features alone.
 enum class MoveKind : std::uint8_t {
   features,  // the four points in focus, or all coordinates alike
-  steps,     // frames and the script
+  steps,     // frames
+  past,      // which steps lead to the one in focus
   mesh,      // triangles
   view,      // a view primitive, or the mesh to suit one
 };

@@ -188,7 +188,7 @@ void onto_ghost(Random& random, Candidate& made, const MoveContext&) {
 
 constexpr Move of_steps[] = {
     {"steps", "one more step", MoveKind::steps, 2, more_steps},
-    {"past", "the step in focus has another past", MoveKind::steps, 2, past},
+    {"past", "the step in focus has another past", MoveKind::past, 2, past},
     {"ghost", "a vertex or an edge meets a ghost", MoveKind::steps, 2, onto_ghost},
 };
 

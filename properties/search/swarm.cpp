@@ -14,7 +14,7 @@ Theme drawn_theme(Random& random, const SearchSpace& space) {
 }
 
 bool is_move_of(Theme theme, const Move& move) {
-  if (theme == Theme::pasts) return move.name == "past";
+  if (theme == Theme::pasts) return move.kind == MoveKind::past;
   if (theme == Theme::views) return move.kind == MoveKind::view;
   if (theme == Theme::sheets) return move.kind != MoveKind::features;
   return true;
