@@ -182,7 +182,7 @@ bool is_within_a_component(const corpus::Case& c, const Focus& focus) {
 
 double seen_alike(const corpus::Case& c, const Focus& focus) {
   const auto view = corpus::view_of_step(c, focus.step);
-  if (!view || !is_within_a_component(c, focus)) return 0;
+  if (!view || focus.pairs.empty()) return 0;
   const auto step = corpus::steps_of(c)[focus.step];
   const detector::SteppedMesh motion{start_of(c, step), end_of(c, step)};
   double positive = 1, negative = 1;

@@ -49,8 +49,9 @@ bool is_within_a_component(const corpus::Case& c, const Focus& focus);
 // inner one goes through the outer one.
 //
 // From 0 to 1: how far that pair of the first ones which is least alike has one sign, at a few
-// times as doubles see them. It is 1 if all are of one sign, and 0 without a contact, without a
-// view primitive, and where two components meet. About 2 us for a pair.
+// times as doubles see them. It is 1 if all are of one sign, and 0 without a contact or a view
+// primitive. It says nothing where two components meet, because such pairs are never left out
+// (L10). About 2 us for a pair.
 double seen_alike(const corpus::Case& c, const Focus& focus);
 
 }  // namespace assay::properties

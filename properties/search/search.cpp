@@ -90,7 +90,7 @@ std::optional<Scored> scored(const corpus::Case& c, const SearchedCase& judged,
   }
   if (space.gives_views && focus->contact && !says_query(c)) {
     scored.is_within_a_component = is_within_a_component(c, *focus);
-    scored.alike = seen_alike(c, *focus);
+    if (scored.is_within_a_component) scored.alike = seen_alike(c, *focus);
   }
   constexpr double bits_of_sight = 24, steps_of_sight = 8;
   scored.score += bits_of_sight * scored.alike;

@@ -268,7 +268,9 @@ void gaze(Random& random, Candidate& made, const MoveContext&) {
   };
   const bool is_line = !random.one_in(3), moves = random.one_in(4);
   auto best = c.view;
-  double most = best ? seen_alike(c, *made.focus) : 0;
+  const bool is_within = is_within_a_component(c, *made.focus);
+  const auto alike_now = [&] { return is_within ? seen_alike(c, *made.focus) : 0; };
+  double most = best ? alike_now() : 0;
   constexpr int tries = 16;
   for (int i = 0; i < tries; ++i) {
     const double reach = std::ldexp(size, random.between(-4, 2));
@@ -283,7 +285,7 @@ void gaze(Random& random, Candidate& made, const MoveContext&) {
       c.view->q0.push_back({a[0], a[1], a[2]});
       if (is_line) c.view->q1.push_back({b[0], b[1], b[2]});
     }
-    const double alike = seen_alike(c, *made.focus);
+    const double alike = alike_now();
     if (alike < most) continue;
     most = alike;
     best = c.view;
