@@ -70,7 +70,7 @@ class Peers : public testing::Test {
     return std::string(ASSAY_PEER_DIR) + "/" + name + ".so";
   }
 
-  // Which claim the limiter breaks in the mesh of corpus/peers/meshes, or none.
+  // Which claim the peer breaks in the mesh of corpus/peers/meshes, or none.
   static std::optional<Claim> broken_by(const std::string& name, const std::string& mesh) {
     CampaignRequest request;
     request.worker = ASSAY_WORKER;
@@ -203,6 +203,17 @@ TEST_F(Peers, ALimiterGoesThroughItsStoredMesh) {
     EXPECT_EQ(broken_by(name, name), Claim::commit_free) << name;
     EXPECT_EQ(broken_by("ipc_warm_start", name), std::nullopt) << "it stays free on the same mesh";
   }
+}
+
+// What of Tight-Inclusion and the toolkit takes no part in suite peers, since it keeps a distance.
+TEST_F(Peers, WhatKeepsADistanceLetsItsStoredMeshComeNearer) {
+  std::size_t present = 0;
+  for (const std::string name : {"tight_inclusion_within", "ipc_tight_inclusion_within"}) {
+    if (!std::filesystem::exists(library_of(name))) continue;
+    ++present;
+    EXPECT_EQ(broken_by(name, name), Claim::free_sound) << name;
+  }
+  if (present == 0) GTEST_SKIP() << "they were not built: their libraries are not there";
 }
 
 TEST_F(Peers, TheCubicInFloatsMissesMore) {
