@@ -18,6 +18,8 @@ std::vector<StratumPlan> strata(std::uint64_t generic, std::uint64_t others, dou
     list.push_back({std::string(family.name), is_generic ? generic : others,
                     is_generic ? generic_bound : other_bound});
   }
+  for (const auto& family : counted_families())
+    list.push_back({std::string(family.name), others, other_bound});
   return list;
 }
 
@@ -121,8 +123,20 @@ CampaignPlan with_queries(CampaignPlan plan) {
     if (stratum.cases > largest.cases) largest = stratum;
   }
   if (largest.cases == 0) return plan;
-  for (const auto& family : query_families())
+  for (const auto& family : query_families()) {
+    const bool is_in_another =
+        is_dear_query_family(family.name) && !family.name.ends_with("extreme");
+    if (is_in_another) continue;
     plan.strata.push_back({std::string(family.name), largest.cases, largest.wanted_bound});
+  }
+  return plan;
+}
+
+CampaignPlan without_relations(CampaignPlan plan) {
+  std::erase_if(plan.strata, [](const StratumPlan& stratum) {
+    return std::any_of(counted_families().begin(), counted_families().end(),
+                       [&](const Family& family) { return family.name == stratum.family; });
+  });
   return plan;
 }
 

@@ -14,7 +14,7 @@ namespace assay::properties {
 
 // One family of cases. Each case is a trial of every configuration of the detector.
 struct StratumPlan {
-  std::string family;       // name in families(), size_families() or query_families()
+  std::string family;       // name of any family that find_family knows
   std::uint64_t cases = 0;  // n
   double wanted_bound = 0;  // wanted upper bound on the share of defects; 0: none
 };
@@ -85,12 +85,16 @@ bool asks_queries(const CampaignPlan& plan);
 // Whether all strata are.
 bool asks_queries_alone(const CampaignPlan& plan);
 
-// The same campaign with every family of queries beside its strata. Each has as many cases as the
+// The same campaign with families of queries beside its strata: all but those that
+// "query-extreme" holds. Each has as many cases as the
 // largest stratum, and the bound that is wanted there. A plan that asks queries, or plans no case,
 // stays as it is.
 CampaignPlan with_queries(CampaignPlan plan);
 // The same campaign without its strata of queries.
 CampaignPlan without_queries(CampaignPlan plan);
+
+// The same campaign without its strata of cases with a relation, for a detector that takes none.
+CampaignPlan without_relations(CampaignPlan plan);
 
 // The same campaign with every family of queries in place of its strata. There are no laws and no
 // worlds, because these are about meshes. A plan that asks queries alone stays as it is.

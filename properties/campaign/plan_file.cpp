@@ -277,14 +277,16 @@ bool is_the_same_but_for_time(CampaignPlan a, CampaignPlan b) {
   return plan_text(a) == plan_text(b);
 }
 
-// Whether options of a run make the plan of the named one: they limit a case, and the query of a
-// plug-in is judged beside the steps, or alone.
+// Whether options of a run and the detector's parts make the plan of the named one: options limit a
+// case; relations are left out; the query of a plug-in is judged beside the steps, or alone.
 bool is_made_of(CampaignPlan plan, const CampaignPlan& named) {
   plan.case_seconds = named.case_seconds;
   plan.case_bytes = named.case_bytes;
-  return is_the_same_but_for_time(plan, named) ||
-         is_the_same_but_for_time(plan, with_queries(named)) ||
-         is_the_same_but_for_time(plan, query_plan(named));
+  const auto variants = {named, without_relations(named), with_queries(named),
+                         with_queries(without_relations(named)), query_plan(named)};
+  return std::any_of(variants.begin(), variants.end(), [&](const CampaignPlan& variant) {
+    return is_the_same_but_for_time(plan, variant);
+  });
 }
 
 // Reads a plan. If it bears the name of a built-in campaign, it has to be that one.

@@ -60,6 +60,16 @@ bool is_cycle(const std::vector<Face>& faces) {
   return true;
 }
 
+Draft joined(Draft a, const Draft& b) {
+  const auto offset = a.vertices();
+  a.second_piece = offset;
+  a.star_shaped = false;
+  a.rest().insert(a.rest().end(), b.rest().begin(), b.rest().end());
+  for (const auto& f : b.faces) a.faces.push_back({f[0] + offset, f[1] + offset, f[2] + offset});
+  a.tags.insert(a.tags.end(), b.tags.begin(), b.tags.end());
+  return a;
+}
+
 GeneratedCase finished(Draft draft, std::string id) {
   GeneratedCase made;
   corpus::Case& c = made.c;

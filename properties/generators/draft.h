@@ -56,6 +56,17 @@ inline Point mean(const Points& points) {
 
 using Face = std::array<std::int32_t, 3>;
 
+// Where these vertices are in a frame: on the plane of a face that is level across `axis`, or so many
+// units of the last place beyond it. `way` is theirs to there.
+struct Landing {
+  std::size_t frame = 0;
+  std::vector<std::int32_t> vertices;
+  Face face{};
+  std::size_t axis = 0;
+  Point way{};
+  int units = 0;
+};
+
 struct Draft {
   std::vector<Face> faces;
   std::vector<Points> frames;  // one until a motion adds more
@@ -66,9 +77,10 @@ struct Draft {
   std::array<Point, 2> axis = {{{0, 0, -0.5}, {0, 0, 0.5}}};
   // Vertices from this index on belong to a second piece; 0 if there is one piece only.
   std::int32_t second_piece = 0;
-  Points holes;               // centres of holes at the start
-  Points closing;             // by vertex, the way on which the shape closes to a ring; or none
-  std::vector<Point> q0, q1;  // view primitive by frame; q1 empty: a point; both: none
+  Points holes;                   // centres of holes at the start
+  std::vector<Landing> landings;  // to be met when the draft gets its numbers (everyday.h)
+  Points closing;                 // by vertex, the way on which the shape closes to a ring; or none
+  std::vector<Point> q0, q1;      // view primitive by frame; q1 empty: a point; both: none
   std::vector<std::string> tags;
 
   Points& rest() { return frames.front(); }
@@ -97,6 +109,9 @@ template <class List>
 auto& any_of(Random& random, List& list) {
   return list[at(random.below(static_cast<int>(std::size(list))))];
 }
+
+// Joins two drafts of one frame. The vertices of `b` follow those of `a`.
+Draft joined(Draft a, const Draft& b);
 
 // Drops vertices that no face uses, and numbers the rest in their order.
 void drop_unused_vertices(Draft& draft);

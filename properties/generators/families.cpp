@@ -6,6 +6,7 @@
 
 #include "properties/generators/aims.h"
 #include "properties/generators/draft.h"
+#include "properties/generators/everyday.h"
 #include "properties/generators/menus.h"
 #include "properties/generators/motions.h"
 #include "properties/generators/primitives.h"
@@ -22,6 +23,8 @@ struct Recipe {
   bool exact = false;              // small integers and dyadics, exact aims and collapses
   bool nearly_degenerate = false;  // ulp neighbours, slivers, aims just missed
   bool far = false;                // far from the origin, scales, denormals, large steps
+  bool everyday = false;           // numbers as programs make them; aimed: a piece falls on another
+  bool any_size = false;           // every second case has an everyday size, others are about 1
   // Percentages of the cases that are positive by construction, and of those with an aimed
   // contact.
   int positive = 0, aimed = 0;
@@ -36,14 +39,18 @@ GeneratedCase make(Random& random, std::string id) {
   return make_by(recipe, random, std::move(id));
 }
 
-constexpr Recipe closed_generic = {.positive = 20, .aimed = 35};
+constexpr Recipe closed_generic = {.any_size = true, .positive = 20, .aimed = 35};
 constexpr Recipe closed_near = {.nearly_degenerate = true, .positive = 20, .aimed = 35};
 constexpr Recipe closed_exact = {.exact = true, .positive = 30, .aimed = 40};
 constexpr Recipe closed_far = {.far = true, .positive = 30, .aimed = 20};
-constexpr Recipe unclosed_generic = {.closed = false, .positive = 20, .aimed = 40};
+constexpr Recipe unclosed_generic = {
+    .closed = false, .any_size = true, .positive = 20, .aimed = 40};
 constexpr Recipe unclosed_exact = {.closed = false, .exact = true, .positive = 25, .aimed = 40};
 constexpr Recipe unclosed_near = {
     .closed = false, .nearly_degenerate = true, .positive = 30, .aimed = 30};
+constexpr Recipe closed_everyday = {.everyday = true, .positive = 12, .aimed = 78};
+constexpr Recipe unclosed_everyday = {
+    .closed = false, .everyday = true, .positive = 12, .aimed = 78};
 constexpr Recipe broken = {.closed = false, .broken = true, .aimed = 30};
 
 constexpr Recipe counted_generic = {.positive = 10, .aimed = 50};
@@ -74,6 +81,10 @@ constexpr Family family_table[] = {
     {"unclosed-degenerate", "as closed-degenerate, with holes", false, true, make<unclosed_exact>},
     {"unclosed-near-degenerate", "as closed-near-degenerate, with holes", false, false,
      make<unclosed_near>},
+    {"closed-everyday", "sizes, decimals, floats and turns of every day; a piece lands on another",
+     true, false, make<closed_everyday>},
+    {"unclosed-everyday", "as closed-everyday, with holes and single triangles", false, false,
+     make<unclosed_everyday>},
     {"broken", "no cycles, flipped, zero-area, open seams, 3 to 6 triangles at an edge", false,
      true, make<broken>},
 };
@@ -92,6 +103,8 @@ namespace {
 
 int any_size(Random& random, const Recipe& recipe) {
   const int share = random.below(100);
+  if (recipe.everyday && share < 80) return random.between(recipe.closed ? 4 : 2, 12);
+  if (recipe.everyday) return random.between(12, 40);
   const int large = recipe.exact || recipe.far ? 2 : 5;
   if (share < 50) return random.between(4, 12);
   if (share < 100 - 4 * large) return random.between(12, 40);
@@ -204,22 +217,26 @@ GeneratedCase make_by(const Recipe& recipe, Random& random, std::string id) {
   const int size = any_size(random, recipe);
   // A case that is made to be positive needs no long sequence.
   const int steps = std::min(any_steps(random, size), positive ? 2 : 8);
-  Draft draft = any_shape(random, recipe, positive, size);
+  const bool falls = recipe.everyday && aimed;
+  Draft draft = falls ? falling_piece(random, recipe.closed, size)
+                      : any_shape(random, recipe, positive, size);
   if (!positive && random.one_in(12)) {
     for (auto& f : draft.faces) std::swap(f[1], f[2]);
     draft.tag("orientation:inward");
   }
   if (positive) {
     move_positively(random, draft, steps);
-  } else {
+  } else if (!falls) {
     move_freely(random, draft, steps, recipe);
   }
   if (recipe.exact && !positive) few_bits(random, draft);
   if (recipe.exact && positive) round_to_grid(draft, 1, 14);
-  if (aimed) aim(random, draft, recipe.exact);
+  if (aimed && !falls) aim(random, draft, recipe.exact);
   if (!positive && draft.q0.empty()) choose_view(random, draft);
   if (recipe.nearly_degenerate) miss_nearly(random, draft);
   if (recipe.far) use_far_menus(random, draft);
+  if (recipe.everyday) use_everyday_numbers(random, draft);
+  if (recipe.any_size && random.one_in(2)) use_everyday_size(random, draft);
   if (random.one_in(2)) shuffle_faces(random, draft);
   draft.tag(recipe.broken ? "broken" : recipe.closed ? "closed" : "unclosed");
   draft.tag(positive ? "mode:positive" : aimed ? "mode:aimed" : "mode:free");

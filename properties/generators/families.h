@@ -5,7 +5,7 @@
 //
 // Sizes in triangles: half of the cases 4..12, 30 % 12..40, 15 % 40..100, 5 % 100..200. In
 // degenerate and far families, where a step takes the oracle longest, the last three are 42 %, 6 %
-// and 2 %. (Shapes come as near to a size as they can; what is broken or has pieces may have a few
+// and 2 %. Everyday families have 80 % of 2..12, and 20 % of 12..40. (Shapes come as near to a size as they can; what is broken or has pieces may have a few
 // triangles more.) Steps: 60 % of the cases have 1, 20 % 2, 12 % 3, 8 % 4..8; cases above 40
 // triangles have at most 3, those made to be positive at most 2.
 #pragma once
@@ -29,7 +29,7 @@ struct Family {
 
 // The strata's families in a fixed order.
 std::span<const Family> families();
-// Families of cases with a relation (relations.h), for plan files: no named campaign has them.
+// Families of cases with a relation (relations.h).
 std::span<const Family> counted_families();
 
 // Families of large cases of one size each, "size-1e3" to "size-1e6" (sizes/). Their strata state

@@ -57,9 +57,9 @@ constexpr const char* at_rest = "at rest";
 constexpr const char* near_start = "near contact at the start";
 
 CauseTime time_of(const detector::TimeEnclosure& t) {
-  constexpr double thousandth = 0x1p-10;
+  constexpr double thousandth = 0x1p-10, last_units = 0x1p-40;
   if (t.hi == 0) return CauseTime::at_0;
-  if (t.lo == 1) return CauseTime::at_1;
+  if (t.lo >= 1 - last_units) return CauseTime::at_1;
   return t.hi <= thousandth ? CauseTime::near_0 : CauseTime::inside;
 }
 

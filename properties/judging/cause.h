@@ -12,6 +12,8 @@
 namespace assay::properties {
 
 // When the exact contact is. `near_0`: after 0, but in the first thousandth (2^-10) of the step.
+// `at_1`: at 1, or so little before it (2^-40) that the step ends some units of the last place
+// beyond the contact.
 enum class CauseTime : std::uint8_t { inside, at_1, near_0, at_0 };
 
 // How many vertices the two triangles share: many detectors do not test neighbours, and say so.

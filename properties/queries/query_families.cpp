@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "properties/generators/everyday.h"
 #include "properties/queries/extreme_queries.h"
 #include "properties/random.h"
 #include "properties/worker/plugin/query_case.h"
@@ -26,9 +27,16 @@ GeneratedCase make_query(Random& random, std::string id) {
   return {case_of_query(made.query, std::move(id)), {}};
 }
 
+// Generators that are asked for less often than one in so many are dear.
+constexpr int dear = 100;
+
 GeneratedCase make_extreme(Random& random, std::string id) {
   const std::uint64_t seed = random.next();
   const std::uint64_t index = random.next();
+  for (const auto& generator : query_generators()) {
+    if (generator.one_in >= dear && random.one_in(4))
+      return {case_of_query(generator.make(seed, index).query, std::move(id)), {}};
+  }
   return {case_of_query(extreme_contact(seed, index), std::move(id)), {}};
 }
 
@@ -51,7 +59,8 @@ struct QueryFamilies {
 
   QueryFamilies() {
     add_generators(std::make_index_sequence<query_generator_count>());
-    add("extreme", "few mantissas, exponents over all doubles, mostly degenerate", make_extreme);
+    add("extreme", "exponents over all doubles, denormals, few mantissas, mostly degenerate",
+        make_extreme);
   }
 };
 
@@ -74,6 +83,14 @@ const Family* find_family(std::string_view name) {
 bool is_query_family(std::string_view name) {
   const auto known = query_families();
   return std::any_of(known.begin(), known.end(), [&](const Family& f) { return f.name == name; });
+}
+
+bool is_dear_query_family(std::string_view name) {
+  const auto is_dear = [&](const QueryGenerator& generator) {
+    return generator.one_in >= dear && name.ends_with(generator.name);
+  };
+  return name == query_families().back().name ||
+         std::any_of(query_generators().begin(), query_generators().end(), is_dear);
 }
 
 namespace {
@@ -291,6 +308,84 @@ GeneratedQuery generic(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Query q = empty_query(index);
   for_each_coordinate(q, [&](double& c) { c = unit(random); });
+  if (random.one_in(2)) {
+    const double size = everyday_size(random);
+    for_each_coordinate(q, [&](double& c) { c *= size; });
+  }
+  return {q, {}};
+}
+
+// The first group lands on the second one where the step ends: both are at one level there, or at
+// any angle; or some units of the last place beyond, or short of it. Some pass within the step, and
+// some leave. One in six is generic.
+GeneratedQuery everyday(std::uint64_t seed, std::uint64_t index) {
+  Random random(seed, index);
+  Query q = empty_query(index);
+  const auto first_group = static_cast<std::size_t>(q.first_group);
+  const EverydayNumbers numbers(random);
+  const auto any_point = [&]() -> Point {
+    return {random.signed_unit(), random.signed_unit(), random.signed_unit()};
+  };
+  const auto axis = static_cast<std::size_t>(random.below(3));
+  const bool is_level = numbers.keeps_levels();
+  std::array<double, 4> weights{};  // of the place of contact, in both groups
+  std::array<Point, 4> landed;
+  for (std::size_t i = 0; i < 4; ++i) {
+    landed[i] = any_point();
+    if (is_level) landed[i][axis] = 0;
+    weights[i] = random.one_in(5) ? 0 : random.between(1, 8);
+  }
+  const auto normalise = [&](std::size_t from, std::size_t to) {
+    if (std::all_of(&weights[from], &weights[from] + (to - from), [](double w) { return w == 0; }))
+      weights[from] = 1;
+    double sum = 0;
+    for (std::size_t i = from; i < to; ++i) sum += weights[i];
+    for (std::size_t i = from; i < to; ++i) weights[i] /= sum;
+  };
+  normalise(0, first_group);
+  normalise(first_group, 4);
+  // From the place of contact in the first group to that in the second one.
+  const auto gap = [&](const std::array<Point, 4>& at) {
+    Point sum = {0, 0, 0};
+    for (std::size_t i = 0; i < 4; ++i) sum = sum + (i < first_group ? -1 : 1) * weights[i] * at[i];
+    return sum;
+  };
+  const Point onto = gap(landed);
+  for (std::size_t i = 0; i < first_group; ++i) landed[i] = landed[i] + onto;
+
+  const bool is_generic = random.one_in(6), rests = random.one_in(2),
+             is_straight = random.one_in(2);
+  Point down = any_point(), other = any_point();
+  if (is_straight) {
+    down = {0, 0, 0};
+    down[axis] = random.signed_unit();
+    other = random.signed_unit() * down;
+  }
+  std::array<Point, 4> end;
+  for (std::size_t i = 0; i < 4; ++i) {
+    Point way = i < first_group ? down : rests ? Point{0, 0, 0} : other;
+    if (is_generic) way = any_point();
+    q.points[i].t0 = numbers.place(landed[i] - way);
+    end[i] = numbers.end(q.points[i].t0, way);
+  }
+  if (!is_generic) {
+    const Point rest = gap(end), way = end[0] - q.points[0].t0;
+    for (std::size_t i = 0; i < first_group; ++i) {
+      end[i] = end[i] + rest;
+      if (is_level) end[i][axis] = end[3][axis];
+    }
+    put_on(end, first_group, way, units_at_a_feature(random));
+  }
+  const int when = random.below(8);
+  const double share = random.between(1, 31) / 32.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    auto& p = q.points[i];
+    p.t1 = when == 0 ? p.t0 + 1 / share * (end[i] - p.t0) : end[i];
+    if (when == 1) std::swap(p.t0, p.t1);
+    // Written differently, -0 would be another query.
+    for (double& c : p.t0) c += 0.0;
+    for (double& c : p.t1) c += 0.0;
+  }
   return {q, {}};
 }
 
@@ -303,7 +398,9 @@ constexpr std::array generators = {
     QueryGenerator{"dyadics", "fractions of up to 10 bits", dyadics, 10},
     QueryGenerator{"denormals", "5e-324 alone or among small integers", denormals, 200},
     QueryGenerator{"exponents", "exponents over all doubles", exponents, 1000},
-    QueryGenerator{"generic", "uniform in a cube", generic, 5},
+    QueryGenerator{"generic", "uniform in a cube of size 1, or of 10^-4 to 10^6", generic, 5},
+    QueryGenerator{"everyday", "numbers as programs make them; ends on a feature or beside it",
+                   everyday, 5},
 };
 
 static_assert(generators.size() == query_generator_count);

@@ -12,7 +12,7 @@
 
 namespace assay::properties {
 
-// The generators: generic, degenerate, and just beside degenerate.
+// The generators: generic, degenerate, just beside degenerate, and with everyday numbers.
 //
 // Query `index` of `seed` is made from a hash of both alone, so any query can be made again on any
 // machine. It is a vertex-face query for even indices, an edge-edge query for odd ones.
@@ -29,16 +29,20 @@ struct QueryGenerator {
   int one_in;  // one for each `one_in` of small-int: the dearer, the fewer
 };
 
-inline constexpr std::size_t query_generator_count = 9;
+inline constexpr std::size_t query_generator_count = 10;
 // All generators; small-int comes first.
 std::span<const QueryGenerator> query_generators();
 
-// One family for each generator, "query-small-int" and so on, and "query-extreme". make_case
-// (families.h) makes their cases, each from its id alone.
+// One family for each generator, "query-small-int" and so on, and "query-extreme", the last one, of
+// which a half is made by the dear generators. make_case (families.h) makes their cases, each from
+// its id alone.
 std::span<const Family> query_families();
 
 // The family of this name, be it of meshes or of queries; null if there is none.
 const Family* find_family(std::string_view name);
 bool is_query_family(std::string_view name);
+// Whether its exponents are those of all doubles: the oracle takes a hundred times as long. Of these
+// families "query-extreme" alone is a stratum of named campaigns, because it holds the others.
+bool is_dear_query_family(std::string_view name);
 
 }  // namespace assay::properties

@@ -222,14 +222,16 @@ class RandomFamily final : public SelfTestFamily {
 // queries do not. The detector tests every pair.
 class StepFamily final : public SelfTestFamily {
  public:
-  StepFamily() : SelfTestFamily("steps", "pair sets of small meshes, detector without culling") {}
+  using Make = SmallStep (*)(std::uint64_t seed, std::uint64_t index);
+  StepFamily(std::string name, std::string about, Make make)
+      : SelfTestFamily(std::move(name), std::move(about)), make_(make) {}
   std::uint64_t indices(std::uint64_t queries) const override { return (queries + 19) / 20; }
 
   std::optional<std::string> check(std::uint64_t seed, std::uint64_t index,
                                    QueryTally& tally) const override {
     ++tally.queries;
     try {
-      const SmallStep step = make_small_step(seed, index);
+      const SmallStep step = make_(seed, index);
       const auto judged = oracle::judge_step({step.x_t0, step.x_t1}, step.triangles, {});
       tally.contacts += judged.answer == detector::Answer::collision ? 1 : 0;
       tally.rungs += judged.rungs;
@@ -246,7 +248,7 @@ class StepFamily final : public SelfTestFamily {
   std::optional<GeneratedQuery> at(std::uint64_t, std::uint64_t) const override { return {}; }
 
   std::string text(std::uint64_t seed, std::uint64_t index) const override {
-    const SmallStep step = make_small_step(seed, index);
+    const SmallStep step = make_(seed, index);
     const auto judged = oracle::judge_step({step.x_t0, step.x_t1}, step.triangles, {});
     const auto found = detect(step);
     std::string out = step.family + "\n";
@@ -278,7 +280,16 @@ class StepFamily final : public SelfTestFamily {
     }
     return out;
   }
+
+  Make make_;
 };
+
+// The first step of a small mesh with everyday numbers.
+SmallStep everyday_step(std::uint64_t seed, std::uint64_t index) {
+  const auto name = index % 2 == 0 ? "closed-everyday" : "unclosed-everyday";
+  const auto c = make_case(*find_family(name), fmt::format("steps:{}:{}:{}", seed, name, index)).c;
+  return {name, c.triangles, c.frames[0], c.frames[1], {}, {}};
+}
 
 // Queries of distance (distance_queries.h), asked of the oracle and of the distance referee. Where
 // d is 0 the contact oracle has to agree in every bit. For some of them the least distance is asked
@@ -377,7 +388,10 @@ const std::vector<std::unique_ptr<const SelfTestFamily>>& self_test_families() {
     world("line-3", "all queries on {-1,0,1}", 3, 1, every_point_moves, 0);
     world("plane-2", "all queries on {0,1}^2", 2, 2, every_point_moves, 0);
     world("plane-3-one", "all on {-1,0,1}^2, at most one point moves", 3, 2, one_point_moves, 0);
-    all.push_back(std::make_unique<StepFamily>());
+    all.push_back(std::make_unique<StepFamily>(
+        "steps", "pair sets of small meshes, detector without culling", make_small_step));
+    all.push_back(std::make_unique<StepFamily>(
+        "steps-everyday", "the same of meshes with everyday numbers", everyday_step));
     for (const QueryGenerator& generator : query_generators()) {
       all.push_back(std::make_unique<RandomFamily>(generator));
     }

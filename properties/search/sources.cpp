@@ -21,11 +21,8 @@ namespace {
 // find what is not degenerate.
 constexpr int weight_of_a_kind = 400;
 
-// Exponents over all doubles take the oracle a hundred times as long as others.
 int weight_of_queries(std::string_view queries) {
-  const bool is_dear = queries.ends_with("exponents") || queries.ends_with("extreme") ||
-                       queries.ends_with("denormals");
-  return is_dear ? 2 : weight_of_a_kind / 8;
+  return is_dear_query_family(queries) ? 2 : weight_of_a_kind / 8;
 }
 
 // Far meshes take the oracle four times as long as others.

@@ -337,8 +337,7 @@ class Chooser {
     for (std::uint64_t begin = 0; begin < quotas_.queries && !choice.is_full(); begin += together) {
       std::vector<Draft> drafts;
       for (const auto& family : query_families()) {
-        const bool is_dear = family.name.ends_with("exponents") ||
-                             family.name.ends_with("extreme") || family.name.ends_with("denormals");
+        const bool is_dear = is_dear_query_family(family.name);
         for (std::uint64_t i = begin; i < begin + together; ++i) {
           if (is_dear && i % dear_one_in != 0) continue;
           const auto id = fmt::format("vectors:1:{}:{}", family.name, i);

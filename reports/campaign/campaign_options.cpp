@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "properties/campaign/phases/power_proof.h"
@@ -133,6 +134,11 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
     return Problem{fmt::format(
         "{}: it claims nothing that its contract leaves to be judged; there is nothing to certify",
         words.detector.library)};
+  const auto& named = properties::named_plans();
+  const bool is_named = std::any_of(
+      named.begin(), named.end(), [&](const auto& one) { return one.name == request.plan.name; });
+  if (is_named && !detector.contract.takes_relations)
+    request.plan = properties::without_relations(std::move(request.plan));
   const bool with_query = detector.query_claims != properties::Claims();
   if (words.detector.part == DetectorPart::steps)
     request.plan = properties::without_queries(std::move(request.plan));

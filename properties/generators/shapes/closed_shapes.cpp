@@ -10,17 +10,6 @@ namespace assay::properties {
 
 namespace {
 
-// Joins two drafts. The vertices of `b` follow those of `a`.
-Draft joined(Draft a, const Draft& b) {
-  const auto offset = a.vertices();
-  a.second_piece = offset;
-  a.star_shaped = false;
-  a.rest().insert(a.rest().end(), b.rest().begin(), b.rest().end());
-  for (const auto& f : b.faces) a.faces.push_back({f[0] + offset, f[1] + offset, f[2] + offset});
-  a.tags.insert(a.tags.end(), b.tags.begin(), b.tags.end());
-  return a;
-}
-
 void scale_and_move(Draft& d, double scale, const Point& by) {
   for (auto& p : d.rest()) p = scale * p + by;
 }

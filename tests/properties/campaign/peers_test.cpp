@@ -16,7 +16,8 @@ namespace {
 constexpr std::uint64_t peer_cases_a_family = 80;
 
 struct JudgedPeer {
-  Counts outcomes;  // "H", "D", ...
+  Counts outcomes;                     // "H", "D", ...
+  std::uint64_t everyday_defects = 0;  // trials of the two families of everyday numbers
   std::vector<StoredFailure> failures;
   Counts met;
   DetectorUnderTest detector;
@@ -36,7 +37,7 @@ class Peers : public testing::Test {
  protected:
   // Judges the peer, or skips where its library was not there when this was built. A machine that
   // has to pass all tests has it.
-  void judge(const std::string& name) {
+  void judge(const std::string& name, std::uint64_t most_unanswered = 0) {
     peer_.library = library_of(name);
     if (!std::filesystem::exists(peer_.library)) {
       const char* ci = std::getenv("CI");
@@ -56,13 +57,14 @@ class Peers : public testing::Test {
                     deadline_in(std::chrono::steady_clock::now(), hour), {});
     store.value().for_each_trial([&](const TrialRecord& r) {
       ++peer_.outcomes[r.outcomes];
+      if (r.outcomes == "D" && r.family.ends_with("-everyday")) ++peer_.everyday_defects;
       ++trials_;
     });
     const auto kept = store.value().kept_failures();
     ASSERT_TRUE(kept) << kept.error().message;
     peer_.failures = kept.value().list;
     peer_.met = kept.value().times_met;
-    expect_the_contract_kept();
+    expect_the_contract_kept(most_unanswered);
     expect_causes_kept();
   }
 
@@ -89,9 +91,9 @@ class Peers : public testing::Test {
   }
 
   // What holds of every one of them.
-  void expect_the_contract_kept() {
-    EXPECT_GE(trials_, 8 * peer_cases_a_family * 9 / 10);
-    EXPECT_EQ(peer_.outcomes["U"], 0u) << "no answer within the limit";
+  void expect_the_contract_kept(std::uint64_t most_unanswered) {
+    EXPECT_GE(trials_, families().size() * peer_cases_a_family * 9 / 10);
+    EXPECT_LE(peer_.outcomes["U"], most_unanswered) << "no answer within the limit";
     EXPECT_GT(peer_.outcomes["H"], trials_ / 2);
     EXPECT_GT(peer_.outcomes["D"], 0u);
     EXPECT_EQ(peer_.outcomes["D"], peer_.met_in_all());
@@ -183,6 +185,7 @@ TEST_F(Peers, TheCubicMissesMotionWithinAPlane) {
   if (IsSkipped()) return;
   EXPECT_GT(peer_.met_with("coplanar throughout"), 0u);
   EXPECT_GT(peer_.met_with("without area"), 0u);
+  EXPECT_GE(peer_.everyday_defects, 2 * peer_cases_a_family / 20) << "five of 100";
   EXPECT_GT(peer_.met_with("edge-edge"), 0u);
   EXPECT_GT(peer_.met_with("vertex-face"), 0u);
 }
@@ -240,7 +243,8 @@ TEST_F(Peers, FclMissesMotionWithinAPlaneAndMore) {
 }
 
 TEST_F(Peers, BulletIsAskedForVerticesAndFacesInFloatsAlone) {
-  ASSERT_NO_FATAL_FAILURE(judge("bullet_bernstein"));
+  // Its SolveP3 has no end at some large coordinates (corpus/peers/README.md).
+  ASSERT_NO_FATAL_FAILURE(judge("bullet_bernstein", 1));
   if (IsSkipped()) return;
   EXPECT_EQ(peer_.detector.contract.features, TestedFeatures::vertex_face);
   EXPECT_EQ(peer_.detector.contract.coordinates, Coordinates::float32);

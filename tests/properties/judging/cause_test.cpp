@@ -30,6 +30,10 @@ TEST(Cause, SaysWhatIsSpecial) {
   Fall at_1;
   at_1.x_t1(3, 2) = 0;
   EXPECT_EQ(at_1.cause(), "t at 1, moving, generic");
+  at_1.x_t0.col(2).array() += 1;
+  at_1.x_t1.col(2).array() += 1;
+  at_1.x_t1(3, 2) = 1 - 0x1p-50;
+  EXPECT_EQ(at_1.cause(), "t at 1, moving, generic") << "some units beyond";
   Fall at_0;
   at_0.x_t0(3, 2) = 0;
   EXPECT_EQ(at_0.cause(), "t at 0, moving, generic");

@@ -49,10 +49,12 @@ struct TriedPlugin {
     detector.configurations = {{"plug-in", {}}};
   }
 
-  // So many cases of every family, each once or twice.
-  Found steps(const std::string& seed, std::uint64_t cases_a_family, bool twice) {
+  // So many cases of every family whose name ends so, each once or twice.
+  Found steps(const std::string& seed, std::uint64_t cases_a_family, bool twice,
+              std::string_view name_end = "") {
     Found found;
     for (const auto& family : families()) {
+      if (!family.name.ends_with(name_end)) continue;
       for (std::uint64_t i = 0; i < cases_a_family; ++i) {
         const auto planned =
             case_within(detector.contract, family,
@@ -107,6 +109,24 @@ TEST(Contract, WithoutOneTheDetectorHoldsAndItsFaultsAreFound) {
   expect_defect("early=1e-6", "early");
   expect_defect("alarm=2", "answered collision");
   expect_defect("miss=edge-edge", "answered free");
+}
+
+// Engines that are exact but for the way in, on as many cases as smoke has.
+TEST(EverydayNumbers, RoundingOnTheWayInIsFound) {
+  const auto tried = [](const std::string& way) {
+    return TriedPlugin("rounds_on_the_way", "ASSAY_TEST_ROUNDING", way)
+        .steps("rounding:1", 200, false, "-everyday");
+  };
+  auto right = tried("not at all");
+  EXPECT_EQ(right.outcomes[Outcome::defect], 0) << right.first_defect;
+  EXPECT_GT(right.outcomes[Outcome::holds], 300);
+  for (const std::string way :
+       {"displacement", "velocity", "first vertex", "millimetres", "extent", "float boxes"}) {
+    auto found = tried(way);
+    std::printf("%-14s %d of %d cases\n", way.c_str(), found.outcomes[Outcome::defect],
+                found.outcomes[Outcome::defect] + found.outcomes[Outcome::holds]);
+    EXPECT_GE(found.kinds["answered free"], 2) << way << ": " << found.first_defect;
+  }
 }
 
 TEST(Contract, AFreeStartExcusesContactsAtTheStartAlone) {
