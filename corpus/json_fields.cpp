@@ -4,6 +4,7 @@
 
 #include <boost/outcome/try.hpp>
 #include <cmath>
+#include <set>
 
 namespace assay::corpus {
 
@@ -61,16 +62,62 @@ namespace {
 
 constexpr int deepest = 64;
 
+// Looks at a text while it is parsed, for what the value does not show afterwards: a key that
+// stands twice, of which the parser takes the last.
+template <class Value>
+class Watch {
+ public:
+  using Event = typename Value::parse_event_t;
+
+  // Returns whether to go on.
+  bool see(int depth, Event event, const Value& value) {
+    // Parsing needs no stack, but printing and copying descend level by level.
+    if (depth > deepest) problem_ = "JSON nested too deeply";
+    if (!problem_.empty()) return false;
+    if (event == Event::object_start || event == Event::array_start) {
+      levels_.push_back({event == Event::array_start});
+    } else if (event == Event::key) {
+      auto& level = levels_.back();
+      level.key = value.template get_ref<const std::string&>();
+      if (!level.keys.insert(level.key).second) problem_ = place() + " stands twice";
+    } else {
+      if (event != Event::value) levels_.pop_back();
+      if (!levels_.empty()) ++levels_.back().items;
+    }
+    return problem_.empty();
+  }
+  const std::string& problem() const { return problem_; }
+
+ private:
+  struct Level {
+    bool is_array;
+    std::set<std::string> keys = {};
+    std::string key = {};   // the last one
+    std::size_t items = 0;  // that are read
+  };
+
+  // "expected.steps[0].pairs".
+  std::string place() const {
+    std::string text;
+    for (const auto& level : levels_) {
+      text +=
+          level.is_array ? fmt::format("[{}]", level.items) : (text.empty() ? "" : ".") + level.key;
+    }
+    return text;
+  }
+
+  std::vector<Level> levels_;
+  std::string problem_;
+};
+
 template <class Value>
 Expected<Value> parse_as(std::string_view text, const std::filesystem::path& file) try {
-  // Parsing needs no stack, but printing and copying descend level by level.
-  bool too_deep = false;
-  const auto keep = [&](int depth, typename Value::parse_event_t, Value&) {
-    too_deep = too_deep || depth > deepest;
-    return !too_deep;
-  };
-  Value json = Value::parse(text, keep);
-  if (too_deep) return problem_in(file, "JSON nested too deeply");
+  Watch<Value> watch;
+  Value json =
+      Value::parse(text, [&](int depth, typename Value::parse_event_t event, const Value& value) {
+        return watch.see(depth, event, value);
+      });
+  if (!watch.problem().empty()) return problem_in(file, watch.problem());
   return json;
 } catch (const typename Value::parse_error& error) {
   return problem_in(file, fmt::format("byte {}: not JSON", error.byte));

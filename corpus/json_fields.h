@@ -18,7 +18,8 @@ namespace assay::corpus {
 // Keeps the order of an object's keys.
 using Json = nlohmann::ordered_json;
 
-// Refuses what is not JSON (the message names the byte) and a number beyond the doubles. A value
+// Refuses what is not JSON (the message names the byte), a number beyond the doubles, and an object
+// in which a key stands twice, because the parser would take the last one without a word. A value
 // nested more than 64 levels deep is refused too, because what prints or copies it descends level
 // by level, and a stack ends somewhere. `file` stands for the text in messages.
 Expected<Json> parse_json(std::string_view text, const std::filesystem::path& file);

@@ -8,7 +8,7 @@
  *   for each step: assay_record_step(&recorder, &step);
  *   assay_record_end(&recorder);
  *
- * The form of the log is told in corpus/README.md (Step logs). Numbers are recorded as they are,
+ * The form of the log is told in corpus/README.md (Step logs). Positions are recorded as they are,
  * those that are not finite too: what a simulator did is not mended.
  *
  * MEMORY. The caller owns the recorder, about 17 KB, and all arrays; none is needed once the call
@@ -48,8 +48,11 @@ enum {
   ASSAY_RECORD_FILE_EXISTS = 19,    /* refused: a file is there that would be overwritten */
   ASSAY_RECORD_NOT_OPENED = 20,     /* the file could not be opened */
   ASSAY_RECORD_NOT_WRITTEN = 21,    /* the record could not be written, or not wholly */
-  ASSAY_RECORD_NOT_RENAMED = 22     /* a file could not be renamed. Of a step: it was recorded all
+  ASSAY_RECORD_NOT_RENAMED = 22,    /* a file could not be renamed. Of a step: it was recorded all
                                        the same, in a file that goes on growing */
+  ASSAY_RECORD_NO_ANSWER = 23       /* refused: result or limit can be the answer of no detector, as
+                                       a time outside of [0, 1] cannot; its judge would find nothing
+                                       to judge */
 };
 
 /* Where a log goes, and how much of it is kept. */
@@ -94,6 +97,7 @@ typedef struct assay_recorder {
   uint32_t crc;
   /* The log. */
   int32_t is_begun, overwrite, no_begin_record;
+  int32_t triangle_count; /* it lies where there was a gap */
   uint64_t every, ring, vertex_count;
   char *path, *other_path;
   FILE* file;
@@ -723,6 +727,7 @@ static inline int32_t assay_record_begin(assay_recorder* recorder,
   code = assay_record_check_mesh_(recorder, &content, vertex_count);
   if (code != ASSAY_OK) return code;
   recorder->vertex_count = vertex_count;
+  recorder->triangle_count = (int32_t)triangle_count;
   code = assay_record_prepare_(recorder, settings, &content);
   if (code == ASSAY_OK) code = assay_record_ready_(recorder);
   if (code != ASSAY_OK) {
@@ -740,6 +745,40 @@ static inline int32_t assay_record_begin(assay_recorder* recorder,
   return ASSAY_OK;
 }
 
+/* lo <= hi, both in [0, 1]; 0 for a NaN. */
+static inline int assay_record_is_time_(double lo, double hi) {
+  return 0 <= lo && lo <= hi && hi <= 1;
+}
+
+static inline int32_t assay_record_no_answer_(assay_recorder* r, const char* what) {
+  return assay_record_fail_(r, ASSAY_RECORD_NO_ANSWER, what, "", 0);
+}
+
+static inline int32_t assay_record_check_answer_(assay_recorder* r, const assay_result* result,
+                                                 const assay_limit* limit) {
+  const int is_judged = result && result->answer <= ASSAY_UNDECIDED;
+  uint64_t i;
+  if (result && result->answer == ASSAY_COLLISION &&
+      !assay_record_is_time_(result->first_lo, result->first_hi))
+    return assay_record_no_answer_(r, "the first time is no interval in [0, 1]");
+  if (result && result->answer == ASSAY_FREE && result->pair_count)
+    return assay_record_no_answer_(r, "a free step has pairs");
+  for (i = 0; is_judged && i < result->pair_count; ++i) {
+    const int32_t a = result->pairs[2 * i], b = result->pairs[2 * i + 1];
+    if (a < 0 || b < 0 || a == b || a >= r->triangle_count || b >= r->triangle_count)
+      return assay_record_no_answer_(r, "a pair is no two triangles of the mesh");
+    if (result->pair_times &&
+        !assay_record_is_time_(result->pair_times[2 * i], result->pair_times[2 * i + 1]))
+      return assay_record_no_answer_(r, "the time of a pair is no interval in [0, 1]");
+  }
+  if (limit && limit->share != -1 && !(0 <= limit->share && limit->share <= 1))
+    return assay_record_no_answer_(r, "the share of a limit is neither from 0 to 1 nor -1");
+  for (i = 0; limit && limit->positions && i < 3 * r->vertex_count; ++i)
+    if (!(limit->positions[i] - limit->positions[i] == 0))
+      return assay_record_no_answer_(r, "the positions of a limit are not finite");
+  return ASSAY_OK;
+}
+
 static inline int32_t assay_record_check_step_(assay_recorder* r,
                                                const assay_record_step_data* step) {
   const assay_result* result = step ? step->result : NULL;
@@ -754,7 +793,7 @@ static inline int32_t assay_record_check_step_(assay_recorder* r,
   if (!step->x0.data && !r->end_is_known)
     return assay_record_fail_(r, ASSAY_RECORD_NO_START,
                               "x0 is missing: it is not known where the last step ended", "", 0);
-  return ASSAY_OK;
+  return assay_record_check_answer_(r, result, step->limit);
 }
 
 static inline int32_t assay_record_step(assay_recorder* recorder,

@@ -63,13 +63,14 @@ struct CampaignPlan {
 // smoke, quick, nightly, release, faults.
 const std::vector<CampaignPlan>& named_plans();
 
-// A plan by its name, or from a file: schema `assay-campaign/1`, see properties/README.md.
+// A plan by its name, or from a file.
 corpus::Expected<CampaignPlan> find_plan(const std::string& name_or_file);
 
-// The plan that a run has kept in its folder: as find_plan gives it, and as options of the run and
-// the parts of its detector have changed it. One that bears the name of a built-in campaign may
-// differ from it in its time, in the limits of a case, and in whether queries are asked.
-corpus::Expected<CampaignPlan> kept_plan(const std::filesystem::path& file);
+// A plan from a file: schema `assay-campaign/1`, see properties/README.md. A run keeps its plan as
+// its options and the parts of its detector have changed it. So one that bears the name of a
+// built-in campaign may differ from it in its time, in the limits of a case, and in whether queries
+// are asked.
+corpus::Expected<CampaignPlan> read_plan(const std::filesystem::path& file);
 
 // Reads a plan from the text of such a file; problems call the file `name`.
 corpus::Expected<CampaignPlan> parse_plan(const std::string& text,

@@ -289,19 +289,17 @@ bool is_made_of(CampaignPlan plan, const CampaignPlan& named) {
   });
 }
 
-// Reads a plan. If it bears the name of a built-in campaign, it has to be that one.
-template <class IsThatOne>
-corpus::Expected<CampaignPlan> read_plan(const std::string& file, const IsThatOne& is_that_one) {
+}  // namespace
+
+corpus::Expected<CampaignPlan> read_plan(const std::filesystem::path& file) {
   BOOST_OUTCOME_TRY(bytes, corpus::read_bytes(file));
   BOOST_OUTCOME_TRY(plan, parse_plan(bytes, file));
   for (const auto& named : named_plans()) {
-    if (plan.name == named.name && !is_that_one(plan, named))
+    if (plan.name == named.name && !is_made_of(plan, named))
       return corpus::problem_in(file, "is another plan than the built-in campaign of its name");
   }
   return plan;
 }
-
-}  // namespace
 
 corpus::Expected<CampaignPlan> find_plan(const std::string& name_or_file) {
   for (const auto& plan : named_plans()) {
@@ -313,11 +311,7 @@ corpus::Expected<CampaignPlan> find_plan(const std::string& name_or_file) {
         name_or_file, "is no campaign and no file" +
                           corpus::did_you_mean(corpus::names_among(named_plans()), name_or_file));
   }
-  return read_plan(name_or_file, is_the_same_but_for_time);
-}
-
-corpus::Expected<CampaignPlan> kept_plan(const std::filesystem::path& file) {
-  return read_plan(file.string(), is_made_of);
+  return read_plan(name_or_file);
 }
 
 }  // namespace assay::properties

@@ -57,6 +57,11 @@ void excuse_beside_the_first(const std::vector<PairContact>& pairs, const TimeEn
   missing.erase(begin, missing.end());
 }
 
+bool is_unanswered_contact(const detector::StepResult& result, const StepTruth& truth) {
+  return (result.answer == Answer::error || result.answer == Answer::undecided) && truth.first &&
+         !truth.starts_near;
+}
+
 class Comparison {
  public:
   Comparison(const detector::StepResult& result, const oracle::StepJudgement& judgement,
@@ -72,6 +77,7 @@ class Comparison {
     diff_.oracle_complete = judgement_.complete;
     diff_.nothing_in_contact = judgement_.complete && allowed().empty();
     diff_.claims_pairs = claims_.has(Claim::all_pairs) || claims_.has(Claim::first_pairs);
+    diff_.unanswered_contact = is_unanswered_contact(result_, truth);
     if (result_.answer == Answer::error) {
       broken(Claim::total, !result_.problem);
       diff_.outcome = diff_.broken.empty() ? Outcome::error : Outcome::defect;
@@ -321,10 +327,13 @@ StepDiff diff_of_refusal(const oracle::StepJudgement& judgement, const Claims& c
   return diff;
 }
 
-StepDiff diff_without_answer(const detector::StepResult& result, const Claims& claims) {
+StepDiff diff_without_answer(const detector::StepResult& result,
+                             const oracle::StepJudgement& judgement, const Claims& claims,
+                             const Contract& contract, const detector::TrianglesView& triangles) {
   StepDiff diff;
   diff.has_answer = false;
   if (result.answer != detector::Answer::error) return diff;
+  diff.unanswered_contact = is_unanswered_contact(result, truth_of(judgement, contract, triangles));
   if (claims.has(Claim::total)) diff.broken.push_back(Claim::total);
   diff.outcome = claims.has(Claim::total) ? Outcome::defect : Outcome::error;
   return diff;

@@ -76,6 +76,7 @@ struct StepDiff {
   bool nothing_in_contact = false;  // by a complete oracle, whatever the contract leaves out
   bool starts_near = false;         // StepTruth::starts_near
   bool claims_pairs = false;        // all-pairs or first-pairs is claimed
+  bool unanswered_contact = false;  // a contact that counts, and no answer that can be judged
   // The detector or the oracle was stopped: only what both reached is compared.
   bool partial = false;
   bool answered_free = false;       // `free`, although there is a contact that counts
@@ -211,6 +212,8 @@ StepDiff diff_of_refusal(const oracle::StepJudgement& judgement, const Claims& c
 
 // The diff of a step of a library without answers, of candidates or limits: it holds, or was an
 // error, which breaks `total`.
-StepDiff diff_without_answer(const detector::StepResult& result, const Claims& claims);
+StepDiff diff_without_answer(const detector::StepResult& result,
+                             const oracle::StepJudgement& judgement, const Claims& claims,
+                             const Contract& contract, const detector::TrianglesView& triangles);
 
 }  // namespace assay::properties

@@ -133,6 +133,7 @@ class PairOfStep {
   }
 
   CauseSharing sharing() const {
+    if (query_) return CauseSharing::nothing;
     int shared = 0;
     for (const int k : corners) {
       for (const int l : corners) shared += corner(pair_.a, k) == corner(pair_.b, l);
@@ -240,6 +241,13 @@ Cause cause_of_contact(const PairOfStep& pair, const PairContact& contact, bool 
   return cause;
 }
 
+Cause cause_without_contact(const PairOfStep& pair, bool of_distance) {
+  Cause cause{std::nullopt,   pair.moves(),   std::nullopt,
+              pair.numbers(), pair.sharing(), pair.is_near_at_start()};
+  if (of_distance) cause.shape = CauseShape::beyond_distance;
+  return cause;
+}
+
 }  // namespace
 
 bool has_no_area(const TrianglesView& triangles, std::int32_t triangle, const PositionsView& x) {
@@ -259,13 +267,16 @@ Cause cause_of_query(const TrianglesView& triangles, const SteppedMesh& motion,
   return cause_of_contact(pair, contact, of_distance);
 }
 
+Cause cause_of_query(const TrianglesView& triangles, const SteppedMesh& motion,
+                     const detector::Feature& features, bool of_distance) {
+  PairOfStep pair(triangles, motion, {0, 1});
+  pair.set_query(features);
+  return cause_without_contact(pair, of_distance);
+}
+
 Cause cause_of(const TrianglesView& triangles, const SteppedMesh& motion,
                detector::TrianglePair pair, bool of_distance) {
-  const PairOfStep of(triangles, motion, pair);
-  Cause cause{std::nullopt, of.moves(),   std::nullopt,
-              of.numbers(), of.sharing(), of.is_near_at_start()};
-  if (of_distance) cause.shape = CauseShape::beyond_distance;
-  return cause;
+  return cause_without_contact({triangles, motion, pair}, of_distance);
 }
 
 std::string text_of(const Cause& cause) {

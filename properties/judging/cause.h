@@ -68,6 +68,9 @@ Cause cause_of(const detector::TrianglesView& triangles, const detector::Stepped
 // hold more than these features, so only the area of the face counts.
 Cause cause_of_query(const detector::TrianglesView& triangles, const detector::SteppedMesh& motion,
                      const detector::PairContact& contact, bool of_distance = false);
+// The cause for two features of a query that do not meet.
+Cause cause_of_query(const detector::TrianglesView& triangles, const detector::SteppedMesh& motion,
+                     const detector::Feature& features, bool of_distance = false);
 // The cause for a pair of triangles that is not in contact.
 Cause cause_of(const detector::TrianglesView& triangles, const detector::SteppedMesh& motion,
                detector::TrianglePair pair, bool of_distance = false);

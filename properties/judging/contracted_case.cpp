@@ -281,9 +281,7 @@ oracle::StepJudgement judge_query(const FourPoints& query, const Contract& contr
   const auto pair_at = [&](bool meet, const detector::TimeEnclosure& first) {
     std::vector<detector::PairContact> pairs;
     if (!meet) return pairs;
-    const auto kind = query.first_group == 1 ? detector::FeatureKind::vertex_face
-                                             : detector::FeatureKind::edge_edge;
-    pairs.push_back({{0, 1}, first, {kind, {0, 1, 2, 3, -1}}});
+    pairs.push_back({{0, 1}, first, features_of(query)});
     return pairs;
   };
   if (contract.separation > 0) {

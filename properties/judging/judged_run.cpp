@@ -76,8 +76,9 @@ StepDiff compare_step(const CaseRun& run, std::size_t s, const oracle::StepJudge
                       const Claims& claims, const Contract& contract,
                       const detector::TrianglesView& triangles) {
   if (is_over_capacity(run, s)) return diff_of_refusal(judgement, claims, contract, triangles);
-  StepDiff diff = run.has_answers ? compare(run.steps[s], judgement, claims, contract, triangles)
-                                  : diff_without_answer(run.steps[s], claims);
+  StepDiff diff = run.has_answers
+                      ? compare(run.steps[s], judgement, claims, contract, triangles)
+                      : diff_without_answer(run.steps[s], judgement, claims, contract, triangles);
   diff.oracle_complete = judgement.complete;
   const CandidatePairs none;
   const auto& candidates = s < run.candidates.size() ? run.candidates[s] : none;

@@ -36,10 +36,13 @@ void find_cause(Failure& failure, const corpus::Case& c, const corpus::CaseStep&
                                     [&](const auto& exact) { return exact.pair == *failure.pair; });
   const bool of_distance = contract.separation > 0;
   const detector::SteppedMesh motion{x_t0, x_t1};
+  const auto query = query_of(c);
+  const bool meets = contact != pairs.end();
   failure.cause =
-      text_of(contact == pairs.end() ? cause_of(c.triangles, motion, *failure.pair, of_distance)
-              : says_query(c)        ? cause_of_query(c.triangles, motion, *contact, of_distance)
-                                     : cause_of(c.triangles, motion, *contact, of_distance));
+      text_of(query   ? meets ? cause_of_query(c.triangles, motion, *contact, of_distance)
+                              : cause_of_query(c.triangles, motion, features_of(*query), of_distance)
+                : meets ? cause_of(c.triangles, motion, *contact, of_distance)
+                      : cause_of(c.triangles, motion, *failure.pair, of_distance));
 }
 
 // Rewrites the explanation of a failed query in terms of features, because the two triangles of a

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "properties/worker/plugin/query_case.h"
+
 namespace assay::properties {
 namespace {
 
@@ -80,13 +82,16 @@ MeshSize size_of(const corpus::Case& c) {
   return size;
 }
 
-std::string size_text(const MeshSize& size) {
+std::string size_text(const corpus::Case& c) {
+  if (says_query(c)) return fmt::format("one {} query", query_word(c));
+  const auto size = size_of(c);
   return counted(size.triangles, "triangle", "triangles") + ", " +
          counted(size.vertices, "vertex", "vertices") + ", " + counted(size.steps, "step", "steps");
 }
 
-std::string size_text(const MeshSize& before, const MeshSize& after) {
-  return size_text(before) + " -> " + size_text(after);
+std::string size_text(const corpus::Case& before, const corpus::Case& after) {
+  const auto from = size_text(before), to = size_text(after);
+  return from == to ? from : from + " -> " + to;
 }
 
 }  // namespace assay::properties

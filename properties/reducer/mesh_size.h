@@ -34,10 +34,11 @@ std::uint64_t number_cost(double value);
 // O(size of the case).
 MeshSize size_of(const corpus::Case& c);
 
-// "162 triangles, 83 vertices, 8 steps".
-std::string size_text(const MeshSize& size);
+// "162 triangles, 83 vertices, 8 steps"; of a query (query_case.h) "one vertex-face query".
+std::string size_text(const corpus::Case& c);
 
-// "162 triangles, 83 vertices, 8 steps -> 4 triangles, 4 vertices, 1 step".
-std::string size_text(const MeshSize& before, const MeshSize& after);
+// "162 triangles, 83 vertices, 8 steps -> 4 triangles, 4 vertices, 1 step"; one of them if they are
+// alike, as those of queries are.
+std::string size_text(const corpus::Case& before, const corpus::Case& after);
 
 }  // namespace assay::properties

@@ -13,6 +13,7 @@
 #include "reports/check/detector_choice.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
+#include "reports/terminal/text_file.h"
 
 namespace assay::reports {
 
@@ -150,9 +151,19 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
     return Problem{fmt::format("campaign {}: its strata are queries, of a plug-in's query alone",
                                request.plan.name)};
   }
-  std::filesystem::create_directories(words.out, error);
-  if (error) return Problem{fmt::format("{}: cannot be made: {}", words.out, error.message())};
   return request;
+}
+
+Expected<void> may_keep_run(const std::filesystem::path& out,
+                            const std::vector<std::string>& files) {
+  BOOST_OUTCOME_TRY(may_fill(out, files));
+  for (const auto* part : {"failures", "slow"}) {
+    std::error_code ignored;
+    if (std::filesystem::exists(out / part, ignored)) {
+      BOOST_OUTCOME_TRY(may_fill(out / part));
+    }
+  }
+  return outcome::success();
 }
 
 std::optional<properties::Shard> shard_of(const std::string& word) {

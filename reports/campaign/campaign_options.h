@@ -30,9 +30,14 @@ struct CampaignWords {
 // way.
 void add_campaign_options(Verb& verb, CampaignWords& words);
 
-// The request for a whole campaign, as one shard. Makes the folder `out`. From then on ctrl-C
-// leaves with what is stored. Fails if a name, a file or a library is wrong.
+// The request for a whole campaign, as one shard. From then on ctrl-C leaves with what is stored.
+// Fails if a name, a file or a library is wrong.
 Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& words);
+
+// Makes the folder of a run, and looks whether these files of it can be written, and its folders of
+// failing and slow cases.
+Expected<void> may_keep_run(const std::filesystem::path& out,
+                            const std::vector<std::string>& files);
 
 // The shard in words such as "2/8"; nothing for other words.
 std::optional<properties::Shard> shard_of(const std::string& word);

@@ -8,6 +8,7 @@
 #include "corpus/atomic_file.h"
 #include "properties/campaign/ledger/run_folder.h"
 #include "properties/judging/cause.h"
+#include "properties/queries/query_families.h"
 #include "properties/reducer/mesh_size.h"
 #include "properties/words.h"
 #include "reports/check/detector_choice.h"
@@ -18,16 +19,11 @@ namespace assay::reports {
 
 using properties::failure_file;
 
-std::string replay_line(const std::filesystem::path& out, const std::filesystem::path& file,
-                        const DetectorWords& detector) {
-  return fmt::format("assay replay {}{}",
+std::string replay_words(const std::filesystem::path& out, const std::filesystem::path& file,
+                         const DetectorWords& detector) {
+  return fmt::format("replay {}{}",
                      shell_word(out.empty() ? file.string() : absolute_path(out / file)),
-                     detector_words(absolute_path(detector.library), detector.threads));
-}
-
-std::string pasted(const std::string& line) {
-  constexpr std::string_view name = "assay ";
-  return line.starts_with(name) ? this_program(true) + " " + line.substr(name.size()) : line;
+                     detector_words(detector));
 }
 
 DetectorWords detector_of(const properties::RunFindings& findings) {
@@ -35,6 +31,8 @@ DetectorWords detector_of(const properties::RunFindings& findings) {
   words.library = findings.library;
   words.threads = findings.run.detector.threads;
   words.part = part_asked_by(findings.run.plan);
+  for (const auto& shard : findings.evidence.isolation)
+    words.isolation = from_name<properties::IsolationMode>(shard.asked).value_or(words.isolation);
   return words;
 }
 
@@ -42,7 +40,7 @@ namespace {
 
 std::string size_of_mesh(const std::string& text) {
   const auto c = corpus::parse_case(text, "stored case");
-  return c ? properties::size_text(properties::size_of(c.value())) : "unreadable";
+  return c ? properties::size_text(c.value()) : "unreadable";
 }
 
 using properties::SlowCase;
@@ -67,20 +65,24 @@ const SlowCase* kept_of(const properties::RunFindings& findings, const std::stri
 
 std::string trial_text(const properties::RunFindings& findings,
                        const properties::TrialRecord& trial, const std::string& took) {
-  std::string out = fmt::format("{:>12}  {}: {} triangles, {} step{}\n", took, trial.id,
-                                trial.triangles, trial.steps, trial.steps == 1 ? "" : "s");
+  const auto size = properties::is_query_family(trial.family)
+                        ? "one query"
+                        : fmt::format("{} triangles, {} step{}", trial.triangles, trial.steps,
+                                      trial.steps == 1 ? "" : "s");
+  std::string out = fmt::format("{:>12}  {}: {}\n", took, trial.id, size);
   const auto* kept = kept_of(findings, trial.id);
   if (!kept) {
-    return out + fmt::format("              replay: {} replay {}{}\n", this_program(true), trial.id,
-                             detector_words(findings.library, findings.run.detector.threads));
+    const auto words = "replay " + shell_word(trial.id) + detector_words(detector_of(findings));
+    return out + fmt::format("              replay: {}\n", line_to_paste(words));
   }
   const auto file = slow_file(*kept, !kept->smallest.empty());
   if (!kept->smallest.empty())
     out += fmt::format("              shrunk to {}, which takes at least {} s\n",
                        size_of_mesh(kept->smallest), 2 * kept->limit);
-  return out + fmt::format("              picture {}\n              replay: {}\n",
-                           picture_file(absolute_path(findings.folder / file)),
-                           pasted(replay_line(findings.folder, file, detector_of(findings))));
+  return out +
+         fmt::format("              picture {}\n              replay: {}\n",
+                     picture_file(absolute_path(findings.folder / file)),
+                     line_to_paste(replay_words(findings.folder, file, detector_of(findings))));
 }
 
 // Writes what is kept of a case: its mesh and its smallest one, as far as they are there. `file_of`
@@ -127,18 +129,22 @@ std::string smallest_size(const StoredFailure& failure) {
   return size_of_mesh(failure.smallest.empty() ? failure.mesh : failure.smallest);
 }
 
+// The size as it was met, and the smallest where that is another one: a query has none.
+std::string sizes_text(const StoredFailure& failure) {
+  const auto met = size_of_mesh(failure.mesh), smallest = smallest_size(failure);
+  return met == smallest ? met : met + " -> " + smallest;
+}
+
 // A kind of failure: one of its failures, in full.
 std::string paragraph(const StoredFailure& failure, const std::string& times,
                       const std::filesystem::path& out, const DetectorWords& detector) {
   const bool is_shrunk = !failure.smallest.empty();
   const auto file = failure_file(failure, is_shrunk);
   return fmt::format(
-      "\nDEFECT {} ({}), met {}\n  {}\n  case {}: {}{}\n{}  picture {}\n  replay: {}\n{}",
+      "\nDEFECT {} ({}), met {}\n  {}\n  case {}: {}\n  picture {}\n  replay: {}\n{}",
       failure.signature, failure.configuration, times, shown_explanation(failure), failure.id,
-      size_of_mesh(failure.mesh), is_shrunk ? " -> " + size_of_mesh(failure.smallest) : "",
-      failure.flaky ? "  two runs of it differ: a replay may hold\n" : "",
-      picture_file(absolute_path(out / file)), pasted(replay_line(out, file, detector)),
-      printed_text(failure.printed));
+      sizes_text(failure), picture_file(absolute_path(out / file)),
+      line_to_paste(replay_words(out, file, detector)), printed_text(failure.printed));
 }
 
 }  // namespace
@@ -178,8 +184,9 @@ Expected<void> write_failures(const properties::KeptFailures& kept,
                         properties::times_text(met(*kind)), smallest_size(*kind));
   }
   if (kinds.size() > 1)
-    text += fmt::format("each with the line that replays it: {} list failures {}\n", this_program(),
-                        shell_word(out.string()));
+    text += fmt::format(
+        "each with the line that replays it: {}\n",
+        line_to_paste("list failures " + shell_word(out.string()), PastedIn::this_folder));
   return outcome::success();
 }
 

@@ -12,13 +12,10 @@
 
 namespace assay::reports {
 
-// "assay replay OUT/failures/... --detector LIB.so", to be pasted in any folder. Without `out` it
-// is for the folder of the run: so it stands in certificates and pages.
-std::string replay_line(const std::filesystem::path& out, const std::filesystem::path& file,
-                        const DetectorWords& detector);
-
-// The same as it is printed: with this program's own path where `assay` is not on the PATH.
-std::string pasted(const std::string& line);
+// "replay OUT/failures/... --detector LIB.so", the words of a line to paste in any folder. Without
+// `out` they are for the folder of the run: so they stand in certificates and pages, behind "assay".
+std::string replay_words(const std::filesystem::path& out, const std::filesystem::path& file,
+                         const DetectorWords& detector);
 
 // The detector of a run, as a replay line names it.
 DetectorWords detector_of(const properties::RunFindings& findings);

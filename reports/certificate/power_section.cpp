@@ -7,6 +7,7 @@
 #include "properties/campaign/ledger/run_folder.h"
 #include "properties/faults/fault.h"
 #include "properties/reducer/mesh_size.h"
+#include "properties/worker/plugin/query_case.h"
 #include "reports/campaign/failure_text.h"
 #include "reports/certificate/sections.h"
 
@@ -185,7 +186,9 @@ Json size_json(const std::string& text) {
   const auto c = corpus::parse_case(text, "stored failure");
   if (!c) return nullptr;
   const auto size = properties::size_of(c.value());
-  return {{"triangles", size.triangles}, {"vertices", size.vertices}, {"steps", size.steps}};
+  Json json = {{"triangles", size.triangles}, {"vertices", size.vertices}, {"steps", size.steps}};
+  if (properties::query_of(c.value())) json["query"] = properties::query_word(c.value());
+  return json;
 }
 
 }  // namespace
@@ -208,7 +211,7 @@ Json failures_json(const properties::RunFindings& findings) {
                     {"after", is_shrunk ? size_json(failure->smallest) : Json(nullptr)},
                     {"file", name.generic_string()},
                     {"sha256", corpus::sha256_of(mesh)},
-                    {"replay", replay_line("", name, detector_of(findings))}});
+                    {"replay", "assay " + replay_words("", name, detector_of(findings))}});
   }
   return list;
 }

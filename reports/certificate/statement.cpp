@@ -95,12 +95,13 @@ Json replay_json(const RunFindings& findings) {
   if (!paths) return Json::array();
   std::string folders =
       paths->own_cases.empty() ? "" : fmt::format(" --corpus {}", shell_word(paths->own_cases));
+  auto words = detector_of(findings);
+  words.library = paths->detector;
   if (!paths->data.empty()) folders += fmt::format(" --data {}", shell_word(paths->data));
-  return Json::array(
-      {fmt::format("assay certify --campaign {} --seed {}{}{} --out AGAIN",
-                   properties::campaign_file("").string(), findings.run.seed,
-                   detector_words(paths->detector, findings.run.detector.threads), folders),
-       fmt::format("assay verify {}", properties::certificate_file("").string())});
+  return Json::array({fmt::format("assay certify --campaign {} --seed {}{}{} --out AGAIN",
+                                  properties::campaign_file("").string(), findings.run.seed,
+                                  detector_words(words), folders),
+                      fmt::format("assay verify {}", properties::certificate_file("").string())});
 }
 
 // Replaces what is not UTF-8 in the statement, such as in the name of a folder. The result is what
@@ -162,7 +163,7 @@ properties::Expected<Json> make_statement(const RunFindings& findings) {
   const auto file = properties::campaign_file(findings.folder);
   const auto digest = corpus::sha256_of_file(file);
   if (!digest) return Problem{digest.error().message};
-  const auto plan = properties::kept_plan(file);
+  const auto plan = properties::read_plan(file);
   if (!plan) return Problem{plan.error().message};
   if (!is_plan_of(findings, plan.value())) {
     return Problem{"campaign.json is not the campaign of the stores"};

@@ -72,7 +72,7 @@ std::string failures_text(const Json& p) {
     out += fmt::format("\n**{}** ({}{}), {}{}\n\n    {}\n", cell(failure["signature"]),
                        cell(failure["configuration"]),
                        failure["waived"].get<bool>() ? ", waived" : "", met_text(failure),
-                       after.is_null()
+                       after.is_null() || after.contains("query")
                            ? ""
                            : fmt::format("; shrunk to {} triangles, {} vertices",
                                          count(after["triangles"]), count(after["vertices"])),

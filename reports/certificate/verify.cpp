@@ -125,10 +125,24 @@ void compare(const std::filesystem::path& certificate, const properties::Expecte
   // like its contents, and assay writes none.
   if (lines.empty()) compare_file(certificate, corpus::sha256_of(statement_text(computed)), lines);
   const auto& predicate = computed["predicate"];
-  for (const auto& failure : predicate["failures"])
-    compare_file(folder / failure["file"].get<std::string>(), failure["sha256"], lines);
-  compare_file(folder / "junit.xml", corpus::sha256_of(junit_text(predicate)), lines);
-  compare_file(folder / "summary.md", corpus::sha256_of(summary_text(predicate)), lines);
+  std::set<std::filesystem::path> looked_at = {certificate, properties::campaign_file(folder)};
+  const auto look_at = [&](const std::string& name, const std::string& sha256) {
+    compare_file(folder / name, sha256, lines);
+    looked_at.insert(folder / name);
+  };
+  for (const auto& failure : predicate["failures"]) look_at(failure["file"], failure["sha256"]);
+  look_at("junit.xml", corpus::sha256_of(junit_text(predicate)));
+  look_at("summary.md", corpus::sha256_of(summary_text(predicate)));
+  for (const auto& store : predicate["times"]["files"])
+    looked_at.insert(folder / store["name"].get<std::string>());
+  for (const auto& place : {folder, folder / "failures", folder / "slow"}) {
+    std::error_code ignored;
+    for (const auto& file : std::filesystem::directory_iterator(place, ignored)) {
+      if (file.is_regular_file(ignored) && !looked_at.contains(file.path()))
+        result.others.push_back(file.path().lexically_relative(folder).string());
+    }
+  }
+  std::sort(result.others.begin(), result.others.end());
 }
 
 std::string difference_of(const Json& a, const Json& b) {

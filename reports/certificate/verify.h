@@ -20,11 +20,14 @@ namespace assay::reports {
 struct Verification {
   std::vector<std::string> differences;  // one line each; none: the certificate is verified
   nlohmann::ordered_json statement;      // as it was read; null if it is no statement
+  // Files beside it, and in failures/ and slow/, that were not looked at, such as a page: nothing
+  // of it rests on them.
+  std::vector<std::string> others = {};
 };
 
 // Computes counts, bounds, digests, gates and verdict again from campaign.json and the stores
 // beside the certificate, and compares every field and byte. It also checks the failing meshes
-// that the certificate names, junit.xml and summary.md.
+// that the certificate names, junit.xml and summary.md. It names the other files.
 // `computed`, if given, is the result of make_statement(folder) for its folder, which has been
 // computed before.
 Verification verify_certificate(

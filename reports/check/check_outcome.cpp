@@ -55,6 +55,13 @@ std::string CheckOutcome::summary() const {
     text = fmt::format("collision at t = {} of step {}", time_text(collision_time),
                        *collision_step + 1);
   }
+  if (unanswered_step && !collision_step) {
+    text = fmt::format(
+        "the oracle finds a contact at t = {} of step {}, which has no answer that "
+        "can be judged",
+        time_text(unanswered_time), *unanswered_step + 1);
+    if (!unanswered_error.empty() && unanswered_error != ended) text += ": " + unanswered_error;
+  }
   if (unsound) {
     text += "; UNSOUND: oracle and second opinion contradict each other\n";
   } else if (defect) {
@@ -65,7 +72,7 @@ std::string CheckOutcome::summary() const {
     text += fmt::format("; undecided: {}\n", !ended.empty()           ? ended
                                              : !limit_reached.empty() ? limit_reached + " reached"
                                              : !lost.empty() ? "a part of the input is lost"
-                                                             : "a limit reached");
+                                                             : "a step is undecided");
   } else if (!is_judged) {
     text += "; not judged\n";
   } else if (!judged_by_claims) {
@@ -83,6 +90,11 @@ const char* CheckOutcome::word() const {
   if (defect) return name_of(Outcome::defect);
   if (!is_judged) return "not judged";
   return name_of(undecided ? Outcome::undecided : Outcome::holds);
+}
+
+Expected<int> CheckOutcome::end(bool fail_on_collision) const {
+  if (!unwritten.empty()) return Problem{unwritten};
+  return exit_code(fail_on_collision);
 }
 
 int CheckOutcome::exit_code(bool fail_on_collision) const {

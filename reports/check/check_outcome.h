@@ -32,7 +32,9 @@ struct CheckOutcome {
   bool has_answers = true;  // false: a library of candidates alone
   std::string ended;        // how a plug-in's run ended; empty: it went through
   std::string limit_reached;
-  std::vector<std::string> lost;                            // of the input
+  std::string unwritten;                 // why a file that was asked for was not written
+  std::vector<std::string> asked_again;  // what came of asking a plug-in about steps that are kept
+  std::vector<std::string> lost;         // of the input
   std::map<properties::Claim, std::uint64_t> first_broken;  // of each claim: its step, from 0
   std::size_t judged_steps = 0;
   // Only for a plug-in: the claims that hold, those of which nothing is known, and what the
@@ -42,6 +44,11 @@ struct CheckOutcome {
   properties::StepMeasures measures;
   std::optional<std::size_t> collision_step;  // the first step with a collision, counted from 0
   detector::TimeEnclosure collision_time;
+  // The first step in which the oracle finds a contact and there is no answer to be judged, when
+  // that contact is, and what the detector gave instead.
+  std::optional<std::size_t> unanswered_step;
+  detector::TimeEnclosure unanswered_time;
+  std::string unanswered_error;
 
   // Counts a judged step of a plug-in.
   void count(const properties::StepDiff& diff, const detector::StepResult& result);
@@ -55,6 +62,8 @@ struct CheckOutcome {
   std::string summary() const;
   const char* word() const;
   int exit_code(bool fail_on_collision) const;
+  // The exit code, or the problem if a file was not written.
+  Expected<int> end(bool fail_on_collision) const;
 };
 
 // The report of `check`, schema assay-check/1 (documented in reports/check/README.md). `steps`: an

@@ -22,7 +22,6 @@
 #include "reports/steps/step_text.h"
 #include "reports/terminal/limits.h"
 #include "reports/terminal/progress.h"
-#include "reports/terminal/words.h"
 
 namespace assay::reports {
 
@@ -235,7 +234,7 @@ class CheckRun {
         return {};
       }
       if (outcome_.ended.empty() && !answers_.is_refused(s)) outcome_.ended = error;
-      told_error = fmt::format("  {}\n", error);
+      told_error = error;
     }
     if (result.answer == Answer::collision && !outcome_.collision_step) {
       outcome_.collision_step = shown_number - 1;
@@ -244,7 +243,7 @@ class CheckRun {
     outcome_.undecided |= answers_.has_answers() && result.answer == Answer::undecided;
     if (question_.no_oracle) {
       progress.finish();
-      say(step_text(shown_number, result, nullptr, shown_work(s)) + told_error);
+      say(step_text(shown_number, result, nullptr, shown_work(s)) + error_line(told_error));
       return json_of(result, nullptr);
     }
 
@@ -263,26 +262,34 @@ class CheckRun {
         answers_.judge(s, result, oracle.judgement, {motion, steps_.triangles(), options});
     const auto& diff = oracle.diff;
     progress.finish();
+    if (diff.unanswered_contact && !outcome_.unanswered_step) {
+      outcome_.unanswered_step = shown_number - 1;
+      outcome_.unanswered_time = oracle.truth.first->time;
+      outcome_.unanswered_error = told_error;
+    }
     outcome_.defect |= diff.outcome == Outcome::defect;
     outcome_.undecided |= diff.outcome == Outcome::undecided || diff.outcome == Outcome::error;
     if (answers_.is_plugin()) outcome_.count(diff, result);
     ++outcome_.judged_steps;
     for (const auto claim : diff.broken) outcome_.first_broken.emplace(claim, steps_.number_of(s));
     if (question_.shows_all_steps || diff.outcome != Outcome::holds)
-      say(step_text(shown_number, result, &oracle, shown_work(s)) + told_error);
+      say(step_text(shown_number, result, &oracle, shown_work(s)) + error_line(told_error));
     if (diff.outcome == Outcome::defect) {
       print_defect(step, diff);
-      if (const auto told =
-              tell_failed({shown_number - 1, steps_, step, result, diff, answers_.under_test()});
-          !told)
-        refused_ = told.error().message;
+      if (listener_.failed)
+        say(listener_.failed(
+            {shown_number - 1, steps_, step, result, diff, answers_.under_test()}));
     }
     auto json = json_of(result, &oracle);
     if (question_.second_opinion) {
       progress.phase("second opinion");
-      json["second_opinion"] = ask_second_opinion(s, step, oracle.judgement, stop, progress);
+      json["second_opinion"] = ask_second_opinion(step, oracle.judgement, stop, progress);
     }
     return json;
+  }
+
+  static std::string error_line(const std::string& error) {
+    return error.empty() ? "" : fmt::format("  {}\n", error);
   }
 
   // Null if nobody asked for the report, because it takes more memory than what it tells. If a
@@ -294,7 +301,7 @@ class CheckRun {
     return step_json(result, oracle);
   }
 
-  nlohmann::ordered_json ask_second_opinion(std::size_t s, const corpus::SourceStep& step,
+  nlohmann::ordered_json ask_second_opinion(const corpus::SourceStep& step,
                                             const oracle::StepJudgement& judgement,
                                             const detector::StopFunction& stop,
                                             Progress& progress) {
@@ -315,36 +322,9 @@ class CheckRun {
     say(second_opinion_text(opinion, milliseconds));
     outcome_.undecided |= !opinion.complete;
     outcome_.unsound = !opinion.contradictions.empty();
-    if (outcome_.unsound) say(fmt::format("  replay: {}\n", replay_line(s)));
+    if (outcome_.unsound && !question_.again.empty())
+      say(fmt::format("  again: {}\n", question_.again));
     return second_opinion_json(opinion, share, milliseconds);
-  }
-
-  // Names the frames of this step alone if each frame is a file of its own. The same queries are
-  // chosen again.
-  std::string replay_line(std::size_t s) const {
-    std::string input;
-    const auto name = [&](const std::vector<std::string>& files) {
-      const bool file_a_frame = files.size() == steps_.frames();
-      for (std::size_t i = 0; i < files.size(); ++i) {
-        if (!file_a_frame || i == s || i == s + 1)
-          input += " " + shell_word(absolute_path(files[i]));
-      }
-    };
-    if (question_.bodies.empty()) name(question_.files);
-    for (const auto& files : question_.bodies) {
-      input += " --body";
-      name(files);
-    }
-    for (const auto& [a, b] : question_.apart) input += fmt::format(" --apart {},{}", a, b);
-    return fmt::format("{} check{} --second-opinion {}", this_program(true), input,
-                       *question_.second_opinion);
-  }
-
-  Expected<void> tell_failed(const FailedStep& failed) const {
-    if (!listener_.failed) return outcome::success();
-    BOOST_OUTCOME_TRY(text, listener_.failed(failed));
-    say(text);
-    return outcome::success();
   }
 
   void print_defect(const corpus::SourceStep& step, const properties::StepDiff& diff) const {

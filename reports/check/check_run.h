@@ -41,7 +41,8 @@ struct CheckQuestion {
   std::optional<std::uint64_t> memory_limit;  // bytes
   bool wants_report = false;                  // without it no report is built, which saves memory
   std::string announced_file;                 // the file of the report, to be named to the user
-  bool shows_all_steps = true;                // false: only those that are not as claimed
+  std::string again;  // the line that asks this again, to be pasted; empty where there is none
+  bool shows_all_steps = true;  // false: only those that are not as claimed
 };
 
 // A step that breaks a claim, or differs from the oracle.
@@ -58,7 +59,7 @@ struct CheckListener {
   std::function<void(const std::string& text)> say;  // what is printed, as it becomes known
   detector::StopFunction stop = {};                  // may be empty; what it leaves is undecided
   // What is to be done with a step that fails; the text is printed. May be empty.
-  std::function<Expected<std::string>(const FailedStep&)> failed = {};
+  std::function<std::string(const FailedStep&)> failed = {};
 };
 
 struct CheckAnswer {

@@ -88,25 +88,32 @@ std::optional<corpus::Case> part_that_shows(const corpus::Case& whole, TriangleP
 }  // namespace
 
 KeptFailures::KeptFailures(std::filesystem::path folder, std::string origin,
-                           std::function<std::string(std::uint64_t)> replay,
-                           std::optional<properties::Subject> again, double shrink_seconds)
+                           std::function<std::string(std::uint64_t)> again,
+                           std::optional<properties::Subject> plugin, double shrink_seconds)
     : folder_(std::move(folder)),
       origin_(std::move(origin)),
-      replay_(std::move(replay)),
       again_(std::move(again)),
-      shrink_seconds_(shrink_seconds) {
-  if (again_) worker_ = std::make_unique<properties::WorkerProcess>(again_->process());
-}
+      plugin_(std::move(plugin)),
+      shrink_seconds_(shrink_seconds) {}
 
-Expected<std::string> KeptFailures::keep(const FailedStep& failed) {
-  if (failed.diff.broken.empty()) return std::string();
-  const auto& contract = failed.detector.contract;
-  const auto failure = properties::failure_of(failed.diff, failed.result, contract);
-  const auto number = failed.number + 1;
-  const std::string replay = replay_(number);
+std::string KeptFailures::keep(const FailedStep& failed) {
+  if (failed.diff.broken.empty()) return "";
+  const auto failure = properties::failure_of(failed.diff, failed.result, failed.detector.contract);
+  const std::string again = again_(failed.number + 1);
   if (met_[failure.signature()]++ >= most_of_a_kind)
     return fmt::format("  not kept, {} of its kind are: {}\n  again: {}\n", most_of_a_kind,
-                       failure.signature(), replay);
+                       failure.signature(), again);
+  const auto text = write_step(failed, failure, again);
+  if (text) return text.value();
+  if (unwritten_.empty()) unwritten_ = text.error().message;
+  return fmt::format("  not kept: {}\n  again: {}\n", text.error().message, again);
+}
+
+Expected<std::string> KeptFailures::write_step(const FailedStep& failed,
+                                               const properties::Failure& failure,
+                                               const std::string& again) {
+  const auto& contract = failed.detector.contract;
+  const auto number = failed.number + 1;
   const auto* rest = contract.rest_distance > 0 ? &failed.source.first_frame() : nullptr;
   const auto whole = corpus::case_of_step(failed.source.triangles(), failed.source.counted(), rest,
                                           failed.step.x_t0, failed.step.x_t1);
@@ -124,7 +131,7 @@ Expected<std::string> KeptFailures::keep(const FailedStep& failed) {
   name(c, fmt::format("step-{}", number));
   const auto folder = folder_ / c.id;
   BOOST_OUTCOME_TRYV(export_case(folder, c, failed.detector, properties::judge_case(c, contract)));
-  Kept kept{number, c.about, properties::size_text(properties::size_of(c)), c.id, replay, {}, {}};
+  Kept kept{number, c.about, properties::size_text(c), c.id, again};
   SceneMaker scenes(std::nullopt);
   if (const auto scene = scenes.scene_of(c, "");
       scene && c.triangles.rows() <= most_shown_triangles) {
@@ -135,19 +142,37 @@ Expected<std::string> KeptFailures::keep(const FailedStep& failed) {
     name(*pair, "pair");
     BOOST_OUTCOME_TRYV(corpus::write_case(folder / "pair.json", *pair));
   }
-  if (again_) {
-    BOOST_OUTCOME_TRY(told, ask_again(c, folder));
-    if (told.empty() && c.triangles.rows() < whole.triangles.rows()) {
-      BOOST_OUTCOME_TRY(of_whole, ask_again(whole, folder));
-      told = std::move(of_whole);
+  if (plugin_) {
+    BOOST_OUTCOME_TRY(ask_plugin(c, kept));
+    if (!*kept.reproduced && c.triangles.rows() < whole.triangles.rows()) {
+      BOOST_OUTCOME_TRY(ask_plugin(whole, kept));
     }
-    kept.again = told.empty() ? "not reproduced: asked again, the detector is right here" : told;
   }
   std::string text = fmt::format("  {}\n  kept in {} ({})\n  again: {}\n", kept.what,
-                                 folder.string(), kept.size, replay);
-  if (again_) text += fmt::format("  {}\n", kept.again);
+                                 folder.string(), kept.size, again);
+  if (!kept.asked.empty()) text += fmt::format("  {}\n", kept.asked);
+  if (!kept.replay.empty()) text += fmt::format("  replay: {}\n", kept.replay);
   steps_.push_back(std::move(kept));
   return text;
+}
+
+void KeptFailures::end(CheckAnswer& answer) const {
+  const auto page = write_page(answer.outcome);
+  answer.outcome.unwritten = unwritten_.empty() && !page ? page.error().message : unwritten_;
+  auto list = nlohmann::ordered_json::array();
+  for (const auto& kept : steps_) {
+    list.push_back({{"step", kept.number},
+                    {"what", kept.what},
+                    {"folder", (folder_ / kept.folder).string()},
+                    {"again", kept.again},
+                    {"reproduced", nullptr},
+                    {"asked", kept.asked},
+                    {"replay", kept.replay}});
+    if (kept.reproduced) list.back()["reproduced"] = *kept.reproduced;
+    if (!kept.asked.empty())
+      answer.outcome.asked_again.push_back(fmt::format("step {}: {}", kept.number, kept.asked));
+  }
+  if (!answer.report.is_null()) answer.report["kept"] = std::move(list);
 }
 
 Expected<void> KeptFailures::write_page(const CheckOutcome& outcome) const {
@@ -159,10 +184,12 @@ Expected<void> KeptFailures::write_page(const CheckOutcome& outcome) const {
   }
   for (const auto& kept : steps_) {
     steps += fmt::format(
-        "<h2>Step {}</h2>\n<p>{}</p>\n<p>{}: <a href=\"{}/\">{}/</a></p>\n<pre>{}</pre>\n{}{}\n",
+        "<h2>Step {}</h2>\n<p>{}</p>\n<p>{}: <a href=\"{}/\">{}/</a></p>\n<pre>{}</pre>\n",
         kept.number, xml_escaped(kept.what), kept.size, kept.folder, kept.folder,
-        xml_escaped(kept.replay),
-        kept.again.empty() ? "" : "<p>" + xml_escaped(kept.again) + "</p>\n", kept.picture);
+        xml_escaped(kept.again));
+    if (!kept.asked.empty()) steps += "<p>" + xml_escaped(kept.asked) + "</p>\n";
+    if (!kept.replay.empty()) steps += "<pre>" + xml_escaped(kept.replay) + "</pre>\n";
+    steps += kept.picture + "\n";
   }
   for (const auto& [kind, times] : met_) {
     if (times > most_of_a_kind)
@@ -179,22 +206,36 @@ Expected<void> KeptFailures::write_page(const CheckOutcome& outcome) const {
                   fmt::arg("steps", steps), fmt::arg("version", version_text())));
 }
 
-// Asks the plug-in about the case, and shrinks it if it fails. An empty text: it is right.
-Expected<std::string> KeptFailures::ask_again(const corpus::Case& c,
-                                              const std::filesystem::path& folder) {
-  const auto& detector = again_->detector;
+Expected<void> KeptFailures::ask_plugin(const corpus::Case& c, Kept& kept) const {
+  const auto& detector = plugin_->detector;
   const auto& configuration = detector.configurations.front();
-  if (!properties::contracted(c, detector.contract)) return std::string();
-  if (!properties::judge_of_detector(detector, configuration, *worker_)(c)) return std::string();
+  const auto fails = [&](const corpus::Case& asked) {
+    auto worker = plugin_->process();
+    return properties::judge_of_detector(detector, configuration, worker)(asked).has_value();
+  };
+  kept.reproduced = fails(c);
+  if (!*kept.reproduced) {
+    kept.asked =
+        "not reproduced: asked about this step alone, in a new process, the detector is right; "
+        "what fails may need what the process did before";
+    return outcome::success();
+  }
   constexpr std::uint64_t most_calls = 100'000;
-  const auto reduction =
-      properties::shrink_case(c, detector, configuration, *worker_, {shrink_seconds_, most_calls});
-  const auto file = folder / "smallest.json";
-  auto smallest = reduction.smallest;
+  auto worker = plugin_->process();
+  auto smallest =
+      properties::shrink_case(c, detector, configuration, worker, {shrink_seconds_, most_calls})
+          .smallest;
+  // A process that was asked much may fail where a new one does not.
+  if (!fails(smallest)) smallest = c;
+  const auto file = folder_ / kept.folder / "smallest.json";
   smallest.id = "smallest";
-  BOOST_OUTCOME_TRYV(corpus::write_case(file, smallest));
-  return fmt::format("reproduced; smallest: {} ({})", file.string(),
-                     properties::size_text(properties::size_of(smallest)));
+  BOOST_OUTCOME_TRY(corpus::write_case(file, smallest));
+  kept.asked =
+      fmt::format("reproduced; smallest: {} ({})", file.string(), properties::size_text(smallest));
+  DetectorWords words{plugin_->plugin->string(), plugin_->limits.isolation,
+                      plugin_->limits.threads};
+  kept.replay = line_to_paste("replay " + shell_word(absolute_path(file)) + detector_words(words));
+  return outcome::success();
 }
 
 }  // namespace assay::reports

@@ -9,6 +9,7 @@
 #include "reports/check/detector_choice.h"
 #include "reports/judge/kept_failures.h"
 #include "reports/terminal/limits.h"
+#include "reports/terminal/text_file.h"
 #include "reports/terminal/words.h"
 
 namespace assay::reports {
@@ -62,12 +63,10 @@ Expected<CheckAnswer> judge_log(const LogName& name, const LogQuestion& question
   std::unique_ptr<KeptFailures> kept;
   CheckListener with_files = listener;
   if (!question.out.empty()) {
-    std::error_code error;
-    std::filesystem::create_directories(question.out, error);
-    if (error) return Problem{fmt::format("{}: {}", question.out, error.message())};
+    BOOST_OUTCOME_TRY(may_fill(question.out, {"page.html"}));
     const auto replay = [&](std::uint64_t number) {
-      return fmt::format("{} replay {}", this_program(true),
-                         shell_word(fmt::format("{}#{}", absolute_path(name.file), number)));
+      const auto step = fmt::format("{}#{}", absolute_path(name.file), number);
+      return line_to_paste("replay " + shell_word(step));
     };
     kept = std::make_unique<KeptFailures>(question.out, name.file, replay, std::move(again),
                                           question.shrink_seconds);
@@ -78,10 +77,8 @@ Expected<CheckAnswer> judge_log(const LogName& name, const LogQuestion& question
   Limits limits(check.time_limit, check.memory_limit);
   BOOST_OUTCOME_TRY(answer,
                     check_answers(check, recorded.input, *recorded.answers, limits, with_files));
-  if (kept) {
-    BOOST_OUTCOME_TRYV(kept->write_page(answer.outcome));
-  }
-  return answer;
+  if (kept) kept->end(answer);
+  return std::move(answer);
 }
 
 std::string junit_suite(const std::string& log, const CheckOutcome& outcome) {
@@ -100,6 +97,9 @@ std::string junit_suite(const std::string& log, const CheckOutcome& outcome) {
                 : fmt::format("><{} message=\"{}\"/></testcase>\n",
                               state == State::broken ? "failure" : "skipped", xml_escaped(why));
   }
+  if (!outcome.asked_again.empty())
+    text += fmt::format("    <system-out>{}</system-out>\n",
+                        xml_escaped(joined(outcome.asked_again, "\n")));
   return text + "  </testsuite>\n";
 }
 

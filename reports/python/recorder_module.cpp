@@ -95,9 +95,10 @@ class Recorder {
  private:
   void demand(std::int32_t code) const {
     if (code == ASSAY_OK) return;
+    const bool is_of_a_file = ASSAY_RECORD_NOT_OPENED <= code && code <= ASSAY_RECORD_NOT_RENAMED;
     PyObject* const kind = code == ASSAY_OUT_OF_MEMORY        ? PyExc_MemoryError
                            : code == ASSAY_RECORD_FILE_EXISTS ? PyExc_FileExistsError
-                           : code >= ASSAY_RECORD_NOT_OPENED  ? PyExc_OSError
+                           : is_of_a_file                     ? PyExc_OSError
                                                               : PyExc_ValueError;
     PyErr_SetString(kind, assay_record_error(&recorder_));
     throw py::error_already_set();

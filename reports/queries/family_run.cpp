@@ -119,8 +119,8 @@ Expected<int> self_test_of_plugin(const QuerySelfTest& request) {
   }
   fmt::print("{}", detector.text());
   for (const auto& name : replays)
-    fmt::print("replay: {} self-test --replay {}{}\n", this_program(true), name,
-               detector_words(absolute_path(request.detector.library), request.detector.threads));
+    fmt::print("replay: {}\n",
+               line_to_paste("self-test --replay " + name + detector_words(request.detector)));
   if (test.was_over()) fmt::print("stopped at the time limit\n");
   const int code = detector.exit_code();
   return code == exit_holds && test.was_over() ? exit_undecided : code;

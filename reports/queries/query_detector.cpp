@@ -23,6 +23,8 @@ namespace {
 // minute.
 constexpr std::uint64_t most_crashes = 100;
 
+const properties::Configuration asked_query{"query", {}, {}, true};
+
 }  // namespace
 
 QueryDetector::QueryDetector(properties::Subject subject)
@@ -67,8 +69,12 @@ Expected<std::vector<JudgedQuery>> QueryDetector::judge(
         ++defects_;
         ++broken_[properties::name_of(failure->claim)];
         const auto signature = failure->signature();
-        if (met_[signature]++ == 0)
-          shown_.push_back({name, signature, properties::printable(failure->explanation)});
+        if (met_[signature]++ == 0) {
+          const bool is_alone_too = answers_alone(queries[all.size()], one.run);
+          shown_.push_back({name, signature,
+                            properties::printable(failure->explanation) +
+                                (is_alone_too ? "" : properties::needs_what_came_before)});
+        }
       }
       all.push_back(std::move(one));
     }
@@ -77,7 +83,7 @@ Expected<std::vector<JudgedQuery>> QueryDetector::judge(
 }
 
 std::string QueryDetector::text() const {
-  std::string out = fmt::format("{}\n{}\n", measures_head(), measures_row(measures_));
+  std::string out = fmt::format("{}\n{}\n", measures_head(true), measures_row(measures_, true));
   if (left_out_ > 0) out += fmt::format("{} queries are left out by its contract\n", left_out_);
   if (not_asked_ > 0)
     out +=
@@ -123,9 +129,16 @@ int QueryDetector::exit_code() const {
   return undecided_ + not_asked_ > 0 || judged_ == 0 ? exit_undecided : exit_holds;
 }
 
+bool QueryDetector::answers_alone(const detector::FourPoints& query,
+                                  const properties::CaseRun& run) const {
+  auto fresh = subject_.process();
+  const auto asked =
+      properties::contracted(properties::case_of_query(query, "query"), subject_.detector.contract);
+  return same_answers(run, fresh.run(*asked, {&asked_query, 1}).front());
+}
+
 std::vector<JudgedQuery> QueryDetector::judge_some(std::span<const detector::FourPoints> queries) {
   const auto& plugin = subject_.detector;
-  const properties::Configuration configuration{"query", {}, {}, true};
   std::vector<JudgedQuery> judged(queries.size());
   std::vector<std::size_t> places;
   std::vector<corpus::Case> cases;
@@ -138,10 +151,10 @@ std::vector<JudgedQuery> QueryDetector::judge_some(std::span<const detector::Fou
     places.push_back(i);
     cases.push_back(std::move(*seen));
   }
-  auto runs = worker_.run(cases, {&configuration, 1});
+  auto runs = worker_.run(cases, {&asked_query, 1});
   std::vector<properties::CaseRun> again;
   if (plugin.claims.has(properties::Claim::deterministic)) {
-    again = second_.run(std::vector(cases.rbegin(), cases.rend()), {&configuration, 1});
+    again = second_.run(std::vector(cases.rbegin(), cases.rend()), {&asked_query, 1});
     std::reverse(again.begin(), again.end());
   }
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -150,7 +163,7 @@ std::vector<JudgedQuery> QueryDetector::judge_some(std::span<const detector::Fou
     crashes_ += one.run.end == properties::RunEnd::crashed ? 1 : 0;
     const auto truth = properties::judge_case(cases[i], plugin.contract);
     one.contact = !truth[0].pairs.empty();
-    one.verdict = properties::judge_trial(cases[i], truth, one.run, configuration, plugin,
+    one.verdict = properties::judge_trial(cases[i], truth, one.run, asked_query, plugin,
                                           again.empty() ? nullptr : &again[i]);
     measures_ += properties::measures_of(one.verdict.steps, one.run.steps);
   }

@@ -65,6 +65,8 @@ class QueryDetector {
   // Asks and judges some queries. If `deterministic` is claimed, the second worker is asked too, in
   // the other order. Runs that did not take place end with RunEnd::not_run.
   std::vector<JudgedQuery> judge_some(std::span<const detector::FourPoints> queries);
+  // Whether the query has the same answer if a new process is asked it alone.
+  bool answers_alone(const detector::FourPoints& query, const properties::CaseRun& run) const;
 
   properties::Subject subject_;
   properties::WorkerProcess worker_, second_;

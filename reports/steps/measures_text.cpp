@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "properties/campaign/ledger/step_measures.h"
+#include "properties/queries/query_families.h"
 #include "reports/terminal/words.h"
 
 namespace assay::reports {
@@ -107,18 +108,21 @@ std::string found_text(std::uint64_t at_random, std::uint64_t by_curated_case_al
                      by_curated_case_alone);
 }
 
-std::string measures_head() {
-  return fmt::format(row_format, "free steps answered collision", "answered free", "spurious",
-                     "late: steps by median to worst", "early: steps by median to worst",
-                     "left out", "candidates / least");
+std::string measures_head(bool of_queries) {
+  const char* asked = of_queries ? "queries" : "steps";
+  return fmt::format(row_format, fmt::format("free {} answered collision", asked), "answered free",
+                     "spurious", fmt::format("late: {} by median to worst", asked),
+                     fmt::format("early: {} by median to worst", asked), "left out",
+                     "candidates / least");
 }
 
-std::string measures_row(const properties::StepMeasures& m) {
+std::string measures_row(const properties::StepMeasures& m, bool of_queries) {
   const auto misses = miss_rate(m);
   return fmt::format(
       row_format, rate_text(false_alarm_rate(m)),
       misses.in ? fmt::format("{} of {}", misses.of, misses.in) : "-",
-      m.errors.answered() ? fmt::format("{:.3g}/step", spurious_pairs_a_step(m)) : "-",
+      m.errors.answered() && !of_queries ? fmt::format("{:.3g}/step", spurious_pairs_a_step(m))
+                                         : "-",
       off_text(m.errors.late), off_text(m.errors.early),
       m.redrawn + m.steps_left_out ? fmt::format("{} + {}", m.redrawn, m.steps_left_out) : "-",
       m.candidate_steps ? fmt::format("{} / {}, {:.3g}", m.candidates, m.least_candidates,
@@ -154,17 +158,19 @@ std::string measures_sentence(const properties::StepMeasures& m) {
 
 std::string measures_text(const properties::RunFindings& findings) {
   if (findings.run.detector.built_in) return "";
+  const bool alone = properties::asks_queries_alone(findings.run.plan);
   std::string out = fmt::format(
       "whatever is claimed (intervals of 95 %, in per cent; late, early: how many first times are "
       "after or before the oracle's, and by which share of the step: in the median, in 99 of 100 "
       "of "
       "them at most, and at worst; left out: cases + steps)\n{:24} {}\n",
-      "stratum", measures_head());
+      "stratum", measures_head(alone));
   for (const auto& stratum : findings.run.plan.strata)
     out += fmt::format("{:24} {}\n", stratum.family,
-                       measures_row(findings.tally_of(stratum).measures));
+                       measures_row(findings.tally_of(stratum).measures,
+                                    properties::is_query_family(stratum.family)));
   const auto all = findings.tally.counts.measures;
-  out += fmt::format("{:24} {}\n", "all", measures_row(all));
+  out += fmt::format("{:24} {}\n", "all", measures_row(all, alone));
   if (all.refused > 0) out += fmt::format("refused: capacity, in {} steps\n", all.refused);
   if (all.left_out_misses > 0)
     out += fmt::format(

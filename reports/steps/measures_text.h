@@ -24,8 +24,8 @@ std::string sizes_text(const std::vector<properties::JudgedSize>& judged_up_to);
 // "72 by random cases, 44 by their curated case alone".
 std::string found_text(std::uint64_t at_random, std::uint64_t by_curated_case_alone);
 
-// The columns of one row, without its name.
-std::string measures_row(const properties::StepMeasures& measures);
-std::string measures_head();
+// The columns of one row, without its name: of steps, or of queries, which have no pairs.
+std::string measures_row(const properties::StepMeasures& measures, bool of_queries);
+std::string measures_head(bool of_queries);
 
 }  // namespace assay::reports

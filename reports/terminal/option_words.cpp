@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "corpus/meant_word.h"
+#include "reports/terminal/words.h"
 
 namespace assay::reports {
 
@@ -254,6 +255,14 @@ VerbOption add_detector_alone(Verb& verb, DetectorWords& detector, const std::st
              "refuses where something is lacking, none lets it print")
       .in(OptionGroup::detector);
   return library;
+}
+
+std::string detector_words(const DetectorWords& detector) {
+  if (detector.library.empty()) return "";
+  std::string words = " --detector " + shell_word(absolute_path(detector.library));
+  if (detector.isolation != properties::IsolationMode::best)
+    words += fmt::format(" --isolation {}", name_of(detector.isolation));
+  return detector.threads == 1 ? words : words + fmt::format(" --threads {}", detector.threads);
 }
 
 VerbOption add_detector(Verb& verb, DetectorWords& detector, const std::string& about) {

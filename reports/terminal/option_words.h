@@ -155,6 +155,10 @@ struct DetectorWords {
   DetectorPart part = DetectorPart::by_library;
 };
 
+// " --detector LIB.so --isolation none --threads 2": the library by its whole path, the others
+// unless they are the default. Empty for the built-in detector.
+std::string detector_words(const DetectorWords& detector);
+
 // The options --jobs (all cores, unless told otherwise) and --seed.
 void add_jobs(Verb& verb, int& jobs);
 // The options --time and --memory of a verb that does its work in this process (limits.h).

@@ -32,7 +32,9 @@ std::string shell_word(const std::string& word) {
   return quoted + "'";
 }
 
-std::string this_program(bool from_anywhere) {
+namespace {
+
+std::string this_program(PastedIn place) {
   namespace fs = std::filesystem;
   std::error_code error;
   const auto own = fs::read_symlink("/proc/self/exe", error);
@@ -41,6 +43,7 @@ std::string this_program(bool from_anywhere) {
   const char* path = std::getenv("PATH");
   std::istringstream folders(path ? path : "");
   for (std::string folder; std::getline(folders, folder, ':');) {
+    if (place == PastedIn::any_folder && !folder.starts_with('/')) continue;
     const auto found = fs::path(folder.empty() ? "." : folder) / "assay";
     if (access(found.c_str(), X_OK) != 0 || fs::is_directory(found, error)) continue;
     if (fs::equivalent(found, own, error)) return "assay";
@@ -48,18 +51,39 @@ std::string this_program(bool from_anywhere) {
   }
   const auto here = own.lexically_relative(fs::current_path(error));
   const bool is_below = !error && !here.empty() && *here.begin() != "..";
-  if (!is_below || from_anywhere) return shell_word(own.string());
+  if (!is_below || place == PastedIn::any_folder) return shell_word(own.string());
   // A name alone would be looked for on the PATH.
   return shell_word((here.has_parent_path() ? here : "." / here).string());
 }
 
-std::string this_command() {
+std::string to_this_folder() {
+  std::error_code error;
+  return "cd " + shell_word(std::filesystem::current_path(error).string()) + " && ";
+}
+
+}  // namespace
+
+std::string line_to_paste(const std::string& words, PastedIn place) {
+  // A detector in Python is looked for in this folder.
+  const bool has_module = words.find(" --detector python:") != std::string::npos;
+  return (place == PastedIn::any_folder && has_module ? to_this_folder() : "") +
+         this_program(place) + " " + words;
+}
+
+std::string this_command(PastedIn place) {
+  const bool is_elsewhere = place == PastedIn::any_folder;
   std::ifstream typed("/proc/self/cmdline", std::ios::binary);
-  std::string word, line = this_program();
-  for (bool is_program = true; std::getline(typed, word, '\0'); is_program = false) {
-    if (!is_program) line += " " + shell_word(word);
+  std::string word, words;
+  std::getline(typed, word, '\0');  // the program
+  while (std::getline(typed, word, '\0')) {
+    const auto name = word.substr(0, word.find('='));
+    if (is_elsewhere && (name == "--keep" || name == "--json" || name == "--junit")) {
+      if (name == word) std::getline(typed, word, '\0');
+    } else {
+      words += (words.empty() ? "" : " ") + shell_word(word);
+    }
   }
-  return line;
+  return (is_elsewhere ? to_this_folder() : "") + this_program(place) + " " + words;
 }
 
 std::string absolute_path(const std::filesystem::path& path) {
@@ -67,12 +91,6 @@ std::string absolute_path(const std::filesystem::path& path) {
   std::error_code error;
   const auto found = std::filesystem::absolute(path, error);
   return error ? path.string() : found.lexically_normal().string();
-}
-
-std::string detector_words(const std::string& library, std::uint64_t threads) {
-  if (library.empty()) return "";
-  const std::string words = " --detector " + shell_word(library);
-  return threads == 1 ? words : words + " --threads " + std::to_string(threads);
 }
 
 std::string replaced(std::string_view text, const std::map<char, std::string_view>& characters) {

@@ -27,19 +27,24 @@ std::string joined(const List& list, const char* between) {
 // The word itself, or the word in quotes if a shell would read it as something else.
 std::string shell_word(const std::string& word);
 
-// How to call this program: "assay" if that is what a shell finds on the PATH, else its path: from
-// this folder if it lies below, "build/release/assay"; `from_anywhere` always its whole path.
-// The line that a certificate or a page holds begins with "assay" on every machine.
-std::string this_program(bool from_anywhere = false);
-// The whole command as it was typed, to be pasted in the same folder.
-std::string this_command();
+// Where a line is to be pasted.
+enum class PastedIn : std::uint8_t { this_folder, any_folder };
+
+// A line that runs this program, to be pasted into a shell: the program, then `words`, which are
+// shell_words, and for any folder with absolute_paths. The program is "assay" if that is what a
+// shell finds on the PATH, else its path: in this folder "build/release/assay" if it lies below. A
+// line for any folder goes to this one first if it names a detector in Python, which lies here.
+// Every line to paste is made here or is the next, but for those that a certificate or a page
+// holds: they begin with "assay" on every machine.
+std::string line_to_paste(const std::string& words, PastedIn place = PastedIn::any_folder);
+
+// The whole command as it was typed, with all of its inputs. For any folder it goes to this one
+// first, and leaves out the options that say what is written where.
+std::string this_command(PastedIn place);
 
 // The path of the same file that can be used from any folder; empty for none. The word of a
 // detector in Python stays as it is.
 std::string absolute_path(const std::filesystem::path& path);
-
-// " --detector LIB.so", with " --threads N" if N is not 1; empty for the built-in detector.
-std::string detector_words(const std::string& library, std::uint64_t threads = 1);
 
 // The commit: 40 hexadecimal digits, followed by "-dirty" if tracked files were changed. Empty if
 // the program was built outside of a git repository.

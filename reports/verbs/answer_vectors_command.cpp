@@ -1,9 +1,9 @@
 // `assay answer-vectors` lets a plug-in, or the built-in detector, answer a conformance set.
 #include <fmt/format.h>
 
-#include "corpus/atomic_file.h"
 #include "properties/vectors/answers.h"
 #include "reports/check/detector_choice.h"
+#include "reports/terminal/text_file.h"
 #include "reports/terminal/words.h"
 #include "reports/verbs/verbs.h"
 
@@ -18,6 +18,7 @@ struct AnswerVectorsRequest {
 };
 
 Expected<int> answer_vectors(const AnswerVectorsRequest& request) {
+  BOOST_OUTCOME_TRY(may_write({request.out}));
   BOOST_OUTCOME_TRY(read, properties::read_set(request.folder));
   properties::VectorResults results;
   if (request.detector.library.empty()) {
@@ -28,11 +29,13 @@ Expected<int> answer_vectors(const AnswerVectorsRequest& request) {
     BOOST_OUTCOME_TRY(answered, properties::answers_of_plugin(read.set, subject, request.jobs));
     results = std::move(answered);
   }
-  BOOST_OUTCOME_TRYV(corpus::write_file_atomically(request.out, results_text(results, read)));
+  BOOST_OUTCOME_TRY(write_text_file(request.out, results_text(results, read)));
   fmt::print("{} {}: {} cases answered in {:.1f} s\n", results.product, results.settings,
              results.answers.size(), results.seconds);
-  fmt::print("next: {} score --set {} {}\n", this_program(), shell_word(request.folder),
-             shell_word(request.out));
+  fmt::print("next: {}\n",
+             line_to_paste(fmt::format("score --set {} {}", shell_word(request.folder),
+                                       shell_word(request.out)),
+                           PastedIn::this_folder));
   return exit_holds;
 }
 

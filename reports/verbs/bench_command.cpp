@@ -83,9 +83,7 @@ Expected<int> run_bench(const BenchRequest& request) try {
   if (request.suite.empty() && request.detector.library.empty())
     return Problem{"bench: --suite NAME, or --detector LIB.so, says what to measure"};
   const auto* suite = suite_named(request.suite);
-  for (const auto* file : {&request.json_file, &request.csv_file, &request.svg_file}) {
-    BOOST_OUTCOME_TRY(may_write(*file, {}));
-  }
+  BOOST_OUTCOME_TRY(may_write({request.json_file, request.csv_file, request.svg_file}));
   if (const auto problem = no_picture(request, suite); !problem.empty()) return Problem{problem};
   BOOST_OUTCOME_TRY(report, measure(request));
   fmt::print("suite {}, data {}\n", report.suite, request.settings.data);

@@ -264,10 +264,10 @@ class Certification {
     if (written) written = write_for_ci(statement["predicate"], out_);
     if (!written) return written.error();
     const auto judgement = judge(findings);
-    fmt::print("{}\n{}\nverdict: {} in {:.0f} s; {}\nit speaks of {}\nnext: {} verify {}\n",
+    fmt::print("{}\n{}\nverdict: {} in {:.0f} s; {}\nit speaks of {}\nnext: {}\n",
                findings_text(findings), gates_text(judgement), judgement.verdict, seconds,
-               certificate, judged_text(statement["predicate"]), this_program(),
-               shell_word(certificate));
+               certificate, judged_text(statement["predicate"]),
+               line_to_paste("verify " + shell_word(certificate), PastedIn::this_folder));
     return judgement.exit_code;
   }
 
@@ -291,6 +291,8 @@ Expected<int> run_certify(const CampaignWords& words) {
         fmt::format("{}: its shards are judged by their own planted faults: give --power "
                     "to the run of each",
                     words.out)};
+  BOOST_OUTCOME_TRY(
+      may_keep_run(words.out, {"campaign.json", "certificate.json", "junit.xml", "summary.md"}));
   BOOST_OUTCOME_TRY(checks, properties::Checks::open(words.out, request));
   fmt::print("the shipped corpus, campaign {}, self-test and speed; writes {}\n", request.plan.name,
              words.out);

@@ -27,30 +27,27 @@ struct CheckRequest {
   std::string keep;       // where failing steps are kept; empty: nowhere
 };
 
+// The input in words as they were typed.
+std::string words_of(const CheckRequest& request) {
+  std::string words = joined(request.files, " ");
+  for (const auto& files : request.question.bodies)
+    words += fmt::format("{}--body {}", words.empty() ? "" : " ", joined(files, " "));
+  for (const auto& apart : request.apart) words += " --apart " + apart;
+  const auto& answers = request.question.answers;
+  return answers.empty() ? words : words + " --answers " + answers;
+}
+
 // Keeps what fails where the user wants that; a plug-in shrinks it.
 Expected<std::unique_ptr<KeptFailures>> kept_failures(const CheckRequest& request) {
   if (request.keep.empty()) return std::unique_ptr<KeptFailures>();
-  const auto& words = request.question.detector;
-  std::optional<properties::Subject> again;
-  if (!words.library.empty()) {
-    BOOST_OUTCOME_TRY(subject, choose_detector(words));
-    again = std::move(subject);
+  std::optional<properties::Subject> plugin;
+  if (!request.question.detector.library.empty()) {
+    BOOST_OUTCOME_TRY(subject, choose_detector(request.question.detector));
+    plugin = std::move(subject);
   }
-  const auto replay = [&request](std::uint64_t number) {
-    if (!request.question.answers.empty()) {
-      std::string frames;
-      for (const auto& file : request.files) frames += " " + shell_word(absolute_path(file));
-      return fmt::format("{} check{} --answers {}", this_program(true), frames,
-                         shell_word(absolute_path(request.question.answers)));
-    }
-    const auto file = std::filesystem::path(request.keep) / fmt::format("step-{}", number);
-    const auto& of = request.question.detector;
-    return fmt::format("{} replay {}{}", this_program(true),
-                       shell_word(absolute_path(file / "case.json")),
-                       detector_words(absolute_path(of.library), of.threads));
-  };
-  return std::make_unique<KeptFailures>(request.keep, joined(request.files, " "), replay,
-                                        std::move(again));
+  // What failed may need all of the input.
+  const auto again = [](std::uint64_t) { return this_command(PastedIn::any_folder); };
+  return std::make_unique<KeptFailures>(request.keep, words_of(request), again, std::move(plugin));
 }
 
 Expected<int> run_check(const CheckRequest& request) {
@@ -71,18 +68,20 @@ Expected<int> run_check(const CheckRequest& request) {
   // This is asked before the work, not after it.
   auto inputs = question.files;
   if (!question.answers.empty()) inputs.push_back(question.answers);
-  BOOST_OUTCOME_TRY(may_write(request.json_file, inputs));
+  BOOST_OUTCOME_TRY(may_fill(request.keep, {"page.html"}));
+  BOOST_OUTCOME_TRY(may_write({request.json_file}, inputs));
   BOOST_OUTCOME_TRY(input, question.bodies.empty() ? read_check_input(request.files)
                                                    : read_bodies(question.bodies, question.apart));
   question.wants_report = !request.json_file.empty();
   question.announced_file = request.json_file;
+  question.again = this_command(PastedIn::any_folder);
   CheckListener terminal{[](const std::string& text) {
     fmt::print("{}", text);
     std::fflush(stdout);
   }};
   BOOST_OUTCOME_TRY(kept, kept_failures(request));
   bool has_failed = false;
-  terminal.failed = [&](const FailedStep& failed) -> Expected<std::string> {
+  terminal.failed = [&](const FailedStep& failed) {
     has_failed = true;
     return kept ? kept->keep(failed) : "";
   };
@@ -97,14 +96,14 @@ Expected<int> run_check(const CheckRequest& request) {
   }
   BOOST_OUTCOME_TRY(answer, check_mesh(question, input, properties::worker_program(), terminal));
   if (kept) {
-    BOOST_OUTCOME_TRYV(kept->write_page(answer.outcome));
+    kept->end(answer);
   } else if (has_failed) {
-    fmt::print("next: {} --keep kept\n", this_command());
+    fmt::print("next: {} --keep kept\n", this_command(PastedIn::this_folder));
   }
   if (question.wants_report) {
     BOOST_OUTCOME_TRY(write_json_file(request.json_file, answer.report));
   }
-  return answer.outcome.exit_code(request.fail_on_collision);
+  return answer.outcome.end(request.fail_on_collision);
 }
 
 void add_options(Verb& verb, CheckRequest& request) {

@@ -104,7 +104,9 @@ Expected<int> run_check_queries(const CheckQueriesRequest& request) {
         fmt::format("{} truth files for {} query files: give one for each, in the same order",
                     request.truths.size(), request.files.size())};
   }
-  BOOST_OUTCOME_TRY(may_write(request.json_file, request.files));
+  auto inputs = request.files;
+  inputs.insert(inputs.end(), request.truths.begin(), request.truths.end());
+  BOOST_OUTCOME_TRY(may_write({request.json_file}, inputs));
   std::vector<QuerySet> sets;
   for (std::size_t i = 0; i < request.files.size(); ++i) {
     std::optional<std::filesystem::path> truth;

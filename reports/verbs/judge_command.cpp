@@ -38,12 +38,10 @@ Expected<void> check_words(const JudgeRequest& request) {
   if (request.question.selection.follow && !is_one) return Problem{"--follow is of one log"};
   if (!request.question.again.library.empty() && request.question.out.empty())
     return Problem{"--detector asks again about what is kept: --out says where"};
-  if (!request.json_file.empty() && request.json_file == request.junit_file)
-    return Problem{"--json and --junit are one file"};
   std::vector<std::string> files;
   for (const auto& word : request.logs) files.push_back(log_name(word).file);
-  BOOST_OUTCOME_TRY(may_write(request.json_file, files));
-  return may_write(request.junit_file, files);
+  BOOST_OUTCOME_TRY(may_fill(request.question.out));
+  return may_write({request.json_file, request.junit_file}, files);
 }
 
 Expected<int> run_judge(const JudgeRequest& request) {
@@ -82,7 +80,8 @@ Expected<int> run_judge(const JudgeRequest& request) {
       BOOST_OUTCOME_TRY(write_json_file(request.json_file, answer.value().report));
     }
     suites += junit_suite(word, answer.value().outcome);
-    code = worse(code, answer.value().outcome.exit_code(request.fail_on_collision));
+    const auto end = answer.value().outcome.end(request.fail_on_collision);
+    code = worse(code, end ? end.value() : refuse(end.error()));
   }
   if (!request.junit_file.empty()) {
     BOOST_OUTCOME_TRY(write_text_file(request.junit_file, junit_text(suites)));

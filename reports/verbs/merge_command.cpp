@@ -7,6 +7,7 @@
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/ledger/merge.h"
 #include "properties/campaign/ledger/run_folder.h"
+#include "reports/campaign/campaign_options.h"
 #include "reports/campaign/campaign_text.h"
 #include "reports/campaign/failure_text.h"
 #include "reports/terminal/text_file.h"
@@ -31,26 +32,19 @@ properties::Expected<std::vector<std::filesystem::path>> stores_of(
   return stores;
 }
 
-// What `certify` takes as this campaign: the name of a built-in one, else OUT/campaign.json, which
-// is written unless a certificate left it there.
+// What `certify` takes as this campaign: the name of a built-in one, else OUT/campaign.json.
 Expected<std::string> campaign_word(const properties::CampaignPlan& plan, const std::string& out) {
-  const auto& named = properties::named_plans();
-  if (std::any_of(named.begin(), named.end(),
-                  [&](const auto& one) { return one.name == plan.name; }))
-    return plan.name;
-  const auto file = properties::campaign_file(out);
-  std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored)) {
-    BOOST_OUTCOME_TRY(write_text_file(file.string(), properties::plan_text(plan) + "\n"));
+  for (const auto& named : properties::named_plans()) {
+    if (properties::plan_text(named) == properties::plan_text(plan)) return plan.name;
   }
-  return shell_word(file.string());
+  const auto file = properties::campaign_file(out).string();
+  BOOST_OUTCOME_TRY(write_text_file(file, properties::plan_text(plan) + "\n"));
+  return shell_word(file);
 }
 
 Expected<int> run_merge(const MergeRequest& request) {
   BOOST_OUTCOME_TRY(stores, stores_of(request.folders));
-  std::error_code error;
-  std::filesystem::create_directories(request.out, error);
-  if (error) return Problem{fmt::format("{}: cannot be made: {}", request.out, error.message())};
+  BOOST_OUTCOME_TRY(may_keep_run(request.out, {"campaign.json"}));
   const auto out = properties::merged_file(request.out);
   BOOST_OUTCOME_TRY(properties::merge_stores(stores, out));
   BOOST_OUTCOME_TRY(kept, properties::read_failures(out));
@@ -60,8 +54,7 @@ Expected<int> run_merge(const MergeRequest& request) {
   fmt::print("{} stores of campaign {}, seed {}: {} of {} trials; writes {}\n", stores.size(),
              run.plan.name, run.seed, trials, planned, out.string());
   std::string text;
-  const auto written =
-      write_failures(kept, request.out, {findings.library, properties::IsolationMode::best}, text);
+  const auto written = write_failures(kept, request.out, detector_of(findings), text);
   fmt::print("{}", text);
   if (!written) return written.error();
   const auto judgement = judge(findings, properties::asked_of_a_run(findings));
@@ -70,9 +63,11 @@ Expected<int> run_merge(const MergeRequest& request) {
     fmt::print("{} trials are absent: merge the shards that hold them too\n", planned - trials);
   } else {
     BOOST_OUTCOME_TRY(campaign, campaign_word(run.plan, request.out));
-    fmt::print("next: {} certify --campaign {} --seed {}{} --out {}\n", this_program(), campaign,
-               run.seed, detector_words(findings.library, findings.run.detector.threads),
-               shell_word(request.out));
+    fmt::print(
+        "next: {}\n",
+        line_to_paste(fmt::format("certify --campaign {} --seed {}{} --out {}", campaign, run.seed,
+                                  detector_words(detector_of(findings)), shell_word(request.out)),
+                      PastedIn::this_folder));
   }
   // This says only that the stores are one now. Whether the detector holds is for certify to say.
   return exit_holds;

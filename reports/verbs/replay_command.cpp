@@ -99,14 +99,20 @@ std::optional<std::string> choose_configurations(const corpus::Case& c,
 void print_steps(const corpus::Case& c, const std::vector<oracle::StepJudgement>& judgements,
                  const properties::Contract& contract) {
   const auto script = corpus::steps_of(c);
+  const bool is_query = properties::says_query(c);
   for (std::size_t s = 0; s < script.size(); ++s) {
     const auto truth = truth_of(c, judgements[s], contract);
-    fmt::print("step {} (frame {} to {}, {}): oracle {}", s + 1, script[s].from, script[s].to,
-               script[s].commit ? "committed" : "evaluated only",
-               properties::name_of(truth.answer()));
-    if (truth.first) {
-      fmt::print(" at t = {}, {} pair{} {}", time_text(truth.first->time), truth.pairs.size(),
-                 truth.pairs.size() == 1 ? "" : "s", met_text(contract.separation));
+    if (is_query) {
+      fmt::print("the query: oracle {}", properties::name_of(truth.answer()));
+    } else {
+      fmt::print("step {} (frame {} to {}, {}): oracle {}", s + 1, script[s].from, script[s].to,
+                 script[s].commit ? "committed" : "evaluated only",
+                 properties::name_of(truth.answer()));
+    }
+    if (truth.first) fmt::print(" at t = {}", time_text(truth.first->time));
+    if (truth.first && !is_query) {
+      fmt::print(", {} pair{} {}", truth.pairs.size(), truth.pairs.size() == 1 ? "" : "s",
+                 met_text(contract.separation));
     }
     fmt::print("{}\n", left_out_text(truth));
   }
@@ -120,7 +126,8 @@ std::string sets_text(const detector::StepResult& result) {
 }
 
 // What one configuration came to, without its name.
-std::string run_text(const properties::CaseRun& run, const properties::JudgedTrial& verdict) {
+std::string run_text(const properties::CaseRun& run, const properties::JudgedTrial& verdict,
+                     bool is_query) {
   std::string text = fmt::format("{}{}\n", properties::name_of(verdict.outcome),
                                  run.explanation.empty() ? "" : " (" + run.explanation + ")");
   for (std::size_t s = 0; s < run.steps.size(); ++s) {
@@ -130,16 +137,19 @@ std::string run_text(const properties::CaseRun& run, const properties::JudgedTri
     const auto error = error_of(run, s);
     if (!error.empty()) text += fmt::format("  {}\n", error);
     if (!run.has_answers) continue;
-    text += fmt::format("  step {}: {}{}, {} pairs{}\n", s + 1, properties::name_of(result.answer),
-                        result.answer == detector::Answer::collision
-                            ? fmt::format(" at t = {}", time_text(result.first))
-                            : "",
-                        result.pairs.size(), sets_text(result));
+    text += fmt::format(
+        "  {}: {}{}{}\n", is_query ? "the query" : fmt::format("step {}", s + 1),
+        properties::name_of(result.answer),
+        result.answer == detector::Answer::collision
+            ? fmt::format(" at t = {}", time_text(result.first))
+            : "",
+        is_query ? "" : fmt::format(", {} pairs{}", result.pairs.size(), sets_text(result)));
   }
   if (verdict.failure) {
     const auto where = fmt::format("step {}: ", verdict.failure->step + 1);
     const auto& told = verdict.failure->explanation;
-    text += fmt::format("  DEFECT {} in {}{}\n", verdict.failure->signature(), where,
+    text += fmt::format("  DEFECT {}{}{}\n", verdict.failure->signature(),
+                        is_query ? ": " : " in " + where,
                         told.starts_with(where) ? told.substr(where.size()) : told);
   }
   if (verdict.outcome != Outcome::holds) text += printed_text(run.printed);
@@ -199,11 +209,13 @@ Expected<void> write_strip(const std::string& folder, const corpus::Case& c,
   return outcome::success();
 }
 
-// A case is made of the text of its id, so a campaign's name that is misspelt makes another case.
+// A remark on an id whose campaign is none of the built-in ones, but has nearly such a name. A case
+// is made of the text of its id, so a name that is misspelt makes another case; but a campaign of a
+// file may be called so.
 std::string misspelt(const std::string& id) {
   const auto campaign = id.substr(0, id.find(':'));
   const auto meant = corpus::did_you_mean(corpus::names_among(properties::named_plans()), campaign);
-  return meant.empty() ? "" : fmt::format("{}: there is no campaign {}{}", id, campaign, meant);
+  return meant.empty() ? "" : fmt::format("no built-in campaign is called {}{}\n", campaign, meant);
 }
 
 // A step of a log, judged again.
@@ -213,7 +225,7 @@ Expected<int> replay_log(const LogName& log, const ReplayRequest& request) {
   question.out = request.export_folder;
   BOOST_OUTCOME_TRY(
       answer, judge_log(log, question, {[](const std::string& text) { fmt::print("{}", text); }}));
-  return answer.outcome.exit_code(false);
+  return answer.outcome.end(false);
 }
 
 Expected<int> run_replay(const ReplayRequest& request) {
@@ -228,9 +240,7 @@ Expected<int> run_replay(const ReplayRequest& request) {
   }
   corpus::Case& c = made.value().c;
   const auto& trial = made.value().trial;
-  if (trial) {
-    if (const auto line = misspelt(request.id_or_file); !line.empty()) return Problem{line};
-  }
+  BOOST_OUTCOME_TRY(may_fill(request.export_folder));
   auto words = request.detector;
   const bool is_query =
       trial ? properties::is_query_family(trial->family->name) : properties::says_query(c);
@@ -276,9 +286,9 @@ Expected<int> run_replay(const ReplayRequest& request) {
     BOOST_OUTCOME_TRY(export_case(request.export_folder, *seen, subject.detector, truth));
     BOOST_OUTCOME_TRY(write_strip(request.export_folder, *seen, truth, contract));
   }
-  fmt::print("{}: {}{}\n", properties::printable(c.id),
-             properties::size_text(properties::size_of(c)),
+  fmt::print("{}: {}{}\n", properties::printable(c.id), properties::size_text(c),
              c.about.empty() ? "" : "; " + properties::printable(c.about));
+  if (trial) fmt::print("{}", misspelt(request.id_or_file));
   if (vouched) fmt::print("as in the campaign, the detector is given its start as clean\n");
   print_steps(*seen, truth, contract);
   int code = exit_holds;
@@ -287,7 +297,7 @@ Expected<int> run_replay(const ReplayRequest& request) {
     const auto& configuration = subject.detector.configurations[i];
     const auto verdict = properties::judge_trial(
         *seen, truth, runs[i], configuration, subject.detector, asks_twice ? &again[i] : nullptr);
-    std::string text = run_text(runs[i], verdict);
+    std::string text = run_text(runs[i], verdict, is_query);
     if (verdict.outcome == Outcome::defect) code = exit_defect;
     const bool is_open = verdict.outcome == Outcome::undecided || verdict.outcome == Outcome::error;
     if (is_open && code == exit_holds) code = exit_undecided;

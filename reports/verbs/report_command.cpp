@@ -31,7 +31,7 @@ properties::Expected<Json> describe_run(const std::string& folder, PlainProgress
   std::error_code ignored;
   Json json;
   if (std::filesystem::exists(certificate, ignored)) {
-    const auto [differences, statement] = verify_certificate(certificate);
+    const auto [differences, statement, others] = verify_certificate(certificate);
     json = differences.empty() ? run_json(findings, judge(findings), statement)
                                : run_json(findings, judge(findings), nullptr, differences.front());
   } else {
@@ -42,7 +42,7 @@ properties::Expected<Json> describe_run(const std::string& folder, PlainProgress
 }
 
 Expected<int> run_report(const ReportRequest& request) {
-  BOOST_OUTCOME_TRY(may_write(request.out, {}));
+  BOOST_OUTCOME_TRY(may_write({request.out}));
   Json runs = Json::array();
   PlainProgress progress("report");
   for (const auto& folder : request.folders) {

@@ -25,15 +25,18 @@ struct RunRequest {
 
 constexpr const char* go_on = "; what is stored stays: run the same again to go on";
 
-// Writes junit.xml and summary.md. A shard of several writes junit-shard-I-of-N.xml and so on.
+// What stands behind the names of a shard's files: a shard of several writes
+// junit-shard-I-of-N.xml and so on.
+std::string part_of(const properties::Shard& shard) {
+  return shard.count == 1 ? "" : fmt::format("-shard-{}-of-{}", shard.index, shard.count);
+}
+
+// Writes junit.xml and summary.md.
 Expected<void> write_files(const properties::CampaignRequest& request,
                            const properties::RunFindings& findings,
                            const properties::Judgement& judgement) {
-  const auto& shard = request.shard;
-  const auto part =
-      shard.count == 1 ? std::string() : fmt::format("-shard-{}-of-{}", shard.index, shard.count);
-  return write_for_ci(make_predicate(findings, judgement, request.plan, ""), findings.folder, part,
-                      findings.begun);
+  return write_for_ci(make_predicate(findings, judgement, request.plan, ""), findings.folder,
+                      part_of(request.shard), findings.begun);
 }
 
 Expected<int> conclude(const properties::CampaignRequest& request,
@@ -44,12 +47,15 @@ Expected<int> conclude(const properties::CampaignRequest& request,
              verdict_text(findings, judgement), seconds);
   const bool is_complete = !findings.has_more_to_do();
   if (!findings.evidence.slow.empty())
-    fmt::print("slow cases: {} list slow {}\n", this_program(), shell_word(out));
+    fmt::print("slow cases: {}\n",
+               line_to_paste("list slow " + shell_word(out), PastedIn::this_folder));
   if (!is_complete && findings.failures.empty()) {
     fmt::print("next: run the same again to go on, with --time for another limit\n");
   } else if (judgement.exit_code != exit_holds) {
-    fmt::print("next: {} report {} --out {}\n", this_program(), shell_word(out),
-               shell_word((findings.folder / "report.html").string()));
+    const auto page = (findings.folder / "report.html").string();
+    fmt::print("next: {}\n",
+               line_to_paste(fmt::format("report {} --out {}", shell_word(out), shell_word(page)),
+                             PastedIn::this_folder));
   }
   // This line is for whoever waits for all shards, because the exit code may also be that of a
   // defect.
@@ -92,6 +98,8 @@ Expected<int> run_campaign(const RunRequest& command) {
   const auto& out = command.words.out;
   BOOST_OUTCOME_TRY(request, ask_for_campaign(command.words));
   request.shard = command.shard;
+  const auto part = part_of(request.shard);
+  BOOST_OUTCOME_TRY(may_keep_run(out, {"junit" + part + ".xml", "summary" + part + ".md"}));
   BOOST_OUTCOME_TRY(store, properties::Store::open(properties::store_file(out, request.shard),
                                                    properties::binding_of(request)));
   BOOST_OUTCOME_TRY(properties::keeps_isolation(request, store));

@@ -6,6 +6,7 @@
 #include "corpus/formats/mesh_writer.h"
 #include "corpus/meant_word.h"
 #include "corpus/scenes/scenes.h"
+#include "reports/terminal/text_file.h"
 #include "reports/terminal/words.h"
 #include "reports/verbs/verbs.h"
 
@@ -39,6 +40,7 @@ Expected<int> run_scene(const SceneRequest& request) {
     BOOST_OUTCOME_TRY(mesh, corpus::read_mesh(request.mesh_file));
     options.mesh = std::move(mesh);
   }
+  BOOST_OUTCOME_TRY(may_fill(request.out));
   BOOST_OUTCOME_TRY(sequence, corpus::make_scene(request.name, options));
   if (auto stale = stale_frame(request.out, sequence.frames.size())) {
     return Problem{*stale};
@@ -48,7 +50,8 @@ Expected<int> run_scene(const SceneRequest& request) {
              sequence.frames.size(), sequence.triangles.rows(), sequence.frames[0].rows(),
              request.out);
   if (sequence.frames.size() > 1) {
-    fmt::print("next: {} check {}/frame_*.ply\n", this_program(), shell_word(request.out));
+    fmt::print("next: {}\n", line_to_paste("check " + shell_word(request.out) + "/frame_*.ply",
+                                           PastedIn::this_folder));
   }
   return exit_holds;
 }

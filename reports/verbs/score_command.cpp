@@ -16,7 +16,7 @@ struct ScoreRequest {
 };
 
 Expected<int> run_score(const ScoreRequest& request) {
-  BOOST_OUTCOME_TRY(may_write(request.page, request.results));
+  BOOST_OUTCOME_TRY(may_write({request.page}, request.results));
   std::string set = request.set;
   if (set.empty()) {
     BOOST_OUTCOME_TRY(corpus, shipped_corpus());

@@ -40,15 +40,12 @@ void print_row(const std::string& name, const QueryTally& t, double seconds) {
   std::fflush(stdout);
 }
 
-std::string replay_line(const SelfTestFamily& family, std::uint64_t seed, std::uint64_t index) {
-  return fmt::format("{} self-test --replay {}:{}:{}", this_program(true), family.name(), seed,
-                     index);
-}
-
 void print_failures(const SelfTestFamily& family, std::uint64_t seed, const FamilyResult& result) {
   for (const auto& failure : result.failures) {
     fmt::print("contradiction: {}\n{}replay: {}\n", failure.contradiction,
-               family.text(seed, failure.index), replay_line(family, seed, failure.index));
+               family.text(seed, failure.index),
+               line_to_paste(
+                   fmt::format("self-test --replay {}:{}:{}", family.name(), seed, failure.index)));
   }
   if (result.tally.contradictions > result.failures.size()) {
     fmt::print("{} contradictions in {}, the first {} printed\n", result.tally.contradictions,

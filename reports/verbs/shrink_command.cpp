@@ -57,7 +57,7 @@ std::optional<Failing> find_failure(const corpus::Case& c,
 
 Expected<int> run_shrink(const ShrinkRequest& request) {
   end_when_interrupted("interrupted: the smallest so far is in " + request.out, exit_undecided);
-  BOOST_OUTCOME_TRY(may_write(request.out, request.files));
+  BOOST_OUTCOME_TRY(may_write({request.out, picture_file(request.out)}, request.files));
   BOOST_OUTCOME_TRY(read, read_case_of(request.files));
   const auto& file = request.files.front();
   const corpus::Case& c = read;
@@ -85,7 +85,7 @@ Expected<int> run_shrink(const ShrinkRequest& request) {
   Expected<void> written = outcome::success();
   const properties::ReduceLimits limits{request.seconds, 10'000'000};
   const properties::OnBetter keep = [&](const corpus::Case& better) {
-    progress.show(properties::size_text(properties::size_of(better)));
+    progress.show(properties::size_text(better));
     written = write_text_file(request.out, corpus::case_text(better));
   };
   keep(c);
@@ -103,14 +103,14 @@ Expected<int> run_shrink(const ShrinkRequest& request) {
                                    failing->signature);
   }
   if (!written) return written.error();
-  fmt::print("{}; {} runs, {:.1f} s{}\npicture {}\nreplay: {} replay {}{}\n",
-             properties::size_text(properties::size_of(c), properties::size_of(reduction.smallest)),
-             reduction.calls, reduction.seconds,
+  fmt::print("{}; {} runs, {:.1f} s{}\npicture {}\nreplay: {}\n",
+             properties::size_text(c, reduction.smallest), reduction.calls, reduction.seconds,
              !reduction.fixed_point     ? "; the time was over"
              : reduction.fails_from > 0 ? "; " + properties::fails_from_text(reduction.fails_from)
                                         : "",
-             picture_file(request.out), this_program(true), shell_word(absolute_path(request.out)),
-             detector_words(absolute_path(request.detector.library), request.detector.threads));
+             picture_file(request.out),
+             line_to_paste("replay " + shell_word(absolute_path(request.out)) +
+                           detector_words(request.detector)));
   return exit_defect;
 }
 

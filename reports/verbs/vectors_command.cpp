@@ -8,6 +8,7 @@
 #include "properties/vectors/set_files.h"
 #include "reports/terminal/progress.h"
 #include "reports/terminal/shipped.h"
+#include "reports/terminal/text_file.h"
 #include "reports/terminal/words.h"
 #include "reports/verbs/verbs.h"
 
@@ -23,6 +24,7 @@ struct VectorsRequest {
 Expected<int> write_vectors(const VectorsRequest& request) {
   Progress progress("vectors", std::chrono::seconds(10));
   BOOST_OUTCOME_TRY(corpus, shipped_corpus());
+  BOOST_OUTCOME_TRY(may_fill(request.out));
   BOOST_OUTCOME_TRY(set, properties::choose_vectors({request.profile, corpus / "curated",
                                                      corpus / "vectors" / "found.json",
                                                      request.jobs, [&](std::string_view group) {
@@ -40,7 +42,8 @@ Expected<int> write_vectors(const VectorsRequest& request) {
   }
   fmt::print("{} cases, version {}, digest {}\n", all, properties::vectors_version,
              properties::digest_of(set));
-  fmt::print("next: {} verify-vectors {}\n", this_program(), shell_word(request.out));
+  fmt::print("next: {}\n",
+             line_to_paste("verify-vectors " + shell_word(request.out), PastedIn::this_folder));
   return exit_holds;
 }
 

@@ -2,6 +2,7 @@
 // itself. Several nights are pooled.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <random>
@@ -23,6 +24,17 @@ struct VerifyRequest {
 };
 
 using Json = nlohmann::ordered_json;
+
+// A line about the files that were not looked at; empty if there are none.
+std::string others_text(const std::vector<std::string>& files) {
+  if (files.empty()) return "";
+  constexpr std::size_t most_named = 3;
+  const auto named = std::min(files.size(), most_named);
+  return fmt::format(
+      "not looked at, for nothing of it rests on them: {}{}\n",
+      fmt::join(files.begin(), files.begin() + static_cast<std::ptrdiff_t>(named), ", "),
+      files.size() > named ? fmt::format(" and {} more", files.size() - named) : "");
+}
 
 Expected<int> print_pooled(const std::vector<Json>& predicates) {
   BOOST_OUTCOME_TRY(pooled, pool(predicates));
@@ -93,7 +105,7 @@ Expected<int> run_verify(const VerifyRequest& request) {
     fmt::print("verified: {} of {}, verdict {}\n", predicate["campaign"]["name"].get<std::string>(),
                predicate["detector"]["name"].get<std::string>(),
                predicate["verdict"].get<std::string>());
-    fmt::print("it speaks of {}\n", judged_text(predicate));
+    fmt::print("it speaks of {}\n{}", judged_text(predicate), others_text(result.others));
     if (request.again) {
       BOOST_OUTCOME_TRY(differs, run_trials_again(file, request));
       if (differs != exit_holds) return differs;

@@ -14,6 +14,15 @@ namespace {
 constexpr std::uint64_t seldom = 100;
 
 constexpr const char* no_contact = "no step had a contact";
+constexpr const char* no_usable_answer = "no answer that can be judged";
+
+// Why no contact was judged.
+std::string without_contact(const StepMeasures& m) {
+  if (m.unanswered == 0) return no_contact;
+  return m.unanswered == 1
+             ? fmt::format("the one step with a contact has {}", no_usable_answer)
+             : fmt::format("the {} steps with a contact have {}", m.unanswered, no_usable_answer);
+}
 
 // Says why a claim was not judged. Empty if it was judged.
 std::string reason_against(Claim claim, const Contract& contract, const StepMeasures& m,
@@ -33,11 +42,11 @@ std::string reason_against(Claim claim, const Contract& contract, const StepMeas
                            widest_stated_time, m.without_time, m.errors.collisions());
       break;
     case Claim::candidates:
-      return m.least_candidates == 0 ? no_contact : "";
+      return m.least_candidates == 0 ? without_contact(m) : "";
     case Claim::commit_free:
     case Claim::path_free:
     case Claim::progress:
-      return m.errors.limits.contact == 0 ? no_contact : "";
+      return m.errors.limits.contact == 0 ? without_contact(m) : "";
     case Claim::whole:
       return m.errors.limits.free == 0 ? "no step was without a contact" : "";
     case Claim::deterministic:
@@ -46,7 +55,7 @@ std::string reason_against(Claim claim, const Contract& contract, const StepMeas
     default:
       break;
   }
-  return m.errors.contact == 0 ? no_contact : "";
+  return m.errors.contact == 0 ? without_contact(m) : "";
 }
 
 bool has(const std::vector<std::string>& words, Claim claim) {
@@ -207,7 +216,8 @@ std::vector<std::string> lacks_of_contacts(const RunFindings& findings, bool for
   if (!alone) look(false, claims_of_any_configuration(detector));
   look(true, detector.query_claims);
   for (const auto& [claim, reason] : not_judged(findings)) {
-    if (reason == no_contact) lines.push_back(fmt::format("{}: {}", claim, reason));
+    if (reason == no_contact || reason.ends_with(no_usable_answer))
+      lines.push_back(fmt::format("{}: {}", claim, reason));
   }
   return lines;
 }

@@ -70,6 +70,7 @@ std::string about_text(const std::string& signature, const std::string& explanat
 }
 
 std::string shown_explanation(const StoredFailure& failure) {
+  if (failure.flaky) return failure.explanation + needs_what_came_before;
   if (failure.smallest.empty()) return failure.explanation;
   const auto smallest = corpus::parse_case(failure.smallest, "stored failure");
   const auto head = about_text(failure.signature, "");

@@ -74,7 +74,7 @@ struct StoredFailure {
   std::string configuration, signature, explanation;
   std::string mesh;
   std::string smallest;      // empty: the mesh was not shrunk
-  bool flaky = false;        // two runs of the case differ, which is a failure by itself
+  bool flaky = false;        // its case alone, in a new process, comes to something else
   std::string printed = {};  // by the plug-in as it failed; may differ between runs
 };
 
@@ -98,9 +98,15 @@ inline bool is_of_search(const StoredFailure& failure) {
   return failure.id.starts_with(searched_in_id);
 }
 
+// What is said behind the explanation of a failure that its own case does not show.
+inline constexpr const char* needs_what_came_before =
+    "; asked again by itself, it comes to something else: what fails may need what the process did "
+    "before, and a replay may hold";
+
 // `about_text` is what the case file of a failure says of itself: "all-pairs: missing pair,
 // edge-edge; triangles 0 and 1 meet at t = 0.5". `shown_explanation` reads it back: it returns the
-// part after the signature, from the smallest mesh if there is one.
+// part after the signature, from the smallest mesh if there is one. Of a flaky failure, which is
+// not shrunk, it says what that means.
 std::string about_text(const std::string& signature, const std::string& explanation);
 std::string shown_explanation(const StoredFailure& failure);
 

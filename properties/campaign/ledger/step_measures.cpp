@@ -16,6 +16,7 @@ constexpr NamedNumber numbers[] = {
     {"free_squared", &StepMeasures::free_squared},
     {"contact_squared", &StepMeasures::contact_squared},
     {"without_time", &StepMeasures::without_time},
+    {"unanswered", &StepMeasures::unanswered},
     {"candidate_steps", &StepMeasures::candidate_steps},
     {"candidates", &StepMeasures::candidates},
     {"least_candidates", &StepMeasures::least_candidates},
@@ -98,6 +99,7 @@ StepMeasures measures_of(std::span<const StepDiff> diffs,
       continue;
     }
     sum.errors += errors_of(diff);
+    sum.unanswered += diff.unanswered_contact ? 1 : 0;
     if (!diff.oracle_complete) continue;
     if (diff.candidates) {
       ++sum.candidate_steps;

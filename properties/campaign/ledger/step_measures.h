@@ -20,6 +20,7 @@ struct StepMeasures {
   // contact. They tell how much the steps of one trial hang together.
   std::uint64_t free_squared = 0, contact_squared = 0;
   std::uint64_t without_time = 0;      // of the collisions: in a wider interval
+  std::uint64_t unanswered = 0;        // steps with a contact that have no answer to be judged
   std::uint64_t candidate_steps = 0;   // steps for which candidates were given
   std::uint64_t candidates = 0;        // given in these steps
   std::uint64_t least_candidates = 0;  // pairs in contact that count, in these steps

@@ -59,7 +59,7 @@ class ShardSearch {
                                               request_.seed, name_of_lane(*lane)),
                                   cases_of_lane(request_.plan, *lane)};
         const auto result = search(searched, space_, judge, [this] { return is_over(); });
-        keep(*lane, result, worker);
+        keep(*lane, result);
       }
     } catch (const StoreProblem& failure) {
       end_by(failure.problem());
@@ -95,10 +95,12 @@ class ShardSearch {
     state_.defects += lane.defects;
   }
 
-  // A defect as it is stored: if the case, run again by itself, has other answers, it is flaky.
-  StoredFailure stored_of(const FoundDefect& found, WorkerProcess& worker) const {
+  // A defect as it is stored: if the case, run again by itself in a new process, has other answers,
+  // it is flaky.
+  StoredFailure stored_of(const FoundDefect& found) const {
     const auto& configuration = request_.detector.configurations[found.configuration];
-    const auto again = worker.run(found.c, {&configuration, 1});
+    WorkerProcess fresh(request_.worker, request_.plugin, request_.worker_limits());
+    const auto again = fresh.run(found.c, {&configuration, 1});
     const bool flaky = !same_answers(found.run, again[0]);
     const auto failing = failing_case(found.c, configuration, request_.detector, found.failure);
     return {found.c.id,
@@ -111,9 +113,9 @@ class ShardSearch {
             found.run.printed};
   }
 
-  void keep(std::uint64_t number, const LaneResult& result, WorkerProcess& worker) {
+  void keep(std::uint64_t number, const LaneResult& result) {
     std::vector<StoredFailure> failures;
-    for (const auto& found : result.found) failures.push_back(stored_of(found, worker));
+    for (const auto& found : result.found) failures.push_back(stored_of(found));
     const SearchedLane lane{name_of_lane(number), text_of(request_.shard),
                             result.cases,         result.defects,
                             result.open,          {result.causes.begin(), result.causes.end()}};

@@ -154,6 +154,11 @@ void shrink_failures(const CampaignRequest& request, Store& store, const ReduceL
     if (is_large(reduction.smallest) && !law && !reduction.finding.signature.empty())
       store_as_smallest(reduction.smallest,
                         about_shrunk(failure, reduction.finding, reduction.fails_from));
+    // A process that was asked much may fail where a new one does not.
+    WorkerProcess fresh(request.worker, request.plugin, request.worker_limits());
+    const auto fails = judge_of_detector(request.detector, *configuration, fresh, request.jobs);
+    const auto shrunk = corpus::parse_case(failure.smallest, failure.id);
+    if (!law && shrunk && !fails(shrunk.value())) failure.smallest.clear();
     if (failure.smallest.empty()) {
       // Nothing smaller was found, so the mesh itself is the smallest.
       failure.smallest = failure.mesh;

@@ -16,6 +16,12 @@ detector::Triangles triangles_of_queries() {
 
 }  // namespace
 
+detector::Feature features_of(const detector::FourPoints& query) {
+  const auto kind = query.first_group == 1 ? detector::FeatureKind::vertex_face
+                                           : detector::FeatureKind::edge_edge;
+  return {kind, {0, 1, 2, 3, -1}};
+}
+
 const char* query_word(const detector::FourPoints& query) {
   return query.first_group == 1 ? vertex_face_word : edge_edge_word;
 }

@@ -23,6 +23,9 @@ bool says_query(const corpus::Case& c);
 // The query of such a case; nothing if the case is none.
 std::optional<detector::FourPoints> query_of(const corpus::Case& c);
 
+// The two features of the query, by the vertices of its case.
+detector::Feature features_of(const detector::FourPoints& query);
+
 const char* query_word(const detector::FourPoints& query);  // "vertex-face", "edge-edge"
 // What the case says of itself in this way; an empty word if it does not say that it is a query.
 std::string query_word(const corpus::Case& c);

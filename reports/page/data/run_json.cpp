@@ -173,7 +173,7 @@ Json other_json(const properties::RunFindings& run, const properties::StoredFail
   return {{"id", failure.id},
           {"configuration", failure.configuration},
           {"what", shown_explanation(failure)},
-          {"replay", replay_line("", file, detector_of(run))}};
+          {"replay", "assay " + replay_words("", file, detector_of(run))}};
 }
 
 // Why the mesh of a failure is not shown; empty if it was.

@@ -51,7 +51,7 @@ export function failureFacts(run: Run, failure: Failure): HTMLElement {
   if (law) rows.push(["It says", run.law_statements[law] ?? null]);
   rows.push(["Configuration", failure.configuration]);
   rows.push(["Case", failure.case]);
-  rows.push(["Mesh as met", failure.before ? size(failure.before) : null]);
+  rows.push(["As met", failure.before ? size(failure.before) : null]);
   rows.push(["Smallest", failure.after ? size(failure.after) : "not shrunk"]);
   rows.push(["Stage that lost it", failure.stage]);
   const scene = failure.scene;

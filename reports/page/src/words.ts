@@ -24,4 +24,4 @@ export const time = (t: Interval | null): string =>
 export const shortTime = (t: number): string => `${Number(t.toPrecision(6))}`;
 
 export const size = (s: Size): string =>
-  `${counted(s.triangles, "triangle")}, ${counted(s.vertices, "vertex", "vertices")}, ${counted(s.steps, "step")}`;
+  s.query ? `one ${s.query} query` : `${counted(s.triangles, "triangle")}, ${counted(s.vertices, "vertex", "vertices")}, ${counted(s.steps, "step")}`;

@@ -26,8 +26,9 @@ class Recorder:
     every: one step of so many is recorded. ring: 0, or the number of newest steps that two files,
     path and path.before, hold at least. overwrite: whether files that are there may be lost.
 
-    Arrays of float32 are recorded as float32, others as float64 where that is exact; numbers that
-    are not finite are recorded too. Calls write at once: a process that is killed loses at most the
+    Arrays of float32 are recorded as float32, others as float64 where that is exact; positions that
+    are not finite are recorded too, and an answer that can be none, as a time outside of [0, 1], is
+    refused. Calls write at once: a process that is killed loses at most the
     record that it was writing. A recorder is of one thread at a time.
 
     ValueError: an argument that is refused; TypeError: no numbers; FileExistsError, OSError: a file

@@ -172,6 +172,46 @@ TEST_F(RecordFiles, RefusesWrongSteps) {
   EXPECT_EQ(assay_record_end(&recorder), ASSAY_RECORD_NOT_BEGUN);
 }
 
+// Its judge would find nothing to judge, after a night perhaps.
+TEST_F(RecordFiles, RefusesAnswersThatCanBeNone) {
+  ASSERT_EQ(begin(), ASSAY_OK);
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const auto x = all(1);
+  const auto code = [&](const assay_result& result, const assay_limit& limit = {-1, nullptr}) {
+    step({rest.data(), 0}, {x.data(), 0});
+    data.result = &result, data.limit = &limit;
+    return assay_record_step(&recorder, &data);
+  };
+  const auto at = [](double lo, double hi) {
+    return assay_result{ASSAY_COLLISION, lo, hi, 0, nullptr, nullptr, nullptr};
+  };
+  for (const auto& [lo, hi] : std::vector<std::pair<double, double>>{
+           {-1, -1}, {2.5, 2.5}, {0, 2}, {-1, 0}, {0.5, 0.25}, {none, none}, {0, none}}) {
+    EXPECT_EQ(code(at(lo, hi)), ASSAY_RECORD_NO_ANSWER) << lo << ' ' << hi;
+    EXPECT_TRUE(says(error(), "first time"));
+  }
+  for (const auto& pair : std::vector<std::array<std::int32_t, 2>>{
+           {0, 0}, {-1, 0}, {0, 2}, {7, 1}, {0, std::numeric_limits<std::int32_t>::min()}}) {
+    for (const auto answer : {ASSAY_COLLISION, ASSAY_UNDECIDED}) {
+      EXPECT_EQ(code({answer, 0, 0, 1, pair.data(), nullptr, nullptr}), ASSAY_RECORD_NO_ANSWER)
+          << pair[0] << ' ' << pair[1];
+      EXPECT_TRUE(says(error(), "no two triangles"));
+    }
+  }
+  const std::int32_t pair[] = {1, 0};
+  const double late[] = {0, 1.5};
+  EXPECT_EQ(code({ASSAY_COLLISION, 0, 0, 1, pair, late, nullptr}), ASSAY_RECORD_NO_ANSWER);
+  EXPECT_EQ(code({ASSAY_FREE, 0, 0, 1, pair, nullptr, nullptr}), ASSAY_RECORD_NO_ANSWER);
+  auto nowhere = all(1);
+  nowhere[7] = none;
+  for (const auto& limit : std::vector<assay_limit>{
+           {1.5, nullptr}, {-0.5, nullptr}, {none, nullptr}, {0.5, nowhere.data()}})
+    EXPECT_EQ(code(at(0, 1), limit), ASSAY_RECORD_NO_ANSWER) << limit.share;
+  EXPECT_EQ(code({ASSAY_COLLISION, 1, 1, 1, pair, nullptr, nullptr}), ASSAY_OK) << error();
+  EXPECT_EQ(code({ASSAY_ERROR, none, none, 0, nullptr, nullptr, "lost"}), ASSAY_OK) << error();
+  EXPECT_EQ(end().size(), 4u) << "what was refused is not there";
+}
+
 TEST_F(RecordFiles, RefusesWrongBeginnings) {
   const assay_record_array positions = {rest.data(), 0};
   const auto code = [&](const assay_record_settings* s, const assay_description* d,

@@ -186,9 +186,9 @@ TEST_F(Plans, AKeptOneMayDifferFromTheNamedOneByWhatOptionsChange) {
     limited.case_bytes = 1 << 30;
     limited.seconds = 1;
     for (auto kept : {named, limited, with_queries(limited), query_plan(limited)}) {
-      EXPECT_TRUE(kept_plan(scratch.write("kept.json", plan_text(kept)))) << named.name;
+      EXPECT_TRUE(read_plan(scratch.write("kept.json", plan_text(kept)))) << named.name;
       ++kept.fault_seeds;
-      EXPECT_FALSE(kept_plan(scratch.write("kept.json", plan_text(kept)))) << named.name;
+      EXPECT_FALSE(read_plan(scratch.write("kept.json", plan_text(kept)))) << named.name;
     }
   }
 }

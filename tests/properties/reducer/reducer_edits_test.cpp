@@ -21,7 +21,7 @@ TEST(MeshSize, StepsThenTrianglesThenVerticesThenMotionThenNumbers) {
   for (auto& frame : long_number.frames) frame(0, 0) = 0.1;
   EXPECT_LT(size_of(small), size_of(long_number));
   EXPECT_LT(size_of(long_number), size_of(moving));
-  EXPECT_EQ(size_text(size_of(octahedron()), size_of(small)),
+  EXPECT_EQ(size_text(octahedron(), small),
             "8 triangles, 6 vertices, 1 step -> 4 triangles, 4 vertices, 1 step");
 }
 

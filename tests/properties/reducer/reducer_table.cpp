@@ -37,8 +37,8 @@ void print_row(const std::string& name, const corpus::Case& start, const Judge& 
   std::printf(
       "%-34s %-34s -> %2zu vertices, %2zu triangles, %zu steps; wanted %2zu %s; numbers %4llu; "
       "%6llu calls %6.2f s%s\n",
-      name.c_str(), size_text(size_of(start)).c_str(), size.vertices, size.triangles, size.steps,
-      wanted, reached ? "   " : "NOT", static_cast<unsigned long long>(size.numbers),
+      name.c_str(), size_text(start).c_str(), size.vertices, size.triangles, size.steps, wanted,
+      reached ? "   " : "NOT", static_cast<unsigned long long>(size.numbers),
       static_cast<unsigned long long>(reduction.calls), reduction.seconds,
       reduction.fixed_point ? "" : " (limit)");
   if (in_full) {

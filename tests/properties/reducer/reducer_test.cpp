@@ -46,7 +46,8 @@ TEST_P(ReducesToKnownSize, FromALargeMeshAndSeveralSteps) {
   // reducer_table prints what is reached from 200 triangles and 8 steps, without this limit.
   const Reduction reduction = reduce(start, fault.judge, {60, 8000});
   const auto after = size_of(reduction.smallest);
-  std::printf("%s: %s, %llu calls, %.2f s\n", fault.name.c_str(), size_text(before, after).c_str(),
+  std::printf("%s: %s, %llu calls, %.2f s\n", fault.name.c_str(),
+              size_text(start, reduction.smallest).c_str(),
               static_cast<unsigned long long>(reduction.calls), reduction.seconds);
   EXPECT_LE(after.vertices, fault.vertices + 1);
   EXPECT_TRUE(is_valid(reduction.smallest));

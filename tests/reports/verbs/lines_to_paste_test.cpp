@@ -1,0 +1,206 @@
+// Each line to paste that a verb prints or writes carries all of its inputs: pasted into a shell, in
+// another folder too, it comes to the same verdict.
+#include "tests/recorded_log.h"
+#include "tests/reports/tiny_campaign.h"
+
+namespace assay::tests {
+namespace {
+
+using Json = nlohmann::json;
+
+// A folder whose name a shell would take for two words.
+class LinesToPaste : public testing::Test {
+ protected:
+  static std::string file(const std::string& name, const std::string& text) {
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / name) << text;
+    return "'" + name + "'";
+  }
+  // A triangle, and one that falls through it.
+  static std::string lower() { return "v 0 0 0\nv 9 0 0\nv 0 9 0\n"; }
+  static std::string upper(double z) {
+    return fmt::format("v 1 1 {0}\nv 1 2 {0}\nv 2 1 {1}\n", z, z + 1);
+  }
+
+  void SetUp() override {
+    const std::string face = "f 1 2 3\n";
+    file("a 0.obj", lower() + face), file("b 0.obj", upper(1) + face);
+    file("b 1.obj", upper(-0.5) + face);
+    const std::string faces = face + "f 4 5 6\n";
+    file("f 0.obj", lower() + upper(1) + faces), file("f 1.obj", lower() + upper(-0.5) + faces);
+    file("f 2.obj", lower() + upper(1) + faces);
+    file("free.csv", "1,free,\n"), file("late.csv", "1,collision,0.9\n");
+  }
+
+  // Runs the program in the folder.
+  static Outcome run(const std::string& words, const std::string& before = "") {
+    return run_assay(words, "cd '" + folder.string() + "' && " + before);
+  }
+
+  static int code_of(const std::string& line, const std::string& where) {
+    const int status = std::system(("cd '" + where + "' && " + line + " >/dev/null").c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+  // Pastes all lines of the text: `next` in its folder, the others anywhere.
+  static void expect_same(const std::string& text, int code, std::size_t least) {
+    const std::regex marked("(^|\n) *(next|again|replay): ([^\n]*)");
+    std::size_t pasted = 0;
+    for (std::sregex_iterator match(text.begin(), text.end(), marked), end; match != end; ++match) {
+      const std::string line = (*match)[3];
+      EXPECT_EQ(code_of(line, (*match)[2] == "next" ? folder.string() : "/"), code) << line;
+      ++pasted;
+    }
+    EXPECT_GE(pasted, least) << text;
+  }
+
+  static inline const Scratch scratch;
+  static inline const std::filesystem::path folder = scratch / "my frames";
+};
+
+TEST_F(LinesToPaste, OfCheckNameFramesBodiesAndAnswers) {
+  const std::string bodies = "--body 'a 0.obj' --body 'b 0.obj' 'b 1.obj'";
+  const std::string inputs[] = {
+      "'f 0.obj' 'f 1.obj' --answers free.csv",
+      "'f 0.obj' 'f 1.obj' --answers=late.csv --adjacency no-shared-vertex",
+      "'f 0.obj' 'f 1.obj' 'f 2.obj' --answers free.csv",
+      bodies + " --answers free.csv",
+      bodies + " --answers late.csv --apart 0,0",
+      bodies + " --detector " + plugin("always_free"),
+      bodies + " --detector " + plugin("always_free") + " --isolation none --threads 2",
+      "'f 0.obj' 'f 1.obj' --detector " + plugin("always_free")};
+  int number = 0;
+  for (const auto& input : inputs) {
+    SCOPED_TRACE(input);
+    const auto told = run("check " + input);
+    EXPECT_EQ(told.exit_code, 1) << told.out << told.err;
+    expect_same(told.out, 1, 1);
+    const auto kept = folder / fmt::format("kept {}", ++number), report = kept / "r.json";
+    const auto words = fmt::format("check {} --keep '{}' --json '{}'", input,
+                                   kept.filename().string(), report.string());
+    const auto made = run(words);
+    EXPECT_EQ(made.exit_code, 1) << made.out << made.err;
+    const bool is_plugin = contains(input, "--detector");
+    expect_same(made.out, 1, is_plugin ? 2 : 1);
+    // The same lines stand in the report and on the page, and the kept case names all files.
+    const auto step = Json::parse(read_text(report)).at("kept").at(0);
+    const auto page = read_text(kept / "page.html");
+    for (const char* line : {"again", "replay"}) {
+      const auto text = step.at(line).get<std::string>();
+      EXPECT_TRUE(text.empty() || contains(made.out, text)) << text;
+      if (!text.empty()) EXPECT_EQ(code_of(text, "/"), 1) << text;
+    }
+    EXPECT_TRUE(contains(page, "<pre>cd ")) << page;
+    const auto c = Json::parse(read_text(kept / "step-1" / "case.json"));
+    const auto source = c.at("source").get<std::string>();
+    for (const std::string name :
+         {"a 0.obj", "b 0.obj", "b 1.obj", "f 0.obj", "f 1.obj", "free.csv", "late.csv"})
+      EXPECT_EQ(contains(source, name), contains(input, name)) << source;
+  }
+}
+
+TEST_F(LinesToPaste, OfACaseFileKeepItsRelation) {
+  // The pair does not count, so that nothing fails; with the relation lost it would.
+  const auto text = [](int rings) {
+    return fmt::format(R"({{"schema": "assay-case/1", "id": "x", "about": "", "source": "",
+      "triangles": [[0, 1, 2], [3, 4, 5]],
+      "frames": [[[0, 0, 0], [9, 0, 0], [0, 9, 0], [1, 1, 1], [1, 2, 1], [2, 1, 2]],
+                 [[0, 0, 0], [9, 0, 0], [0, 9, 0], [1, 1, -1], [1, 2, -1], [2, 1, 0]]],
+      "counted": {{"body": [0, 0, 0, 1, 1, 1], "apart": [[0, {}]]}}}})",
+                       rings);
+  };
+  file("apart.json", text(1)), file("met.json", text(0));
+  EXPECT_EQ(run("check apart.json --detector " + plugin("takes_relations")).exit_code, 0);
+  const auto made = run("check met.json --detector " + plugin("always_free") + " --keep 'of case'");
+  EXPECT_EQ(made.exit_code, 1) << made.out << made.err;
+  expect_same(made.out, 1, 2);
+}
+
+TEST_F(LinesToPaste, OfJudgeNameTheLogAndTheStep) {
+  const auto path = (folder / "my log").string();
+  detector::Triangles triangles(2, 3);
+  triangles << 0, 1, 2, 3, 4, 5;
+  detector::Positions x0(6, 3), x1(6, 3);
+  x0 << 0, 0, 0, 9, 0, 0, 0, 9, 0, 1, 1, 1, 1, 2, 1, 2, 1, 2;
+  x1 = x0;
+  x1.block(3, 2, 3, 1).array() -= 1.5;
+  LogWriter log(path, triangles, x0);
+  detector::StepResult free;
+  free.answer = detector::Answer::free;
+  log.step(&x0, x0, free);
+  log.step(&x0, x1, free);
+  log.end();
+  for (const std::string word : {"'my log'", "'my log#2'"}) {
+    const auto judged = run("judge " + word + " --out judged");
+    EXPECT_EQ(judged.exit_code, 1) << judged.out << judged.err;
+    expect_same(judged.out, 1, 1);
+  }
+  const auto shrunk = run("shrink 'my log#2' --out 'small one.json' --isolation none --detector " +
+                          plugin("always_free"));
+  EXPECT_EQ(shrunk.exit_code, 1) << shrunk.err;
+  EXPECT_TRUE(contains(shrunk.out, " --isolation none")) << shrunk.out;
+  expect_same(shrunk.out, 1, 1);
+}
+
+TEST_F(LinesToPaste, OfRunsAndSelfTestsNameTheDetectorAsItRan) {
+  file("plan.json", plan_text(8));
+  const std::string detector =
+      " --detector " + plugin("always_free") + " --isolation none --threads 2";
+  const auto ran = run("run --campaign plan.json --out 'my run'" + detector);
+  EXPECT_EQ(ran.exit_code, 1) << ran.err;
+  const auto listed = run("list failures 'my run'");
+  for (const auto& text : {ran.out, listed.out}) {
+    const auto lines = replay_lines(text);
+    ASSERT_FALSE(lines.empty()) << text;
+    for (const auto& line : lines) {
+      EXPECT_TRUE(contains(line, " --isolation none --threads 2")) << line;
+      EXPECT_EQ(run_assay(line).exit_code, 1) << line;
+    }
+  }
+}
+
+// What fails only because of what the process did before is not shown by its own case.
+TEST_F(LinesToPaste, WhatItsOwnCaseDoesNotShowSaysSo) {
+  const std::string detector = " --detector " + plugin("steps_and_query");
+  const std::string state = "ASSAY_QUERY='claims=129 free-after-calls=2' ";
+  const auto checked =
+      run("check 'f 0.obj' 'f 1.obj' 'f 2.obj' 'f 1.obj' --keep state --json "
+          "state/r.json --part steps" +
+              detector,
+          state);
+  EXPECT_EQ(checked.exit_code, 2) << "check has no parts";
+  const auto made =
+      run("check 'f 0.obj' 'f 1.obj' 'f 2.obj' 'f 1.obj' --keep state --json "
+          "state/r.json" +
+              detector,
+          state);
+  EXPECT_EQ(made.exit_code, 1) << made.out << made.err;
+  EXPECT_TRUE(contains(made.out, "not reproduced: asked about this step alone")) << made.out;
+  EXPECT_FALSE(contains(made.out, "replay: ")) << made.out;
+  const auto step = Json::parse(read_text(folder / "state/r.json")).at("kept").at(0);
+  EXPECT_EQ(step.at("reproduced"), false);
+  EXPECT_TRUE(contains(read_text(folder / "state/page.html"), "not reproduced"));
+  ::setenv("ASSAY_QUERY", "claims=129 free-after-calls=2", 1);
+  expect_same(made.out, 1, 1);
+  ::unsetenv("ASSAY_QUERY");
+
+  const auto queries = run("check-queries --json q.json " + std::string(ASSAY_SOURCE_DIR) +
+                               "/corpus/queries/example_vf.csv" + detector,
+                           state);
+  EXPECT_EQ(queries.exit_code, 1) << queries.out << queries.err;
+  EXPECT_TRUE(contains(queries.out, "asked again by itself")) << queries.out;
+  EXPECT_TRUE(contains(read_text(folder / "q.json"), "asked again by itself"));
+
+  file("plan.json", plan_text(8));
+  const auto ran = run("run --campaign plan.json --jobs 1 --part steps --out stateful" + detector,
+                       "ASSAY_QUERY='claims=129 free-after-calls=20' ");
+  EXPECT_EQ(ran.exit_code, 1) << ran.err;
+  EXPECT_TRUE(contains(ran.out, "(flaky)")) << ran.out;
+  EXPECT_TRUE(contains(ran.out, "asked again by itself")) << ran.out;
+  EXPECT_TRUE(contains(read_text(folder / "stateful/junit.xml"), "asked again by itself"));
+  EXPECT_EQ(run("report stateful --out page.html").exit_code, 0);
+  EXPECT_TRUE(contains(read_text(folder / "page.html"), "\"flaky\":true"));
+}
+
+}  // namespace
+}  // namespace assay::tests

@@ -1,0 +1,159 @@
+// What a verb is asked to write is written whatever the verdict, or refused by one line before any
+// work.
+#include "tests/recorded_log.h"
+#include "tests/reports/tiny_campaign.h"
+
+namespace assay::tests {
+namespace {
+
+class Outputs : public testing::Test {
+ protected:
+  // Two triangles in contact, and frames that come apart.
+  static std::string frame(const std::string& name, double height) {
+    return scratch.write(name,
+                         fmt::format("v 0 0 0\nv 9 0 0\nv 0 9 0\nv 1 1 {0}\nv 1 2 {0}\nv 2 1 {1}\n"
+                                     "f 1 2 3\nf 4 5 6\n",
+                                     height, height + 1));
+  }
+
+  static inline const Scratch scratch;
+  const std::string frames = frame("a.obj", 1) + " " + frame("b.obj", -0.5);
+  const std::string right = scratch.write("right.csv", "1,collision,0.6\n");
+  const std::string wrong = scratch.write("wrong.csv", "1,free,\n");
+  const std::string queries = std::string(ASSAY_SOURCE_DIR) + "/corpus/queries/example_vf.csv";
+  const std::string plan = scratch.write("plan.json", plan_text(8));
+  int folders_ = 0;
+  const std::string set = std::string(ASSAY_SOURCE_DIR) + "/corpus/vectors";
+
+  std::string log() const {
+    const auto path = scratch / "steps.log";
+    detector::Triangles triangles(2, 3);
+    triangles << 0, 1, 2, 3, 4, 5;
+    detector::Positions x0(6, 3), x1(6, 3);
+    x0 << 0, 0, 0, 9, 0, 0, 0, 9, 0, 1, 1, 1, 1, 2, 1, 2, 1, 2;
+    x1 = x0;
+    x1.block(3, 2, 3, 1).array() -= 1.5;
+    LogWriter writer(path, triangles, x0);
+    detector::StepResult missed;
+    missed.answer = detector::Answer::free;
+    writer.step(&x0, x1, missed);
+    writer.end();
+    return path;
+  }
+};
+
+TEST_F(Outputs, ThatCannotBeWrittenAreRefusedBeforeTheWork) {
+  const auto file = scratch.write("file", "");
+  const auto run = scratch / "run";
+  ASSERT_EQ(run_assay("run --campaign " + plan + " --out " + run).exit_code, 0);
+  const std::string check = "check " + frames + " --answers " + right, judge = "judge " + log();
+  const std::string folders[] = {check + " --keep ",
+                                 "check " + frames + " --keep ",
+                                 judge + " --out ",
+                                 judge + " " + (scratch / "steps.log") + " --out ",
+                                 "run --campaign " + plan + " --out ",
+                                 "certify --campaign " + plan + " --out ",
+                                 "merge " + run + " --out ",
+                                 "replay " + curated("A1_winding2_allpositive") + " --export ",
+                                 "replay '" + log() + "#1' --export ",
+                                 "scene bend --size 100 --out ",
+                                 "vectors --out "};
+  for (const auto& words : folders) {
+    for (const std::string place : {file, file + "/below", std::string("/proc/nowhere")})
+      expect_refused(run_assay(words + place), place);
+  }
+  const std::string files[] = {check + " --json ",
+                               "check " + frames + " --separation 1 --json ",
+                               "check-queries " + queries + " --json ",
+                               judge + " --json ",
+                               judge + " --junit ",
+                               "report " + run + " --out ",
+                               "bench --suite elementary --quick --json ",
+                               "bench --suite elementary --quick --csv ",
+                               "shrink " + curated("A1_winding2_allpositive") + " --out ",
+                               "answer-vectors " + set + " --out ",
+                               "score " + set + "/results/assay_exact.json --out "};
+  for (const auto& words : files) {
+    for (const std::string place :
+         {scratch / "", file + "/below", scratch / "absent/file", std::string("/proc/nowhere")})
+      expect_refused(run_assay(words + place), place);
+  }
+}
+
+// A folder stands where a file of the folder has to go.
+TEST_F(Outputs, AFileOfAFolderThatCannotBeWrittenIsRefusedToo) {
+  const auto out = [&](const std::string& name) {
+    const auto folder = scratch / std::to_string(++folders_);
+    std::filesystem::create_directories(folder + "/" + name);
+    return folder;
+  };
+  for (const auto& [words, name] : std::vector<std::pair<std::string, std::string>>{
+           {"check " + frames + " --keep ", "page.html"},
+           {"judge " + log() + " --out ", "page.html"},
+           {"run --campaign " + plan + " --out ", "junit.xml"},
+           {"run --campaign " + plan + " --out ", "summary.md"},
+           {"certify --campaign " + plan + " --out ", "certificate.json"},
+           {"certify --campaign " + plan + " --out ", "summary.md"}})
+    expect_refused(run_assay(words + out(name)), name);
+  const auto folder = scratch / "failures_is_a_file";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder + "/failures") << "";
+  expect_refused(run_assay("run --campaign " + plan + " --out " + folder), "failures");
+}
+
+TEST_F(Outputs, TwoOutputsAreNotOneFile) {
+  const auto one = scratch / "one";
+  expect_refused(run_assay("bench --suite elementary --quick --json " + one + " --csv " + one),
+                 one);
+  expect_refused(run_assay("judge " + log() + " --json " + one + " --junit " + one), one);
+}
+
+// Nothing fails, and nothing is there yet.
+TEST_F(Outputs, AreWrittenWhateverTheVerdict) {
+  for (const auto& [table, code] : {std::pair(right, 0), std::pair(wrong, 1)}) {
+    const auto kept = scratch / (code == 0 ? "held/kept" : "failed/kept");
+    const auto checked = run_assay("check " + frames + " --answers " + table + " --keep " + kept +
+                                   " --json " + kept + "/r.json");
+    EXPECT_EQ(checked.exit_code, code) << checked.out << checked.err;
+    EXPECT_TRUE(std::filesystem::exists(kept + "/page.html"));
+    EXPECT_TRUE(std::filesystem::exists(kept + "/r.json"));
+    EXPECT_EQ(std::filesystem::exists(kept + "/step-1/case.json"), code == 1);
+  }
+  const auto judged = run_assay("judge " + log() + " --out " + (scratch / "x/y") + " --json " +
+                                (scratch / "x/y/r.json"));
+  EXPECT_EQ(judged.exit_code, 1) << judged.err;
+  EXPECT_TRUE(std::filesystem::exists(scratch / "x/y/page.html"));
+  EXPECT_EQ(
+      run_assay("replay " + curated("A1_winding2_allpositive") + " --export " + (scratch / "p/q"))
+          .exit_code,
+      0);
+  EXPECT_TRUE(std::filesystem::exists(scratch / "p/q/case.json"));
+}
+
+// Where a step should go is known only when it fails; what else was asked for is written.
+TEST_F(Outputs, AStepThatCannotBeKeptLosesNoReport) {
+  const auto kept = scratch / "in_the_way", report = scratch / "r.json";
+  std::filesystem::create_directories(kept);
+  std::ofstream(kept + "/step-1") << "";
+  const auto checked = run_assay("check " + frames + " --answers " + wrong + " --keep " + kept +
+                                 " --json " + report);
+  EXPECT_EQ(checked.exit_code, 2);
+  EXPECT_TRUE(contains(checked.out, "not kept: " + kept + "/step-1")) << checked.out;
+  EXPECT_TRUE(contains(checked.err, "step-1")) << checked.err;
+  EXPECT_TRUE(contains(read_text(report), "\"outcome\": \"defect\""));
+  EXPECT_TRUE(std::filesystem::exists(kept + "/page.html"));
+  const auto junit = scratch / "j.xml";
+  EXPECT_EQ(run_assay("judge " + log() + " --out " + kept + " --junit " + junit).exit_code, 2);
+  EXPECT_TRUE(contains(read_text(junit), "<failure"));
+}
+
+// A file of the user's beside an output stays as it is.
+TEST_F(Outputs, NothingElseIsTouched) {
+  const auto report = scratch / "mine.json";
+  const auto mine = scratch.write("mine.json.probe", "mine");
+  EXPECT_EQ(run_assay("check " + frames + " --json " + report).exit_code, 0);
+  EXPECT_EQ(read_text(mine), "mine");
+}
+
+}  // namespace
+}  // namespace assay::tests
