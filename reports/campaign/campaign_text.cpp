@@ -241,7 +241,10 @@ std::string worlds_text(const RunFindings& findings) {
 std::string judged_lines(const RunFindings& findings) {
   std::string out;
   const auto sizes = sizes_text(properties::judged_sizes(findings));
-  if (!sizes.empty()) out += fmt::format("claims were tried on {}\n", sizes);
+  if (!sizes.empty())
+    out += fmt::format("claims were tried on {}\n{}\n", sizes,
+                       extremes_text(properties::largest_tried(findings),
+                                     findings.tally.counts.measures.relation_trials));
   for (const auto& part : findings.run.detector.unjudged_parts)
     out += fmt::format("not judged: the {} of this library\n", part);
   for (const auto& family : properties::left_out_families(findings))

@@ -9,6 +9,7 @@
 #include "corpus/scenes/scenes.h"
 #include "properties/campaign/ledger/step_measures.h"
 #include "properties/campaign/plan.h"
+#include "properties/campaign/trials/extremes.h"
 #include "properties/judging/case_check.h"
 #include "properties/queries/rung_cases.h"
 #include "properties/queries/self_check.h"
@@ -27,10 +28,12 @@ using detector::Culling;
 using properties::CorpusRow;
 using properties::Outcome;
 
-void count_triangles(CorpusRow& row, const corpus::Case& c, bool has_contact) {
-  const auto triangles = static_cast<std::uint64_t>(c.triangles.rows());
-  row.triangles = std::max(row.triangles, triangles);
-  if (has_contact) row.triangles_in_contact = std::max(row.triangles_in_contact, triangles);
+void count_extremes(CorpusRow& row, const corpus::Case& c,
+                    const std::vector<oracle::StepJudgement>& truth, bool has_contact) {
+  const auto extremes = properties::extremes_of(c, truth);
+  row.extremes.include(extremes);
+  if (has_contact)
+    row.triangles_in_contact = std::max(row.triangles_in_contact, extremes.triangles);
 }
 
 void count(CorpusRow& row, const oracle::StepJudgement& step) {
@@ -53,11 +56,12 @@ CorpusRow check_facts(const std::vector<corpus::Case>& cases, Culling culling, i
     const auto report = properties::check_case(c, culling, jobs);
     ++row.cases;
     bool has_contact = false;
+    std::vector<oracle::StepJudgement> truth;
     for (const auto& step : report.steps) {
-      count(row, step.judgement);
+      count(row, truth.emplace_back(step.judgement));
       has_contact |= !step.judgement.pairs.empty();
     }
-    count_triangles(row, c, has_contact);
+    if (!truth.empty()) count_extremes(row, c, truth, has_contact);
     row.defects += report.outcome == Outcome::holds ? 0 : 1;
     for (const auto& line : report.failed)
       row.failed.push_back(
@@ -120,7 +124,7 @@ class JudgedRows {
       const auto verdict =
           properties::judge_trial(*seen, truth, runs[i], configurations[i], request_.detector);
       if (!verdict.steps.empty() && verdict.outcome != Outcome::refused)
-        count_triangles(rows_[i], *seen, properties::has_judged_contact(verdict.steps));
+        count_extremes(rows_[i], *seen, truth, properties::has_judged_contact(verdict.steps));
       if (verdict.outcome == Outcome::holds || verdict.outcome == Outcome::refused) continue;
       const auto& failure = verdict.failure;
       rows_[i].defects += failure ? 1 : 0;

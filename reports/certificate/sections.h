@@ -1,4 +1,4 @@
-// The parts of a certificate's predicate (schema assay-certificate/6,
+// The parts of a certificate's predicate (schema assay-certificate/7,
 // reports/certificate/README.md). Each function renders a part of the findings or gates as JSON.
 #pragma once
 
@@ -41,6 +41,10 @@ nlohmann::ordered_json not_judged_json(const properties::RunFindings& findings);
 // One {claim, triangles} for each claim that was judged: the size of the largest mesh that tried
 // it.
 nlohmann::ordered_json judged_up_to_json(const properties::RunFindings& findings);
+
+// The largest of each extreme that was tried, and how many trials have a relation; null for a run
+// of queries alone.
+nlohmann::ordered_json tried_json(const properties::RunFindings& findings);
 
 // What the steps of a plug-in came to, whatever it claims: those of one stratum, or of all strata
 // (strata_section.cpp).

@@ -132,6 +132,7 @@ Json make_predicate(const RunFindings& findings, const properties::Judgement& ju
        {"detector", json_of(findings.run.detector)},
        {"not_judged", not_judged_json(findings)},
        {"judged_up_to", judged_up_to_json(findings)},
+       {"tried", tried_json(findings)},
        {"left_out_families", properties::left_out_families(findings)},
        {"isolation", isolation_json(findings)},
        {"versions", versions_json(findings)},

@@ -3,6 +3,8 @@
 #include "properties/campaign/gates/statistics.h"
 #include "properties/campaign/ledger/step_measures.h"
 #include "properties/campaign/ledger/tally.h"
+#include "properties/campaign/plan.h"
+#include "properties/json_fields.h"
 #include "reports/certificate/sections.h"
 
 namespace assay::reports {
@@ -185,6 +187,12 @@ Json judged_up_to_json(const properties::RunFindings& findings) {
   for (const auto& [claim, triangles] : properties::judged_sizes(findings))
     list.push_back({{"claim", claim}, {"triangles", triangles}});
   return list;
+}
+
+Json tried_json(const properties::RunFindings& findings) {
+  if (properties::asks_queries_alone(findings.run.plan)) return nullptr;
+  return {{"largest", properties::json_of_fields<Json>(properties::largest_tried(findings))},
+          {"relations", findings.tally.counts.measures.relation_trials}};
 }
 
 Json measures_json(const properties::StepMeasures& m) {

@@ -8,6 +8,7 @@
 
 #include "properties/campaign/ledger/record.h"
 #include "properties/campaign/plan.h"
+#include "properties/json_fields.h"
 #include "properties/words.h"
 #include "reports/steps/measures_text.h"
 #include "reports/terminal/option_words.h"
@@ -175,7 +176,12 @@ std::string judged_text(const Json& p) {
   for (const auto& one : p["judged_up_to"])
     judged_up_to.push_back(
         {one["claim"].get<std::string>(), one["triangles"].get<std::uint64_t>()});
-  const auto sizes = sizes_text(judged_up_to);
+  auto sizes = sizes_text(judged_up_to);
+  if (const auto& tried = p["tried"]; !sizes.empty()) {
+    properties::Extremes largest;
+    properties::read_fields(tried["largest"], largest);
+    sizes += "; " + extremes_text(largest, count(tried["relations"]));
+  }
   const auto phrases = p["detector"]["contract"]["leaves_out"].get<std::vector<std::string>>();
   return fmt::format(
       "{}{}; contract {}{}; campaign {}, seed {}{}{}", claims_text(p),

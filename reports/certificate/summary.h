@@ -24,9 +24,9 @@ Expected<void> write_for_ci(const nlohmann::ordered_json& predicate,
 
 // What a predicate is about, because a verdict says no more than what was claimed: "claims
 // free-sound, total; not judged: no-spurious (the contract has a margin), its elementary query;
-// meshes of up to 2048 triangles; contract margin 0.1; isolation full; campaign smoke, seed 1 (the
-// default)". For the built-in detector, whose configurations differ in their claims, the number of
-// configurations stands there instead.
+// meshes of up to 2048 triangles; largest tried: (extremes_text); contract margin 0.1; isolation
+// full; campaign smoke, seed 1 (the default)". For the built-in detector, whose configurations
+// differ in their claims, the number of configurations stands there instead.
 std::string judged_text(const nlohmann::ordered_json& predicate);
 
 // As JUnit XML. The suites are gates (those of the predicate), strata (family, configuration),

@@ -103,6 +103,19 @@ std::string sizes_text(const std::vector<properties::JudgedSize>& judged_up_to) 
   return text;
 }
 
+std::string extremes_text(const properties::Extremes& largest, std::uint64_t relations) {
+  const auto count = [](std::uint64_t number, const char* one, const char* many) {
+    return fmt::format("{} {}", number, number == 1 ? one : many);
+  };
+  return fmt::format(
+      "largest tried: {} between two starts, {} at a vertex, {}, {}, {} in a step, "
+      "{}; relations: {}",
+      count(largest.steps_in_a_row, "step", "steps"),
+      count(largest.valence, "triangle", "triangles"), count(largest.bodies, "body", "bodies"),
+      count(largest.components, "component", "components"), count(largest.pairs, "pair", "pairs"),
+      count(largest.triangles, "triangle", "triangles"), count(relations, "case", "cases"));
+}
+
 std::string found_text(std::uint64_t at_random, std::uint64_t by_curated_case_alone) {
   return fmt::format("{} by random cases, {} by their curated case alone", at_random,
                      by_curated_case_alone);

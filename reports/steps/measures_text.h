@@ -21,6 +21,9 @@ std::string measures_sentence(const properties::StepMeasures& measures);
 // "meshes of up to 2048 triangles", or, where they differ, "meshes of up to 2048 triangles
 // (free-sound, total), of up to 60 (deterministic)". Empty if there are none.
 std::string sizes_text(const std::vector<properties::JudgedSize>& judged_up_to);
+// "largest tried: 8 steps between two starts, 14 triangles at a vertex, 3 bodies, 5 components, 812
+// pairs in a step, 200 triangles; relations: 0 cases".
+std::string extremes_text(const properties::Extremes& largest, std::uint64_t relations);
 // "72 by random cases, 44 by their curated case alone".
 std::string found_text(std::uint64_t at_random, std::uint64_t by_curated_case_alone);
 

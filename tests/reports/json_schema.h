@@ -26,7 +26,7 @@ inline SchemaJson schema_named(const std::string& name) {
 }
 
 // One line for each place where `value` is not what `schema` says. References are looked up in
-// `whole`, the schema that this is a part of, or in another one: "urn:assay:certificate:6#/...".
+// `whole`, the schema that this is a part of, or in another one: "urn:assay:certificate:7#/...".
 inline void check_schema(const SchemaJson& whole, const SchemaJson& schema, const SchemaJson& value,
                          const std::string& place, std::vector<std::string>& wrong) {
   static const std::set<std::string> known = {

@@ -63,6 +63,7 @@ struct RunToStore {
       record.oracle_us = 500;
       record.detector_us = 500;
       record.counts = {{{"shape:tetrahedron", 1}}, {{"V+/V-", {3, 1}}}, {}, {}};
+      record.counts.extremes = {2, 3, 0, 1, 3, 12};
       record.counts.measures.contact_trials = record.counts.measures.repeated_trials = 1;
       trials.push_back(record);
     }

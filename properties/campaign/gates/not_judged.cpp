@@ -116,7 +116,7 @@ namespace {
 
 // The most triangles on which each kind of claim was tried.
 struct Largest {
-  std::uint64_t judged = 0, in_contact = 0, repeated = 0;
+  std::uint64_t in_contact = 0, repeated = 0;
 };
 
 Largest largest_of(const RunFindings& findings) {
@@ -126,18 +126,14 @@ Largest largest_of(const RunFindings& findings) {
   };
   for (const auto& [family, stratum] : findings.tally.strata) {
     if (is_query_family(family)) continue;
-    grow(largest.judged, stratum.triangles);
     grow(largest.in_contact, stratum.triangles_in_contact);
     grow(largest.repeated, stratum.triangles_repeated);
   }
-  for (const auto& row : findings.evidence.corpus) {
-    grow(largest.judged, row.triangles);
+  for (const auto& row : findings.evidence.corpus)
     grow(largest.in_contact, row.triangles_in_contact);
-  }
   for (const auto& one : findings.evidence.repeated) {
     if (one.runs > 1) grow(largest.repeated, one.triangles);
     for (const auto& step : one.judged) {
-      grow(largest.judged, one.triangles);
       if (step.contacts > 0) grow(largest.in_contact, one.triangles);
     }
   }
@@ -172,15 +168,23 @@ std::vector<JudgedSize> judged_sizes(const RunFindings& findings) {
   std::vector<JudgedSize> sizes;
   if (asks_queries_alone(findings.run.plan)) return sizes;
   const auto largest = largest_of(findings);
+  const auto all = largest_tried(findings);
   const auto left = not_judged(findings);
   const auto words = claims_of_any_configuration(findings.run.detector);
   for (const Claim claim : all_claims()) {
     if (is_among(left, name_of(claim)) || !has(words, claim)) continue;
     sizes.push_back({name_of(claim), claim == Claim::deterministic ? largest.repeated
                                      : speaks_of_contacts(claim)   ? largest.in_contact
-                                                                   : largest.judged});
+                                                                   : all.triangles});
   }
   return sizes;
+}
+
+Extremes largest_tried(const RunFindings& findings) {
+  Extremes largest = findings.tally.counts.extremes;
+  for (const auto& row : findings.evidence.corpus) largest.include(row.extremes);
+  for (const auto& one : findings.evidence.repeated) largest.include(one.extremes);
+  return largest;
 }
 
 std::vector<std::string> lacks_of_contacts(const RunFindings& findings, bool for_certificate) {

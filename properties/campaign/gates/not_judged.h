@@ -40,6 +40,9 @@ struct JudgedSize {
 };
 std::vector<JudgedSize> judged_sizes(const RunFindings& findings);
 
+// How far the judged meshes went that judged_sizes looks at, each of these by itself.
+Extremes largest_tried(const RunFindings& findings);
+
 // Why too little was judged for a verdict; empty if enough was. Wherever a claim speaks of contacts
 // and the contract does not make it void, a tenth of the planned cases of each family has to have
 // a contact that the contract does not leave out, and so have some cases of at least three

@@ -148,6 +148,7 @@ struct Repetition {
   std::string what;                    // how two runs differ, or one ended early
   bool broken = false;                 // `what` breaks a claim
   std::vector<Judged> judged{};
+  Extremes extremes{};  // of the judged steps, each with those before it
   std::string key() const { return input + ", " + configuration; }
 };
 
@@ -221,9 +222,10 @@ struct CorpusRow {
   std::string input, configuration;
   std::uint64_t cases = 0, left_out = 0, steps = 0, collisions = 0, pairs = 0, defects = 0;
   std::vector<Failed> failed, open;
-  // The largest mesh of which a step was judged, and the largest with a contact that the contract
+  // Of the cases of which a step was judged; and the largest mesh with a contact that the contract
   // does not leave out.
-  std::uint64_t triangles = 0, triangles_in_contact = 0;
+  Extremes extremes{};
+  std::uint64_t triangles_in_contact = 0;
   std::string key() const { return input + ", " + configuration; }
 };
 

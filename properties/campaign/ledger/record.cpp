@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "corpus/cases/case_file.h"
 #include "properties/campaign/ledger/row_fields.h"
 
@@ -19,7 +21,7 @@ void fields(Archive& archive, TrialRecord& x) {
           x.collisions, "pairs", x.pairs, "oracle_us", x.oracle_us, "detector_us", x.detector_us);
   archive("slowest_us", x.slowest_us, "disturbed", x.disturbed, "mesh", x.mesh, "tags",
           x.counts.tags, "set_pairs", x.counts.set_pairs, "laws", x.counts.laws, "measures",
-          x.counts.measures);
+          x.counts.measures, "extremes", x.counts.extremes);
 }
 
 namespace {
@@ -48,11 +50,18 @@ SetPairCount& SetPairCount::operator+=(const SetPairCount& other) {
   return *this;
 }
 
+void Extremes::include(const Extremes& other) {
+  for (const auto most : {&Extremes::steps_in_a_row, &Extremes::valence, &Extremes::bodies,
+                          &Extremes::components, &Extremes::pairs, &Extremes::triangles})
+    this->*most = std::max(this->*most, other.*most);
+}
+
 TrialCounts& TrialCounts::operator+=(const TrialCounts& other) {
   add(tags, other.tags);
   add(set_pairs, other.set_pairs);
   add(laws, other.laws);
   measures += other.measures;
+  extremes.include(other.extremes);
   return *this;
 }
 
@@ -64,6 +73,8 @@ char letter_of(Outcome outcome) {
 bool TrialRecord::has(Outcome outcome) const {
   return outcomes.find(letter_of(outcome)) != std::string::npos;
 }
+
+bool TrialRecord::is_judged() const { return has(Outcome::holds) || has(Outcome::defect); }
 
 std::string about_text(const std::string& signature, const std::string& explanation) {
   return signature + "; " + explanation;

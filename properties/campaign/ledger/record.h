@@ -9,6 +9,7 @@
 
 #include "properties/campaign/ledger/row.h"
 #include "properties/campaign/ledger/step_measures.h"
+#include "properties/fields.h"
 #include "properties/judging/agreement.h"
 
 namespace assay::properties {
@@ -34,6 +35,19 @@ struct SetPairCount {
   friend bool operator==(const SetPairCount&, const SetPairCount&) = default;
 };
 
+// How far cases go, of one case or of many: the largest of each.
+struct Extremes {
+  std::uint64_t steps_in_a_row = 0;  // from a new start to the step before the next one
+  std::uint64_t valence = 0;         // triangles at a vertex
+  std::uint64_t bodies = 0;          // of a relation that names some
+  std::uint64_t components = 0;      // triangles connected through shared vertices
+  std::uint64_t pairs = 0;           // in contact in one step, by the oracle
+  std::uint64_t triangles = 0;
+  void include(const Extremes& other);  // the larger of each stays
+  friend bool operator==(const Extremes&, const Extremes&) = default;
+};
+ASSAY_FIELDS(Extremes, steps_in_a_row, valence, bodies, components, pairs, triangles)
+
 // What is counted of a trial besides its outcomes. The same members add up to what is counted of
 // many.
 struct TrialCounts {
@@ -42,6 +56,7 @@ struct TrialCounts {
   std::map<std::string, SetPairCount, std::less<>> set_pairs;
   std::map<std::string, LawCount, std::less<>> laws;
   StepMeasures measures;  // most of them only of a plug-in
+  Extremes extremes{};    // of a mesh that was judged; of many the largest of each
   TrialCounts& operator+=(const TrialCounts& other);
   friend bool operator==(const TrialCounts&, const TrialCounts&) = default;
 };
@@ -62,6 +77,7 @@ struct TrialRecord {
   // The most processor time that one configuration took, whether its limit ended it or not.
   std::uint64_t slowest_us = 0;
   bool has(Outcome outcome) const;  // some configuration has this outcome
+  bool is_judged() const;           // some configuration holds or has a defect
 };
 
 char letter_of(Outcome outcome);

@@ -27,6 +27,7 @@ constexpr NamedNumber numbers[] = {
     {"left_out_misses", &StepMeasures::left_out_misses},
     {"contact_trials", &StepMeasures::contact_trials},
     {"repeated_trials", &StepMeasures::repeated_trials},
+    {"relation_trials", &StepMeasures::relation_trials},
 };
 
 // Takes out, level by level, what is the same in `none`.

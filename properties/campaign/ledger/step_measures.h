@@ -32,8 +32,8 @@ struct StepMeasures {
   std::uint64_t refused = 0;          // steps that were refused as beyond the capacity
   std::uint64_t left_out_misses = 0;  // steps that only the contract saves from being a miss
   // Of any detector: trials that were judged with a contact that the contract does not leave out,
-  // and trials that were run twice and compared.
-  std::uint64_t contact_trials = 0, repeated_trials = 0;
+  // trials that were run twice and compared, and trials that were judged by a relation.
+  std::uint64_t contact_trials = 0, repeated_trials = 0, relation_trials = 0;
 
   StepMeasures& operator+=(const StepMeasures& other);
   friend bool operator==(const StepMeasures&, const StepMeasures&) = default;

@@ -78,12 +78,10 @@ void StratumTally::add(const TrialRecord& record) {
   const auto& shown = record.counts.measures;
   measures += shown;
   const auto grow = [&](std::uint64_t& most, bool counts) {
-    if (counts) most = std::max(most, record.triangles);
+    if (counts && record.is_judged()) most = std::max(most, record.triangles);
   };
-  const bool is_judged = record.has(Outcome::holds) || record.has(Outcome::defect);
-  grow(triangles, is_judged);
-  grow(triangles_in_contact, is_judged && shown.contact_trials > 0);
-  grow(triangles_repeated, is_judged && shown.repeated_trials > 0);
+  grow(triangles_in_contact, shown.contact_trials > 0);
+  grow(triangles_repeated, shown.repeated_trials > 0);
   ++sizes[log2_of(record.triangles)];
   ++contacts[log2_of(record.pairs)];
 }

@@ -14,6 +14,7 @@
 #include "properties/campaign/ledger/store_problem.h"
 #include "properties/campaign/phases/walks.h"
 #include "properties/campaign/plan.h"
+#include "properties/campaign/trials/extremes.h"
 #include "properties/campaign/trials/trials.h"
 #include "properties/judging/judged_run.h"
 #include "properties/numbering.h"
@@ -391,11 +392,15 @@ class Repetitions {
       const auto facts = truth_of(alone, truth[0], contract());
       row.judged.push_back(
           {s + 1, facts.starts_near ? 0 : facts.pairs.size(), judged.outcome == Outcome::holds});
+      row.extremes.pairs = std::max<std::uint64_t>(row.extremes.pairs, truth[0].pairs.size());
       if (!judged.failure) continue;
       auto failure = *judged.failure;
       if (*special_) failure.cause = special_;
       if (kept[failure.signature()]++ < most_kept) keep(c, s, run, failure);
     }
+    if (row.judged.empty()) return;
+    const auto until_last = first_places(row.judged.back().step);
+    row.extremes.include(extremes_of(with_steps(c, until_last, contract()), {}));
   }
 
   // Stores a step that breaks a claim: alone, or with the steps before it if the detector answers

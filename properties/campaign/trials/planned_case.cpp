@@ -11,6 +11,7 @@
 #include "detector/detector.h"
 #include "oracle/instant/layers.h"
 #include "oracle/mesh/loops.h"
+#include "properties/campaign/trials/extremes.h"
 #include "properties/generators/approaches.h"
 #include "properties/judging/contracted_case.h"
 #include "properties/judging/judged_run.h"
@@ -194,19 +195,6 @@ PlannedCase case_within(const Contract& contract, const Family& family, const st
 
 namespace {
 
-// Where the steps start that do not go on from a committed one.
-std::vector<const detector::Positions*> new_starts(const corpus::Case& c) {
-  std::vector<const detector::Positions*> starts;
-  const corpus::CaseStep* committed = nullptr;
-  const auto script = corpus::steps_of(c);
-  for (const auto& step : script) {
-    const auto& start = start_of(c, step);
-    if (committed == nullptr || start != end_of(c, *committed)) starts.push_back(&start);
-    if (step.commit) committed = &step;
-  }
-  return starts;
-}
-
 bool is_clean(const detector::Positions& all, const detector::Triangles& triangles,
               const detector::Triangles& ghosts) {
   const auto layers = oracle::layers_at(oracle::Instant(all), triangles, ghosts);
@@ -227,9 +215,11 @@ bool starts_clean_with_ghosts(const corpus::Case& c, detector::Arithmetic arithm
   for (std::size_t g = own; g < all.size(); ++g)
     ghosts.row(static_cast<Eigen::Index>(g - own)) << all[g][0], all[g][1], all[g][2];
   const auto starts = new_starts(c);
-  return std::all_of(starts.begin(), starts.end(), [&](const auto* start) {
-    const auto result = made.value().evaluate(*start, *start);
-    return is_clean(detector::with_apexes(*start, result.apexes, false), c.triangles, ghosts);
+  const auto script = corpus::steps_of(c);
+  return std::all_of(starts.begin(), starts.end(), [&](std::size_t s) {
+    const auto& start = start_of(c, script[s]);
+    const auto result = made.value().evaluate(start, start);
+    return is_clean(detector::with_apexes(start, result.apexes, false), c.triangles, ghosts);
   });
 }
 
@@ -239,8 +229,10 @@ bool starts_clean(const corpus::Case& c) {
   const detector::Triangles no_ghosts(0, 3);
   if (oracle::closes(c.triangles, no_ghosts)) {
     const auto starts = new_starts(c);
-    return std::all_of(starts.begin(), starts.end(),
-                       [&](const auto* start) { return is_clean(*start, c.triangles, no_ghosts); });
+    const auto script = corpus::steps_of(c);
+    return std::all_of(starts.begin(), starts.end(), [&](std::size_t s) {
+      return is_clean(start_of(c, script[s]), c.triangles, no_ghosts);
+    });
   }
   const auto run = in_a_copy([&](const Say& say) {
     using detector::Arithmetic;

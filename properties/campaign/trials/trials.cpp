@@ -11,6 +11,7 @@
 #include "properties/campaign/ledger/store_problem.h"
 #include "properties/campaign/ledger/tally.h"
 #include "properties/campaign/trials/case_tally.h"
+#include "properties/campaign/trials/extremes.h"
 #include "properties/campaign/trials/form_check.h"
 #include "properties/campaign/trials/planned_case.h"
 #include "properties/judging/case_check.h"
@@ -375,6 +376,9 @@ class Trials {
       record.collisions += step.pairs.empty() ? 0 : 1;
       record.pairs += step.pairs.size();
     }
+    if (!record.is_judged() || is_query_family(record.family)) return;
+    record.counts.extremes = extremes_of(trial.seen, trial.truth);
+    record.counts.measures.relation_trials = trial.seen.counted ? 1 : 0;
   }
 
   // Counts tags, set pairs and laws. The contract of the built-in detector leaves no case out.

@@ -41,6 +41,10 @@ function sizesOf(list: Findings["judged_up_to"]): string[] {
   return [...sizes].sort(([a], [b]) => b - a).map(([triangles, claims]) => `${triangles === 0 ? "none yet" : `up to ${count(triangles)} triangles`}: ${claims.join(", ")}`);
 }
 
+// How far the meshes went that were judged.
+const triedText = ({ largest: most, relations }: NonNullable<Findings["tried"]>): string =>
+  `${counted(most.steps_in_a_row, "step")} between two starts, ${counted(most.valence, "triangle")} at a vertex, ${counted(most.bodies, "body", "bodies")}, ${counted(most.components, "component")}, ${counted(most.pairs, "pair")} in a step, ${counted(most.triangles, "triangle")}; relations: ${counted(relations, "case")}`;
+
 // What nobody judged: claims, parts of the library, families.
 const notJudged = (f: Findings): string[] => [
   ...f.not_judged.map(({ claim, reason }) => `${claim}: ${reason}`),
@@ -60,6 +64,7 @@ export function judged(f: Findings): HTMLElement {
     ["Claims of its query", f.detector.query_claims.length === 0 || f.judged_up_to.length === 0 ? null : [f.detector.query_claims.join(", ")]],
     ["Not judged", notJudged(f)],
     ["Tried on meshes", sizesOf(f.judged_up_to)],
+    ["Largest tried", f.tried === null ? null : [triedText(f.tried)]],
     ["Contract", [contract.leaves_out.length === 0 ? "leaves nothing out" : contract.leaves_out.join(", ")]],
     ["Isolation", f.isolation === null ? null : [isolations[f.isolation] ?? f.isolation]],
     ["Larger meshes", f.repeated === null ? null : repeated(f.repeated)],
@@ -69,7 +74,7 @@ export function judged(f: Findings): HTMLElement {
   return section(
     "judged",
     "What was judged",
-    html("p", {}, "The verdict speaks of these claims, under this contract, and of no others. What is not judged holds for nobody. Of meshes larger than those that tried a claim it says nothing."),
+    html("p", {}, "The verdict speaks of these claims, under this contract, and of no others. What is not judged holds for nobody. Of meshes larger than those that tried a claim it says nothing, nor of what goes beyond the largest tried."),
     facts(rows),
     ...measures(f),
   );

@@ -50,10 +50,11 @@ describe("the page", () => {
 
   test("says which claims were judged, under which contract, and how the plug-in was kept apart", async () => {
     const terms = await at.page.locator("#judged dt").allTextContents();
-    assert.deepEqual(terms, ["Claims", "Tried on meshes", "Contract", "Isolation", "Campaign"]);
+    assert.deepEqual(terms, ["Claims", "Tried on meshes", "Largest tried", "Contract", "Isolation", "Campaign"]);
     const text = await at.page.locator("#judged").textContent();
     assert.match(text, /free-sound, not-late, /);
     assert.match(text, /Contract\s*leaves nothing out/);
+    assert.match(text, /[1-9]\d* steps? between two starts, [1-9]\d* triangles? at a vertex, .* \d+ pairs? in a step, .*; relations: 0 cases/);
     assert.match(text, /(full|partial): /);
     assert.match(text, /tiny, seed 2/);
   });

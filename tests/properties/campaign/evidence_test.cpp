@@ -56,8 +56,9 @@ TEST(Evidence, EveryKindSurvivesItsRow) {
   expect_same_row(inputs, *read_back(inputs).inputs);
   const StoredWaiver waiver{"s", "reason", "link", "2026-01-31", true};
   expect_same_row(waiver, read_back(waiver).waivers.at(0));
-  const CorpusRow corpus{"curated cases",           "bvh", 1, 2, 3, 4, 5, 6, {{"A1", "s", "w"}},
-                         {{"A2", "", "no verdict"}}};
+  const CorpusRow corpus{
+      "curated cases",   "bvh", 1, 2, 3, 4, 5, 6, {{"A1", "s", "w"}}, {{"A2", "", "no verdict"}},
+      {1, 2, 3, 4, 5, 6}};
   expect_same_row(corpus, read_back(corpus).corpus.at(0));
   const SelfTestRow row{"line-3", 10, 3, 0, 1, true};
   expect_same_row(row, read_back(row).self_test.at(0));

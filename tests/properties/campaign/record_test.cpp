@@ -16,6 +16,9 @@ TEST(Counts, AddUpByName) {
                               {{"V+/V-", {4, 2}}},
                               {{"L3", {6, 3, 1, {{"auto", 4}, {"bvh", 1}}}}},
                               {}}));
+  sum.extremes = {1, 20, 3, 40, 5, 60};
+  sum += {{}, {}, {}, {}, {10, 2, 30, 4, 50, 6}};
+  EXPECT_EQ(sum.extremes, (Extremes{10, 20, 30, 40, 50, 60}));
 }
 
 TEST(Records, SurviveTheirRows) {
@@ -23,6 +26,8 @@ TEST(Records, SurviveTheirRows) {
                     ~std::uint64_t{0},   1,        8};
   trial.counts = {{{"shape:x", 1}}, {{"V+/V-", {3, 1}}}, {{"L3", {5, 2, 0, {{"auto", 4}}}}}, {}};
   trial.counts.measures.redrawn = 3;
+  trial.counts.measures.relation_trials = 1;
+  trial.counts.extremes = {1, 2, 3, 4, 5, 6};
   trial.counts.measures.errors.steps = 4;
   trial.counts.measures.errors.late = {2, 0.0123, 7, {{0.013, 1}, {0.001, 1}}};
   const Row row = to_row(trial);

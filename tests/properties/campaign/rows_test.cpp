@@ -12,7 +12,7 @@
 namespace assay::properties {
 namespace {
 
-const std::string test_binding = R"({"schema": "assay-store/7", "shard": "1/1"})";
+const std::string test_binding = R"({"schema": "assay-store/8", "shard": "1/1"})";
 
 TEST(RowHash, TellsAllRowsApart) {
   const auto hash = [](const Row& row) { return row_hash(row); };

@@ -157,7 +157,7 @@ TEST_F(Stores, ThatAreNoneAreRefused) {
 TEST_F(Stores, OfAnotherSchemaAreTold) {
   { open(R"({"schema": "assay-store/2"})"); }
   expect_no_read(file, "is of schema \"assay-store/2\"");
-  expect_no_open(file, R"({"schema": "assay-store/7"})", "run it again");
+  expect_no_open(file, R"({"schema": "assay-store/8"})", "run it again");
 }
 
 // Up to assay-store/5 a store had other tables.
@@ -168,9 +168,9 @@ TEST_F(Stores, OfTheTablesOfBeforeAreToldInOneLine) {
           "KEY(key)) WITHOUT ROWID; INSERT INTO note VALUES('binding', '{\"schema\": "
           "\"assay-store/5\"}', '')");
   constexpr auto line =
-      ": is of schema \"assay-store/5\", this assay reads assay-store/7: run it again";
+      ": is of schema \"assay-store/5\", this assay reads assay-store/8: run it again";
   expect_no_read(file, line);
-  expect_no_open(file, R"({"schema": "assay-store/7"})", line);
+  expect_no_open(file, R"({"schema": "assay-store/8"})", line);
 }
 
 TEST_F(Stores, DamageIsSeen) {
@@ -190,7 +190,7 @@ TEST_F(Stores, DamageIsSeen) {
 // What other rooms ask of a store comes back as a value, even in the middle of its rows.
 TEST_F(Stores, DamageThatIsMetLateIsAValueToo) {
   {
-    Store store = open(R"({"schema": "assay-store/7"})");
+    Store store = open(R"({"schema": "assay-store/8"})");
     for (std::uint64_t i = 0; i < 400; ++i) {
       store.add(record(i), {failure(record(i).id, "s")}, {{"one", "s"}});
     }

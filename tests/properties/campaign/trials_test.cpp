@@ -6,6 +6,7 @@
 #include "properties/campaign/phases/fault_hunt.h"
 #include "properties/campaign/phases/shrink.h"
 #include "properties/campaign/trials/case_tally.h"
+#include "properties/campaign/trials/extremes.h"
 #include "properties/generators/families.h"
 #include "properties/judging/case_check.h"
 #include "properties/worker/worker_process.h"
@@ -99,14 +100,53 @@ TEST_F(Trials, AreMadeAgainByTheirId) {
       EXPECT_EQ(corpus::case_text(made.c), corpus::case_text(make_case(family, r.id).c));
       EXPECT_EQ(static_cast<std::uint64_t>(made.c.triangles.rows()), r.triangles);
       std::uint64_t pairs = 0;
-      for (const auto& step : judge_case(made.c)) pairs += step.pairs.size();
+      const auto truth = judge_case(made.c);
+      for (const auto& step : truth) pairs += step.pairs.size();
       EXPECT_EQ(pairs, r.pairs);
+      EXPECT_EQ(extremes_of(made.c, truth), r.counts.extremes);
       for (const auto& tag : made.tags) EXPECT_EQ(r.counts.tags.at(tag), 1u);
       ++compared;
     }
   });
   EXPECT_EQ(compared, 9u);
   EXPECT_EQ(trial_id(request.plan, 7, "broken", 12), "test:7:broken:12");
+}
+
+// The largest of each is that of some case, whichever it is.
+TEST_F(Trials, TellHowFarTheyWentAndWhetherPairsWereLeftOut) {
+  auto request = request_of(6);
+  request.plan.laws_every = 0;
+  request.plan.strata = {{"closed-generic", 6, 0}, {"counted", 6, 0}};
+  const auto tallied = [&](const std::string& name) {
+    Store store = open(name);
+    EXPECT_TRUE(run_trials(request, store, in_ten_minutes(), {}).complete);
+    Tally tally;
+    store.for_each_trial([&](const TrialRecord& r) { tally.add(r); });
+    EXPECT_EQ(tally.trials(), 12u);
+    return tally.counts;
+  };
+  const auto counts = tallied("built-in");
+  Extremes most;
+  std::uint64_t relations = 0;
+  for (const auto* family : {"closed-generic", "counted"}) {
+    for (std::uint64_t i = 0; i < 6; ++i) {
+      const auto id = trial_id(request.plan, request.seed, family, i);
+      const auto c = make_case(*find_family(family), id).c;
+      most.include(extremes_of(c, judge_case(c)));
+      relations += c.counted ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(counts.extremes, most);
+  EXPECT_EQ(counts.measures.relation_trials, relations);
+  EXPECT_EQ(relations, 6u);
+  EXPECT_GE(most.bodies, 2u);
+  EXPECT_GE(most.pairs, 1u);
+  // A detector that is told no relation is tried by none.
+  test::set_plugin(request, test::plugin("always_free"));
+  const auto without = tallied("plug-in");
+  EXPECT_EQ(without.measures.relation_trials, 0u);
+  EXPECT_EQ(without.extremes.bodies, 0u);
+  EXPECT_GT(without.extremes.triangles, 0u);
 }
 
 TEST_F(Trials, WithoutAWorkerNothingIsJudged) {

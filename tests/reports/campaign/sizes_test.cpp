@@ -36,6 +36,8 @@ TEST_F(Sizes, TheBuiltInHoldsAndTheSizeIsSaid) {
     EXPECT_GE(triangles, 900u) << claim;
     EXPECT_TRUE(contains(outcome.out, claim)) << claim;
   }
+  EXPECT_GE(largest_tried(findings()).triangles, 900u);
+  EXPECT_TRUE(contains(outcome.out, "\nlargest tried: ")) << outcome.out;
   // Shards, and the same trials made again, are as of every stratum.
   const auto whole = trials_of(out);
   std::vector<std::string> both;
@@ -99,6 +101,8 @@ TEST_F(Sizes, RefusalsBeyondTheCapacityAreCounted) {
   const auto f = findings();
   EXPECT_GT(f.tally.counts.measures.refused, 0u);
   for (const auto& [claim, triangles] : judged_sizes(f)) EXPECT_LT(triangles, 20u) << claim;
+  EXPECT_LT(largest_tried(f).triangles, 20u);
+  EXPECT_GT(largest_tried(f).triangles, 0u);
 
   EXPECT_EQ(with("refuse-pairs-from=9 capacity-contacts=8").exit_code, 0);
   const auto unstated = with("refuse-from=20");

@@ -112,6 +112,29 @@ TEST(Summary, NamesClaimsContractAndCampaign) {
   EXPECT_TRUE(contains(text, "; campaign tiny, seed 1")) << text;
 }
 
+// The largest of each, be it of a trial, of the corpus or of a mesh that was repeated.
+TEST(Summary, NamesTheLargestThatWasTried) {
+  auto findings = good_findings();
+  findings.tally.counts.extremes = {8, 1, 0, 5, 1, 200};
+  findings.tally.counts.measures.relation_trials = 1;
+  findings.evidence.corpus[0].extremes = {2, 14, 1, 2, 1, 12};
+  findings.evidence.repeated.emplace_back().extremes = {1, 2, 0, 1, 812, 99};
+  const auto predicate = judged(findings);
+  EXPECT_EQ(predicate["tried"].dump(),
+            R"({"largest":{"steps_in_a_row":8,"valence":14,"bodies":1,"components":5,"pairs":812,)"
+            R"("triangles":200},"relations":1})");
+  const auto text = summary_text(predicate);
+  EXPECT_TRUE(contains(text,
+                       "of up to 200 triangles; largest tried: 8 steps between two starts, 14 "
+                       "triangles at a vertex, 1 body, 5 components, 812 pairs in a step, 200 "
+                       "triangles; relations: 1 case; contract "))
+      << text;
+  // Queries have no size.
+  findings.run.plan.strata = {{"query-generic", 20, 0}};
+  EXPECT_TRUE(judged(findings)["tried"].is_null());
+  EXPECT_FALSE(contains(summary_text(judged(findings)), "largest tried"));
+}
+
 TEST(Summary, SaysWhoseProofOfPowerItIs) {
   auto findings = good_findings();
   EXPECT_FALSE(contains(summary_text(judged(findings)), "proof is taken"));

@@ -96,7 +96,7 @@ TEST_F(Certify, ACertificateVerifiesAndNoFieldOrFileCanBeChanged) {
       << made.out.substr(row, 80);
   const Json statement = read();
   EXPECT_EQ(statement["_type"], "https://in-toto.io/Statement/v1");
-  EXPECT_EQ(statement["predicateType"], "urn:assay:certificate:6");
+  EXPECT_EQ(statement["predicateType"], "urn:assay:certificate:7");
   EXPECT_EQ(statement["subject"][0]["digest"]["sha256"].get<std::string>().size(), 64u);
   const Json& p = statement["predicate"];
   EXPECT_EQ(p["verdict"], "certified");
@@ -279,7 +279,7 @@ TEST_F(Certify, ACertificateOfAnOlderSchemaIsRefusedByName) {
   EXPECT_EQ(refused.exit_code, 1);
   EXPECT_TRUE(says(refused.out,
                    "of schema assay-certificate/1, this assay verifies "
-                   "assay-certificate/6: verify it with the assay that issued it"));
+                   "assay-certificate/7: verify it with the assay that issued it"));
 }
 
 TEST_F(Certify, BadInputIsOneLine) {
