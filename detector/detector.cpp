@@ -8,6 +8,7 @@
 #include "detector/boxes/shortened_step.h"
 #include "detector/mesh/mesh_checks.h"
 #include "detector/mesh/paced_stop.h"
+#include "detector/parallel/processor_state.h"
 #include "detector/parallel/workers.h"
 #include "detector/state/state_bytes.h"
 #include "detector/step/step.h"
@@ -84,12 +85,14 @@ Detector::~Detector() = default;
 
 Expected<Detector> Detector::create(const TrianglesView& triangles, const PositionsView& positions,
                                     const Options& options) {
-  return assemble(triangles, positions, options, standard_stages(options));
+  return create(triangles, positions, options, never_stops);
 }
 
 Expected<Detector> Detector::create(const TrianglesView& triangles, const PositionsView& positions,
                                     const Options& options, const StopFunction& stop) {
-  return assemble(triangles, positions, options, standard_stages(options), stop);
+  const ProcessorState state;
+  return assemble(triangles, positions, options, standard_stages(options),
+                  state.in_callers_state(stop));
 }
 
 Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView& positions,
@@ -100,8 +103,10 @@ Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView&
 Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView& positions,
                             const Options& options, Stages stages, const StopFunction& stop,
                             Workers workers) {
+  const ProcessorState state;
   if (auto problem = check_separation(options)) return std::move(*problem);
-  SharedStop shared(stop);
+  const StopFunction callers = state.in_callers_state(stop);
+  SharedStop shared(callers);
   const StopFunction asked = shared.function();
   PacedStop pace(asked, workers);
   if (auto problem = check_triangles(triangles, positions.rows(), pace)) return std::move(*problem);
@@ -141,13 +146,16 @@ Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView&
 
 StepResult Detector::evaluate(const PositionsView& x_t0, const PositionsView& x_t1,
                               std::span<const ViewPrimitive> primitives, const StopFunction& stop) {
-  return parts_->answer({x_t0, x_t1}, {parts_->context.options.pairs}, primitives, stop);
+  const ProcessorState state;
+  return parts_->answer({x_t0, x_t1}, {parts_->context.options.pairs}, primitives,
+                        state.in_callers_state(stop));
 }
 
 StepResult Detector::first_contact(const PositionsView& x_t0, const PositionsView& x_t1,
                                    double until, const StopFunction& stop) {
+  const ProcessorState state;
   if (until >= 0 && until <= 1)
-    return parts_->answer({x_t0, x_t1}, {Pairs::first, until}, {}, stop);
+    return parts_->answer({x_t0, x_t1}, {Pairs::first, until}, {}, state.in_callers_state(stop));
   parts_->evaluated.reset();
   StepResult refused;
   refused.problem = {InputError::wrong_bound, "the bound is not a time from 0 to 1"};
@@ -171,7 +179,9 @@ StepResult Detector::step(const PositionsView& x_t0, const PositionsView& x_t1,
 }
 
 StepLimit Detector::limit(const PositionsView& x_t0, const PositionsView& x_t1,
-                          const StopFunction& stop) {
+                          const StopFunction& asked) {
+  const ProcessorState state;
+  const StopFunction stop = state.in_callers_state(asked);
   StepLimit limit;
   limit.positions = x_t0;
   const Arithmetic arithmetic = parts_->context.options.arithmetic;
@@ -218,6 +228,7 @@ void Detector::reset() {
 }
 
 SavedState Detector::state() const {
+  const ProcessorState processor;
   StepContext& context = parts_->context;
   PacedStop pace(never_stops, context.workers);
   make_first_views(context, pace);
@@ -226,6 +237,7 @@ SavedState Detector::state() const {
 }
 
 std::optional<Problem> Detector::restore(const SavedState& saved) {
+  const ProcessorState processor;
   const StateFields& state = saved.fields();
   StepContext& context = parts_->context;
   if (state.mesh != digest_of(context)) {

@@ -24,6 +24,7 @@ constexpr std::string_view before_length("\xD8\x18\x5B", 3);
 constexpr char before_checksum = '\x1A';
 constexpr std::size_t head_bytes = 17, length_bytes = 8, tail_bytes = 5;
 constexpr std::size_t piece_bytes = std::size_t{1} << 20;
+constexpr const char* no_record = "no record";
 
 template <class Number>
 Number big_endian(const char* bytes) {
@@ -161,30 +162,45 @@ std::optional<StepLog::Record> StepLog::record_at(std::uint64_t offset) {
       head.compare(mark_of_log.size(), before_length.size(), before_length) != 0)
     return std::nullopt;
   const auto length = big_endian<std::uint64_t>(head.data() + head_bytes - length_bytes);
-  const auto left = size_ - offset - head_bytes;
+  auto body = body_at(offset + head_bytes, length);
+  if (!body) return std::nullopt;
+  return Record{std::move(*body), offset + head_bytes + length + tail_bytes};
+}
+
+// The body of this length, if its checksum stands behind it.
+std::optional<std::string> StepLog::body_at(std::uint64_t offset, std::uint64_t length) {
+  const auto left = size_ - offset;
   if (left < tail_bytes || length > left - tail_bytes) return std::nullopt;
-  Record record;
   // Most places in damaged bytes end here, and little was read.
   std::string tail;
-  if (!read(offset + head_bytes + length, tail_bytes, tail) || tail[0] != before_checksum)
-    return std::nullopt;
+  if (!read(offset + length, tail_bytes, tail) || tail[0] != before_checksum) return std::nullopt;
   // A length that is wrong may be any, so the body is summed before it is kept as a whole.
   uLong sum = 0;
   std::string piece;
   for (std::uint64_t done = 0; done < length; done += piece.size()) {
     const auto count = std::min<std::uint64_t>(length - done, piece_bytes);
-    if (!read(offset + head_bytes + done, count, piece)) return std::nullopt;
+    if (!read(offset + done, count, piece)) return std::nullopt;
     sum = ::crc32_z(sum, reinterpret_cast<const Bytef*>(piece.data()), piece.size());
   }
   summed_ += length;
   if (sum != big_endian<std::uint32_t>(tail.data() + 1)) return std::nullopt;
-  if (length <= piece_bytes) {
-    record.body = std::move(piece);
-  } else if (!read(offset + head_bytes, length, record.body)) {
-    return std::nullopt;
-  }
-  record.end = offset + head_bytes + length + tail_bytes;
-  return record;
+  if (length > piece_bytes && !read(offset, length, piece)) return std::nullopt;
+  return piece;
+}
+
+// Whether all that is left is the beginning of one record. If a whole body and its checksum are
+// there, the length alone is wrong.
+bool StepLog::begins_record(std::uint64_t offset) {
+  const auto left = size_ - offset;
+  std::string head;
+  if (!read(offset, std::min<std::uint64_t>(left, head_bytes), head)) return false;
+  const auto form = std::string(mark_of_log).append(before_length);
+  if (!form.starts_with(std::string_view(head).substr(0, form.size()))) return false;
+  if (left < head_bytes) return true;
+  const auto body = left - head_bytes;
+  const auto length = big_endian<std::uint64_t>(head.data() + form.size());
+  if (length <= body && body - length >= tail_bytes) return false;
+  return body < tail_bytes || !body_at(offset + head_bytes, body - tail_bytes);
 }
 
 // Where the next whole record begins, behind this place.
@@ -303,14 +319,22 @@ Expected<void> StepLog::go_on() {
       scanned_ = size_;
     }
     if (!next) break;
-    damages_.push_back({scanned_, *next, "no record"});
+    damages_.push_back({scanned_, *next, no_record});
     scanned_ = *next;
   }
+  rest_is_cut_record_ = begins_record(scanned_);
   return boost::outcome_v2::success();
 }
 
-LogDamage StepLog::rest() const {
-  return {scanned_, size_, scanned_ < size_ ? "no whole record" : ""};
+std::vector<LogDamage> StepLog::damages() const {
+  auto damages = damages_;
+  if (scanned_ < size_ && !rest_is_cut_record_) damages.push_back({scanned_, size_, no_record});
+  return damages;
+}
+
+std::optional<LogDamage> StepLog::cut_record() const {
+  if (scanned_ == size_ || !rest_is_cut_record_) return std::nullopt;
+  return LogDamage{scanned_, size_, "the beginning of a record"};
 }
 
 // What a whole record holds may still be anything.

@@ -77,10 +77,9 @@ class StepLog {
   // Step i < count(). Its cost is that of one step, if steps are asked for in order.
   Expected<LogStep> step(std::size_t i);
 
-  const std::vector<LogDamage>& damages() const { return damages_; }
-  // What stands behind the last whole record: a record that was cut, or is being written. Its
-  // `what` is empty if there is nothing.
-  LogDamage rest() const;
+  std::vector<LogDamage> damages() const;
+  // The beginning of a record that stands at the end of the file: it was cut, or is being written.
+  std::optional<LogDamage> cut_record() const;
   // The recorder was told to end.
   bool is_ended() const { return is_ended_; }
   // What the caller noted before each step.
@@ -100,6 +99,8 @@ class StepLog {
 
   explicit StepLog(std::filesystem::path path) : path_(std::move(path)) {}
   std::optional<Record> record_at(std::uint64_t offset);
+  std::optional<std::string> body_at(std::uint64_t offset, std::uint64_t length);
+  bool begins_record(std::uint64_t offset);
   std::optional<std::uint64_t> next_record(std::uint64_t offset);
   std::uint64_t most_summed() const;
   bool read(std::uint64_t offset, std::size_t count, std::string& bytes);
@@ -114,7 +115,7 @@ class StepLog {
   OpenFile file_;
   std::uint64_t size_ = 0, scanned_ = 0, next_record_ = 0;
   std::uint64_t summed_ = 0;  // bytes of bodies, so far
-  bool is_ended_ = false;
+  bool is_ended_ = false, rest_is_cut_record_ = false;
   LogHead head_{};
   std::vector<Place> steps_;
   std::vector<LogDamage> damages_;

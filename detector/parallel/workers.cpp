@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "detector/parallel/processor_state.h"
+
 namespace assay::detector {
 namespace {
 
@@ -42,6 +44,7 @@ class Pieces : public ThreadArena::Work {
   void run(std::size_t i, std::size_t lane) const override {
     begins_piece();
     const AtEnd end(ends_piece);
+    const ProcessorState state;
     body_({i * most_, std::min((i + 1) * most_, count_), lane});
   }
 

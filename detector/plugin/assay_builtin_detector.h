@@ -16,7 +16,10 @@
  * A call that does not return ASSAY_OK has changed nothing, with one exception: after a failed
  * evaluate there is nothing to commit. `error` may be NULL. If it is not, the function fills it
  * in; with ASSAY_OK it then holds ASSAY_BUILTIN_NO_ERROR and an empty message. Handles and arrays
- * must not be NULL unless a function says that they may be. */
+ * must not be NULL unless a function says that they may be.
+ *
+ * THE PROCESSOR. Answers are the same in whatever state the caller has it: if it flushes denormals,
+ * rounds otherwise than to nearest, or traps. That state is put back. stop() runs in it. */
 #ifndef ASSAY_BUILTIN_DETECTOR_H
 #define ASSAY_BUILTIN_DETECTOR_H
 
@@ -91,7 +94,7 @@ enum {
 };
 enum {
   ASSAY_PAIRS_ALL = 0,  /* the complete pair set of the step */
-  ASSAY_PAIRS_FIRST = 1 /* the first contact time, and some pairs, perhaps not all */
+  ASSAY_PAIRS_FIRST = 1 /* the first contact time, and some pairs that meet by its upper end */
 };
 enum {
   ASSAY_ARITHMETIC_EXACT = 0,   /* never wrong */
@@ -137,8 +140,8 @@ int32_t assay_builtin_evaluate(assay_handle* handle, const double* x_t0, const d
                                int32_t (*stop)(void* stop_data), void* stop_data,
                                assay_builtin_error* error);
 
-/* Whether there is a contact by the time `until`, from 0 to 1, and which is first; pairs are those at
- * the first time, whatever the options say. ASSAY_FREE says that there is none in [0, until]. A
+/* Whether there is a contact by the time `until`, from 0 to 1, and which is first; pairs are those of
+ * ASSAY_PAIRS_FIRST, whatever the options say. ASSAY_FREE says that there is none in [0, until]. A
  * contact at `until` is one. Nothing later is looked at, so a caller that knows a contact at some
  * time gives that time. The table's result then tells the answer. Only after until = 1 is there
  * something to commit. stop may be NULL. */
@@ -181,8 +184,9 @@ void assay_builtin_reset(assay_handle* handle);
 int32_t assay_builtin_save(const assay_handle* handle, void* buffer, uint64_t capacity,
                            uint64_t* size, assay_builtin_error* error);
 
-/* Goes on from a saved state. Later answers, times and pairs are those that the saved handle would
- * give, in every bit; so are the view sets if both handles were created from the same positions. A
+/* Goes on from a saved state. Later results are those that the saved handle would give, in every
+ * bit, if both handles were created with the same options from the same positions. From other
+ * positions the view sets may differ, and, unless arithmetic is exact, what is a false alarm. A
  * step that was evaluated and not committed is dropped. REQUIRES, else the call is refused: the
  * handle is of the same mesh and culling. Damaged bytes are noticed, but forged ones are not. */
 int32_t assay_builtin_restore(assay_handle* handle, const void* bytes, uint64_t size,

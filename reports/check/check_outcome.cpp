@@ -69,10 +69,12 @@ std::string CheckOutcome::summary() const {
                                           : !ended.empty() ? ended
                                                            : "detector and oracle differ");
   } else if (undecided) {
-    text += fmt::format("; undecided: {}\n", !ended.empty()           ? ended
-                                             : !limit_reached.empty() ? limit_reached + " reached"
-                                             : !lost.empty() ? "a part of the input is lost"
-                                                             : "a step is undecided");
+    text +=
+        fmt::format("; undecided: {}\n", !ended.empty()           ? ended
+                                         : !limit_reached.empty() ? limit_reached + " reached"
+                                         : !lost.empty()          ? "a part of the input is lost"
+                                         : is_judged && judged_steps == 0 ? "no step was judged"
+                                                                          : "a step is undecided");
   } else if (!is_judged) {
     text += "; not judged\n";
   } else if (!judged_by_claims) {

@@ -69,7 +69,9 @@ class CheckRun {
     }
     outcome_.limit_reached = limits_.reached();
     outcome_.lost = steps_.lost();
-    outcome_.undecided |= !outcome_.lost.empty();
+    const bool lacks_steps =
+        answers_.is_recorded() && outcome_.is_judged && outcome_.judged_steps == 0;
+    outcome_.undecided |= !outcome_.lost.empty() || lacks_steps;
     constexpr std::size_t most_told = 20;
     for (std::size_t i = 0; i < std::min(outcome_.lost.size(), most_told); ++i)
       say(fmt::format("lost: {}\n", outcome_.lost[i]));

@@ -74,12 +74,11 @@ class RecordedSteps : public corpus::StepSource {
     if (unanswered_ > 0)
       lines.push_back(
           fmt::format("{} step{} without an answer", unanswered_, unanswered_ == 1 ? "" : "s"));
-    const auto rest = log_.rest();
-    if (!rest.what.empty()) {
+    if (const auto cut = log_.cut_record()) {
       lines.push_back(
           fmt::format("bytes {} to {}, the last of the log, are {}: it was cut, or is "
                       "being written",
-                      rest.from, rest.to, rest.what));
+                      cut->from, cut->to, cut->what));
     } else if (!log_.is_ended()) {
       lines.emplace_back("the recorder was not told to end the log");
     }

@@ -1,5 +1,7 @@
 #include "reports/python/arrays.h"
 
+#include "detector/parallel/processor_state.h"
+
 namespace assay::python {
 
 namespace py = pybind11;
@@ -29,6 +31,7 @@ bool is_viewable(const py::array& array) {
 // Calls a function of assay/arrays.py.
 template <class... Arguments>
 py::array converted(const char* function, const Arguments&... arguments) {
+  const detector::ProcessorState state;  // in which a denormal float32 becomes the same double
   return py::module_::import("assay.arrays")
       .attr(function)(arguments...)
       .template cast<py::array>();

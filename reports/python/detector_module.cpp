@@ -7,6 +7,7 @@
 
 #include "detector/contact/elementary.h"
 #include "detector/detector.h"
+#include "detector/parallel/processor_state.h"
 #include "properties/judging/case_options.h"
 #include "reports/python/arrays.h"
 #include "reports/python/calls.h"
@@ -198,8 +199,10 @@ py::tuple answers(const py::object& x_t0, const py::object& x_t1, int first_grou
   py::array_t<double> lo(count), hi(count);
   bool* hits = hit.mutable_data();
   double *los = lo.mutable_data(), *his = hi.mutable_data();
-  interruptible(
-      [&](const auto& stop) { return answer(from, to, first_group, hits, los, his, stop); });
+  interruptible([&](const auto& stop) {
+    const detector::ProcessorState state;
+    return answer(from, to, first_group, hits, los, his, state.in_callers_state(stop));
+  });
   return py::make_tuple(hit, lo, hi);
 }
 

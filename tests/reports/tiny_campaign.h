@@ -11,10 +11,18 @@ inline std::string plugin(const std::string& name) {
   return std::string(ASSAY_PLUGIN_DIR) + "/plugin_" + name + ".so";
 }
 
+// How what is told to readers of other machines names the folder of the plug-ins: as it goes from
+// the run's folder, or not at all where it goes through the root.
+inline std::string told_plugins(const std::string& out) {
+  const std::filesystem::path folder = ASSAY_PLUGIN_DIR, from = out;
+  const bool shares_a_folder = *std::next(folder.begin()) == *std::next(from.begin());
+  return shares_a_folder ? folder.lexically_relative(from).string() + "/" : "";
+}
+
 // A few dozen cases, nothing planted. `more`: further fields, each behind a comma.
 inline std::string plan_text(int cases, const std::string& more = "") {
   const std::string n = std::to_string(cases), half = std::to_string(cases / 2);
-  return R"({"schema": "assay-campaign/1", "name": "tiny", "seconds": 60, "strata": [)"
+  return R"({"schema": "assay-campaign/1", "name": "tiny", "seconds": null, "strata": [)"
          R"({"family": "closed-generic", "cases": )" +
          n + R"(}, {"family": "unclosed-generic", "cases": )" + half +
          R"(}, {"family": "broken", "cases": )" + half + "}]" + more + "}";

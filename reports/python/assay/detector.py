@@ -93,7 +93,7 @@ class Detector:
     def first_contact(self, x_t0: ArrayLike, x_t1: ArrayLike, until: float = 1.0) -> StepResult:
         """Whether there is a contact in [0, until], and which is first; the state stays as it is.
 
-        Pairs are those at the first time, whatever `pairs` says. "free" says that there is no contact up
+        Pairs are those of pairs="first", whatever `pairs` says. "free" says that there is no contact up
         to `until`; one at `until` counts. Nothing later is looked at, so a search that knows a contact
         gives its time. Only after until = 1 is there something to commit. InputError: no time from 0
         to 1.

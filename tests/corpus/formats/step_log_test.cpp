@@ -88,15 +88,22 @@ class StepLogs : public Scratch {
       }
     }
     const bool is_all = numbers.size() == steps_written && log.is_ended();
-    EXPECT_TRUE(is_all || !log.damages().empty() || !log.rest().what.empty() || !log.is_ended());
+    EXPECT_TRUE(is_all || !log.damages().empty() || log.cut_record() || !log.is_ended());
   }
 
-  // Behind the record of each step: the marks of records, but for those of begin, note and end.
-  std::vector<std::size_t> ends_of_steps() const {
-    std::vector<std::size_t> begins, ends;
+  // Where records begin, and where the last one ends.
+  std::vector<std::size_t> marks() const {
+    std::vector<std::size_t> begins;
     for (auto at = good_.find("ASR1"); at != std::string::npos; at = good_.find("ASR1", at + 1))
       begins.push_back(at - 2);
     begins.push_back(good_.size());
+    return begins;
+  }
+
+  // Behind the record of each step, which is neither begin, note nor end.
+  std::vector<std::size_t> ends_of_steps() const {
+    const auto begins = marks();
+    std::vector<std::size_t> ends;
     for (std::size_t r = 1; r + 1 < begins.size(); ++r) {
       const auto record = std::string_view(good_).substr(begins[r], begins[r + 1] - begins[r]);
       if (record.find("answer") != std::string_view::npos) ends.push_back(begins[r + 1]);
@@ -136,6 +143,66 @@ TEST_F(StepLogs, CutAnywhereTheyLoseWhatWasCut) {
   const auto ends = ends_of_steps();
   ASSERT_EQ(ends.size(), std::size_t{steps_written});
   for (std::size_t cut = 0; cut <= good_.size(); cut += 13) check_steps(good_.substr(0, cut), ends);
+}
+
+// A crash leaves the beginning of a record and nothing else, so whatever else ends a log is damage.
+TEST_F(StepLogs, EveryCutIsToldFromDamage) {
+  const auto path = write_log();
+  good_ = bytes_of(path);
+  const auto begins = marks();
+  const std::set<std::size_t> whole(begins.begin(), begins.end());
+  for (auto cut = good_.size(); cut >= begins[1]; --cut) {
+    if (cut == begins[begins.size() - 3]) cut = begins[3];  // the records between are alike
+    std::filesystem::resize_file(path, cut);
+    const auto log = StepLog::open(path);
+    ASSERT_TRUE(log) << cut;
+    ASSERT_TRUE(log.value().damages().empty()) << cut;
+    ASSERT_EQ(log.value().cut_record().has_value(), !whole.contains(cut)) << cut;
+  }
+}
+
+TEST_F(StepLogs, ARearThatBeginsNoRecordIsDamage) {
+  good_ = bytes_of(write_log());
+  const auto begins = marks();
+  const auto last = begins[begins.size() - 2], size = good_.size() - last;
+  const auto damaged = [&](const std::string& bytes) {
+    const auto log = StepLog::open(write("rear.log", bytes));
+    EXPECT_FALSE(log.value().cut_record());
+    return log.value().damages();
+  };
+  const auto first = good_.substr(0, begins[1]), most = good_.substr(0, last);
+  const std::string head("\x83\x44\x41\x53\x52\x31\xD8\x18\x5B\0\0\0\0\0\0\0", 16);
+  for (const auto& rear : {std::string(1, '\0'), std::string(5'000'000, '\0'),
+                           std::string("\x83\x44\x41\x53", 4) + "x",
+                           head + std::string("\x09"
+                                              "0123456789abcdef"),
+                           head + std::string("\0\x1A"
+                                              "123456",
+                                              8)}) {
+    for (const auto& before : {first, most, good_}) {
+      const auto damages = damaged(before + rear);
+      ASSERT_EQ(damages.size(), 1u);
+      EXPECT_EQ(damages[0].from, before.size());
+      EXPECT_EQ(damages[0].to, before.size() + rear.size());
+    }
+  }
+  std::mt19937 random(3);
+  for (int n = 0; n < 100; ++n) {
+    std::string rear(1 + random() % 99, '\0');
+    for (auto& byte : rear) byte = static_cast<char>(random());
+    if (!rear.starts_with('\x83')) damaged(most + rear);
+  }
+  // In the last record, any byte of its head, those of a length that is now too large included.
+  for (std::size_t at = 0; at < 17; ++at) {
+    for (int bit = 0; bit < 8; ++bit) {
+      auto bad = good_;
+      bad[last + at] = static_cast<char>(bad[last + at] ^ (1 << bit));
+      EXPECT_EQ(damaged(bad).size(), 1u) << at << " " << bit;
+    }
+  }
+  auto overwritten = good_;
+  overwritten.replace(last, size, std::string(size, '\0'));
+  EXPECT_EQ(damaged(overwritten).size(), 1u);
 }
 
 TEST_F(StepLogs, WithAnyByteChangedTheyLoseOneRecord) {

@@ -78,11 +78,7 @@ std::uint64_t stored_trials(const std::string& out) {
 }
 
 // A family of so many cases and two of half as many; without laws, for a plug-in has none.
-std::string long_plan(int cases) {
-  auto text = plan_text(cases, R"(, "laws_every": 0)");
-  const std::string limit = R"("seconds": 60)";
-  return text.replace(text.find(limit), limit.size(), R"("seconds": null)");
-}
+std::string long_plan(int cases) { return plan_text(cases, R"(, "laws_every": 0)"); }
 
 // ASSAY_KILLS says how many workers are killed: the test run_disturbed_often asks for 30, the long
 // form is 300. The campaign grows with it, because more than 1 % of disturbed trials would rightly

@@ -1,7 +1,10 @@
 """assay.Detector and the two elementary queries."""
 
+import contextlib
+import ctypes
 import os
 import pickle
+import platform
 import signal
 import subprocess
 import sys
@@ -314,3 +317,52 @@ def test_queries_answer_exactly():
 def test_no_queries_have_no_answers():
     contacts = assay.vertex_face(np.zeros((0, 4, 3)), np.zeros((0, 4, 3)))
     assert contacts.hit.shape == contacts.lo.shape == contacts.hi.shape == (0,)
+
+
+@contextlib.contextmanager
+def processor_state(bits):
+    """Sets these bits of MXCSR, the last word of glibc's fenv_t, and yields what reads them."""
+    library, words = ctypes.CDLL("libm.so.6"), (ctypes.c_uint32 * 8)()
+
+    def state():
+        library.fegetenv(words)
+        return words[7] & bits
+
+    state()
+    words[7] |= bits
+    library.fesetenv(words)
+    try:
+        yield state
+    finally:
+        library.fegetenv(words)
+        words[7] &= ~bits
+        library.fesetenv(words)
+
+
+@pytest.mark.skipif(platform.machine() != "x86_64", reason="MXCSR is of x86")
+@pytest.mark.parametrize("bits", [0x8040, 0x4000, 0x2000, 0x6000], ids=["flush", "up", "down", "zero"])
+def test_the_state_of_the_processor_changes_no_answer(bits):
+    triangles = np.array([[0, 1, 2], [3, 4, 5]], np.int32)
+    flat = np.array([[0, 0, 0], [4, 0, 0], [0, 4, 0]], float)
+    above, below = (np.vstack([flat, flat + [0.3, 0.1, z]]) for z in (0.7, -0.4))
+    met = np.vstack([flat, flat]) * 5e-324
+    near = np.vstack([flat, flat + [0, 0, 1e-45]]).astype(np.float32)
+    query = [[[1, 1, 64 * 5e-324], *flat]], [[[1, 1, -64 * 5e-324], *flat]]
+
+    def answers():
+        told = []
+        for x_t0, x_t1 in ((above, below), (met, met), (near, near)):
+            detector = assay.Detector(triangles, x_t0, arithmetic="bounded", threads=2)
+            result, limit = detector.evaluate(x_t0, x_t1), detector.limit(x_t0, x_t1)
+            told += [result.answer, result.first, result.pairs.tolist(), limit.share]
+            told += [limit.positions.tobytes(), bytes(detector.state())]
+        hits = assay.vertex_face(*query)
+        return [*told, hits.hit.tolist(), hits.lo.tobytes(), hits.hi.tobytes()]
+
+    usual = answers()
+    assert usual[0::6][:3] == ["collision", "collision", "free"]
+    assert usual[-3] == [True]
+    with processor_state(bits) as state:
+        odd, kept = answers(), state()
+    assert odd == usual
+    assert kept == bits

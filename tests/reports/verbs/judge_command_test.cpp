@@ -271,6 +271,35 @@ TEST_F(JudgeCommand, WhatIsLostIsSaid) {
   EXPECT_EQ(run_assay("judge " + scratch_.write("none.log", "no log")).exit_code, 2);
 }
 
+// The miss is in the part that is gone.
+TEST_F(JudgeCommand, ALogWhoseRearIsDestroyedIsUndecided) {
+  const auto good = read_text(record(with_a_miss()));
+  const auto half = good.size() / 3;
+  for (const auto size : {good.size() - half, std::size_t{5'000'000}}) {
+    const auto judged = run_assay(
+        "judge " + scratch_.write("rear.log", good.substr(0, half) + std::string(size, '\0')));
+    EXPECT_EQ(judged.exit_code, 3) << judged.out;
+    EXPECT_TRUE(says(judged.out, fmt::format("to {}: no record", half + size)));
+    EXPECT_TRUE(says(judged.out, "undecided: a part of the input is lost"));
+  }
+}
+
+// Nothing is no success.
+TEST_F(JudgeCommand, WhatLeavesNoStepToBeJudgedIsUndecided) {
+  const auto none = scratch_ / "none.log";
+  std::filesystem::rename(record({}), none);
+  const auto log = record(answers_);
+  for (const auto& words :
+       {none, log + " --from 99", log + " --share 1e-9", log + " --shard 99/99"}) {
+    const auto junit = scratch_ / "none.xml";
+    const auto judged = run_assay("judge " + words + " --junit " + junit);
+    EXPECT_EQ(judged.exit_code, 3) << words << judged.out << judged.err;
+    EXPECT_TRUE(says(judged.out, "undecided: no step was judged")) << judged.out;
+    EXPECT_TRUE(says(read_text(junit), "name=\"total\"><skipped"));
+  }
+  EXPECT_EQ(run_assay("judge " + log + " --from 7").exit_code, 0);
+}
+
 // Where a step goes is not known; that is no fault of the detector, and no proof for it.
 TEST_F(JudgeCommand, AStepThatIsNoneIsUndecided) {
   const auto path = scratch_ / "nan.log";
