@@ -1,6 +1,8 @@
 #include "detector/detector.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <limits>
 #include <string>
 
@@ -49,6 +51,48 @@ Positions partial_step(const PositionsView& x_t0, const PositionsView& x_t1, dou
   }
   return x;
 }
+
+// Chooses the places that limit() tries, as parts of the time until the contact. Where the way
+// passes something closely, rounding decides of each place whether it is free: often of all places
+// beyond one, sometimes of each by chance. So places are tried ever farther below the first, down
+// to one that is free; then between that and the ones above it.
+class PartsToTry {
+ public:
+  static constexpr double farthest = 0.95, enough = 0.98 * farthest;
+
+  bool is_over() const { return free_ >= enough || tried_ == most_; }
+  double next() {
+    // Golden sections fall evenly wherever they end.
+    constexpr double golden = 0.6180339887498949;
+    if (free_ == 0 && tried_ < std::size(downward_)) {
+      part_ = downward_[tried_];
+    } else if (free_ < near_ * blocked_) {
+      part_ = (free_ + blocked_) / 2;
+    } else {
+      spread_ = std::fmod(spread_ + golden, 1);
+      part_ = free_ + (farthest - free_) * spread_;
+    }
+    ++tried_;
+    return part_;
+  }
+  // Whether the place that was tried last is free.
+  void note(bool is_free) {
+    if (is_free) {
+      free_ = part_;
+    } else {
+      blocked_ = std::min(blocked_, part_);
+    }
+  }
+
+ private:
+  static constexpr double near_ = 0.98;
+  static constexpr double downward_[] = {farthest, 0.946, 0.941, 0.936, enough, 0.92, 0.91, 0.88,
+                                         0.85,     0.8,   0.7,   0.6,   0.4,    0.2,  0.05};
+  static constexpr std::size_t most_ = 19;
+
+  double part_ = 0, free_ = 0, blocked_ = 1, spread_ = 0;
+  std::size_t tried_ = 0;
+};
 
 }  // namespace
 
@@ -201,25 +245,35 @@ StepLimit Detector::limit(const PositionsView& x_t0, const PositionsView& x_t1,
     limit.positions = x_t1;
   }
   if (whole.answer != Answer::collision) return limit;
-  // Rounding moves each place off the way, so a nearer one may be in contact where a farther one is
-  // not. Where the way passes something closely, each place is free by chance: about 50 are tried
-  // above 0.9 of the time, then ever nearer ones.
-  for (double part = 0.95;; part = part > 0.902 ? part - 0.001 : part / 2) {
-    parts_->evaluated.reset();
-    const double share = part * whole.first.lo;
-    const Positions x = partial_step(x_t0, x_t1, share);
-    if (x == x_t0) return limit;
-    if (!(share < whole.first.lo)) continue;  // among the least of all doubles
-    const Answer answer = first_contact(x_t0, x, 1, stop).answer;
-    if (answer == Answer::collision) continue;
-    if (answer == Answer::free) {
-      limit.share = share;
-      limit.positions = x;
-    } else {
-      limit.answer = answer;  // stopped
+  parts_->evaluated.reset();
+  PartsToTry parts;
+  std::optional<StepState> reached;
+  while (whole.first.hi > 0 && !parts.is_over()) {
+    const double share = parts.next() * whole.first.lo;
+    Positions x = partial_step(x_t0, x_t1, share);
+    bool is_free = x == x_t0;
+    // Among the least of all doubles a part of the time may be rounded up to it.
+    if (!is_free && share < whole.first.lo) {
+      const Answer answer = first_contact(x_t0, x, 1, stop).answer;
+      is_free = answer == Answer::free;
+      if (!is_free && answer != Answer::collision) {
+        limit.answer = answer;  // stopped
+        limit.share = 0;
+        limit.positions = x_t0;
+        return limit;
+      }
+      if (is_free) {
+        limit.share = share;
+        limit.positions = std::move(x);
+        reached = std::move(parts_->evaluated);
+      }
     }
-    return limit;
+    parts.note(is_free);
   }
+  limit.is_short =
+      whole.first.hi > 0 && (limit.share == 0 || limit.share < PartsToTry::enough * whole.first.lo);
+  parts_->evaluated = std::move(reached);
+  return limit;
 }
 
 void Detector::reset() {

@@ -85,6 +85,10 @@ struct StepLimit {
   // with its rounding. The straight way from x_t0 to here is free. Equal to x_t0 with share 0.
   Positions positions;
   TimeEnclosure first;  // the first contact time of the whole step, when answer is collision
+  // Whether less than 0.93 of that time is taken although the mesh starts without a contact:
+  // rounding brought each place beyond that was tried into contact. A free one may lie between
+  // them.
+  bool is_short = false;
 };
 
 }  // namespace assay::detector

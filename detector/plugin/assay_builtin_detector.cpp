@@ -155,6 +155,10 @@ std::int32_t assay_builtin_limit(assay_handle* handle, const double* x_t0, const
   });
 }
 
+std::int32_t assay_builtin_limit_is_short(const assay_handle* handle) {
+  return handle->limit.is_short ? 1 : 0;
+}
+
 std::int32_t assay_builtin_commit(assay_handle* handle, assay_builtin_error* error) {
   return guarded(error, [&]() -> std::int32_t {
     const auto problem = handle->detector.commit();

@@ -151,12 +151,16 @@ int32_t assay_builtin_first_contact(assay_handle* handle, const double* x_t0, co
 
 /* As the table's limit: how far the step may be gone, with its rounding. A free step has share 1.
  * Another one has 0.95 of the first contact time, and less if rounding brings that into contact
- * (detector/detector.h says how much). With share 0 the mesh stays:
- * it is in contact at the start, or as near as numbers can tell, or stop() ended the work. A commit
- * then goes to *limit, and is refused after share 0. stop may be NULL. */
+ * (detector/detector.h says how much; assay_builtin_limit_is_short tells). With share 0 the mesh
+ * stays: it is in contact at the start, or all places that were tried are, or stop() ended the work.
+ * A commit then goes to *limit, and is refused after share 0. stop may be NULL. */
 int32_t assay_builtin_limit(assay_handle* handle, const double* x_t0, const double* x_t1,
                             assay_limit* limit, int32_t (*stop)(void* stop_data), void* stop_data,
                             assay_builtin_error* error);
+
+/* 1 if the limit asked for last takes less than 0.93 of the first contact time, because rounding
+ * brought each place beyond that was tried into contact; else 0. */
+int32_t assay_builtin_limit_is_short(const assay_handle* handle);
 
 /* As the table's commit. It goes to the end of what was asked for last, a step or a limit. */
 int32_t assay_builtin_commit(assay_handle* handle, assay_builtin_error* error);

@@ -18,8 +18,10 @@ std::vector<StratumPlan> strata(std::uint64_t generic, std::uint64_t others, dou
     list.push_back({std::string(family.name), is_generic ? generic : others,
                     is_generic ? generic_bound : other_bound});
   }
-  for (const auto& family : counted_families())
-    list.push_back({std::string(family.name), others, other_bound});
+  for (const auto further : {counted_families(), question_families()}) {
+    for (const auto& family : further)
+      list.push_back({std::string(family.name), others, other_bound});
+  }
   return list;
 }
 
@@ -113,6 +115,12 @@ bool asks_queries_alone(const CampaignPlan& plan) {
 
 CampaignPlan without_queries(CampaignPlan plan) {
   std::erase_if(plan.strata, is_of_queries);
+  return plan;
+}
+
+CampaignPlan without_questions(CampaignPlan plan) {
+  std::erase_if(plan.strata,
+                [](const StratumPlan& stratum) { return is_question_family(stratum.family); });
   return plan;
 }
 

@@ -14,7 +14,7 @@ namespace assay::properties {
 
 // One family of cases. Each case is a trial of every configuration of the detector.
 struct StratumPlan {
-  std::string family;       // name of any family that find_family knows
+  std::string family;       // a name that find_family (queries/query_families.h) knows
   std::uint64_t cases = 0;  // n
   double wanted_bound = 0;  // wanted upper bound on the share of defects; 0: none
 };
@@ -96,6 +96,8 @@ CampaignPlan without_queries(CampaignPlan plan);
 
 // The same campaign without its strata of cases with a relation, for a detector that takes none.
 CampaignPlan without_relations(CampaignPlan plan);
+// The same campaign without the strata for what the built-in detector alone is asked.
+CampaignPlan without_questions(CampaignPlan plan);
 
 // The same campaign with every family of queries in place of its strata. There are no laws and no
 // worlds, because these are about meshes. A plan that asks queries alone stays as it is.

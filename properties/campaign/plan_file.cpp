@@ -278,12 +278,18 @@ bool is_the_same_but_for_time(CampaignPlan a, CampaignPlan b) {
 }
 
 // Whether options of a run and the detector's parts make the plan of the named one: options limit a
-// case; relations are left out; the query of a plug-in is judged beside the steps, or alone.
+// case; a plug-in is not asked what the built-in detector is, and no relations where it takes none;
+// its query is judged beside the steps, or alone.
 bool is_made_of(CampaignPlan plan, const CampaignPlan& named) {
   plan.case_seconds = named.case_seconds;
   plan.case_bytes = named.case_bytes;
-  const auto variants = {named, without_relations(named), with_queries(named),
-                         with_queries(without_relations(named)), query_plan(named)};
+  const CampaignPlan of_plugin = without_questions(named);
+  const auto variants = {named,
+                         of_plugin,
+                         without_relations(of_plugin),
+                         with_queries(of_plugin),
+                         with_queries(without_relations(of_plugin)),
+                         query_plan(of_plugin)};
   return std::any_of(variants.begin(), variants.end(), [&](const CampaignPlan& variant) {
     return is_the_same_but_for_time(plan, variant);
   });

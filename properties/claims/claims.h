@@ -75,6 +75,7 @@ class Claims {
   // Those of them that are also among the others, and those that are not.
   constexpr Claims only(const Claims& others) const { return of_bits(bits_ & others.bits_); }
   constexpr Claims without(const Claims& others) const { return of_bits(bits_ & ~others.bits_); }
+  constexpr Claims with(const Claims& others) const { return of_bits(bits_ | others.bits_); }
 
   friend constexpr bool operator==(const Claims&, const Claims&) = default;
 
@@ -100,6 +101,9 @@ std::vector<Claim> all_claims();
 // intervals hold the times by construction, see StepResult::first). double and float:
 // deterministic and total. With pairs first, no arithmetic claims all-pairs.
 Claims claims_of(const detector::Options& options);
+
+// The progress that the built-in detector promises where it limits a step.
+inline constexpr double built_in_progress = 0.9;
 
 // What the built-in detector is asked with these options: contact, or within a separation of pairs
 // that share no vertex.

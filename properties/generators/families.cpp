@@ -67,6 +67,17 @@ constexpr Family counted_table[] = {
     {"counted", "bodies, rings and distances at rest; closed and generic, or with holes and exact",
      false, true, make_counted}};
 
+GeneratedCase make_any(Random& random, std::string id) {
+  const auto known = families();
+  return any_of(random, known).make(random, std::move(id));
+}
+
+constexpr Family question_table[] = {
+    {"limits", "of any family; the built-in detector is asked how far each step may be gone", false,
+     true, make_any},
+    {"within", "of any family; it is asked what comes within 2^-6, and how far to keep that", false,
+     true, make_any}};
+
 constexpr Family family_table[] = {
     {"closed-generic", "closed meshes, smooth and local motions, doubles of many bits", true, false,
      make<closed_generic>},
@@ -93,6 +104,11 @@ constexpr Family family_table[] = {
 
 std::span<const Family> families() { return family_table; }
 std::span<const Family> counted_families() { return counted_table; }
+std::span<const Family> question_families() { return question_table; }
+
+bool is_question_family(std::string_view name) {
+  return std::ranges::find(question_table, name, &Family::name) != std::end(question_table);
+}
 
 GeneratedCase make_case(const Family& family, std::string_view id) {
   Random random(id);

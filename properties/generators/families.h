@@ -32,6 +32,12 @@ std::span<const Family> families();
 // Families of cases with a relation (relations.h).
 std::span<const Family> counted_families();
 
+// Families of cases for what the built-in detector is asked besides contacts, each in the
+// configuration of the same name (DetectorUnderTest): "limits", how far a step may be gone, and
+// "within", what comes within a distance. Their cases are those of families(), by turns.
+std::span<const Family> question_families();
+bool is_question_family(std::string_view name);
+
 // Families of large cases of one size each, "size-1e3" to "size-1e6" (sizes/). Their strata state
 // a bound each and want none: their cases are few and dear.
 std::span<const Family> size_families();

@@ -64,8 +64,9 @@ struct LimitDiff {
   std::optional<detector::TimeEnclosure> ahead;  // the first contact time of the step, if any
   // The first contact on the straight way to where the caller stops.
   std::optional<detector::PairContact> hit;
-  bool is_cut = false;  // the step has no contact, and is not gone to its end
-  std::string stall;    // the caller stays although it could move: the cause of the contact ahead
+  bool is_cut = false;      // the step has no contact, and is not gone to its end
+  bool is_excused = false;  // less than claimed is gone, and rounding may be why
+  std::string stall;  // the caller stays although it could move: the cause of the contact ahead
 };
 
 struct StepDiff {
@@ -196,9 +197,10 @@ struct LimitedStep {
 // - commit-free: a contact in the straight step from x_t0 to where the caller stops.
 // - path-free: a share that is not below t*.
 // - progress: a share below Contract::progress times the least of t* and 1, where rounding cannot
-//   be the reason: so much of the step moves some vertex by 2^10 units in its last place or more,
-//   and the gaps at the start, beyond the separation, are 2^6 units of the largest coordinate or
-//   more. Elsewhere it is only counted.
+//   be the reason: so much of the step moves some vertex by 2^10 units in its last place or more;
+//   the gaps at the start, beyond the separation, are 2^6 units of the largest coordinate or more;
+//   and each of eight equal places from that share to t* is free to go to, with its rounding, by
+//   the oracle. Elsewhere it is only counted.
 // - whole-when-safe: x_t1 is not reached, and the step has no contact.
 void judge_limit(const std::optional<LimitAnswer>& answer, const LimitedStep& step,
                  const oracle::StepJudgement& judgement, const Claims& claims,

@@ -9,6 +9,8 @@ namespace assay::properties {
 
 namespace {
 
+constexpr const char *limits = "limits", *asked = "asked";
+
 // False for a name or a word that is none; the options then stay as they are.
 bool set_option(detector::Options& options, std::string_view name, std::string_view word) {
   if (name == "separation") {
@@ -20,6 +22,7 @@ bool set_option(detector::Options& options, std::string_view name, std::string_v
     options.separation = distance;
     return true;
   }
+  if (name == limits) return word == asked;
   bool is_known = false;
   for_each_choice(options, [&](std::string_view choice, auto& option) {
     if (choice != name) return;
@@ -40,6 +43,12 @@ OptionWords options_text(const detector::Options& options) {
   return text;
 }
 
+OptionWords configuration_text(const Configuration& configuration) {
+  auto text = options_text(configuration.options);
+  if (configuration.asks_limits) text[limits] = asked;
+  return text;
+}
+
 detector::Options options_of(const corpus::Case& c) {
   detector::Options options;
   for (const auto& [name, word] : c.options) set_option(options, name, word);
@@ -54,6 +63,14 @@ Expected<detector::Options> read_options(const corpus::Case& c) {
     }
   }
   return options;
+}
+
+Expected<Configuration> read_configuration(const corpus::Case& c, std::string name) {
+  auto options = read_options(c);
+  if (!options) return options.error();
+  Configuration configuration{std::move(name), options.value()};
+  configuration.asks_limits = c.options.contains(limits);
+  return configuration;
 }
 
 }  // namespace assay::properties

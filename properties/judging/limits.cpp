@@ -9,6 +9,7 @@
 #include "properties/judging/agreement.h"
 #include "properties/judging/cause.h"
 #include "properties/judging/step_truth.h"
+#include "properties/worker/plugin/plugin_reading.h"
 
 namespace assay::properties {
 namespace {
@@ -22,6 +23,8 @@ constexpr double ulps_of_a_stall = 16;
 // Where the way is shorter than this, or the gap ahead is narrower, rounding may be what keeps a
 // limiter from its progress, and no claim is broken.
 constexpr double ulps_of_a_way = 1024, ulps_of_a_gap = 64;
+// So many equal places, from what is promised to the contact, have to be free for it to be owed.
+constexpr int owed_places = 8;
 
 template <class Real>
 double unit_in_last_place(double x) {
@@ -64,7 +67,7 @@ class LimitComparison {
     if (answer_.positions == to) {
       limit.hit = first;
     } else if (!stays) {
-      look_at_the_way(limit);
+      limit.hit = first_on_the_way_to(answer_.positions);
     }
     const double promised = contract_.progress > 0 ? contract_.progress : usual_progress;
     if (stays && could_move(promised * possible, ulps_of_a_stall)) limit.stall = cause_of_stall();
@@ -75,8 +78,11 @@ class LimitComparison {
     if (answer_.share >= 0) {
       breaks(Claim::path_free, first && !is_before(answer_.share, first->time));
       // The sign of this is exact but for the least of all doubles.
-      breaks(Claim::progress,
-             std::fma(promised, possible, -limit.used) > 0 && has_room(promised * possible));
+      const bool is_short = std::fma(promised, possible, -limit.used) > 0;
+      if (is_short && claims_.has(Claim::progress)) {
+        limit.is_excused = !is_owed(promised * possible, possible);
+        breaks(Claim::progress, !limit.is_excused);
+      }
     }
     breaks(Claim::whole, limit.is_cut);
     if (!diff.broken.empty()) {
@@ -88,13 +94,33 @@ class LimitComparison {
   }
 
  private:
-  void look_at_the_way(LimitDiff& limit) {
+  std::optional<detector::PairContact> first_on_the_way_to(const Positions& place) {
     Contract asked = contract_;
     asked.margin = 0;  // what comes within a slack is no contact
-    const auto judgement = judge_under(asked, {step_.motion.vertices_t0, answer_.positions},
-                                       step_.triangles, step_.options);
-    limit.hit = truth_of(judgement, asked, step_.triangles).first;
-    was_stopped_ = !judgement.complete;
+    const auto judgement =
+        judge_under(asked, {step_.motion.vertices_t0, place}, step_.triangles, step_.options);
+    was_stopped_ |= !judgement.complete;
+    return truth_of(judgement, asked, step_.triangles).first;
+  }
+
+  // Whether rounding cannot be why less than this share is gone: there is room, and each of some
+  // equal places from there to the contact is free to go to, rounded as the caller would.
+  bool is_owed(double share, double possible) {
+    if (!has_room(share)) return false;
+    for (int i = 0; i < owed_places && truth_.first; ++i) {
+      const auto place = place_at(share + (possible - share) * i / owed_places);
+      if (!place || first_on_the_way_to(*place) || was_stopped_) return false;
+    }
+    return true;
+  }
+
+  // Where the caller stops who is told this share; nothing if that is beyond all numbers.
+  std::optional<Positions> place_at(double share) const {
+    Contract told = contract_;
+    if (told.limit_gives == LimitGives::positions) told.limit_gives = LimitGives::start_plus;
+    const Positions from = step_.motion.vertices_t0, to = step_.motion.vertices_t1;
+    const auto stop = limit_answer({share, nullptr}, {}, told, from, to, displacement(from, to));
+    return stop ? std::optional(stop.value().positions) : std::nullopt;
   }
 
   // The length of the way to where the caller stops over that of the whole step, both over all

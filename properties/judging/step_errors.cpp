@@ -19,8 +19,9 @@ void fields(Archive& archive, TimesOff& times) {
 
 template <class Archive>
 void fields(Archive& archive, LimitUse& use) {
-  auto& [free, cut, contact, unused, stalls] = use;
-  archive("free", free, "cut", cut, "contact", contact, "unused", unused, "stalls", stalls);
+  auto& [free, cut, contact, unused, excused, stalls] = use;
+  archive("free", free, "cut", cut, "contact", contact, "unused", unused, "excused", excused,
+          "stalls", stalls);
 }
 
 template <class Archive>
@@ -108,6 +109,7 @@ LimitUse& LimitUse::operator+=(const LimitUse& other) {
   cut += other.cut;
   contact += other.contact;
   unused += other.unused;
+  excused += other.excused;
   for (const auto& [cause, count] : other.stalls) stalls[cause] += count;
   return *this;
 }
@@ -121,6 +123,7 @@ LimitUse use_of(const LimitDiff& limit) {
   }
   use.contact = 1;
   use.unused = one_off(1 - limit.used / std::max(limit.ahead->lo, least_positive), 0);
+  use.excused = limit.is_excused ? 1 : 0;
   if (!limit.stall.empty()) use.stalls[limit.stall] = 1;
   return use;
 }
@@ -168,7 +171,10 @@ void from_json(const nlohmann::json& json, StepErrors& errors) {
   read_fields(json, errors);
   errors.limits = {};
   const auto limits = json.find("limits");
-  if (limits != json.end()) read_fields(*limits, errors.limits);
+  if (limits == json.end()) return;
+  auto whole = json_of_fields<nlohmann::json>(errors.limits);  // older stores do not excuse
+  whole.merge_patch(*limits);
+  read_fields(whole, errors.limits);
 }
 
 }  // namespace assay::properties

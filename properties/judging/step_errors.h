@@ -34,6 +34,8 @@ struct LimitUse {
   std::uint64_t cut = 0;      // of `free`: not gone to their end
   std::uint64_t contact = 0;  // steps with a contact ahead
   TimesOff unused;            // of `contact`: the share of the time until it that was not used
+  // Of `contact`: less than what is claimed was used, and rounding may be why (judge_limit).
+  std::uint64_t excused = 0;
   std::map<std::string, std::uint64_t> stalls;  // of `contact`, by their cause (LimitDiff::stall)
 
   // The share that was used of the time until the contact, at this part of the steps in ascending

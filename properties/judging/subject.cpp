@@ -12,7 +12,9 @@ using detector::Pairs;
 using detector::Start;
 
 Claims DetectorUnderTest::claims_in(const Configuration& configuration) const {
-  return built_in ? claims_of(configuration.options) : claims;
+  if (!built_in) return claims;
+  const Claims of_steps = claims_of(configuration.options);
+  return configuration.asks_limits ? of_steps.with(claims_on_limits) : of_steps;
 }
 
 Claims DetectorUnderTest::claims_on(const corpus::Case& c,
@@ -24,7 +26,15 @@ DetectorUnderTest DetectorUnderTest::in(const Configuration& configuration) cons
   DetectorUnderTest alone = *this;
   alone.configurations = {configuration};
   if (built_in) alone.contract = contract_of(configuration.options);
+  if (built_in && configuration.asks_limits) alone.contract.progress = built_in_progress;
   return alone;
+}
+
+DetectorUnderTest DetectorUnderTest::in_stratum(std::string_view family) const {
+  for (const auto& configuration : of_questions) {
+    if (configuration.name == family) return in(configuration);
+  }
+  return *this;
 }
 
 DetectorUnderTest built_in_detector() {
@@ -42,6 +52,10 @@ DetectorUnderTest built_in_detector() {
         {fmt::format("{}/bounded", name_of(culling)),
          {culling, Start::verified, Pairs::all, detector::Arithmetic::bounded}});
   }
+  Configuration limits{"limits", {Culling::automatic}}, within{"within", {Culling::bvh}};
+  limits.asks_limits = within.asks_limits = true;
+  within.options.separation = 0x1p-6;
+  detector.of_questions = {std::move(limits), std::move(within)};
   return detector;
 }
 

@@ -30,17 +30,22 @@ struct DetectorUnderTest {
   Claims query_claims{};
   // The parts that the library holds and that are not judged, in words: "elementary query".
   std::vector<std::string> unjudged_parts{};
+  // Of the built-in detector: what it is asked besides contacts. Each of these configurations is
+  // certified in the stratum of its name alone (question_families).
+  std::vector<Configuration> of_questions{};
 
   Claims claims_in(const Configuration& configuration) const;
   // What it claims of this case, which may be a query (query_case.h).
   Claims claims_on(const corpus::Case& c, const Configuration& configuration) const;
   // The same detector in this configuration alone. What the built-in one is asked, and so its
-  // contract, goes by its options; those of built_in_detector() ask it for contacts.
+  // contract, goes by that.
   DetectorUnderTest in(const Configuration& configuration) const;
+  // The same detector as it is asked in a stratum of this family.
+  DetectorUnderTest in_stratum(std::string_view family) const;
 };
 
 // The built-in detector with every culling and pairs all, and the view cullings with pairs first
-// and in bounded arithmetic.
+// and in bounded arithmetic; and asked how far steps may be gone, and what comes within 2^-6.
 DetectorUnderTest built_in_detector();
 
 // Which part of a plug-in is judged. `by_library`: all that it holds, its steps or candidates and

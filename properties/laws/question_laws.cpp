@@ -68,7 +68,7 @@ void check_limits(CaseFacts& facts, LawTally& tally) {
   auto alone = CasePlayer::make(facts.source(), options, facts.stages_of()(options));
   if (!player || !alone) return;
   Contract contract;
-  contract.progress = 0.9;
+  contract.progress = built_in_progress;
   const oracle::JudgeOptions asked;
   for (std::size_t s = 0; s < facts.steps(); ++s) {
     const auto &x_t0 = facts.x_t0(s), &x_t1 = facts.x_t1(s);

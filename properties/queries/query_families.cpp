@@ -72,7 +72,8 @@ std::span<const Family> query_families() {
 }
 
 const Family* find_family(std::string_view name) {
-  for (const auto known : {families(), size_families(), counted_families(), query_families()}) {
+  for (const auto known :
+       {families(), question_families(), size_families(), counted_families(), query_families()}) {
     const auto found =
         std::find_if(known.begin(), known.end(), [&](const Family& f) { return f.name == name; });
     if (found != known.end()) return &*found;

@@ -53,6 +53,16 @@ StepResult run_step(CasePlayer& player, std::size_t s) try {
   return undecided;
 }
 
+// How far the step may be gone; nothing without an answer. The state stays as it is.
+std::optional<LimitAnswer> limit_of(CasePlayer& player, std::size_t s) try {
+  auto limit = player.detector().limit(player.x_t0(s), player.x_t1(s));
+  if (limit.answer != detector::Answer::free && limit.answer != detector::Answer::collision)
+    return std::nullopt;
+  return LimitAnswer{limit.share, std::move(limit.positions)};
+} catch (const std::bad_alloc&) {
+  return std::nullopt;
+}
+
 // The counters are plain numbers without gaps between them, so they can be compared byte by byte.
 static_assert(std::has_unique_object_representations_v<detector::StepCounts>);
 
@@ -95,6 +105,7 @@ CaseRun run_case(const corpus::Case& c, const Configuration& configuration) try 
   if (!made) return {RunEnd::refused, made.error().message, {}};
   clock.created();
   for (std::size_t s = 0; s < made.value().steps(); ++s) {
+    if (configuration.asks_limits) run.limits.push_back(limit_of(made.value(), s));
     clock.begin();
     run.steps.push_back(run_step(made.value(), s));
     clock.answered();

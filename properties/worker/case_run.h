@@ -21,6 +21,8 @@ struct Configuration {
   detector::Options options;
   std::string fault = {};  // the planted fault to plant in it (faults/fault.h), or empty
   bool is_timed = false;   // whether CaseRun::times is asked for
+  // Whether it is also asked, before each step, how far that may be gone (CaseRun::limits).
+  bool asks_limits = false;
 };
 
 // Processor seconds and memory of the process that ran a case, with all of its threads, as that
@@ -71,7 +73,8 @@ struct CaseRun {
   std::vector<detector::StepResult> steps;
   // Only for a plug-in that claims candidates: one list for each step, ascending, each pair once.
   std::vector<CandidatePairs> candidates = {};
-  // Only of a limiter: what it allows in each step; nothing where it failed to say.
+  // Only of a limiter, and where limits are asked for: what it allows in each step; nothing where
+  // it failed to say.
   std::vector<std::optional<LimitAnswer>> limits = {};
   // For each step why it has no answer ("step 2: ..."), or an empty text if it has one. The list
   // is empty if all steps have answers.

@@ -136,10 +136,11 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
         "{}: it claims nothing that its contract leaves to be judged; there is nothing to certify",
         words.detector.library)};
   const auto& named = properties::named_plans();
-  const bool is_named = std::any_of(
-      named.begin(), named.end(), [&](const auto& one) { return one.name == request.plan.name; });
+  const bool is_named = std::any_of(named.begin(), named.end(),
+                                    [&](const auto& one) { return one.name == request.plan.name; });
   if (is_named && !detector.contract.takes_relations)
     request.plan = properties::without_relations(std::move(request.plan));
+  if (!detector.built_in) request.plan = properties::without_questions(std::move(request.plan));
   const bool with_query = detector.query_claims != properties::Claims();
   if (words.detector.part == DetectorPart::steps)
     request.plan = properties::without_queries(std::move(request.plan));

@@ -140,7 +140,7 @@ class CampaignTerminal : public properties::CampaignObserver {
     fmt::print("campaign {}, seed {}, shard {}: {} trials of {} families{}, {} configurations",
                plan.name, request_.seed, text_of(request_.shard), planned, plan.strata.size(),
                stored ? fmt::format(" ({} are stored, {} to do)", stored, planned - stored) : "",
-               request_.detector.configurations.size());
+               request_.detector.configurations.size() + request_.detector.of_questions.size());
     if (request_.power) {
       fmt::print("; planted faults as campaign {}, seed {}, of this build found them",
                  request_.power->source.campaign, request_.power->source.seed);

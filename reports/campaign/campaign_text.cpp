@@ -35,16 +35,16 @@ std::string stratum_row(const RunFindings& findings, const properties::StratumPl
 
 // A row for each family and configuration. If all configurations agree, they share one row.
 std::string strata_text(const RunFindings& findings) {
-  const auto& configurations = findings.run.detector.configurations;
   // A plug-in's one configuration has its name, which may be long.
   std::size_t width = 18;
-  for (const auto& configuration : configurations)
+  for (const auto& configuration : findings.run.detector.configurations)
     width = std::max(width, configuration.name.size());
   std::string out = fmt::format("{:24} {:{}} {:>7} {:>7} {:>7} {:>9} {:>9} {:>9} {:>13}\n",
                                 "stratum", "configuration", width, "n", "holds", "defects",
                                 "undecided", "bound", "wanted", "steps/s/core");
   for (const auto& stratum : findings.run.plan.strata) {
     const auto& all = findings.tally_of(stratum).by_configuration;
+    const auto configurations = configurations_in(findings.run.detector, stratum.family);
     const bool all_same = configurations_agree(findings, stratum);
     const std::size_t rows = all_same ? std::min<std::size_t>(all.size(), 1) : all.size();
     for (std::size_t c = 0; c < rows; ++c)

@@ -15,9 +15,10 @@ using properties::RunFindings;
 
 Json bounds_json(const RunFindings& findings, const properties::StratumPlan& stratum) {
   Json list = Json::array();
-  for (std::size_t c = 0; c < findings.run.detector.configurations.size(); ++c) {
+  const auto configurations = configurations_in(findings.run.detector, stratum.family);
+  for (std::size_t c = 0; c < configurations.size(); ++c) {
     const auto outcomes = findings.outcomes_of(stratum, c);
-    list.push_back({{"configuration", findings.run.detector.configurations[c].name},
+    list.push_back({{"configuration", configurations[c].name},
                     {"n", outcomes.trials()},
                     {"holds", outcomes.holds},
                     {"defects", outcomes.defects},
@@ -166,11 +167,8 @@ Json limits_json(const properties::LimitUse& use) {
     stalls.push_back({{"cause", cause}, {"steps", steps}});
   if (use.contact > 0)
     used = {{"median", use.used(0.5)}, {"p1", use.used(0.01)}, {"worst", use.used(0)}};
-  return {{"free", use.free},
-          {"cut", use.cut},
-          {"contact", use.contact},
-          {"used", used},
-          {"stalls", stalls}};
+  return {{"free", use.free},       {"cut", use.cut}, {"contact", use.contact},
+          {"excused", use.excused}, {"used", used},   {"stalls", stalls}};
 }
 
 }  // namespace

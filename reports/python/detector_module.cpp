@@ -83,7 +83,8 @@ class PythonDetector {
     const auto& first = limit.first;
     py::object time = py::none();
     if (limit.answer == detector::Answer::collision) time = py::make_tuple(first.lo, first.hi);
-    return py::make_tuple(limit.share, owning_array(std::move(limit.positions)), time);
+    return py::make_tuple(limit.share, owning_array(std::move(limit.positions)), time,
+                          limit.is_short);
   }
 
   void commit() {

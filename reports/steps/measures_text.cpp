@@ -76,8 +76,10 @@ std::string limits_text(const properties::LimitUse& use) {
   if (use.contact == 0) return text + "\n";
   text += fmt::format(
       "; of the time until the contact in {} others used {:.3g} in the median, {:.3g} in 99 of "
-      "100, {:.3g} at worst; {} stalls\n",
-      use.contact, use.used(0.5), use.used(0.01), use.used(0), use.stalled());
+      "100, {:.3g} at worst; {} stalls{}\n",
+      use.contact, use.used(0.5), use.used(0.01), use.used(0), use.stalled(),
+      use.excused > 0 ? fmt::format("; {} less than claimed, as rounding may be why", use.excused)
+                      : "");
   for (const auto& [cause, count] : use.stalls)
     text += fmt::format("  stalled {} time{}: {}\n", count, count == 1 ? "" : "s", cause);
   return text;

@@ -86,12 +86,13 @@ corpus::Expected<ReplayedCase> case_of(const std::string& id_or_file) {
 std::optional<std::string> choose_configurations(const corpus::Case& c,
                                                  properties::DetectorUnderTest& detector) {
   if (!detector.built_in || c.options.empty()) return std::nullopt;
-  const auto read = properties::read_options(c);
+  auto read = properties::read_configuration(c, "");
   if (!read) return read.error().message;
-  const auto& options = read.value();
-  const char* first = options.pairs == detector::Pairs::first ? "/first" : "";
-  detector =
-      detector.in({fmt::format("{}{}", properties::name_of(options.culling), first), options});
+  auto& [name, options, fault, is_timed, asks_limits] = read.value();
+  name = fmt::format("{}{}{}", properties::name_of(options.culling),
+                     options.pairs == detector::Pairs::first ? "/first" : "",
+                     asks_limits ? "/limits" : "");
+  detector = detector.in(read.value());
   return std::nullopt;
 }
 
@@ -248,6 +249,7 @@ Expected<int> run_replay(const ReplayRequest& request) {
     return Problem{"this is a query of a plug-in: name its library by --detector"};
   words.part = is_query ? DetectorPart::query : DetectorPart::steps;
   BOOST_OUTCOME_TRY(subject, choose_detector(words));
+  if (trial) subject.detector = subject.detector.in_stratum(trial->family->name);
   const auto& contract = subject.detector.contract;
   if (trial) c = properties::case_within(contract, *trial->family, request.id_or_file).made.c;
   if (auto problem = choose_configurations(c, subject.detector)) {

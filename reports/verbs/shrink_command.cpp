@@ -67,11 +67,10 @@ Expected<int> run_shrink(const ShrinkRequest& request) {
     return Problem{fmt::format("{}: a query of a plug-in: name its library by --detector", file)};
   words.part = is_query ? DetectorPart::query : DetectorPart::steps;
   BOOST_OUTCOME_TRY(subject, choose_detector(words));
-  const auto options = properties::read_options(is_query ? corpus::Case() : c);
-  if (!options) return Problem{fmt::format("{}: {}", file, options.error().message)};
-  if (subject.detector.built_in && !c.options.empty()) {
-    subject.detector = subject.detector.in({"the case's own", options.value()});
-  }
+  const auto own = properties::read_configuration(is_query ? corpus::Case() : c, "the case's own");
+  if (!own) return Problem{fmt::format("{}: {}", file, own.error().message)};
+  if (subject.detector.built_in && !c.options.empty())
+    subject.detector = subject.detector.in(own.value());
   auto worker = subject.process();
   const auto failing = find_failure(c, subject.detector, worker);
   if (!failing) {

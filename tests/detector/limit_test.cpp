@@ -1,6 +1,7 @@
 // Detector::limit: how far a step may be gone (L17).
+#include "detector/boxes/shortened_step.h"
 #include "detector/detector.h"
-#include "tests/meshes.h"
+#include "tests/close_passes.h"
 #include "tests/test.h"
 
 namespace assay::tests {
@@ -58,6 +59,7 @@ TEST(DetectorLimit, L17_AMeshInContactStays) {
     const auto limit = detector.limit(corner_at(z), corner_at(3));
     EXPECT_EQ(limit.answer, Answer::collision);
     EXPECT_EQ(limit.share, 0);
+    EXPECT_FALSE(limit.is_short) << "farther places are no matter of rounding";
     EXPECT_EQ(limit.positions, corner_at(z));
     EXPECT_TRUE(detector.commit()) << "there is nothing to commit";
   }
@@ -68,6 +70,7 @@ TEST(DetectorLimit, L17_WhereNoNumberLiesBetweenItStays) {
   auto detector = make();
   const auto limit = detector.limit(corner_at(least), corner_at(-1));
   EXPECT_EQ(limit.share, 0);
+  EXPECT_TRUE(limit.is_short);
   EXPECT_EQ(limit.positions, corner_at(least));
   // Two units above it, one is left to go.
   const auto next = detector.limit(corner_at(2 * least), corner_at(-2 * least));
@@ -121,6 +124,57 @@ TEST(DetectorLimit, BadFramesAndStopsLeadNowhere) {
   EXPECT_EQ(stopped.answer, Answer::undecided);
   EXPECT_EQ(stopped.share, 0);
   EXPECT_TRUE(detector.commit());
+}
+
+// The largest free share of 1,000 equal ones up to 0.95 of the time.
+double farthest_free(Detector& detector, const ClosePass& pass, double time) {
+  constexpr int shares = 1000;
+  for (int k = shares; k > 0; --k) {
+    const double share = 0.95 * time * k / shares;
+    Positions x = pass.x_t0;
+    for (Eigen::Index i = 0; i < x.size(); ++i)
+      x.data()[i] = place_between(pass.x_t0.data()[i], pass.x_t1.data()[i], share);
+    if (detector.first_contact(pass.x_t0, x).answer == Answer::free) return share;
+  }
+  return 0;
+}
+
+struct Gone {
+  double share = 0;  // of the time until the contact
+  bool is_far = false, is_short = false;
+};
+Gone go(const ClosePass& pass) {
+  auto detector = Detector::create(pass.triangles, pass.x_t0, {.culling = Culling::bvh}).value();
+  const auto limit = detector.limit(pass.x_t0, pass.x_t1);
+  EXPECT_EQ(limit.answer, Answer::collision) << pass.name;
+  const double short_below = 0.98 * 0.95 * limit.first.lo;
+  EXPECT_EQ(limit.is_short, limit.first.hi > 0 && limit.share < short_below) << pass.name;
+  EXPECT_EQ(detector.commit().has_value(), limit.share == 0) << pass.name;
+  if (limit.share > 0) {
+    const auto there = detector.step(limit.positions, limit.positions);
+    EXPECT_EQ(there.counts.winding_numbers, 0u) << "what is committed is not where it stops";
+  }
+  EXPECT_EQ(detector.step(pass.x_t0, limit.positions).answer,
+            limit.first.hi == 0 ? Answer::collision : Answer::free);
+  const double farthest = farthest_free(detector, pass, limit.first.lo);
+  return {limit.share / limit.first.lo, limit.share >= 0.98 * farthest, limit.is_short};
+}
+
+TEST(DetectorLimit, L17_WhereSomethingIsPassedCloselyItGoesNearlyAsFarAsItCan) {
+  const auto known = known_close_passes();
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    const auto gone = go(known[i]);
+    // Along the sliver the free places lie apart.
+    EXPECT_TRUE(gone.is_far || (i == 0 && gone.share > 0.7)) << known[i].name;
+    EXPECT_TRUE(gone.is_short) << known[i].name;
+  }
+  std::size_t tried_again = 0;
+  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+    const auto gone = go(drawn_close_pass(seed));
+    EXPECT_TRUE(gone.is_far) << seed;
+    tried_again += gone.share < 0.949 ? 1 : 0;
+  }
+  EXPECT_GT(tried_again, 20u);
 }
 
 // A line search in ten lines that cannot tunnel.

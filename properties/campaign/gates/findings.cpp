@@ -119,15 +119,28 @@ RunFindings::SearchCount RunFindings::searched() const {
   return count;
 }
 
+std::vector<BoundDetector::Configuration> configurations_in(const BoundDetector& detector,
+                                                            std::string_view family) {
+  auto list = detector.configurations;
+  std::erase_if(list, [&](const auto& configuration) {
+    return detector.built_in &&
+           (is_question_family(family) ? configuration.name != family
+                                       : is_question_family(configuration.name));
+  });
+  return list;
+}
+
 std::uint64_t number_of_bounds(const BoundRun& run) {
   const bool alone = asks_queries_alone(run.plan);
-  std::uint64_t on_steps = 0, bounds = 0;
-  for (const auto& configuration : run.detector.configurations)
-    on_steps += configuration.claims.size();
+  std::uint64_t bounds = 0;
   for (const auto& stratum : run.plan.strata) {
     if (is_size_family(stratum.family)) continue;
-    const bool is_of_queries = is_query_family(stratum.family) && !alone;
-    bounds += is_of_queries ? run.detector.query_claims.size() : on_steps;
+    if (is_query_family(stratum.family) && !alone) {
+      bounds += run.detector.query_claims.size();
+      continue;
+    }
+    for (const auto& configuration : configurations_in(run.detector, stratum.family))
+      bounds += configuration.claims.size();
   }
   return bounds;
 }

@@ -99,7 +99,13 @@ Expected<RunFindings> read_findings(const std::filesystem::path& folder,
 
 // The bounds that the trials of a campaign support, all of them together.
 
-// The number of bounds: strata times the claims of all configurations. Strata of large sizes
+// The configurations in which the detector is asked in a stratum, in the order of the outcomes of
+// its trials. A configuration that bears the name of a family of questions (question_families) is
+// asked in the stratum of that name, and no other is asked there.
+std::vector<BoundDetector::Configuration> configurations_in(const BoundDetector& detector,
+                                                            std::string_view family);
+
+// The number of bounds: strata times the claims of their configurations. Strata of large sizes
 // (size_families) are not among them: each of their bounds is stated alone. A trial that breaks any
 // claim of a configuration counts against that configuration's bound, so one bound holds for all
 // of its claims. Each claim is counted all the same, which only widens the bounds.

@@ -269,11 +269,12 @@ GateFindings check_bounds(const RunFindings& f, const Asked&) {
     const bool is_wanted = stratum.wanted_bound > 0;
     if ((is_wanted && f.alone) || f.is_left_out(stratum)) continue;
     judged = true;
-    for (std::size_t c = 0; c < f.run.detector.configurations.size(); ++c) {
+    const auto configurations = configurations_in(f.run.detector, stratum.family);
+    for (std::size_t c = 0; c < configurations.size(); ++c) {
       if (is_met(f, stratum, c)) continue;
       const auto outcomes = f.outcomes_of(stratum, c);
       found.against.push_back(
-          fmt::format("{}, {}: ", stratum.family, f.run.detector.configurations[c].name) +
+          fmt::format("{}, {}: ", stratum.family, configurations[c].name) +
           (is_wanted ? fmt::format("bound {:.2e}, {:.0e} is wanted",
                                    bound_of(outcomes, stratum, f.run), stratum.wanted_bound)
                      : fmt::format("{} without a verdict", outcomes.open())));

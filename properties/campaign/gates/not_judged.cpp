@@ -116,21 +116,32 @@ namespace {
 
 // The most triangles on which each kind of claim was tried.
 struct Largest {
-  std::uint64_t in_contact = 0, repeated = 0;
+  std::uint64_t judged = 0, in_contact = 0, repeated = 0;
 };
 
-Largest largest_of(const RunFindings& findings) {
+// Whether some configuration that is asked in strata of this family makes the claim.
+bool is_claimed_in(const RunFindings& findings, std::string_view family, Claim claim) {
+  const auto asked = configurations_in(findings.run.detector, family);
+  return std::any_of(asked.begin(), asked.end(),
+                     [&](const auto& one) { return has(one.claims, claim); });
+}
+
+Largest largest_of(const RunFindings& findings, Claim claim) {
   Largest largest;
   const auto grow = [](std::uint64_t& most, std::uint64_t triangles) {
     most = std::max(most, triangles);
   };
   for (const auto& [family, stratum] : findings.tally.strata) {
-    if (is_query_family(family)) continue;
+    if (is_query_family(family) || !is_claimed_in(findings, family, claim)) continue;
+    grow(largest.judged, stratum.triangles);
     grow(largest.in_contact, stratum.triangles_in_contact);
     grow(largest.repeated, stratum.triangles_repeated);
   }
-  for (const auto& row : findings.evidence.corpus)
+  if (!is_claimed_in(findings, "", claim)) return largest;
+  for (const auto& row : findings.evidence.corpus) {
+    grow(largest.judged, row.extremes.triangles);
     grow(largest.in_contact, row.triangles_in_contact);
+  }
   for (const auto& one : findings.evidence.repeated) {
     if (one.runs > 1) grow(largest.repeated, one.triangles);
     for (const auto& step : one.judged) {
@@ -167,15 +178,14 @@ bool wants_contacts(const std::vector<std::string>& words, const Contract& contr
 std::vector<JudgedSize> judged_sizes(const RunFindings& findings) {
   std::vector<JudgedSize> sizes;
   if (asks_queries_alone(findings.run.plan)) return sizes;
-  const auto largest = largest_of(findings);
-  const auto all = largest_tried(findings);
   const auto left = not_judged(findings);
   const auto words = claims_of_any_configuration(findings.run.detector);
   for (const Claim claim : all_claims()) {
     if (is_among(left, name_of(claim)) || !has(words, claim)) continue;
+    const auto largest = largest_of(findings, claim);
     sizes.push_back({name_of(claim), claim == Claim::deterministic ? largest.repeated
                                      : speaks_of_contacts(claim)   ? largest.in_contact
-                                                                   : all.triangles});
+                                                                   : largest.judged});
   }
   return sizes;
 }

@@ -42,8 +42,11 @@ BoundDetector bound(const DetectorUnderTest& detector, std::uint64_t threads) {
                     {},
                     words_of(detector.query_claims),
                     detector.unjudged_parts};
-  for (const auto& configuration : detector.configurations)
-    out.configurations.push_back({configuration.name, words_of(detector.claims_in(configuration))});
+  for (const auto* list : {&detector.configurations, &detector.of_questions}) {
+    for (const auto& configuration : *list)
+      out.configurations.push_back(
+          {configuration.name, words_of(detector.claims_in(configuration))});
+  }
   return out;
 }
 
@@ -133,7 +136,8 @@ std::string generator_digest() {
   std::string digests;
   // Larger cases are made by the code of the smallest of their families.
   const auto smallest = size_families().first(1);
-  for (const auto known : {families(), counted_families(), query_families(), smallest}) {
+  for (const auto known :
+       {families(), question_families(), counted_families(), query_families(), smallest}) {
     for (const auto& family : known) {
       for (std::uint64_t i = 0; i < cases; ++i) {
         const auto made =

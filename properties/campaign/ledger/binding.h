@@ -33,8 +33,8 @@ struct BoundDetector {
   std::string name;
   bool built_in = true;
   Contract contract;
-  std::uint64_t threads = 1;  // told to a plug-in that asks how many it may use
-  std::vector<Configuration> configurations;
+  std::uint64_t threads = 1;                  // told to a plug-in that asks how many it may use
+  std::vector<Configuration> configurations;  // those of questions last
   // As in DetectorUnderTest.
   std::vector<std::string> query_claims{}, unjudged_parts{};
 };

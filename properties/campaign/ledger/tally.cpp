@@ -80,6 +80,7 @@ void StratumTally::add(const TrialRecord& record) {
   const auto grow = [&](std::uint64_t& most, bool counts) {
     if (counts && record.is_judged()) most = std::max(most, record.triangles);
   };
+  grow(triangles, true);
   grow(triangles_in_contact, shown.contact_trials > 0);
   grow(triangles_repeated, shown.repeated_trials > 0);
   ++sizes[log2_of(record.triangles)];

@@ -31,9 +31,9 @@ struct StratumTally {
   };
   std::vector<Outcomes> by_configuration;
   StepMeasures measures;
-  // The most triangles of a judged trial with a contact that the contract does not leave out, and
-  // of one that was run twice.
-  std::uint64_t triangles_in_contact = 0, triangles_repeated = 0;
+  // The most triangles of a trial that was judged, of one with a contact that the contract does not
+  // leave out, and of one that was run twice.
+  std::uint64_t triangles = 0, triangles_in_contact = 0, triangles_repeated = 0;
   std::map<int, std::uint64_t> sizes;     // cases by floor(log2(triangles))
   std::map<int, std::uint64_t> contacts;  // cases by floor(log2(pairs)), -1: none
   void add(const TrialRecord& record);

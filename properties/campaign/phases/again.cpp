@@ -101,9 +101,10 @@ Expected<TrialsAgain> run_again(const CampaignRequest& request, const std::files
     store.for_each_trial([&](const TrialRecord& record) { now[record.id] = record; });
     for (const auto& record : drawn) {
       const auto found = now.find(record.id);
-      const auto difference = found == now.end()
-                                  ? std::string("the campaign has no such trial")
-                                  : difference_of_trials(record, found->second, request.detector);
+      const auto difference =
+          found == now.end() ? std::string("the campaign has no such trial")
+                             : difference_of_trials(record, found->second,
+                                                    request.detector.in_stratum(record.family));
       if (difference.empty()) continue;
       again.difference = fmt::format("trial {}: {}", record.id, difference);
       break;

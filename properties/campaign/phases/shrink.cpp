@@ -80,7 +80,9 @@ std::vector<Configuration> configurations_of(const corpus::Case& failing,
   const auto start = failing.options.find("start");
   const bool vouched =
       detector.built_in && start != failing.options.end() && start->second == "clean";
-  return vouched ? with_clean_start(detector.configurations) : detector.configurations;
+  auto all = detector.configurations;
+  all.insert(all.end(), detector.of_questions.begin(), detector.of_questions.end());
+  return vouched ? with_clean_start(std::move(all)) : all;
 }
 
 // The text `about` of a shrunk case, which names its own triangles and times. The signature stays
@@ -126,6 +128,7 @@ void shrink_failures(const CampaignRequest& request, Store& store, const ReduceL
         std::find_if(configurations.begin(), configurations.end(),
                      [&](const Configuration& c) { return c.name == configuration_name(failure); });
     if (configuration == configurations.end()) continue;
+    const auto detector = request.detector.in(*configuration);
     if (progress) progress(failure.signature);
     const double most = seconds_for(failure, failing.value(), limits.seconds);
     const ReduceLimits bounded{std::min(most, left.count()), limits.calls};
@@ -134,22 +137,21 @@ void shrink_failures(const CampaignRequest& request, Store& store, const ReduceL
                          : nullptr;
     const auto store_as_smallest = [&](const corpus::Case& better, const std::string& about) {
       // As the detector saw it: with coordinates that a contract of float32 has rounded.
-      corpus::Case shown = contracted(better, request.detector.contract).value_or(better);
+      corpus::Case shown = contracted(better, detector.contract).value_or(better);
       if (!about.empty()) shown.about = about;
       failure.smallest = corpus::case_text(shown);
       store.set_smallest(failure);
     };
     const OnBetter keep = [&](const corpus::Case& better) {
       // What a large mesh shows is told in the end, because asking again takes long.
-      const auto finding =
-          law || is_large(better)
-              ? std::nullopt
-              : judge_of_detector(request.detector, *configuration, worker)(better);
+      const auto finding = law || is_large(better)
+                               ? std::nullopt
+                               : judge_of_detector(detector, *configuration, worker)(better);
       store_as_smallest(better, finding ? about_shrunk(failure, *finding) : "");
     };
     const Reduction reduction =
         law ? reduce(failing.value(), judge_of_law(*law, *configuration), bounded, keep)
-            : shrink_case(failing.value(), request.detector, *configuration, worker, bounded, keep,
+            : shrink_case(failing.value(), detector, *configuration, worker, bounded, keep,
                           request.jobs);
     if (is_large(reduction.smallest) && !law && !reduction.finding.signature.empty())
       store_as_smallest(reduction.smallest,

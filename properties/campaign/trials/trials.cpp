@@ -30,7 +30,7 @@ corpus::Case failing_case(const corpus::Case& c, const Configuration& configurat
   out.source = fmt::format("campaign case {}, detector {}", c.id, detector.name) +
                (detector.built_in ? ", " + configuration.name : "");
   std::replace(out.id.begin(), out.id.end(), ':', '-');
-  if (detector.built_in) out.options = options_text(configuration.options);
+  if (detector.built_in) out.options = configuration_text(configuration);
   return out;
 }
 
@@ -97,7 +97,10 @@ class Trials {
         deadline_(deadline),
         progress_(progress),
         planned_(planned_trials(request, only)),
-        met_(store.signatures()) {}
+        met_(store.signatures()) {
+    for (const auto& stratum : request.plan.strata)
+      asked_.emplace(stratum.family, request.detector.in_stratum(stratum.family));
+  }
 
   TrialsEnd run() {
     const auto begin = Clock::now();
@@ -171,6 +174,7 @@ class Trials {
   // showed.
   struct Trial {
     const PlannedTrial* planned = nullptr;
+    const DetectorUnderTest* detector = nullptr;  // as it is asked in the stratum
     GeneratedCase made;
     corpus::Case seen;  // the case as the detector's contract has it, if it takes it
     bool is_within = true;
@@ -219,7 +223,7 @@ class Trials {
     Trial trial = make(planned);
     if (!trial.is_within) return trial;
     auto begin = Clock::now();
-    trial.truth = judge_case(trial.seen, request_.detector.contract);
+    trial.truth = judge_case(trial.seen, trial.detector->contract);
     trial.record.oracle_us = microseconds_since(begin);
     begin = Clock::now();
     trial.runs = run(trial, trial.configurations, workers.first(*planned.family));
@@ -240,7 +244,7 @@ class Trials {
   // `again` is a second run for each configuration, or NULL.
   void conclude(Trial& trial, const CaseRun* again, Workers& workers) const {
     if (!trial.is_within) return;
-    trial.record.outcomes.assign(request_.detector.configurations.size(), not_run);
+    trial.record.outcomes.assign(trial.detector->configurations.size(), not_run);
     for (std::size_t i = 0; i < trial.runs.size(); ++i)
       judge_configuration(trial, i, again ? again + i : nullptr, workers);
     auto& measures = trial.record.counts.measures;
@@ -284,22 +288,22 @@ class Trials {
   Trial make(const PlannedTrial& planned) const {
     Trial trial;
     trial.planned = &planned;
-    auto drawn = case_within(request_.detector.contract, *planned.family, id_of(planned));
+    const auto& detector = *(trial.detector = &asked_.find(planned.family->name)->second);
+    auto drawn = case_within(detector.contract, *planned.family, id_of(planned));
     trial.made = std::move(drawn.made);
     trial.is_within = drawn.seen.has_value();
     if (drawn.seen) trial.seen = std::move(*drawn.seen);
-    const bool vouched = is_vouched_for(request_.detector, trial.made.c, planned.index);
-    trial.configurations = vouched ? with_clean_start(request_.detector.configurations)
-                                   : request_.detector.configurations;
+    const bool vouched = is_vouched_for(detector, trial.made.c, planned.index);
+    trial.configurations =
+        vouched ? with_clean_start(detector.configurations) : detector.configurations;
     // Without a tree every pair of triangles is looked at.
     constexpr std::uint64_t most_without_tree = 20'000;
-    if (planned.family->triangles > most_without_tree && request_.detector.built_in)
+    if (planned.family->triangles > most_without_tree && detector.built_in)
       std::erase_if(trial.configurations, [](const Configuration& configuration) {
         return configuration.options.culling == detector::Culling::none;
       });
     auto& record = trial.record;
-    if (request_.detector.built_in)
-      ++record.counts.tags[vouched ? "start:clean" : "start:verified"];
+    if (detector.built_in) ++record.counts.tags[vouched ? "start:clean" : "start:verified"];
     record.counts.measures.redrawn = drawn.redrawn;
     record.counts.measures.steps_left_out = drawn.steps_left_out;
     record.id = id_of(planned);
@@ -325,13 +329,13 @@ class Trials {
   void judge_configuration(Trial& trial, std::size_t i, const CaseRun* again,
                            const Workers& workers) const {
     const auto& configuration = trial.configurations[i];
-    JudgedTrial judged = judge_trial(trial.seen, trial.truth, trial.runs[i], configuration,
-                                     request_.detector, again);
+    JudgedTrial judged =
+        judge_trial(trial.seen, trial.truth, trial.runs[i], configuration, *trial.detector, again);
     // What is special about the first of many contacts says little, and would tell apart what a
     // large mesh shows of one cause.
     if (judged.failure && !request_.detector.built_in && trial.planned->family->triangles > 0)
       judged.failure->cause = "large mesh";
-    trial.record.outcomes[place_of(configuration)] = letter_of(judged.outcome);
+    trial.record.outcomes[place_of(configuration, *trial.detector)] = letter_of(judged.outcome);
     if (trial.runs[i].end == RunEnd::beyond_capacity && judged.outcome == Outcome::refused)
       trial.record.counts.measures.refused += trial.truth.size();
     trial.has_contact |= has_judged_contact(judged.steps);
@@ -346,16 +350,16 @@ class Trials {
     // itself.
     auto fresh = workers.fresh(*trial.planned->family);
     const bool flaky = !same_answers(trial.runs[i], run(trial, {&configuration, 1}, fresh)[0]);
-    const auto failing =
-        failing_case(trial.seen, configuration, request_.detector, *judged.failure);
+    const auto failing = failing_case(trial.seen, configuration, *trial.detector, *judged.failure);
     trial.failures.push_back({trial.record.id, configuration.name,
                               judged.failure->signature() + (flaky ? " (flaky)" : ""),
                               judged.failure->explanation, corpus::case_text(failing), "", flaky,
                               printed_of(trial.runs[i], again)});
   }
 
-  std::size_t place_of(const Configuration& configuration) const {
-    const auto& all = request_.detector.configurations;
+  static std::size_t place_of(const Configuration& configuration,
+                              const DetectorUnderTest& detector) {
+    const auto& all = detector.configurations;
     const auto found = std::find_if(all.begin(), all.end(), [&](const Configuration& one) {
       return one.name == configuration.name;
     });
@@ -386,8 +390,9 @@ class Trials {
     std::vector<RunCase> cases;
     for (const auto& trial : judged) {
       const auto every = request_.plan.laws_every;
-      const bool with_laws =
-          every > 0 && trial.planned->index % every == 0 && trial.planned->family->triangles == 0;
+      const auto& family = *trial.planned->family;
+      const bool with_laws = every > 0 && trial.planned->index % every == 0 &&
+                             family.triangles == 0 && !is_question_family(family.name);
       cases.push_back({trial.made, trial.configurations, trial.runs, trial.truth, with_laws});
     }
     const auto tallies = tally_cases(cases);
@@ -406,7 +411,7 @@ class Trials {
     failing.source = fmt::format("campaign case {}, {}", c.id, broken.configuration);
     for (const auto& configuration : configurations) {
       if (configuration.name == broken.configuration)
-        failing.options = options_text(configuration.options);
+        failing.options = configuration_text(configuration);
     }
     // The case keeps its id, because laws that choose at random, or look at some of the cases
     // only, go by it. The configuration is extended by the law, because the key of the store is
@@ -448,6 +453,7 @@ class Trials {
   const RunDeadline deadline_;
   const std::function<void(const TrialProgress&)>& progress_;
   const std::vector<PlannedTrial> planned_;
+  std::map<std::string, DetectorUnderTest, std::less<>> asked_;  // by family
   std::mutex mutex_;
   std::size_t next_ = 0;
   TrialProgress state_;

@@ -228,7 +228,7 @@ std::string fault_of(const StepLimit& limit, const Posed& p, const corpus::CaseS
                      const oracle::StepJudgement& truth) {
   if (limit.problem) return "a limit is refused";
   Contract contract = contract_of(p.drawn.options);
-  contract.progress = 0.9;
+  contract.progress = built_in_progress;
   // Bounded arithmetic may see a contact too early, or where there is none.
   const Claims claims = p.drawn.options.arithmetic == detector::Arithmetic::exact
                             ? claims_on_limits

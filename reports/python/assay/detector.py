@@ -104,8 +104,8 @@ class Detector:
         """How far the step may be gone; the state stays as it is.
 
         To limit.positions the straight way is free, rounding included; commit() then goes there. A
-        step that is free is taken whole; else 0.95 of the time until the contact, or a little less
-        where rounding asks for it. Share 0: in contact at the start, or as near as numbers can be.
+        step that is free is taken whole; else 0.95 of the time until the contact, or less where
+        rounding asks for it (is_short). Share 0: in contact at the start, or all places tried are.
         InputError: arithmetic "double" or "float", which prove nothing.
         """
         return Limit(*self._detector.limit(x_t0, x_t1))

@@ -181,11 +181,14 @@ class Limit:
 
     share: of the step, 0 (stay) to 1 (whole); positions: float64 (n, 3), where the caller stops.
     first: (lo, hi), the first contact time of the whole step; None if it has no contact.
+    is_short: whether less than 0.93 of that time is taken, because rounding brought each place beyond
+    that was tried into contact.
     """
 
     share: float
     positions: Float64Array
     first: Optional[Tuple[float, float]]
+    is_short: bool
 
     def __repr__(self) -> str:
         return f"<assay.Limit: {self.share} of the step, first {self.first}>"

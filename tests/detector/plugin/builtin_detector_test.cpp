@@ -261,6 +261,7 @@ TEST_F(BuiltinDetector, L17_LimitsAStepAsTheDetectorDoes) {
   ASSERT_LT(expected.share, 1);
   EXPECT_EQ(ask(hit), expected.positions);
   EXPECT_EQ(limit.share, expected.share);
+  EXPECT_EQ(assay_builtin_limit_is_short(handle.get()), 0);
   EXPECT_EQ(assay_builtin_commit(handle.get(), &error), ASSAY_OK) << "to where it stops";
   EXPECT_EQ(ask(in), in);
   EXPECT_EQ(limit.share, 1);
@@ -268,6 +269,17 @@ TEST_F(BuiltinDetector, L17_LimitsAStepAsTheDetectorDoes) {
   assay_limit by_table = {-1, nullptr};
   EXPECT_EQ(table().limit(handle.get(), in.data(), hit.data(), &by_table), ASSAY_OK);
   EXPECT_EQ(by_table.share, expected.share);
+
+  // In the end numbers leave nowhere to go.
+  Positions x = in;
+  for (int rounds = 0; rounds < 40 && limit.share > 0; ++rounds) {
+    EXPECT_EQ(
+        assay_builtin_limit(handle.get(), x.data(), hit.data(), &limit, nullptr, nullptr, &error),
+        ASSAY_OK);
+    x = Positions(Eigen::Map<const Positions>(limit.positions, in.rows(), 3));
+  }
+  EXPECT_EQ(limit.share, 0);
+  EXPECT_EQ(assay_builtin_limit_is_short(handle.get()), 1);
 
   const auto stop = [](void*) -> std::int32_t { return 1; };
   EXPECT_EQ(assay_builtin_limit(handle.get(), in.data(), hit.data(), &limit, stop, nullptr, &error),

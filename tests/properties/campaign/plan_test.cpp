@@ -185,7 +185,9 @@ TEST_F(Plans, AKeptOneMayDifferFromTheNamedOneByWhatOptionsChange) {
     limited.case_seconds = 20;
     limited.case_bytes = 1 << 30;
     limited.seconds = 1;
-    for (auto kept : {named, limited, with_queries(limited), query_plan(limited)}) {
+    const auto of_plugin = without_questions(limited);
+    for (auto kept : {named, limited, of_plugin, without_relations(of_plugin),
+                      with_queries(of_plugin), query_plan(of_plugin)}) {
       EXPECT_TRUE(read_plan(scratch.write("kept.json", plan_text(kept)))) << named.name;
       ++kept.fault_seeds;
       EXPECT_FALSE(read_plan(scratch.write("kept.json", plan_text(kept)))) << named.name;

@@ -15,7 +15,7 @@ using detector::Culling;
 
 Contract contract_within(double separation) {
   auto contract = contract_of({.separation = separation});
-  contract.progress = 0.9;
+  contract.progress = built_in_progress;
   return contract;
 }
 

@@ -8,6 +8,22 @@ namespace {
 
 using namespace detector;
 
+TEST(CaseOptions, TellWhetherLimitsAreAsked) {
+  corpus::Case c;
+  Configuration configuration{"a", {Culling::bvh}};
+  for (const bool asks : {false, true}) {
+    configuration.asks_limits = asks;
+    c.options = configuration_text(configuration);
+    const auto read = read_configuration(c, "b");
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read.value().asks_limits, asks);
+    EXPECT_EQ(read.value().name, "b");
+    EXPECT_EQ(configuration_text(read.value()), c.options);
+  }
+  c.options["limits"] = "perhaps";
+  EXPECT_FALSE(read_configuration(c, "b"));
+}
+
 TEST(CaseOptions, SurviveTheirText) {
   int combinations = 0;
   for (const auto culling : all_values<Culling>) {

@@ -4,6 +4,7 @@
 #include "properties/judging/judged_run.h"
 #include "properties/judging/step_errors.h"
 #include "properties/judging/trial.h"
+#include "tests/close_passes.h"
 #include "tests/sinking_corner.h"
 #include "tests/test.h"
 
@@ -119,6 +120,47 @@ TEST(Limits, L17_WhereNumbersLeaveNoRoomNoProgressIsOwed) {
   EXPECT_EQ(stays_at(63), List{});
   EXPECT_EQ(stays_at(65), List{}) << "the way until the contact is as short";
   EXPECT_EQ(stays_at(8192), List{Claim::progress});
+}
+
+// A step with its mesh, and how far its contact is.
+struct ClosePassCase {
+  corpus::Case c;
+  double time = 0;
+};
+ClosePassCase case_of(const tests::ClosePass& pass) {
+  corpus::Case c;
+  c.triangles = pass.triangles;
+  c.frames = {pass.x_t0, pass.x_t1};
+  return {c, judge_case(c)[0].first.lo};
+}
+
+TEST(Limits, L17_WhereRoundingClosesTheWayNoProgressIsOwed) {
+  auto contract = limiter();
+  contract.progress = 0.9;
+  for (const auto& pass : tests::known_close_passes()) {
+    const auto [c, time] = case_of(pass);
+    const auto verdict = judged(c, stop_at(c, 0.451 * time), contract);
+    EXPECT_EQ(verdict.broken, List{}) << pass.name;
+    EXPECT_EQ(errors_of(verdict.steps[0]).limits.excused, 1u) << pass.name;
+    EXPECT_TRUE(verdict.steps[0].limit->stall.empty());
+    // Nobody asks who does not claim it.
+    auto others = claims_on_limits;
+    others.set(Claim::progress, false);
+    EXPECT_FALSE(judged(c, stop_at(c, 0), contract, others).steps[0].limit->is_excused);
+  }
+}
+
+TEST(Limits, L17_ACloseWayIsNoExcuseWhereItsPlacesAreFree) {
+  std::size_t owed = 0, excused = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const auto [c, time] = case_of(tests::drawn_close_pass(seed));
+    const auto verdict = judged(c, stop_at(c, 0.25 * time));
+    const bool is_owed = verdict.broken == List{Claim::progress};
+    ++(is_owed ? owed : excused);
+    EXPECT_NE(is_owed, verdict.steps[0].limit->is_excused) << seed;
+  }
+  EXPECT_GT(owed, 150u);
+  EXPECT_GT(excused, 2u);
 }
 
 TEST(Limits, L17_TheRoomIsThatOfPairsThatCount) {

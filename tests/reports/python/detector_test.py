@@ -49,8 +49,9 @@ def test_a_limit_stops_before_the_contact(pair):
     assert limit.first == detector.evaluate(pair.x_t0, pair.x_t1).first
     assert 0.9 * limit.first[0] <= limit.share < limit.first[0]
     assert detector.evaluate(pair.x_t0, limit.positions).answer == "free"
+    assert not limit.is_short
     whole = detector.limit(pair.x_t0, limit.positions)
-    assert (whole.share, whole.first) == (1, None)
+    assert (whole.share, whole.first, whole.is_short) == (1, None, False)
     assert np.array_equal(whole.positions, limit.positions)
     detector.commit()
     with pytest.raises(assay.InputError, match="arithmetic double proves no step free"):

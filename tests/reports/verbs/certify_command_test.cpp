@@ -80,6 +80,11 @@ void expect_tampering_is_seen(const std::string& file, const std::string& certif
 }
 
 TEST_F(Certify, ACertificateVerifiesAndNoFieldOrFileCanBeChanged) {
+  // Beside the usual strata those of what the built-in detector alone is asked.
+  auto campaign = Json::parse(read_text(plan));
+  for (const char* question : {"limits", "within"})
+    campaign["strata"].push_back({{"family", question}, {"cases", 12}});
+  plan = scratch.write("plan.json", campaign.dump());
   const auto made = certify();
   ASSERT_EQ(made.exit_code, 0) << made.out << made.err;
   for (const std::string word :
@@ -105,6 +110,21 @@ TEST_F(Certify, ACertificateVerifiesAndNoFieldOrFileCanBeChanged) {
   EXPECT_EQ(p["strata"][0]["trials"], 12);
   EXPECT_EQ(p["strata"][0]["distinct"], 12);
   EXPECT_EQ(p["strata"][0]["discards"], 0);
+  for (const std::size_t s : {3, 4}) {
+    const auto& stratum = p["strata"][s];
+    ASSERT_EQ(stratum["bounds"].size(), 1u) << stratum;
+    EXPECT_EQ(stratum["bounds"][0]["configuration"], stratum["family"]);
+    EXPECT_EQ(stratum["bounds"][0]["n"], 12);
+    EXPECT_LT(stratum["bounds"][0]["bound"], 1);
+    const auto& asked = p["detector"]["configurations"][7 + s];
+    EXPECT_EQ(asked["name"], stratum["family"]);
+    EXPECT_EQ(asked["claims"].size(), 12u) << asked;
+    const auto name = stratum["family"].get<std::string>();
+    EXPECT_TRUE(contains(read_text(out + "/summary.md"), "| " + name + " |")) << name;
+    EXPECT_TRUE(contains(read_text(out + "/junit.xml"), name + ", " + name)) << name;
+    EXPECT_TRUE(contains(made.out, name + std::string(25 - name.size(), ' ') + name)) << made.out;
+  }
+  EXPECT_TRUE(contains(p["judged_up_to"].dump(), "path-free")) << p["judged_up_to"];
   EXPECT_EQ(p["times"]["speed"].size(), 3u);
   EXPECT_TRUE(contains(read_text(out + "/summary.md"), "## Assay: certified"));
   EXPECT_TRUE(contains(read_text(out + "/junit.xml"), "failures=\"0\""));
