@@ -14,7 +14,8 @@
 // leaves it alone, commit() advances it to the end of the step evaluated last, and step() does
 // both. A step that starts at other positions, be it in one bit, is treated as a new start. Each
 // call completes or leaves the state unchanged. An instance serves one thread at a time, and there
-// are no globals.
+// are no globals. Answers do not depend on how the caller's processor rounds or treats denormals,
+// and calls leave it as it was; a stop function runs as the caller has it.
 #pragma once
 
 #include <memory>
@@ -124,11 +125,12 @@ class Detector {
   SavedState state() const;
 
   // Goes on from a saved state. Further results equal those of the detector that was saved bit by
-  // bit if both detectors were made from the same positions; otherwise their counts may differ. A
-  // step that was evaluated and not committed is dropped. Error: foreign_state, if the state is of
-  // another mesh or culling, or if other bodies do not meet themselves (Options::counted; of the
-  // rest of that relation a state is independent); damaged_state, if it contradicts the mesh. After
-  // an error nothing has changed.
+  // bit if both detectors were made with the same options from the same positions. From other
+  // positions their counts may differ, and, unless the arithmetic is exact, what is a false
+  // alarm: normal cones prove other patches free. A step that was evaluated and not committed is
+  // dropped. Error: foreign_state, if the state is of another mesh or culling, or if other bodies
+  // do not meet themselves (Options::counted; of the rest of that relation a state is
+  // independent); damaged_state, if it contradicts the mesh. After an error nothing has changed.
   std::optional<Problem> restore(const SavedState& state);
 
   // Forgets the state: the next step is a new start.

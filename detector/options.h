@@ -55,10 +55,11 @@ constexpr auto names_of(Start) {
 // Which pairs in contact a step reports.
 enum class Pairs : std::uint8_t {
   all,  // the complete pair set of the step (K with closure, L7)
-  // Pairs in contact at the first time: each connected part of the contact graph at that time holds
-  // one of them (L6). As soon as a contact is found, nothing later is looked at. This took 0.1 to
-  // 0.45 of the time of `all` on scenes of many contacts, 0.92 on rod-twist, and a few percent more
-  // than `all` where there is no contact.
+  // Pairs in contact by the upper end of the first time: each connected part of the contact graph
+  // at the first time holds one of them (L6). Some may meet later than that, within its enclosure:
+  // their own time is the same enclosure, or its upper end. As soon as a contact is found, nothing
+  // later is looked at. This took 0.1 to 0.45 of the time of `all` on scenes of many contacts, 0.92
+  // on rod-twist, and a few percent more than `all` where there is no contact.
   first,
 };
 constexpr auto names_of(Pairs) {

@@ -42,9 +42,9 @@ inline std::vector<ClosePass> known_close_passes() {
            "-1 0 0.756282850401476")};
 }
 
-// A moving triangle passes a resting one as closely as numbers allow, or touches it there by an ulp,
-// and comes to a resting plate at t = 0.9. By even seeds its edge goes past a corner of the resting
-// one, by odd seeds its corner past an edge.
+// A moving triangle passes a resting one as closely as numbers allow, or touches it there by an
+// ulp, and comes to a resting plate at t = 0.9. By even seeds its edge goes past a corner of the
+// resting one, by odd seeds its corner past an edge.
 inline ClosePass drawn_close_pass(std::uint64_t seed) {
   using Row = Eigen::RowVector3d;
   std::mt19937_64 engine(seed);

@@ -42,7 +42,8 @@ ProcessorState::~ProcessorState() {
   if (!is_needed(callers_)) put(callers_);
 }
 
-StopFunction ProcessorState::in_callers_state(const StopFunction& function) const {
+std::function<bool()> ProcessorState::in_callers_state(
+    const std::function<bool()>& function) const {
   if (!function) return {};
   return [this, &function] {
     struct Turn {

@@ -6,7 +6,7 @@
 // these objects, and so does each piece of work in another thread.
 #pragma once
 
-#include "detector/mesh/step_types.h"
+#include <functional>
 
 #if !defined(__SSE2__)
 #include <cfenv>
@@ -30,7 +30,7 @@ class ProcessorState {
 
   // A function that calls `function` in the state of the caller; empty if `function` is. Both this
   // object and `function` must outlive it. Whatever `function` does to the state is undone.
-  StopFunction in_callers_state(const StopFunction& function) const;
+  std::function<bool()> in_callers_state(const std::function<bool()>& function) const;
 
  private:
   const State callers_;

@@ -67,7 +67,7 @@ class StepRun {
   TimeBound by_time(double until) const {
     return {until, context_.options.arithmetic == Arithmetic::exact};
   }
-  // Leaves, of the pairs that count, those in contact at the first time.
+  // Leaves, of the pairs that count, those in contact by the upper end of the first time.
   void keep_first();
   // Whether the pairs found are all that are in contact in the step. A search for the first contact
   // leaves out later ones as soon as it has found one that counts. Until then it finds what K

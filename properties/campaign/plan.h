@@ -86,10 +86,9 @@ bool asks_queries(const CampaignPlan& plan);
 // Whether all strata are.
 bool asks_queries_alone(const CampaignPlan& plan);
 
-// The same campaign with families of queries beside its strata: all but those that
-// "query-extreme" holds. Each has as many cases as the
-// largest stratum, and the bound that is wanted there. A plan that asks queries, or plans no case,
-// stays as it is.
+// The same campaign with families of queries beside its strata: all but those that "query-extreme"
+// holds. Each has as many cases as the largest stratum, and the bound that is wanted there. A plan
+// that asks queries, or plans no case, stays as it is.
 CampaignPlan with_queries(CampaignPlan plan);
 // The same campaign without its strata of queries.
 CampaignPlan without_queries(CampaignPlan plan);

@@ -56,8 +56,8 @@ inline Point mean(const Points& points) {
 
 using Face = std::array<std::int32_t, 3>;
 
-// Where these vertices are in a frame: on the plane of a face that is level across `axis`, or so many
-// units of the last place beyond it. `way` is theirs to there.
+// Where these vertices are in a frame: on the plane of a face that is level across `axis`, or so
+// many units of the last place beyond it. `way` is theirs to there.
 struct Landing {
   std::size_t frame = 0;
   std::vector<std::int32_t> vertices;

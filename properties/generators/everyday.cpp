@@ -180,17 +180,6 @@ void use_everyday_numbers(Random& random, Draft& draft) {
   }
 }
 
-void use_everyday_size(Random& random, Draft& draft) {
-  const double size = everyday_size(random);
-  for (auto& x : draft.frames) {
-    for (auto& p : x) p = size * p;
-  }
-  for (auto* points : {&draft.q0, &draft.q1}) {
-    for (auto& q : *points) q = size * q;
-  }
-  draft.tag("menu:any-size");
-}
-
 namespace {
 
 // Pieces are made with their tops, or their lowest vertices, at height 0 across the third axis.
@@ -224,7 +213,8 @@ void open_up(Random& random, Draft& d) {
   d.faces.erase(d.faces.begin() + random.between(1, static_cast<int>(d.faces.size()) - 1));
 }
 
-// A level top between -1 and 1, on a body, on what is left of one, or alone. Its first face is there.
+// A level top between -1 and 1, on a body, on what is left of one, or alone. Its first face is
+// there.
 Draft ground(Random& random, bool closed) {
   const double depth = random.between(1, 8) / 4.0;
   const Points triangle = {{-1, -1, 0}, {1, -1, 0}, {random.signed_unit(), 1, 0}};
@@ -242,8 +232,8 @@ Draft ground(Random& random, bool closed) {
   return d;
 }
 
-// Something to fall, of about `size` triangles. What is lowest of it is at height 0, one vertex of it
-// at the origin: a vertex, an edge or a side; `lowest` names it.
+// Something to fall, of about `size` triangles. What is lowest of it is at height 0, one vertex of
+// it at the origin: a vertex, an edge or a side; `lowest` names it.
 Draft faller(Random& random, bool closed, int size, std::vector<std::int32_t>& lowest) {
   Draft d;
   if (!closed && random.one_in(3)) {

@@ -20,12 +20,12 @@ double everyday_size(Random& random);
 double units_beyond(double c, int units, double towards);
 
 // Moves the first `first_group` of four points, which come by `way`, along one axis: to where they
-// touch the other points or have passed them by less than a unit of the last place, and `units` units
-// beyond. One point touches a face and two touch an edge, by the exact sign of their volume.
+// touch the other points or have passed them by less than a unit of the last place, and `units`
+// units beyond. One point touches a face and two touch an edge, by the exact sign of their volume.
 void put_on(std::array<Point, 4>& x, std::size_t first_group, const Point& way, int units);
 
-// Draws how far beyond a feature something ends: 0 for every second one, else 1 to 16 units of the last
-// place, or now and then 1 to 4 short of it.
+// Draws how far beyond a feature something ends: 0 for every second one, else 1 to 16 units of the
+// last place, or now and then 1 to 4 short of it.
 int units_at_a_feature(Random& random);
 
 // The numbers of one program, drawn once for a case.
@@ -63,14 +63,11 @@ class EverydayNumbers {
 // the size before.
 void use_everyday_numbers(Random& random, Draft& draft);
 
-// Scales a draft of unit size to an everyday size; all mantissas stay full.
-void use_everyday_size(Random& random, Draft& draft);
-
-// Makes two pieces of about `size` triangles together, in units of the size: one rests or rises, has
-// a level top, and the other comes down on it. A vertex or a level edge of the upper piece lands on
-// the top, on its border or at its corner, where a step ends; or the piece goes on through the top,
-// slides along it, begins there, or stays and leaves again. A third of the open pieces is flat and
-// mostly slides within the plane of the top.
+// Makes two pieces of about `size` triangles together, in units of the size: one rests or rises,
+// has a level top, and the other comes down on it. A vertex or a level edge of the upper piece
+// lands on the top, on its border or at its corner, where a step ends; or the piece goes on through
+// the top, slides along it, begins there, or stays and leaves again. A third of the open pieces is
+// flat and mostly slides within the plane of the top.
 Draft falling_piece(Random& random, bool closed, int size);
 
 }  // namespace assay::properties

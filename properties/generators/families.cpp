@@ -24,7 +24,6 @@ struct Recipe {
   bool nearly_degenerate = false;  // ulp neighbours, slivers, aims just missed
   bool far = false;                // far from the origin, scales, denormals, large steps
   bool everyday = false;           // numbers as programs make them; aimed: a piece falls on another
-  bool any_size = false;           // every second case has an everyday size, others are about 1
   // Percentages of the cases that are positive by construction, and of those with an aimed
   // contact.
   int positive = 0, aimed = 0;
@@ -39,12 +38,11 @@ GeneratedCase make(Random& random, std::string id) {
   return make_by(recipe, random, std::move(id));
 }
 
-constexpr Recipe closed_generic = {.any_size = true, .positive = 20, .aimed = 35};
+constexpr Recipe closed_generic = {.positive = 20, .aimed = 35};
 constexpr Recipe closed_near = {.nearly_degenerate = true, .positive = 20, .aimed = 35};
 constexpr Recipe closed_exact = {.exact = true, .positive = 30, .aimed = 40};
 constexpr Recipe closed_far = {.far = true, .positive = 30, .aimed = 20};
-constexpr Recipe unclosed_generic = {
-    .closed = false, .any_size = true, .positive = 20, .aimed = 40};
+constexpr Recipe unclosed_generic = {.closed = false, .positive = 20, .aimed = 40};
 constexpr Recipe unclosed_exact = {.closed = false, .exact = true, .positive = 25, .aimed = 40};
 constexpr Recipe unclosed_near = {
     .closed = false, .nearly_degenerate = true, .positive = 30, .aimed = 30};
@@ -252,7 +250,6 @@ GeneratedCase make_by(const Recipe& recipe, Random& random, std::string id) {
   if (recipe.nearly_degenerate) miss_nearly(random, draft);
   if (recipe.far) use_far_menus(random, draft);
   if (recipe.everyday) use_everyday_numbers(random, draft);
-  if (recipe.any_size && random.one_in(2)) use_everyday_size(random, draft);
   if (random.one_in(2)) shuffle_faces(random, draft);
   draft.tag(recipe.broken ? "broken" : recipe.closed ? "closed" : "unclosed");
   draft.tag(positive ? "mode:positive" : aimed ? "mode:aimed" : "mode:free");

@@ -33,16 +33,16 @@ inline constexpr std::size_t query_generator_count = 10;
 // All generators; small-int comes first.
 std::span<const QueryGenerator> query_generators();
 
-// One family for each generator, "query-small-int" and so on, and "query-extreme", the last one, of
-// which a half is made by the dear generators. make_case (families.h) makes their cases, each from
-// its id alone.
+// One family for each generator, "query-small-int" and so on, and "query-extreme", the last one.
+// make_case (families.h) makes their cases, each from its id alone.
 std::span<const Family> query_families();
 
 // The family of this name, be it of meshes or of queries; null if there is none.
 const Family* find_family(std::string_view name);
 bool is_query_family(std::string_view name);
-// Whether its exponents are those of all doubles: the oracle takes a hundred times as long. Of these
-// families "query-extreme" alone is a stratum of named campaigns, because it holds the others.
+// Whether its exponents are those of all doubles: the oracle takes a hundred times as long. Of
+// these families "query-extreme" alone is a stratum of named campaigns, because it holds the
+// others.
 bool is_dear_query_family(std::string_view name);
 
 }  // namespace assay::properties

@@ -337,6 +337,7 @@ class Chooser {
     for (std::uint64_t begin = 0; begin < quotas_.queries && !choice.is_full(); begin += together) {
       std::vector<Draft> drafts;
       for (const auto& family : query_families()) {
+        if (family.name.ends_with("-everyday")) continue;  // younger than this edition
         const bool is_dear = is_dear_query_family(family.name);
         for (std::uint64_t i = begin; i < begin + together; ++i) {
           if (is_dear && i % dear_one_in != 0) continue;
@@ -471,6 +472,7 @@ class Chooser {
     for (std::uint64_t i = 0; i < quotas_.meshes && !choice.is_full(); ++i) {
       std::vector<Draft> drafts;
       for (const auto& family : families()) {
+        if (family.name.ends_with("-everyday")) continue;
         const auto id = fmt::format("vectors:1:{}:{}", family.name, i);
         Draft draft{make_case(family, id).c};
         draft.c.source = id;

@@ -7,6 +7,7 @@
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/gates/not_judged.h"
 #include "properties/campaign/ledger/tally.h"
+#include "properties/queries/query_families.h"
 #include "reports/steps/measures_text.h"
 #include "reports/terminal/complaint.h"
 
@@ -92,13 +93,16 @@ std::string histogram(const std::map<int, std::uint64_t>& counts) {
 std::string distribution_text(const properties::Tally& tally) {
   std::string out;
   for (const auto& [family, t] : tally.strata) {
+    const bool is_query = properties::is_query_family(family);
     out += fmt::format(
-        "{}: {} steps of {} cases ({} distinct, {} discarded), {:.0f} % collide\n  triangles {}\n  "
-        "pairs in "
-        "contact {}\n",
-        family, t.steps, t.trials, t.meshes.size(), t.discards,
-        t.steps ? 100.0 * static_cast<double>(t.collisions) / static_cast<double>(t.steps) : 0.0,
-        histogram(t.sizes), histogram(t.contacts));
+        "{}: {} ({} distinct, {} discarded), {:.0f} % collide\n", family,
+        is_query ? fmt::format("{} queries", t.trials)
+                 : fmt::format("{} steps of {} cases", t.steps, t.trials),
+        t.meshes.size(), t.discards,
+        t.steps ? 100.0 * static_cast<double>(t.collisions) / static_cast<double>(t.steps) : 0.0);
+    if (!is_query)
+      out += fmt::format("  triangles {}\n  pairs in contact {}\n", histogram(t.sizes),
+                         histogram(t.contacts));
   }
   return out;
 }

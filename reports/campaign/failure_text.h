@@ -13,7 +13,8 @@
 namespace assay::reports {
 
 // "replay OUT/failures/... --detector LIB.so", the words of a line to paste in any folder. Without
-// `out` they are for the folder of the run: so they stand in certificates and pages, behind "assay".
+// `out` they are for the folder of the run: so they stand in certificates and pages, behind
+// "assay".
 std::string replay_words(const std::filesystem::path& out, const std::filesystem::path& file,
                          const DetectorWords& detector);
 

@@ -131,19 +131,14 @@ class JudgedRows {
       if (!failure) {
         rows_[i].open.push_back({before_id_ + c.id, "", "no verdict: " + runs[i].explanation});
       } else {
-        // In a new process, as in a campaign.
-        properties::WorkerProcess fresh(request_.worker, request_.plugin, limits_of(request_));
-        const bool flaky =
-            !same_answers(runs[i], fresh.run(*seen, {&configurations[i], 1}).front());
-        const auto signature = failure->signature() + (flaky ? " (flaky)" : "");
-        rows_[i].failed.push_back({before_id_ + c.id, signature, failure->explanation});
+        rows_[i].failed.push_back({before_id_ + c.id, failure->signature(), failure->explanation});
         on_failure_({std::string(properties::corpus_in_id) + before_id_ + c.id,
                      configurations[i].name,
-                     signature,
+                     failure->signature(),
                      failure->explanation,
                      corpus::case_text(*seen),
                      {},
-                     flaky,
+                     false,
                      runs[i].printed});
       }
     }

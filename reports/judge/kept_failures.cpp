@@ -216,7 +216,8 @@ Expected<void> KeptFailures::ask_plugin(const corpus::Case& c, Kept& kept) const
   kept.reproduced = fails(c);
   if (!*kept.reproduced) {
     kept.asked =
-        "not reproduced: asked about this step alone, in a new process, the detector is right; "
+        "not reproduced: asked about this step alone, in a new process, the detector does not "
+        "fail; "
         "what fails may need what the process did before";
     return outcome::success();
   }

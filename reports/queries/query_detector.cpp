@@ -23,6 +23,9 @@ namespace {
 // minute.
 constexpr std::uint64_t most_crashes = 100;
 
+// Signatures that are told.
+constexpr std::size_t most_shown = 20;
+
 const properties::Configuration asked_query{"query", {}, {}, true};
 
 }  // namespace
@@ -70,7 +73,8 @@ Expected<std::vector<JudgedQuery>> QueryDetector::judge(
         ++broken_[properties::name_of(failure->claim)];
         const auto signature = failure->signature();
         if (met_[signature]++ == 0) {
-          const bool is_alone_too = answers_alone(queries[all.size()], one.run);
+          const bool is_alone_too =
+              shown_.size() >= most_shown || answers_alone(queries[all.size()], one.run);
           shown_.push_back({name, signature,
                             properties::printable(failure->explanation) +
                                 (is_alone_too ? "" : properties::needs_what_came_before)});
@@ -88,7 +92,6 @@ std::string QueryDetector::text() const {
   if (not_asked_ > 0)
     out +=
         fmt::format("{} queries were not asked: it had crashed {} times\n", not_asked_, crashes_);
-  constexpr std::size_t most_shown = 20;
   for (std::size_t i = 0; i < std::min(most_shown, shown_.size()); ++i) {
     const auto& one = shown_[i];
     out += fmt::format("DEFECT {}, met {}\n  {}: {}\n", one.signature,

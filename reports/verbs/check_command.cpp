@@ -2,6 +2,7 @@
 // detector and, unless it is left out, the oracle, and the two are compared.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "properties/judging/case_options.h"
@@ -42,7 +43,9 @@ Expected<std::unique_ptr<KeptFailures>> kept_failures(const CheckRequest& reques
   if (request.keep.empty()) return std::unique_ptr<KeptFailures>();
   std::optional<properties::Subject> plugin;
   if (!request.question.detector.library.empty()) {
-    BOOST_OUTCOME_TRY(subject, choose_detector(request.question.detector));
+    auto words = request.question.detector;
+    words.threads = std::max<std::uint64_t>(request.question.threads, 1);
+    BOOST_OUTCOME_TRY(subject, choose_detector(words));
     plugin = std::move(subject);
   }
   // What failed may need all of the input.

@@ -7,6 +7,7 @@
 #include "reports/campaign/campaign_options.h"
 #include "reports/judge/log_check.h"
 #include "reports/terminal/text_file.h"
+#include "reports/terminal/words.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {
@@ -50,6 +51,7 @@ Expected<int> run_judge(const JudgeRequest& request) {
   question.selection.from = request.from - 1;
   question.check.wants_report = !request.json_file.empty();
   question.check.announced_file = request.json_file;
+  question.check.again = this_command(PastedIn::any_folder);
   question.check.shows_all_steps = request.all_steps;
   BOOST_OUTCOME_TRY(check_words(request));
   const CheckListener terminal{[](const std::string& text) {

@@ -66,11 +66,14 @@ bool RunFindings::is_waived(const std::string& signature) const {
 }
 
 const StoredFailure* RunFindings::example_of(const std::string& signature) const {
+  // What its own case shows comes first, then what a trial or the search has met.
+  const auto rank = [](const StoredFailure& failure) {
+    return std::pair(failure.flaky, failure.id.starts_with(corpus_in_id));
+  };
   const StoredFailure* shown = nullptr;
   for (const auto& failure : failures) {
-    if (failure.signature != signature) continue;
-    if (!failure.id.starts_with(corpus_in_id)) return &failure;
-    if (!shown) shown = &failure;
+    if (failure.signature == signature && (!shown || rank(failure) < rank(*shown)))
+      shown = &failure;
   }
   return shown;
 }

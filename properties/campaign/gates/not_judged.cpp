@@ -145,6 +145,7 @@ Largest largest_of(const RunFindings& findings, Claim claim) {
   for (const auto& one : findings.evidence.repeated) {
     if (one.runs > 1) grow(largest.repeated, one.triangles);
     for (const auto& step : one.judged) {
+      grow(largest.judged, one.triangles);
       if (step.contacts > 0) grow(largest.in_contact, one.triangles);
     }
   }

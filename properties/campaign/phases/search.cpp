@@ -59,7 +59,7 @@ class ShardSearch {
                                               request_.seed, name_of_lane(*lane)),
                                   cases_of_lane(request_.plan, *lane)};
         const auto result = search(searched, space_, judge, [this] { return is_over(); });
-        keep(*lane, result);
+        keep(*lane, result, worker);
       }
     } catch (const StoreProblem& failure) {
       end_by(failure.problem());
@@ -95,12 +95,10 @@ class ShardSearch {
     state_.defects += lane.defects;
   }
 
-  // A defect as it is stored: if the case, run again by itself in a new process, has other answers,
-  // it is flaky.
-  StoredFailure stored_of(const FoundDefect& found) const {
+  // A defect as it is stored: if the case, run again by itself, has other answers, it is flaky.
+  StoredFailure stored_of(const FoundDefect& found, WorkerProcess& worker) const {
     const auto& configuration = request_.detector.configurations[found.configuration];
-    WorkerProcess fresh(request_.worker, request_.plugin, request_.worker_limits());
-    const auto again = fresh.run(found.c, {&configuration, 1});
+    const auto again = worker.run(found.c, {&configuration, 1});
     const bool flaky = !same_answers(found.run, again[0]);
     const auto failing = failing_case(found.c, configuration, request_.detector, found.failure);
     return {found.c.id,
@@ -113,9 +111,9 @@ class ShardSearch {
             found.run.printed};
   }
 
-  void keep(std::uint64_t number, const LaneResult& result) {
+  void keep(std::uint64_t number, const LaneResult& result, WorkerProcess& worker) {
     std::vector<StoredFailure> failures;
-    for (const auto& found : result.found) failures.push_back(stored_of(found));
+    for (const auto& found : result.found) failures.push_back(stored_of(found, worker));
     const SearchedLane lane{name_of_lane(number), text_of(request_.shard),
                             result.cases,         result.defects,
                             result.open,          {result.causes.begin(), result.causes.end()}};

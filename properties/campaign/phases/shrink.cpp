@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
+#include <map>
 #include <stdexcept>
 
 #include "detector/detector.h"
@@ -100,6 +100,14 @@ double seconds_for(const StoredFailure& failure, const corpus::Case& failing, do
   return usual * std::clamp(static_cast<double>(failing.triangles.rows()) / 10'000, 1., most_times);
 }
 
+// Whether one run of the case alone has to show the failure: not if a law is broken, or if two runs
+// have to agree.
+bool may_be_asked_alone(const StoredFailure& failure, const CampaignRequest& request) {
+  const bool is_of_two_runs =
+      failure.signature.find(name_of(Claim::deterministic)) != std::string::npos;
+  return request.plugin && !is_of_two_runs;
+}
+
 // Puts failures that were shrunk in part before the others of their signature.
 void order_for_shrinking(std::vector<StoredFailure>& failures) {
   std::stable_partition(failures.begin(), failures.end(),
@@ -113,13 +121,14 @@ void shrink_failures(const CampaignRequest& request, Store& store, const ReduceL
                      const std::function<void(const std::string&)>& progress) {
   auto failures = store.failures();
   order_for_shrinking(failures);
-  std::set<std::string> met;
-  WorkerProcess worker(request.worker, request.plugin, request.worker_limits());
+  constexpr int most_tried = 3;
+  std::map<std::string, int> tried;  // of each signature
   for (auto& failure : failures) {
     const std::chrono::duration<double> left = deadline - std::chrono::steady_clock::now();
     if (left.count() <= 0) return;
-    if (failure.flaky || !met.insert(failure.signature).second || store.note(done_note(failure)))
-      continue;
+    auto& tried_of_kind = tried[failure.signature];
+    if (store.note(done_note(failure))) tried_of_kind = most_tried;
+    if (failure.flaky || tried_of_kind >= most_tried) continue;
     const auto& begin = failure.smallest.empty() ? failure.mesh : failure.smallest;
     const auto failing = corpus::parse_case(begin, failure.id);
     if (!failing) continue;
@@ -130,6 +139,21 @@ void shrink_failures(const CampaignRequest& request, Store& store, const ReduceL
     if (configuration == configurations.end()) continue;
     const auto detector = request.detector.in(*configuration);
     if (progress) progress(failure.signature);
+    // New ones, because a process that was asked much before may fail where they do not.
+    WorkerProcess worker(request.worker, request.plugin, request.worker_limits()),
+        last(request.worker, request.plugin, request.worker_limits());
+    const auto shows = [&](const std::string& mesh, WorkerProcess& asked) {
+      const auto judge = judge_of_detector(request.detector, *configuration, asked, request.jobs);
+      return judge(corpus::parse_case(mesh, failure.id).value()).has_value();
+    };
+    const bool is_asked_alone = may_be_asked_alone(failure, request);
+    if (is_asked_alone && !shows(failure.mesh, worker)) {
+      failure.flaky = true;
+      store.set_smallest(failure);
+      ++tried_of_kind;
+      continue;
+    }
+    tried_of_kind = most_tried;
     const double most = seconds_for(failure, failing.value(), limits.seconds);
     const ReduceLimits bounded{std::min(most, left.count()), limits.calls};
     const Law* law = failure.signature.starts_with(law_in_signature)
@@ -156,11 +180,8 @@ void shrink_failures(const CampaignRequest& request, Store& store, const ReduceL
     if (is_large(reduction.smallest) && !law && !reduction.finding.signature.empty())
       store_as_smallest(reduction.smallest,
                         about_shrunk(failure, reduction.finding, reduction.fails_from));
-    // A process that was asked much may fail where a new one does not.
-    WorkerProcess fresh(request.worker, request.plugin, request.worker_limits());
-    const auto fails = judge_of_detector(request.detector, *configuration, fresh, request.jobs);
-    const auto shrunk = corpus::parse_case(failure.smallest, failure.id);
-    if (!law && shrunk && !fails(shrunk.value())) failure.smallest.clear();
+    if (is_asked_alone && !failure.smallest.empty() && !shows(failure.smallest, last))
+      failure.smallest.clear();
     if (failure.smallest.empty()) {
       // Nothing smaller was found, so the mesh itself is the smallest.
       failure.smallest = failure.mesh;

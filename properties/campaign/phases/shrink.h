@@ -28,9 +28,10 @@ Reduction shrink_case(const corpus::Case& failing, const DetectorUnderTest& dete
 
 // Shrinks the first stored failure of each signature (failures of one signature break the same
 // claim in the same way). One that has been shrunk before is left alone, and so is one that the
-// store calls flaky. One whose shrinking was interrupted goes on from its smallest mesh so far.
-// Each better mesh is stored as soon as it is found. `limits` hold for each failure, the deadline
-// for all. Throws StoreProblem, which only campaign/ catches.
+// store calls flaky. Flaky is also what its own case does not show in a new process; then the next
+// two of the signature are tried. One whose shrinking was interrupted goes on from its smallest
+// mesh so far. Each better mesh is stored as soon as it is found. `limits` hold for each failure,
+// the deadline for all. Throws StoreProblem, which only campaign/ catches.
 void shrink_failures(const CampaignRequest& request, Store& store, const ReduceLimits& limits,
                      RunDeadline deadline, const std::function<void(const std::string&)>& progress);
 

@@ -197,13 +197,6 @@ class Trials {
       return of(family, request_.second_worker_limits());
     }
 
-    // One that was asked nothing before.
-    WorkerProcess fresh(const Family& family) const {
-      auto limits = request_.worker_limits();
-      limits.seconds *= time_factor(family);
-      return {request_.worker, request_.plugin, limits};
-    }
-
    private:
     WorkerProcess& of(const Family& family, WorkerLimits limits) {
       limits.seconds *= time_factor(family);
@@ -244,15 +237,15 @@ class Trials {
   // `again` is a second run for each configuration, or NULL.
   void conclude(Trial& trial, const CaseRun* again, Workers& workers) const {
     if (!trial.is_within) return;
+    auto& worker = workers.first(*trial.planned->family);
     trial.record.outcomes.assign(trial.detector->configurations.size(), not_run);
     for (std::size_t i = 0; i < trial.runs.size(); ++i)
-      judge_configuration(trial, i, again ? again + i : nullptr, workers);
+      judge_configuration(trial, i, again ? again + i : nullptr, worker);
     auto& measures = trial.record.counts.measures;
     measures.contact_trials = trial.has_contact ? 1 : 0;
     measures.repeated_trials = again ? 1 : 0;
     count_steps(trial);
-    if (has_forms(request_.detector, trial.seen))
-      count_forms(trial, again, workers.first(*trial.planned->family));
+    if (has_forms(request_.detector, trial.seen)) count_forms(trial, again, worker);
   }
 
   // The laws of a plug-in, in cases that hold: what fails anyway shows nothing of a form.
@@ -327,7 +320,7 @@ class Trials {
   }
 
   void judge_configuration(Trial& trial, std::size_t i, const CaseRun* again,
-                           const Workers& workers) const {
+                           WorkerProcess& worker) const {
     const auto& configuration = trial.configurations[i];
     JudgedTrial judged =
         judge_trial(trial.seen, trial.truth, trial.runs[i], configuration, *trial.detector, again);
@@ -345,11 +338,9 @@ class Trials {
       measures.left_out_misses += judged.left_out_misses;
     }
     if (!judged.failure) return;
-    // A failing case is run again before it is reported, in a new process: what it shows only where
-    // others came before is not shown by its file. If the two runs differ, that is a failure by
-    // itself.
-    auto fresh = workers.fresh(*trial.planned->family);
-    const bool flaky = !same_answers(trial.runs[i], run(trial, {&configuration, 1}, fresh)[0]);
+    // A failing case is run again before it is reported. If the two runs differ, that is a failure
+    // by itself.
+    const bool flaky = !same_answers(trial.runs[i], run(trial, {&configuration, 1}, worker)[0]);
     const auto failing = failing_case(trial.seen, configuration, *trial.detector, *judged.failure);
     trial.failures.push_back({trial.record.id, configuration.name,
                               judged.failure->signature() + (flaky ? " (flaky)" : ""),

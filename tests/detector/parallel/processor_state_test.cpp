@@ -132,7 +132,8 @@ Moved greatest_pair() {
   return {triangles({{3, 2, 1}, {4, 0, 5}}), t0 * eighth, t1 * eighth};
 }
 
-// A folded sheet whose upper half falls through its lower one, with numbers that have to be rounded.
+// A folded sheet whose upper half falls through its lower one, with numbers that have to be
+// rounded.
 Moved folded_sheet() {
   constexpr int side = 24;
   Positions x(side * side, 3);

@@ -18,9 +18,9 @@ class JudgedAlike : public testing::Test {
   static CampaignRequest smoke(std::uint64_t one_of) {
     CampaignRequest request;
     const auto& plans = named_plans();
-    // The plug-ins take no relation.
-    request.plan = without_relations(*std::find_if(
-        plans.begin(), plans.end(), [](const CampaignPlan& plan) { return plan.name == "smoke"; }));
+    // The plug-ins take no relation, and of limits and distances the built-in is asked apart.
+    request.plan = without_questions(without_relations(*std::find_if(
+        plans.begin(), plans.end(), [](const auto& plan) { return plan.name == "smoke"; })));
     EXPECT_EQ(request.plan.name, "smoke");
     for (auto& stratum : request.plan.strata) stratum.cases /= one_of;
     request.plan.laws_every = 0;

@@ -115,7 +115,8 @@ TEST(Questions, EachIsAskedInItsStratumAlone) {
   }
 }
 
-// A fault is planted in the worker; what fails there is stored, shrunk and replayed as it was asked.
+// A fault is planted in the worker; what fails there is stored, shrunk and replayed as it was
+// asked.
 TEST(Questions, WhatFailsIsKeptWithItsQuestion) {
   const Scratch scratch;
   auto store = Store::open(scratch / "store", "b");

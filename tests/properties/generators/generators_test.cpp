@@ -108,11 +108,11 @@ TEST(Generators, AnIdGivesTheSameBytesAndAnotherIdOthers) {
 // that makes other bytes is noticed.
 TEST(Generators, MakeTheseBytesOnEveryMachine) {
   const std::map<std::string_view, std::uint64_t> wanted = {
-      {"closed-generic", 0x4db70b68770c23aau},
+      {"closed-generic", 0x603222a5e2a3683bu},
       {"closed-near-degenerate", 0x897459d4df24b6fdu},
       {"closed-degenerate", 0x3c2b27097e05d365u},
       {"closed-far-large-step", 0x24943abbc5715296u},
-      {"unclosed-generic", 0xc1655a0e432fb27cu},
+      {"unclosed-generic", 0x6e3f495d9d48b896u},
       {"unclosed-degenerate", 0x9192a7dcc3a39b2bu},
       {"unclosed-near-degenerate", 0x5ee572b45e6424adu},
       {"closed-everyday", 0xb358027460bd30a7u},
@@ -150,7 +150,7 @@ TEST(Generators, EveryTagOccurs) {
       "view:on-a-face aim:vertex aim:edge aim:face aim:edge-edge aim:grazing aim:simultaneous "
       "aim:coplanar aim:region-border aim:start aim:end aim:mid-step menu:small-integers "
       "menu:dyadics menu:ulp menu:sliver menu:near-coincidence menu:far menu:mixed-scales "
-      "menu:wide-scales menu:denormal menu:any-size shape:box shape:flat shape:triangle "
+      "menu:wide-scales menu:denormal shape:box shape:flat shape:triangle "
       "shape:floor "
       "lands:on-an-edge lands:on-a-vertex lands:at-start lands:at-end lands:within lands:sliding "
       "numbers:full numbers:decimals numbers:inches numbers:quotient numbers:float32 "

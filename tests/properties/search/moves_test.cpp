@@ -36,7 +36,7 @@ TEST(Moves, KeepCasesValidAndChangeThem) {
   const Contract contract;
   for (const Move& move : moves()) {
     int changed = 0;
-    for (int i = 0; i < 64; ++i) {
+    for (int i = 0; i < 8 * static_cast<int>(families().size()); ++i) {
       Random random("moves:" + std::to_string(i));
       Candidate made = candidate_of(case_number(i), random);
       const Candidate other = candidate_of(case_number(i + 1), random), before = made;

@@ -100,7 +100,8 @@ class ProcessorClock {
 inline FirstDefect race_at_random(const Runner& runner, int seed, const RaceLimits& limits) {
   FirstDefect first;
   const ProcessorClock clock;
-  // But for everyday numbers: trials find the racing peer there at once, and nothing is left to search.
+  // But for everyday numbers: trials find the racing peer there at once, and nothing is left to
+  // search.
   std::vector<Family> known(families().begin(), families().end());
   std::erase_if(known, [](const Family& family) { return family.name.ends_with("-everyday"); });
   while (first.cases < limits.cases && clock.seconds() < limits.seconds) {

@@ -116,6 +116,8 @@ TEST(Summary, NamesClaimsContractAndCampaign) {
 TEST(Summary, NamesTheLargestThatWasTried) {
   auto findings = good_findings();
   findings.tally.counts.extremes = {8, 1, 0, 5, 1, 200};
+  for (auto& [family, stratum] : findings.tally.strata)
+    stratum.triangles = stratum.triangles_in_contact = 200;
   findings.tally.counts.measures.relation_trials = 1;
   findings.evidence.corpus[0].extremes = {2, 14, 1, 2, 1, 12};
   findings.evidence.repeated.emplace_back().extremes = {1, 2, 0, 1, 812, 99};

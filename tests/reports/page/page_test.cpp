@@ -167,7 +167,7 @@ TEST_F(Runs, APlugInsLibraryIsReadBack) {
   // Absolute: lines that name it are pasted anywhere.
   EXPECT_EQ(findings.library, std::filesystem::absolute("some/where.so").string());
   EXPECT_FALSE(findings.run.detector.built_in);
-  EXPECT_EQ(findings.run.detector.configurations.size(), 10u);
+  EXPECT_EQ(findings.run.detector.configurations.size(), 12u);
 }
 
 TEST_F(Runs, APageTellsNoFolderOfTheMachineThatItIsMadeOn) {

@@ -177,11 +177,11 @@ TEST_F(Certify, ACertificateVerifiesAndNoFieldOrFileCanBeChanged) {
   // The trials again, some of them and all.
   const auto some = run_assay("verify --again 0.3 --seed 7 " + certificate);
   EXPECT_EQ(some.exit_code, 0) << some.out << some.err;
-  EXPECT_TRUE(says(some.out, "again: 8 of 24 trials, seed 7: all as they are stored\n"));
+  EXPECT_TRUE(says(some.out, "again: 15 of 48 trials, seed 7: all as they are stored\n"));
   EXPECT_EQ(run_assay("verify --again 0.3 --seed 7 " + certificate).out, some.out);
   const auto all = run_assay("verify --again 1 " + certificate);
   EXPECT_EQ(all.exit_code, 0) << all.out << all.err;
-  EXPECT_TRUE(contains(all.out, "again: 24 of 24 trials, seed ")) << all.out;
+  EXPECT_TRUE(contains(all.out, "again: 48 of 48 trials, seed ")) << all.out;
 
   // The same again: the same but for times.
   const auto again = certify();

@@ -59,7 +59,7 @@ TEST_F(Outputs, ThatCannotBeWrittenAreRefusedBeforeTheWork) {
                                  "scene bend --size 100 --out ",
                                  "vectors --out "};
   for (const auto& words : folders) {
-    for (const std::string place : {file, file + "/below", std::string("/proc/nowhere")})
+    for (const auto& place : {file, file + "/below", std::string("/proc/nowhere")})
       expect_refused(run_assay(words + place), place);
   }
   const std::string files[] = {check + " --json ",
@@ -74,7 +74,7 @@ TEST_F(Outputs, ThatCannotBeWrittenAreRefusedBeforeTheWork) {
                                "answer-vectors " + set + " --out ",
                                "score " + set + "/results/assay_exact.json --out "};
   for (const auto& words : files) {
-    for (const std::string place :
+    for (const auto& place :
          {scratch / "", file + "/below", scratch / "absent/file", std::string("/proc/nowhere")})
       expect_refused(run_assay(words + place), place);
   }
