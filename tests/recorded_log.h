@@ -71,4 +71,21 @@ class LogWriter {
   assay_recorder recorder_;
 };
 
+// Writes a log of two steps that are said to be free. In the second one a triangle falls through
+// another.
+inline void write_missed_contact(const std::string& path) {
+  detector::Triangles triangles(2, 3);
+  triangles << 0, 1, 2, 3, 4, 5;
+  detector::Positions above(6, 3);
+  above << 0, 0, 0, 9, 0, 0, 0, 9, 0, 1, 1, 1, 1, 2, 1, 2, 1, 2;
+  detector::Positions below = above;
+  below.block(3, 2, 3, 1).array() -= 1.5;
+  LogWriter log(path, triangles, above);
+  detector::StepResult free;
+  free.answer = detector::Answer::free;
+  log.step(&above, above, free);
+  log.step(&above, below, free);
+  log.end();
+}
+
 }  // namespace assay::tests

@@ -1,7 +1,8 @@
 #include "properties/generators/menus.h"
 
 #include <cmath>
-#include <limits>
+
+#include "properties/generators/everyday.h"
 
 namespace assay::properties {
 
@@ -30,7 +31,6 @@ void round_to_grid(Draft& draft, double scale, int bits) {
 }
 
 void place_ulp_neighbours(Random& random, Draft& draft) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   for (int changes = random.between(1, 6); changes > 0; --changes) {
     Points& x = any_of(random, draft.frames);
     const Point other = any_of(random, x);
@@ -38,13 +38,9 @@ void place_ulp_neighbours(Random& random, Draft& draft) {
     const auto k = at(random.below(3));
     // Mostly the coordinate stays near its own value. The value of another vertex moves the vertex
     // far.
-    double c = random.one_in(4) ? other[k] : p[k];
-    const double towards = random.one_in(2) ? infinity : -infinity;
-    for (int i = random.between(1, 3); i > 0; --i) {
-      c = c == 0 ? std::copysign(std::numeric_limits<double>::epsilon(), towards)
-                 : std::nextafter(c, towards);
-    }
-    p[k] = c;
+    const double c = random.one_in(4) ? other[k] : p[k];
+    const double towards = random.one_in(2) ? 1 : -1;
+    p[k] = units_beyond(c, random.between(1, 3), towards);
   }
   draft.tag("menu:ulp");
 }

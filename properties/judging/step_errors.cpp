@@ -171,10 +171,7 @@ void from_json(const nlohmann::json& json, StepErrors& errors) {
   read_fields(json, errors);
   errors.limits = {};
   const auto limits = json.find("limits");
-  if (limits == json.end()) return;
-  auto whole = json_of_fields<nlohmann::json>(errors.limits);  // older stores do not excuse
-  whole.merge_patch(*limits);
-  read_fields(whole, errors.limits);
+  if (limits != json.end()) read_fields(*limits, errors.limits);
 }
 
 }  // namespace assay::properties

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <deque>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -214,12 +213,9 @@ GeneratedQuery constructed(std::uint64_t seed, std::uint64_t index) {
 GeneratedQuery ulp_neighbours(std::uint64_t seed, std::uint64_t index) {
   Random random(~seed, index);
   Query q = random.below(2) == 0 ? constructed(seed, index).query : small_integers(random, index);
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   for (int changes = random.between(1, 3); changes > 0; --changes) {
     double& c = any_coordinate(random, q);
-    const double towards = random.below(2) == 0 ? infinity : -infinity;
-    c = c == 0 ? std::copysign(std::numeric_limits<double>::epsilon(), towards)
-               : std::nextafter(c, towards);
+    c = units_beyond(c, 1, random.below(2) == 0 ? 1 : -1);
   }
   return {q, {}};
 }

@@ -41,8 +41,8 @@ std::span<const Family> query_families();
 const Family* find_family(std::string_view name);
 bool is_query_family(std::string_view name);
 // Whether its exponents are those of all doubles: the oracle takes a hundred times as long. Of
-// these families "query-extreme" alone is a stratum of named campaigns, because it holds the
-// others.
+// these families "query-extreme" alone is a stratum of named campaigns: it has denormals and all
+// exponents, as the others have.
 bool is_dear_query_family(std::string_view name);
 
 }  // namespace assay::properties

@@ -120,18 +120,7 @@ TEST_F(LinesToPaste, OfACaseFileKeepItsRelation) {
 
 TEST_F(LinesToPaste, OfJudgeNameTheLogAndTheStep) {
   const auto path = (folder / "my log").string();
-  detector::Triangles triangles(2, 3);
-  triangles << 0, 1, 2, 3, 4, 5;
-  detector::Positions x0(6, 3), x1(6, 3);
-  x0 << 0, 0, 0, 9, 0, 0, 0, 9, 0, 1, 1, 1, 1, 2, 1, 2, 1, 2;
-  x1 = x0;
-  x1.block(3, 2, 3, 1).array() -= 1.5;
-  LogWriter log(path, triangles, x0);
-  detector::StepResult free;
-  free.answer = detector::Answer::free;
-  log.step(&x0, x0, free);
-  log.step(&x0, x1, free);
-  log.end();
+  write_missed_contact(path);
   for (const std::string word : {"'my log'", "'my log#2'"}) {
     const auto judged = run("judge " + word + " --out judged");
     EXPECT_EQ(judged.exit_code, 1) << judged.out << judged.err;

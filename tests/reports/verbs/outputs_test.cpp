@@ -27,17 +27,7 @@ class Outputs : public testing::Test {
 
   std::string log() const {
     const auto path = scratch / "steps.log";
-    detector::Triangles triangles(2, 3);
-    triangles << 0, 1, 2, 3, 4, 5;
-    detector::Positions x0(6, 3), x1(6, 3);
-    x0 << 0, 0, 0, 9, 0, 0, 0, 9, 0, 1, 1, 1, 1, 2, 1, 2, 1, 2;
-    x1 = x0;
-    x1.block(3, 2, 3, 1).array() -= 1.5;
-    LogWriter writer(path, triangles, x0);
-    detector::StepResult missed;
-    missed.answer = detector::Answer::free;
-    writer.step(&x0, x1, missed);
-    writer.end();
+    write_missed_contact(path);
     return path;
   }
 };
