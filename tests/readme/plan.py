@@ -130,7 +130,7 @@ ENDS = {
     },
     "reports/judge/TEN_MINUTES.md": {
         "assay run --campaign detector/plugin/ci/push.json --seed 2 --detector ./my_ccd.so --power build/proof --out build/mine": [1],
-        "assay replay build/mine/failures/search-push-2-002-524-my-CCD-smallest.json --detector ./my_ccd.so": [1, 0],
+        "assay replay build/mine/failures/search-push-2-001-315-my-CCD-smallest.json --detector ./my_ccd.so": [1, 0],
         "SEED=1 SOURCES=tests/plugins/additive_ccd.cpp sh detector/plugin/ci/job.sh": [1],
         "SEED=3 sh detector/plugin/ci/job.sh": [1],
         "assay judge steps.log --out build/judged": [1],
@@ -152,7 +152,7 @@ SHOWN = {
     },
     "reports/judge/TEN_MINUTES.md": {
         "assay run --campaign detector/plugin/ci/push.json --seed 2 --detector ./my_ccd.so --power build/proof --out build/mine": "claims     FAILS",
-        "assay replay build/mine/failures/search-push-2-002-524-my-CCD-smallest.json --detector ./my_ccd.so": "my CCD: defect",
+        "assay replay build/mine/failures/search-push-2-001-315-my-CCD-smallest.json --detector ./my_ccd.so": "my CCD: defect",
         "assay run --campaign detector/plugin/ci/push.json --seed 2 --detector ./my_ccd.so --power build/proof --out build/mine-mended": "claims     holds",
         "SEED=1 SOURCES=tests/plugins/additive_ccd.cpp sh detector/plugin/ci/job.sh": "corpus     FAILS",
         "SEED=3 sh detector/plugin/ci/job.sh": "verdict: defect",

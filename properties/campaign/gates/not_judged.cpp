@@ -184,9 +184,10 @@ std::vector<JudgedSize> judged_sizes(const RunFindings& findings) {
   for (const Claim claim : all_claims()) {
     if (is_among(left, name_of(claim)) || !has(words, claim)) continue;
     const auto largest = largest_of(findings, claim);
-    sizes.push_back({name_of(claim), claim == Claim::deterministic ? largest.repeated
-                                     : speaks_of_contacts(claim)   ? largest.in_contact
-                                                                   : largest.judged});
+    const auto triangles = claim == Claim::deterministic ? largest.repeated
+                           : speaks_of_contacts(claim)   ? largest.in_contact
+                                                         : largest.judged;
+    if (triangles > 0) sizes.push_back({name_of(claim), triangles});
   }
   return sizes;
 }

@@ -32,8 +32,8 @@ std::vector<std::string> left_out_families(const RunFindings& findings);
 // The size of the largest mesh on which a claim was tried and judged: in a trial, in the corpus, or
 // in a scene that was repeated. Claims about contacts are tried by steps with a contact that the
 // contract does not leave out, `deterministic` by cases that were run twice. The claims of all
-// configurations, in their order, but for those that were not judged. Empty for a run of queries
-// alone, which have no size.
+// configurations, in their order, but for those that were tried on no mesh, as `progress` is where
+// no stratum asks for limits. Empty for a run of queries alone, which have no size.
 struct JudgedSize {
   std::string claim;
   std::uint64_t triangles = 0;

@@ -32,7 +32,10 @@ class Sizes : public RunFixture {
 TEST_F(Sizes, TheBuiltInHoldsAndTheSizeIsSaid) {
   const auto outcome = run_on(stratum("size-1e3", 4));
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-  for (const auto& [claim, triangles] : judged_sizes(findings())) {
+  const auto sizes = judged_sizes(findings());
+  EXPECT_FALSE(sizes.empty());
+  for (const auto& [claim, triangles] : sizes) {
+    EXPECT_NE(claim, "progress") << "nothing asked for a limit";
     EXPECT_GE(triangles, 900u) << claim;
     EXPECT_TRUE(contains(outcome.out, claim)) << claim;
   }
