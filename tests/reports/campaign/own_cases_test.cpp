@@ -90,7 +90,7 @@ std::string case_of_so_many(const std::string& id) {
 TEST_F(OwnCases, ThatFailMayBeWaivedUntilADay) {
   scratch.write("cases/known-to-fail.json", case_of_so_many("known-to-fail"));
   // Nothing smaller fails, so its shrinking would take all the time that it may have.
-  const auto soon = scratch.write("soon.json", plan_text(16, R"(, "shrink_share": 0.01)"));
+  const auto soon = scratch.write("soon.json", plan_text(16, R"(, "shrink_share": 0.001)"));
   const auto certify = [&](const std::string& name) {
     return run_assay("certify --campaign " + soon + " --out " + (scratch / name) + " --detector " +
                      plugin("misses_on_97") + " --corpus " + folder);

@@ -10,7 +10,7 @@ using Json = nlohmann::ordered_json;
 class RunSelfKill : public RunFixture {
  protected:
   Outcome verdict(const std::string& name) {
-    plan = scratch.write("plan.json", plan_text(100, R"(, "shrink_share": 0.02)"));
+    plan = scratch.write("plan.json", plan_text(100, R"(, "shrink_share": 0.002)"));
     out = scratch / name;
     return run("--jobs 2 --detector " + plugin(name));
   }
@@ -67,7 +67,7 @@ TEST_F(RunSelfKill, AtRandomDoesNotHold) {
 }
 
 TEST_F(RunSelfKill, AtRandomIsNeverCertified) {
-  plan = scratch.write("plan.json", plan_text(100, R"(, "shrink_share": 0.02)"));
+  plan = scratch.write("plan.json", plan_text(100, R"(, "shrink_share": 0.002)"));
   const auto made = run_assay("certify --jobs 2 --campaign " + plan + " --out " + out +
                               " --detector " + plugin("killed_at_random"));
   EXPECT_TRUE(made.exit_code == 1 || made.exit_code == 3) << made.out << made.err;

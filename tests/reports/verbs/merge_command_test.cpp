@@ -7,7 +7,7 @@ namespace {
 class MergeCommand : public testing::Test {
  protected:
   const Scratch scratch;
-  const std::string plan = scratch.write("plan.json", plan_text(16, R"(, "shrink_share": 0.02)"));
+  const std::string plan = scratch.write("plan.json", plan_text(16, R"(, "shrink_share": 0.002)"));
   Outcome run(const std::string& out, const std::string& more) const {
     return run_assay("run --campaign " + plan + " --out " + scratch / out + " " + more);
   }

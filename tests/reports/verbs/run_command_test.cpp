@@ -144,7 +144,7 @@ TEST_F(Run, ADefectHasAllThatIsNeededToSeeIt) {
 }
 
 TEST_F(Run, PlugInsGetTheVerdictsThatTheyDeserve) {
-  plan = scratch.write("plan.json", plan_text(24, R"(, "case_seconds": 1, "shrink_share": 0.02)"));
+  plan = scratch.write("plan.json", plan_text(24, R"(, "case_seconds": 1, "shrink_share": 0.002)"));
   const auto verdict = [&](const std::string& name) {
     out = scratch / name;
     return run("--detector " + plugin(name));
