@@ -25,8 +25,8 @@ inline std::string plan_text(int cases, const std::string& more = "") {
   const std::string n = std::to_string(cases), half = std::to_string(cases / 2);
   const std::string seconds = more.find("shrink_share") == std::string::npos ? "null" : "600";
   return R"({"schema": "assay-campaign/1", "name": "tiny", "seconds": )" + seconds +
-         R"(, "strata": [{"family": "closed-generic", "cases": )" +
-         n + R"(}, {"family": "unclosed-generic", "cases": )" + half +
+         R"(, "strata": [{"family": "closed-generic", "cases": )" + n +
+         R"(}, {"family": "unclosed-generic", "cases": )" + half +
          R"(}, {"family": "broken", "cases": )" + half + "}]" + more + "}";
 }
 
