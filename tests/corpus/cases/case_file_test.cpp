@@ -1,5 +1,6 @@
 #include "corpus/cases/case_file.h"
 
+#include "corpus/file_bytes.h"
 #include "tests/corpus/scratch.h"
 
 namespace assay::corpus {
@@ -34,6 +35,28 @@ Case full_case() {
   c.expected = {detector::Answer::collision, {step, ExpectedStep{}}};
   c.pending = R"({"facts":{"closed":true,"t":0.1},"in_K":[[0,1]],"z":null,"a":1})";
   return c;
+}
+
+// The parser would take the last of two.
+TEST_F(CaseFile, AKeyThatStandsTwiceIsRefusedByItsPlace) {
+  const auto path = folder() / "full.json";
+  ASSERT_TRUE(write_case(path, full_case()));
+  const std::string whole = read_bytes(path).value();
+  const auto problem_with = [&](std::string_view key, const std::string& before) {
+    const auto at = whole.find("\"" + std::string(key) + "\":", whole.find("\"expected\""));
+    write("twice.json", std::string(whole).insert(at, before));
+    const auto read = read_case(folder() / "twice.json");
+    return read ? "none" : read.error().message;
+  };
+  EXPECT_NE(problem_with("first_time", "\"first_time\": [0.25, 0.5], ")
+                .find("expected.steps[0].first_time stands twice"),
+            std::string::npos);
+  EXPECT_NE(problem_with("steps", "\"\\u0073teps\": [], ").find("expected.steps stands twice"),
+            std::string::npos)
+      << "spelt otherwise, and the same";
+  EXPECT_NE(problem_with("expected", "\"id\": \"other\", ").find("id stands twice"),
+            std::string::npos);
+  EXPECT_EQ(problem_with("expected", ""), "none");
 }
 
 TEST_F(CaseFile, RoundTripKeepsEveryFieldAndEveryBit) {

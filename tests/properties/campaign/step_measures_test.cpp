@@ -115,5 +115,22 @@ TEST(NotJudged, NamesWhatTheContractOrTheTimesMakeVoid) {
   EXPECT_EQ(names({}), (Names{"free-sound", "first-time", "first-pairs"}));
 }
 
+// A step whose answer could not be used had a contact all the same.
+TEST(NotJudged, TellsStepsWithoutAContactFromThoseWithoutAnAnswer) {
+  BoundDetector detector;
+  detector.built_in = false;
+  detector.configurations = {{"plug-in", {"free-sound"}}};
+  StepMeasures counts;
+  EXPECT_EQ(not_judged(detector, counts).at(0).reason, "no step had a contact");
+  counts.unanswered = 1;
+  EXPECT_EQ(not_judged(detector, counts).at(0).reason,
+            "the one step with a contact has no answer that can be judged");
+  counts.unanswered = 7;
+  EXPECT_EQ(not_judged(detector, counts).at(0).reason,
+            "the 7 steps with a contact have no answer that can be judged");
+  count_collision(0, 0, {0.5, 0.5}, counts);
+  EXPECT_TRUE(not_judged(detector, counts).empty());
+}
+
 }  // namespace
 }  // namespace assay::properties

@@ -117,6 +117,18 @@ TEST(Cause, OfAQueryItsFeaturesAloneAreNear) {
             "t inside, moving, generic, near contact at the start");
 }
 
+// The two triangles share a vertex, and the features asked never meet.
+TEST(Cause, OfAQueryThatStaysApartNothingIsShared) {
+  Fall one;
+  one.triangles(1, 1) = 1;
+  one.x_t1 = one.x_t0;
+  const detector::Feature features{detector::FeatureKind::vertex_face, {3, 0, 1, 2, -1}};
+  EXPECT_EQ(text_of(cause_of_query(one.triangles, {one.x_t0, one.x_t1}, features)),
+            "at rest, generic");
+  EXPECT_EQ(text_of(cause_of(one.triangles, {one.x_t0, one.x_t1}, detector::TrianglePair{0, 1})),
+            "at rest, generic, sharing a vertex");
+}
+
 TEST(Cause, AContactSoonAfterTheStartIsOneOfItsOwn) {
   Fall soon;
   soon.x_t1(3, 2) = -2000;

@@ -191,6 +191,15 @@ TEST_F(Certify, ACertificateVerifiesAndNoFieldOrFileCanBeChanged) {
   for (Json* s : {&first, &second}) (*s)["predicate"].erase("times");
   EXPECT_EQ(first, second);
 
+  // What is beside it and is of no digest is named.
+  EXPECT_FALSE(contains(verified.out, "not looked at"));
+  write(out + "/page.html", "anything");
+  const auto beside = run_assay("verify " + certificate);
+  EXPECT_EQ(beside.exit_code, 0) << beside.out;
+  EXPECT_TRUE(contains(beside.out, "not looked at, for nothing of it rests on them: page.html\n"))
+      << beside.out;
+  std::filesystem::remove(out + "/page.html");
+
   // In another folder: digests are of rows and bytes, not of places.
   const std::string elsewhere = scratch / "some/where else";
   ASSERT_EQ(run_assay("certify --campaign " + plan + " --out '" + elsewhere + "'").exit_code, 0);
