@@ -76,8 +76,8 @@ struct Case {
   std::string source;  // where it comes from
   detector::Triangles triangles;
   std::vector<detector::Positions> frames;  // at least one
-  // The steps in order; if the caller responds to a collision, it shows here. Empty: each two
-  // consecutive frames are a step, and all steps are committed.
+  // The steps in order; if the caller responds to a collision, it shows here. Empty: the
+  // consecutive_steps().
   std::vector<CaseStep> script;
   std::optional<CaseView> view;
   std::optional<CaseGhosts> ghosts;
@@ -95,7 +95,7 @@ inline const detector::CountedPairs* counted_of(const Case& c) {
   return c.counted ? &c.counted->pairs : nullptr;
 }
 
-// A committed step for each two consecutive frames.
+// A committed step for each two consecutive frames; of one frame alone, one that does not move.
 std::vector<CaseStep> consecutive_steps(std::size_t frames);
 
 // The script of the case or, if it is empty, the consecutive steps.

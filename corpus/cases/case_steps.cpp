@@ -5,6 +5,7 @@
 namespace assay::corpus {
 
 std::vector<CaseStep> consecutive_steps(std::size_t frames) {
+  if (frames == 1) return {{0, 0, true}};
   std::vector<CaseStep> steps;
   for (std::size_t f = 1; f < frames; ++f) {
     const auto to = static_cast<std::int32_t>(f);

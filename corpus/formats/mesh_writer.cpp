@@ -20,12 +20,14 @@ void append_little_endian(std::string& bytes, Bits value) {
 }
 
 std::string ply_bytes(const detector::PositionsView& positions,
-                      const detector::TrianglesView& triangles) {
+                      const detector::TrianglesView& triangles,
+                      const std::vector<std::uint8_t>* marked) {
   std::string bytes = fmt::format(
       "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty double x\n"
       "property double y\nproperty double z\nelement face {}\n"
-      "property list uchar int vertex_indices\nend_header\n",
-      positions.rows(), triangles.rows());
+      "property list uchar int vertex_indices\n{}end_header\n",
+      positions.rows(), triangles.rows(),
+      marked ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "");
   constexpr std::size_t vertex_size = 3 * sizeof(double), face_size = 1 + 3 * sizeof(std::int32_t);
   bytes.reserve(bytes.size() + static_cast<std::size_t>(positions.rows()) * vertex_size +
                 static_cast<std::size_t>(triangles.rows()) * face_size);
@@ -39,6 +41,7 @@ std::string ply_bytes(const detector::PositionsView& positions,
     for (Eigen::Index k = 0; k < 3; ++k) {
       append_little_endian(bytes, static_cast<std::uint32_t>(triangles(i, k)));
     }
+    if (marked) bytes += (*marked)[static_cast<std::size_t>(i)] ? "\xdc\x28\x28" : "\xc8\xc8\xc8";
   }
   return bytes;
 }
@@ -47,8 +50,9 @@ std::string ply_bytes(const detector::PositionsView& positions,
 
 Expected<void> write_mesh(const std::filesystem::path& path,
                           const detector::PositionsView& positions,
-                          const detector::TrianglesView& triangles) try {
-  return write_file_atomically(path, ply_bytes(positions, triangles));
+                          const detector::TrianglesView& triangles,
+                          const std::vector<std::uint8_t>* marked) try {
+  return write_file_atomically(path, ply_bytes(positions, triangles, marked));
 } catch (const std::bad_alloc&) {
   return problem_in(path, "larger than the memory at hand");
 }

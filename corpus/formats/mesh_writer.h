@@ -12,10 +12,12 @@
 
 namespace assay::corpus {
 
-// Fails, with the reason, when the file system refuses, and when memory does not suffice.
+// Fails, with the reason, when the file system refuses, and when memory does not suffice. `marked`:
+// null, or by triangle whether its colour is red; the others are grey then.
 Expected<void> write_mesh(const std::filesystem::path& path,
                           const detector::PositionsView& positions,
-                          const detector::TrianglesView& triangles);
+                          const detector::TrianglesView& triangles,
+                          const std::vector<std::uint8_t>* marked = nullptr);
 
 // Writes frame_0000.ply, frame_0001.ply, ... into `folder`, which is made if it is missing.
 // Returns the paths, in frame order.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <boost/outcome/try.hpp>
 #include <utility>
 
@@ -14,11 +15,6 @@ namespace assay::corpus {
 namespace {
 
 using detector::Positions;
-
-// That there is no step, because there is one frame only.
-Problem one_frame_only() {
-  return problem_in({}, "one frame only: a step needs two frames or more");
-}
 
 class StepsOfCase : public StepSource {
  public:
@@ -49,7 +45,8 @@ class StepsOfCase : public StepSource {
   bool is_case_file_;
 };
 
-// Consecutive steps share a frame: the end of one is the start of the next.
+// Consecutive steps share a frame: the end of one is the start of the next. One frame alone is both
+// ends of one step, and then there is no second.
 class StepsOfFiles : public StepSource {
  public:
   StepsOfFiles(BodiesReader reader, std::optional<detector::CountedPairs> counted, Positions first,
@@ -59,7 +56,7 @@ class StepsOfFiles : public StepSource {
         x_t0_(std::move(first)),
         x_t1_(std::move(second)) {}
 
-  std::size_t count() const override { return reader_.frames() - 1; }
+  std::size_t count() const override { return std::max<std::size_t>(reader_.frames(), 2) - 1; }
   std::size_t frames() const override { return reader_.frames(); }
   const detector::Triangles& triangles() const override { return reader_.triangles(); }
   const Positions& first_frame() const override { return x_t0_; }
@@ -70,7 +67,7 @@ class StepsOfFiles : public StepSource {
     if (s > step_) {
       BOOST_OUTCOME_TRYV(go_on());
     }
-    return SourceStep{x_t0_, x_t1_};
+    return SourceStep{x_t0_, is_at_rest() ? x_t0_ : x_t1_};
   }
 
   Expected<std::unique_ptr<StepSource>> read_whole() override {
@@ -78,7 +75,7 @@ class StepsOfFiles : public StepSource {
     c.triangles = reader_.triangles();
     if (counted_) c.counted = CaseRelation{*counted_, {}};
     c.frames.push_back(std::move(x_t0_));
-    c.frames.push_back(std::move(x_t1_));
+    if (!is_at_rest()) c.frames.push_back(std::move(x_t1_));
     while (!reader_.at_end()) {
       BOOST_OUTCOME_TRY(frame, reader_.next());
       c.frames.push_back(std::move(frame));
@@ -125,8 +122,11 @@ Expected<std::unique_ptr<StepSource>> steps_of_bodies(const BodyFiles& bodies) {
             detector::check_counted_pairs(*counted, reader.triangles(), first.rows()))
       return problem_in({}, wrong->message);
   }
-  if (reader.at_end()) return one_frame_only();
-  BOOST_OUTCOME_TRY(second, reader.next());
+  Positions second;
+  if (!reader.at_end()) {
+    BOOST_OUTCOME_TRY(frame, reader.next());
+    second = std::move(frame);
+  }
   BOOST_OUTCOME_TRYV(reader.look_ahead());
   return std::make_unique<StepsOfFiles>(std::move(reader), std::move(counted), std::move(first),
                                         std::move(second));
@@ -140,7 +140,6 @@ Expected<std::unique_ptr<StepSource>> read_steps(const std::vector<std::filesyst
     return steps_of_files(files);
   }
   BOOST_OUTCOME_TRY(c, read_case(files[0]));
-  if (c.frames.size() < 2) return one_frame_only();
   return steps_of_case(std::make_shared<const Case>(std::move(c)), true);
 }
 

@@ -40,6 +40,8 @@ class StepSource {
   virtual std::vector<std::string> last_remarks() const { return {}; }
   // The number of frames, in memory or not.
   virtual std::size_t frames() const = 0;
+  // Whether there is one frame alone: its one step ends where it starts.
+  bool is_at_rest() const { return frames() == 1 && count() == 1; }
   virtual const detector::Triangles& triangles() const = 0;
   // The frame that a detector is made from. REQUIRES that no step after the first was asked for.
   virtual const detector::Positions& first_frame() const = 0;
@@ -66,7 +68,8 @@ class StepSource {
 std::unique_ptr<StepSource> steps_of_case(std::shared_ptr<const Case> c, bool is_case_file);
 
 // Each file is a frame, and is read once: the first two now, the others when their step is asked
-// for. Those that are not there or of no known format are refused now. REQUIRES a file.
+// for. One file alone is a mesh at rest. Those that are not there or of no known format are refused
+// now. REQUIRES a file.
 Expected<std::unique_ptr<StepSource>> steps_of_files(std::vector<std::filesystem::path> files);
 
 // Several meshes as bodies of one: their vertices and triangles follow each other. A body has a
@@ -79,8 +82,7 @@ struct BodyFiles {
 // As steps_of_files. The relation of the steps has the bodies. REQUIRES a body, and a file of each.
 Expected<std::unique_ptr<StepSource>> steps_of_bodies(const BodyFiles& bodies);
 
-// What these files hold: one case file (.json), or frames of one mesh, two or more. REQUIRES a
-// file.
+// What these files hold: one case file (.json), or frames of one mesh. REQUIRES a file.
 Expected<std::unique_ptr<StepSource>> read_steps(const std::vector<std::filesystem::path>& files);
 
 }  // namespace assay::corpus

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 
+#include "detector/contact_place.h"
 #include "detector/plugin/builtin_handle.h"
 #include "detector/state/state_bytes.h"
 
@@ -157,6 +158,31 @@ std::int32_t assay_builtin_limit(assay_handle* handle, const double* x_t0, const
 
 std::int32_t assay_builtin_limit_is_short(const assay_handle* handle) {
   return handle->limit.is_short ? 1 : 0;
+}
+
+std::int32_t assay_builtin_place(const assay_handle* handle, const double* x_t0, const double* x_t1,
+                                 std::uint64_t pair, assay_contact_place* place) {
+  if (pair >= handle->result.pairs.size()) return 0;
+  auto contact = handle->result.pairs[pair];
+  const auto& mesh = handle->detector.surface().mesh.triangles;
+  Eigen::Matrix<std::int32_t, 2, 3, Eigen::RowMajor> two;
+  for (int k = 0; k < 3; ++k) {
+    two(0, k) = mesh[at(contact.pair.a)][static_cast<std::size_t>(k)];
+    two(1, k) = mesh[at(contact.pair.b)][static_cast<std::size_t>(k)];
+  }
+  contact.pair = {0, 1};
+  const auto n = handle->vertex_count;
+  const PositionsMap from(x_t0, n, 3), to(x_t1, n, 3);
+  const auto found = contact_place({from, to}, two, contact);
+  *place = {};
+  std::copy(found.point.begin(), found.point.end(), place->point);
+  for (std::size_t side = 0; side < 2; ++side)
+    std::copy(found.barycentric[side].begin(), found.barycentric[side].end(),
+              place->barycentric[side]);
+  place->error = found.error;
+  if (found.normal) std::copy(found.normal->begin(), found.normal->end(), place->normal);
+  place->normal_error = found.normal_error;
+  return 1;
 }
 
 std::int32_t assay_builtin_commit(assay_handle* handle, assay_builtin_error* error) {

@@ -162,6 +162,20 @@ int32_t assay_builtin_limit(assay_handle* handle, const double* x_t0, const doub
  * brought each place beyond that was tried into contact; else 0. */
 int32_t assay_builtin_limit_is_short(const assay_handle* handle);
 
+/* Where a pair of the last result meets, at the lower end of its time (detector/contact_place.h). */
+typedef struct assay_contact_place {
+  double point[3];
+  double barycentric[2][3]; /* the weights of the corners of each of the two triangles */
+  double error;             /* no coordinate of the point is farther from either weighted sum */
+  double normal[3];         /* of the face or of both edges, of length 1; 0 where there is none */
+  double normal_error;      /* no coordinate of the normal is off by more; 0 where there is none */
+} assay_contact_place;
+
+/* x_t0 and x_t1 are those that were evaluated. 1, or 0 if the result has no such pair (they count
+ * from 0). */
+int32_t assay_builtin_place(const assay_handle* handle, const double* x_t0, const double* x_t1,
+                            uint64_t pair, assay_contact_place* place);
+
 /* As the table's commit. It goes to the end of what was asked for last, a step or a limit. */
 int32_t assay_builtin_commit(assay_handle* handle, assay_builtin_error* error);
 

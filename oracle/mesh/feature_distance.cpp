@@ -1,30 +1,14 @@
 #include "oracle/mesh/feature_distance.h"
 
-#include <gmpxx.h>
-
 #include <algorithm>
 #include <utility>
 
+#include "oracle/mesh/rational_places.h"
 #include "oracle/query/contact.h"
 
 namespace assay::oracle {
 
 namespace {
-
-using Place = std::array<mpq_class, 3>;
-
-Place minus(const Place& a, const Place& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-mpq_class product(const Place& a, const Place& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-Place normal_to(const Place& a, const Place& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Place along(const Place& from, const Place& direction, const mpq_class& share) {
-  return {from[0] + share * direction[0], from[1] + share * direction[1],
-          from[2] + share * direction[2]};
-}
-mpq_class squared(const Place& a) { return product(a, a); }
 
 mpq_class squared_distance_to(const Place& p, const Place& a, const Place& b) {
   const Place edge = minus(b, a), to = minus(p, a);
@@ -66,10 +50,6 @@ mpq_class squared_distance_to_face(const Place& p, const Place& a, const Place& 
   if (!is_inside(a, b) || !is_inside(b, c) || !is_inside(c, a)) return least;
   const mpq_class height = product(normal, minus(p, a));
   return std::min(least, mpq_class(height * height / length));
-}
-
-Place place_of(const detector::Point& x) {
-  return {mpq_class(x[0]), mpq_class(x[1]), mpq_class(x[2])};
 }
 
 // Whether the distance along some axis alone is not below the limit.

@@ -2,21 +2,28 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "properties/numbering.h"
 
 namespace assay::properties {
 
-std::string bodies_text(const detector::CountedPairs* counted,
-                        const detector::TrianglesView& triangles,
-                        const detector::TrianglePair& pair) {
-  if (!counted || counted->body.empty()) return "";
-  const auto body = [&](Eigen::Index t) { return counted->body[at(triangles(t, 0))]; };
-  const auto name = [&](std::int32_t t) {
-    std::int32_t before = 0;
-    for (Eigen::Index s = 0; s < t; ++s) before += body(s) == body(t) ? 1 : 0;
-    return fmt::format("triangle {} of body {}", before, body(t));
-  };
-  return fmt::format(" ({} and {})", name(pair.a), name(pair.b));
+BodyNames::BodyNames(const detector::CountedPairs* counted,
+                     const detector::TrianglesView& triangles) {
+  if (!counted || counted->body.empty()) return;
+  const auto& body = counted->body;
+  std::vector<std::int32_t> sizes(at(*std::max_element(body.begin(), body.end())) + 1, 0);
+  by_triangle_.reserve(static_cast<std::size_t>(triangles.rows()));
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    const auto of = body[at(triangles(t, 0))];
+    by_triangle_.push_back({of, sizes[at(of)]++});
+  }
+}
+
+std::string BodyNames::text(const detector::TrianglePair& pair) const {
+  if (empty()) return "";
+  return fmt::format(" (triangle {} of body {} and triangle {} of body {})", of(pair.a).triangle,
+                     of(pair.a).body, of(pair.b).triangle, of(pair.b).body);
 }
 
 }  // namespace assay::properties

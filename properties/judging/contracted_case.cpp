@@ -33,10 +33,16 @@ std::optional<detector::TrianglePair> pair_too_near(const detector::PositionsVie
   });
 }
 
-// The relation as the detector sees it: as coarse as its coordinates, or none if it can be told
-// none. Returns whether it can be so.
+// The relation as the detector sees it: as coarse as its coordinates. If it can be told none, every
+// pair counts, and what is left are the bodies, because they name triangles. Returns whether it can
+// be so.
 bool contract_relation(corpus::Case& c, const Contract& contract) {
-  if (!contract.takes_relations) c.counted.reset();
+  if (c.counted && !contract.takes_relations) {
+    detector::CountedPairs names;
+    names.body = std::move(c.counted->pairs.body);
+    c.counted.reset();
+    if (!names.body.empty()) c.counted.emplace(corpus::CaseRelation{std::move(names), {}});
+  }
   if (!c.counted || contract.coordinates == Coordinates::float64) return true;
   auto& [pairs, steps] = *c.counted;
   const auto given = pairs;

@@ -89,7 +89,7 @@ JudgedTrial judge_trial(const corpus::Case& c, std::span<const oracle::StepJudge
   }
   failure.configuration = configuration.name;
   if (failure.pair)
-    failure.explanation += bodies_text(corpus::counted_of(c), c.triangles, *failure.pair);
+    failure.explanation += BodyNames(corpus::counted_of(c), c.triangles).text(*failure.pair);
   if (const auto query = query_of(c)) name_features(failure, *query);
   return judged;
 }

@@ -55,7 +55,9 @@ std::string CheckOutcome::summary() const {
     text = fmt::format("collision at t = {} of step {}", time_text(collision_time),
                        *collision_step + 1);
   }
-  if (unanswered_step && !collision_step) {
+  if (!rest.empty()) {
+    text = rest;
+  } else if (unanswered_step && !collision_step) {
     text = fmt::format(
         "the oracle finds a contact at t = {} of step {}, which has no answer that "
         "can be judged",

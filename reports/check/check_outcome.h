@@ -32,7 +32,8 @@ struct CheckOutcome {
   bool has_answers = true;  // false: a library of candidates alone
   std::string ended;        // how a plug-in's run ended; empty: it went through
   std::string limit_reached;
-  std::string unwritten;                 // why a file that was asked for was not written
+  std::string rest;       // of a mesh at rest, which bodies meet; empty where that is not known
+  std::string unwritten;  // why a file that was asked for was not written
   std::vector<std::string> asked_again;  // what came of asking a plug-in about steps that are kept
   std::vector<std::string> lost;         // of the input
   std::map<properties::Claim, std::uint64_t> first_broken;  // of each claim: its step, from 0

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "corpus/formats/mesh_writer.h"
 #include "detector/mesh/mesh_checks.h"
 #include "detector/mesh/topology.h"
 #include "detector/step_result.h"
@@ -18,6 +19,8 @@
 #include "reports/check/answer_table.h"
 #include "reports/check/check_outcome.h"
 #include "reports/check/detector_choice.h"
+#include "reports/check/nested_bodies.h"
+#include "reports/steps/contact_list.h"
 #include "reports/steps/step_json.h"
 #include "reports/steps/step_text.h"
 #include "reports/terminal/limits.h"
@@ -36,13 +39,15 @@ constexpr double longest_check_seconds = 7 * 24 * 3600.0;
 class CheckRun {
  public:
   CheckRun(const CheckQuestion& question, corpus::StepSource& steps, detector::Topology mesh,
-           StepAnswers& answers, Limits& limits, const CheckListener& listener)
+           StepAnswers& answers, bool is_at_rest, Limits& limits, const CheckListener& listener)
       : question_(question),
         steps_(steps),
         mesh_(std::move(mesh)),
         answers_(answers),
         limits_(limits),
         listener_(listener),
+        is_at_rest_(is_at_rest),
+        bodies_(steps.counted(), steps.triangles()),
         tested_(tested_pairs(answers.under_test().contract, steps.first_frame())) {
     outcome_.is_judged = !question.no_oracle;
     outcome_.judged_by_claims = answers.judged_by_claims();
@@ -89,12 +94,19 @@ class CheckRun {
     if (outcome_.defect || outcome_.undecided) say(printed_text(answers_.run().printed));
     if (!question_.shows_all_steps)
       say(fmt::format("{} of {} steps judged\n", outcome_.judged_steps, step_count()));
+    write_ply();
     say(outcome_.summary());
     CheckAnswer answer{std::move(outcome_), nullptr};
     if (question_.wants_report)
       answer.report =
           check_report(question_.files, mesh_, answers_, answer.outcome, std::move(steps));
-    if (question_.wants_report) answer.report["bodies"] = bodies_json();
+    if (question_.wants_report) {
+      answer.report["bodies"] = bodies_json();
+      answer.report["at_rest"] = is_at_rest_;
+      answer.report["inside"] = nlohmann::ordered_json::array();
+      for (const auto& [inner, outer] : nested_.value_or(std::vector<NestedBodies>()))
+        answer.report["inside"].push_back({{"body", inner}, {"of", outer}});
+    }
     return answer;
   }
 
@@ -116,7 +128,7 @@ class CheckRun {
                       answers_.is_plugin() ? "" : ": closed with ghosts"));
     }
     say(fmt::format(
-        "; {} step{}; {}{}{}\n", step_count(), step_count() == 1 ? "" : "s", answers_.title(),
+        "; {}; {}{}{}\n", steps_text(step_count(), is_at_rest_), answers_.title(),
         question_.no_oracle ? "; no oracle: not judged" : "",
         question_.time_limit ? fmt::format("; at most {} s", *question_.time_limit) : ""));
     if (const auto remark = steps_.remark(); !remark.empty()) say(remark + "\n");
@@ -161,9 +173,12 @@ class CheckRun {
   ShownWork shown_work(std::size_t s) const {
     // The time of preprocessing is shown once, with the first step.
     const auto& contract = answers_.under_test().contract;
-    return {
-        !answers_.is_plugin(), contract.reports_pairs, s == 0 ? answers_.create_ms() : std::nullopt,
-        steps_.counted(),      &steps_.triangles(),    contract.separation};
+    return {!answers_.is_plugin(),
+            contract.reports_pairs,
+            s == 0 ? answers_.create_ms() : std::nullopt,
+            bodies_,
+            contract.separation,
+            is_at_rest_};
   }
 
   // How large each body is; null if there are none.
@@ -246,7 +261,10 @@ class CheckRun {
     if (question_.no_oracle) {
       progress.finish();
       say(step_text(shown_number, result, nullptr, shown_work(s)) + error_line(told_error));
-      return json_of(result, nullptr);
+      auto json = json_of(result, nullptr);
+      // A plug-in may name features that are none.
+      if (!answers_.is_plugin()) note_contacts(step, result.pairs, result.answer, true, json);
+      return json;
     }
 
     progress.phase("oracle");
@@ -274,20 +292,84 @@ class CheckRun {
     if (answers_.is_plugin()) outcome_.count(diff, result);
     ++outcome_.judged_steps;
     for (const auto claim : diff.broken) outcome_.first_broken.emplace(claim, steps_.number_of(s));
-    if (question_.shows_all_steps || diff.outcome != Outcome::holds)
+    const bool is_shown = question_.shows_all_steps || diff.outcome != Outcome::holds;
+    if (is_shown)
       say(step_text(shown_number, result, &oracle, shown_work(s)) + error_line(told_error));
+    auto json = json_of(result, &oracle);
+    if (answers_.under_test().contract.separation == 0)
+      note_contacts(step, oracle.truth.pairs,
+                    oracle.truth.complete ? oracle.truth.answer() : Answer::undecided, is_shown,
+                    json);
     if (diff.outcome == Outcome::defect) {
       print_defect(step, diff);
       if (listener_.failed)
         say(listener_.failed(
             {shown_number - 1, steps_, step, result, diff, answers_.under_test()}));
     }
-    auto json = json_of(result, &oracle);
     if (question_.second_opinion) {
       progress.phase("second opinion");
       json["second_opinion"] = ask_second_opinion(step, oracle.judgement, stop, progress);
     }
     return json;
+  }
+
+  // What is in contact in this step: it is named, reported and marked.
+  void note_contacts(const corpus::SourceStep& step,
+                     const std::vector<detector::PairContact>& pairs, Answer answer, bool is_shown,
+                     nlohmann::ordered_json& json) {
+    const detector::SteppedMesh motion{step.x_t0, step.x_t1};
+    const detector::TrianglesView triangles(steps_.triangles());
+    const StepContacts contacts{motion, triangles, pairs, bodies_, is_at_rest_};
+    constexpr std::size_t most_named = 10;
+    if (is_shown && named_ < most_named && !pairs.empty()) {
+      say(contacts.text(most_named - named_));
+      named_ += pairs.size();
+    }
+    if (!json.is_null()) json["contacts"] = contacts.json();
+    if (is_at_rest_ && (answer != Answer::undecided || !pairs.empty()))
+      outcome_.rest = rest_text(pairs, bodies_);
+    if (!question_.ply_file.empty()) mark(step, pairs);
+    if (!nested_ && answer != Answer::undecided && is_judged_whole()) tell_nested(step, pairs);
+  }
+
+  bool is_judged_whole() const {
+    return !question_.no_oracle && !bodies_.empty() && steps_.counted()->count_all();
+  }
+
+  // Which bodies are inside of others in the first step that is judged: surfaces alone can meet.
+  void tell_nested(const corpus::SourceStep& step,
+                   const std::vector<detector::PairContact>& pairs) {
+    nested_ = nested_bodies(step.x_t0, mesh_, steps_.counted()->body, pairs);
+    constexpr std::size_t most_told = 10;
+    for (std::size_t i = 0; i < std::min(nested_->size(), most_told); ++i)
+      say(fmt::format("  body {} lies inside body {}{}; their surfaces do not meet\n",
+                      (*nested_)[i].inner, (*nested_)[i].outer,
+                      is_at_rest_ ? "" : " during this step"));
+    if (nested_->size() > most_told)
+      say(fmt::format("  ... {} more inside of others\n", nested_->size() - most_told));
+  }
+
+  // Keeps the mesh at the first contact of all, or else where it ends.
+  void mark(const corpus::SourceStep& step, const std::vector<detector::PairContact>& pairs) {
+    if (std::count(marked_.begin(), marked_.end(), 1) > 0) return;
+    marked_.assign(static_cast<std::size_t>(steps_.triangles().rows()), 0);
+    double t = 1;
+    for (const auto& [pair, time, feature] : pairs) {
+      marked_[properties::at(pair.a)] = marked_[properties::at(pair.b)] = 1;
+      t = std::min(t, time.lo);
+    }
+    shown_mesh_ = t == 1 ? step.x_t1 : (1 - t) * step.x_t0 + t * step.x_t1;
+  }
+
+  void write_ply() {
+    if (question_.ply_file.empty()) return;
+    if (marked_.empty()) {
+      shown_mesh_ = steps_.first_frame();
+      marked_.assign(static_cast<std::size_t>(steps_.triangles().rows()), 0);
+    }
+    const auto written =
+        corpus::write_mesh(question_.ply_file, shown_mesh_, steps_.triangles(), &marked_);
+    if (!written) outcome_.unwritten = written.error().message;
   }
 
   static std::string error_line(const std::string& error) {
@@ -300,7 +382,7 @@ class CheckRun {
   nlohmann::ordered_json json_of(detector::StepResult& result, const JudgedByOracle* oracle) const {
     if (!question_.wants_report) return nullptr;
     if (result.answer == Answer::undecided && limits_.is_out_of_memory()) result.pairs = {};
-    return step_json(result, oracle);
+    return step_json(result, oracle, bodies_);
   }
 
   nlohmann::ordered_json ask_second_opinion(const corpus::SourceStep& step,
@@ -337,8 +419,7 @@ class CheckRun {
         properties::stage_that_lost(steps_.triangles(), step.x_t0, step.x_t1, lost.pair,
                                     answers_.under_test().configurations.front().options);
     say(fmt::format("  triangles {} and {}{} were lost at: {}\n", lost.pair.a, lost.pair.b,
-                    properties::bodies_text(steps_.counted(), steps_.triangles(), lost.pair),
-                    stage));
+                    bodies_.text(lost.pair), stage));
   }
 
   // Whether the facts of the case are to be checked. They are facts of the built-in detector; a
@@ -363,6 +444,13 @@ class CheckRun {
   StepAnswers& answers_;
   Limits& limits_;
   const CheckListener& listener_;
+  const bool is_at_rest_;
+  const properties::BodyNames bodies_;
+  std::optional<std::vector<NestedBodies>> nested_;  // nothing until a step is judged
+  std::size_t named_ = 0;                            // pairs in contact, as far as they were named
+  detector::Positions
+      shown_mesh_;  // for the file of the marked mesh, and by triangle 1: in contact
+  std::vector<std::uint8_t> marked_;
   std::optional<std::string> refused_;
   const detector::CountedPairs tested_;  // under the contract
   std::size_t notes_told_ = 0;
@@ -426,7 +514,9 @@ Expected<CheckAnswer> check_answers(const CheckQuestion& question, CheckInput& i
                                     StepAnswers& answers, Limits& limits,
                                     const CheckListener& listener) {
   auto mesh = detector::make_topology(input.steps->triangles(), input.steps->first_frame().rows());
-  return CheckRun(question, *input.steps, std::move(mesh), answers, limits, listener).run();
+  return CheckRun(question, *input.steps, std::move(mesh), answers, input.is_at_rest, limits,
+                  listener)
+      .run();
 }
 
 }  // namespace assay::reports

@@ -41,7 +41,8 @@ struct CheckQuestion {
   std::optional<std::uint64_t> memory_limit;  // bytes
   bool wants_report = false;                  // without it no report is built, which saves memory
   std::string announced_file;                 // the file of the report, to be named to the user
-  std::string again;  // the line that asks this again, to be pasted; empty where there is none
+  std::string ply_file;  // where the mesh is written with what is in contact marked; empty: nowhere
+  std::string again;     // the line that asks this again, to be pasted; empty where there is none
   bool shows_all_steps = true;  // false: only those that are not as claimed
 };
 

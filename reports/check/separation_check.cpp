@@ -9,6 +9,7 @@
 #include "detector/mesh/mesh_checks.h"
 #include "detector/mesh/topology.h"
 #include "oracle/distance/step_distance.h"
+#include "properties/judging/body_names.h"
 #include "properties/judging/trial.h"
 #include "properties/numbering.h"
 #include "reports/steps/step_json.h"
@@ -40,8 +41,22 @@ struct StepDistance {
   }
 };
 
-std::string text_of(std::size_t number, const StepDistance& step) {
-  std::string out = fmt::format("step {}: ", number);
+// How a step is told of: by its number, or as a mesh at rest, which has no times.
+struct Shown {
+  std::size_t number;
+  bool is_at_rest;
+  const properties::BodyNames& bodies;
+
+  std::string contact(const detector::PairContact& contact) const {
+    const auto& [pair, time, feature] = contact;
+    if (!is_at_rest) return properties::contact_text(contact, bodies.text(pair));
+    return fmt::format("triangles {} and {}{} ({})", pair.a, pair.b, bodies.text(pair),
+                       properties::name_of(feature.kind));
+  }
+};
+
+std::string text_of(const Shown& shown, const StepDistance& step) {
+  std::string out = shown.is_at_rest ? "at rest: " : fmt::format("step {}: ", shown.number);
   if (!step.complete()) {
     out += "undecided";
     if (step.is_near()) out += fmt::format("; {} pairs near so far", step.near.pairs.size());
@@ -49,15 +64,16 @@ std::string text_of(std::size_t number, const StepDistance& step) {
   } else if (!step.is_near()) {
     out += "apart\n";
   } else {
-    out += fmt::format("near at t = {}, {} pair{}", time_text(step.near.first),
-                       step.near.pairs.size(), step.near.pairs.size() == 1 ? "" : "s");
-    if (const auto count = step.near_at_start())
+    out += "near";
+    if (!shown.is_at_rest) out += " at t = " + time_text(step.near.first);
+    out += ", " + pairs_text(step.near.pairs.size());
+    if (const auto count = step.near_at_start(); count && !shown.is_at_rest)
       out += fmt::format(", {} near at the start", count);
-    out += fmt::format("\n  first: {}\n", properties::contact_text(step.first()));
+    out += fmt::format("\n  first: {}\n", shown.contact(step.first()));
   }
   if (step.least.complete && step.least.where) {
     out += fmt::format("  least distance {}: {}\n", step.least.distance,
-                       properties::contact_text(*step.least.where));
+                       shown.contact(*step.least.where));
   } else if (step.least.complete) {
     out += "  least distance: no two triangles count, or none within the greatest double\n";
   }
@@ -65,9 +81,9 @@ std::string text_of(std::size_t number, const StepDistance& step) {
                            step.near.feature_candidates);
 }
 
-Json json_of(const StepDistance& step) {
+Json json_of(const StepDistance& step, const properties::BodyNames& bodies) {
   Json pairs = Json::array();
-  for (const auto& contact : step.near.pairs) pairs.push_back(to_json(contact));
+  for (const auto& contact : step.near.pairs) pairs.push_back(to_json(contact, bodies));
   const bool has_place = step.least.complete && step.least.where;
   return {{"answer", !step.complete() ? "undecided"
                      : step.is_near() ? "near"
@@ -77,7 +93,7 @@ Json json_of(const StepDistance& step) {
           {"pairs", std::move(pairs)},
           // Null where nothing counts, or where it is not known.
           {"least_distance", has_place ? Json(step.least.distance) : Json()},
-          {"least_at", has_place ? to_json(*step.least.where) : Json()},
+          {"least_at", has_place ? to_json(*step.least.where, bodies) : Json()},
           {"feature_candidates", step.near.feature_candidates},
           {"time_ms", step.milliseconds}};
 }
@@ -100,6 +116,8 @@ class SeparationRun {
         asked_(d),
         steps_(*input.steps),
         mesh_(detector::make_topology(steps_.triangles(), steps_.first_frame().rows())),
+        is_at_rest_(input.is_at_rest),
+        bodies_(steps_.counted(), steps_.triangles()),
         listener_(listener),
         limits_(question.time_limit, question.memory_limit) {}
 
@@ -133,7 +151,8 @@ class SeparationRun {
             {"limit_reached", or_null(limits_.reached())},
             {"least_distance", least_ ? Json(*least_) : Json()},
             {"peak_memory_bytes", peak_resident_bytes()},
-            {"steps", std::move(entries_)}};
+            {"steps", std::move(entries_)},
+            {"at_rest", is_at_rest_}};
   }
 
  private:
@@ -153,12 +172,12 @@ class SeparationRun {
   }
 
   void announce() const {
-    const auto components = mesh_.components.size(), steps = steps_.count();
+    const auto components = mesh_.components.size();
     listener_.say(fmt::format(
-        "{} triangles, {} vertices, {} component{}; {} step{}; the oracle, within {}; pairs of "
+        "{} triangles, {} vertices, {} component{}; {}; the oracle, within {}; pairs of "
         "triangles that share no vertex\n",
         mesh_.triangles.size(), steps_.first_frame().rows(), components, components == 1 ? "" : "s",
-        steps, steps == 1 ? "" : "s", distance_text()));
+        steps_text(steps_.count(), is_at_rest_), distance_text()));
     if (!question_.announced_file.empty())
       listener_.say(fmt::format("writes {}\n", question_.announced_file));
   }
@@ -186,19 +205,24 @@ class SeparationRun {
     if (step.near.complete && step.is_near() && !near_step_) {
       near_step_ = s;
       near_time_ = step.near.first;
+      near_pairs_ = step.near.pairs.size();
     }
     if (step.least.complete && step.least.where)
       least_ = std::min(least_.value_or(step.least.distance), step.least.distance);
-    listener_.say(text_of(s + 1, step));
-    if (question_.wants_report) entries_.push_back(json_of(step));
+    listener_.say(text_of({s + 1, is_at_rest_, bodies_}, step));
+    if (question_.wants_report) entries_.push_back(json_of(step, bodies_));
     return outcome::success();
   }
 
   std::string summary() const {
-    std::string text =
-        undecided_ ? "not near so far" : fmt::format("apart: never within {}", distance_text());
-    if (near_step_)
+    std::string text = undecided_ ? "not near so far"
+                                  : fmt::format("apart: {} within {}",
+                                                is_at_rest_ ? "nothing" : "never", distance_text());
+    if (near_step_ && is_at_rest_) {
+      text = fmt::format("within {}: {}", distance_text(), pairs_text(near_pairs_));
+    } else if (near_step_) {
       text = fmt::format("near at t = {} of step {}", time_text(near_time_), *near_step_ + 1);
+    }
     if (least_) text += fmt::format("; least distance {}", *least_);
     if (undecided_)
       text += fmt::format("; undecided: {} reached",
@@ -210,11 +234,14 @@ class SeparationRun {
   const AskedDistance asked_;
   corpus::StepSource& steps_;
   const detector::Topology mesh_;
+  const bool is_at_rest_;
+  const properties::BodyNames bodies_;
   const CheckListener& listener_;
   Limits limits_;
   Json entries_ = Json::array();
   std::optional<std::size_t> near_step_;  // the first, from 0
   detector::TimeEnclosure near_time_;
+  std::size_t near_pairs_ = 0;
   std::optional<double> least_;  // over all steps; at the end nothing if one is undecided
   bool undecided_ = false;
 };

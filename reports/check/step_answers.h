@@ -20,6 +20,8 @@ namespace assay::reports {
 struct CheckInput {
   std::string file;  // the first file
   std::unique_ptr<corpus::StepSource> steps;
+  // Whether it is a mesh at rest. A contract may change its steps, and not this.
+  bool is_at_rest = steps->is_at_rest();
 };
 
 // The detector that `check` has before it, and its answers to the steps: those of the built-in one

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "properties/campaign/phases/shrink.h"
+#include "properties/judging/body_names.h"
 #include "properties/judging/contracted_case.h"
 #include "properties/judging/judged_run.h"
 #include "properties/judging/trial.h"
@@ -98,7 +99,10 @@ KeptFailures::KeptFailures(std::filesystem::path folder, std::string origin,
 
 std::string KeptFailures::keep(const FailedStep& failed) {
   if (failed.diff.broken.empty()) return "";
-  const auto failure = properties::failure_of(failed.diff, failed.result, failed.detector.contract);
+  auto failure = properties::failure_of(failed.diff, failed.result, failed.detector.contract);
+  if (failure.pair)
+    failure.explanation += properties::BodyNames(failed.source.counted(), failed.source.triangles())
+                               .text(*failure.pair);
   const std::string again = again_(failed.number + 1);
   if (met_[failure.signature()]++ >= most_of_a_kind)
     return fmt::format("  not kept, {} of its kind are: {}\n  again: {}\n", most_of_a_kind,
@@ -158,7 +162,9 @@ Expected<std::string> KeptFailures::write_step(const FailedStep& failed,
 
 void KeptFailures::end(CheckAnswer& answer) const {
   const auto page = write_page(answer.outcome);
-  answer.outcome.unwritten = unwritten_.empty() && !page ? page.error().message : unwritten_;
+  auto& unwritten = answer.outcome.unwritten;
+  if (unwritten.empty())
+    unwritten = unwritten_.empty() && !page ? page.error().message : unwritten_;
   auto list = nlohmann::ordered_json::array();
   for (const auto& kept : steps_) {
     list.push_back({{"step", kept.number},

@@ -129,7 +129,7 @@ CheckInput input_of(const py::object& triangles, const py::list& frames, const p
     c.frames.emplace_back(x.view());
     if (const auto bad = detector::check_positions(x.view(), c.frames[0].rows())) raise(*bad);
   }
-  if (c.frames.size() < 2) throw py::value_error("a step needs two frames or more");
+  if (c.frames.empty()) throw py::value_error("a frame or more is needed");
   if (const auto bad = detector::check_triangles(c.triangles, c.frames[0].rows())) raise(*bad);
   c.counted = relation_of(given, c);
   return {"frames",

@@ -149,8 +149,9 @@ std::string pair_story(const corpus::Case& c, const detector::Options& options,
                        const std::vector<oracle::StepJudgement>& truth) {
   auto made = properties::CasePlayer::make(c, options);
   if (!made) return fmt::format("  refused: {}\n", made.error().message);
-  std::string out = fmt::format("  why {}, {}{}:\n", pair.a, pair.b,
-                                properties::bodies_text(corpus::counted_of(c), c.triangles, pair));
+  std::string out =
+      fmt::format("  why {}, {}{}:\n", pair.a, pair.b,
+                  properties::BodyNames(corpus::counted_of(c), c.triangles).text(pair));
   auto& player = made.value();
   const PairStory story(c, player.detector(), pair, options.separation);
   for (std::size_t s = 0; s < player.steps(); ++s) {

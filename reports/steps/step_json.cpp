@@ -10,30 +10,45 @@ using Json = nlohmann::ordered_json;
 
 Json to_json(const detector::TimeEnclosure& time) { return Json::array({time.lo, time.hi}); }
 
-Json to_json(const detector::PairContact& contact) {
+namespace {
+
+// The triangles of a pair, and their names by bodies where there are bodies.
+Json named_pair(const detector::TrianglePair& pair, const properties::BodyNames& bodies) {
+  Json json = {{"triangles", {pair.a, pair.b}}};
+  if (bodies.empty()) return json;
+  for (const auto t : {pair.a, pair.b})
+    json["bodies"].push_back({{"body", bodies.of(t).body}, {"triangle", bodies.of(t).triangle}});
+  return json;
+}
+
+}  // namespace
+
+Json to_json(const detector::PairContact& contact, const properties::BodyNames& bodies) {
   Json vertices = Json::array();
   for (const auto v : contact.feature.vertices) {
     if (v >= 0) vertices.push_back(v);
   }
-  return {{"triangles", {contact.pair.a, contact.pair.b}},
-          {"time", to_json(contact.time)},
-          {"feature", properties::name_of(contact.feature.kind)},
-          {"vertices", vertices}};
+  Json json = named_pair(contact.pair, bodies);
+  json["time"] = to_json(contact.time);
+  json["feature"] = properties::name_of(contact.feature.kind);
+  json["vertices"] = std::move(vertices);
+  return json;
 }
 
 namespace {
 
-Json pairs_json(const std::vector<detector::PairContact>& pairs) {
+Json pairs_json(const std::vector<detector::PairContact>& pairs,
+                const properties::BodyNames& bodies) {
   Json out = Json::array();
-  for (const auto& contact : pairs) out.push_back(to_json(contact));
+  for (const auto& contact : pairs) out.push_back(to_json(contact, bodies));
   return out;
 }
 
-Json candidates_json(const properties::StepDiff& diff) {
+Json candidates_json(const properties::StepDiff& diff, const properties::BodyNames& bodies) {
   if (!diff.candidates) return nullptr;
   return {{"given", diff.candidates->given},
           {"least", diff.candidates->least},
-          {"missing", pairs_json(diff.missing_candidates)}};
+          {"missing", pairs_json(diff.missing_candidates, bodies)}};
 }
 
 Json limit_json(const properties::StepDiff& diff) {
@@ -47,12 +62,13 @@ Json limit_json(const properties::StepDiff& diff) {
           {"stall", limit.stall.empty() ? Json() : Json(limit.stall)}};
 }
 
-Json times_json(const std::vector<properties::WrongTime>& times) {
+Json times_json(const std::vector<properties::WrongTime>& times,
+                const properties::BodyNames& bodies) {
   Json out = Json::array();
   for (const auto& t : times) {
-    out.push_back({{"triangles", {t.pair.a, t.pair.b}},
-                   {"detector", to_json(t.detector)},
-                   {"oracle", to_json(t.oracle)}});
+    out.push_back(named_pair(t.pair, bodies));
+    out.back()["detector"] = to_json(t.detector);
+    out.back()["oracle"] = to_json(t.oracle);
   }
   return out;
 }
@@ -68,7 +84,7 @@ Json first_json(const properties::StepDiff& diff) {
 
 }  // namespace
 
-Json to_json(const properties::StepDiff& diff) {
+Json to_json(const properties::StepDiff& diff, const properties::BodyNames& bodies) {
   Json broken = Json::array();
   for (const auto claim : diff.broken) broken.push_back(properties::name_of(claim));
   return {{"outcome", properties::name_of(diff.outcome)},
@@ -77,18 +93,19 @@ Json to_json(const properties::StepDiff& diff) {
           {"wrong_answer", diff.wrong_answer()},
           {"wrong_first_time", diff.wrong_first_time()},
           {"first", first_json(diff)},
-          {"missing", pairs_json(diff.missing)},
-          {"excused", pairs_json(diff.excused)},
-          {"spurious", pairs_json(diff.spurious)},
-          {"late", times_json(diff.late)},
-          {"early", times_json(diff.early)},
-          {"candidates", candidates_json(diff)},
+          {"missing", pairs_json(diff.missing, bodies)},
+          {"excused", pairs_json(diff.excused, bodies)},
+          {"spurious", pairs_json(diff.spurious, bodies)},
+          {"late", times_json(diff.late, bodies)},
+          {"early", times_json(diff.early, bodies)},
+          {"candidates", candidates_json(diff, bodies)},
           {"limit", limit_json(diff)},
           {"left_out", diff.left_out.size()},
           {"left_out_missed", diff.left_out_missed}};
 }
 
-Json step_json(const detector::StepResult& result, const JudgedByOracle* oracle) {
+Json step_json(const detector::StepResult& result, const JudgedByOracle* oracle,
+               const properties::BodyNames& bodies) {
   const bool collision = result.answer == detector::Answer::collision;
   Json step = {{"answer", properties::name_of(result.answer)},
                {"first_time", collision ? to_json(result.first) : Json()},
@@ -132,7 +149,7 @@ Json step_json(const detector::StepResult& result, const JudgedByOracle* oracle)
                  {"pairs", result.counts.release.pairs},
                  {"elementary_tests", result.counts.release.elementary_tests},
                  {"winding_numbers", result.counts.release.winding_numbers}}},
-               {"pairs", pairs_json(result.pairs)},
+               {"pairs", pairs_json(result.pairs, bodies)},
                {"times_ms",
                 {{"view_test", result.times.view_test},
                  {"start", result.times.start},
@@ -159,7 +176,7 @@ Json step_json(const detector::StepResult& result, const JudgedByOracle* oracle)
         {"interval", judgement.rungs.interval},
         {"quadratic", judgement.rungs.quadratic}}},
       {"time_ms", milliseconds}};
-  step["diff"] = to_json(diff);
+  step["diff"] = to_json(diff, bodies);
   return step;
 }
 

@@ -7,7 +7,6 @@
 
 #include "detector/step_result.h"
 #include "properties/judging/agreement.h"
-#include "properties/judging/body_names.h"
 
 namespace assay::reports {
 
@@ -52,10 +51,8 @@ std::string diff_text(const properties::StepDiff& diff, const ShownWork& shown) 
                         bool has_features) {
     for (std::size_t i = 0; i < pairs.size() && i < most_listed; ++i) {
       const auto& [pair, time, feature] = pairs[i];
-      const auto bodies =
-          shown.counted ? properties::bodies_text(shown.counted, *shown.triangles, pair) : "";
-      out += fmt::format("  {}: triangles {} and {}{} at t = {}", heading, pair.a, pair.b, bodies,
-                         time_text(time));
+      out += fmt::format("  {}: triangles {} and {}{} at t = {}", heading, pair.a, pair.b,
+                         shown.bodies.text(pair), time_text(time));
       out += has_features ? fmt::format(" ({})\n", properties::name_of(feature.kind)) : "\n";
     }
     if (pairs.size() > most_listed)
@@ -64,6 +61,18 @@ std::string diff_text(const properties::StepDiff& diff, const ShownWork& shown) 
   list("missing", diff.missing, true);
   list("spurious", diff.spurious, shown.has_stages);
   list("no candidate", diff.missing_candidates, true);
+  const auto list_times = [&](const char* heading,
+                              const std::vector<properties::WrongTime>& wrong) {
+    for (std::size_t i = 0; i < wrong.size() && i < most_listed; ++i) {
+      const auto& [pair, ours, exact] = wrong[i];
+      out += fmt::format("  {}: triangles {} and {}{} at t = {}, exact {}\n", heading, pair.a,
+                         pair.b, shown.bodies.text(pair), time_text(ours), time_text(exact));
+    }
+    if (wrong.size() > most_listed)
+      out += fmt::format("  ... {} more\n", wrong.size() - most_listed);
+  };
+  list_times("late", diff.late);
+  list_times("early", diff.early);
   return out;
 }
 
@@ -120,6 +129,14 @@ std::string stages_text(const detector::StepResult& result, std::optional<double
 
 }  // namespace
 
+std::string pairs_text(std::size_t count) {
+  return fmt::format("{} pair{}", count, count == 1 ? "" : "s");
+}
+
+std::string steps_text(std::size_t count, bool is_at_rest) {
+  return is_at_rest ? "at rest" : fmt::format("{} step{}", count, count == 1 ? "" : "s");
+}
+
 std::string met_text(double separation) {
   return separation > 0 ? fmt::format("within {}", separation) : "in contact";
 }
@@ -128,21 +145,20 @@ std::string left_out_text(const properties::StepTruth& truth) {
   if (truth.left_out.empty()) return "";
   const auto first = std::min_element(truth.left_out.begin(), truth.left_out.end(),
                                       [](const auto& a, const auto& b) { return a.time < b.time; });
-  return fmt::format("; {} pair{} left out by the contract, the first at t = {}",
-                     truth.left_out.size(), truth.left_out.size() == 1 ? "" : "s",
-                     time_text(first->time));
+  return fmt::format("; {} left out by the contract, the first at t = {}",
+                     pairs_text(truth.left_out.size()), time_text(first->time));
 }
 
 std::string step_text(std::size_t number, const detector::StepResult& result,
                       const JudgedByOracle* oracle, const ShownWork& shown) {
   const auto* diff = oracle ? &oracle->diff : nullptr;
   const bool has_answer = !diff || diff->has_answer || result.answer == Answer::error;
-  std::string out = fmt::format("step {}: {}", number,
-                                has_answer ? properties::name_of(result.answer) : "no answer");
+  std::string out = shown.is_at_rest ? "at rest: " : fmt::format("step {}: ", number);
+  out += has_answer ? properties::name_of(result.answer) : "no answer";
   if (result.answer == Answer::collision) {
-    out += fmt::format(" at t = {}", time_text(result.first));
+    if (!shown.is_at_rest) out += fmt::format(" at t = {}", time_text(result.first));
     if (shown.reports_pairs)
-      out += fmt::format(", {} pairs {}", result.pairs.size(), met_text(shown.separation));
+      out += fmt::format(", {} {}", pairs_text(result.pairs.size()), met_text(shown.separation));
   }
   if (!diff) {
     out += "; not judged\n";

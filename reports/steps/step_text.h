@@ -8,12 +8,19 @@
 #include "detector/step_result.h"
 #include "oracle/referee/second_opinion.h"
 #include "properties/judging/agreement.h"
+#include "properties/judging/body_names.h"
 #include "properties/judging/step_truth.h"
 
 namespace assay::reports {
 
 // One double if the enclosure is exact or its ends look alike at 9 digits, else both ends.
 std::string time_text(const detector::TimeEnclosure& time);
+
+// "1 pair", "12 pairs".
+std::string pairs_text(std::size_t count);
+
+// "at rest", "1 step", "12 steps".
+std::string steps_text(std::size_t count, bool is_at_rest);
 
 // "in contact", or with a separation above 0 "within 0.1".
 std::string met_text(double separation);
@@ -23,10 +30,9 @@ struct ShownWork {
   bool has_stages = true;     // view sets, counts, times and features: the built-in detector's
   bool reports_pairs = true;  // by its contract
   std::optional<double> create_ms;  // to be shown, if it is given
-  // What names pairs by their bodies; null: there is no relation.
-  const detector::CountedPairs* counted = nullptr;
-  const detector::Triangles* triangles = nullptr;
+  const properties::BodyNames& bodies;
   double separation = 0;  // of the contract
+  bool is_at_rest = false;
 };
 
 // What the oracle says of a step: its judgement, the part of it that counts under the detector's

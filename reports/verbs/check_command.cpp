@@ -60,7 +60,7 @@ Expected<int> run_check(const CheckRequest& request) {
     question.files.insert(question.files.end(), files.begin(), files.end());
   if (question.files.empty())
     return Problem{
-        "FRAME is required: two frames or more, or one case file; or --body for each mesh"};
+        "FRAME is required: frames of a mesh, or one case file; or --body for each mesh"};
   for (const auto& word : request.apart) question.apart.push_back(*two_numbers(word));
   if (!question.apart.empty() && question.bodies.empty())
     return Problem{"--apart is of bodies, which --body names"};
@@ -72,7 +72,7 @@ Expected<int> run_check(const CheckRequest& request) {
   auto inputs = question.files;
   if (!question.answers.empty()) inputs.push_back(question.answers);
   BOOST_OUTCOME_TRY(may_fill(request.keep, {"page.html"}));
-  BOOST_OUTCOME_TRY(may_write({request.json_file}, inputs));
+  BOOST_OUTCOME_TRY(may_write({request.json_file, request.question.ply_file}, inputs));
   BOOST_OUTCOME_TRY(input, question.bodies.empty() ? read_check_input(request.files)
                                                    : read_bodies(question.bodies, question.apart));
   question.wants_report = !request.json_file.empty();
@@ -112,7 +112,8 @@ Expected<int> run_check(const CheckRequest& request) {
 void add_options(Verb& verb, CheckRequest& request) {
   const auto frames =
       verb.add("FRAME", request.files,
-               "Two or more frames (OBJ, PLY, OFF; .gz too), or one case file (.json)");
+               "Frames (OBJ, PLY, OFF; .gz too), whose steps are judged; one alone: a mesh at "
+               "rest. Or one case file (.json)");
   verb.add("--body FRAME", request.question.bodies,
            "The frames of one of several meshes, which become bodies of one; numbered from 0. One "
            "frame: it stands still")
@@ -180,6 +181,11 @@ void add_options(Verb& verb, CheckRequest& request) {
           "--keep DIR", request.keep,
           "Keep failing steps here: the part of the mesh that shows each, as case, OBJ and C++; of "
           "a plug-in shrunk")
+      .excludes(separation)
+      .excludes(offset)
+      .in(OptionGroup::output);
+  verb.add("--ply FILE", request.question.ply_file,
+           "Write the mesh at its first contact here, with the triangles in contact in red")
       .excludes(separation)
       .excludes(offset)
       .in(OptionGroup::output);

@@ -373,7 +373,8 @@ class Trials {
     }
     if (!record.is_judged() || is_query_family(record.family)) return;
     record.counts.extremes = extremes_of(trial.seen, trial.truth);
-    record.counts.measures.relation_trials = trial.seen.counted ? 1 : 0;
+    const auto* counted = corpus::counted_of(trial.seen);
+    record.counts.measures.relation_trials = counted && !counted->count_all() ? 1 : 0;
   }
 
   // Counts tags, set pairs and laws. The contract of the built-in detector leaves no case out.

@@ -22,21 +22,35 @@ Interval = Tuple[float, float]
 
 @dataclass(frozen=True)
 class Contact:
-    """A pair of triangles, the first time of their contact, and the features that meet then."""
+    """A pair of triangles, the first time of their contact, and the features that meet then.
+
+    bodies: where there are bodies, of each triangle its body and its number among the triangles of
+    that. The rest is of the contacts of a CheckedStep alone: meeting: "touching" or "crossing";
+    crosses_at_end: whether the two cross when the step ends; point, and barycentric: the weights of
+    the corners of both triangles that give it, within error; normal: of the face, or of both edges.
+    """
 
     triangles: Tuple[int, int]
     time: Interval
     feature: str
     vertices: Tuple[int, ...]
+    bodies: Optional[Tuple[Tuple[int, int], Tuple[int, int]]] = None
+    meeting: Optional[str] = None
+    crosses_at_end: Optional[bool] = None
+    point: Optional[List[float]] = None
+    barycentric: Optional[List[List[float]]] = None
+    error: Optional[float] = None
+    normal: Optional[List[float]] = None
 
 
 @dataclass(frozen=True)
 class WrongTime:
-    """A pair whose first time the detector has wrong."""
+    """A pair whose first time the detector has wrong. bodies: as of Contact."""
 
     triangles: Tuple[int, int]
     detector: Interval
     oracle: Interval
+    bodies: Optional[Tuple[Tuple[int, int], Tuple[int, int]]] = None
 
 
 @dataclass(frozen=True)
@@ -64,13 +78,17 @@ class StepDiff:
 
 @dataclass(frozen=True)
 class CheckedStep:
-    """A step: the detector's answer and time, the oracle's, and the diff (None without an oracle)."""
+    """A step: the detector's answer and time, the oracle's, and the diff (None without an oracle).
+
+    contacts: what is in contact, by the oracle.
+    """
 
     answer: str
     first: Optional[Interval]
     oracle_answer: Optional[str]
     oracle_first: Optional[Interval]
     diff: Optional[StepDiff]
+    contacts: Tuple[Contact, ...] = ()
 
 
 class _Report:
@@ -151,13 +169,14 @@ class SeparationReport(_Report):
 def judge(
     triangles: ArrayLike,
     x_t0: ArrayLike,
-    x_t1: ArrayLike,
+    x_t1: Optional[ArrayLike] = None,
     *,
     separation: float = 0,
     jobs: Optional[int] = None,
 ) -> Judgement:
     """The oracle's answer of a step: all pairs in contact, by exact arithmetic.
 
+    Without x_t1 the mesh is at rest: "collision" says that it meets itself.
     separation: above 0, all pairs of triangles that share no vertex and come within this distance,
     each with its first time within it; "collision" says that there are some. Arguments and errors
     are those of Detector; jobs: threads, all cores if None. Ctrl-C ends it.
@@ -165,6 +184,7 @@ def judge(
     from . import _judge
 
     within = _length(separation) or None
+    x_t1 = x_t0 if x_t1 is None else x_t1
     answer = _judge.judge(triangles, x_t0, x_t1, within, _jobs(jobs))
     return Judgement(**answer, triangles=triangles, x_t0=x_t0, x_t1=x_t1)
 
@@ -236,7 +256,7 @@ def check(
     """Each step through the detector and the oracle, and the diff: `assay check`.
 
     frames: Frames, a pair of triangles (m, 3) and positions (frames, n, 3), or the name of a case
-    file. detector: None for the built-in one, of which the next four options are; the name of a
+    file; one frame alone is a mesh at rest. detector: None for the built-in one, of which the next four options are; the name of a
     plug-in's library; "python:MODULE:CLASS"; or a class, which another process imports by its
     module. jobs: threads of the oracle; threads: of the detector, 0: all cores, and a plug-in is
     told 1. time, memory, isolation: as on the command line. progress: called with what is printed;
@@ -315,6 +335,7 @@ def _step(raw: Dict[str, Any]) -> CheckedStep:
         oracle["answer"],
         _interval(oracle["first_time"]),
         _diff(raw["diff"]) if raw["diff"] else None,
+        tuple(map(_contact, raw.get("contacts", ()))),
     )
 
 
@@ -337,12 +358,25 @@ def _diff(raw: Dict[str, Any]) -> StepDiff:
 
 
 def _contact(raw: Dict[str, Any]) -> Contact:
-    vertices = tuple(raw["vertices"])
-    return Contact(tuple(raw["triangles"]), tuple(raw["time"]), raw["feature"], vertices)
+    place = ("meeting", "crosses_at_end", "point", "barycentric", "error", "normal")
+    return Contact(
+        tuple(raw["triangles"]),
+        tuple(raw["time"]),
+        raw["feature"],
+        tuple(raw["vertices"]),
+        _bodies(raw),
+        **{name: raw.get(name) for name in place},
+    )
 
 
 def _wrong_time(raw: Dict[str, Any]) -> WrongTime:
-    return WrongTime(tuple(raw["triangles"]), tuple(raw["detector"]), tuple(raw["oracle"]))
+    times = (tuple(raw["detector"]), tuple(raw["oracle"]))
+    return WrongTime(tuple(raw["triangles"]), *times, _bodies(raw))
+
+
+def _bodies(raw: Dict[str, Any]) -> Any:
+    bodies = raw.get("bodies")
+    return bodies and tuple((of["body"], of["triangle"]) for of in bodies)
 
 
 def _interval(raw: Optional[List[float]]) -> Optional[Interval]:

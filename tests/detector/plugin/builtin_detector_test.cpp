@@ -1,4 +1,5 @@
 // The built-in detector in C: options, named errors, sets, view primitives, stop.
+#include "detector/contact_place.h"
 #include "detector/detector.h"
 #include "tests/detector/plugin/builtin_fixture.h"
 
@@ -91,6 +92,27 @@ TEST_F(BuiltinDetector, EveryOptionReachesTheDetector) {
   within.culling = ASSAY_CULLING_AUTO;
   EXPECT_FALSE(make(&within));
   EXPECT_EQ(error.code, ASSAY_BUILTIN_WRONG_SEPARATION);
+}
+
+TEST_F(BuiltinDetector, PlacesAreThoseOfTheDetector) {
+  const auto handle = make(Culling::bvh);
+  const auto count = evaluate(handle, in, hit).pair_count;
+  auto made = Detector::create(triangles, in, {Culling::bvh});
+  const auto pairs = made.value().evaluate(in, hit).pairs;
+  ASSERT_EQ(count, pairs.size());
+  ASSERT_GT(count, 0U);
+  assay_contact_place place = {};
+  for (std::uint64_t i = 0; i < count; ++i) {
+    ASSERT_EQ(assay_builtin_place(handle.get(), in.data(), hit.data(), i, &place), 1);
+    const auto expected = contact_place({in, hit}, triangles, pairs[i]);
+    EXPECT_TRUE(std::equal(expected.point.begin(), expected.point.end(), place.point));
+    EXPECT_TRUE(std::equal(expected.barycentric[1].begin(), expected.barycentric[1].end(),
+                           place.barycentric[1]));
+    EXPECT_EQ(place.error, expected.error);
+    EXPECT_EQ(place.normal_error, expected.normal_error);
+    EXPECT_EQ(place.normal[2], expected.normal.value_or(Point{})[2]);
+  }
+  EXPECT_EQ(assay_builtin_place(handle.get(), in.data(), hit.data(), count, &place), 0);
 }
 
 // Out through a hole, and on: the sets of each step.

@@ -28,6 +28,17 @@ TEST(CountedCase, OneThatCannotBeToldSeesNoRelation) {
   EXPECT_FALSE(contracted(c, {.takes_relations = false})->counted);
 }
 
+// The bodies name triangles, whoever cannot be told which of them meet.
+TEST(CountedCase, OneThatCannotBeToldKeepsTheBodies) {
+  auto c = ignored_contact();
+  c.counted->pairs.body.assign(static_cast<std::size_t>(c.frames[0].rows()), 0);
+  c.counted->pairs.apart = {{0, 0}};
+  const auto seen = contracted(c, {.takes_relations = false});
+  ASSERT_TRUE(seen && seen->counted);
+  EXPECT_TRUE(seen->counted->pairs.count_all());
+  EXPECT_EQ(seen->counted->pairs.body, c.counted->pairs.body);
+}
+
 TEST(CountedCase, PlacesAtRestAreRoundedAsCoordinatesAre) {
   auto c = ignored_contact();
   c.counted->pairs.rest_distance = 0.1;
@@ -107,10 +118,10 @@ TEST(CountedCase, ABodyNamesItsTriangles) {
   detector::CountedPairs pairs;
   detector::Triangles triangles(3, 3);
   triangles << 0, 1, 2, 3, 4, 5, 0, 2, 6;
-  EXPECT_EQ(bodies_text(nullptr, triangles, {1, 2}), "");
-  EXPECT_EQ(bodies_text(&pairs, triangles, {1, 2}), "");
+  EXPECT_EQ(BodyNames(nullptr, triangles).text({1, 2}), "");
+  EXPECT_EQ(BodyNames(&pairs, triangles).text({1, 2}), "");
   pairs.body = {0, 0, 0, 1, 1, 1, 0};
-  EXPECT_EQ(bodies_text(&pairs, triangles, {1, 2}),
+  EXPECT_EQ(BodyNames(&pairs, triangles).text({1, 2}),
             " (triangle 0 of body 1 and triangle 1 of body 0)");
 }
 

@@ -202,8 +202,28 @@ def test_options_and_detectors_are_checked(pair):
         assay.check(frames, 3)
     with pytest.raises(TypeError, match="Frames"):
         assay.check(3)
-    with pytest.raises(ValueError, match="two frames"):
-        assay.check((pair.triangles, [pair.x_t0]))
+    with pytest.raises(ValueError, match="a frame or more"):
+        assay.check((pair.triangles, []))
+
+
+def test_one_frame_is_a_mesh_at_rest(pair):
+    report = assay.check((pair.triangles, [pair.x_t1]), jobs=1)
+    assert report.json["at_rest"]
+    judgement = assay.judge(pair.triangles, pair.x_t1)
+    contacts = report.steps[0].contacts
+    assert [contact.triangles for contact in contacts] == list(map(tuple, judgement.pairs.tolist()))
+    assert all(contact.time == (0, 0) and contact.meeting for contact in contacts)
+
+
+def test_contacts_have_their_places():
+    triangles, x_t0, x_t1 = falling()
+    x_t1[3:, 2] -= 2
+    contact = assay.check((triangles, [x_t0, x_t1]), bodies=[0, 0, 0, 1, 1, 1]).steps[0].contacts[0]
+    assert (contact.point, contact.normal) == ([1, 1, 0], [0, 0, 1])
+    assert contact.barycentric == [[0.5, 0.25, 0.25], [1, 0, 0]]
+    assert contact.bodies == ((0, 0), (1, 0))
+    # In the end the plane of the lower triangle is still between the two.
+    assert (contact.meeting, contact.crosses_at_end) == ("touching", False)
 
 
 def test_frames_are_read_by_the_own_readers_to_the_last_bit(pair, tmp_path):

@@ -106,7 +106,7 @@ TEST_F(SeparationCommand, TheSeparationOfACaseIsWhatEveryVerbAsks) {
   const auto checked = run_assay("check " + file + " --json " + (scratch / "r.json"));
   EXPECT_EQ(checked.exit_code, 0) << checked.out << checked.err;
   EXPECT_TRUE(says(checked.out, "; culling bvh, within 2\n")) << checked.out;
-  EXPECT_TRUE(says(checked.out, "step 1: collision at t = 0.5, 1 pairs within 2; agree\n"));
+  EXPECT_TRUE(says(checked.out, "step 1: collision at t = 0.5, 1 pair within 2; agree\n"));
   EXPECT_TRUE(says(checked.out, "collision at t = 0.5 of step 1; detector and oracle agree"));
   EXPECT_EQ(json::parse(read_text(scratch / "r.json"))["separation"], 2.0);
   const auto replayed = run_assay("replay " + file);

@@ -1,0 +1,197 @@
+// `check` of meshes at rest, and the pairs in contact that it names, as a user runs it.
+#include "corpus/formats/mesh_reader.h"
+#include "tests/reports/tiny_campaign.h"
+
+namespace assay::tests {
+namespace {
+
+using nlohmann::json;
+
+class AtRest : public testing::Test {
+ protected:
+  // A box from (x, y, z) with sides of this length, its normals outward.
+  std::string box(const std::string& name, std::array<double, 3> from, double side) const {
+    std::string text;
+    for (int v = 0; v < 8; ++v) {
+      text += "v";
+      for (int k = 0; k < 3; ++k)
+        text += " " + std::to_string(from[static_cast<std::size_t>(k)] + side * ((v >> k) & 1));
+      text += "\n";
+    }
+    return scratch.write(name, text +
+                                   "f 1 3 4\nf 1 4 2\nf 5 6 8\nf 5 8 7\nf 1 2 6\nf 1 6 5\n"
+                                   "f 3 7 8\nf 3 8 4\nf 1 5 7\nf 1 7 3\nf 2 4 8\nf 2 8 6\n");
+  }
+  // A triangle in the plane z = 0, and one whose first corner is at this height above its inside.
+  std::string pair(const std::string& name, const std::string& z) const {
+    return scratch.write(
+        name, "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 2 " + z + "\nv 1 2 5\nv 2 2 5\nf 1 2 3\nf 4 5 6\n");
+  }
+  Outcome check(const std::string& arguments) const {
+    return run_assay("check " + arguments + " --json " + (scratch / "r.json"));
+  }
+  json report() const { return json::parse(read_text(scratch / "r.json")); }
+  const Scratch scratch;
+};
+
+TEST_F(AtRest, OneFrameIsAskedWhetherItMeetsItself) {
+  const auto meets = check(pair("crossing.obj", "-1"));
+  EXPECT_EQ(meets.exit_code, 0) << meets.out << meets.err;
+  EXPECT_TRUE(contains(meets.out, "2 components (2 unclosed: closed with ghosts); at rest; "))
+      << meets.out;
+  EXPECT_TRUE(contains(meets.out, "at rest: collision, 1 pair in contact; agree\n")) << meets.out;
+  EXPECT_TRUE(contains(meets.out, "the mesh meets itself: 1 pair; detector and oracle agree\n"));
+  EXPECT_FALSE(contains(meets.out, "t = ")) << meets.out;
+  EXPECT_EQ(report()["at_rest"], true);
+  EXPECT_EQ(check(pair("crossing.obj", "-1") + " --fail-on-collision").exit_code, 5);
+
+  const auto free = check(pair("free.obj", "1") + " --fail-on-collision");
+  EXPECT_EQ(free.exit_code, 0) << free.err;
+  EXPECT_TRUE(contains(free.out, "the mesh does not meet itself; detector and oracle agree\n"))
+      << free.out;
+  // The same frame twice is a motion, and its answer is the same.
+  const auto twice = check(pair("crossing.obj", "-1") + " " + pair("again.obj", "-1"));
+  EXPECT_TRUE(contains(twice.out, "collision at t = 0 of step 1")) << twice.out;
+  EXPECT_EQ(report()["at_rest"], false);
+}
+
+TEST_F(AtRest, ACaseFileMayHaveOneFrame) {
+  auto c = json::parse(read_text(curated("C5_start_intersecting")));
+  for (const char* of_the_motion : {"view", "ghosts", "script", "counted"}) c.erase(of_the_motion);
+  c["frames"] = json::array({c["frames"][0]});
+  c["expected"] = json::parse(R"({"answer": "collision", "steps": []})");
+  c["pending"] = json::object();
+  const auto file = scratch.write("rest.json", c.dump());
+  const auto meets = check(file);
+  EXPECT_EQ(meets.exit_code, 0) << meets.out << meets.err;
+  EXPECT_TRUE(contains(meets.out, "the mesh meets itself: ")) << meets.out;
+  EXPECT_EQ(run_assay("replay " + file).exit_code, 0);
+}
+
+TEST_F(AtRest, APlugInIsJudgedToo) {
+  const auto file = pair("crossing.obj", "-1");
+  const auto right = check(file + " --detector " + plugin("wrapped_builtin"));
+  EXPECT_EQ(right.exit_code, 0) << right.out << right.err;
+  EXPECT_TRUE(contains(right.out, "the mesh meets itself: 1 pair; ")) << right.out;
+  const auto wrong =
+      check(file + " --detector " + plugin("wrong_wrapper") + " --keep " + (scratch / "kept"));
+  EXPECT_EQ(wrong.exit_code, 1) << wrong.out << wrong.err;
+  EXPECT_TRUE(contains(wrong.out, "the mesh meets itself: 1 pair; DEFECT")) << wrong.out;
+}
+
+TEST_F(AtRest, BodiesAreNamed) {
+  const auto crossing =
+      check("--body " + box("a.obj", {0, 0, 0}, 2) + " --body " + box("b.obj", {1, 1, 1}, 2) +
+            " --body " + box("far.obj", {9, 9, 9}, 1));
+  EXPECT_EQ(crossing.exit_code, 0) << crossing.out << crossing.err;
+  EXPECT_TRUE(std::regex_search(
+      crossing.out, std::regex("\nbody 0 meets body 1: [0-9]+ pairs; detector and oracle agree")))
+      << crossing.out;
+  EXPECT_TRUE(contains(crossing.out, " (triangle 2 of body 0 and triangle ")) << crossing.out;
+  EXPECT_TRUE(contains(crossing.out, ", crossing\n")) << crossing.out;
+  const auto contact = report()["steps"][0]["contacts"][0];
+  EXPECT_EQ(contact["bodies"][1]["body"], 1);
+  EXPECT_EQ(contact["bodies"][1]["triangle"], contact["triangles"][1].get<int>() - 12);
+  EXPECT_TRUE(report()["inside"].empty());
+
+  const auto apart =
+      check("--body " + box("a.obj", {0, 0, 0}, 2) + " --body " + box("far.obj", {9, 9, 9}, 1));
+  EXPECT_TRUE(contains(apart.out, "no body meets another or itself; detector and oracle agree"))
+      << apart.out;
+}
+
+TEST_F(AtRest, ABodyInsideOfAnotherIsTold) {
+  const auto bodies = "--body " + box("small.obj", {1, 1, 1}, 1) + " --body " +
+                      box("big.obj", {0, 0, 0}, 4) + " --body " + box("far.obj", {5, 0, 0}, 1);
+  const auto nested = check(bodies);
+  EXPECT_TRUE(contains(nested.out, "body 0 lies inside body 1; their surfaces do not meet\n"))
+      << nested.out;
+  EXPECT_EQ(report()["inside"], json::parse(R"([{"body": 0, "of": 1}])"));
+  EXPECT_FALSE(contains(nested.out, "body 2 lies")) << nested.out;
+  // An inside that is touched from within is met.
+  const auto touched =
+      check("--body " + box("small.obj", {0, 1, 1}, 1) + " --body " + box("big.obj", {0, 0, 0}, 4));
+  EXPECT_FALSE(contains(touched.out, "lies inside")) << touched.out;
+  EXPECT_TRUE(contains(touched.out, ", touching\n")) << touched.out;
+  EXPECT_TRUE(contains(touched.out, "  0 of ")) << touched.out;
+  // A box without a lid holds nothing.
+  auto open = read_text(scratch / "big.obj");
+  open.resize(open.rfind("f "));
+  const auto held = check("--body " + box("small.obj", {1, 1, 1}, 1) + " --body " +
+                          scratch.write("open.obj", open));
+  EXPECT_FALSE(contains(held.out, "lies inside")) << held.out;
+  // One that moves about inside.
+  const auto moving = check("--body " + box("big.obj", {0, 0, 0}, 4) + " --body " +
+                            box("m0.obj", {1, 1, 1}, 1) + " " + box("m1.obj", {2, 2, 1}, 1));
+  EXPECT_TRUE(contains(moving.out, "body 1 lies inside body 0 during this step; their"))
+      << moving.out;
+}
+
+TEST_F(AtRest, WithinADistance) {
+  const auto bodies =
+      "--body " + box("a.obj", {0, 0, 0}, 2) + " --body " + box("b.obj", {2.5, 0, 0}, 1);
+  const auto near = check(bodies + " --separation 0.5");
+  EXPECT_EQ(near.exit_code, 0) << near.out << near.err;
+  EXPECT_TRUE(contains(near.out, "at rest: near, ")) << near.out;
+  EXPECT_TRUE(contains(near.out, "  first: triangles ")) << near.out;
+  EXPECT_TRUE(contains(near.out, " of body 0 and triangle ")) << near.out;
+  EXPECT_TRUE(
+      std::regex_search(near.out, std::regex("\nwithin 0.5: [0-9]+ pairs; least distance 0.5\n")))
+      << near.out;
+  EXPECT_FALSE(contains(near.out, "t = ")) << near.out;
+  EXPECT_EQ(report()["at_rest"], true);
+  EXPECT_EQ(report()["steps"][0]["least_at"]["bodies"][1]["body"], 1);
+  EXPECT_TRUE(contains(check(bodies + " --separation 0.25").out,
+                       "apart: nothing within 0.25; least distance 0.5\n"));
+}
+
+TEST_F(AtRest, ContactsOfAMotionAreNamedWithTheirPlaces) {
+  const auto sinks = check(pair("0.obj", "1") + " " + pair("1.obj", "-1"));
+  EXPECT_TRUE(contains(sinks.out,
+                       "  contact: triangles 0 and 1 at t = 0.5, vertex-face at (1, 2, 0), "
+                       "touching; crossing at the end\n"))
+      << sinks.out;
+  const auto contact = report()["steps"][0]["contacts"][0];
+  EXPECT_EQ(contact["meeting"], "touching");
+  EXPECT_EQ(contact["crosses_at_end"], true);
+  EXPECT_EQ(contact["point"], json({1.0, 2.0, 0.0}));
+  EXPECT_EQ(contact["barycentric"], json::parse("[[0.25, 0.25, 0.5], [1.0, 0.0, 0.0]]"));
+  EXPECT_EQ(contact["normal"], json({0.0, 0.0, 1.0}));
+  EXPECT_EQ(contact["error"], 0.0);
+  EXPECT_TRUE(contains(check(pair("0.obj", "1") + " " + pair("1.obj", "0")).out,
+                       "at t = 1, vertex-face at (1, 2, 0), touching; not crossing at the end\n"));
+  EXPECT_TRUE(contains(check(pair("0.obj", "-1") + " " + pair("1.obj", "-1")).out,
+                       " at t = 0, piercing at (1, 2, 0), crossing\n"));
+}
+
+// Ten are named, the earliest first; the others are counted.
+TEST_F(AtRest, TenContactsAreNamed) {
+  const auto all =
+      check("--body " + box("a.obj", {0, 0, 0}, 2) + " --body " + box("b.obj", {0, 0, 2}, 2));
+  std::size_t named = 0;
+  for (auto at = all.out.find("  contact: "); at != std::string::npos;
+       at = all.out.find("  contact: ", at + 1))
+    ++named;
+  EXPECT_EQ(named, 10u) << all.out;
+  const auto count = report()["steps"][0]["contacts"].size();
+  EXPECT_TRUE(contains(all.out, "  ... " + std::to_string(count - 10) + " more in contact"))
+      << all.out;
+}
+
+TEST_F(AtRest, TheMeshIsWrittenWithItsContactsInRed) {
+  const auto file = scratch / "marked.ply";
+  ASSERT_EQ(check(pair("0.obj", "1") + " " + pair("1.obj", "-1") + " --ply " + file).exit_code, 0);
+  const auto read = corpus::read_mesh(file);
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read.value().positions(3, 2), 0) << "at the first contact";
+  const auto bytes = read_text(file);
+  EXPECT_TRUE(contains(bytes, "property uchar red\nproperty uchar green\nproperty uchar blue\n"));
+  EXPECT_EQ(bytes.substr(bytes.size() - 3), "\xdc\x28\x28");
+  ASSERT_EQ(check(pair("free.obj", "1") + " --ply " + file).exit_code, 0);
+  EXPECT_EQ(read_text(file).substr(bytes.size() - 3), "\xc8\xc8\xc8");
+  const auto own = pair("own.obj", "1");
+  EXPECT_EQ(run_assay("check " + own + " --ply " + own).exit_code, 2) << "the input stays";
+}
+
+}  // namespace
+}  // namespace assay::tests
