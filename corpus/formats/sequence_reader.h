@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -16,6 +18,8 @@ namespace assay::corpus {
 struct Sequence {
   detector::Triangles triangles;
   std::vector<detector::Positions> frames;
+  // A line each on the order of the files.
+  std::vector<std::string> remarks = {};
 };
 
 // Reads a frame when it is asked for, each file once, and keeps of all that it read the triangles
@@ -43,6 +47,9 @@ class SequenceReader {
   std::size_t points() const { return points_; }
 
  private:
+  // The frame that is to be read next has another mesh than the first one.
+  Problem other_mesh(std::string_view how) const;
+
   std::vector<std::filesystem::path> files_;
   std::size_t next_ = 0;
   detector::Triangles triangles_;
@@ -50,7 +57,7 @@ class SequenceReader {
   std::size_t lines_ = 0, points_ = 0;
 };
 
-// Reads all frames. Fails when `paths` is empty.
+// Reads all frames, in the order of frame_order.h. Fails when `paths` is empty.
 Expected<Sequence> read_sequence(std::span<const std::filesystem::path> paths);
 
 }  // namespace assay::corpus

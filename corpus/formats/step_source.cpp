@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <boost/outcome/try.hpp>
+#include <iterator>
 #include <utility>
 
 #include "corpus/file_bytes.h"
 #include "corpus/formats/bodies_reader.h"
+#include "corpus/formats/frame_order.h"
 #include "corpus/formats/step_log.h"
 #include "detector/mesh/mesh_checks.h"
 
@@ -20,10 +23,28 @@ Problem one_frame_only() {
   return problem_in({}, "one frame only: a step needs two frames or more");
 }
 
+using FramesOfBodies = std::vector<std::vector<std::filesystem::path>>;
+
+// What these files are, for the first line that a user sees.
+std::string title_of(const FramesOfBodies& bodies) {
+  if (bodies.size() > 1) return fmt::format("{} bodies", bodies.size());
+  const auto& files = bodies.front();
+  if (std::ranges::all_of(files, [&](const auto& file) { return file == files.front(); }))
+    return "one mesh at rest";
+  const auto [from, to] = short_names(files.front(), files.back());
+  const auto through = files.size() == 2 ? "" : fmt::format("through {} frames ", files.size());
+  return problem_in({}, fmt::format("one mesh moving {}from {} to {}", through, from, to)).message;
+}
+
 class StepsOfCase : public StepSource {
  public:
-  StepsOfCase(std::shared_ptr<const Case> c, bool is_case_file)
-      : case_(std::move(c)), script_(steps_of(*case_)), is_case_file_(is_case_file) {}
+  StepsOfCase(std::shared_ptr<const Case> c, bool is_case_file, InputText text)
+      : case_(std::move(c)),
+        script_(steps_of(*case_)),
+        is_case_file_(is_case_file),
+        text_(std::move(text)) {}
+
+  InputText text() const override { return text_; }
 
   std::size_t count() const override { return script_.size(); }
   std::size_t frames() const override { return case_->frames.size(); }
@@ -40,21 +61,23 @@ class StepsOfCase : public StepSource {
   const Case* case_file() const override { return is_case_file_ ? case_.get() : nullptr; }
 
   Expected<std::unique_ptr<StepSource>> read_whole() override {
-    return steps_of_case(case_, is_case_file_);
+    return steps_of_case(case_, is_case_file_, text_);
   }
 
  private:
   std::shared_ptr<const Case> case_;
   std::vector<CaseStep> script_;
   bool is_case_file_;
+  InputText text_;
 };
 
 // Consecutive steps share a frame: the end of one is the start of the next.
 class StepsOfFiles : public StepSource {
  public:
-  StepsOfFiles(BodiesReader reader, std::optional<detector::CountedPairs> counted, Positions first,
-               Positions second)
-      : reader_(std::move(reader)),
+  StepsOfFiles(InputText text, BodiesReader reader, std::optional<detector::CountedPairs> counted,
+               Positions first, Positions second)
+      : text_(std::move(text)),
+        reader_(std::move(reader)),
         counted_(std::move(counted)),
         x_t0_(std::move(first)),
         x_t1_(std::move(second)) {}
@@ -64,7 +87,7 @@ class StepsOfFiles : public StepSource {
   const detector::Triangles& triangles() const override { return reader_.triangles(); }
   const Positions& first_frame() const override { return x_t0_; }
   const detector::CountedPairs* counted() const override { return counted_ ? &*counted_ : nullptr; }
-  std::string remark() const override { return reader_.remark(); }
+  InputText text() const override { return text_; }
 
   Expected<SourceStep> step(std::size_t s) override {
     if (s > step_) {
@@ -83,7 +106,7 @@ class StepsOfFiles : public StepSource {
       BOOST_OUTCOME_TRY(frame, reader_.next());
       c.frames.push_back(std::move(frame));
     }
-    return steps_of_case(std::make_shared<const Case>(std::move(c)), false);
+    return steps_of_case(std::make_shared<const Case>(std::move(c)), false, text_);
   }
 
  private:
@@ -96,6 +119,7 @@ class StepsOfFiles : public StepSource {
     return boost::outcome_v2::success();
   }
 
+  InputText text_;
   BodiesReader reader_;
   std::optional<detector::CountedPairs> counted_;
   std::size_t step_ = 0;  // whose frames these are
@@ -104,8 +128,9 @@ class StepsOfFiles : public StepSource {
 
 }  // namespace
 
-std::unique_ptr<StepSource> steps_of_case(std::shared_ptr<const Case> c, bool is_case_file) {
-  return std::make_unique<StepsOfCase>(std::move(c), is_case_file);
+std::unique_ptr<StepSource> steps_of_case(std::shared_ptr<const Case> c, bool is_case_file,
+                                          InputText text) {
+  return std::make_unique<StepsOfCase>(std::move(c), is_case_file, std::move(text));
 }
 
 Expected<std::unique_ptr<StepSource>> steps_of_files(std::vector<std::filesystem::path> files) {
@@ -113,7 +138,16 @@ Expected<std::unique_ptr<StepSource>> steps_of_files(std::vector<std::filesystem
 }
 
 Expected<std::unique_ptr<StepSource>> steps_of_bodies(const BodyFiles& bodies) {
-  BodiesReader reader(bodies.frames);
+  InputText text;
+  auto frames = bodies.frames;
+  for (auto& files : frames) {
+    auto ordered = in_order_of_numbers(files);
+    files = std::move(ordered.files);
+    for (const auto& file : files) text.files.push_back(file.string());
+    std::ranges::move(ordered.remarks, std::back_inserter(text.remarks));
+  }
+  text.title = title_of(frames);
+  BodiesReader reader(std::move(frames));
   BOOST_OUTCOME_TRYV(reader.fit());
   BOOST_OUTCOME_TRY(first, reader.next());
   std::optional<detector::CountedPairs> counted;
@@ -128,8 +162,9 @@ Expected<std::unique_ptr<StepSource>> steps_of_bodies(const BodyFiles& bodies) {
   if (reader.at_end()) return one_frame_only();
   BOOST_OUTCOME_TRY(second, reader.next());
   BOOST_OUTCOME_TRYV(reader.look_ahead());
-  return std::make_unique<StepsOfFiles>(std::move(reader), std::move(counted), std::move(first),
-                                        std::move(second));
+  if (auto remark = reader.remark(); !remark.empty()) text.remarks.push_back(std::move(remark));
+  return std::make_unique<StepsOfFiles>(std::move(text), std::move(reader), std::move(counted),
+                                        std::move(first), std::move(second));
 }
 
 Expected<std::unique_ptr<StepSource>> read_steps(const std::vector<std::filesystem::path>& files) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "corpus/cases/case_file.h"
@@ -21,6 +22,13 @@ struct SourceStep {
   bool commit = true;
 };
 
+// What an input is, in words.
+struct InputText {
+  std::string title = {};                 // "one mesh moving from a.obj to b.obj"; may be empty
+  std::vector<std::string> files = {};    // in the order in which they are taken; empty: as given
+  std::vector<std::string> remarks = {};  // a line each on what was changed or is not looked at
+};
+
 class StepSource {
  public:
   virtual ~StepSource() = default;
@@ -31,8 +39,7 @@ class StepSource {
   virtual Expected<bool> has(std::size_t s) { return s < count(); }
   // The number of step s in the whole that the input is a part of, from 0.
   virtual std::uint64_t number_of(std::size_t s) const { return s; }
-  // What the input holds that is no part of the question, in words; empty for nothing.
-  virtual std::string remark() const { return ""; }
+  virtual InputText text() const { return {}; }
   // A line each: what was noted before the step that was asked for last, and, after all steps, what
   // of the input is lost, so that nothing is known of it, and what else is to be said.
   virtual std::vector<std::string> notes() const { return {}; }
@@ -63,7 +70,8 @@ class StepSource {
 };
 
 // `is_case_file`: the options and facts that the case states count.
-std::unique_ptr<StepSource> steps_of_case(std::shared_ptr<const Case> c, bool is_case_file);
+std::unique_ptr<StepSource> steps_of_case(std::shared_ptr<const Case> c, bool is_case_file,
+                                          InputText text = {});
 
 // Each file is a frame, and is read once: the first two now, the others when their step is asked
 // for. Those that are not there or of no known format are refused now. REQUIRES a file.
@@ -76,7 +84,7 @@ struct BodyFiles {
   // Bodies that do not meet (detector/mesh/counted_pairs.h).
   std::vector<std::array<std::int32_t, 2>> apart;
 };
-// As steps_of_files. The relation of the steps has the bodies. REQUIRES a body, and a file of each.
+// As steps_of_files, the files of each body in the order of frame_order.h. The relation of the steps has the bodies. REQUIRES a body, and a file of each.
 Expected<std::unique_ptr<StepSource>> steps_of_bodies(const BodyFiles& bodies);
 
 // What these files hold: one case file (.json), or frames of one mesh, two or more. REQUIRES a

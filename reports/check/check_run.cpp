@@ -39,6 +39,7 @@ class CheckRun {
            StepAnswers& answers, Limits& limits, const CheckListener& listener)
       : question_(question),
         steps_(steps),
+        text_(steps.text()),
         mesh_(std::move(mesh)),
         answers_(answers),
         limits_(limits),
@@ -92,8 +93,8 @@ class CheckRun {
     say(outcome_.summary());
     CheckAnswer answer{std::move(outcome_), nullptr};
     if (question_.wants_report)
-      answer.report =
-          check_report(question_.files, mesh_, answers_, answer.outcome, std::move(steps));
+      answer.report = check_report(text_.files.empty() ? question_.files : text_.files, mesh_,
+                                   answers_, answer.outcome, std::move(steps));
     if (question_.wants_report) answer.report["bodies"] = bodies_json();
     return answer;
   }
@@ -106,11 +107,11 @@ class CheckRun {
   void announce() const {
     std::size_t unclosed = 0;
     for (const auto& component : mesh_.components) unclosed += component.is_cycle ? 0 : 1;
-    say(fmt::format("{} triangles, {} vertices{}, {} component{}", mesh_.triangles.size(),
-                    steps_.first_frame().rows(), loose_vertices_text(), mesh_.components.size(),
+    const auto& title = text_.title;
+    say(fmt::format("{}{}{} triangles, {} vertices{}, {} component{}", title,
+                    title.empty() ? "" : ": ", mesh_.triangles.size(), steps_.first_frame().rows(),
+                    loose_vertices_text(), mesh_.components.size(),
                     mesh_.components.size() == 1 ? "" : "s"));
-    if (const auto bodies = question_.bodies.size(); bodies > 0)
-      say(fmt::format(", {} bod{}", bodies, bodies == 1 ? "y" : "ies"));
     if (unclosed) {
       say(fmt::format(" ({} unclosed{})", unclosed,
                       answers_.is_plugin() ? "" : ": closed with ghosts"));
@@ -119,7 +120,7 @@ class CheckRun {
         "; {} step{}; {}{}{}\n", step_count(), step_count() == 1 ? "" : "s", answers_.title(),
         question_.no_oracle ? "; no oracle: not judged" : "",
         question_.time_limit ? fmt::format("; at most {} s", *question_.time_limit) : ""));
-    if (const auto remark = steps_.remark(); !remark.empty()) say(remark + "\n");
+    for (const auto& remark : text_.remarks) say(remark + "\n");
     if (!question_.announced_file.empty())
       say(fmt::format("writes {}\n", question_.announced_file));
   }
@@ -359,6 +360,7 @@ class CheckRun {
 
   const CheckQuestion& question_;
   corpus::StepSource& steps_;
+  const corpus::InputText text_;
   detector::Topology mesh_;
   StepAnswers& answers_;
   Limits& limits_;

@@ -119,10 +119,11 @@ class SeparationRun {
   }
 
   Json report() {
+    const auto files = steps_.text().files;
     const auto or_null = [](const std::string& text) { return text.empty() ? Json() : Json(text); };
     return {{"schema", "assay-check/1"},
             {"version", version_text()},
-            {"files", question_.files},
+            {"files", files.empty() ? question_.files : files},
             {"triangles", mesh_.triangles.size()},
             {"components", mesh_.components.size()},
             {"separation", asked_.offsets.empty() ? Json(asked_.separation) : Json()},
@@ -154,11 +155,14 @@ class SeparationRun {
 
   void announce() const {
     const auto components = mesh_.components.size(), steps = steps_.count();
+    const auto text = steps_.text();
     listener_.say(fmt::format(
-        "{} triangles, {} vertices, {} component{}; {} step{}; the oracle, within {}; pairs of "
+        "{}{}{} triangles, {} vertices, {} component{}; {} step{}; the oracle, within {}; pairs of "
         "triangles that share no vertex\n",
-        mesh_.triangles.size(), steps_.first_frame().rows(), components, components == 1 ? "" : "s",
-        steps, steps == 1 ? "" : "s", distance_text()));
+        text.title, text.title.empty() ? "" : ": ", mesh_.triangles.size(),
+        steps_.first_frame().rows(), components, components == 1 ? "" : "s", steps,
+        steps == 1 ? "" : "s", distance_text()));
+    for (const auto& remark : text.remarks) listener_.say(remark + "\n");
     if (!question_.announced_file.empty())
       listener_.say(fmt::format("writes {}\n", question_.announced_file));
   }

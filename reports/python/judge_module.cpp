@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "corpus/cases/case_file.h"
+#include "corpus/formats/frame_order.h"
 #include "corpus/formats/sequence_reader.h"
 #include "detector/mesh/mesh_checks.h"
 #include "oracle/distance/step_distance.h"
@@ -250,7 +251,15 @@ py::tuple mesh_and_frames(detector::Triangles& triangles,
   return py::make_tuple(owning_array(std::move(triangles)), positions);
 }
 
-// Returns the triangles, and a list of the positions of each frame.
+// Returns the files in order, and what is said of it.
+py::tuple in_order_of_numbers(const std::vector<std::string>& files) {
+  const auto ordered = corpus::in_order_of_numbers({files.begin(), files.end()});
+  py::list paths;
+  for (const auto& file : ordered.files) paths.append(file.string());
+  return py::make_tuple(paths, ordered.remarks);
+}
+
+// Returns the triangles, a list of the positions of each frame, and remarks.
 py::tuple read_sequence(const std::vector<std::string>& files) {
   const std::vector<std::filesystem::path> paths(files.begin(), files.end());
   auto sequence = [&] {
@@ -258,10 +267,11 @@ py::tuple read_sequence(const std::vector<std::string>& files) {
     return corpus::read_sequence(paths);
   }();
   if (!sequence) throw py::value_error(sequence.error().message);
-  return mesh_and_frames(sequence.value().triangles, sequence.value().frames);
+  return mesh_and_frames(sequence.value().triangles, sequence.value().frames) +
+         py::make_tuple(sequence.value().remarks);
 }
 
-// The same of a case file.
+// Returns the triangles and the positions of a case file.
 py::tuple read_case(const std::string& file) {
   auto c = corpus::read_case(file);
   if (!c) throw py::value_error(c.error().message);
@@ -288,6 +298,7 @@ PYBIND11_MODULE(_judge, module) {
   module.def("check_arrays", check_arrays);
   module.def("check_files", check_files);
   module.def("contact_points", contact_points);
+  module.def("in_order_of_numbers", in_order_of_numbers);
   module.def("read_sequence", read_sequence);
   module.def("read_case", read_case);
   module.def("findings", findings);

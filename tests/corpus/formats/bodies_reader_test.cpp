@@ -62,6 +62,30 @@ TEST_F(BodiesOfFiles, OneMeshAloneHasNoRelation) {
   EXPECT_EQ(steps.value()->counted(), nullptr);
 }
 
+TEST_F(BodiesOfFiles, AreToldInWords) {
+  const auto one = triangle("f1.obj", 1), two = triangle("f2.obj", 2), ten = triangle("f10.obj", 9);
+  const auto text_of = [](const Bodies& frames) {
+    const auto steps = steps_of_bodies({frames, {}});
+    EXPECT_TRUE(steps) << steps.error().message;
+    return steps ? steps.value()->text() : InputText();
+  };
+  EXPECT_EQ(text_of({{one, two}}).title, "one mesh moving from f1.obj to f2.obj");
+  EXPECT_EQ(text_of({{one, one}}).title, "one mesh at rest");
+  const auto in_order = text_of({{one, ten, two}});
+  EXPECT_EQ(in_order.title, "one mesh moving through 3 frames from f1.obj to f10.obj");
+  EXPECT_EQ(in_order.files, (std::vector{one.string(), two.string(), ten.string()}));
+  const auto two_bodies = text_of({{one, ten, two}, {two, one, one}});
+  EXPECT_EQ(two_bodies.title, "2 bodies");
+  EXPECT_EQ(two_bodies.files.size(), 6u);
+  ASSERT_EQ(two_bodies.remarks.size(), 3u);
+  EXPECT_NE(two_bodies.remarks[2].find("as given"), std::string::npos) << two_bodies.remarks[2];
+  // The words outlive the reader of the files.
+  auto steps = steps_of_files({one, ten, two});
+  const auto whole = steps.value()->read_whole();
+  EXPECT_EQ(whole.value()->text().remarks, in_order.remarks);
+  EXPECT_EQ(whole.value()->whole()->frames[1](0, 2), 2);
+}
+
 TEST_F(BodiesOfFiles, ThatDoNotFitAreRefused) {
   const auto three = std::vector{triangle("0.obj", 0), triangle("1.obj", 1), triangle("2.obj", 2)};
   const auto two = std::vector{triangle("3.obj", 0), triangle("4.obj", 1)};

@@ -29,7 +29,7 @@ TEST_F(CheckedBodies, MeetByDefault) {
   const auto outcome = run_assay("check --body " + still + " --body " + comes + " --json " +
                                  (scratch / "report.json"));
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-  EXPECT_TRUE(contains(outcome.out, "8 triangles, 8 vertices, 2 components, 2 bodies"))
+  EXPECT_TRUE(contains(outcome.out, "2 bodies: 8 triangles, 8 vertices, 2 components"))
       << outcome.out;
   EXPECT_TRUE(contains(outcome.out, "detector and oracle agree")) << outcome.out;
   const auto report = json::parse(read_text(scratch / "report.json"));
