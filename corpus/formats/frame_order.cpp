@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstdint>
 #include <map>
 #include <string_view>
@@ -69,19 +68,6 @@ std::vector<std::string> paths_of(const Names& names) {
   return paths;
 }
 
-// Some locales look at punctuation and capitals last.
-std::string letters_of(const std::string& path) {
-  std::string letters;
-  for (const unsigned char c : path) {
-    if (std::isalnum(c) || c >= 0x80) letters += static_cast<char>(std::tolower(c));
-  }
-  return letters;
-}
-
-bool is_order_of_a_shell(const std::vector<std::string>& paths) {
-  return std::ranges::is_sorted(paths) || std::ranges::is_sorted(paths, {}, letters_of);
-}
-
 // What is said of numbers that are not evenly spaced. REQUIRES names of one shape, in the order of
 // their numbers.
 std::string unevenness(const Names& names) {
@@ -145,7 +131,7 @@ void put_in_order(const std::vector<std::string>& paths, FrameOrder& result) {
         b));
     wanted = given;
   } else if (paths_of(wanted) != paths) {
-    const bool is_of_a_shell = is_order_of_a_shell(paths);
+    const bool is_of_a_shell = std::ranges::is_sorted(paths);
     const auto i = place_of_difference(wanted);
     const auto [a, b] = short_names(paths[i], wanted[i].path);
     remarks.push_back(

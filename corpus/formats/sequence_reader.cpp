@@ -28,8 +28,7 @@ Expected<detector::Positions> SequenceReader::next() {
   if (next_ == 0) {
     triangles_ = std::move(mesh.triangles);
     vertices_ = mesh.positions.rows();
-    lines_ = mesh.lines;
-    points_ = mesh.points;
+    remarks_ = std::move(mesh.remarks);
   } else if (mesh.positions.rows() != vertices_) {
     return other_mesh(fmt::format("{} vertices, but {} has {}", mesh.positions.rows(),
                                   files_[0].string(), vertices_));
@@ -62,6 +61,7 @@ Expected<Sequence> read_sequence(std::span<const std::filesystem::path> paths) {
     BOOST_OUTCOME_TRY(frame, reader.next());
     frames.push_back(std::move(frame));
   }
+  for (const auto& line : reader.remarks()) ordered.remarks.push_back(line);
   return Sequence{reader.triangles(), std::move(frames), std::move(ordered.remarks)};
 }
 

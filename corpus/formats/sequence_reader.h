@@ -18,7 +18,7 @@ namespace assay::corpus {
 struct Sequence {
   detector::Triangles triangles;
   std::vector<detector::Positions> frames;
-  // A line each on the order of the files.
+  // A line each on the order of the files, and on what was changed or is not looked at.
   std::vector<std::string> remarks = {};
 };
 
@@ -42,9 +42,8 @@ class SequenceReader {
 
   // Those of every frame. REQUIRES that a frame was read.
   const detector::Triangles& triangles() const { return triangles_; }
-  // The statements l and p of the first frame, if it is an OBJ file.
-  std::size_t lines() const { return lines_; }
-  std::size_t points() const { return points_; }
+  // Those of the first frame.
+  const std::vector<std::string>& remarks() const { return remarks_; }
 
  private:
   // The frame that is to be read next has another mesh than the first one.
@@ -54,7 +53,7 @@ class SequenceReader {
   std::size_t next_ = 0;
   detector::Triangles triangles_;
   Eigen::Index vertices_ = 0;
-  std::size_t lines_ = 0, points_ = 0;
+  std::vector<std::string> remarks_;
 };
 
 // Reads all frames, in the order of frame_order.h. Fails when `paths` is empty.

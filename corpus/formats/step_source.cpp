@@ -128,6 +128,19 @@ class StepsOfFiles : public StepSource {
 
 }  // namespace
 
+Problem problem_of_triangles(const StepSource& steps, const std::filesystem::path& file,
+                             const detector::Problem& problem) {
+  if (problem.error == detector::InputError::same_vertices_twice) {
+    for (const auto& own : steps.text().files) {
+      if (const auto places = places_of_same_faces(own); !places.empty())
+        return problem_in(own, fmt::format("{} ({}): remove one of them, in MeshLab by Remove "
+                                           "Duplicate Faces",
+                                           problem.message, places));
+    }
+  }
+  return problem_in(file, problem.message);
+}
+
 std::unique_ptr<StepSource> steps_of_case(std::shared_ptr<const Case> c, bool is_case_file,
                                           InputText text) {
   return std::make_unique<StepsOfCase>(std::move(c), is_case_file, std::move(text));
@@ -162,7 +175,7 @@ Expected<std::unique_ptr<StepSource>> steps_of_bodies(const BodyFiles& bodies) {
   if (reader.at_end()) return one_frame_only();
   BOOST_OUTCOME_TRY(second, reader.next());
   BOOST_OUTCOME_TRYV(reader.look_ahead());
-  if (auto remark = reader.remark(); !remark.empty()) text.remarks.push_back(std::move(remark));
+  std::ranges::move(reader.remarks(), std::back_inserter(text.remarks));
   return std::make_unique<StepsOfFiles>(std::move(text), std::move(reader), std::move(counted),
                                         std::move(first), std::move(second));
 }

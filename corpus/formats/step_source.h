@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "corpus/cases/case_file.h"
+#include "detector/mesh/problem.h"
 
 namespace assay::corpus {
 
@@ -68,6 +69,11 @@ class StepSource {
   // that no step was asked for, and that nothing is asked of these steps any more.
   virtual Expected<std::unique_ptr<StepSource>> read_whole() = 0;
 };
+
+// A problem of these steps' triangles, with the places in their file of two faces on the same three
+// vertices. `file` is named for other problems.
+Problem problem_of_triangles(const StepSource& steps, const std::filesystem::path& file,
+                             const detector::Problem& problem);
 
 // `is_case_file`: the options and facts that the case states count.
 std::unique_ptr<StepSource> steps_of_case(std::shared_ptr<const Case> c, bool is_case_file,

@@ -397,7 +397,7 @@ Expected<CheckAnswer> check_mesh(const CheckQuestion& question, CheckInput& inpu
                                  const CheckListener& listener) {
   const auto vertices = input.steps->first_frame().rows();
   if (const auto bad = detector::check_triangles(input.steps->triangles(), vertices))
-    return Problem{fmt::format("{}: {}", input.file, bad->message)};
+    return corpus::problem_of_triangles(*input.steps, input.file, *bad);
   const bool is_plugin = !question.detector.library.empty();
   if (is_plugin) {
     BOOST_OUTCOME_TRY(whole, input.steps->read_whole());

@@ -230,7 +230,7 @@ Expected<SeparationAnswer> check_separation(const CheckQuestion& question, const
                                             const CheckListener& listener) {
   const auto vertices = input.steps->first_frame().rows();
   if (const auto bad = detector::check_triangles(input.steps->triangles(), vertices))
-    return Problem{fmt::format("{}: {}", input.file, bad->message)};
+    return corpus::problem_of_triangles(*input.steps, input.file, *bad);
   SeparationRun run(question, d, input, listener);
   BOOST_OUTCOME_TRY(run.run());
   return SeparationAnswer{run.exit_code(fail_when_near),

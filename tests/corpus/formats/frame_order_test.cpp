@@ -31,9 +31,6 @@ TEST(FramesInOrder, TheOrderOfAShellIsPutInOrder) {
   expect_order({"d/sim_1.obj", "d/sim_10.obj", "d/sim_11.obj", "d/sim_2.obj"},
                {"d/sim_1.obj", "d/sim_2.obj", "d/sim_10.obj", "d/sim_11.obj"},
                line + "sim_2.obj before sim_10.obj");
-  // Locales that look at punctuation last.
-  expect_order({"sim_10.obj", "sim_11.obj", "sim_1.obj", "sim_9.obj"},
-               {"sim_1.obj", "sim_9.obj", "sim_10.obj", "sim_11.obj"}, "sim_1.obj before sim_10");
   expect_order({"Sim_10.PLY", "sim_9.ply"}, {"Sim_10.PLY", "sim_9.ply"}, "");
   expect_order({"f-1-10.obj", "f-1-9.obj", "f-2-1.obj"}, {"f-1-9.obj", "f-1-10.obj", "f-2-1.obj"},
                line);
@@ -50,6 +47,7 @@ TEST(FramesInOrder, TheOrderOfAShellIsPutInOrder) {
 
 TEST(FramesInOrder, AnyOtherOrderStaysAndIsTold) {
   const std::string line = "as given, not in the order of their numbers: ";
+  expect_as_given({"sim_10.obj", "sim_1.obj"}, line + "sim_10.obj before sim_1.obj");
   expect_as_given({"f1.obj", "f0.obj"}, line + "f1.obj before f0.obj");
   expect_as_given({"f0.obj", "f1.obj", "f0.obj"}, line + "f1.obj before f0.obj");
   expect_as_given({"s_10.obj", "s_2.obj", "s_1.obj"}, line);
