@@ -77,8 +77,8 @@ Expected<void> BodiesReader::look_ahead() const {
 
 std::vector<std::int32_t> BodiesReader::bodies() const {
   std::vector<std::int32_t> list;
-  for (std::size_t b = 0; b < now_.size(); ++b)
-    list.insert(list.end(), static_cast<std::size_t>(now_[b].rows()), static_cast<std::int32_t>(b));
+  for (std::size_t b = 0; b < readers_.size(); ++b)
+    list.insert(list.end(), readers_[b].vertices(), static_cast<std::int32_t>(b));
   return list;
 }
 

@@ -36,38 +36,42 @@ constexpr std::size_t format_bytes = 4096;
 // Formats that are not read, by the ends of names.
 struct OtherFormat {
   std::string_view ends, name;
-  bool by_meshio;  // whether meshio reads it
+  // What meshio writes of it without loss; empty if meshio does not read it.
+  std::string_view by_meshio = {};
 };
-constexpr OtherFormat other_formats[] = {{".stl", "an STL", true},
-                                         {".vtk.vtu", "a VTK", true},
-                                         {".vtp", "a VTK", false},
-                                         {".msh", "a Gmsh", true},
-                                         {".inp", "an Abaqus", true},
-                                         {".xdmf.xmf", "an XDMF", true},
-                                         {".mesh.meshb", "a Medit", true},
-                                         {".usd.usda.usdc.usdz", "a USD", false},
-                                         {".abc", "an Alembic", false},
-                                         {".gltf.glb", "a glTF", false},
-                                         {".fbx", "an FBX", false},
-                                         {".dae", "a COLLADA", false},
-                                         {".blend", "a Blender", false},
-                                         {".ma.mb", "a Maya", false},
-                                         {".3dm", "a Rhino", false},
-                                         {".bgeo.geo", "a Houdini", false},
-                                         {".3ds.3mf.x3d.wrl", "a 3D", false},
-                                         {".step.stp.igs.iges", "a CAD", false}};
+constexpr OtherFormat other_formats[] = {{".stl", "an STL", ".ply"},
+                                         {".vtk", "a VTK", ".obj"},
+                                         {".vtu", "a VTK", ".ply"},
+                                         {".vtp", "a VTK"},
+                                         {".msh", "a Gmsh", ".ply"},
+                                         {".inp", "an Abaqus", ".ply"},
+                                         {".xdmf.xmf", "an XDMF", ".ply"},
+                                         {".mesh.meshb", "a Medit", ".ply"},
+                                         {".usd.usda.usdc.usdz", "a USD"},
+                                         {".abc", "an Alembic"},
+                                         {".gltf.glb", "a glTF"},
+                                         {".fbx", "an FBX"},
+                                         {".dae", "a COLLADA"},
+                                         {".blend", "a Blender"},
+                                         {".ma.mb", "a Maya"},
+                                         {".3dm", "a Rhino"},
+                                         {".bgeo.geo", "a Houdini"},
+                                         {".3ds.3mf.x3d.wrl", "a 3D"},
+                                         {".step.stp.igs.iges", "a CAD"}};
 
 Problem unknown_format(const std::filesystem::path& path) {
-  const auto end = mesh_extension(path), plain = path.string();
+  const auto end = mesh_extension(path);
   const std::string read = "OBJ, PLY and OFF are read: ";
   if (end == ".npz" || end == ".npy")
     return problem_in(path, "a NumPy file; " + read + "ask from Python, by assay.check");
   for (const auto& [ends, name, by_meshio] : other_formats) {
     if (end.empty() || (std::string(ends) + ".").find(end + ".") == std::string::npos) continue;
-    const auto ply = std::filesystem::path(path).replace_extension(".ply").string();
-    return problem_in(path, fmt::format("{} file; {}{}", name, read,
-                                        by_meshio ? "meshio convert " + plain + " " + ply
-                                                  : "export it as one of these"));
+    if (by_meshio.empty())
+      return problem_in(path, fmt::format("{} file; {}export it as one of these", name, read));
+    const auto converted = std::filesystem::path(path).replace_extension(by_meshio);
+    return problem_in(
+        path, fmt::format("{} file; {}python3 -c \"import meshio; meshio.read('{}').write('{}')\"",
+                          name, read, path.string(), converted.string()));
   }
   return problem_in(
       path,

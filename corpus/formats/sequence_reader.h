@@ -42,6 +42,7 @@ class SequenceReader {
 
   // Those of every frame. REQUIRES that a frame was read.
   const detector::Triangles& triangles() const { return triangles_; }
+  std::size_t vertices() const { return static_cast<std::size_t>(vertices_); }
   // Those of the first frame.
   const std::vector<std::string>& remarks() const { return remarks_; }
 

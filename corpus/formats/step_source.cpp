@@ -9,6 +9,7 @@
 
 #include "corpus/file_bytes.h"
 #include "corpus/formats/bodies_reader.h"
+#include "corpus/formats/doubled_corners.h"
 #include "corpus/formats/frame_order.h"
 #include "corpus/formats/step_log.h"
 #include "detector/mesh/mesh_checks.h"
@@ -34,6 +35,14 @@ std::string title_of(const FramesOfBodies& bodies) {
   const auto [from, to] = short_names(files.front(), files.back());
   const auto through = files.size() == 2 ? "" : fmt::format("through {} frames ", files.size());
   return problem_in({}, fmt::format("one mesh moving {}from {} to {}", through, from, to)).message;
+}
+
+Expected<void> add_all(DoubledCorners& corners, BodiesReader reader) {
+  while (!reader.at_end()) {
+    BOOST_OUTCOME_TRY(x, reader.next());
+    corners.add(x);
+  }
+  return boost::outcome_v2::success();
 }
 
 class StepsOfCase : public StepSource {
@@ -74,17 +83,18 @@ class StepsOfCase : public StepSource {
 // Consecutive steps share a frame: the end of one is the start of the next.
 class StepsOfFiles : public StepSource {
  public:
-  StepsOfFiles(InputText text, BodiesReader reader, std::optional<detector::CountedPairs> counted,
-               Positions first, Positions second)
+  StepsOfFiles(InputText text, BodiesReader reader, detector::Triangles triangles,
+               std::optional<detector::CountedPairs> counted, Positions first, Positions second)
       : text_(std::move(text)),
         reader_(std::move(reader)),
+        triangles_(std::move(triangles)),
         counted_(std::move(counted)),
         x_t0_(std::move(first)),
         x_t1_(std::move(second)) {}
 
   std::size_t count() const override { return reader_.frames() - 1; }
   std::size_t frames() const override { return reader_.frames(); }
-  const detector::Triangles& triangles() const override { return reader_.triangles(); }
+  const detector::Triangles& triangles() const override { return triangles_; }
   const Positions& first_frame() const override { return x_t0_; }
   const detector::CountedPairs* counted() const override { return counted_ ? &*counted_ : nullptr; }
   InputText text() const override { return text_; }
@@ -98,7 +108,7 @@ class StepsOfFiles : public StepSource {
 
   Expected<std::unique_ptr<StepSource>> read_whole() override {
     Case c;
-    c.triangles = reader_.triangles();
+    c.triangles = triangles_;
     if (counted_) c.counted = CaseRelation{*counted_, {}};
     c.frames.push_back(std::move(x_t0_));
     c.frames.push_back(std::move(x_t1_));
@@ -121,6 +131,7 @@ class StepsOfFiles : public StepSource {
 
   InputText text_;
   BodiesReader reader_;
+  detector::Triangles triangles_;
   std::optional<detector::CountedPairs> counted_;
   std::size_t step_ = 0;  // whose frames these are
   Positions x_t0_, x_t1_;
@@ -160,14 +171,19 @@ Expected<std::unique_ptr<StepSource>> steps_of_bodies(const BodyFiles& bodies) {
     std::ranges::move(ordered.remarks, std::back_inserter(text.remarks));
   }
   text.title = title_of(frames);
-  BodiesReader reader(std::move(frames));
+  BodiesReader reader(frames);
   BOOST_OUTCOME_TRYV(reader.fit());
   BOOST_OUTCOME_TRY(first, reader.next());
   std::optional<detector::CountedPairs> counted;
-  if (bodies.frames.size() > 1 || !bodies.apart.empty()) {
+  const auto bodies_of_vertices = reader.bodies();
+  const bool has_bodies = bodies.frames.size() > 1 || !bodies.apart.empty();
+  if (has_bodies || bodies.rings > 0 || bodies.rest_distance > 0) {
     counted.emplace();
-    counted->body = reader.bodies();
+    if (has_bodies) counted->body = bodies_of_vertices;
     counted->apart = bodies.apart;
+    counted->rings = bodies.rings;
+    counted->rest_distance = bodies.rest_distance;
+    if (bodies.rest_distance > 0) counted->rest = points_of(first);
     if (const auto wrong =
             detector::check_counted_pairs(*counted, reader.triangles(), first.rows()))
       return problem_in({}, wrong->message);
@@ -176,8 +192,24 @@ Expected<std::unique_ptr<StepSource>> steps_of_bodies(const BodyFiles& bodies) {
   BOOST_OUTCOME_TRY(second, reader.next());
   BOOST_OUTCOME_TRYV(reader.look_ahead());
   std::ranges::move(reader.remarks(), std::back_inserter(text.remarks));
-  return std::make_unique<StepsOfFiles>(std::move(text), std::move(reader), std::move(counted),
-                                        std::move(first), std::move(second));
+  DoubledCorners corners(reader.triangles(), bodies_of_vertices);
+  auto triangles = reader.triangles();
+  if (bodies.weld) {
+    BOOST_OUTCOME_TRYV(add_all(corners, BodiesReader(frames)));
+    triangles = corners.welded(std::move(triangles));
+    if (const auto bad = detector::check_triangles(triangles, first.rows()))
+      return problem_in({},
+                        fmt::format("--weld: {}, where corners that stand at one place in every "
+                                    "frame count as one: remove such faces",
+                                    bad->message));
+  } else {
+    corners.add(first);
+    corners.add(second);
+  }
+  if (auto line = corners.remark(bodies.weld); !line.empty())
+    text.remarks.push_back(std::move(line));
+  return std::make_unique<StepsOfFiles>(std::move(text), std::move(reader), std::move(triangles),
+                                        std::move(counted), std::move(first), std::move(second));
 }
 
 Expected<std::unique_ptr<StepSource>> read_steps(const std::vector<std::filesystem::path>& files) {

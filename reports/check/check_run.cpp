@@ -384,11 +384,9 @@ corpus::Expected<CheckInput> read_check_input(const std::vector<std::string>& fi
   return CheckInput{files[0], std::move(steps)};
 }
 
-corpus::Expected<CheckInput> read_bodies(const BodyWords& bodies,
-                                         const std::vector<std::array<std::int32_t, 2>>& apart) {
-  corpus::BodyFiles files{{}, apart};
-  for (const auto& frames : bodies) files.frames.emplace_back(frames.begin(), frames.end());
-  BOOST_OUTCOME_TRY(steps, corpus::steps_of_bodies(files));
+corpus::Expected<CheckInput> read_bodies(const BodyWords& bodies, corpus::BodyFiles asked) {
+  for (const auto& frames : bodies) asked.frames.emplace_back(frames.begin(), frames.end());
+  BOOST_OUTCOME_TRY(steps, corpus::steps_of_bodies(asked));
   return CheckInput{bodies[0][0], std::move(steps)};
 }
 

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "corpus/cases/case_file.h"
+#include "corpus/formats/doubled_corners.h"
 #include "corpus/formats/frame_order.h"
 #include "corpus/formats/sequence_reader.h"
 #include "detector/mesh/mesh_checks.h"
@@ -109,13 +110,15 @@ CheckQuestion question_of(const py::dict& given) {
   return question;
 }
 
-// The relation of the bodies: by vertex the number of its body, and pairs of bodies that do not
-// meet.
+// Which pairs count; nothing if all do.
 std::optional<corpus::CaseRelation> relation_of(const py::dict& given, const corpus::Case& c) {
   corpus::CaseRelation relation;
   take(given, "bodies", relation.pairs.body);
   take(given, "apart", relation.pairs.apart);
-  if (relation.pairs.body.empty() && relation.pairs.apart.empty()) return std::nullopt;
+  take(given, "rings", relation.pairs.rings);
+  take(given, "rest_distance", relation.pairs.rest_distance);
+  if (relation.pairs.body.empty() && relation.pairs.count_all()) return std::nullopt;
+  if (relation.pairs.rest_distance > 0) relation.pairs.rest = corpus::points_of(c.frames[0]);
   if (const auto bad =
           detector::check_counted_pairs(relation.pairs, c.triangles, c.frames[0].rows()))
     raise(*bad);
@@ -133,8 +136,18 @@ CheckInput input_of(const py::object& triangles, const py::list& frames, const p
   if (c.frames.size() < 2) throw py::value_error("a step needs two frames or more");
   if (const auto bad = detector::check_triangles(c.triangles, c.frames[0].rows())) raise(*bad);
   c.counted = relation_of(given, c);
-  return {"frames",
-          corpus::steps_of_case(std::make_shared<const corpus::Case>(std::move(c)), false)};
+  std::vector<std::int32_t> body(static_cast<std::size_t>(c.frames[0].rows()), 0);
+  if (c.counted && !c.counted->pairs.body.empty()) body = c.counted->pairs.body;
+  corpus::DoubledCorners corners(c.triangles, body);
+  for (const auto& x : c.frames) corners.add(x);
+  bool weld = false;
+  take(given, "weld", weld);
+  if (weld) c.triangles = corners.welded(std::move(c.triangles));
+  if (const auto bad = detector::check_triangles(c.triangles, c.frames[0].rows())) raise(*bad);
+  corpus::InputText text;
+  if (auto line = corners.remark(weld); !line.empty()) text.remarks = {std::move(line)};
+  return {"frames", corpus::steps_of_case(std::make_shared<const corpus::Case>(std::move(c)), false,
+                                          std::move(text))};
 }
 
 // Returns the report as JSON, what is printed, and the exit code.

@@ -153,12 +153,15 @@ TEST_F(Exported, OtherFormatsAreRefusedByTheirNamesWithAWayOn) {
       EXPECT_TRUE(says(problem, name)) << name;
     }
   };
-  expect("a.stl", "solid a\n", "an STL file; OBJ, PLY and OFF are read: meshio convert ");
+  expect("a.stl", "solid a\n",
+         "an STL file; OBJ, PLY and OFF are read: python3 -c \"import meshio; meshio.read('");
   expect("B.STL", "solid a\n", "B.ply");
-  expect("a.vtk", "# vtk DataFile Version 5.1\n", "a VTK file; OBJ, PLY and OFF are read: meshio");
+  expect("a.vtk", "# vtk DataFile Version 5.1\n",
+         "a VTK file; OBJ, PLY and OFF are read: python3 -c");
   expect("a.vtu", "<?xml version=\"1.0\"?>\n", "a VTK file");
   expect("a.vtp", "<?xml version=\"1.0\"?>\n", "a VTK file; OBJ, PLY and OFF are read: export it");
-  expect("a.msh", "$MeshFormat\n", "a Gmsh file; OBJ, PLY and OFF are read: meshio convert ");
+  expect("a.msh", "$MeshFormat\n",
+         "a Gmsh file; OBJ, PLY and OFF are read: python3 -c \"import meshio; meshio.read('");
   expect("a.usda", "#usda 1.0\n", "a USD file; OBJ, PLY and OFF are read: export it");
   expect("a.usd", "PXR-USDC", "a USD file");
   expect("a.abc", "Ogawa", "an Alembic file");

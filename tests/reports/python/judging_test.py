@@ -116,6 +116,20 @@ def test_check_within_a_distance_has_a_report_of_its_own(tmp_path):
         bool(report)
 
 
+def test_doubled_corners_are_welded_and_near_pairs_left_out(pair):
+    soup = pair.triangles[:4].ravel()
+    triangles, x = np.arange(12, dtype=np.int32).reshape(4, 3), pair.x_t0[soup]
+    report = assay.check((triangles, [x, x]))
+    assert "12 vertices stand at 4 places" in report.text and report.json["steps"][0]["pairs"]
+    for options in ({"weld": True}, {"rest_distance": 0.001}, {"weld": True, "rings": 1}):
+        report = assay.check((triangles, [x, x]), **options)
+        assert report.json["steps"][0]["answer"] == "free", options
+    with pytest.raises(ValueError, match="rings"):
+        assay.check((triangles, [x, x]), rings=-1)
+    with pytest.raises(ValueError, match="a case file states it"):
+        assay.check("a.json", weld=True)
+
+
 def test_bodies_that_are_apart_do_not_meet(pair):
     frames = (pair.triangles, [pair.x_t0, pair.x_t1])
     bodies = [0] * 4 + [1] * 4
