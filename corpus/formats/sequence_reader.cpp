@@ -5,7 +5,7 @@
 #include <boost/outcome/try.hpp>
 #include <utility>
 
-#include "corpus/formats/frame_order.h"
+#include "corpus/frame_order.h"
 
 namespace assay::corpus {
 namespace {

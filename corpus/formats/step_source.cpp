@@ -10,8 +10,8 @@
 #include "corpus/file_bytes.h"
 #include "corpus/formats/bodies_reader.h"
 #include "corpus/formats/doubled_corners.h"
-#include "corpus/formats/frame_order.h"
 #include "corpus/formats/step_log.h"
+#include "corpus/frame_order.h"
 #include "detector/mesh/mesh_checks.h"
 
 namespace assay::corpus {

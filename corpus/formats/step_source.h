@@ -87,8 +87,8 @@ Expected<std::unique_ptr<StepSource>> steps_of_files(std::vector<std::filesystem
 // file for each frame, or one file: then it stands still.
 struct BodyFiles {
   std::vector<std::vector<std::filesystem::path>> frames;  // by body
-  // Which pairs count (detector/mesh/counted_pairs.h): bodies that do not meet, and what is left out
-  // by rings of edges and by the distance in the first frame.
+  // Which pairs count (detector/mesh/counted_pairs.h): bodies that do not meet, and what is left
+  // out by rings of edges and by the distance in the first frame.
   std::vector<std::array<std::int32_t, 2>> apart = {};
   std::int32_t rings = 0;
   double rest_distance = 0;
@@ -96,7 +96,8 @@ struct BodyFiles {
   // twice. The vertices keep their numbers.
   bool weld = false;
 };
-// As steps_of_files, the files of each body in the order of frame_order.h. The relation of the steps has the bodies. REQUIRES a body, and a file of each.
+// As steps_of_files, the files of each body in the order of frame_order.h. The relation of the
+// steps has the bodies. REQUIRES a body, and a file of each.
 Expected<std::unique_ptr<StepSource>> steps_of_bodies(const BodyFiles& bodies);
 
 // What these files hold: one case file (.json), or frames of one mesh, two or more. REQUIRES a

@@ -25,8 +25,8 @@ std::optional<std::int64_t> parse_integer(std::string_view word);
 // The text behind the mark of UTF-8 (EF BB BF) that editors and spreadsheets put first.
 std::string_view without_mark(std::string_view text);
 
-// Lines of a text that end in \n, \r\n, \r or at the end of the text. Blanks at either end of a line
-// are dropped, and a mark of UTF-8 at the start of the text.
+// Lines of a text that end in \n, \r\n, \r or at the end of the text. Blanks at either end of a
+// line are dropped, and a mark of UTF-8 at the start of the text.
 class Lines {
  public:
   // `comment` starts a comment that runs to the end of its line; '\0': there are no comments. With

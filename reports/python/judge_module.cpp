@@ -11,8 +11,8 @@
 
 #include "corpus/cases/case_file.h"
 #include "corpus/formats/doubled_corners.h"
-#include "corpus/formats/frame_order.h"
 #include "corpus/formats/sequence_reader.h"
+#include "corpus/frame_order.h"
 #include "detector/mesh/mesh_checks.h"
 #include "oracle/distance/step_distance.h"
 #include "properties/campaign/gates/findings.h"

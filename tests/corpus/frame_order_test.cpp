@@ -1,5 +1,5 @@
 // Files of frames in the order of their numbers, and what is said of that.
-#include "corpus/formats/frame_order.h"
+#include "corpus/frame_order.h"
 
 #include "tests/test.h"
 

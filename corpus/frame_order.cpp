@@ -1,4 +1,4 @@
-#include "corpus/formats/frame_order.h"
+#include "corpus/frame_order.h"
 
 #include <fmt/format.h>
 
