@@ -77,20 +77,18 @@ Expected<void> BodiesReader::look_ahead() const {
 
 std::vector<std::int32_t> BodiesReader::bodies() const {
   std::vector<std::int32_t> list;
-  for (std::size_t b = 0; b < now_.size(); ++b)
-    list.insert(list.end(), static_cast<std::size_t>(now_[b].rows()), static_cast<std::int32_t>(b));
+  for (std::size_t b = 0; b < readers_.size(); ++b)
+    list.insert(list.end(), readers_[b].vertices(), static_cast<std::int32_t>(b));
   return list;
 }
 
-std::string BodiesReader::remark() const {
-  std::size_t lines = 0, points = 0;
-  for (const auto& reader : readers_) {
-    lines += reader.lines();
-    points += reader.points();
+std::vector<std::string> BodiesReader::remarks() const {
+  std::vector<std::string> lines;
+  for (std::size_t b = 0; b < readers_.size(); ++b) {
+    const auto file = readers_.size() > 1 ? first_files_[b] : std::filesystem::path();
+    for (const auto& line : readers_[b].remarks()) lines.push_back(problem_in(file, line).message);
   }
-  if (lines + points == 0) return "";
-  return fmt::format("not looked at: {} line{} (l) and {} point{} (p) of the OBJ files", lines,
-                     lines == 1 ? "" : "s", points, points == 1 ? "" : "s");
+  return lines;
 }
 
 }  // namespace assay::corpus

@@ -27,8 +27,8 @@ class BodiesReader {
   // Both REQUIRE that a frame was read. By vertex, the number of its body.
   const detector::Triangles& triangles() const { return triangles_; }
   std::vector<std::int32_t> bodies() const;
-  // What the files hold that is no part of the mesh, in words; empty for nothing.
-  std::string remark() const;
+  // Those on the first file of each body, with its name if there are several.
+  std::vector<std::string> remarks() const;
 
  private:
   void join_triangles();

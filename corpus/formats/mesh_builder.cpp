@@ -56,13 +56,32 @@ Expected<void> MeshBuilder::add_polygon(std::span<const std::int64_t> vertices,
     }
     corners_.insert(corners_.end(), {static_cast<std::int32_t>(a), static_cast<std::int32_t>(b),
                                      static_cast<std::int32_t>(c)});
+    places_.numbers.push_back(static_cast<std::uint32_t>(place.number));
   }
+  places_.unit = place.unit;
+  if (vertices.size() > 3) ++split_;
   return boost::outcome_v2::success();
 }
 
-Expected<Mesh> MeshBuilder::finish() const {
+void MeshBuilder::skip(const std::string& what, std::size_t count) { skipped_[what] += count; }
+
+Expected<Mesh> MeshBuilder::finish() {
+  if (split_ > 0) {
+    remark(split_ == 1 ? "1 face of more than 3 corners is split into triangles at its first corner"
+                       : fmt::format("{} faces of more than 3 corners are split into triangles at "
+                                     "their first corners",
+                                     split_));
+  }
+  std::string skipped;
+  for (const auto& [what, count] : skipped_) {
+    const auto noun = std::min(what.find(' '), what.size());
+    skipped += fmt::format("{} {} {}{}{}", skipped.empty() ? "not looked at:" : ",", count,
+                           what.substr(0, noun), count == 1 ? "" : "s", what.substr(noun));
+  }
+  if (!skipped.empty()) remark(skipped);
   if (corners_.empty()) {
-    return problem_in(file_, fmt::format("{} vertices and no triangle", vertex_count()));
+    return problem_in(file_, fmt::format("{} vertices and no triangle{}{}", vertex_count(),
+                                         skipped.empty() ? "" : "; ", skipped));
   }
   if (highest_ >= static_cast<std::int64_t>(vertex_count())) {
     return problem(highest_place_,
@@ -74,6 +93,8 @@ Expected<Mesh> MeshBuilder::finish() const {
   std::copy(coordinates_.begin(), coordinates_.end(), mesh.positions.data());
   mesh.triangles.resize(static_cast<Eigen::Index>(corners_.size() / 3), 3);
   std::copy(corners_.begin(), corners_.end(), mesh.triangles.data());
+  mesh.places = std::move(places_);
+  mesh.remarks = std::move(remarks_);
   return mesh;
 }
 

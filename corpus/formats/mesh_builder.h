@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,12 +12,6 @@
 #include "corpus/problem.h"
 
 namespace assay::corpus {
-
-// A place in a file, for messages: `line 12`, `byte 345`.
-struct Place {
-  const char* unit;
-  std::size_t number;
-};
 
 std::string shown(const Place& place);
 
@@ -33,17 +28,27 @@ class MeshBuilder {
   // of any range, and a triangle that names one vertex twice.
   Expected<void> add_polygon(std::span<const std::int64_t> vertices, const Place& place);
 
+  // Counts what is no part of the mesh, in the singular: "line (l)".
+  void skip(const std::string& what, std::size_t count = 1);
+  // Something in the file that its author should know of, in words.
+  void remark(std::string line) { remarks_.push_back(std::move(line)); }
+
   std::size_t vertex_count() const { return coordinates_.size() / 3; }
 
   Problem problem(const Place& place, std::string_view detail) const;
 
-  // The mesh. Refuses one without a triangle, and an index beyond its vertices.
-  Expected<Mesh> finish() const;
+  // The mesh, with remarks on what was split or skipped. Refuses one without a triangle, and an
+  // index beyond its vertices.
+  Expected<Mesh> finish();
 
  private:
   std::filesystem::path file_;
   std::vector<double> coordinates_;
   std::vector<std::int32_t> corners_;
+  FacePlaces places_;
+  std::size_t split_ = 0;  // polygons of more than three corners
+  std::map<std::string, std::size_t> skipped_;
+  std::vector<std::string> remarks_;
   // The highest index so far and its place: finish() needs no more to name an index without a
   // vertex.
   std::int64_t highest_ = -1;

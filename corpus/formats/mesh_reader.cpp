@@ -1,13 +1,18 @@
 #include "corpus/formats/mesh_reader.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <boost/outcome/try.hpp>
 #include <cctype>
+#include <map>
 #include <new>
 #include <string>
 
 #include "corpus/file_bytes.h"
 #include "corpus/formats/ply_header.h"
+#include "corpus/formats/text_lines.h"
 
 namespace assay::corpus {
 namespace {
@@ -28,14 +33,81 @@ enum class Format { ply, off, obj };
 // The format is told from this many bytes at the start, and the name.
 constexpr std::size_t format_bytes = 4096;
 
+// Formats that are not read, by the ends of names.
+struct OtherFormat {
+  std::string_view ends, name;
+  // What meshio writes of it without loss; empty if meshio does not read it.
+  std::string_view by_meshio = {};
+};
+constexpr OtherFormat other_formats[] = {{".stl", "an STL", ".ply"},
+                                         {".vtk", "a VTK", ".obj"},
+                                         {".vtu", "a VTK", ".ply"},
+                                         {".vtp", "a VTK"},
+                                         {".msh", "a Gmsh", ".ply"},
+                                         {".inp", "an Abaqus", ".ply"},
+                                         {".xdmf.xmf", "an XDMF", ".ply"},
+                                         {".mesh.meshb", "a Medit", ".ply"},
+                                         {".usd.usda.usdc.usdz", "a USD"},
+                                         {".abc", "an Alembic"},
+                                         {".gltf.glb", "a glTF"},
+                                         {".fbx", "an FBX"},
+                                         {".dae", "a COLLADA"},
+                                         {".blend", "a Blender"},
+                                         {".ma.mb", "a Maya"},
+                                         {".3dm", "a Rhino"},
+                                         {".bgeo.geo", "a Houdini"},
+                                         {".3ds.3mf.x3d.wrl", "a 3D"},
+                                         {".step.stp.igs.iges", "a CAD"}};
+
+Problem unknown_format(const std::filesystem::path& path) {
+  const auto end = mesh_extension(path);
+  const std::string read = "OBJ, PLY and OFF are read: ";
+  if (end == ".npz" || end == ".npy")
+    return problem_in(path, "a NumPy file; " + read + "ask from Python, by assay.check");
+  for (const auto& [ends, name, by_meshio] : other_formats) {
+    if (end.empty() || (std::string(ends) + ".").find(end + ".") == std::string::npos) continue;
+    if (by_meshio.empty())
+      return problem_in(path, fmt::format("{} file; {}export it as one of these", name, read));
+    const auto converted = std::filesystem::path(path).replace_extension(by_meshio);
+    return problem_in(
+        path, fmt::format("{} file; {}python3 -c \"import meshio; meshio.read('{}').write('{}')\"",
+                          name, read, path.string(), converted.string()));
+  }
+  return problem_in(
+      path,
+      "neither PLY nor OFF by its first line, nor .obj by its name; other formats are "
+      "not read");
+}
+
 Expected<Format> format_of(std::string_view bytes, const std::filesystem::path& path) {
   if (looks_like_ply(bytes)) return Format::ply;
   if (looks_like_off(bytes)) return Format::off;
+  if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF"))
+    return problem_in(path, "text of two bytes a letter (UTF-16): save it as UTF-8");
   if (mesh_extension(path) == ".obj") return Format::obj;
-  return problem_in(path, "neither PLY nor OFF by its first line, nor .obj by its name");
+  if (mesh_extension(path) == ".off") return Format::off;
+  return unknown_format(path);
+}
+
+// A folder is refused with a word on what is in it.
+Expected<void> refuse_folder(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(path, ignored)) return boost::outcome_v2::success();
+  std::map<std::string, std::size_t> counts = {{".obj", 0}, {".off", 0}, {".ply", 0}};
+  for (const auto& entry : std::filesystem::directory_iterator(path, ignored)) {
+    const auto count = counts.find(mesh_extension(entry.path()));
+    if (count != counts.end()) ++count->second;
+  }
+  const auto most = std::ranges::max_element(counts, {}, [](const auto& c) { return c.second; });
+  const auto where = path.has_filename() ? path : path.parent_path();
+  return problem_in(path, "cannot be read: Is a directory" +
+                              (most->second == 0 ? ", and it holds no OBJ, PLY or OFF file"
+                                                 : fmt::format(": name its files, {}/*{}",
+                                                               where.string(), most->first)));
 }
 
 Expected<Mesh> parse_mesh(std::string_view bytes, const std::filesystem::path& path) {
+  bytes = without_mark(bytes);
   BOOST_OUTCOME_TRY(format, format_of(bytes.substr(0, format_bytes), path));
   switch (format) {
     case Format::ply:
@@ -51,6 +123,7 @@ Expected<Mesh> parse_mesh(std::string_view bytes, const std::filesystem::path& p
 }  // namespace
 
 Expected<Mesh> read_mesh(const std::filesystem::path& path) try {
+  BOOST_OUTCOME_TRYV(refuse_folder(path));
   BOOST_OUTCOME_TRY(bytes, read_bytes(path));
   return parse_mesh(bytes, path);
 } catch (const std::bad_alloc&) {
@@ -58,10 +131,26 @@ Expected<Mesh> read_mesh(const std::filesystem::path& path) try {
 }
 
 Expected<void> look_at_mesh(const std::filesystem::path& path) {
+  BOOST_OUTCOME_TRYV(refuse_folder(path));
   BOOST_OUTCOME_TRY(start, read_start(path, format_bytes));
   if (start.empty()) return boost::outcome_v2::success();
-  BOOST_OUTCOME_TRYV(format_of(start, path));
+  BOOST_OUTCOME_TRYV(format_of(without_mark(start), path));
   return boost::outcome_v2::success();
+}
+
+std::string places_of_same_faces(const std::filesystem::path& file) {
+  const auto mesh = read_mesh(file);
+  if (!mesh) return "";
+  const auto& [unit, numbers] = mesh.value().places;
+  std::map<std::array<std::int32_t, 3>, std::size_t> seen;
+  for (std::size_t t = 0; t < numbers.size(); ++t) {
+    const auto row = mesh.value().triangles.row(static_cast<Eigen::Index>(t));
+    std::array<std::int32_t, 3> corners = {row[0], row[1], row[2]};
+    std::ranges::sort(corners);
+    const auto [first, is_new] = seen.emplace(corners, t);
+    if (!is_new) return fmt::format("{}s {} and {}", unit, numbers[first->second], numbers[t]);
+  }
+  return "";
 }
 
 }  // namespace assay::corpus

@@ -8,19 +8,35 @@
 // same three vertices, unused or duplicate vertices, zero-area triangles.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "corpus/problem.h"
 #include "detector/mesh/types.h"
 
 namespace assay::corpus {
 
+// A place in a file, for messages: `line 12`, `byte 345`.
+struct Place {
+  const char* unit;
+  std::size_t number;
+};
+
+// Where each triangle's face stands in its file.
+struct FacePlaces {
+  const char* unit = "line";
+  std::vector<std::uint32_t> numbers;
+};
+
 struct Mesh {
   detector::Positions positions;
   detector::Triangles triangles;
-  // Statements l and p of an OBJ file, which are no part of the mesh.
-  std::size_t lines = 0, points = 0;
+  // A line each on what was split, is not looked at, or is suspect.
+  std::vector<std::string> remarks = {};
+  FacePlaces places = {};
 };
 
 // The content tells the format if it has a signature (PLY, OFF, gzip), otherwise the extension
@@ -31,23 +47,29 @@ Expected<Mesh> read_mesh(const std::filesystem::path& path);
 // read, is empty or of no format. The problem is that of read_mesh.
 Expected<void> look_at_mesh(const std::filesystem::path& path);
 
+// Returns where in the file two faces have the same three vertices: "lines 12 and 16"; empty if
+// none have, or the file cannot be read.
+std::string places_of_same_faces(const std::filesystem::path& file);
+
 // The formats, each from the bytes of a file; `file` stands for it in messages.
 
 // OBJ: `v` and `f` (v, v/vt, v//vn, v/vt/vn, negative indices, polygons) make the mesh; texture
-// coordinates, normals, groups, materials, lines, points and curves are passed over. A line with
-// any other keyword is refused, so that noise is not taken for a mesh.
+// coordinates, normals, groups and materials are passed over; lines, points, curves and surfaces
+// too, with a remark. A line with any other keyword is refused, so that noise is not taken for a
+// mesh.
 Expected<Mesh> read_obj(std::string_view text, const std::filesystem::path& file);
 
-// Whether the text begins as an OFF file: OFF after the optional letters ST, C, N, 4, n.
+// Whether the text begins as an OFF file: OFF after the optional letters ST, C, N, 4, n, capital or
+// not. A file of that name may lack the word.
 bool looks_like_off(std::string_view text);
 // OFF in text form: a header word, the counts, one vertex a line and one polygon a line; `#` starts
-// a comment. Normals, colours and texture coordinates are passed over; 4-dimensional and binary
-// files are refused.
+// a comment. Normals, colours and texture coordinates are passed over, faces of one or two corners
+// too, with a remark; 4-dimensional and binary files are refused.
 Expected<Mesh> read_off(std::string_view text, const std::filesystem::path& file);
 
 // PLY, ascii, binary little-endian and big-endian: x, y, z of any type from element `vertex`, and
 // from element `face` a list vertex_indices or vertex_index of an integer type. All other elements
-// and properties are skipped.
+// (with a remark) and properties are skipped.
 Expected<Mesh> read_ply(std::string_view bytes, const std::filesystem::path& file);
 
 }  // namespace assay::corpus

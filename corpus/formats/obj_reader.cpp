@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <boost/outcome/try.hpp>
+#include <cctype>
+#include <iterator>
 
 #include "corpus/formats/mesh_builder.h"
 #include "corpus/formats/mesh_reader.h"
@@ -14,13 +16,25 @@ namespace {
 using Words = std::vector<std::string_view>;
 
 // Statements of the format that have no bearing on vertices and faces.
-constexpr std::array<std::string_view, 36> passed_over = {
-    "vt",       "vn",       "vp",         "g",         "o",     "s",     "mg",   "usemtl", "mtllib",
-    "usemap",   "maplib",   "cstype",     "deg",       "bmat",  "step",  "curv", "curv2",  "surf",
-    "parm",     "trim",     "hole",       "scrv",      "sp",    "end",   "con",  "lod",    "bevel",
-    "c_interp", "d_interp", "shadow_obj", "trace_obj", "ctech", "stech", "cdc",  "cdp",    "res"};
+constexpr std::array<std::string_view, 34> passed_over = {
+    "vt",         "vn",        "vp",     "g",     "o",    "s",    "mg",    "usemtl",   "mtllib",
+    "usemap",     "maplib",    "cstype", "deg",   "bmat", "step", "curv2", "parm",     "trim",
+    "hole",       "scrv",      "sp",     "end",   "con",  "lod",  "bevel", "c_interp", "d_interp",
+    "shadow_obj", "trace_obj", "ctech",  "stech", "cdc",  "cdp",  "res"};
 
-Expected<void> read_vertex(const Words& words, const Place& place, MeshBuilder& builder) {
+// Geometry, or a file with some, that is no part of the mesh.
+struct Skipped {
+  std::string_view keyword;
+  const char* what;
+};
+constexpr Skipped skipped_statements[] = {{"l", "line (l)"},        {"p", "point (p)"},
+                                          {"curv", "curve (curv)"}, {"surf", "surface (surf)"},
+                                          {"bsp", "surface (bsp)"}, {"bzp", "surface (bzp)"},
+                                          {"call", "file (call)"},  {"csh", "command (csh)"}};
+
+// `weighted` counts the vertices whose fourth number is a weight other than 1.
+Expected<void> read_vertex(const Words& words, const Place& place, MeshBuilder& builder,
+                           std::size_t& weighted) {
   std::array<double, 3> x{};
   if (words.size() < 4) {
     return builder.problem(place, "a vertex of fewer than 3 coordinates");
@@ -28,10 +42,13 @@ Expected<void> read_vertex(const Words& words, const Place& place, MeshBuilder& 
   for (std::size_t k = 0; k < 3; ++k) {
     const auto value = parse_double(words[k + 1]);
     if (!value) {
-      return builder.problem(place, excerpt(words[k + 1]) + " is no number");
+      const bool has_comma = words[k + 1].find(',') != std::string_view::npos;
+      return builder.problem(place, excerpt(words[k + 1]) + " is no number" +
+                                        (has_comma ? ": decimals have a point" : ""));
     }
     x[k] = *value;
   }
+  if (words.size() == 5 && parse_double(words[4]) != 1) ++weighted;
   return builder.add_vertex(x[0], x[1], x[2], place);
 }
 
@@ -78,26 +95,30 @@ Expected<Mesh> read_obj(std::string_view text, const std::filesystem::path& file
   Lines lines(text, '#', true);
   Words words;
   std::vector<std::int64_t> vertices;
-  std::size_t line_statements = 0, point_statements = 0;
+  std::string lower;
+  std::size_t weighted = 0;
   while (const auto line = lines.next()) {
     split_words(*line, words);
     const Place place = {"line", lines.number()};
-    if (words[0] == "v") {
-      BOOST_OUTCOME_TRY(read_vertex(words, place, builder));
-    } else if (words[0] == "f") {
+    lower = words[0];
+    for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const auto* other = std::ranges::find(skipped_statements, lower, &Skipped::keyword);
+    if (lower == "v") {
+      BOOST_OUTCOME_TRY(read_vertex(words, place, builder, weighted));
+    } else if (lower == "f" || lower == "fo") {  // fo is its name in old files
       BOOST_OUTCOME_TRY(read_face(words, place, builder, vertices));
-    } else if (words[0] == "l") {
-      ++line_statements;
-    } else if (words[0] == "p") {
-      ++point_statements;
-    } else if (std::find(passed_over.begin(), passed_over.end(), words[0]) == passed_over.end()) {
+    } else if (other != std::end(skipped_statements)) {
+      builder.skip(other->what);
+    } else if (std::ranges::find(passed_over, lower) == passed_over.end()) {
       return builder.problem(place, excerpt(words[0]) + " is no statement of an OBJ file");
     }
   }
-  BOOST_OUTCOME_TRY(mesh, builder.finish());
-  mesh.lines = line_statements;
-  mesh.points = point_statements;
-  return mesh;
+  if (weighted > 0) {
+    builder.remark(fmt::format(
+        "{} of {} vertices have a weight (a fourth number) other than 1, which is not looked at",
+        weighted, builder.vertex_count()));
+  }
+  return builder.finish();
 }
 
 }  // namespace assay::corpus

@@ -11,16 +11,12 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
-// The optional letters that the header word has before OFF; nothing when it is not a header word.
-std::optional<std::string_view> header_letters(std::string_view word) {
-  if (!word.ends_with("OFF")) return std::nullopt;
-  const std::string_view letters = word.substr(0, word.size() - 3);
-  std::string_view rest = letters;
-  for (const std::string_view letter : {"ST", "C", "N", "4", "n"}) {
-    if (rest.starts_with(letter)) rest.remove_prefix(letter.size());
-  }
-  if (!rest.empty()) return std::nullopt;
-  return letters;
+// Whether this is a header word: OFF behind some of the letters ST, C, N, 4, n, capital or not.
+bool is_header(std::string_view word) {
+  constexpr std::string_view known = "STCN4nOFstcof";
+  if (word.size() < 3 || word.find_first_not_of(known) != std::string_view::npos) return false;
+  const auto end = word.substr(word.size() - 3);
+  return end == "OFF" || end == "off";
 }
 
 class OffReader {
@@ -64,16 +60,18 @@ class OffReader {
 
   Expected<void> read_header() {
     BOOST_OUTCOME_TRY(next_line("the header word OFF"));
-    const auto letters = header_letters(words_[0]);
-    if (!letters) return wrong("the header word OFF expected, not " + excerpt(words_[0]));
-    if (letters->find_first_of("4n") != std::string_view::npos) {
+    const bool has_header = is_header(words_[0]);
+    if (!has_header && !parse_integer(words_[0]))
+      return wrong("the header word OFF expected, not " + excerpt(words_[0]));
+    if (has_header && words_[0].find_first_of("4n") != std::string_view::npos) {
       return wrong("vertices of more than three dimensions are not read");
     }
-    // Some writers put the counts behind the header word.
-    if (words_.size() == 1) {
+    // Some writers put the counts behind the header word, or leave it out.
+    if (!has_header) {
+    } else if (words_.size() == 1) {
       BOOST_OUTCOME_TRY(next_line("the counts"));
     } else if (words_[1] == "BINARY") {
-      return wrong("binary OFF files are not read");
+      return wrong("binary OFF files are not read: write it as text");
     } else {
       words_.erase(words_.begin());
     }
@@ -118,6 +116,10 @@ class OffReader {
       BOOST_OUTCOME_TRY(vertex, integer(i, "a vertex index"));
       corners_.push_back(vertex);
     }
+    if (count == 1 || count == 2) {
+      builder_.skip("face of fewer than 3 corners");
+      return boost::outcome_v2::success();
+    }
     return builder_.add_polygon(corners_, {"line", lines_.number()});
   }
 
@@ -136,7 +138,7 @@ bool looks_like_off(std::string_view text) {
   const auto line = lines.next();
   Words words;
   if (line) split_words(*line, words);
-  return !words.empty() && header_letters(words[0]).has_value();
+  return !words.empty() && is_header(words[0]);
 }
 
 Expected<Mesh> read_off(std::string_view text, const std::filesystem::path& file) {

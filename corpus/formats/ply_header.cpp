@@ -25,12 +25,14 @@ std::optional<PlyType> type_named(std::string_view word) {
 class HeaderReader {
  public:
   HeaderReader(std::string_view bytes, const std::filesystem::path& file)
-      : bytes_(bytes), file_(file) {}
+      : bytes_(bytes),
+        line_end_(bytes.starts_with("ply\r") && !bytes.starts_with("ply\r\n") ? '\r' : '\n'),
+        file_(file) {}
 
   Expected<PlyHeader> read() {
     bool format_seen = false;
     while (true) {
-      const std::size_t end = bytes_.find('\n', header_.size);
+      const std::size_t end = bytes_.find(line_end_, header_.size);
       if (end == std::string_view::npos) {
         return wrong("the header has no end_header");
       }
@@ -111,6 +113,7 @@ class HeaderReader {
   }
 
   std::string_view bytes_;
+  char line_end_;
   const std::filesystem::path& file_;
   PlyHeader header_;
   std::vector<std::string_view> words_;
@@ -139,7 +142,7 @@ std::size_t size_of(PlyType type) {
 bool is_integer(PlyType type) { return type != PlyType::float32 && type != PlyType::float64; }
 
 bool looks_like_ply(std::string_view bytes) {
-  return bytes.starts_with("ply\n") || bytes.starts_with("ply\r\n");
+  return bytes.starts_with("ply") && bytes.find_first_of("\r\n") == bytes.find_first_not_of(" ", 3);
 }
 
 Expected<PlyHeader> read_ply_header(std::string_view bytes, const std::filesystem::path& file) {

@@ -42,6 +42,11 @@ class PlyBody {
   bool at_end();
 
   Place place() const;
+  // Where the next value begins.
+  Place next_place() {
+    if (is_ascii()) skip_blanks();
+    return place();
+  }
 
  private:
   bool is_ascii() const { return encoding_ == PlyEncoding::ascii; }
@@ -204,6 +209,8 @@ class PlyReader {
       least_size += size_of(property.count_type.value_or(property.type));
     }
     const bool vertices = element.name == "vertex";
+    if (!vertices && element.name != "face" && element.count > 0)
+      builder_.skip("row of element " + element.name, element.count);
     if (vertices && (found[0] != 1 || found[1] != 1 || found[2] != 1)) {
       return problem_in(file_, "element vertex has no x, y, z");
     }
@@ -225,7 +232,7 @@ class PlyReader {
 
   Expected<void> read_row(const PlyElement& element, const std::vector<Role>& roles,
                           bool vertices) {
-    const Place place = body_.place();
+    const Place place = body_.next_place();
     std::array<double, 3> x{};
     for (std::size_t i = 0; i < roles.size(); ++i) {
       const PlyProperty& property = element.properties[i];

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -16,6 +18,8 @@ namespace assay::corpus {
 struct Sequence {
   detector::Triangles triangles;
   std::vector<detector::Positions> frames;
+  // A line each on the order of the files, and on what was changed or is not looked at.
+  std::vector<std::string> remarks = {};
 };
 
 // Reads a frame when it is asked for, each file once, and keeps of all that it read the triangles
@@ -38,19 +42,22 @@ class SequenceReader {
 
   // Those of every frame. REQUIRES that a frame was read.
   const detector::Triangles& triangles() const { return triangles_; }
-  // The statements l and p of the first frame, if it is an OBJ file.
-  std::size_t lines() const { return lines_; }
-  std::size_t points() const { return points_; }
+  std::size_t vertices() const { return static_cast<std::size_t>(vertices_); }
+  // Those of the first frame.
+  const std::vector<std::string>& remarks() const { return remarks_; }
 
  private:
+  // The frame that is to be read next has another mesh than the first one.
+  Problem other_mesh(std::string_view how) const;
+
   std::vector<std::filesystem::path> files_;
   std::size_t next_ = 0;
   detector::Triangles triangles_;
   Eigen::Index vertices_ = 0;
-  std::size_t lines_ = 0, points_ = 0;
+  std::vector<std::string> remarks_;
 };
 
-// Reads all frames. Fails when `paths` is empty.
+// Reads all frames, in the order of frame_order.h. Fails when `paths` is empty.
 Expected<Sequence> read_sequence(std::span<const std::filesystem::path> paths);
 
 }  // namespace assay::corpus

@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <boost/outcome/try.hpp>
+#include <iterator>
 #include <utility>
 
 #include "corpus/file_bytes.h"
 #include "corpus/formats/bodies_reader.h"
+#include "corpus/formats/doubled_corners.h"
 #include "corpus/formats/step_log.h"
+#include "corpus/frame_order.h"
 #include "detector/mesh/mesh_checks.h"
 
 namespace assay::corpus {
@@ -16,10 +19,37 @@ namespace {
 
 using detector::Positions;
 
+using FramesOfBodies = std::vector<std::vector<std::filesystem::path>>;
+
+// What these files are, for the first line that a user sees.
+std::string title_of(const FramesOfBodies& bodies) {
+  const bool stands = std::ranges::all_of(bodies, [](const auto& one) { return one.size() == 1; });
+  if (bodies.size() > 1) return fmt::format("{} bodies{}", bodies.size(), stands ? " at rest" : "");
+  const auto& files = bodies.front();
+  if (std::ranges::all_of(files, [&](const auto& file) { return file == files.front(); }))
+    return "one mesh at rest";
+  const auto [from, to] = short_names(files.front(), files.back());
+  const auto through = files.size() == 2 ? "" : fmt::format("through {} frames ", files.size());
+  return problem_in({}, fmt::format("one mesh moving {}from {} to {}", through, from, to)).message;
+}
+
+Expected<void> add_all(DoubledCorners& corners, BodiesReader reader) {
+  while (!reader.at_end()) {
+    BOOST_OUTCOME_TRY(x, reader.next());
+    corners.add(x);
+  }
+  return boost::outcome_v2::success();
+}
+
 class StepsOfCase : public StepSource {
  public:
-  StepsOfCase(std::shared_ptr<const Case> c, bool is_case_file)
-      : case_(std::move(c)), script_(steps_of(*case_)), is_case_file_(is_case_file) {}
+  StepsOfCase(std::shared_ptr<const Case> c, bool is_case_file, InputText text)
+      : case_(std::move(c)),
+        script_(steps_of(*case_)),
+        is_case_file_(is_case_file),
+        text_(std::move(text)) {}
+
+  InputText text() const override { return text_; }
 
   std::size_t count() const override { return script_.size(); }
   std::size_t frames() const override { return case_->frames.size(); }
@@ -36,32 +66,35 @@ class StepsOfCase : public StepSource {
   const Case* case_file() const override { return is_case_file_ ? case_.get() : nullptr; }
 
   Expected<std::unique_ptr<StepSource>> read_whole() override {
-    return steps_of_case(case_, is_case_file_);
+    return steps_of_case(case_, is_case_file_, text_);
   }
 
  private:
   std::shared_ptr<const Case> case_;
   std::vector<CaseStep> script_;
   bool is_case_file_;
+  InputText text_;
 };
 
 // Consecutive steps share a frame: the end of one is the start of the next. One frame alone is both
 // ends of one step, and then there is no second.
 class StepsOfFiles : public StepSource {
  public:
-  StepsOfFiles(BodiesReader reader, std::optional<detector::CountedPairs> counted, Positions first,
-               Positions second)
-      : reader_(std::move(reader)),
+  StepsOfFiles(InputText text, BodiesReader reader, detector::Triangles triangles,
+               std::optional<detector::CountedPairs> counted, Positions first, Positions second)
+      : text_(std::move(text)),
+        reader_(std::move(reader)),
+        triangles_(std::move(triangles)),
         counted_(std::move(counted)),
         x_t0_(std::move(first)),
         x_t1_(std::move(second)) {}
 
   std::size_t count() const override { return std::max<std::size_t>(reader_.frames(), 2) - 1; }
   std::size_t frames() const override { return reader_.frames(); }
-  const detector::Triangles& triangles() const override { return reader_.triangles(); }
+  const detector::Triangles& triangles() const override { return triangles_; }
   const Positions& first_frame() const override { return x_t0_; }
   const detector::CountedPairs* counted() const override { return counted_ ? &*counted_ : nullptr; }
-  std::string remark() const override { return reader_.remark(); }
+  InputText text() const override { return text_; }
 
   Expected<SourceStep> step(std::size_t s) override {
     if (s > step_) {
@@ -72,7 +105,7 @@ class StepsOfFiles : public StepSource {
 
   Expected<std::unique_ptr<StepSource>> read_whole() override {
     Case c;
-    c.triangles = reader_.triangles();
+    c.triangles = triangles_;
     if (counted_) c.counted = CaseRelation{*counted_, {}};
     c.frames.push_back(std::move(x_t0_));
     if (!is_at_rest()) c.frames.push_back(std::move(x_t1_));
@@ -80,7 +113,7 @@ class StepsOfFiles : public StepSource {
       BOOST_OUTCOME_TRY(frame, reader_.next());
       c.frames.push_back(std::move(frame));
     }
-    return steps_of_case(std::make_shared<const Case>(std::move(c)), false);
+    return steps_of_case(std::make_shared<const Case>(std::move(c)), false, text_);
   }
 
  private:
@@ -93,7 +126,9 @@ class StepsOfFiles : public StepSource {
     return boost::outcome_v2::success();
   }
 
+  InputText text_;
   BodiesReader reader_;
+  detector::Triangles triangles_;
   std::optional<detector::CountedPairs> counted_;
   std::size_t step_ = 0;  // whose frames these are
   Positions x_t0_, x_t1_;
@@ -101,8 +136,22 @@ class StepsOfFiles : public StepSource {
 
 }  // namespace
 
-std::unique_ptr<StepSource> steps_of_case(std::shared_ptr<const Case> c, bool is_case_file) {
-  return std::make_unique<StepsOfCase>(std::move(c), is_case_file);
+Problem problem_of_triangles(const StepSource& steps, const std::filesystem::path& file,
+                             const detector::Problem& problem) {
+  if (problem.error == detector::InputError::same_vertices_twice) {
+    for (const auto& own : steps.text().files) {
+      if (const auto places = places_of_same_faces(own); !places.empty())
+        return problem_in(own, fmt::format("{} ({}): remove one of them, in MeshLab by Remove "
+                                           "Duplicate Faces",
+                                           problem.message, places));
+    }
+  }
+  return problem_in(file, problem.message);
+}
+
+std::unique_ptr<StepSource> steps_of_case(std::shared_ptr<const Case> c, bool is_case_file,
+                                          InputText text) {
+  return std::make_unique<StepsOfCase>(std::move(c), is_case_file, std::move(text));
 }
 
 Expected<std::unique_ptr<StepSource>> steps_of_files(std::vector<std::filesystem::path> files) {
@@ -110,14 +159,28 @@ Expected<std::unique_ptr<StepSource>> steps_of_files(std::vector<std::filesystem
 }
 
 Expected<std::unique_ptr<StepSource>> steps_of_bodies(const BodyFiles& bodies) {
-  BodiesReader reader(bodies.frames);
+  InputText text;
+  auto frames = bodies.frames;
+  for (auto& files : frames) {
+    auto ordered = in_order_of_numbers(files);
+    files = std::move(ordered.files);
+    for (const auto& file : files) text.files.push_back(file.string());
+    std::ranges::move(ordered.remarks, std::back_inserter(text.remarks));
+  }
+  text.title = title_of(frames);
+  BodiesReader reader(frames);
   BOOST_OUTCOME_TRYV(reader.fit());
   BOOST_OUTCOME_TRY(first, reader.next());
   std::optional<detector::CountedPairs> counted;
-  if (bodies.frames.size() > 1 || !bodies.apart.empty()) {
+  const auto bodies_of_vertices = reader.bodies();
+  const bool has_bodies = bodies.frames.size() > 1 || !bodies.apart.empty();
+  if (has_bodies || bodies.rings > 0 || bodies.rest_distance > 0) {
     counted.emplace();
-    counted->body = reader.bodies();
+    if (has_bodies) counted->body = bodies_of_vertices;
     counted->apart = bodies.apart;
+    counted->rings = bodies.rings;
+    counted->rest_distance = bodies.rest_distance;
+    if (bodies.rest_distance > 0) counted->rest = points_of(first);
     if (const auto wrong =
             detector::check_counted_pairs(*counted, reader.triangles(), first.rows()))
       return problem_in({}, wrong->message);
@@ -128,8 +191,25 @@ Expected<std::unique_ptr<StepSource>> steps_of_bodies(const BodyFiles& bodies) {
     second = std::move(frame);
   }
   BOOST_OUTCOME_TRYV(reader.look_ahead());
-  return std::make_unique<StepsOfFiles>(std::move(reader), std::move(counted), std::move(first),
-                                        std::move(second));
+  std::ranges::move(reader.remarks(), std::back_inserter(text.remarks));
+  DoubledCorners corners(reader.triangles(), bodies_of_vertices);
+  auto triangles = reader.triangles();
+  if (bodies.weld) {
+    BOOST_OUTCOME_TRYV(add_all(corners, BodiesReader(frames)));
+    triangles = corners.welded(std::move(triangles));
+    if (const auto bad = detector::check_triangles(triangles, first.rows()))
+      return problem_in({},
+                        fmt::format("--weld: {}, where corners that stand at one place in every "
+                                    "frame count as one: remove such faces",
+                                    bad->message));
+  } else {
+    corners.add(first);
+    if (second.rows() > 0) corners.add(second);
+  }
+  if (auto line = corners.remark(bodies.weld); !line.empty())
+    text.remarks.push_back(std::move(line));
+  return std::make_unique<StepsOfFiles>(std::move(text), std::move(reader), std::move(triangles),
+                                        std::move(counted), std::move(first), std::move(second));
 }
 
 Expected<std::unique_ptr<StepSource>> read_steps(const std::vector<std::filesystem::path>& files) {

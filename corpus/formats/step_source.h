@@ -7,9 +7,11 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "corpus/cases/case_file.h"
+#include "detector/mesh/problem.h"
 
 namespace assay::corpus {
 
@@ -19,6 +21,13 @@ struct SourceStep {
   const detector::Positions& x_t1;
   std::optional<detector::ViewPrimitive> view = {};
   bool commit = true;
+};
+
+// What an input is, in words.
+struct InputText {
+  std::string title = {};                 // "one mesh moving from a.obj to b.obj"; may be empty
+  std::vector<std::string> files = {};    // in the order in which they are taken; empty: as given
+  std::vector<std::string> remarks = {};  // a line each on what was changed or is not looked at
 };
 
 class StepSource {
@@ -31,8 +40,7 @@ class StepSource {
   virtual Expected<bool> has(std::size_t s) { return s < count(); }
   // The number of step s in the whole that the input is a part of, from 0.
   virtual std::uint64_t number_of(std::size_t s) const { return s; }
-  // What the input holds that is no part of the question, in words; empty for nothing.
-  virtual std::string remark() const { return ""; }
+  virtual InputText text() const { return {}; }
   // A line each: what was noted before the step that was asked for last, and, after all steps, what
   // of the input is lost, so that nothing is known of it, and what else is to be said.
   virtual std::vector<std::string> notes() const { return {}; }
@@ -64,8 +72,14 @@ class StepSource {
   virtual Expected<std::unique_ptr<StepSource>> read_whole() = 0;
 };
 
+// A problem of these steps' triangles, with the places in their file of two faces on the same three
+// vertices. `file` is named for other problems.
+Problem problem_of_triangles(const StepSource& steps, const std::filesystem::path& file,
+                             const detector::Problem& problem);
+
 // `is_case_file`: the options and facts that the case states count.
-std::unique_ptr<StepSource> steps_of_case(std::shared_ptr<const Case> c, bool is_case_file);
+std::unique_ptr<StepSource> steps_of_case(std::shared_ptr<const Case> c, bool is_case_file,
+                                          InputText text = {});
 
 // Each file is a frame, and is read once: the first two now, the others when their step is asked
 // for. One file alone is a mesh at rest. Those that are not there or of no known format are refused
@@ -76,10 +90,17 @@ Expected<std::unique_ptr<StepSource>> steps_of_files(std::vector<std::filesystem
 // file for each frame, or one file: then it stands still.
 struct BodyFiles {
   std::vector<std::vector<std::filesystem::path>> frames;  // by body
-  // Bodies that do not meet (detector/mesh/counted_pairs.h).
-  std::vector<std::array<std::int32_t, 2>> apart;
+  // Which pairs count (detector/mesh/counted_pairs.h): bodies that do not meet, and what is left
+  // out by rings of edges and by the distance in the first frame.
+  std::vector<std::array<std::int32_t, 2>> apart = {};
+  std::int32_t rings = 0;
+  double rest_distance = 0;
+  // Vertices of a body that stand at one place in every frame count as one. All files are then read
+  // twice. The vertices keep their numbers.
+  bool weld = false;
 };
-// As steps_of_files. The relation of the steps has the bodies. REQUIRES a body, and a file of each.
+// As steps_of_files, the files of each body in the order of frame_order.h. The relation of the
+// steps has the bodies. REQUIRES a body, and a file of each.
 Expected<std::unique_ptr<StepSource>> steps_of_bodies(const BodyFiles& bodies);
 
 // What these files hold: one case file (.json), or frames of one mesh. REQUIRES a file.

@@ -18,10 +18,17 @@ std::string_view trimmed(std::string_view line) {
 
 }  // namespace
 
+std::string_view without_mark(std::string_view text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  return text;
+}
+
 std::string_view Lines::physical_line() {
   ++read_;
-  const std::size_t end = std::min(text_.find('\n'), text_.size());
+  std::size_t end = 0;
+  while (end < text_.size() && text_[end] != '\n' && text_[end] != '\r') ++end;
   std::string_view line = text_.substr(0, end);
+  if (text_.substr(end, 2) == "\r\n") ++end;
   text_.remove_prefix(std::min(end + 1, text_.size()));
   if (comment_ != '\0') line = line.substr(0, std::min(line.find(comment_), line.size()));
   return trimmed(line);

@@ -22,14 +22,17 @@ std::optional<double> parse_double(std::string_view word);
 // leading + is allowed.
 std::optional<std::int64_t> parse_integer(std::string_view word);
 
-// Lines of a text that end in \n, \r\n or at the end of the text. Blanks and \r at either end of a
-// line are dropped.
+// The text behind the mark of UTF-8 (EF BB BF) that editors and spreadsheets put first.
+std::string_view without_mark(std::string_view text);
+
+// Lines of a text that end in \n, \r\n, \r or at the end of the text. Blanks at either end of a
+// line are dropped, and a mark of UTF-8 at the start of the text.
 class Lines {
  public:
   // `comment` starts a comment that runs to the end of its line; '\0': there are no comments. With
   // `continued`, a backslash at the end of a line joins the next line to it.
   Lines(std::string_view text, char comment, bool continued)
-      : text_(text), comment_(comment), continued_(continued) {}
+      : text_(without_mark(text)), comment_(comment), continued_(continued) {}
 
   // The next line that is not blank; nothing at the end. Valid until the next call.
   std::optional<std::string_view> next();

@@ -49,18 +49,14 @@ struct Row {
 class CsvReader {
  public:
   CsvReader(std::string_view text, const std::filesystem::path& file, Kind kind)
-      : text_(text), file_(file), kind_(kind) {}
+      : lines_(text, '#', false), file_(file), kind_(kind) {}
 
   Expected<std::vector<LabelledQuery>> read() {
     std::vector<LabelledQuery> queries;
     std::array<Row, rows_a_query> rows;
     std::size_t filled = 0;
-    while (!text_.empty()) {
-      ++line_;
-      const std::string_view line = next_line();
-      // Only the end of the file may be blank.
-      if (line.empty() && text_.find_first_not_of(" \t\r\n") == std::string_view::npos) break;
-      BOOST_OUTCOME_TRY(row, read_row(line));
+    while (const auto line = lines_.next()) {
+      BOOST_OUTCOME_TRY(row, read_row(*line));
       rows[filled] = row;
       const bool is_labelled_alike = row.label == rows[0].label;
       if (!is_labelled_alike || row.separation != rows[0].separation) {
@@ -81,47 +77,60 @@ class CsvReader {
 
  private:
   Problem wrong(std::string_view detail) const {
-    return problem_in(file_, fmt::format("line {}: {}", line_, detail));
+    return problem_in(file_, fmt::format("line {}: {}", lines_.number(), detail));
   }
 
-  std::string_view next_line() {
-    const std::size_t end = std::min(text_.find('\n'), text_.size());
-    std::string_view line = text_.substr(0, end);
-    text_.remove_prefix(std::min(end + 1, text_.size()));
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    return line;
-  }
-
-  Expected<Row> read_row(std::string_view line) const {
-    std::array<std::string_view, 8> columns;
-    std::size_t count = 0;
-    for (bool more = true; more; ++count) {
+  static std::vector<std::string_view> columns_of(std::string_view line) {
+    std::vector<std::string_view> columns;
+    if (line.find(',') == std::string_view::npos) {
+      split_words(line, columns);
+      return columns;
+    }
+    for (bool more = true; more;) {
       const std::size_t comma = std::min(line.find(','), line.size());
-      if (count < columns.size()) columns[count] = trimmed(line.substr(0, comma));
+      columns.push_back(trimmed(line.substr(0, comma)));
       more = comma < line.size();
       line.remove_prefix(more ? comma + 1 : comma);
     }
-    if (count < 6 || count > columns.size()) {
-      return wrong(fmt::format("{} columns, where 6 to 8 are expected", count));
+    return columns;
+  }
+
+  Expected<Row> read_row(std::string_view line) const {
+    const auto columns = columns_of(line);
+    const std::size_t count = columns.size();
+    if (count < 3 || count > 8) {
+      return wrong(fmt::format(
+          "{} columns; a row of a query has x,y,z, or numerator,denominator of each: 3 or 6, then "
+          "perhaps a label, then perhaps a separation",
+          count));
     }
+    const std::size_t numbers = count < 6 ? 3 : 6;
     Row row;
     for (std::size_t k = 0; k < 3; ++k) {
-      BOOST_OUTCOME_TRY(value, coordinate(columns[2 * k], columns[2 * k + 1], "xyz"[k]));
+      BOOST_OUTCOME_TRY(value, numbers == 3
+                                   ? decimal(columns[k], "xyz"[k])
+                                   : coordinate(columns[2 * k], columns[2 * k + 1], "xyz"[k]));
       row.x[k] = value;
     }
-    if (count == 7 || !columns[6].empty()) {
-      if (columns[6] != "0" && columns[6] != "1") {
-        return wrong("the label is neither 0 nor 1");
-      }
-      row.label = columns[6] == "1";
+    if (count == numbers + 1 || (count == numbers + 2 && !columns[numbers].empty())) {
+      // Writers of arrays write it as they write the coordinates.
+      const auto label = parse_double(columns[numbers]);
+      if (label != 0 && label != 1) return wrong("the label is neither 0 nor 1");
+      row.label = label == 1;
     }
-    if (count == columns.size()) {
-      row.separation = parse_double(columns[7]);
+    if (count == numbers + 2) {
+      row.separation = parse_double(columns.back());
       if (!row.separation || !(*row.separation >= 0) || !std::isfinite(*row.separation)) {
         return wrong("the separation is no length");
       }
     }
     return row;
+  }
+
+  Expected<double> decimal(std::string_view column, char axis) const {
+    const auto value = parse_double(column);
+    if (value && std::isfinite(*value)) return *value;
+    return wrong(fmt::format("{}: {} is no number that is finite", axis, excerpt(column)));
   }
 
   Expected<double> coordinate(std::string_view numerator, std::string_view denominator,
@@ -155,10 +164,9 @@ class CsvReader {
             rows[0].separation};
   }
 
-  std::string_view text_;
+  Lines lines_;
   const std::filesystem::path& file_;
   Kind kind_;
-  std::size_t line_ = 0;
 };
 
 }  // namespace
@@ -167,9 +175,10 @@ Expected<std::vector<LabelledQuery>> read_queries(
     const std::filesystem::path& csv, const std::optional<std::filesystem::path>& truth_json) try {
   const auto kind = kind_of(csv);
   if (!kind) {
-    return problem_in(csv,
-                      "vertex-face or edge-edge queries? The path should have a folder of that "
-                      "name, or the file's name should begin so, or end in vf or ee");
+    return problem_in(
+        csv,
+        "vertex-face or edge-edge queries? The path should have a folder of that "
+        "name, or the file's name should begin so, or end in vf or ee, as posted_vf.csv");
   }
   BOOST_OUTCOME_TRY(bytes, read_bytes(csv));
   BOOST_OUTCOME_TRY(queries, CsvReader(bytes, csv, *kind).read());

@@ -1,11 +1,11 @@
-// Reads query sets: vertex-face or edge-edge queries in exact rational coordinates, eight rows a
-// query, plain or gzip.
+// Reads query sets: vertex-face or edge-edge queries, eight rows a query, plain or gzip.
 //
-// A row is numerator,denominator for x, y and z. If it has a seventh column, that is the query's
-// truth (1: contact, 0: none). If it has an eighth one, that is the query's separation, a decimal:
-// the truth is then whether the features come within it, and the seventh column may be empty. Rows
-// of an edge-edge query: ea0 ea1 eb0 eb1 at t0, the same at t1; of a vertex-face query: v f0 f1 f2
-// at t0, the same at t1. Every coordinate must equal a double.
+// A row is x, y and z, each as numerator,denominator, which must equal a double, or as one decimal,
+// which becomes the double nearest to it. Columns are separated by commas, or, where a row has
+// none, by blanks. One column more is the query's truth (1: contact, 0: none). A further one is the
+// query's separation, a decimal: the truth is then whether the features come within it, and its
+// column may be empty. Blank lines and comments (#) are passed over. Rows of an edge-edge query:
+// ea0 ea1 eb0 eb1 at t0, the same at t1; of a vertex-face query: v f0 f1 f2 at t0, the same at t1.
 #pragma once
 
 #include <filesystem>

@@ -171,7 +171,13 @@ std::filesystem::path certificate_in(const std::filesystem::path& file_or_folder
 }
 
 std::string sent_alone(const std::filesystem::path& certificate) {
-  if (!read_certificate(certificate)) return "";
+  const auto read = read_certificate(certificate);
+  if (!read) return "";
+  if (const auto schema = read.value().find("schema"); schema != read.value().end())
+    return fmt::format(
+        "{}: of schema {}, no certificate and no run; assay report shows folders of assay run and "
+        "assay certify; of a check that fails, assay check --keep DIR writes DIR/page.html",
+        certificate.string(), schema->dump());
   std::error_code ignored;
   const auto folder = folder_of(certificate);
   const bool has_stores = properties::stored_shards(folder).has_value() ||

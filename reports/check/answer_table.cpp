@@ -85,17 +85,13 @@ Expected<std::unique_ptr<StepAnswers>> answers_of_table(const std::string& file,
   BOOST_OUTCOME_TRY(bytes, corpus::read_bytes(file));
   std::map<std::size_t, corpus::LoggedAnswer> rows;
   bool has_times = false;
-  std::size_t number = 0;
-  for (std::size_t begin = 0; begin < bytes.size();) {
-    const auto end = std::min(bytes.find('\n', begin), bytes.size());
-    std::string_view line(bytes.data() + begin, end - begin);
-    begin = end + 1;
-    ++number;
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    if (line.empty() || (number == 1 && line == "step,answer,time")) continue;
+  corpus::Lines lines(bytes, '#', false);
+  while (const auto line = lines.next()) {
+    const auto number = lines.number();
+    if (number == 1 && *line == "step,answer,time") continue;
     std::size_t step = 0;
     corpus::LoggedAnswer answer;
-    if (const auto wrong = read_row(line, input.steps->count(), step, answer); !wrong.empty())
+    if (const auto wrong = read_row(*line, input.steps->count(), step, answer); !wrong.empty())
       return Problem{fmt::format("{}: line {}: {}", file, number, wrong)};
     has_times |= answer.answer == ASSAY_COLLISION && answer.first_lo == answer.first_hi;
     if (!rows.emplace(step, answer).second)

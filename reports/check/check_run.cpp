@@ -42,6 +42,7 @@ class CheckRun {
            StepAnswers& answers, bool is_at_rest, Limits& limits, const CheckListener& listener)
       : question_(question),
         steps_(steps),
+        text_(steps.text()),
         mesh_(std::move(mesh)),
         answers_(answers),
         limits_(limits),
@@ -99,7 +100,8 @@ class CheckRun {
     CheckAnswer answer{std::move(outcome_), nullptr};
     if (question_.wants_report)
       answer.report =
-          check_report(question_.files, mesh_, answers_, answer.outcome, std::move(steps));
+          check_report(text_.files.empty() ? question_.files : text_.files, mesh_, answers_,
+                       answer.outcome, std::move(steps));
     if (question_.wants_report) {
       answer.report["bodies"] = bodies_json();
       answer.report["at_rest"] = is_at_rest_;
@@ -118,20 +120,20 @@ class CheckRun {
   void announce() const {
     std::size_t unclosed = 0;
     for (const auto& component : mesh_.components) unclosed += component.is_cycle ? 0 : 1;
-    say(fmt::format("{} triangles, {} vertices{}, {} component{}", mesh_.triangles.size(),
-                    steps_.first_frame().rows(), loose_vertices_text(), mesh_.components.size(),
+    const auto& title = text_.title;
+    say(fmt::format("{}{}{} triangles, {} vertices{}, {} component{}", title,
+                    title.empty() ? "" : ": ", mesh_.triangles.size(), steps_.first_frame().rows(),
+                    loose_vertices_text(), mesh_.components.size(),
                     mesh_.components.size() == 1 ? "" : "s"));
-    if (const auto bodies = question_.bodies.size(); bodies > 0)
-      say(fmt::format(", {} bod{}", bodies, bodies == 1 ? "y" : "ies"));
     if (unclosed) {
       say(fmt::format(" ({} unclosed{})", unclosed,
                       answers_.is_plugin() ? "" : ": closed with ghosts"));
     }
     say(fmt::format(
-        "; {}; {}{}{}\n", steps_text(step_count(), is_at_rest_), answers_.title(),
+        "; {}{}{}{}\n", steps_text(step_count(), is_at_rest_, title), answers_.title(),
         question_.no_oracle ? "; no oracle: not judged" : "",
         question_.time_limit ? fmt::format("; at most {} s", *question_.time_limit) : ""));
-    if (const auto remark = steps_.remark(); !remark.empty()) say(remark + "\n");
+    for (const auto& remark : text_.remarks) say(remark + "\n");
     if (!question_.announced_file.empty())
       say(fmt::format("writes {}\n", question_.announced_file));
   }
@@ -440,6 +442,7 @@ class CheckRun {
 
   const CheckQuestion& question_;
   corpus::StepSource& steps_;
+  const corpus::InputText text_;
   detector::Topology mesh_;
   StepAnswers& answers_;
   Limits& limits_;
@@ -470,11 +473,9 @@ corpus::Expected<CheckInput> read_check_input(const std::vector<std::string>& fi
   return CheckInput{files[0], std::move(steps)};
 }
 
-corpus::Expected<CheckInput> read_bodies(const BodyWords& bodies,
-                                         const std::vector<std::array<std::int32_t, 2>>& apart) {
-  corpus::BodyFiles files{{}, apart};
-  for (const auto& frames : bodies) files.frames.emplace_back(frames.begin(), frames.end());
-  BOOST_OUTCOME_TRY(steps, corpus::steps_of_bodies(files));
+corpus::Expected<CheckInput> read_bodies(const BodyWords& bodies, corpus::BodyFiles asked) {
+  for (const auto& frames : bodies) asked.frames.emplace_back(frames.begin(), frames.end());
+  BOOST_OUTCOME_TRY(steps, corpus::steps_of_bodies(asked));
   return CheckInput{bodies[0][0], std::move(steps)};
 }
 
@@ -483,7 +484,7 @@ Expected<CheckAnswer> check_mesh(const CheckQuestion& question, CheckInput& inpu
                                  const CheckListener& listener) {
   const auto vertices = input.steps->first_frame().rows();
   if (const auto bad = detector::check_triangles(input.steps->triangles(), vertices))
-    return Problem{fmt::format("{}: {}", input.file, bad->message)};
+    return corpus::problem_of_triangles(*input.steps, input.file, *bad);
   const bool is_plugin = !question.detector.library.empty();
   if (is_plugin) {
     BOOST_OUTCOME_TRY(whole, input.steps->read_whole());

@@ -18,10 +18,10 @@ namespace assay::reports {
 // Takes frames of one mesh (two or more), which are read as their steps come, or reads one case
 // file. Fails if its options are not understood. REQUIRES a file.
 corpus::Expected<CheckInput> read_check_input(const std::vector<std::string>& files);
-// The same of several meshes as bodies of one. REQUIRES a file of each.
+// The same of several meshes as bodies of one, or of frames of which not all pairs count: `asked`
+// has all but the files. REQUIRES a file of each.
 using BodyWords = std::vector<std::vector<std::string>>;
-corpus::Expected<CheckInput> read_bodies(const BodyWords& bodies,
-                                         const std::vector<std::array<std::int32_t, 2>>& apart);
+corpus::Expected<CheckInput> read_bodies(const BodyWords& bodies, corpus::BodyFiles asked);
 
 struct CheckQuestion {
   // What the input was read from, for reports and replay lines; bodies are empty if it has none.

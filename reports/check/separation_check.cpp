@@ -137,10 +137,11 @@ class SeparationRun {
   }
 
   Json report() {
+    const auto files = steps_.text().files;
     const auto or_null = [](const std::string& text) { return text.empty() ? Json() : Json(text); };
     return {{"schema", "assay-check/1"},
             {"version", version_text()},
-            {"files", question_.files},
+            {"files", files.empty() ? question_.files : files},
             {"triangles", mesh_.triangles.size()},
             {"components", mesh_.components.size()},
             {"separation", asked_.offsets.empty() ? Json(asked_.separation) : Json()},
@@ -173,11 +174,14 @@ class SeparationRun {
 
   void announce() const {
     const auto components = mesh_.components.size();
+    const auto text = steps_.text();
     listener_.say(fmt::format(
-        "{} triangles, {} vertices, {} component{}; {}; the oracle, within {}; pairs of "
+        "{}{}{} triangles, {} vertices, {} component{}; {}the oracle, within {}; pairs of "
         "triangles that share no vertex\n",
-        mesh_.triangles.size(), steps_.first_frame().rows(), components, components == 1 ? "" : "s",
-        steps_text(steps_.count(), is_at_rest_), distance_text()));
+        text.title, text.title.empty() ? "" : ": ", mesh_.triangles.size(),
+        steps_.first_frame().rows(), components, components == 1 ? "" : "s",
+        steps_text(steps_.count(), is_at_rest_, text.title), distance_text()));
+    for (const auto& remark : text.remarks) listener_.say(remark + "\n");
     if (!question_.announced_file.empty())
       listener_.say(fmt::format("writes {}\n", question_.announced_file));
   }
@@ -253,7 +257,7 @@ Expected<SeparationAnswer> check_separation(const CheckQuestion& question, const
                                             const CheckListener& listener) {
   const auto vertices = input.steps->first_frame().rows();
   if (const auto bad = detector::check_triangles(input.steps->triangles(), vertices))
-    return Problem{fmt::format("{}: {}", input.file, bad->message)};
+    return corpus::problem_of_triangles(*input.steps, input.file, *bad);
   SeparationRun run(question, d, input, listener);
   BOOST_OUTCOME_TRY(run.run());
   return SeparationAnswer{run.exit_code(fail_when_near),

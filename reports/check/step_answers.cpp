@@ -178,7 +178,7 @@ Expected<std::unique_ptr<StepAnswers>> answers_of_plugin(properties::Subject plu
   const bool drops_relation =
       counted && !counted->count_all() && !detector.contract.takes_relations;
   const auto taken = std::make_shared<const corpus::Case>(std::move(*seen));
-  input.steps = corpus::steps_of_case(taken, false);
+  input.steps = corpus::steps_of_case(taken, false, input.steps->text());
   return std::unique_ptr<StepAnswers>(std::make_unique<Plugin>(
       std::move(plugin), taken, given - input.steps->count(), drops_relation));
 }

@@ -10,7 +10,9 @@
 #include <optional>
 
 #include "corpus/cases/case_file.h"
+#include "corpus/formats/doubled_corners.h"
 #include "corpus/formats/sequence_reader.h"
+#include "corpus/frame_order.h"
 #include "detector/mesh/mesh_checks.h"
 #include "oracle/distance/step_distance.h"
 #include "properties/campaign/gates/findings.h"
@@ -108,13 +110,15 @@ CheckQuestion question_of(const py::dict& given) {
   return question;
 }
 
-// The relation of the bodies: by vertex the number of its body, and pairs of bodies that do not
-// meet.
+// Which pairs count; nothing if all do.
 std::optional<corpus::CaseRelation> relation_of(const py::dict& given, const corpus::Case& c) {
   corpus::CaseRelation relation;
   take(given, "bodies", relation.pairs.body);
   take(given, "apart", relation.pairs.apart);
-  if (relation.pairs.body.empty() && relation.pairs.apart.empty()) return std::nullopt;
+  take(given, "rings", relation.pairs.rings);
+  take(given, "rest_distance", relation.pairs.rest_distance);
+  if (relation.pairs.body.empty() && relation.pairs.count_all()) return std::nullopt;
+  if (relation.pairs.rest_distance > 0) relation.pairs.rest = corpus::points_of(c.frames[0]);
   if (const auto bad =
           detector::check_counted_pairs(relation.pairs, c.triangles, c.frames[0].rows()))
     raise(*bad);
@@ -132,8 +136,18 @@ CheckInput input_of(const py::object& triangles, const py::list& frames, const p
   if (c.frames.empty()) throw py::value_error("a frame or more is needed");
   if (const auto bad = detector::check_triangles(c.triangles, c.frames[0].rows())) raise(*bad);
   c.counted = relation_of(given, c);
-  return {"frames",
-          corpus::steps_of_case(std::make_shared<const corpus::Case>(std::move(c)), false)};
+  std::vector<std::int32_t> body(static_cast<std::size_t>(c.frames[0].rows()), 0);
+  if (c.counted && !c.counted->pairs.body.empty()) body = c.counted->pairs.body;
+  corpus::DoubledCorners corners(c.triangles, body);
+  for (const auto& x : c.frames) corners.add(x);
+  bool weld = false;
+  take(given, "weld", weld);
+  if (weld) c.triangles = corners.welded(std::move(c.triangles));
+  if (const auto bad = detector::check_triangles(c.triangles, c.frames[0].rows())) raise(*bad);
+  corpus::InputText text;
+  if (auto line = corners.remark(weld); !line.empty()) text.remarks = {std::move(line)};
+  return {"frames", corpus::steps_of_case(std::make_shared<const corpus::Case>(std::move(c)), false,
+                                          std::move(text))};
 }
 
 // Returns the report as JSON, what is printed, and the exit code.
@@ -250,7 +264,15 @@ py::tuple mesh_and_frames(detector::Triangles& triangles,
   return py::make_tuple(owning_array(std::move(triangles)), positions);
 }
 
-// Returns the triangles, and a list of the positions of each frame.
+// Returns the files in order, and what is said of it.
+py::tuple in_order_of_numbers(const std::vector<std::string>& files) {
+  const auto ordered = corpus::in_order_of_numbers({files.begin(), files.end()});
+  py::list paths;
+  for (const auto& file : ordered.files) paths.append(file.string());
+  return py::make_tuple(paths, ordered.remarks);
+}
+
+// Returns the triangles, a list of the positions of each frame, and remarks.
 py::tuple read_sequence(const std::vector<std::string>& files) {
   const std::vector<std::filesystem::path> paths(files.begin(), files.end());
   auto sequence = [&] {
@@ -258,10 +280,11 @@ py::tuple read_sequence(const std::vector<std::string>& files) {
     return corpus::read_sequence(paths);
   }();
   if (!sequence) throw py::value_error(sequence.error().message);
-  return mesh_and_frames(sequence.value().triangles, sequence.value().frames);
+  return mesh_and_frames(sequence.value().triangles, sequence.value().frames) +
+         py::make_tuple(sequence.value().remarks);
 }
 
-// The same of a case file.
+// Returns the triangles and the positions of a case file.
 py::tuple read_case(const std::string& file) {
   auto c = corpus::read_case(file);
   if (!c) throw py::value_error(c.error().message);
@@ -288,6 +311,7 @@ PYBIND11_MODULE(_judge, module) {
   module.def("check_arrays", check_arrays);
   module.def("check_files", check_files);
   module.def("contact_points", contact_points);
+  module.def("in_order_of_numbers", in_order_of_numbers);
   module.def("read_sequence", read_sequence);
   module.def("read_case", read_case);
   module.def("findings", findings);

@@ -31,13 +31,14 @@ assay_record_array array_of(const py::object& given) {
 
 class Recorder {
  public:
-  // `mesh` and `counted` are (triangles, positions) and (bodies or None, apart); `described` is
-  // what hosting.described() gives.
+  // `mesh`, `counted` and `near` are (triangles, positions), (bodies or None, apart) and (rings,
+  // distance at rest, places at rest); `described` is what hosting.described() gives.
   Recorder(const std::string& path, const std::pair<Integers, py::array>& mesh,
            const std::pair<std::string, std::string>& name,
            const std::pair<std::uint32_t, py::dict>& described, std::uint64_t every,
            std::uint64_t ring, bool overwrite,
-           const std::pair<std::optional<Integers>, Integers>& counted) {
+           const std::pair<std::optional<Integers>, Integers>& counted,
+           const std::tuple<std::int32_t, double, Reals>& near) {
     assay_description description = {};
     description.name = name.first.c_str();
     description.version = name.second.c_str();
@@ -47,12 +48,16 @@ class Recorder {
     pairs.body = counted.first ? counted.first->data() : nullptr;
     pairs.apart_count = static_cast<std::uint64_t>(counted.second.size()) / 2;
     pairs.apart = counted.second.data();
+    pairs.rings = std::get<0>(near);
+    pairs.rest_distance = std::get<1>(near);
+    if (pairs.rest_distance > 0) pairs.rest = std::get<2>(near).data();
+    const bool leaves_out = pairs.apart_count > 0 || pairs.rings > 0 || pairs.rest_distance > 0;
     const assay_record_settings settings = {path.c_str(), every, ring, overwrite};
     demand(assay_record_begin(&recorder_, &settings, &description, mesh.first.data(),
                               static_cast<std::uint64_t>(mesh.first.size()) / 3,
                               array_of(mesh.second),
                               static_cast<std::uint64_t>(mesh.second.shape(0)),
-                              pairs.body || pairs.apart_count ? &pairs : nullptr));
+                              pairs.body || leaves_out ? &pairs : nullptr));
   }
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
@@ -119,7 +124,8 @@ PYBIND11_MODULE(_recorder, module) {
   py::class_<Recorder>(module, "Recorder")
       .def(py::init<const std::string&, const std::pair<Integers, py::array>&, const Pair&,
                     const std::pair<std::uint32_t, py::dict>&, std::uint64_t, std::uint64_t, bool,
-                    const std::pair<std::optional<Integers>, Integers>&>())
+                    const std::pair<std::optional<Integers>, Integers>&,
+                    const std::tuple<std::int32_t, double, Reals>&>())
       .def("step", &Recorder::step)
       .def("note", &Recorder::note)
       .def("keep", &Recorder::keep)

@@ -133,8 +133,9 @@ std::string pairs_text(std::size_t count) {
   return fmt::format("{} pair{}", count, count == 1 ? "" : "s");
 }
 
-std::string steps_text(std::size_t count, bool is_at_rest) {
-  return is_at_rest ? "at rest" : fmt::format("{} step{}", count, count == 1 ? "" : "s");
+std::string steps_text(std::size_t count, bool is_at_rest, const std::string& title) {
+  if (is_at_rest) return title.empty() ? "at rest; " : "";
+  return fmt::format("{} step{}; ", count, count == 1 ? "" : "s");
 }
 
 std::string met_text(double separation) {

@@ -19,8 +19,8 @@ std::string time_text(const detector::TimeEnclosure& time);
 // "1 pair", "12 pairs".
 std::string pairs_text(std::size_t count);
 
-// "at rest", "1 step", "12 steps".
-std::string steps_text(std::size_t count, bool is_at_rest);
+// "at rest; ", "1 step; ", "12 steps; ". Nothing if the title of the input says that it is at rest.
+std::string steps_text(std::size_t count, bool is_at_rest, const std::string& title);
 
 // "in contact", or with a separation above 0 "within 0.1".
 std::string met_text(double separation);

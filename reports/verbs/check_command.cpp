@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "properties/judging/case_options.h"
 #include "properties/worker/worker_process.h"
@@ -20,6 +21,9 @@ namespace {
 struct CheckRequest {
   std::vector<std::string> files;  // the frames of one mesh, or one case file
   std::vector<std::string> apart;  // words "A,B"
+  std::uint64_t rings = 0;
+  double rest_distance = 0;
+  bool weld = false;
   CheckQuestion question;
   std::optional<double> separation;
   std::vector<double> offsets;
@@ -28,12 +32,19 @@ struct CheckRequest {
   std::string keep;       // where failing steps are kept; empty: nowhere
 };
 
+bool counts_all(const CheckRequest& request) {
+  return request.rings == 0 && request.rest_distance == 0 && !request.weld;
+}
+
 // The input in words as they were typed.
 std::string words_of(const CheckRequest& request) {
   std::string words = joined(request.files, " ");
   for (const auto& files : request.question.bodies)
     words += fmt::format("{}--body {}", words.empty() ? "" : " ", joined(files, " "));
   for (const auto& apart : request.apart) words += " --apart " + apart;
+  if (request.rings > 0) words += fmt::format(" --rings {}", request.rings);
+  if (request.rest_distance > 0) words += fmt::format(" --rest-distance {}", request.rest_distance);
+  if (request.weld) words += " --weld";
   const auto& answers = request.question.answers;
   return answers.empty() ? words : words + " --answers " + answers;
 }
@@ -73,8 +84,19 @@ Expected<int> run_check(const CheckRequest& request) {
   if (!question.answers.empty()) inputs.push_back(question.answers);
   BOOST_OUTCOME_TRY(may_fill(request.keep, {"page.html"}));
   BOOST_OUTCOME_TRY(may_write({request.json_file, request.question.ply_file}, inputs));
-  BOOST_OUTCOME_TRY(input, question.bodies.empty() ? read_check_input(request.files)
-                                                   : read_bodies(question.bodies, question.apart));
+  if (!counts_all(request) && request.files.size() == 1 && request.files[0].ends_with(".json"))
+    return Problem{
+        "--rings, --rest-distance and --weld are of frames: a case file states what counts"};
+  const auto read = [&]() -> corpus::Expected<CheckInput> {
+    if (question.bodies.empty() && counts_all(request)) return read_check_input(request.files);
+    return read_bodies(question.bodies.empty() ? BodyWords{request.files} : question.bodies,
+                       {{},
+                        question.apart,
+                        static_cast<std::int32_t>(request.rings),
+                        request.rest_distance,
+                        request.weld});
+  };
+  BOOST_OUTCOME_TRY(input, read());
   question.wants_report = !request.json_file.empty();
   question.announced_file = request.json_file;
   question.again = this_command(PastedIn::any_folder);
@@ -121,6 +143,15 @@ void add_options(Verb& verb, CheckRequest& request) {
   verb.add("--apart A,B", request.apart,
            "A,B: bodies that do not meet; A,A: one that meets not itself")
       .with(one_of("A,B: two bodies by number", two_numbers));
+  verb.add("--rings K", request.rings,
+           "Pairs of triangles that fewer than K edges join do not count (1: those that share a "
+           "vertex)")
+      .in_range(0, std::numeric_limits<std::int32_t>::max());
+  verb.add("--rest-distance LENGTH", request.rest_distance,
+           "Pairs of triangles that are nearer than this in the first frame do not count")
+      .with(length());
+  verb.add_flag("--weld", request.weld,
+                "Vertices of a body that stand at one place in every frame count as one");
   auto plugin =
       add_detector_alone(verb, request.question.detector,
                          "A plug-in's library, or python:MODULE:CLASS (default: the built-in)");

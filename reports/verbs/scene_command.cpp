@@ -38,6 +38,7 @@ Expected<int> run_scene(const SceneRequest& request) {
   if (!request.mesh_file.empty()) {
     if (request.size > 0) return Problem{"--size has no meaning with --mesh"};
     BOOST_OUTCOME_TRY(mesh, corpus::read_mesh(request.mesh_file));
+    for (const auto& line : mesh.remarks) fmt::print("{}\n", line);
     options.mesh = std::move(mesh);
   }
   BOOST_OUTCOME_TRY(may_fill(request.out));

@@ -17,6 +17,7 @@ class Recorder:
         ring: int,
         overwrite: bool,
         counted: Tuple[Optional[npt.NDArray[np.int32]], npt.NDArray[np.int32]],
+        near: Tuple[int, float, npt.NDArray[np.float64]],
     ) -> None: ...
     def step(
         self,

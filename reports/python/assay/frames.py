@@ -5,8 +5,9 @@ from __future__ import annotations
 import glob
 import os
 import re
+import warnings
 from dataclasses import dataclass, field
-from typing import Iterable, List, Sequence, Union
+from typing import Iterable, List, Tuple, Union
 
 import numpy as np
 
@@ -38,28 +39,37 @@ class Frames:
 
 
 def read_frames(paths: Union[Path, Iterable[Path]]) -> Frames:
-    """The frames in these files, in this order, a file each.
+    """The frames in these files, a file each.
 
     paths: names of files, or patterns such as "sim_*.vtu", whose matches are put in order by their
-    numbers: sim_2 before sim_10. OBJ, PLY and OFF (.gz too) are read by Assay's own readers, which
-    keep every bit; others by meshio.
+    numbers: sim_2 before sim_10. So are files in the order of a shell (sim_1, sim_10, sim_2); any
+    other order stays. OBJ, PLY and OFF (.gz too) are read by Assay's own readers, which keep every
+    bit; others by meshio. A warning tells what was put in order, changed or not looked at.
 
     FileNotFoundError: no such file. ValueError: a file that is none of its format, that has no
     triangles, or not those of the first.
     """
+    from . import _judge
+
     files = _expanded([paths] if isinstance(paths, (str, os.PathLike)) else paths)
     if not files:
         raise ValueError("there are no frames")
+    files, remarks = _judge.in_order_of_numbers(files)
     if all(_OWN.search(file) for file in files):
-        return _own(files)
-    parts = [_own([file]) if _OWN.search(file) else _by_meshio(file) for file in files]
-    first = parts[0]
-    for file, part in zip(files, parts):
+        parts = [_own(files)]
+    else:
+        parts = [_own([file]) if _OWN.search(file) else _by_meshio(file) for file in files]
+    for line in dict.fromkeys([*remarks, *parts[0][1]]):
+        warnings.warn(line, stacklevel=2)
+    first = parts[0][0]
+    if len(parts) == 1:
+        return first
+    for file, (part, _) in zip(files, parts):
         if not np.array_equal(part.triangles, first.triangles):
             raise ValueError(f"{file}: not the triangles of {files[0]}")
         if len(part.positions[0]) != len(first.positions[0]):
             raise ValueError(f"{file}: not as many vertices as {files[0]}")
-    return Frames(first.triangles, [part.positions[0] for part in parts], files)
+    return Frames(first.triangles, [part.positions[0] for part, _ in parts], files)
 
 
 def as_frames(given) -> Frames:
@@ -74,30 +84,31 @@ def as_frames(given) -> Frames:
 
 
 def _expanded(paths: Iterable[Path]) -> List[str]:
+    from . import _judge
+
     files: List[str] = []
     for path in map(os.fspath, paths):
         if os.path.exists(path):
             files.append(path)
             continue
-        found = sorted(glob.glob(path), key=_by_numbers)
+        found = _judge.in_order_of_numbers(sorted(glob.glob(path)))[0]
         if not found:
             raise FileNotFoundError(f"{path}: no such file")
         files += found
     return files
 
 
-def _by_numbers(name: str) -> Sequence[Union[str, int]]:
-    return [int(part) if part.isdigit() else part for part in re.split(r"([0-9]+)", name)]
+_Read = Tuple[Frames, List[str]]  # and what is said of them
 
 
-def _own(files: List[str]) -> Frames:
+def _own(files: List[str]) -> _Read:
     from . import _judge
 
-    triangles, positions = _judge.read_sequence(files)
-    return Frames(triangles, positions, files)
+    triangles, positions, remarks = _judge.read_sequence(files)
+    return Frames(triangles, positions, files), remarks
 
 
-def _by_meshio(file: str) -> Frames:
+def _by_meshio(file: str) -> _Read:
     import meshio
 
     try:
@@ -112,4 +123,8 @@ def _by_meshio(file: str) -> Frames:
     if mesh.points.ndim != 2 or mesh.points.shape[1] != 3:
         raise ValueError(f"{file}: points of three coordinates are wanted")
     corners = np.ascontiguousarray(np.concatenate(triangles), np.int32)
-    return Frames(corners, [np.ascontiguousarray(mesh.points, np.float64)], [file])
+    skipped = [block for block in mesh.cells if block.type in _NO_SURFACE]
+    remarks = [f"not looked at: {len(block.data)} cells of type {block.type}" for block in skipped]
+    if file.lower().endswith(".stl"):
+        remarks.append("meshio takes corners of an STL file that are equal as one vertex")
+    return Frames(corners, [np.ascontiguousarray(mesh.points, np.float64)], [file]), remarks

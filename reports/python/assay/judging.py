@@ -251,6 +251,9 @@ def check(
     isolation: Optional[str] = None,
     bodies: Optional[ArrayLike] = None,
     apart: Sequence[Tuple[int, int]] = (),
+    rings: int = 0,
+    rest_distance: float = 0,
+    weld: bool = False,
     progress: Progress = None,
 ) -> Union[CheckReport, SeparationReport]:
     """Each step through the detector and the oracle, and the diff: `assay check`.
@@ -262,7 +265,10 @@ def check(
     told 1. time, memory, isolation: as on the command line. progress: called with what is printed;
     True prints it to stderr.
     bodies: (n,) the number of each vertex's body, from 0 on; apart: pairs of bodies that do not
-    meet, or a body paired with itself: neither is of a case file, which says itself what counts.
+    meet, or a body paired with itself. rings: triangles that fewer edges join do not count (1: those
+    that share a vertex); rest_distance: nor do those that are nearer in the first frame. weld:
+    vertices of a body that stand at one place in every frame count as one. None of these is of a
+    case file, which says itself what counts.
     separation: the oracle alone says which triangles that share no vertex come within this distance,
     when first, and how near any two come; the answer is then a SeparationReport.
 
@@ -291,13 +297,16 @@ def check(
         "isolation": isolation,
         "bodies": None if bodies is None else np.asarray(bodies, np.int32).tolist(),
         "apart": [list(pair) for pair in apart],
+        "rings": rings,
+        "rest_distance": rest_distance,
+        "weld": weld,
     }
     told = listener(progress)
     worker = str(program("assay-worker")) if detector is not None else ""
     with surroundings(detector):
         if isinstance(frames, (str, os.PathLike)):
-            if bodies is not None or apart:
-                raise ValueError("bodies and apart are of meshes, and not of a case file")
+            if bodies is not None or apart or rings or rest_distance or weld:
+                raise ValueError("which pairs count is of meshes: a case file states it")
             answer = _judge.check_files([os.fspath(frames)], asked, worker, told)
         else:
             mesh: Frames = as_frames(frames)

@@ -21,7 +21,8 @@ class Recorder:
     detector was made from. name, version, claims, contract: of that detector, in the words of a
     detector in Python (assay/hosting.py); without claims there is nothing that `assay judge` could
     judge. bodies: (n,) the number of each vertex's body, from 0 on; apart: pairs of bodies that
-    do not meet, or a body paired with itself.
+    do not meet, or a body paired with itself. rings, rest_distance: pairs that do not count, as of
+    assay.check; at rest the mesh is at `positions`.
 
     every: one step of so many is recorded. ring: 0, or the number of newest steps that two files,
     path and path.before, hold at least. overwrite: whether files that are there may be lost.
@@ -51,6 +52,8 @@ class Recorder:
         overwrite: bool = False,
         bodies: Optional[ArrayLike] = None,
         apart: Sequence[Tuple[int, int]] = (),
+        rings: int = 0,
+        rest_distance: float = 0,
     ):
         if every < 0 or ring < 0:
             raise ValueError("every and ring are numbers of steps")
@@ -68,6 +71,7 @@ class Recorder:
             ring,
             overwrite,
             (body, hosting.pairs_of(list(apart))),
+            (rings, rest_distance, np.ascontiguousarray(rest, np.float64)),
         )
 
     def step(

@@ -81,6 +81,91 @@ TEST_F(BodiesOfFiles, OneMeshAloneHasNoRelation) {
   EXPECT_EQ(steps.value()->counted(), nullptr);
 }
 
+TEST_F(BodiesOfFiles, AreToldInWords) {
+  const auto one = triangle("f1.obj", 1), two = triangle("f2.obj", 2), ten = triangle("f10.obj", 9);
+  const auto text_of = [](const Bodies& frames) {
+    const auto steps = steps_of_bodies({frames, {}});
+    EXPECT_TRUE(steps) << steps.error().message;
+    return steps ? steps.value()->text() : InputText();
+  };
+  EXPECT_EQ(text_of({{one, two}}).title, "one mesh moving from f1.obj to f2.obj");
+  EXPECT_EQ(text_of({{one, one}}).title, "one mesh at rest");
+  const auto in_order = text_of({{one, ten, two}});
+  EXPECT_EQ(in_order.title, "one mesh moving through 3 frames from f1.obj to f10.obj");
+  EXPECT_EQ(in_order.files, (std::vector{one.string(), two.string(), ten.string()}));
+  const auto two_bodies = text_of({{one, ten, two}, {two, one, one}});
+  EXPECT_EQ(two_bodies.title, "2 bodies");
+  EXPECT_EQ(two_bodies.files.size(), 6u);
+  ASSERT_EQ(two_bodies.remarks.size(), 3u);
+  EXPECT_NE(two_bodies.remarks[2].find("as given"), std::string::npos) << two_bodies.remarks[2];
+  // The words outlive the reader of the files.
+  auto steps = steps_of_files({one, ten, two});
+  const auto whole = steps.value()->read_whole();
+  EXPECT_EQ(whole.value()->text().remarks, in_order.remarks);
+  EXPECT_EQ(whole.value()->whole()->frames[1](0, 2), 2);
+}
+
+// Two triangles that share an edge, and no vertex. At t = 1 the fourth vertex is `gap` beside the
+// second one.
+class DoubledCornersOfFiles : public BodiesOfFiles {
+ protected:
+  std::filesystem::path seam(const std::string& name, const std::string& gap) const {
+    return write(name, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 " + gap +
+                           "\nv -0 1 -0\nv 1 1 0\nv 0 0 0\nf 1 2 3\nf 4 6 5\n");
+  }
+  std::string last_remark(const BodyFiles& files) const {
+    const auto steps = steps_of_bodies(files);
+    if (!steps) return steps.error().message;
+    const auto text = steps.value()->text();
+    return text.remarks.empty() ? "" : text.remarks.back();
+  }
+};
+
+TEST_F(DoubledCornersOfFiles, AreToldAndWelded) {
+  const auto a = seam("a.obj", "0"), b = seam("b.obj", "0"), apart = seam("c.obj", "1e-300");
+  EXPECT_NE(last_remark({{{a, b}}}).find("4 vertices stand at 2 places: neighbours do not share"),
+            std::string::npos);
+  EXPECT_NE(last_remark({{{a, apart}}}).find("2 vertices stand at 1 place: "), std::string::npos);
+  BodyFiles welded{{{a, b}}};
+  welded.weld = true;
+  EXPECT_NE(last_remark(welded).find("welded: 4 vertices stand at 2 places and count as 2"),
+            std::string::npos);
+  detector::Triangles shared(2, 3), one_apart(2, 3);
+  shared << 0, 1, 2, 1, 5, 2;
+  one_apart << 0, 1, 2, 3, 5, 2;
+  EXPECT_EQ(steps_of_bodies(welded).value()->triangles(), shared);
+  // A frame far behind counts, too; and the mesh as a whole is the same.
+  welded.frames = {{a, b, b, apart}};
+  EXPECT_EQ(steps_of_bodies(welded).value()->triangles(), one_apart);
+  EXPECT_EQ(steps_of_bodies(welded).value()->read_whole().value()->triangles(), one_apart);
+  // Bodies are not welded to each other.
+  welded.frames = {{a, b}, {a, b}};
+  EXPECT_EQ(steps_of_bodies(welded).value()->triangles().bottomRows(2),
+            (shared.array() + 7).matrix());
+  // What has no corner in common is not told.
+  EXPECT_EQ(last_remark({{{triangle("0.obj", 0), triangle("1.obj", 1)}}}), "");
+}
+
+TEST_F(DoubledCornersOfFiles, ThatCollapseATriangleAreRefused) {
+  const auto thin = write("thin.obj", "v 0 0 0\nv 0 0 0\nv 0 1 0\nf 1 2 3\n");
+  BodyFiles files{{{thin, thin}}};
+  files.weld = true;
+  EXPECT_NE(last_remark(files).find("--weld: triangle 0 "), std::string::npos)
+      << last_remark(files);
+}
+
+TEST_F(DoubledCornersOfFiles, RingsAndDistanceAtRestAreARelation) {
+  const auto a = seam("a.obj", "0"), b = seam("b.obj", "0.5");
+  const auto steps = steps_of_bodies({{{a, b}}, {}, 2, 0.25});
+  ASSERT_TRUE(steps) << steps.error().message;
+  const auto* counted = steps.value()->counted();
+  ASSERT_TRUE(counted);
+  EXPECT_EQ(counted->rings, 2);
+  EXPECT_EQ(counted->rest_distance, 0.25);
+  EXPECT_EQ(counted->rest[5], (detector::Point{1, 1, 0}));
+  EXPECT_TRUE(counted->body.empty());
+}
+
 TEST_F(BodiesOfFiles, ThatDoNotFitAreRefused) {
   const auto three = std::vector{triangle("0.obj", 0), triangle("1.obj", 1), triangle("2.obj", 2)};
   const auto two = std::vector{triangle("3.obj", 0), triangle("4.obj", 1)};

@@ -144,7 +144,7 @@ TEST_F(Off, ProblemsNameTheLine) {
   expect("a face of 3 corners lists 2", "line 6", vertices + "3 0 1\n");
   expect("a vertex index expected", "line 6", vertices + "3 0 1 z\n");
   expect("a face of -3 corners", "line 6", vertices + "-3 0 1 2\n");
-  expect("a face of 2 vertices", "line 6", vertices + "2 0 1\n");
+  expect("no triangle", "1 face of fewer than 3 corners", vertices + "2 0 1\n");
   expect("text after the last face", "line 7", vertices + "3 0 1 2\n3 0 1 2\n");
   expect("fewer than 3 coordinates", "line 3", "OFF\n3 1 0\n0 0\n");
   expect("\"x\" is no number", "line 3", "OFF\n3 1 0\n0 0 x\n");

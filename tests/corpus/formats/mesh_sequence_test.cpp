@@ -39,8 +39,22 @@ TEST_F(MeshSequence, ProblemsNameBothFiles) {
     EXPECT_NE(sequence.error().message.find("frame1.obj"), std::string::npos);
   };
   expect("vertices, but", {triangle + "f 1 2 3\n", triangle + "v 9 9 9\nf 1 2 3\n"});
-  expect("triangles are not the", {triangle + "f 1 2 3\n", triangle + "f 2 3 1\n"});
-  expect("triangles are not the", {triangle + "f 1 2 3\n", triangle + "f 1 2 3\nf 1 3 2\n"});
+  expect("triangle 0 is (1, 2, 0), but in", {triangle + "f 1 2 3\n", triangle + "f 2 3 1\n"});
+  expect("2 triangles, but", {triangle + "f 1 2 3\n", triangle + "f 1 2 3\nf 1 3 2\n"});
+  expect("two meshes are --body", {triangle + "f 1 2 3\n", triangle + "v 9 9 9\nf 1 2 3\n"});
+}
+
+TEST_F(MeshSequence, FramesAreTakenInTheOrderOfTheirNumbers) {
+  const auto frame = [&](int number) {
+    const auto x = std::to_string(number);
+    return write("f" + x + ".obj", "v " + x + " 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  };
+  const auto sequence = read_sequence(Paths{frame(1), frame(10), frame(2)});
+  ASSERT_TRUE(sequence) << sequence.error().message;
+  EXPECT_EQ(sequence.value().frames[1](0, 0), 2);
+  ASSERT_EQ(sequence.value().remarks.size(), 2u);
+  EXPECT_EQ(sequence.value().remarks[0],
+            "frames are taken in the order of their numbers: f2.obj before f10.obj");
 }
 
 TEST_F(MeshSequence, NoFramesAndBadFrames) {

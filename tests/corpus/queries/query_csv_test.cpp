@@ -74,6 +74,28 @@ TEST_F(QueryCsv, CompressedCrlfAndBlanks) {
   EXPECT_TRUE(read_queries(write("xvf.csv.gz", gzip(open))));
 }
 
+TEST_F(QueryCsv, DecimalsAsPeoplePostThem) {
+  const auto eight = [](const std::string& row) {
+    std::string text;
+    for (int i = 0; i < 8; ++i) text += row + "\n";
+    return text;
+  };
+  const auto queries = read_queries(
+      write("posted_vf.csv", "\xEF\xBB\xBF# x,y,z\n" + eight("0.35,0,-1e-3") + "\n" +
+                                 eight("0.35 0 -1e-3") + eight("0.35,\t0 , -1e-3 , 1") +
+                                 eight("3.5e-1 0.0e+00 -1.0e-03 0.000e+00") +
+                                 eight("0.35,0,-0.001,,0.5") + eight("7,8,0,1,-1,1024,1.0")));
+  ASSERT_TRUE(queries) << queries.error().message;
+  ASSERT_EQ(queries.value().size(), 6U);
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_EQ(queries.value()[i].query.points[3].t1, (detector::Point{0.35, 0, -1e-3})) << i;
+  }
+  EXPECT_EQ(queries.value()[1].truth, std::nullopt);
+  EXPECT_EQ(queries.value()[2].truth, true);
+  EXPECT_EQ(queries.value()[3].truth, false);
+  EXPECT_EQ(queries.value()[4].separation, 0.5);
+}
+
 TEST_F(QueryCsv, KindIsToldByThePathOrNamed) {
   for (const auto& [name, first] :
        {std::pair{"vertex-face-double.csv", 1}, {"edge-edge-distance-float32.csv", 2}}) {
@@ -98,11 +120,13 @@ TEST_F(QueryCsv, Problems) {
   expect_problem("the label is neither 0 nor 1", "line 1", "1,1,3,4,5,8,2\n" + rows(",1", 7));
   expect_problem("is not a whole number", "line 1", "1,1,3,4,5,\n" + rows("", 7));
   expect_problem("the label is neither 0 nor 1", "line 1", rows(","));
-  expect_problem("columns, where 6 to 8 are expected", "line 2: 5 columns",
-                 rows("", 1) + "1,1,3,4,5\n");
-  expect_problem("columns, where 6 to 8 are expected", "line 2: 9 columns",
+  expect_problem("x,y,z, or numerator,denominator of each", "line 2: 2 columns",
+                 rows("", 1) + "1,1\n");
+  expect_problem("x,y,z, or numerator,denominator of each", "line 2: 9 columns",
                  rows("", 1) + "1,1,3,4,5,8,1,1,1\n");
-  expect_problem("columns, where 6 to 8 are expected", "line 9", rows("") + "\n" + rows(""));
+  expect_problem("y: \"a\" is no number that is finite", "line 1", "0.5,a,1\n" + rows("", 7));
+  expect_problem("z: \"1e999\" is no number that is finite", "line 1", "0 0 1e999\n");
+  expect_problem("the label is neither 0 nor 1", "line 1", "0.5,0,1,0.5\n");
   for (const std::string none : {"", "x", "-1", "nan", "inf", "1e999", "1 2"})
     expect_problem("the separation is no length", "line 1", rows(",1," + none));
   expect_problem("denominator 0", "line 1: y", "1,1,3,0,5,8\n" + rows("", 7));

@@ -58,7 +58,7 @@ TEST(Scenes, EverySceneAtSeveralSizes) {
       SCOPED_TRACE(std::string(info.name) + " " + std::to_string(size));
       const auto scene = make_scene(info.name, {size, 5, {}});
       ASSERT_TRUE(scene) << scene.error().message;
-      const auto& [triangles, frames] = scene.value();
+      const auto& [triangles, frames, unused] = scene.value();
       ASSERT_EQ(frames.size(), 5U);
       EXPECT_LT(triangles.maxCoeff(), frames[0].rows());
       const Facts facts = facts_of(frames[0], triangles);

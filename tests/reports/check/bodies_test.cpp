@@ -29,7 +29,7 @@ TEST_F(CheckedBodies, MeetByDefault) {
   const auto outcome = run_assay("check --body " + still + " --body " + comes + " --json " +
                                  (scratch / "report.json"));
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-  EXPECT_TRUE(contains(outcome.out, "8 triangles, 8 vertices, 2 components, 2 bodies"))
+  EXPECT_TRUE(contains(outcome.out, "2 bodies: 8 triangles, 8 vertices, 2 components"))
       << outcome.out;
   EXPECT_TRUE(contains(outcome.out, "detector and oracle agree")) << outcome.out;
   const auto report = json::parse(read_text(scratch / "report.json"));
@@ -88,6 +88,37 @@ TEST_F(CheckedBodies, NameWhatAnyDetectorMissesOrHasLate) {
   const auto spurious = run_assay(two, "ASSAY_TEST_WRONG=8 ");
   EXPECT_TRUE(std::regex_search(spurious.out, std::regex("  spurious: .* of body ")))
       << spurious.out;
+}
+
+// A soup: each triangle has three vertices of its own.
+TEST_F(CheckedBodies, DoubledCornersAreToldAndLeftOut) {
+  const std::string corners[] = {"v 0 0 0\n", "v 1 0 0\n", "v 0 1 0\n", "v 0 0 1\n"};
+  std::string vertices, faces;
+  int count = 0;
+  for (const auto& face : {std::array{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}) {
+    for (const int v : face) vertices += corners[v];
+    faces += "f " + std::to_string(count + 1) + " " + std::to_string(count + 2) + " " +
+             std::to_string(count + 3) + "\n";
+    count += 3;
+  }
+  const auto soup = scratch.write("soup.obj", vertices + faces);
+  const auto expect = [&](const std::string& options, int exit_code, const std::string& words) {
+    const auto outcome = run_assay("check " + soup + " " + soup + options + " --fail-on-collision");
+    EXPECT_EQ(outcome.exit_code, exit_code) << options << outcome.out << outcome.err;
+    EXPECT_TRUE(contains(outcome.out + outcome.err, words)) << options << outcome.out;
+  };
+  expect("", 5,
+         "12 vertices stand at 4 places: neighbours do not share their corners, so they touch");
+  expect(" --weld", 0, "welded: 12 vertices stand at 4 places and count as 4");
+  expect(" --weld --detector " + plugin("wrapped_builtin"), 0, "welded: 12 vertices");
+  expect(" --weld --separation 0", 0, "welded: 12 vertices");
+  expect(" --rest-distance 0.001", 0, "no collision");
+  expect(" --rings 1", 5, "collision at t = 0");
+  // Welded, all four faces have an edge in common.
+  expect(" --weld --rings 1 --separation 0", 0, "no two triangles count");
+  const auto of_a_case = run_assay("check corpus/curated/B1_one_vertex_own_nearest.json --weld");
+  EXPECT_EQ(of_a_case.exit_code, 2);
+  EXPECT_TRUE(contains(of_a_case.err, "a case file states what counts")) << of_a_case.err;
 }
 
 TEST_F(CheckedBodies, BadWordsAreOneLine) {

@@ -96,7 +96,7 @@ TEST_F(BadLateFrame, EndsTheCheckAfterTheStepsBeforeIt) {
   // The same vertices, and one triangle that begins with another of its corners.
   std::string other = good;
   std::rotate(other.end() - 12, other.end() - 8, other.end());
-  expect_two_steps(other, {"frame_0000.ply", "bad.obj", "triangles"});
+  expect_two_steps(other, {"frame_0000.ply", "bad.obj", "triangle 79 is"});
 }
 
 TEST_F(BadLateFrame, IsRefusedAtOnceWhereThatCanBeSeen) {

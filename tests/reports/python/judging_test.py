@@ -116,6 +116,20 @@ def test_check_within_a_distance_has_a_report_of_its_own(tmp_path):
         bool(report)
 
 
+def test_doubled_corners_are_welded_and_near_pairs_left_out(pair):
+    soup = pair.triangles[:4].ravel()
+    triangles, x = np.arange(12, dtype=np.int32).reshape(4, 3), pair.x_t0[soup]
+    report = assay.check((triangles, [x, x]))
+    assert "12 vertices stand at 4 places" in report.text and report.json["steps"][0]["pairs"]
+    for options in ({"weld": True}, {"rest_distance": 0.001}, {"weld": True, "rings": 1}):
+        report = assay.check((triangles, [x, x]), **options)
+        assert report.json["steps"][0]["answer"] == "free", options
+    with pytest.raises(ValueError, match="rings"):
+        assay.check((triangles, [x, x]), rings=-1)
+    with pytest.raises(ValueError, match="a case file states it"):
+        assay.check("a.json", weld=True)
+
+
 def test_bodies_that_are_apart_do_not_meet(pair):
     frames = (pair.triangles, [pair.x_t0, pair.x_t1])
     bodies = [0] * 4 + [1] * 4
@@ -241,12 +255,26 @@ def test_frames_are_read_by_meshio_in_the_order_of_their_numbers(pair, tmp_path)
     for k in (0, 2, 10):
         cells = [("triangle", pair.triangles), ("line", np.array([[0, 1]]))]
         meshio.write_points_cells(tmp_path / f"sim_{k}.vtu", pair.x_t0 + k, cells)
-    frames = assay.read_frames(str(tmp_path / "sim_*.vtu"))
+    with pytest.warns(UserWarning, match="not looked at: 1 cells of type line"):
+        frames = assay.read_frames(str(tmp_path / "sim_*.vtu"))
     assert [x[0, 0] for x in frames.positions] == [0, 2, 10]
     assert np.array_equal(frames.triangles, pair.triangles)
     write_ply(tmp_path / "last.ply", pair.triangles, pair.x_t1)
-    mixed = assay.read_frames([*frames.files, tmp_path / "last.ply"])
+    with pytest.warns(UserWarning, match="sim_10.vtu follows .*sim_2.vtu"):
+        mixed = assay.read_frames([*frames.files, tmp_path / "last.ply"])
     assert np.array_equal(mixed.positions[3], pair.x_t1)
+
+
+def test_frames_in_the_order_of_a_shell_are_put_in_order_as_check_does(pair, tmp_path):
+    files = [str(tmp_path / f"sim_{k}.ply") for k in (1, 10, 2)]
+    for file, x in zip(files, [pair.x_t0, pair.x_t1, pair.x_t0]):
+        write_ply(Path(file), pair.triangles, x)
+    with pytest.warns(UserWarning, match="order of their numbers: sim_2.ply before sim_10.ply"):
+        frames = assay.read_frames(files)
+    assert frames.files == [files[0], files[2], files[1]]
+    assert np.array_equal(frames.positions[2], pair.x_t1)
+    with pytest.warns(UserWarning, match="taken as given"):
+        assert assay.read_frames([files[1], files[0]]).files == [files[1], files[0]]
 
 
 def test_files_that_are_no_frames_of_one_mesh_are_refused(pair, tmp_path):

@@ -73,6 +73,8 @@ def test_a_log_holds_the_mesh_and_the_contract(path, pair):
         contract=contract,
         bodies=[0] * 4 + [1] * 4,
         apart=[(0, 1)],
+        rings=3,
+        rest_distance=0.25,
     ):
         pass
     begin, end = records(path)
@@ -84,6 +86,8 @@ def test_a_log_holds_the_mesh_and_the_contract(path, pair):
     assert begin["positions"].dtype == np.float32
     assert begin["counted"]["body"].tolist() == [0] * 4 + [1] * 4
     assert begin["counted"]["apart"].tolist() == [0, 1]
+    assert (begin["counted"]["rings"], begin["counted"]["rest_distance"]) == (3, 0.25)
+    assert (begin["counted"]["rest"] == pair.x_t0.ravel()).all()
     assert end == {"type": "end", "record": 1, "steps": 0}
 
 

@@ -99,13 +99,13 @@ TEST_F(BadInput, MeshesThatDoNotFit) {
   expect_bad_frame("five.obj", std::string(tetrahedron) + "v 9 9 9\n", "vert");
   std::string other = tetrahedron;
   other.replace(other.find("f 1 3 2"), 7, "f 1 2 3");
-  expect_bad_frame("other.obj", other, "triangles");
+  expect_bad_frame("other.obj", other, "triangle 0 is (0, 1, 2), but in ");
   expect_bad_frame("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\n", "nan.obj");
   expect_bad_frame("huge.obj", "v 1e999 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\n", "huge.obj");
   expect_bad_frame("range.obj", std::string(tetrahedron) + "f 1 2 9\n", "range.obj");
   expect_bad_frame("repeated.obj", std::string(tetrahedron) + "f 1 2 2\n", "repeated.obj");
   const auto twice = scratch.write("twice.obj", std::string(tetrahedron) + "f 3 1 2\n");
-  expect_refused("check " + twice + " " + twice, "same three vertices");
+  expect_refused("check " + twice + " " + twice, "same three vertices (lines 5 and 9)");
 }
 
 TEST_F(BadInput, QueryFiles) {

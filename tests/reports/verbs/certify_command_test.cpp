@@ -214,6 +214,9 @@ TEST_F(Certify, ACertificateVerifiesAndNoFieldOrFileCanBeChanged) {
                               "report " + (scratch / "") + " --out " + (scratch / "p.html"),
                               "report " + alone + " --out " + (scratch / "p.html")})
     expect_refused(run_assay(command), "are not beside it: ask its issuer for the whole folder");
+  const auto of_check = scratch.write("o.json", R"({"schema": "assay-check/1"})");
+  expect_refused(run_assay("report " + of_check + " --out " + (scratch / "p.html")),
+                 "of schema \"assay-check/1\", no certificate and no run");
 }
 
 TEST_F(Certify, ADefectIsNamedWithAMeshThatReplays) {
