@@ -99,9 +99,8 @@ class CheckRun {
     say(outcome_.summary());
     CheckAnswer answer{std::move(outcome_), nullptr};
     if (question_.wants_report)
-      answer.report =
-          check_report(text_.files.empty() ? question_.files : text_.files, mesh_, answers_,
-                       answer.outcome, std::move(steps));
+      answer.report = check_report(text_.files.empty() ? question_.files : text_.files, mesh_,
+                                   answers_, answer.outcome, std::move(steps));
     if (question_.wants_report) {
       answer.report["bodies"] = bodies_json();
       answer.report["at_rest"] = is_at_rest_;

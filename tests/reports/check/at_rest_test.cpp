@@ -37,8 +37,7 @@ class AtRest : public testing::Test {
 TEST_F(AtRest, OneFrameIsAskedWhetherItMeetsItself) {
   const auto meets = check(pair("crossing.obj", "-1"));
   EXPECT_EQ(meets.exit_code, 0) << meets.out << meets.err;
-  EXPECT_TRUE(contains(meets.out, "2 components (2 unclosed: closed with ghosts); "))
-      << meets.out;
+  EXPECT_TRUE(contains(meets.out, "2 components (2 unclosed: closed with ghosts); ")) << meets.out;
   EXPECT_TRUE(contains(meets.out, "at rest: collision, 1 pair in contact; agree\n")) << meets.out;
   EXPECT_TRUE(contains(meets.out, "the mesh meets itself: 1 pair; detector and oracle agree\n"));
   EXPECT_FALSE(contains(meets.out, "t = ")) << meets.out;
