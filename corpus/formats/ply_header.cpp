@@ -17,6 +17,8 @@ std::optional<PlyType> type_named(std::string_view word) {
   if (word == "ushort" || word == "uint16") return PlyType::uint16;
   if (word == "int" || word == "int32") return PlyType::int32;
   if (word == "uint" || word == "uint32") return PlyType::uint32;
+  if (word == "int64") return PlyType::int64;  // of meshio
+  if (word == "uint64") return PlyType::uint64;
   if (word == "float" || word == "float32") return PlyType::float32;
   if (word == "double" || word == "float64") return PlyType::float64;
   return std::nullopt;
@@ -133,6 +135,8 @@ std::size_t size_of(PlyType type) {
     case PlyType::uint32:
     case PlyType::float32:
       return 4;
+    case PlyType::int64:
+    case PlyType::uint64:
     case PlyType::float64:
       return 8;
   }

@@ -14,7 +14,7 @@ namespace assay::corpus {
 
 enum class PlyEncoding { ascii, little_endian, big_endian };
 
-enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+enum class PlyType { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
 
 // The size of a value in a binary file, in bytes.
 std::size_t size_of(PlyType type);

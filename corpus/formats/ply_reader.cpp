@@ -73,7 +73,8 @@ std::int64_t sign_extended(std::uint64_t bits, std::size_t size) {
 }
 
 bool is_signed(PlyType type) {
-  return type == PlyType::int8 || type == PlyType::int16 || type == PlyType::int32;
+  return type == PlyType::int8 || type == PlyType::int16 || type == PlyType::int32 ||
+         type == PlyType::int64;
 }
 
 Place PlyBody::place() const { return is_ascii() ? Place{"line", line_} : Place{"byte", offset_}; }
