@@ -64,6 +64,8 @@ QUICK = {
         "assay check corpus/curated/B1_one_vertex_own_nearest.json",
         "assay list scenes",
         "assay scene twist --mesh build/bend/frame_0000.ply --frames 4 --out build/twist",
+        "assay check build/bend/frame_0011.ply",
+        "assay check --body build/bend/frame_0000.ply --body build/bend/frame_0011.ply",
     ],
     "reports/queries/README.md": [
         "assay check-queries corpus/queries/example_vf.csv --method detector-exact",
@@ -231,6 +233,7 @@ NO_COMMAND = {
     },
     "reports/check/README.md": {
         "step 11: collision at": "what `assay check` prints",
+        "contact: triangles 0 and 1": "what `assay check` prints",
         "step 1: near at t = 0.5": "what `assay check --separation` prints",
     },
     "reports/campaign/README.md": {
