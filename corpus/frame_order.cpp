@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdint>
 #include <map>
 #include <string_view>
@@ -101,6 +102,19 @@ std::string unevenness(const Names& names) {
                      odd == 1 ? "" : fmt::format(", and {} more places", odd - 1));
 }
 
+// Whether a shell may have listed them so: letter by letter, or, as in most languages but C, by
+// letters and digits alone, where sim_10.obj comes before sim_1.obj. Two files in that second order
+// are taken for the user's own.
+bool is_order_of_a_shell(const std::vector<std::string>& paths) {
+  const auto letters_and_digits = [](std::string path) {
+    std::erase_if(path, [](unsigned char c) { return !std::isalnum(c); });
+    std::ranges::transform(path, path.begin(), [](unsigned char c) { return std::tolower(c); });
+    return path;
+  };
+  return std::ranges::is_sorted(paths) ||
+         (paths.size() > 2 && std::ranges::is_sorted(paths, {}, letters_and_digits));
+}
+
 // Puts files in order whose names differ in numbers alone.
 void put_in_order(const std::vector<std::string>& paths, FrameOrder& result) {
   const auto all_parsed = [&](Reading reading) {
@@ -131,7 +145,7 @@ void put_in_order(const std::vector<std::string>& paths, FrameOrder& result) {
         b));
     wanted = given;
   } else if (paths_of(wanted) != paths) {
-    const bool is_of_a_shell = std::ranges::is_sorted(paths);
+    const bool is_of_a_shell = is_order_of_a_shell(paths);
     const auto i = place_of_difference(wanted);
     const auto [a, b] = short_names(paths[i], wanted[i].path);
     remarks.push_back(

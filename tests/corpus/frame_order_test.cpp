@@ -36,6 +36,10 @@ TEST(FramesInOrder, TheOrderOfAShellIsPutInOrder) {
                line);
   expect_order({"run10/mesh.obj", "run9/mesh.obj"}, {"run9/mesh.obj", "run10/mesh.obj"},
                line + "run9/mesh.obj before run10/mesh.obj");
+  // As bash lists them where LANG is en_US.UTF-8.
+  expect_order({"d/sim_10.obj", "d/sim_11.obj", "d/sim_1.obj", "d/sim_2.obj"},
+               {"d/sim_1.obj", "d/sim_2.obj", "d/sim_10.obj", "d/sim_11.obj"},
+               line + "sim_1.obj before sim_10.obj");
   // What has another name stays where it is.
   expect_order({"rest.obj", "sim_10.obj", "sim_9.obj", "end.obj"},
                {"rest.obj", "sim_9.obj", "sim_10.obj", "end.obj"}, line);
