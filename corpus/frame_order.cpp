@@ -108,7 +108,8 @@ std::string unevenness(const Names& names) {
 bool is_order_of_a_shell(const std::vector<std::string>& paths) {
   const auto letters_and_digits = [](std::string path) {
     std::erase_if(path, [](unsigned char c) { return !std::isalnum(c); });
-    std::ranges::transform(path, path.begin(), [](unsigned char c) { return std::tolower(c); });
+    std::ranges::transform(path, path.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return path;
   };
   return std::ranges::is_sorted(paths) ||

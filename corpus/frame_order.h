@@ -2,10 +2,10 @@
 //
 //   sim_1.obj sim_10.obj sim_2.obj  ->  sim_1.obj sim_2.obj sim_10.obj
 //
-// A shell lists names letter by letter, in some languages without a look at marks such as _. If the files came in such an order, they are taken in the
-// order of their numbers. Any other order is the user's own and stays. Files whose names differ in
-// more than numbers are not compared. 0.25 beside 0.5 may be decimals or two numbers each: where
-// this matters, the order stays too.
+// A shell lists names letter by letter, in some languages without a look at marks such as _. If the
+// files came in such an order, they are taken in the order of their numbers. Any other order is the
+// user's own and stays. Files whose names differ in more than numbers are not compared. 0.25 beside
+// 0.5 may be decimals or two numbers each: where this matters, the order stays too.
 #pragma once
 
 #include <filesystem>
