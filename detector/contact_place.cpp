@@ -18,7 +18,7 @@ namespace assay::detector {
 
 namespace {
 
-using Vector = Eigen::Vector3d;
+using Vector3 = Eigen::Vector3d;
 using Weights = std::array<double, 3>;  // of the vertices of a feature
 
 constexpr double place_error = 0x1p-49;    // 16 u
@@ -38,16 +38,17 @@ void keep_nearer(Nearest& best, const Nearest& other) {
   if (other.squared < best.squared) best = other;
 }
 
-Nearest of_edges_from(double s, const Vector& a0, const Vector& u, const Vector& b0,
-                      const Vector& v) {
+Nearest of_edges_from(double s, const Vector3& a0, const Vector3& u, const Vector3& b0,
+                      const Vector3& v) {
   const double t = share(v.dot(a0 + s * u - b0), v.squaredNorm());
   s = share(u.dot(b0 + t * v - a0), u.squaredNorm());
   return {{1 - s, s, 0}, {1 - t, t, 0}, (a0 + s * u - b0 - t * v).squaredNorm()};
 }
 
 // If the edges are nearly parallel, a start at an end of one is better than the quotient.
-Nearest nearest_of_edges(const Vector& a0, const Vector& a1, const Vector& b0, const Vector& b1) {
-  const Vector u = a1 - a0, v = b1 - b0, w = a0 - b0;
+Nearest nearest_of_edges(const Vector3& a0, const Vector3& a1, const Vector3& b0,
+                         const Vector3& b1) {
+  const Vector3 u = a1 - a0, v = b1 - b0, w = a0 - b0;
   const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v);
   const double s = share(uv * v.dot(w) - u.dot(w) * vv, uu * vv - uv * uv);
   Nearest best = of_edges_from(s, a0, u, b0, v);
@@ -56,9 +57,9 @@ Nearest nearest_of_edges(const Vector& a0, const Vector& a1, const Vector& b0, c
   return best;
 }
 
-Nearest nearest_of_face(const Vector& p, const std::array<Vector, 3>& f) {
+Nearest nearest_of_face(const Vector3& p, const std::array<Vector3, 3>& f) {
   Nearest best;
-  const Vector normal = (f[1] - f[0]).cross(f[2] - f[0]);
+  const Vector3 normal = (f[1] - f[0]).cross(f[2] - f[0]);
   Weights inside{};
   double sum = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -68,12 +69,12 @@ Nearest nearest_of_face(const Vector& p, const std::array<Vector, 3>& f) {
   }
   if (sum > 0) {
     for (double& weight : inside) weight /= sum;
-    const Vector place = inside[0] * f[0] + inside[1] * f[1] + inside[2] * f[2];
+    const Vector3 place = inside[0] * f[0] + inside[1] * f[1] + inside[2] * f[2];
     best = {{1, 0, 0}, inside, (p - place).squaredNorm()};
   }
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3;
-    const auto on_edge = of_edges_from(0, p, Vector::Zero(), f[i], f[j] - f[i]);
+    const auto on_edge = of_edges_from(0, p, Vector3::Zero(), f[i], f[j] - f[i]);
     Nearest nearest = {{1, 0, 0}, {}, on_edge.squared};
     nearest.b[i] = on_edge.b[0];
     nearest.b[j] = on_edge.b[1];
@@ -99,23 +100,23 @@ class Places {
   }
 
   int exponent() const { return exponent_; }
-  Vector at(std::int32_t v) const {
+  Vector3 at(std::int32_t v) const {
     return (1 - t_) * scaled(motion_.start(v)) + t_ * scaled(motion_.end(v));
   }
 
   struct Edge {
-    Vector at_t;
+    Vector3 at_t;
     double size;  // its largest coordinate at either end
   };
   Edge edge(std::int32_t from, std::int32_t to) const {
-    const Vector start = scaled(motion_.start(to)) - scaled(motion_.start(from)),
-                 end = scaled(motion_.end(to)) - scaled(motion_.end(from));
+    const Vector3 start = scaled(motion_.start(to)) - scaled(motion_.start(from)),
+                  end = scaled(motion_.end(to)) - scaled(motion_.end(from));
     return {(1 - t_) * start + t_ * end,
             std::max(start.cwiseAbs().maxCoeff(), end.cwiseAbs().maxCoeff())};
   }
 
  private:
-  Vector scaled(const Point& x) const {
+  Vector3 scaled(const Point& x) const {
     return {std::ldexp(x[0], -exponent_), std::ldexp(x[1], -exponent_),
             std::ldexp(x[2], -exponent_)};
   }
@@ -126,7 +127,7 @@ class Places {
 };
 
 void set_normal(const Places::Edge& u, const Places::Edge& v, ContactPlace& place) {
-  const Vector normal = u.at_t.cross(v.at_t);
+  const Vector3 normal = u.at_t.cross(v.at_t);
   const double length = normal.norm();
   place.normal_error = product_error * u.size * v.size / length;
   // What is cut off below the normal numbers is far less than this.
@@ -161,8 +162,8 @@ ContactPlace contact_place(const SteppedMesh& motion, const TrianglesView& trian
     of_a = 2;
     count = 5;
     const auto f = face(2);
-    const Vector e0 = places.at(v[0]), e1 = places.at(v[1]),
-                 normal = (f[1] - f[0]).cross(f[2] - f[0]);
+    const Vector3 e0 = places.at(v[0]), e1 = places.at(v[1]),
+                  normal = (f[1] - f[0]).cross(f[2] - f[0]);
     const double above = std::abs(normal.dot(e0 - f[0])), below = std::abs(normal.dot(e1 - f[0]));
     const double s = share(above, above + below);
     nearest = nearest_of_face(e0 + s * (e1 - e0), f);
@@ -180,7 +181,7 @@ ContactPlace contact_place(const SteppedMesh& motion, const TrianglesView& trian
   bool is_turned = false;
   for (std::size_t i = 0; i < count; ++i)
     is_turned |= corner_of(i < of_a ? contact.pair.a : contact.pair.b, v[i]) < 0;
-  std::array<Vector, 2> sums = {Vector::Zero(), Vector::Zero()};
+  std::array<Vector3, 2> sums = {Vector3::Zero(), Vector3::Zero()};
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t side = (i < of_a) == is_turned ? 1 : 0;
     const double weight = i < of_a ? nearest.a[i] : nearest.b[i - of_a];
@@ -188,7 +189,7 @@ ContactPlace contact_place(const SteppedMesh& motion, const TrianglesView& trian
     if (corner >= 0) place.barycentric[side][static_cast<std::size_t>(corner)] = weight;
     sums[side] += weight * places.at(v[i]);
   }
-  const Vector point = 0.5 * (sums[0] + sums[1]);
+  const Vector3 point = 0.5 * (sums[0] + sums[1]);
   const double off =
       std::max((sums[0] - point).cwiseAbs().maxCoeff(), (sums[1] - point).cwiseAbs().maxCoeff());
   // Numbers below the normal ones are rounded by the least double at most.

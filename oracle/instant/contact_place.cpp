@@ -150,7 +150,8 @@ double rounded_up(const mpq_class& x) {
 std::optional<ContactPlace> contact_place(const detector::SteppedMesh& motion,
                                           const detector::TrianglesView& triangles,
                                           const detector::PairContact& contact) {
-  const auto& [kind, v] = contact.feature;
+  const auto kind = contact.feature.kind;
+  const auto& v = contact.feature.vertices;
   if (v[0] < 0) return std::nullopt;
   const Corners corners(motion, contact.time.lo);
   const auto face = [&](std::size_t first) { return Face{v[first], v[first + 1], v[first + 2]}; };

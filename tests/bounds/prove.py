@@ -17,6 +17,8 @@ import comparisons
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 BASE = ["claims", "graph", "script"]  # the others are filters
+OF_NO_SOURCE = ["graph", "script"]  # those of them that read nothing of the detector
+BUILT = set()  # what of these was built for a folder
 FILTERS = sorted(p.stem for p in HERE.glob("*.cpp") if p.stem not in BASE)
 
 # What the copy of a source has in place of what the detector has.
@@ -123,9 +125,11 @@ def write_scripts(options, work, filters, pool):
             [*compile_, "-include", str(first), "-c", str(HERE / f"{name}.cpp"),
              "-o", f"{work}/{name}.o"], capture_output=True, text=True)
     objects = [*BASE, *filters]
-    for name, done in zip(objects, pool.map(build, objects)):
+    to_build = [name for name in objects if (work, name) not in BUILT]
+    for name, done in zip(to_build, pool.map(build, to_build)):
         if done.returncode:
             return 1, f"{name} does not compile:\n{done.stderr[:2000]}"
+    BUILT.update((work, name) for name in OF_NO_SOURCE)
     # What the filters do not call, such as integers, stays unresolved.
     subprocess.run([options.compiler, "-no-pie", "-Wl,--unresolved-symbols=ignore-all",
                     *[f"{work}/{name}.o" for name in objects], "-o", f"{work}/write_scripts"],

@@ -121,7 +121,7 @@ class ReadmeTest:
                 "slow" if self.options.slow else "shown" if self.options.shown else "quick")
             self.clone = Clone(folder, ROOT, self.options.build)
             given = plan.GIVEN.get(self.name, [])
-            if self.options.slow or self.options.shown:
+            if self.options.slow or (self.options.shown and self.name in plan.SHOWN):
                 given = given + plan.GIVEN_SLOW.get(self.name, [])
             for command in given:
                 code, printed = self.clone.run(command, SLOW_SECONDS)

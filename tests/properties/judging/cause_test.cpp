@@ -123,10 +123,9 @@ TEST(Cause, OfAQueryThatStaysApartNothingIsShared) {
   one.triangles(1, 1) = 1;
   one.x_t1 = one.x_t0;
   const detector::Feature features{detector::FeatureKind::vertex_face, {3, 0, 1, 2, -1}};
-  EXPECT_EQ(text_of(cause_of_query(one.triangles, {one.x_t0, one.x_t1}, features)),
-            "at rest, generic");
+  EXPECT_EQ(text_of(cause_of_query(one.triangles, {one.x_t0, one.x_t1}, features)), "at rest");
   EXPECT_EQ(text_of(cause_of(one.triangles, {one.x_t0, one.x_t1}, detector::TrianglePair{0, 1})),
-            "at rest, generic, sharing a vertex");
+            "at rest, sharing a vertex");
 }
 
 TEST(Cause, AContactSoonAfterTheStartIsOneOfItsOwn) {
