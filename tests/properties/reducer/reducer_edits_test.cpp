@@ -50,7 +50,9 @@ TEST(CaseEdits, ValidCasesOnly) {
   EXPECT_FALSE(is_valid(c));
   c = tetrahedron();
   c.frames.pop_back();
-  EXPECT_FALSE(is_valid(c));  // no step
+  EXPECT_TRUE(is_valid(c));  // a mesh at rest
+  c.frames.clear();
+  EXPECT_FALSE(is_valid(c));
   c = tetrahedron();
   c.view = corpus::CaseView{{{0, 0, 0}}, {}};
   EXPECT_FALSE(is_valid(c));  // one place for two frames
