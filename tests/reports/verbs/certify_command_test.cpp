@@ -14,7 +14,7 @@ class Certify : public testing::Test {
   const Scratch scratch;
   const std::string out = scratch / "out", certificate = out + "/certificate.json";
   std::string plan = scratch.write(
-      "plan.json", plan_text(12, R"(, "shrink_share": 0.04, "policy": {"self_test_queries": 20})"));
+      "plan.json", plan_text(12, R"(, "shrink_share": 0.4, "policy": {"self_test_queries": 20})"));
 
   Outcome certify(const std::string& more = "") const {
     return run_assay("certify --campaign " + plan + " --out " + out + " " + more);

@@ -124,7 +124,7 @@ TEST_F(Outputs, AreWrittenWhateverTheVerdict) {
 TEST_F(Outputs, AStepThatCannotBeKeptLosesNoReport) {
   const auto kept = scratch / "in_the_way", report = scratch / "r.json";
   std::filesystem::create_directories(kept);
-  std::ofstream(kept + "/step-1") << "";
+  for (const char* step : {"/step-1", "/step-2"}) std::ofstream(kept + step) << "";
   const auto checked = run_assay("check " + frames + " --answers " + wrong + " --keep " + kept +
                                  " --json " + report);
   EXPECT_EQ(checked.exit_code, 2);

@@ -12,7 +12,7 @@ class Parts : public testing::Test {
  protected:
   const Scratch scratch;
   const std::string plan = scratch.write(
-      "plan.json", plan_text(24, R"(, "shrink_share": 0.03, "policy": {"self_test_queries": 20})"));
+      "plan.json", plan_text(24, R"(, "shrink_share": 0.3, "policy": {"self_test_queries": 20})"));
   const std::string queries = std::string(ASSAY_SOURCE_DIR) + "/corpus/queries/example_vf.csv";
   const std::string broad = " --detector " + plugin("candidates_alone");
   const std::string query = " --detector " + plugin("query_alone");
