@@ -19,8 +19,8 @@ inline std::string told_plugins(const std::string& out) {
   return shares_a_folder ? folder.lexically_relative(from).string() + "/" : "";
 }
 
-// A few dozen cases, nothing planted. `more`: further fields, each behind a comma. It has time without
-// end, but for one that states a share of it to shrink in.
+// A few dozen cases, nothing planted. `more`: further fields, each behind a comma. It has time
+// without end, but for one that states a share of it to shrink in.
 inline std::string plan_text(int cases, const std::string& more = "") {
   const std::string n = std::to_string(cases), half = std::to_string(cases / 2);
   const std::string seconds = more.find("shrink_share") == std::string::npos ? "null" : "600";
