@@ -176,7 +176,7 @@ FrameOrder in_order_of_numbers(const std::vector<std::filesystem::path>& files) 
     while (end < files.size() && shape_of(end) == shape) alike.push_back(files[end++].string());
     put_in_order(alike, result);
   }
-  for (auto& line : result.remarks) line = problem_in({}, line).message;
+  for (auto& line : result.remarks) line = in_one_line(std::move(line));
   return result;
 }
 

@@ -26,8 +26,10 @@ struct Problem {
   ProblemKind kind = ProblemKind::other;
 };
 
-// A problem whose message is `file: detail` (only `detail` when the file is empty), with control
-// characters, which a path or a quoted word may hold, replaced.
+// The text with control characters, which a path or a quoted word may hold, replaced.
+std::string in_one_line(std::string text);
+
+// A problem whose message is `file: detail` (only `detail` when the file is empty), in one line.
 Problem problem_in(const std::filesystem::path& file, std::string_view detail);
 
 // A value or a Problem. Asking for the side that is not there ends the program.

@@ -14,6 +14,8 @@
 #include <cmath>
 #include <limits>
 
+#include "detector/parallel/processor_state.h"
+
 namespace assay::detector {
 
 namespace {
@@ -143,6 +145,7 @@ void set_normal(const Places::Edge& u, const Places::Edge& v, ContactPlace& plac
 
 ContactPlace contact_place(const SteppedMesh& motion, const TrianglesView& triangles,
                            const PairContact& contact) {
+  const ProcessorState state;
   const auto& v = contact.feature.vertices;
   const Places places(motion, triangles, contact);
   const auto face = [&](std::size_t first) {

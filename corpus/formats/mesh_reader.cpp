@@ -68,10 +68,16 @@ Problem unknown_format(const std::filesystem::path& path) {
     if (end.empty() || (std::string(ends) + ".").find(end + ".") == std::string::npos) continue;
     if (by_meshio.empty())
       return problem_in(path, fmt::format("{} file; {}export it as one of these", name, read));
-    const auto converted = std::filesystem::path(path).replace_extension(by_meshio);
+    // In a name that a shell or Python would read as something else, the user puts it in.
+    const bool is_plain = std::ranges::all_of(path.string(), [](unsigned char c) {
+      return c >= 0x80 || std::isalnum(c) ||
+             std::string_view("._-+/ ").find(c) != std::string_view::npos;
+    });
+    const auto file = is_plain ? path : std::filesystem::path("FILE" + end);
+    const auto converted = std::filesystem::path(file).replace_extension(by_meshio);
     return problem_in(
         path, fmt::format("{} file; {}python3 -c \"import meshio; meshio.read('{}').write('{}')\"",
-                          name, read, path.string(), converted.string()));
+                          name, read, file.string(), converted.string()));
   }
   return problem_in(
       path,

@@ -30,7 +30,7 @@ std::string title_of(const FramesOfBodies& bodies) {
     return "one mesh at rest";
   const auto [from, to] = short_names(files.front(), files.back());
   const auto through = files.size() == 2 ? "" : fmt::format("through {} frames ", files.size());
-  return problem_in({}, fmt::format("one mesh moving {}from {} to {}", through, from, to)).message;
+  return in_one_line(fmt::format("one mesh moving {}from {} to {}", through, from, to));
 }
 
 Expected<void> add_all(DoubledCorners& corners, BodiesReader reader) {

@@ -138,8 +138,8 @@ void compare(const std::filesystem::path& certificate, const properties::Expecte
   for (const auto& place : {folder, folder / "failures", folder / "slow"}) {
     std::error_code ignored;
     for (const auto& file : std::filesystem::directory_iterator(place, ignored)) {
-      const bool says_nothing = file.path().extension() == ".lock";  // of a store
-      if (file.is_regular_file(ignored) && !says_nothing && !looked_at.contains(file.path()))
+      const bool is_lock = file.path().string().ends_with(".sqlite.lock");  // holds nothing
+      if (file.is_regular_file(ignored) && !is_lock && !looked_at.contains(file.path()))
         result.others.push_back(file.path().lexically_relative(folder).string());
     }
   }

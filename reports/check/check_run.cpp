@@ -450,8 +450,8 @@ class CheckRun {
   const properties::BodyNames bodies_;
   std::optional<std::vector<NestedBodies>> nested_;  // nothing until a step is judged
   std::size_t named_ = 0;                            // pairs in contact, as far as they were named
-  detector::Positions
-      shown_mesh_;  // for the file of the marked mesh, and by triangle 1: in contact
+  // Of --ply: the mesh at its first contact, and by triangle whether it is in contact.
+  detector::Positions shown_mesh_;
   std::vector<std::uint8_t> marked_;
   std::optional<std::string> refused_;
   const detector::CountedPairs tested_;  // under the contract

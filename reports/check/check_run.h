@@ -15,8 +15,8 @@
 
 namespace assay::reports {
 
-// Takes frames of one mesh (two or more), which are read as their steps come, or reads one case
-// file. Fails if its options are not understood. REQUIRES a file.
+// Takes frames of one mesh, which are read as their steps come, or reads one case file. Fails if
+// its options are not understood. REQUIRES a file.
 corpus::Expected<CheckInput> read_check_input(const std::vector<std::string>& files);
 // The same of several meshes as bodies of one, or of frames of which not all pairs count: `asked`
 // has all but the files. REQUIRES a file of each.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "oracle/instant/contact_place.h"
 #include "reports/steps/step_json.h"

@@ -259,9 +259,9 @@ def check(
     """Each step through the detector and the oracle, and the diff: `assay check`.
 
     frames: Frames, a pair of triangles (m, 3) and positions (frames, n, 3), or the name of a case
-    file; one frame alone is a mesh at rest. detector: None for the built-in one, of which the next four options are; the name of a
-    plug-in's library; "python:MODULE:CLASS"; or a class, which another process imports by its
-    module. jobs: threads of the oracle; threads: of the detector, 0: all cores, and a plug-in is
+    file; one frame alone is a mesh at rest. detector: None for the built-in one, of which the next
+    four options are; the name of a plug-in's library; "python:MODULE:CLASS"; or a class, which
+    another process imports by its module. jobs: threads of the oracle; threads: of the detector, 0: all cores, and a plug-in is
     told 1. time, memory, isolation: as on the command line. progress: called with what is printed;
     True prints it to stderr.
     bodies: (n,) the number of each vertex's body, from 0 on; apart: pairs of bodies that do not

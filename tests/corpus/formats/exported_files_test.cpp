@@ -164,6 +164,8 @@ TEST_F(Exported, OtherFormatsAreRefusedByTheirNamesWithAWayOn) {
   expect("a.stl", "solid a\n",
          "an STL file; OBJ, PLY and OFF are read: python3 -c \"import meshio; meshio.read('");
   expect("B.STL", "solid a\n", "B.ply");
+  // A line to paste runs nothing that a name says.
+  expect("it's $(id).stl", "solid a\n", "meshio.read('FILE.stl').write('FILE.ply')");
   expect("a.vtk", "# vtk DataFile Version 5.1\n",
          "a VTK file; OBJ, PLY and OFF are read: python3 -c");
   expect("a.vtu", "<?xml version=\"1.0\"?>\n", "a VTK file");

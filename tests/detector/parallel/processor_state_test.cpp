@@ -6,6 +6,7 @@
 #include <cfenv>
 
 #include "detector/assembly.h"
+#include "detector/contact_place.h"
 #include "tests/detector/plugin/builtin_fixture.h"
 #include "tests/meshes.h"
 
@@ -104,6 +105,11 @@ class Numbers {
     add(static_cast<std::uint64_t>(limit.answer));
     add(limit.problem), add(limit.share), add(limit.positions), add(limit.first);
   }
+  void add(const ContactPlace& place) {
+    add(place.point), add(place.barycentric[0]), add(place.barycentric[1]), add(place.error);
+    if (place.normal) add(*place.normal);
+    add(place.normal_error);
+  }
   void add(const SavedState& state) {
     for (const auto byte : state.bytes()) add(std::uint64_t{byte});
   }
@@ -154,7 +160,10 @@ std::vector<std::uint64_t> answers(const Moved& mesh, const Options& options) {
   const auto& [triangles, x_t0, x_t1] = mesh;
   Numbers numbers;
   auto detector = Detector::create(triangles, x_t0, options).value();
-  numbers.add(detector.evaluate(x_t0, x_t1));
+  const auto result = detector.evaluate(x_t0, x_t1);
+  numbers.add(result);
+  for (const auto& contact : result.pairs)
+    numbers.add(contact_place({x_t0, x_t1}, triangles, contact));
   numbers.add(detector.commit());
   const auto saved = detector.state();
   numbers.add(saved);
