@@ -81,28 +81,29 @@ void put_on(std::array<Point, 4>& x, std::size_t first_group, const Point& way, 
 
 int units_at_a_feature(Random& random) {
   const int kind = random.below(6);
-  if (kind < 3) return 0;
-  return kind == 3 ? -random.between(1, 4) : random.between(1, 16);
+  if (kind < 4) return 0;
+  return kind == 4 ? -random.between(1, 4) : random.between(1, 16);
 }
 
 EverydayNumbers::EverydayNumbers(Random& random) : size_(everyday_size(random)) {
-  rounding_ = static_cast<Rounding>(random.below(5));
+  rounding_ = static_cast<Rounding>(random.below(9) / 2);
   motion_ = static_cast<Motion>(random.below(3));
   constexpr double divisors[] = {3, 7, 11, 60}, time_steps[] = {1. / 24, 1. / 60, 0.01, 0.001};
   if (rounding_ == inches) multiplier_ = 0.0254;
   if (rounding_ == quotient) divisor_ = any_of(random, divisors);
+  if (rounding_ == none) size_ /= 3;  // a whole number times a point of few bits is exact
   time_step_ = any_of(random, time_steps);
-  // A size has 100 to 100,000 grains.
+  // A size has 100 to 10,000,000 grains.
   grain_ = 6;
   while (decimal(1, grain_) > size_) --grain_;
-  grain_ -= random.between(2, 4);
+  grain_ -= random.between(2, 6);
   // Where the way is longer than its end is from 0, x1 - x0 is rounded.
   for (double& c : offset_) {
     const double part = random.signed_unit();
-    c = random.one_in(8) ? 0 : std::ldexp(part, random.between(-7, 2));
+    c = random.one_in(8) ? 0 : std::ldexp(part, random.between(-9, 0));
   }
   // By three turns, one about each axis.
-  is_turned_ = random.one_in(2);
+  is_turned_ = random.one_in(3);
   rows_ = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   for (std::size_t k = 0; k < 3; ++k) {
     const double angle = random.unit();
@@ -322,7 +323,7 @@ Draft falling_piece(Random& random, bool closed, int size) {
   d.frames = {apart, landed};
   // What is flat slides well: all of it in one plane.
   const bool is_flat = landing.vertices.size() == d.rest().size() - at(offset);
-  const int kind = is_flat && !random.one_in(4) ? 3 : random.below(10);
+  const int kind = is_flat && !random.one_in(4) ? 3 : random.below(14);
   if (is_flat && kind == 3) landing.units = 0;
   if (kind == 0) {
     d.frames = {landed, apart};

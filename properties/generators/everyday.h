@@ -24,7 +24,7 @@ double units_beyond(double c, int units, double towards);
 // units beyond. One point touches a face and two touch an edge, by the exact sign of their volume.
 void put_on(std::array<Point, 4>& x, std::size_t first_group, const Point& way, int units);
 
-// Draws how far beyond a feature something ends: 0 for every second one, else 1 to 16 units of the
+// Draws how far beyond a feature something ends: 0 for two of three, else 1 to 16 units of the
 // last place, or now and then 1 to 4 short of it.
 int units_at_a_feature(Random& random);
 

@@ -117,8 +117,11 @@ namespace {
 
 int any_size(Random& random, const Recipe& recipe) {
   const int share = random.below(100);
-  if (recipe.everyday && share < 80) return random.between(recipe.closed ? 4 : 2, 12);
-  if (recipe.everyday) return random.between(12, 40);
+  if (recipe.everyday) {
+    const int least = recipe.closed ? 4 : 2;
+    if (share < 60) return random.between(least, 2 * least);
+    return share < 90 ? random.between(2 * least, 12) : random.between(12, 40);
+  }
   const int large = recipe.exact || recipe.far ? 2 : 5;
   if (share < 50) return random.between(4, 12);
   if (share < 100 - 4 * large) return random.between(12, 40);

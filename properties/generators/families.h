@@ -5,10 +5,11 @@
 //
 // Sizes in triangles: half of the cases 4..12, 30 % 12..40, 15 % 40..100, 5 % 100..200. In
 // degenerate and far families, where a step takes the oracle longest, the last three are 42 %, 6 %
-// and 2 %. Everyday families have 80 % of 2..12, and 20 % of 12..40. (Shapes come as near to a size
-// as they can; what is broken or has pieces may have a few triangles more.) Steps: 60 % of the
-// cases have 1, 20 % 2, 12 % 3, 8 % 4..8; cases above 40 triangles have at most 3, those made to be
-// positive at most 2.
+// and 2 %. Everyday families have 60 % of 2..4 (closed ones of 8), 30 % of up to 12, and 10 % of
+// 12..40, so that a slow detector is judged by many. (Shapes come as near to a size as they can;
+// what is broken or has pieces may have a few triangles more.) Steps: 60 % of the cases have 1,
+// 20 % 2, 12 % 3, 8 % 4..8; cases above 40 triangles have at most 3, those made to be positive at
+// most 2.
 #pragma once
 
 #include <span>

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <span>
 
 #include "corpus/atomic_file.h"
 #include "properties/campaign/ledger/run_folder.h"
@@ -115,6 +117,8 @@ Expected<void> write_picture(SceneMaker& scenes, const Kept& kept, const FileOf&
 
 using properties::StoredFailure;
 
+constexpr std::size_t kinds_shown = 10;
+
 // The shrunk ones first, and the least odd of these. The first of each signature stands for it.
 std::vector<StoredFailure> in_order(std::vector<StoredFailure> failures) {
   std::stable_sort(failures.begin(), failures.end(), [](const auto& a, const auto& b) {
@@ -127,6 +131,12 @@ std::vector<StoredFailure> in_order(std::vector<StoredFailure> failures) {
 
 std::string smallest_size(const StoredFailure& failure) {
   return size_of_mesh(failure.smallest.empty() ? failure.mesh : failure.smallest);
+}
+
+std::size_t triangles_of(const StoredFailure& failure) {
+  const auto& text = failure.smallest.empty() ? failure.mesh : failure.smallest;
+  const auto c = corpus::parse_case(text, "stored case");
+  return c ? static_cast<std::size_t>(c.value().triangles.rows()) : 0;
 }
 
 // The size as it was met, and the smallest where that is another one: a query has none.
@@ -176,14 +186,24 @@ Expected<void> write_failures(const properties::KeptFailures& kept,
         return rank(a) < rank(b);
       });
   text += paragraph(first, properties::times_text(met(first)), out, detector);
-  for (const auto* kind : kinds) {
+  std::erase(kinds, &first);
+  std::map<const StoredFailure*, std::size_t> triangles;
+  for (const auto* kind : kinds) triangles[kind] = triangles_of(*kind);
+  std::stable_sort(kinds.begin(), kinds.end(),
+                   [&](const auto* a, const auto* b) { return triangles[a] < triangles[b]; });
+  const auto shown = std::min(kinds.size(), kinds_shown - 1);
+  for (const auto* kind : std::span(kinds).first(shown)) {
     const auto& [name, configuration] = std::tie(kind->signature, kind->configuration);
-    if (kind == &first) continue;
     text += fmt::format("DEFECT {}{}, met {}: {}\n", name,
                         configuration == first.configuration ? "" : " (" + configuration + ")",
                         properties::times_text(met(*kind)), smallest_size(*kind));
   }
-  if (kinds.size() > 1)
+  std::uint64_t times = 0;
+  for (const auto* kind : std::span(kinds).subspan(shown)) times += met(*kind);
+  if (times > 0)
+    text += fmt::format("and {} more kinds, met {}\n", kinds.size() - shown,
+                        properties::times_text(times));
+  if (!kinds.empty())
     text += fmt::format(
         "each with the line that replays it: {}\n",
         line_to_paste("list failures " + shell_word(out.string()), PastedIn::this_folder));
