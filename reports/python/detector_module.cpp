@@ -2,10 +2,13 @@
 #include <pybind11/pybind11.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <limits>
 
 #include "detector/contact/elementary.h"
+#include "detector/contact_place.h"
 #include "detector/detector.h"
 #include "detector/parallel/processor_state.h"
 #include "properties/judging/case_options.h"
@@ -207,6 +210,84 @@ py::tuple answers(const py::object& x_t0, const py::object& x_t1, int first_grou
   return py::make_tuple(hit, lo, hi);
 }
 
+using IntegerArray = py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>;
+using TimeArray = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+constexpr py::ssize_t numbers_of_a_feature = 6;
+
+// How many vertices a feature of this kind has, or -1 if there is no such kind.
+py::ssize_t vertices_of(std::int32_t kind) {
+  constexpr std::array<py::ssize_t, 4> of_kinds = {4, 4, 5, 0};
+  const auto place = static_cast<std::size_t>(kind);
+  return place < of_kinds.size() ? of_kinds[place] : -1;
+}
+
+// Refuses indices that are out of range, because a result may have been made by hand.
+void demand_contacts(const IntegerArray& pairs, const TimeArray& times,
+                     const IntegerArray& features, Eigen::Index triangles, Eigen::Index vertices) {
+  const bool are_rows = pairs.ndim() == 2 && pairs.shape(1) == 2 && times.ndim() == 2 &&
+                        times.shape(1) == 2 && features.ndim() == 2 &&
+                        features.shape(1) == numbers_of_a_feature;
+  if (!are_rows || times.shape(0) != pairs.shape(0) || features.shape(0) != pairs.shape(0))
+    throw py::value_error("pairs (k, 2), times (k, 2) and features (k, 6) are wanted");
+  for (py::ssize_t i = 0; i < pairs.size(); ++i) {
+    if (pairs.data()[i] < 0 || pairs.data()[i] >= triangles)
+      throw py::value_error("pairs: no such triangle");
+  }
+  for (py::ssize_t k = 0; k < features.shape(0); ++k) {
+    const auto* feature = features.data(k, 0);
+    // A feature without any vertex comes from a detector that names no features.
+    const bool is_named = feature[1] >= 0;
+    const py::ssize_t needed = is_named ? vertices_of(feature[0]) : 0;
+    bool fits = vertices_of(feature[0]) >= 0;
+    for (py::ssize_t i = 1; i <= needed; ++i) fits &= 0 <= feature[i] && feature[i] < vertices;
+    if (!fits) throw py::value_error("features: no such kind or vertex");
+  }
+}
+
+// The place of each contact at its first time: points k x 3, barycentric coordinates k x 2 x 3,
+// errors k, normals k x 3 and their errors k. NaN is what is not there: a normal, or all of it where
+// the feature has no name.
+py::tuple contact_places(const py::object& triangles, const py::object& x_t0,
+                         const py::object& x_t1, const IntegerArray& pairs, const TimeArray& times,
+                         const IntegerArray& features) {
+  const TrianglesArgument mesh(triangles, "triangles");
+  const PositionsArgument from(x_t0, "x_t0"), to(x_t1, "x_t1");
+  const auto rows = mesh.view();
+  const Eigen::Index vertices = from.view().rows();
+  if (to.view().rows() != vertices) throw py::value_error("x_t0 and x_t1 differ in length");
+  if (rows.size() > 0 && (rows.minCoeff() < 0 || rows.maxCoeff() >= vertices))
+    throw py::value_error("triangles: no such vertex");
+  demand_contacts(pairs, times, features, rows.rows(), vertices);
+  const py::ssize_t count = pairs.shape(0);
+  constexpr py::ssize_t axes = 3;
+  py::array_t<double> points({count, axes}), normals({count, axes}), errors(count),
+      normal_errors(count), weights({count, py::ssize_t{2}, axes});
+  const auto store = [](py::array_t<double>& array, py::ssize_t k, const detector::Point& p) {
+    std::copy(p.begin(), p.end(), array.mutable_data() + axes * k);
+  };
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  for (py::ssize_t k = 0; k < count; ++k) {
+    detector::PairContact contact;
+    contact.pair = {pairs.at(k, 0), pairs.at(k, 1)};
+    contact.time = {times.at(k, 0), times.at(k, 1)};
+    contact.feature.kind = static_cast<detector::FeatureKind>(features.at(k, 0));
+    for (std::size_t i = 0; i < contact.feature.vertices.size(); ++i)
+      contact.feature.vertices[i] = features.at(k, static_cast<py::ssize_t>(i) + 1);
+    detector::ContactPlace place = {
+        {nan, nan, nan}, {{{nan, nan, nan}, {nan, nan, nan}}}, nan, {}, nan};
+    if (contact.feature.vertices[0] >= 0)
+      place = detector::contact_place({from.view(), to.view()}, rows, contact);
+    store(points, k, place.point);
+    store(normals, k, place.normal.value_or(detector::Point{nan, nan, nan}));
+    for (std::size_t i = 0; i < 2; ++i)
+      store(weights, 2 * k + static_cast<py::ssize_t>(i), place.barycentric[i]);
+    errors.mutable_at(k) = place.error;
+    normal_errors.mutable_at(k) = place.normal ? place.normal_error : nan;
+  }
+  return py::make_tuple(points, weights, errors, normals, normal_errors);
+}
+
 }  // namespace
 }  // namespace assay::python
 
@@ -227,6 +308,7 @@ PYBIND11_MODULE(_detector, module) {
       .def("state", &PythonDetector::state)
       .def("restore", &PythonDetector::restore)
       .def("reset", &PythonDetector::reset);
+  module.def("contact_places", contact_places);
   module.def("vertex_face",
              [](const py::object& x_t0, const py::object& x_t1) { return answers(x_t0, x_t1, 1); });
   module.def("edge_edge",

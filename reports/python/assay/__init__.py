@@ -11,7 +11,7 @@ reports/python/README.md has an example of everything.
 from typing import List
 
 from ._detector import VERSION as __version__
-from .detector import OPTIONS, Detector, State, edge_edge, vertex_face
+from .detector import OPTIONS, Detector, State, contact_places, edge_edge, vertex_face
 from .errors import AssayError, InputError
 from .frames import Frames, read_frames
 from .judging import (
@@ -36,6 +36,7 @@ from .results import (
     DIRTY,
     FEATURE_KINDS,
     VIOLATED,
+    ContactPlaces,
     Contacts,
     Judgement,
     Limit,
@@ -51,6 +52,7 @@ __all__ = [
     "CheckReport",
     "CheckedStep",
     "Contact",
+    "ContactPlaces",
     "Contacts",
     "DIRTY",
     "Detector",
@@ -77,6 +79,7 @@ __all__ = [
     "WrongTime",
     "certify",
     "check",
+    "contact_places",
     "edge_edge",
     "first_time_within",
     "judge",

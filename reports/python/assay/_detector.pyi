@@ -38,3 +38,11 @@ Answers = Tuple[npt.NDArray[np.bool_], npt.NDArray[np.float64], npt.NDArray[np.f
 
 def vertex_face(x_t0: npt.ArrayLike, x_t1: npt.ArrayLike) -> Answers: ...
 def edge_edge(x_t0: npt.ArrayLike, x_t1: npt.ArrayLike) -> Answers: ...
+def contact_places(
+    triangles: npt.ArrayLike,
+    x_t0: npt.ArrayLike,
+    x_t1: npt.ArrayLike,
+    pairs: npt.NDArray[np.int32],
+    times: npt.NDArray[np.float64],
+    features: npt.NDArray[np.int32],
+) -> Tuple[npt.NDArray[np.float64], ...]: ...

@@ -35,11 +35,3 @@ def read_case(
     file: str,
 ) -> Tuple[npt.NDArray[np.int32], List[npt.NDArray[np.float64]]]: ...
 def findings(folder: str) -> str: ...
-def contact_points(
-    triangles: npt.ArrayLike,
-    x_t0: npt.ArrayLike,
-    x_t1: npt.ArrayLike,
-    pairs: npt.NDArray[np.int32],
-    times: npt.NDArray[np.float64],
-    features: npt.NDArray[np.int32],
-) -> npt.NDArray[np.float64]: ...

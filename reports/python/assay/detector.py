@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Union
+
 from numpy.typing import ArrayLike
 
-from . import _detector
-from .results import Contacts, Limit, StepResult, step_result
+from . import _detector, arrays
+from .results import ContactPlaces, Contacts, Judgement, Limit, StepResult, step_result
 
 OPTIONS = _detector.OPTIONS  # the words of each option
 
@@ -137,3 +139,12 @@ def vertex_face(x_t0: ArrayLike, x_t1: ArrayLike) -> Contacts:
 def edge_edge(x_t0: ArrayLike, x_t1: ArrayLike) -> Contacts:
     """The same of edges: the two ends of the one, then those of the other."""
     return Contacts(*_detector.edge_edge(x_t0, x_t1))
+
+
+def contact_places(result: Union[StepResult, Judgement]) -> ContactPlaces:
+    """Where the pairs of a result meet, for who responds to contacts; about a microsecond a pair."""
+    mesh = arrays.triangles(result.triangles, "triangles")
+    x_t0, x_t1 = arrays.positions(result.x_t0, "x_t0"), arrays.positions(result.x_t1, "x_t1")
+    return ContactPlaces(
+        *_detector.contact_places(mesh, x_t0, x_t1, result.pairs, result.times, result.features)
+    )

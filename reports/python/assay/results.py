@@ -210,6 +210,27 @@ class Contacts:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class ContactPlaces:
+    """Where k pairs meet, each at the first time (its lower bound).
+
+    point: float64 (k, 3); barycentric: float64 (k, 2, 3), its weights in both triangles.
+    error: float64 (k,): no coordinate of the point is farther from the weighted corners of either.
+    normal: float64 (k, 3), unit: of the face, or of both edges; NaN where there is none.
+    normal_error: float64 (k,): no coordinate of the normal is off by more.
+    All of a pair is NaN where its feature has no name.
+    """
+
+    point: Float64Array
+    barycentric: Float64Array
+    error: Float64Array
+    normal: Float64Array
+    normal_error: Float64Array
+
+    def __repr__(self) -> str:
+        return f"<assay.ContactPlaces: {len(self.point)} pairs>"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Judgement(_Step):
     """The oracle's answer of a step; fields as those of StepResult of the same names."""
 

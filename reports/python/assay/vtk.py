@@ -6,6 +6,7 @@ from typing import Union
 import numpy as np
 
 from .arrays import positions, triangles
+from .detector import contact_places
 from .errors import InputError
 from .results import DIRTY, VIOLATED, Judgement, StepResult
 
@@ -22,15 +23,13 @@ def write_vtk(result: Union[StepResult, Judgement], path: Union[str, "os.PathLik
     """
     import meshio
 
-    from . import _judge
-
     if not isinstance(result, (StepResult, Judgement)):
         raise TypeError(f"result: a StepResult or a Judgement is wanted, not {type(result).__name__}")
     if os.path.splitext(os.fspath(path))[1] not in (".vtu", ".vtk"):
         raise InputError(f"{os.fspath(path)}: the name has to end with .vtu or .vtk", "unknown_ending")
     mesh = triangles(result.triangles, "triangles")
     x_t0, x_t1 = positions(result.x_t0, "x_t0"), positions(result.x_t1, "x_t1")
-    places = _judge.contact_points(mesh, x_t0, x_t1, result.pairs, result.times, result.features)
+    places = contact_places(result).point
     shown = np.isfinite(places).all(axis=1)
     pairs, times, places = result.pairs[shown], result.times[shown, 0], places[shown]
 

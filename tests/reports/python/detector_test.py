@@ -10,6 +10,7 @@ import subprocess
 import sys
 import threading
 import tracemalloc
+from dataclasses import replace
 from fractions import Fraction
 
 import conftest
@@ -367,3 +368,39 @@ def test_the_state_of_the_processor_changes_no_answer(bits):
         odd, kept = answers(), state()
     assert odd == usual
     assert kept == bits
+
+
+def test_the_places_of_contacts_are_on_both_triangles(cloud):
+    result = assay.Detector(cloud.triangles, cloud.x_t0).evaluate(cloud.x_t0, cloud.x_t1)
+    places = assay.contact_places(result)
+    assert len(places.point) == len(result.pairs) > 10
+    assert repr(places) == f"<assay.ContactPlaces: {len(result.pairs)} pairs>"
+    for k, two in enumerate(result.pairs):
+        t = Fraction(float(result.times[k, 0]))
+        for side, triangle in enumerate(two):
+            weights = [Fraction(float(w)) for w in places.barycentric[k, side]]
+            assert min(weights) >= 0 and abs(sum(weights) - 1) < 1e-15
+            for axis in range(3):
+                at = 0
+                for weight, vertex in zip(weights, cloud.triangles[triangle]):
+                    a, b = (Fraction(float(x[vertex, axis])) for x in (cloud.x_t0, cloud.x_t1))
+                    at += weight * (a + t * (b - a))
+                off = abs(at - Fraction(float(places.point[k, axis])))
+                assert off <= Fraction(float(places.error[k]))
+    unit = np.linalg.norm(places.normal, axis=1)
+    assert np.all(np.isnan(unit) | (abs(unit - 1) < 1e-12)) and np.sum(np.isfinite(unit)) > 10
+    assert np.array_equal(np.isnan(unit), np.isnan(places.normal_error))
+    judged = assay.contact_places(assay.judge(cloud.triangles, cloud.x_t0, cloud.x_t1))
+    assert len(judged.point) == len(places.point)
+
+
+def test_a_contact_without_a_named_feature_has_no_place(pair):
+    result = assay.Detector(pair.triangles, pair.x_t0).evaluate(pair.x_t0, pair.x_t1)
+    unnamed = replace(result, features=np.full_like(result.features, -1) * [0, 1, 1, 1, 1, 1])
+    places = assay.contact_places(unnamed)
+    for part in (places.point, places.barycentric, places.error, places.normal):
+        assert len(part) == len(result.pairs) and np.all(np.isnan(part))
+    with pytest.raises(ValueError, match="pairs: no such triangle"):
+        assay.contact_places(replace(result, pairs=result.pairs + 8))
+    with pytest.raises(ValueError, match="features: no such kind or vertex"):
+        assay.contact_places(replace(result, features=result.features + 8))
