@@ -144,7 +144,11 @@ Expected<std::unique_ptr<StepAnswers>> answers_of_built_in(const BuiltInChoice& 
                                                            const CheckInput& input,
                                                            Limits& limits) {
   detector::Options options;
-  if (const auto* c = input.steps->case_file()) options = properties::options_of(*c);
+  const auto* c = input.steps->case_file();
+  if (c) options = properties::options_of(*c);
+  // Views are for many steps. One alone that nothing moves in costs them several times as much.
+  if (input.steps->is_at_rest() && !(c && c->options.contains("culling")))
+    options.culling = detector::Culling::bvh;
   options.culling = choice.culling.value_or(options.culling);
   options.start = choice.start.value_or(options.start);
   options.pairs = choice.pairs.value_or(options.pairs);

@@ -106,7 +106,7 @@ class StepAnswers {
 };
 
 // The options of the built-in detector that the user states. The others are those of the case, or
-// else the defaults.
+// else the defaults; a mesh at rest is culled by bvh then.
 struct BuiltInChoice {
   std::optional<detector::Culling> culling;
   std::optional<detector::Start> start;

@@ -21,7 +21,7 @@ struct StepContacts {
 
   // The first `most` of them, earliest first, a line each, and how many more there are. If one is
   // in contact from the start, it touches or crosses; one that comes into contact later touches,
-  // and may cross at the end of the step. At rest also how many of all cross.
+  // and may cross at the end of the step. At rest also how many of all cross, up to 20,000.
   std::string text(std::size_t most) const;
   // All of them, in their order (`contacts` of reports/schemas/check.schema.json).
   nlohmann::ordered_json json() const;

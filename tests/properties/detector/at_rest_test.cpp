@@ -1,8 +1,9 @@
-// Meshes at rest: detector and oracle find the pairs that CGAL's static tests find one by one.
+// Meshes at rest: detector and oracle find the pairs that CGAL's static tests find one by one, and
+// the referee contradicts none.
 #include "corpus/hard/hard_families.h"
 #include "detector/detector.h"
 #include "oracle/mesh/step.h"
-#include "oracle/referee/static_check.h"
+#include "oracle/referee/second_opinion.h"
 #include "tests/properties/small_case.h"
 
 namespace assay::properties {
@@ -19,6 +20,8 @@ std::vector<TrianglePair> pairs_of(const std::vector<detector::PairContact>& con
   return pairs;
 }
 
+std::uint64_t queries_of_the_referee = 0;  // that it decided
+
 // Returns how many pairs are in contact.
 std::size_t expect_agreement(const std::string& id, const detector::Triangles& triangles,
                              const detector::Positions& x) {
@@ -29,7 +32,12 @@ std::size_t expect_agreement(const std::string& id, const detector::Triangles& t
       if (oracle::triangles_meet(rest, triangles, {a, b}, 0.0)) met.push_back({a, b});
     }
   }
-  EXPECT_EQ(pairs_of(oracle::judge_step(rest, triangles, {}).pairs), met) << id;
+  const auto judgement = oracle::judge_step(rest, triangles, {});
+  EXPECT_EQ(pairs_of(judgement.pairs), met) << id;
+  // The referee has no cubic and no roots: it asks for a direction between the features.
+  const auto second = oracle::second_opinion(rest, triangles, judgement, {});
+  EXPECT_TRUE(second.complete && second.contradictions.empty()) << id;
+  queries_of_the_referee += second.contact + second.no_contact;
   auto made = detector::Detector::create(triangles, x, {});
   EXPECT_TRUE(made) << id;
   if (!made) return 0;
@@ -49,6 +57,7 @@ TEST(AtRest, RandomMeshesMeetThemselvesAsStaticTestsSay) {
   }
   EXPECT_GT(met, 20U);
   EXPECT_GT(free, 20U);
+  EXPECT_GT(queries_of_the_referee, 2'000U);
 }
 
 TEST(AtRest, HardMeshesMeetThemselvesAsStaticTestsSay) {

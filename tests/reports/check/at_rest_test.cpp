@@ -42,6 +42,9 @@ TEST_F(AtRest, OneFrameIsAskedWhetherItMeetsItself) {
   EXPECT_TRUE(contains(meets.out, "the mesh meets itself: 1 pair; detector and oracle agree\n"));
   EXPECT_FALSE(contains(meets.out, "t = ")) << meets.out;
   EXPECT_EQ(report()["at_rest"], true);
+  EXPECT_EQ(report()["culling"], "bvh");
+  check(pair("crossing.obj", "-1") + " --culling auto");
+  EXPECT_EQ(report()["culling"], "auto");
   EXPECT_EQ(check(pair("crossing.obj", "-1") + " --fail-on-collision").exit_code, 5);
 
   const auto free = check(pair("free.obj", "1") + " --fail-on-collision");
@@ -72,6 +75,7 @@ TEST_F(AtRest, APlugInIsJudgedToo) {
   const auto right = check(file + " --detector " + plugin("wrapped_builtin"));
   EXPECT_EQ(right.exit_code, 0) << right.out << right.err;
   EXPECT_TRUE(contains(right.out, "the mesh meets itself: 1 pair; ")) << right.out;
+  EXPECT_TRUE(contains(right.out, "  crossing: 1, touching: 0\n")) << right.out;
   const auto wrong =
       check(file + " --detector " + plugin("wrong_wrapper") + " --keep " + (scratch / "kept"));
   EXPECT_EQ(wrong.exit_code, 1) << wrong.out << wrong.err;
@@ -112,7 +116,7 @@ TEST_F(AtRest, ABodyInsideOfAnotherIsTold) {
       check("--body " + box("small.obj", {0, 1, 1}, 1) + " --body " + box("big.obj", {0, 0, 0}, 4));
   EXPECT_FALSE(contains(touched.out, "lies inside")) << touched.out;
   EXPECT_TRUE(contains(touched.out, ", touching\n")) << touched.out;
-  EXPECT_TRUE(contains(touched.out, "  0 of ")) << touched.out;
+  EXPECT_TRUE(contains(touched.out, "  crossing: 0, touching: ")) << touched.out;
   // A box without a lid holds nothing.
   auto open = read_text(scratch / "big.obj");
   open.resize(open.rfind("f "));
