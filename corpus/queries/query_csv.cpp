@@ -26,16 +26,23 @@ constexpr std::size_t rows_a_query = 8;
 
 enum class Kind { vertex_face, edge_edge };
 
+// Of vertex_face.csv, too.
+std::string with_hyphens(std::string name) {
+  std::ranges::replace(name, '_', '-');
+  return name;
+}
+
 std::optional<Kind> kind_of(const std::filesystem::path& path) {
   std::filesystem::path name = path.filename();
   if (name.extension() == ".gz") name.replace_extension();
-  const std::string stem = name.stem().string();
+  const std::string stem = with_hyphens(name.stem().string());
   if (stem.ends_with("vf") || stem.starts_with("vertex-face")) return Kind::vertex_face;
   if (stem.ends_with("ee") || stem.starts_with("edge-edge")) return Kind::edge_edge;
   // If both names are in the path, the nearest folder rules.
   for (auto folder = path.parent_path(); folder.has_filename(); folder = folder.parent_path()) {
-    if (folder.filename() == "vertex-face") return Kind::vertex_face;
-    if (folder.filename() == "edge-edge") return Kind::edge_edge;
+    const auto kind = with_hyphens(folder.filename().string());
+    if (kind == "vertex-face") return Kind::vertex_face;
+    if (kind == "edge-edge") return Kind::edge_edge;
   }
   return std::nullopt;
 }

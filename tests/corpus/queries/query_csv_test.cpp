@@ -97,8 +97,10 @@ TEST_F(QueryCsv, DecimalsAsPeoplePostThem) {
 }
 
 TEST_F(QueryCsv, KindIsToldByThePathOrNamed) {
-  for (const auto& [name, first] :
-       {std::pair{"vertex-face-double.csv", 1}, {"edge-edge-distance-float32.csv", 2}}) {
+  for (const auto& [name, first] : {std::pair{"vertex-face-double.csv", 1},
+                                    {"edge-edge-distance-float32.csv", 2},
+                                    {"edge_edge.csv", 2},
+                                    {"vertex_face/q.csv", 1}}) {
     const auto queries = read_queries(write(name, rows("")));
     ASSERT_TRUE(queries) << queries.error().message;
     EXPECT_EQ(queries.value()[0].query.first_group, first);
