@@ -26,7 +26,7 @@ constexpr std::size_t rows_a_query = 8;
 
 enum class Kind { vertex_face, edge_edge };
 
-// Of vertex_face.csv, too.
+// An underscore does for a hyphen.
 std::string with_hyphens(std::string name) {
   std::ranges::replace(name, '_', '-');
   return name;

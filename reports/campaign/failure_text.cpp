@@ -133,6 +133,10 @@ std::string smallest_size(const StoredFailure& failure) {
   return size_of_mesh(failure.smallest.empty() ? failure.mesh : failure.smallest);
 }
 
+std::string claim_of(const StoredFailure& failure) {
+  return failure.signature.substr(0, failure.signature.find(':'));
+}
+
 std::size_t triangles_of(const StoredFailure& failure) {
   const auto& text = failure.smallest.empty() ? failure.mesh : failure.smallest;
   const auto c = corpus::parse_case(text, "stored case");
@@ -189,9 +193,18 @@ Expected<void> write_failures(const properties::KeptFailures& kept,
   std::erase(kinds, &first);
   std::map<const StoredFailure*, std::size_t> triangles;
   for (const auto* kind : kinds) triangles[kind] = triangles_of(*kind);
-  std::stable_sort(kinds.begin(), kinds.end(),
-                   [&](const auto* a, const auto* b) { return triangles[a] < triangles[b]; });
+  const auto smaller = [&](const auto* a, const auto* b) { return triangles[a] < triangles[b]; };
+  std::stable_sort(kinds.begin(), kinds.end(), smaller);
+  // The smallest of each claim comes first, so that no broken claim is among the rest.
+  std::set<std::string> claims = {claim_of(first)};
+  std::set<const StoredFailure*> first_of_a_claim;
+  for (const auto* kind : kinds) {
+    if (claims.insert(claim_of(*kind)).second) first_of_a_claim.insert(kind);
+  }
+  std::stable_partition(kinds.begin(), kinds.end(),
+                        [&](const auto* kind) { return first_of_a_claim.contains(kind); });
   const auto shown = std::min(kinds.size(), kinds_shown - 1);
+  std::stable_sort(kinds.begin(), kinds.begin() + static_cast<std::ptrdiff_t>(shown), smaller);
   for (const auto* kind : std::span(kinds).first(shown)) {
     const auto& [name, configuration] = std::tie(kind->signature, kind->configuration);
     text += fmt::format("DEFECT {}{}, met {}: {}\n", name,

@@ -246,8 +246,8 @@ void demand_contacts(const IntegerArray& pairs, const TimeArray& times,
 }
 
 // The place of each contact at its first time: points k x 3, barycentric coordinates k x 2 x 3,
-// errors k, normals k x 3 and their errors k. NaN is what is not there: a normal, or all of it where
-// the feature has no name.
+// errors k, normals k x 3 and their errors k. A normal that is not there is NaN, and so is all of
+// a place whose feature has no name.
 py::tuple contact_places(const py::object& triangles, const py::object& x_t0,
                          const py::object& x_t1, const IntegerArray& pairs, const TimeArray& times,
                          const IntegerArray& features) {
