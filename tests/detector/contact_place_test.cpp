@@ -6,6 +6,7 @@
 #include <random>
 
 #include "detector/detector.h"
+#include "tests/asked.h"
 #include "tests/detector/points.h"
 
 namespace assay::detector {
@@ -84,11 +85,12 @@ TEST(ContactPlace, OfAVertexThatSinksIntoAFace) {
 }
 
 TEST(ContactPlace, IsWithinItsErrorOfBothTriangles) {
-  std::mt19937_64 random(5203);
+  const auto steps = tests::asked("ASSAY_CASES", 4000);
+  std::mt19937_64 random(tests::asked("ASSAY_SEED", 5203));
   std::map<FeatureKind, int> of_kind;
   int with_normal = 0, rough = 0, contacts = 0;
-  for (int i = 0; i < 4000; ++i) {
-    const auto motion = random_motion(random, i);
+  for (std::uint64_t i = 0; i < steps; ++i) {
+    const auto motion = random_motion(random, static_cast<int>(i % 15));
     auto made = Detector::create(motion.f, motion.x_t0, {});
     ASSERT_TRUE(made) << i;
     for (const auto& contact : made.value().step(motion.x_t0, motion.x_t1).pairs) {
@@ -134,6 +136,7 @@ TEST(ContactPlace, IsWithinItsErrorOfBothTriangles) {
   }
   for (const auto kind : {FeatureKind::vertex_face, FeatureKind::edge_edge, FeatureKind::piercing})
     EXPECT_GT(of_kind[kind], 50) << name_of(kind);
+  RecordProperty("contacts", contacts);
   EXPECT_GT(with_normal, 1000);
   EXPECT_LE(rough, contacts / 1000) << contacts;
 }
