@@ -86,6 +86,7 @@ int units_at_a_feature(Random& random) {
 }
 
 EverydayNumbers::EverydayNumbers(Random& random) : size_(everyday_size(random)) {
+  // float32 half as often as each other: its differences are exact in doubles.
   rounding_ = static_cast<Rounding>(random.below(9) / 2);
   motion_ = static_cast<Motion>(random.below(3));
   constexpr double divisors[] = {3, 7, 11, 60}, time_steps[] = {1. / 24, 1. / 60, 0.01, 0.001};

@@ -222,26 +222,33 @@ py::ssize_t vertices_of(std::int32_t kind) {
   return place < of_kinds.size() ? of_kinds[place] : -1;
 }
 
-// Refuses indices that are out of range, because a result may have been made by hand.
+// Whether a feature names vertices. Those of triangles with the same vertices do not, nor do those of
+// a detector that names no features.
+bool is_named(const std::int32_t* feature) {
+  return feature[1] >= 0 && vertices_of(feature[0]) > 0;
+}
+
+// Refuses what is not of the mesh, because a result may have been made by hand.
 void demand_contacts(const IntegerArray& pairs, const TimeArray& times,
-                     const IntegerArray& features, Eigen::Index triangles, Eigen::Index vertices) {
+                     const IntegerArray& features, const detector::TrianglesView& triangles) {
   const bool are_rows = pairs.ndim() == 2 && pairs.shape(1) == 2 && times.ndim() == 2 &&
                         times.shape(1) == 2 && features.ndim() == 2 &&
                         features.shape(1) == numbers_of_a_feature;
   if (!are_rows || times.shape(0) != pairs.shape(0) || features.shape(0) != pairs.shape(0))
     throw py::value_error("pairs (k, 2), times (k, 2) and features (k, 6) are wanted");
   for (py::ssize_t i = 0; i < pairs.size(); ++i) {
-    if (pairs.data()[i] < 0 || pairs.data()[i] >= triangles)
+    if (pairs.data()[i] < 0 || pairs.data()[i] >= triangles.rows())
       throw py::value_error("pairs: no such triangle");
   }
   for (py::ssize_t k = 0; k < features.shape(0); ++k) {
     const auto* feature = features.data(k, 0);
-    // A feature without any vertex comes from a detector that names no features.
-    const bool is_named = feature[1] >= 0;
-    const py::ssize_t needed = is_named ? vertices_of(feature[0]) : 0;
     bool fits = vertices_of(feature[0]) >= 0;
-    for (py::ssize_t i = 1; i <= needed; ++i) fits &= 0 <= feature[i] && feature[i] < vertices;
-    if (!fits) throw py::value_error("features: no such kind or vertex");
+    const auto is_of = [&](py::ssize_t side, std::int32_t vertex) {
+      return (triangles.row(pairs.at(k, side)).array() == vertex).any();
+    };
+    for (py::ssize_t i = 1; is_named(feature) && i <= vertices_of(feature[0]); ++i)
+      fits &= is_of(0, feature[i]) || is_of(1, feature[i]);
+    if (!fits) throw py::value_error("features: no such kind, or a vertex that the pair has not");
   }
 }
 
@@ -258,7 +265,7 @@ py::tuple contact_places(const py::object& triangles, const py::object& x_t0,
   if (to.view().rows() != vertices) throw py::value_error("x_t0 and x_t1 differ in length");
   if (rows.size() > 0 && (rows.minCoeff() < 0 || rows.maxCoeff() >= vertices))
     throw py::value_error("triangles: no such vertex");
-  demand_contacts(pairs, times, features, rows.rows(), vertices);
+  demand_contacts(pairs, times, features, rows);
   const py::ssize_t count = pairs.shape(0);
   constexpr py::ssize_t axes = 3;
   py::array_t<double> points({count, axes}), normals({count, axes}), errors(count),
@@ -276,7 +283,7 @@ py::tuple contact_places(const py::object& triangles, const py::object& x_t0,
       contact.feature.vertices[i] = features.at(k, static_cast<py::ssize_t>(i) + 1);
     detector::ContactPlace place = {
         {nan, nan, nan}, {{{nan, nan, nan}, {nan, nan, nan}}}, nan, {}, nan};
-    if (contact.feature.vertices[0] >= 0)
+    if (is_named(features.data(k, 0)))
       place = detector::contact_place({from.view(), to.view()}, rows, contact);
     store(points, k, place.point);
     store(normals, k, place.normal.value_or(detector::Point{nan, nan, nan}));
