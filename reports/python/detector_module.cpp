@@ -222,8 +222,8 @@ py::ssize_t vertices_of(std::int32_t kind) {
   return place < of_kinds.size() ? of_kinds[place] : -1;
 }
 
-// Whether a feature names vertices. Those of triangles with the same vertices do not, nor do those of
-// a detector that names no features.
+// Whether a feature names vertices. That of triangles with the same vertices does not, nor does one
+// of a detector that names no features.
 bool is_named(const std::int32_t* feature) {
   return feature[1] >= 0 && vertices_of(feature[0]) > 0;
 }

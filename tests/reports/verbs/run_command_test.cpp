@@ -16,6 +16,15 @@ std::size_t defects_told(const std::string& text) {
   return count;
 }
 
+// The triangles of each kind that is told in a line.
+std::vector<int> sizes_told(const std::string& text) {
+  const std::regex triangles("\nDEFECT [^\n]*, met [^\n]*: ([0-9]+) triangles");
+  std::vector<int> sizes;
+  for (std::sregex_iterator at(text.begin(), text.end(), triangles), end; at != end; ++at)
+    sizes.push_back(std::stoi((*at)[1]));
+  return sizes;
+}
+
 TEST_F(Run, SaysWhatItWillDoAndHowItEnded) {
   const auto first = run("--seed 5 --jobs 2");
   EXPECT_EQ(first.exit_code, 0) << first.out << first.err;
@@ -116,16 +125,10 @@ TEST_F(Run, ADefectHasAllThatIsNeededToSeeIt) {
   const std::regex in_a_line("\nDEFECT [a-z-]+: [^\n]*, met [^\n]*: 2 triangles, [^\n]*, 1 step\n");
   std::smatch kind;
   EXPECT_TRUE(std::regex_search(outcome.out, kind, in_a_line)) << outcome.out;
-  // Ten kinds are told, those with the smallest meshes first; the rest is one count.
+  // Ten kinds are told; the rest is one count.
   ASSERT_GT(lines.size(), 10u) << listed.out;
   EXPECT_EQ(defects_told(outcome.out), 10u) << outcome.out;
   EXPECT_TRUE(contains(outcome.out, fmt::format("\nand {} more kinds, met ", lines.size() - 10)));
-  const std::regex triangles("\nDEFECT [^\n]*, met [^\n]*: ([0-9]+) triangles");
-  std::vector<int> sizes;
-  for (std::sregex_iterator at(outcome.out.begin(), outcome.out.end(), triangles), end; at != end;
-       ++at)
-    sizes.push_back(std::stoi((*at)[1]));
-  EXPECT_TRUE(std::is_sorted(sizes.begin(), sizes.end())) << outcome.out;
   for (const auto& line : lines) {
     EXPECT_TRUE(contains(line, "/failures/tiny-1-")) << line;
     EXPECT_TRUE(contains(line, "-smallest.json")) << line;
@@ -174,6 +177,11 @@ TEST_F(Run, PlugInsGetTheVerdictsThatTheyDeserve) {
   const auto alarm = verdict("always_collision");
   EXPECT_EQ(alarm.exit_code, 1) << alarm.out << alarm.err;
   EXPECT_TRUE(contains(alarm.out, "DEFECT no-spurious: ")) << alarm.out;
+  // Hardly any is shrunk: the smallest meshes come first.
+  const auto sizes = sizes_told(alarm.out);
+  ASSERT_EQ(sizes.size(), 9u) << alarm.out;
+  EXPECT_LT(sizes.front(), sizes.back()) << alarm.out;
+  EXPECT_TRUE(std::is_sorted(sizes.begin(), sizes.end())) << alarm.out;
 
   const auto fast = verdict("fast_math");
   EXPECT_EQ(fast.exit_code, 1) << fast.out << fast.err;
