@@ -51,6 +51,7 @@ def test_the_oracle_agrees_with_the_detector(cloud):
     assert np.array_equal(judgement.pairs, result.pairs)
     assert np.array_equal(judgement.times, result.times)
     assert judgement.feature_candidates > len(judgement.pairs)
+    assert len(assay.contact_places(judgement).point) == len(result.pairs)
 
 
 def falling():
