@@ -110,11 +110,7 @@ Json self_test_json(const RunFindings& findings) {
 Json corpus_json(const RunFindings& findings) {
   if (findings.evidence.corpus.empty()) return nullptr;
   Json rows = Json::array();
-  for (const auto& row : findings.evidence.corpus) {
-    Json json = facts_of(row);
-    for (auto& failed : json["failed"]) failed["waived"] = findings.is_waived(failed["signature"]);
-    rows.push_back(std::move(json));
-  }
+  for (const auto& row : findings.evidence.corpus) rows.push_back(facts_of(row));
   return rows;
 }
 
@@ -166,20 +162,6 @@ Json times_json(const RunFindings& findings) {
           {"files", std::move(files)}};
 }
 
-Json waivers_json(const RunFindings& findings) {
-  Json list = Json::array();
-  for (const auto& waiver : findings.evidence.waivers) {
-    const auto met = findings.times_met.find(waiver.signature);
-    std::uint64_t count = met == findings.times_met.end() ? 0 : met->second;
-    for (const auto& row : findings.evidence.corpus) {
-      for (const auto& failed : row.failed) count += failed.signature == waiver.signature ? 1 : 0;
-    }
-    list.push_back(named("signature", waiver.signature, waiver));
-    list.back()["met"] = count;
-  }
-  return list;
-}
-
 namespace {
 
 Json size_json(const std::string& text) {
@@ -203,7 +185,6 @@ Json failures_json(const properties::RunFindings& findings) {
                     {"claim", failure->signature.substr(0, failure->signature.find(':'))},
                     {"configuration", failure->configuration},
                     {"met", findings.met_count(*failure)},
-                    {"waived", findings.is_waived(failure->signature)},
                     {"flaky", failure->flaky},
                     {"what", shown_explanation(*failure)},
                     {"case", failure->id},

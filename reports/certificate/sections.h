@@ -31,10 +31,6 @@ nlohmann::ordered_json power_json(const properties::RunFindings& findings);
 // One object for each signature of a defect or of a broken law, with the line that replays it.
 nlohmann::ordered_json failures_json(const properties::RunFindings& findings);
 
-// The waivers of corpus/known.json as it was when the certificate was issued, and how often each
-// was met.
-nlohmann::ordered_json waivers_json(const properties::RunFindings& findings);
-
 // One {claim, reason} for each claim of which the verdict says nothing.
 nlohmann::ordered_json not_judged_json(const properties::RunFindings& findings);
 

@@ -68,7 +68,6 @@ Json digests_json(const RunFindings& findings, const std::string& campaign) {
   const auto& inputs = findings.evidence.inputs;
   Json json = json_of(findings.run.digests);
   json["corpus"] = inputs ? Json(inputs->corpus) : Json(nullptr);
-  json["waivers"] = inputs ? or_null(inputs->waivers) : Json(nullptr);
   json["campaign"] = campaign;
   json["rows"] = findings.rows;
   return json;
@@ -148,7 +147,6 @@ Json make_predicate(const RunFindings& findings, const properties::Judgement& ju
        {"repeated", repeated_json(findings)},
        {"search", search_json(findings)},
        {"failures", failures_json(findings)},
-       {"waivers", waivers_json(findings)},
        {"replay", replay_json(findings)},
        {"digests", digests_json(findings, campaign_digest)},
        {"times", times_json(findings)}});

@@ -70,9 +70,8 @@ std::string failures_text(const Json& p) {
       p["failures"].empty() ? "" : "\nLines to replay are for the folder of the run.\n";
   for (const auto& failure : p["failures"]) {
     const auto& after = failure["after"];
-    out += fmt::format("\n**{}** ({}{}), {}{}\n\n    {}\n", cell(failure["signature"]),
-                       cell(failure["configuration"]),
-                       failure["waived"].get<bool>() ? ", waived" : "", met_text(failure),
+    out += fmt::format("\n**{}** ({}), {}{}\n\n    {}\n", cell(failure["signature"]),
+                       cell(failure["configuration"]), met_text(failure),
                        after.is_null() || after.contains("query")
                            ? ""
                            : fmt::format("; shrunk to {} triangles, {} vertices",
@@ -299,15 +298,11 @@ Suite faults_suite(const Json& p) {
 Suite corpus_suite(const Json& p) {
   Suite suite{"corpus", {}};
   for (const auto& row : p["corpus"]) {
-    std::string lines, waived;
+    std::string lines;
     for (const auto& line : row["failed"])
-      (line["waived"].get<bool>() ? waived : lines) +=
-          fmt::format("{}: {}\n", text(line["id"]), text(line["what"]));
+      lines += fmt::format("{}: {}\n", text(line["id"]), text(line["what"]));
     suite.cases.push_back({text(row["input"]) + ", " + text(row["configuration"]),
-                           !lines.empty()    ? TestState::failed
-                           : !waived.empty() ? TestState::skipped
-                                             : TestState::holds,
-                           lines.empty() ? "waived: " + waived : lines});
+                           lines.empty() ? TestState::holds : TestState::failed, lines});
   }
   return suite;
 }
@@ -318,11 +313,8 @@ Suite failures_suite(const Json& p) {
     const auto line =
         fmt::format("{} ({}), {}; {}\n", text(failure["what"]), text(failure["configuration"]),
                     met_text(failure), text(failure["case"]));
-    const bool is_waived = failure["waived"].get<bool>();
-    suite.cases.push_back(
-        {text(failure["signature"]), is_waived ? TestState::skipped : TestState::failed,
-         is_waived ? "waived: " + line
-                   : line + "replay, in the folder of the run: " + text(failure["replay"])});
+    suite.cases.push_back({text(failure["signature"]), TestState::failed,
+                           line + "replay, in the folder of the run: " + text(failure["replay"])});
   }
   return suite;
 }

@@ -63,7 +63,6 @@ class Certification {
     // known.
     BOOST_OUTCOME_TRY(holds_shards(out_) ? take_shards() : open_store());
     store_subject();
-    BOOST_OUTCOME_TRY(store_waivers());
     BOOST_OUTCOME_TRY(run_corpus());
     BOOST_OUTCOME_TRY(forget_corpus_failures());
     BOOST_OUTCOME_TRY(store_ ? run_trials() : show_shards());
@@ -89,48 +88,15 @@ class Certification {
     keep(properties::asked_of_a_certificate());
   }
 
-  // If the owner gives cases or waivers, their digests are taken together with those of the
-  // shipped ones.
+  // If the owner gives cases, their digest is taken together with that of the shipped ones.
   properties::InputDigests input_digests() const {
-    std::string cases = corpus_digest(corpus_ / "curated");
-    if (request_.own_cases) cases = corpus::sha256_of(cases + request_.own_cases->digest);
-    std::optional<std::string> waivers;
-    for (const auto& file : waiver_files()) {
-      const auto digest = corpus::sha256_of_file(file);
-      if (!digest) continue;
-      waivers = waivers ? corpus::sha256_of(*waivers + digest.value()) : digest.value();
-    }
-    return {cases, waivers};
-  }
-
-  std::vector<std::filesystem::path> waiver_files() const {
-    std::vector<std::filesystem::path> files = {corpus_ / "known.json"};
-    if (request_.own_cases) {
-      if (const auto own = owner_waivers(words_.own_cases)) files.push_back(*own);
-    }
-    return files;
+    const std::string cases = corpus_digest(corpus_ / "curated");
+    return {request_.own_cases ? corpus::sha256_of(cases + request_.own_cases->digest) : cases};
   }
 
   template <class T>
   void keep(const T& evidence) {
     checks_.keep(evidence);
-  }
-
-  Expected<void> store_waivers() {
-    const auto today = fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)));
-    checks_.drop(properties::StoredWaiver::kind);
-    std::set<std::string> signatures;
-    for (const auto& file : waiver_files()) {
-      BOOST_OUTCOME_TRY(waivers, read_waivers(file));
-      for (const auto& waiver : waivers) {
-        if (!signatures.insert(waiver.signature).second)
-          return Problem{
-              fmt::format("{}: \"{}\" is waived already", file.string(), waiver.signature)};
-        keep(properties::StoredWaiver{waiver.signature, waiver.reason, waiver.link, waiver.expires,
-                                      is_expired(waiver, today)});
-      }
-    }
-    return outcome::success();
   }
 
   Expected<void> run_corpus() {

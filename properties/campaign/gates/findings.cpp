@@ -59,12 +59,6 @@ std::uint64_t RunFindings::met_count(const StoredFailure& failure) const {
   return found == times_met.end() ? 0 : found->second;
 }
 
-bool RunFindings::is_waived(const std::string& signature) const {
-  return std::any_of(evidence.waivers.begin(), evidence.waivers.end(), [&](const auto& waiver) {
-    return waiver.signature == signature && !waiver.expired;
-  });
-}
-
 const StoredFailure* RunFindings::example_of(const std::string& signature) const {
   // What its own case shows comes first, then what a trial or the search has met.
   const auto rank = [](const StoredFailure& failure) {

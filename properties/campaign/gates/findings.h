@@ -54,7 +54,6 @@ struct RunFindings {
   // One failure of each signature (example_of), the least odd cause first (cause.h).
   std::vector<const StoredFailure*> kinds() const;
   std::uint64_t met_count(const StoredFailure& failure) const;
-  bool is_waived(const std::string& signature) const;
   // A stored failure of this signature, if possible one of a trial rather than of the corpus; null
   // if there is none.
   const StoredFailure* example_of(const std::string& signature) const;

@@ -31,11 +31,6 @@ struct GateFindings {
 
 using Lines = std::vector<std::string>;
 
-// Only a certificate takes waivers into account. Without one no failure is left aside.
-bool is_waived(const RunFindings& f, const Asked& asked, const std::string& signature) {
-  return asked.certificate && f.is_waived(signature);
-}
-
 void check_power(const RunFindings& f, Lines& lines) {
   for (const auto& canary : f.evidence.canaries) {
     if (!canary.found_after)
@@ -189,25 +184,18 @@ GateFindings check_harness(const RunFindings& f, const Asked& asked) {
   return found;
 }
 
-GateFindings check_corpus(const RunFindings& f, const Asked& asked) {
+GateFindings check_corpus(const RunFindings& f, const Asked&) {
   GateFindings found;
   for (const auto& row : f.evidence.corpus) {
-    for (const auto& failed : row.failed) {
-      if (!is_waived(f, asked, failed.signature))
-        found.against.push_back(
-            fmt::format("{} ({}): {}", failed.id, row.configuration, failed.what));
-    }
-  }
-  for (const auto& waiver : f.evidence.waivers) {
-    if (waiver.expired)
+    for (const auto& failed : row.failed)
       found.against.push_back(
-          fmt::format("the waiver of \"{}\" expired on {}", waiver.signature, waiver.expires));
+          fmt::format("{} ({}): {}", failed.id, row.configuration, failed.what));
   }
   if (f.evidence.corpus.empty()) found.not_judged = "the corpus was not run";
   return found;
 }
 
-GateFindings check_claims(const RunFindings& f, const Asked& asked) {
+GateFindings check_claims(const RunFindings& f, const Asked&) {
   GateFindings found;
   // A signature counts if trials met it, even without a stored mesh, and if a failure of a trial
   // is stored, even if no trial counted it. What only the corpus shows belongs to the gate corpus.
@@ -217,7 +205,6 @@ GateFindings check_claims(const RunFindings& f, const Asked& asked) {
     if (!failure.id.starts_with(corpus_in_id)) signatures.insert(failure.signature);
   }
   for (const auto& signature : signatures) {
-    if (is_waived(f, asked, signature)) continue;
     const auto* shown = f.example_of(signature);
     const auto met = f.times_met.find(signature);
     const bool by_search = met == f.times_met.end() && shown && is_of_search(*shown);

@@ -32,9 +32,9 @@ struct GateRule {
 //   asks for; no equivalent fault was found. The self-test met no contradiction. If all trials
 //   took place, every law's premise held as often as asked, and was close in a quarter of these
 //   steps. Every defect of a trial was stored as a failure. Without a canary nothing is judged.
-// - corpus: the shipped cases, scenes and the owner's cases hold, and no waiver is expired.
+// - corpus: the shipped cases, scenes and the owner's cases hold.
 // - claims: no claim and no law is broken in any trial or in any case that the search asked, and no
-//   world has a counterexample. A certificate leaves waived failures aside.
+//   world has a counterexample.
 // - complete: all that was planned is there: shards, trials, the search, and planted faults with
 //   all of their cases. For a certificate the corpus is there too, with an answer in every case,
 //   and so is the self-test. At most 1 % of the trials were disturbed from outside. Enough

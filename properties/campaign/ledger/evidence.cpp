@@ -28,8 +28,7 @@ ASSAY_FIELDS(SearchedLane, lane, shard, cases, defects, open, causes)
 ASSAY_FIELDS(Asked, gates, certificate)
 ASSAY_FIELDS(Versions, assay, commit, libraries)
 ASSAY_FIELDS(Paths, out, detector, own_cases, data)
-ASSAY_FIELDS(InputDigests, corpus, waivers)
-ASSAY_FIELDS(StoredWaiver, signature, reason, link, expires, expired)
+ASSAY_FIELDS(InputDigests, corpus)
 ASSAY_FIELDS(CorpusRow::Failed, id, signature, what)
 ASSAY_FIELDS(CorpusRow, input, configuration, cases, left_out, steps, collisions, pairs, defects,
              failed, open, extremes, triangles_in_contact)
@@ -135,7 +134,7 @@ Row to_row(const AnyEvidence& evidence) {
 void EvidenceFacts::take(const Row& row) {
   const auto is_taken = [&](auto&... lists) { return (takes(lists, row) || ...); };
   if (!is_taken(canaries, problems, faults, power, worlds, asked, versions, paths, isolation, slow,
-                repeated, asked_again, search, inputs, waivers, corpus, self_test, speed, issued))
+                repeated, asked_again, search, inputs, corpus, self_test, speed, issued))
     throw StoreProblem(fmt::format("no run stores {}", row_name(row)));
 }
 

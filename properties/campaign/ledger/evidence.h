@@ -194,16 +194,7 @@ struct Paths {
 };
 struct InputDigests {
   static constexpr const char* kind = "inputs";
-  std::string corpus;                  // SHA-256 over names and bytes of all cases, own cases too
-  std::optional<std::string> waivers;  // of corpus/known.json and the owner's waivers
-};
-
-// A known failure that a certificate excuses until the day on which the waiver expires.
-struct StoredWaiver {
-  static constexpr const char* kind = "waiver";
-  std::string signature, reason, link, expires;
-  bool expired = false;  // it had expired when the certificate was issued
-  const std::string& key() const { return signature; }
+  std::string corpus;  // SHA-256 over names and bytes of all cases, own cases too
 };
 
 // The name of the input that the owner's own cases are, and what their ids begin with.
@@ -273,7 +264,6 @@ struct EvidenceFacts {
   std::vector<AskedAgain> asked_again;
   std::vector<SearchedLane> search;
   std::optional<InputDigests> inputs;
-  std::vector<StoredWaiver> waivers;
   std::vector<CorpusRow> corpus;
   std::vector<SelfTestRow> self_test;
   std::vector<SpeedFigure> speed;
@@ -287,7 +277,7 @@ EvidenceFacts facts_in(const Store& store);
 using AnyEvidence =
     std::variant<Canary, HarnessProblem, FaultProof, PowerSource, World, Asked, Versions, Paths,
                  PluginIsolation, SlowCase, Repetition, AskedAgain, SearchedLane, InputDigests,
-                 StoredWaiver, CorpusRow, SelfTestRow, SpeedFigure, Issued>;
+                 CorpusRow, SelfTestRow, SpeedFigure, Issued>;
 Row to_row(const AnyEvidence& evidence);
 
 // Whether two runs of one campaign may differ in this row, which is one of evidence.

@@ -1,4 +1,4 @@
-// What a certificate adds to a run: the corpus, speed, waivers, the checks of the oracle. What was
+// What a certificate adds to a run: the corpus, speed, the checks of the oracle. What was
 // judged, to the byte.
 import { facts, html, section, table } from "./dom";
 import { pasteNote, replayLine } from "./failure_facts";
@@ -22,7 +22,7 @@ function together(rows: CorpusRow[]): { row: CorpusRow; who: string }[] {
 
 function corpus(rows: CorpusRow[] | null): HTMLElement {
   if (rows === null) return section("corpus", "Corpus", html("p", {}, "It was not run."));
-  const open = rows.flatMap((row) => row.open.map((o) => ({ ...o, signature: "no answer", waived: false, row })));
+  const open = rows.flatMap((row) => row.open.map((o) => ({ ...o, signature: "no answer", row })));
   const failed = [...rows.flatMap((row) => row.failed.map((f) => ({ ...f, row }))), ...open];
   type Failed = (typeof failed)[number];
   type Row = ReturnType<typeof together>[number];
@@ -38,7 +38,6 @@ function corpus(rows: CorpusRow[] | null): HTMLElement {
             { head: "case", cell: (f: Failed) => f.id },
             { head: "configuration", cell: (f: Failed) => f.row.configuration },
             { head: "what", cell: (f: Failed) => f.what },
-            { head: "waived", cell: (f: Failed) => (f.waived ? "yes" : "no") },
           ],
           failed,
         ),
@@ -79,27 +78,6 @@ function speed(f: Findings): HTMLElement | null {
   );
 }
 
-function waivers(list: Findings["waivers"]): HTMLElement | null {
-  type Waiver = Findings["waivers"][number];
-  if (list.length === 0) return null;
-  return section(
-    "waivers",
-    "Waivers",
-    html("p", {}, "Known failures that this certificate leaves aside until the day stated."),
-    table(
-      "Waivers",
-      [
-        { head: "failure", cell: (w: Waiver) => w.signature },
-        { head: "reason", cell: (w: Waiver) => w.reason },
-        { head: "see", cell: (w: Waiver) => w.link },
-        { head: "expires", cell: (w: Waiver) => (w.expired ? `${w.expires}: EXPIRED` : w.expires) },
-        { head: "met", cell: (w: Waiver) => count(w.met), number: true },
-      ],
-      list,
-    ),
-  );
-}
-
 function selfTest(t: Findings["self_test"]): HTMLElement {
   const text = t
     ? `Against other exact methods: ${counted(t.contradictions, "contradiction")} in ${counted(t.queries, "query", "queries")}${t.complete ? "" : ", not all that were planned"}.`
@@ -133,6 +111,6 @@ function digests(run: Run): HTMLElement {
 
 export function certificate(run: Run): (HTMLElement | null)[] {
   const f = run.findings;
-  const own = run.subject === null ? [] : [corpus(f.corpus), selfTest(f.self_test), speed(f), waivers(f.waivers)];
+  const own = run.subject === null ? [] : [corpus(f.corpus), selfTest(f.self_test), speed(f)];
   return [...own, digests(run)];
 }

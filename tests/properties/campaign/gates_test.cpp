@@ -175,27 +175,14 @@ TEST(Gates, WhatIsAbsentIsIncomplete) {
   }});
 }
 
-TEST(Gates, CorpusAndWaivers) {
+TEST(Gates, ACaseOfTheCorpusThatFailsIsADefect) {
   const Change failed = [](auto& f) { f.evidence.corpus[0].failed = {{"A1", "s", "w"}}; };
-  const auto waiver = [](bool expired) {
-    return [expired](auto& f) {
-      f.evidence.waivers = {{"s", "known", "link", "2026-01-31", expired}};
-    };
-  };
   expect(judged_after({failed}), Gate::corpus, "defect", 1);
-  expect_certified({failed, waiver(false)});
-  expect_certified({waiver(false)});
-  expect(judged_after({waiver(true)}), Gate::corpus, "defect", 1);
-  expect(judged_after({failed, waiver(true)}), Gate::corpus, "defect", 1);
 }
 
-TEST(Gates, ABrokenClaimIsADefectUnlessWaived) {
+TEST(Gates, ABrokenClaimIsADefect) {
   const Change defect = [](auto& f) { add_defect(f); };
   expect(judged_after({defect}), Gate::claims, "defect", 1);
-  expect_certified(
-      {defect, [](auto& f) {
-         f.evidence.waivers = {{"free-sound: missing", "known", "link", "2026-01-31", false}};
-       }});
   // What the corpus alone shows is that gate's; any other counts, were it met in no trial.
   const auto stored = [](const std::string& id) {
     return [id](auto& f) { f.failures = {failure("late", id)}; };

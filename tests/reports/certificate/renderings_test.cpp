@@ -61,10 +61,9 @@ TEST(Junit, OfOneShardByItselfNoBoundIsWanted) {
                        "name=\"broken, bvh\">\n      <failure"));
 }
 
-// One defect of twenty is within the bound that is wanted, and waived; one fault need not be found.
+// One fault need not be found.
 TEST(Junit, NothingFailsOfWhatIsCertified) {
-  auto findings = with_a_defect();
-  findings.evidence.waivers = {{"free-sound: missing", "known", "link", "2026-01-31", false}};
+  auto findings = good_findings();
   findings.run.plan.policy.power = 0.5;
   findings.evidence.faults[1].curated = false;
   const auto predicate = judged(findings);
@@ -77,13 +76,12 @@ TEST(Summary, NamesVerdictGatesAndFailures) {
   findings.tally.strata["broken"].meshes = {1, 2, 3};
   findings.failures = {failure("a|b"), failure("c", "corpus/A1")};
   findings.times_met = {{"a|b", 1}};
-  findings.evidence.waivers = {{"c", "known", "link", "2026-01-31", false}};
   const auto text = summary_text(judged(findings));
   for (const std::string word :
        {"## Assay: defect\n", "| claims | **fails** | a\\|b, met once; tiny:1:broken:3 (bvh)",
         "| complete | holds |", "| broken | 20 of 20 | 3 | 0 | 1 | 0 | ", "\n    assay replay ",
         "2 of 2 planted faults found: 0 by random cases, 2 by their curated case alone.",
-        "**c** (bvh, waived), met in the corpus alone\n",
+        "**c** (bvh), met in the corpus alone\n",
         "All 3 bounds together hold with confidence 95 %"}) {
     EXPECT_TRUE(contains(text, word)) << word << "\n" << text;
   }

@@ -67,9 +67,6 @@ TEST(Schemas, TheShippedCasesAreOfTheirs) {
     SCOPED_TRACE(file);
     expect_schema("case", parsed(file));
   }
-  expect_schema("known", parsed(ASSAY_SOURCE_DIR "/corpus/known.json"));
-  expect_schema("known", SchemaJson::parse(R"({"schema": "assay-known/1", "waivers": [
-      {"signature": "a", "reason": "b", "link": "c", "expires": "2026-12-31"}]})"));
 }
 
 // Typed arrays (RFC 8746) as lists of numbers.
