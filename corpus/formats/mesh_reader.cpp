@@ -76,7 +76,8 @@ Problem unknown_format(const std::filesystem::path& path) {
     const auto file = is_plain ? path : std::filesystem::path("FILE" + end);
     const auto converted = std::filesystem::path(file).replace_extension(by_meshio);
     return problem_in(
-        path, fmt::format("{} file; {}python3 -c \"import meshio; meshio.read('{}').write('{}')\"",
+        path, fmt::format("{} file; {}python3 -c \"import meshio; meshio.read('{}').write('{}')\" "
+                          "(python3-meshio of Debian, or pip install meshio)",
                           name, read, file.string(), converted.string()));
   }
   return problem_in(

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <bit>
 #include <boost/outcome/try.hpp>
 #include <new>
@@ -41,7 +42,8 @@ std::string ply_bytes(const detector::PositionsView& positions,
     for (Eigen::Index k = 0; k < 3; ++k) {
       append_little_endian(bytes, static_cast<std::uint32_t>(triangles(i, k)));
     }
-    if (marked) bytes += (*marked)[static_cast<std::size_t>(i)] ? "\xdc\x28\x28" : "\xc8\xc8\xc8";
+    constexpr std::array<const char*, 3> colours = {"\xc8\xc8\xc8", "\xdc\x28\x28", "\xf0\xb4\x28"};
+    if (marked) bytes += colours[(*marked)[static_cast<std::size_t>(i)]];
   }
   return bytes;
 }

@@ -13,7 +13,7 @@
 namespace assay::corpus {
 
 // Fails, with the reason, when the file system refuses, and when memory does not suffice. `marked`:
-// null, or by triangle whether its colour is red; the others are grey then.
+// null, or by triangle 0 for grey, 1 for red, 2 for amber.
 Expected<void> write_mesh(const std::filesystem::path& path,
                           const detector::PositionsView& positions,
                           const detector::TrianglesView& triangles,

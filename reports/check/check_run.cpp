@@ -106,7 +106,8 @@ class CheckRun {
       answer.report["at_rest"] = is_at_rest_;
       answer.report["inside"] = nlohmann::ordered_json::array();
       for (const auto& [inner, outer] : nested_.value_or(std::vector<NestedBodies>()))
-        answer.report["inside"].push_back({{"body", inner}, {"of", outer}});
+        answer.report["inside"].push_back(
+            {{bodies_.empty() ? "component" : "body", inner}, {"of", outer}});
     }
     return answer;
   }
@@ -126,7 +127,7 @@ class CheckRun {
                     mesh_.components.size() == 1 ? "" : "s"));
     if (unclosed) {
       say(fmt::format(" ({} unclosed{})", unclosed,
-                      answers_.is_plugin() ? "" : ": closed with ghosts"));
+                      answers_.is_plugin() || is_at_rest_ ? "" : ": closed with ghosts"));
     }
     say(fmt::format(
         "; {}{}{}{}\n", steps_text(step_count(), is_at_rest_, title), answers_.title(),
@@ -329,34 +330,60 @@ class CheckRun {
     if (!json.is_null()) json["contacts"] = contacts.json();
     if (is_at_rest_ && (answer != Answer::undecided || !pairs.empty()))
       outcome_.rest = rest_text(pairs, bodies_);
-    if (!question_.ply_file.empty()) mark(step, pairs);
+    if (!question_.ply_file.empty()) mark(step, contacts);
     if (!nested_ && answer != Answer::undecided && is_judged_whole()) tell_nested(step, pairs);
   }
 
   bool is_judged_whole() const {
-    return !question_.no_oracle && !bodies_.empty() && steps_.counted()->count_all();
+    return !question_.no_oracle && (!steps_.counted() || steps_.counted()->count_all());
   }
 
-  // Which bodies are inside of others in the first step that is judged: surfaces alone can meet.
+  // The components of a mesh without bodies, in the place of its bodies. Of very many each is taken
+  // as a part of one, since who has so many does not ask.
+  std::vector<std::int32_t> component_by_vertex() const {
+    constexpr std::size_t most = 1000;
+    std::vector<std::int32_t> component(static_cast<std::size_t>(steps_.first_frame().rows()), 0);
+    for (std::size_t c = 0; c < mesh_.components.size() && mesh_.components.size() <= most; ++c) {
+      for (const auto v : mesh_.components[c].vertices)
+        component[properties::at(v)] = static_cast<std::int32_t>(c);
+    }
+    return component;
+  }
+
+  // Which bodies are inside of others in the first step that is judged, or which components of a
+  // mesh at rest: surfaces alone can meet.
   void tell_nested(const corpus::SourceStep& step,
                    const std::vector<detector::PairContact>& pairs) {
-    nested_ = nested_bodies(step.x_t0, mesh_, steps_.counted()->body, pairs);
+    if (bodies_.empty() && !is_at_rest_) return;
+    nested_ = nested_bodies(
+        step.x_t0, mesh_, bodies_.empty() ? component_by_vertex() : steps_.counted()->body, pairs);
+    // A component has no name that its owner knows.
+    const auto name = [&](std::int32_t part) {
+      return bodies_.empty() ? fmt::format("the component of triangle {}",
+                                           mesh_.components[properties::at(part)].triangles.front())
+                             : fmt::format("body {}", part);
+    };
     constexpr std::size_t most_told = 10;
     for (std::size_t i = 0; i < std::min(nested_->size(), most_told); ++i)
-      say(fmt::format("  body {} lies inside body {}{}; their surfaces do not meet\n",
-                      (*nested_)[i].inner, (*nested_)[i].outer,
+      say(fmt::format("  {} lies inside {}{}; their surfaces do not meet\n",
+                      name((*nested_)[i].inner), name((*nested_)[i].outer),
                       is_at_rest_ ? "" : " during this step"));
     if (nested_->size() > most_told)
       say(fmt::format("  ... {} more inside of others\n", nested_->size() - most_told));
   }
 
   // Keeps the mesh at the first contact of all, or else where it ends.
-  void mark(const corpus::SourceStep& step, const std::vector<detector::PairContact>& pairs) {
-    if (std::count(marked_.begin(), marked_.end(), 1) > 0) return;
+  void mark(const corpus::SourceStep& step, const StepContacts& contacts) {
+    if (std::any_of(marked_.begin(), marked_.end(), [](auto of) { return of != 0; })) return;
     marked_.assign(static_cast<std::size_t>(steps_.triangles().rows()), 0);
     double t = 1;
-    for (const auto& [pair, time, feature] : pairs) {
-      marked_[properties::at(pair.a)] = marked_[properties::at(pair.b)] = 1;
+    const auto marks = contacts.marks();
+    for (std::size_t i = 0; i < marks.size(); ++i) {
+      const auto& [pair, time, feature] = contacts.pairs[i];
+      for (const auto triangle : {pair.a, pair.b}) {
+        auto& marked = marked_[properties::at(triangle)];
+        marked = marked == StepContacts::crossing_mark ? marked : marks[i];
+      }
       t = std::min(t, time.lo);
     }
     shown_mesh_ = t == 1 ? step.x_t1 : (1 - t) * step.x_t0 + t * step.x_t1;

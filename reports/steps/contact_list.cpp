@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <tuple>
 
 #include "oracle/instant/contact_place.h"
@@ -24,15 +25,18 @@ bool StepContacts::cross_at_end(const detector::PairContact& contact) const {
 }
 
 std::string StepContacts::text(std::size_t most) const {
-  auto shown = pairs;
+  const auto kinds = marks();
+  std::vector<std::size_t> shown(pairs.size());
+  std::iota(shown.begin(), shown.end(), std::size_t{0});
   const auto count = std::min(most, shown.size());
   std::partial_sort(shown.begin(), shown.begin() + static_cast<std::ptrdiff_t>(count), shown.end(),
-                    [](const auto& x, const auto& y) {
-                      return std::tie(x.time, x.pair) < std::tie(y.time, y.pair);
+                    [&](const auto i, const auto j) {
+                      return std::tie(pairs[i].time, kinds[i], pairs[i].pair) <
+                             std::tie(pairs[j].time, kinds[j], pairs[j].pair);
                     });
   std::string out;
   for (std::size_t i = 0; i < count; ++i) {
-    const auto& contact = shown[i];
+    const auto& contact = pairs[shown[i]];
     const auto& [pair, time, feature] = contact;
     out += fmt::format("  contact: triangles {} and {}{}", pair.a, pair.b, bodies.text(pair));
     if (!is_at_rest) out += fmt::format(" at t = {}", time_text(time));
@@ -47,15 +51,21 @@ std::string StepContacts::text(std::size_t most) const {
   }
   if (shown.size() > count)
     out += fmt::format("  ... {} more in contact: --json names all\n", shown.size() - count);
-  // 20 us a pair: a soup of 100,000 triangles would wait for it longer than for its answer.
-  constexpr std::size_t most_counted = 20'000;
-  if (is_at_rest && count > 0 && pairs.size() <= most_counted) {
-    const auto crossing =
-        std::count_if(pairs.begin(), pairs.end(), [&](const auto& c) { return cross_at_start(c); });
-    out += fmt::format("  crossing: {}, touching: {}\n", crossing,
-                       pairs.size() - static_cast<std::size_t>(crossing));
+  if (is_at_rest && count > 0 && pairs.size() <= most_told_apart) {
+    const auto touching = std::count(kinds.begin(), kinds.end(), touching_mark);
+    out += fmt::format("  crossing: {}, touching: {}\n",
+                       pairs.size() - static_cast<std::size_t>(touching), touching);
   }
   return out;
+}
+
+std::vector<std::uint8_t> StepContacts::marks() const {
+  std::vector<std::uint8_t> marks(pairs.size(), crossing_mark);
+  if (!is_at_rest || pairs.size() > most_told_apart) return marks;
+  std::transform(pairs.begin(), pairs.end(), marks.begin(), [&](const auto& contact) {
+    return cross_at_start(contact) ? crossing_mark : touching_mark;
+  });
+  return marks;
 }
 
 nlohmann::ordered_json StepContacts::json() const {

@@ -114,7 +114,13 @@ std::string sets_text(const detector::StepResult& result) {
                      result.view_negative, result.view_zero, result.violated, result.dirty);
 }
 
-std::string stages_text(const detector::StepResult& result, std::optional<double> create_ms) {
+// Of a mesh at rest, which is asked once, only how long it took.
+std::string stages_text(const detector::StepResult& result, std::optional<double> create_ms,
+                        bool is_at_rest) {
+  if (is_at_rest)
+    return fmt::format("  ms:   {}detector {:.1f}",
+                       create_ms ? fmt::format("create {:.1f}, ", *create_ms) : "",
+                       result.times.total);
   return fmt::format(
       "  sets: {}\n"
       "  work: {} box tests, {} candidate pairs, {} elementary tests, {} closure rounds\n"
@@ -168,7 +174,7 @@ std::string step_text(std::size_t number, const detector::StepResult& result,
   } else {
     out += fmt::format("; {}\n", verdict_text(*diff));
   }
-  if (shown.has_stages) out += stages_text(result, shown.create_ms);
+  if (shown.has_stages) out += stages_text(result, shown.create_ms, shown.is_at_rest);
   if (oracle) {
     out +=
         fmt::format("{} {:.1f}\n  oracle: {}, {} pairs of {} feature candidates{}{}",

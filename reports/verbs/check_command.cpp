@@ -84,6 +84,9 @@ Expected<int> run_check(const CheckRequest& request) {
   if (!question.answers.empty()) inputs.push_back(question.answers);
   BOOST_OUTCOME_TRY(may_fill(request.keep, {"page.html"}));
   BOOST_OUTCOME_TRY(may_write({request.json_file, request.question.ply_file}, inputs));
+  const std::filesystem::path ply(request.question.ply_file);
+  if (!ply.empty() && ply.extension() != ".ply")
+    return Problem{ply.string() + ": --ply writes PLY, and a name ends with .ply"};
   if (!counts_all(request) && request.files.size() == 1 && request.files[0].ends_with(".json"))
     return Problem{
         "--rings, --rest-distance and --weld are of frames: a case file states what counts"};
@@ -216,7 +219,9 @@ void add_options(Verb& verb, CheckRequest& request) {
       .excludes(offset)
       .in(OptionGroup::output);
   verb.add("--ply FILE", request.question.ply_file,
-           "Write the mesh at its first contact here, with the triangles in contact in red")
+           "Write the mesh at its first contact here, with the triangles in contact in red, at "
+           "rest those "
+           "that only touch in amber")
       .excludes(separation)
       .excludes(offset)
       .in(OptionGroup::output);

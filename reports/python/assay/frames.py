@@ -113,8 +113,8 @@ def _by_meshio(file: str) -> _Read:
 
     try:
         mesh = meshio.read(file)
-    except (meshio.ReadError, OSError, KeyError, SystemExit) as error:
-        raise ValueError(f"{file}: {error or 'meshio cannot read it'}") from None
+    except (Exception, SystemExit) as error:  # of a torn file it raises whatever comes
+        raise ValueError(f"{file}: meshio cannot read it: {error or type(error).__name__}") from None
     triangles = [block.data for block in mesh.cells if block.type == "triangle"]
     others = {block.type for block in mesh.cells} - {"triangle"} - _NO_SURFACE
     if others or not triangles:

@@ -13,7 +13,7 @@ fail() {
 
 cmake --install "$build" --prefix "$scratch/prefix" >"$scratch/log" || fail "$(cat "$scratch/log")"
 cd "$scratch/prefix"
-for file in bin/assay libexec/assay/assay-worker share/assay/corpus/known.json \
+for file in bin/assay libexec/assay/assay-worker share/assay/corpus/curated/D6_fast_passage.json \
   share/assay/schemas/certificate.schema.json share/doc/assay/LICENSE share/doc/assay/THIRD_PARTY \
   include/assay/detector/detector.h include/assay/detector/plugin/assay_detector.h; do
   [ -f "$file" ] || fail "$file is not installed"

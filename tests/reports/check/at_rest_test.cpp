@@ -37,7 +37,7 @@ class AtRest : public testing::Test {
 TEST_F(AtRest, OneFrameIsAskedWhetherItMeetsItself) {
   const auto meets = check(pair("crossing.obj", "-1"));
   EXPECT_EQ(meets.exit_code, 0) << meets.out << meets.err;
-  EXPECT_TRUE(contains(meets.out, "2 components (2 unclosed: closed with ghosts); ")) << meets.out;
+  EXPECT_TRUE(contains(meets.out, "2 components (2 unclosed); ")) << meets.out;
   EXPECT_TRUE(contains(meets.out, "at rest: collision, 1 pair in contact; agree\n")) << meets.out;
   EXPECT_TRUE(contains(meets.out, "the mesh meets itself: 1 pair; detector and oracle agree\n"));
   EXPECT_FALSE(contains(meets.out, "t = ")) << meets.out;
@@ -111,6 +111,28 @@ TEST_F(AtRest, ABodyInsideOfAnotherIsTold) {
       << nested.out;
   EXPECT_EQ(report()["inside"], json::parse(R"([{"body": 0, "of": 1}])"));
   EXPECT_FALSE(contains(nested.out, "body 2 lies")) << nested.out;
+  // Of one file the components are told, too.
+  const auto of_one = [](std::string file, const std::string& other) {
+    auto added = read_text(other);
+    for (std::size_t f = added.find("f "); f != std::string::npos; f = added.find("f ", f + 2)) {
+      std::istringstream corners(added.substr(f + 2));
+      std::size_t a = 0, b = 0, c = 0;
+      corners >> a >> b >> c;
+      const auto end = added.find('\n', f);
+      added.replace(
+          f, end - f,
+          "f " + std::to_string(a + 8) + " " + std::to_string(b + 8) + " " + std::to_string(c + 8));
+    }
+    return read_text(file) + added;
+  };
+  const auto both = scratch.write(
+      "both.obj", of_one(box("big.obj", {0, 0, 0}, 4), box("small.obj", {1, 1, 1}, 1)));
+  const auto one_file = check(both);
+  EXPECT_TRUE(contains(one_file.out,
+                       "  the component of triangle 12 lies inside the component of "
+                       "triangle 0; their surfaces do not meet\n"))
+      << one_file.out;
+  EXPECT_EQ(report()["inside"], json::parse(R"([{"component": 1, "of": 0}])"));
   // An inside that is touched from within is met.
   const auto touched =
       check("--body " + box("small.obj", {0, 1, 1}, 1) + " --body " + box("big.obj", {0, 0, 0}, 4));
@@ -192,6 +214,20 @@ TEST_F(AtRest, TheMeshIsWrittenWithItsContactsInRed) {
   EXPECT_EQ(bytes.substr(bytes.size() - 3), "\xdc\x28\x28");
   ASSERT_EQ(check(pair("free.obj", "1") + " --ply " + file).exit_code, 0);
   EXPECT_EQ(read_text(file).substr(bytes.size() - 3), "\xc8\xc8\xc8");
+  // At rest what only touches is amber, and a triangle that also crosses another is red.
+  const auto touching = pair("touching.obj", "0");
+  ASSERT_EQ(check(touching + " --ply " + file).exit_code, 0);
+  EXPECT_EQ(read_text(file).substr(bytes.size() - 3), "\xf0\xb4\x28");
+  auto three = read_text(touching) + "v 1 1 -1\nv 1 1 1\nv 2 1 1\nf 7 8 9\n";
+  const auto both = check(scratch.write("both.obj", three) + " --ply " + file);
+  const auto crossing = both.out.find(", crossing\n"), touched = both.out.find(", touching\n");
+  EXPECT_LT(crossing, touched) << both.out << "those that cross come first";
+  const auto colours = read_text(file);
+  constexpr std::size_t face = 16;  // a byte, three numbers, three colours
+  EXPECT_EQ(colours.substr(colours.size() - 2 * face - 3, 3), "\xdc\x28\x28");
+  EXPECT_EQ(colours.substr(colours.size() - face - 3, 3), "\xf0\xb4\x28");
+  EXPECT_EQ(colours.substr(colours.size() - 3), "\xdc\x28\x28");
+  EXPECT_EQ(run_assay("check " + touching + " --ply " + (scratch / "marked.vtu")).exit_code, 2);
   const auto own = pair("own.obj", "1");
   EXPECT_EQ(run_assay("check " + own + " --ply " + own).exit_code, 2) << "the input stays";
 }
