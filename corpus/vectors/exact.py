@@ -141,7 +141,7 @@ class Features:
                    for time in (zeros_inside(f) if any(f) else ()))
 
     def within(self, d):
-        """Polynomials of which the first time within a distance is a zero, the simple ones first."""
+        """Polynomials of which the first time within a distance is a zero, simple ones first."""
         square = (Fraction(d) * self.scale) ** 2
         a, b = self.x[:self.first], self.x[self.first:]
         lines = [(p, q, r) for ends, others in ((a, b), (b, a))

@@ -2,16 +2,16 @@
 
 `vectors.py run --arithmetic WORD` and `--detector NAME` use them (README.md).
 """
-import sys
-
-from vectors import Wrong
+from vectors import Wrong, want
 
 try:
     import assay
-except ImportError as problem:
-    print(f"the Python module assay is wanted (reports/python/README.md): {problem}",
-          file=sys.stderr)
-    sys.exit(2)
+except ImportError:
+    assay = None
+
+
+def demand_module():
+    want(assay, "PYTHONPATH", "wanted is the Python module assay (reports/python/README.md)")
 
 
 class BuiltIn:

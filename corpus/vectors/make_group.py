@@ -1,13 +1,14 @@
 #!/usr/bin/python3
 """Makes a group of a set from case files, with the exact facts of each case.
 
-  make_group.py CASE.json... --name GROUP --out DIR [--distance D] [--limit] [--float32]
+  make_group.py CASE.json... --name GROUP --out DIR [--distance D] [--limit] [--float]
                 [--flags FLAG...] [--breaks PRODUCT...]
 
-The group goes to DIR/GROUP.json, and set.json of that folder names it beside those that are there; a
-folder without a set gets one. A case is two features (its option `query`) or a mesh: corpus/README.md
-has the form. First times, pairs and least distances are those of the Python module `assay`; whether
-features pass or only touch, and by which polynomial, is found in whole numbers (exact.py).
+The group goes to DIR/GROUP.json, and set.json of that folder names it beside those that are there;
+a folder without a set gets one. A case is two features (its option `query`) or a mesh:
+corpus/README.md has the form. First times, pairs and least distances are those of the Python
+module `assay`; whether features pass or only touch, and by which polynomial, is found in whole
+numbers (exact.py).
 
 Of the flags it sets those that go by numbers, times and pairs; --flags adds to every case.
 """
@@ -19,7 +20,7 @@ from pathlib import Path
 
 import vectors
 from exact import Features, vanishes_within
-from hosted import assay
+from hosted import assay, demand_module
 from vectors import primitive, want
 
 SIDES = ((0, 1), (1, 2), (2, 0))
@@ -126,7 +127,8 @@ def step_facts(triangles, t0, t1, flags, is_float):
         return {"result": "free"}
     pairs, times = judgement.pairs.tolist(), judgement.times.tolist()
     flags |= {"ManyContacts"} if len(pairs) >= 50 else set()
-    flags |= {"SharedVertex"} if any(set(triangles[a]) & set(triangles[b]) for a, b in pairs) else set()
+    if any(set(triangles[a]) & set(triangles[b]) for a, b in pairs):
+        flags.add("SharedVertex")
     passing = any(pair_passes(triangles, judgement, k, t0, t1) for k in range(len(pairs)))
     query = features_of(judgement, times.index(list(judgement.first)), t0, t1)
     stated = facts_of("collision" if passing else "acceptable", judgement.first,
@@ -157,12 +159,12 @@ def case_of(file, given, features, known):
     want(case["options"].get("query", "mesh") == features, file,
          f"is no case of {features}, as the first one is")
     if features == "mesh":
-        stated, flags = mesh_facts(case, given.float32)
+        stated, flags = mesh_facts(case, given.float)
     else:
         t0, t1 = case["frames"]
         query = Features(1 if features == "vertex-face" else 2, t0, t1)
         stated = {**query_facts(query, given.distance), "t0": t0, "t1": t1}
-        flags = query_flags(query, stated, given.float32)
+        flags = query_flags(query, stated, given.float)
     flags |= set(given.flags)
     made = {"id": re.sub(r"[^\w.:-]", "-", case["id"]), "about": case["about"], **stated,
             "flags": [flag for flag in known if flag in flags],
@@ -176,15 +178,20 @@ def main(words):
     parser.add_argument("files", nargs="+", metavar="CASE.json")
     parser.add_argument("--name", required=True, metavar="GROUP")
     parser.add_argument("--out", required=True, metavar="DIR", help="the folder of the set")
-    parser.add_argument("--distance", type=float, default=0, metavar="D", help="ask of coming within it")
-    parser.add_argument("--limit", action="store_true", help="ask how far a step of a mesh may be gone")
-    parser.add_argument("--float32", action="store_true", help="the coordinates are floats")
+    parser.add_argument("--distance", type=float, default=0, metavar="D",
+                        help="ask of coming within D")
+    parser.add_argument("--limit", action="store_true", help="ask how far a step may be gone")
+    parser.add_argument("--float", action="store_true", help="the coordinates are floats")
     parser.add_argument("--flags", nargs="+", default=[], metavar="FLAG")
-    parser.add_argument("--breaks", nargs="+", default=[], metavar="PRODUCT", help="who fails on them")
+    parser.add_argument("--breaks", nargs="+", default=[], metavar="PRODUCT",
+                        help="who fails on them")
     given = parser.parse_args(words)
+    demand_module()
     out = Path(given.out)
     is_there = (out / "set.json").exists()
-    info = vectors.VectorSet(out if is_there else None).info
+    there = vectors.VectorSet(out if is_there else None)
+    info = there.info
+    ids = [case.id for case in there.cases if is_there and case.group != given.name]
     if not is_there:
         info.update(version="0", profile="own", groups=[], licence="that of its cases", cite="")
     for flag in given.flags:
@@ -193,8 +200,11 @@ def main(words):
     group = {"schema": vectors.SET_SCHEMA, "version": info["version"], "group": given.name,
              "features": features,
              "question": "limit" if given.limit else "distance" if given.distance else "contact",
-             "precision": "float32" if given.float32 else "double", "licence": info["licence"]}
+             "precision": "float32" if given.float else "double", "licence": info["licence"]}
     cases = [case_of(file, given, features, info["flags"]) for file in given.files]
+    ids += [case["id"] for case in cases]
+    for name in set(ids):
+        want(ids.count(name) == 1, "a case", f"{name} is there twice")
     vectors.write_set(out, info, [(group, cases)])
 
 

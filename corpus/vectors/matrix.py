@@ -1,8 +1,8 @@
 """The matrix of a score as one page of HTML, without scripts and without a network.
 
-Products stand in columns, flags and groups in rows; a cell says its misses in words and signs beside
-its colour. Below stand the misses of each product, each with its sentence. The same results give the
-same bytes. `vectors.py score --out FILE.html` writes it.
+Products stand in columns, flags and groups in rows; a cell says its misses in words and signs
+beside its colour. Below stand the misses of each product, each with its sentence. The same results
+give the same bytes. `vectors.py score --out FILE.html` writes it.
 """
 import collections
 
@@ -89,7 +89,8 @@ right, and a product should hold to one of them.</p>
 # What is counted of a product, and the words that stand before the ids.
 LISTED = (("late", "Late times"), ("alarm", "Alarms"), ("crash", "Crashes"),
           ("timeout", "Timeouts"), ("error", "Errors"), ("undecided", "Undecided"))
-COLUMNS = (("late", ("late",)), ("alarms", ("alarm",)), ("undecided, error", ("undecided", "error")),
+COLUMNS = (("late", ("late",)), ("alarms", ("alarm",)),
+           ("undecided, error", ("undecided", "error")),
            ("crash, timeout", ("crash", "timeout")), ("unsupported", ("unsupported",)))
 
 

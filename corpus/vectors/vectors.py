@@ -369,15 +369,16 @@ def check_halves(cases):
     halves = collections.defaultdict(list)
     for case in cases.values():
         if "split_of" in case.json:
-            want(case.json["split_of"] in cases, f"case {case.id}", "half of a case that is not there")
+            want(case.json["split_of"] in cases, f"case {case.id}",
+                 "half of a case that is not there")
             halves[case.json["split_of"]].append(case.json)
     for name, case in cases.items():
         whole, both = case.json, halves[name]
         if not both and ("SplitInvariant" not in case.flags or "split_of" in whole):
             continue
         want(len(both) == 2, f"case {name}", "has not two halves")
-        ways = [[[Fraction(b) - Fraction(a) for a, b in zip(p, q)] for p, q in zip(h["t0"], h["t1"])]
-                for h in both]
+        ways = [[[Fraction(b) - Fraction(a) for a, b in zip(p, q)]
+                 for p, q in zip(h["t0"], h["t1"])] for h in both]
         want(ways[0] == ways[1] and both[0]["t0"] == whole["t0"] and
              both[0]["t1"] == both[1]["t0"] and both[1]["t1"] == whole["t1"], f"case {name}",
              "its halves are none")
@@ -635,7 +636,9 @@ def run(answer, set=None, groups=None):
 def write_results(results, file):
     """One case a line."""
     text = json.dumps({key: item for key, item in results.items() if key != "answers"})[:-1]
-    cases = ",\n".join(f"{json.dumps(i)}: {json.dumps(a)}" for i, a in results["answers"].items())
+    cases = ",\n".join(f"{json.dumps(i)}:{json.dumps(a, separators=(',', ':'))}"
+                       for i, a in results["answers"].items())
+    cases = re.sub(r"\.0(?=[],}])", "", cases)
     write_text(file, f'{text}, "answers": {{\n{cases}\n}}}}\n')
 
 
@@ -939,13 +942,17 @@ def write_set(out, info, groups):
     except OSError as problem:
         raise Wrong(f"{out}: {problem.strerror}") from None
     entries = {entry["file"]: entry for entry in info["groups"]}
+    texts = {}
     for group, cases in groups:
         lines = ",\n".join(map(json.dumps, cases))
         text = f'{json.dumps(group)[:-1]}, "cases": [\n{lines}\n]}}\n'
         name = f"{group['group']}.json"
-        write_text(out / name, text)
+        texts[name] = text
         entries[name] = {"file": name, "sha256": hashlib.sha256(text.encode()).hexdigest(),
                          "cases": len(cases), **{key: group[key] for key in KIND}}
+        check_group({**group, "cases": cases}, out / name, info, entries[name])
+    for name, text in texts.items():
+        write_text(out / name, text)
     digests = "".join(f"{entry['sha256']}  {name}\n" for name, entry in entries.items())
     info = {**info, "groups": list(entries.values()),
             "cases": sum(entry["cases"] for entry in entries.values()),
@@ -1049,6 +1056,7 @@ def asked_by(given, command):
     if command:
         return Program(command, given.timeout, given.restart)
     import hosted
+    hosted.demand_module()
     words = hosted.assay.OPTIONS["arithmetic"]
     want(given.detector or given.arithmetic in words, "--arithmetic", f"one of {', '.join(words)}")
     return (hosted.PlugIn(given.detector, given.timeout) if given.detector

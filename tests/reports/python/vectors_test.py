@@ -108,10 +108,10 @@ def answers(tmp_path, monkeypatch):
         )
         assert errors == ""
         results = json.loads(out.read_text())
-        assert results["product"]["name"] == {"Steps": "steps"}.get(name, results["product"]["name"])
-        return code, {
-            i: [one.pop("answer") for one in a.get("steps", [a])] for i, a in results["answers"].items()
-        }, results["answers"]
+        assert results["product"]["name"] == ("steps" if name not in ("Limits", "Within") else name)
+        told = results["answers"]
+        words = {i: [one.pop("answer") for one in a.get("steps", [a])] for i, a in told.items()}
+        return code, words, told
 
     return of
 
@@ -190,14 +190,13 @@ def test_a_group_made_of_case_files_has_the_facts_of_the_set(committed, tmp_path
         for case in cases:
             files.append(tmp_path / f"{case.id}.json")
             files[-1].write_text(json.dumps(hosted.case_file_of(case)))
-        words = ["--float32"] if group["precision"] == "float32" else []
+        words = ["--float"] if group["precision"] == "float32" else []
         words += ["--limit"] if group["question"] == "limit" else []
         if group["question"] == "distance":  # a group has one distance
             files, cases = files[:1], cases[:1]
             words += ["--distance", repr(cases[0].distance)]
-        out = ["--name", group["group"], "--out", tmp_path / "set"]
-        code, text, errors = run("make_group.py", *files, *words, *out)
-        assert (code, errors) == (0, "")
+        words += ["--name", group["group"], "--out", str(tmp_path / "set")]
+        make_group.main([*map(str, files), *words])
         taken += len(cases)
     made = {case.id: case.json for case in vectors.check(tmp_path / "set").cases}
     assert len(made) == taken > 50
@@ -226,10 +225,19 @@ def test_a_case_that_fits_no_group_is_refused_in_a_line(committed, tmp_path):
         ([tmp_path / "none.json"], "No such file"),
         ([files[0], "--flags", "Odd"], "no flag Odd"),
         ([files[0], "--limit"], "limits are asked of meshes"),
+        ([files[0], files[0]], "is there twice"),
     ):
-        code, _, errors = run("make_group.py", *words, "--name", "g", "--out", tmp_path / "set")
-        assert (code, errors.count("\n")) == (2, 1), errors
-        assert line in errors
+        with pytest.raises(vectors.Wrong, match=line):
+            make_group.main([*map(str, words), "--name", "g", "--out", str(tmp_path / "set")])
+    assert not (tmp_path / "set").exists() or not list((tmp_path / "set").iterdir())
+    words = [str(files[0]), "--out", str(tmp_path / "set"), "--name"]
+    make_group.main([*words, "g"])
+    make_group.main([*words, "g"])  # in place of the one before
+    with pytest.raises(vectors.Wrong, match="is there twice"):
+        make_group.main([*words, "h"])
+    assert len(vectors.check(tmp_path / "set").cases) == 1
+    code, text, errors = run("make_group.py", "none.json", "--name", "g", "--out", tmp_path / "set")
+    assert (code, text, errors.count("\n")) == (2, "", 1) and "make_group.py: none.json" in errors
 
 
 def test_passing_and_touching_are_told_apart():
