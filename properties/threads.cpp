@@ -1,6 +1,5 @@
 #include "properties/threads.h"
 
-#include <atomic>
 #include <exception>
 #include <mutex>
 #include <system_error>
@@ -30,14 +29,6 @@ void in_threads(int jobs, const std::function<void()>& work) {
     guarded();
   }
   if (first) std::rethrow_exception(first);
-}
-
-void for_each_in_threads(std::size_t count, int jobs,
-                         const std::function<void(std::size_t i)>& work) {
-  std::atomic<std::size_t> next = 0;
-  in_threads(jobs, [&] {
-    for (std::size_t i = next++; i < count; i = next++) work(i);
-  });
 }
 
 }  // namespace assay::properties

@@ -1,7 +1,6 @@
 // Work that several threads share.
 #pragma once
 
-#include <cstddef>
 #include <functional>
 
 namespace assay::properties {
@@ -11,9 +10,5 @@ namespace assay::properties {
 // gives fewer threads, those that there are do it all. If calls throw, throws what the first of
 // them threw.
 void in_threads(int jobs, const std::function<void()>& work);
-
-// Calls `work` with each number below `count`, in threads as above, in any order.
-void for_each_in_threads(std::size_t count, int jobs,
-                         const std::function<void(std::size_t i)>& work);
 
 }  // namespace assay::properties

@@ -3,7 +3,9 @@
 collision detection whose answers are known exactly. README.md says what everything means.
 
   vectors.py run [--set DIR] [--out FILE] [--group G...] [--timeout S] [--restart] -- COMMAND ARGS...
-  vectors.py score RESULTS... [--set DIR]
+  vectors.py run [...] --detector LIB.so|python:MODULE:CLASS
+  vectors.py run [...] --arithmetic WORD
+  vectors.py score RESULTS... [--set DIR] [--out FILE.html]
   vectors.py check DIR
   vectors.py to-csv FILE.json OUT.csv [--truth FILE]
   vectors.py from-csv FILE.csv... --out DIR [--features vertex-face|edge-edge] [--truth FILE.json]
@@ -111,6 +113,12 @@ class VectorSet:
 
     def label(self):
         return {key: self.info[key] for key in ("version", "profile", "digest")}
+
+    def members(self):
+        """The ids of each flag, and of each group."""
+        flags = {flag: [c.id for c in self.cases if flag in c.flags] for flag in self.info["flags"]}
+        groups = {g["group"]: [c["id"] for c in g["cases"]] for g in self.groups}
+        return flags, groups
 
 
 def read_bytes(file):
@@ -308,27 +316,39 @@ def primitive(polynomial):
     return [c // factor for c in polynomial]
 
 
-def has_zero(coefficients, lo, hi):
-    """Whether the polynomial has a zero in [lo, hi]: exactly, by Sturm's theorem."""
-    p = primitive([int(c) for c in coefficients])
-    lo, hi = Fraction(lo), Fraction(hi)
-    if not p or sign_at(p, lo) == 0 or sign_at(p, hi) == 0:
-        return True
+def sturm_chain(p):
+    """The chain of a polynomial; its last member is what p shares with its derivative."""
+    p = primitive(p)
     chain = [p, primitive([i * c for i, c in enumerate(p)][1:])]
     while chain[-1]:
-        rest, divisor = chain[-2], chain[-1]
-        while len(rest) >= len(divisor):
-            # Whole numbers stay whole, and the factor abs(divisor[-1]) keeps all signs.
-            shift, factor = len(rest) - len(divisor), abs(divisor[-1])
-            lead = rest[-1] if divisor[-1] > 0 else -rest[-1]
-            rest = primitive([factor * c - (lead * divisor[i - shift] if i >= shift else 0)
-                              for i, c in enumerate(rest)])
-        chain.append([-c for c in rest])
+        chain.append([-c for c in remainder(chain[-2], chain[-1])])
+    return chain[:-1]
 
+
+def remainder(rest, divisor):
+    """Of a division, times a number above 0: whole numbers stay whole, and signs stay."""
+    while len(rest) >= len(divisor):
+        shift, factor = len(rest) - len(divisor), abs(divisor[-1])
+        lead = rest[-1] if divisor[-1] > 0 else -rest[-1]
+        rest = primitive([factor * c - (lead * divisor[i - shift] if i >= shift else 0)
+                          for i, c in enumerate(rest)])
+    return rest
+
+
+def zeros_between(chain, lo, hi):
+    """How many zeros there are in (lo, hi], by Sturm's theorem. REQUIRES that neither is one."""
     def changes(t):
-        signs = [s for s in (sign_at(q, t) for q in chain[:-1]) if s != 0]
+        signs = [s for s in (sign_at(q, t) for q in chain) if s != 0]
         return sum(a != b for a, b in zip(signs, signs[1:]))
-    return changes(lo) > changes(hi)
+    return changes(lo) - changes(hi)
+
+
+def has_zero(coefficients, lo, hi):
+    """Whether the polynomial has a zero in [lo, hi], exactly."""
+    p = primitive([int(c) for c in coefficients])
+    lo, hi = Fraction(lo), Fraction(hi)
+    return not p or 0 in (sign_at(p, lo), sign_at(p, hi)) or zeros_between(
+        sturm_chain(p), lo, hi) > 0
 
 
 def check(folder):
@@ -340,7 +360,30 @@ def check(folder):
             if "polynomial" in truth and "first_time" in truth:
                 want(has_zero(truth["polynomial"], *truth["first_time"]), f"case {case.id}",
                      "its polynomial has no zero in first_time")
+    check_halves({case.id: case for case in vectors.cases})
     return vectors
+
+
+def check_halves(cases):
+    """Halves are those of a step, and have a contact just if the whole has one."""
+    halves = collections.defaultdict(list)
+    for case in cases.values():
+        if "split_of" in case.json:
+            want(case.json["split_of"] in cases, f"case {case.id}",
+                 "half of a case that is not there")
+            halves[case.json["split_of"]].append(case.json)
+    for name, case in cases.items():
+        whole, both = case.json, halves[name]
+        if not both and ("SplitInvariant" not in case.flags or "split_of" in whole):
+            continue
+        want(len(both) == 2, f"case {name}", "has not two halves")
+        ways = [[[Fraction(b) - Fraction(a) for a, b in zip(p, q)]
+                 for p, q in zip(h["t0"], h["t1"])] for h in both]
+        want(ways[0] == ways[1] and both[0]["t0"] == whole["t0"] and
+             both[0]["t1"] == both[1]["t0"] and both[1]["t1"] == whole["t1"], f"case {name}",
+             "its halves are none")
+        want((whole["result"] == "free") == all(h["result"] == "free" for h in both),
+             f"case {name}", "another result whole than in halves")
 
 
 # --- asking -------------------------------------------------------------------------------------
@@ -380,6 +423,11 @@ def parse_answer(line, case):
         return answer
     except (ValueError, IndexError):
         return {"answer": "error"}
+
+
+def decimal(x):
+    """The shortest decimal that stands for the double."""
+    return repr(float(x)).removesuffix(".0")
 
 
 def numbers_text(points):
@@ -588,7 +636,9 @@ def run(answer, set=None, groups=None):
 def write_results(results, file):
     """One case a line."""
     text = json.dumps({key: item for key, item in results.items() if key != "answers"})[:-1]
-    cases = ",\n".join(f"{json.dumps(i)}: {json.dumps(a)}" for i, a in results["answers"].items())
+    cases = ",\n".join(f"{json.dumps(i)}:{json.dumps(a, separators=(',', ':'))}"
+                       for i, a in results["answers"].items())
+    cases = re.sub(r"\.0(?=[],}])", "", cases)
     write_text(file, f'{text}, "answers": {{\n{cases}\n}}}}\n')
 
 
@@ -608,6 +658,7 @@ class Judged:
     def __init__(self, product):
         self.product = product
         self.outcome = {}  # by id
+        self.missed = {}  # by id of a miss: the first step that is one, and the answer to it
         self.closed = self.open = self.early = self.missing = self.spurious = 0
         self.gave_pairs = False
         self.uses = []  # of the way that could be gone, the share that a limiter let go
@@ -666,8 +717,10 @@ def judge(results, vectors):
             continue
         answer = results["answers"][case.id]
         answers = answer["steps"] if case.triangles is not None else [answer]
-        outcomes = {judged.step(case.question, s, a) for s, a in zip(case.steps, answers)}
+        outcomes = [judged.step(case.question, s, a) for s, a in zip(case.steps, answers)]
         judged.outcome[case.id] = next(o for o in OUTCOMES if o in outcomes)
+        if "miss" in outcomes:
+            judged.missed[case.id] = (outcomes.index("miss"), answers[outcomes.index("miss")])
     return judged
 
 
@@ -728,13 +781,18 @@ def table_text(rows, left):
     return "".join(line.rstrip() + "\n" for line in lines)
 
 
-def matrix_rows(title, names, members, every, brief):
+def uses_text(judged):
+    return (f"{len(judged.uses)} safe, the median uses {100 * statistics.median(judged.uses):.1f} % "
+            "of the way")
+
+
+def matrix_rows(title, members, every, brief):
     """A row a name: misses/cases of each product among the ids of that name."""
     rows = [[title] + [letter_of(i) for i in range(len(every))]]
-    for name in names:
+    for name, ids in members.items():
         counts = []
         for judged in every:
-            asked = [judged.outcome[i] for i in members[name]
+            asked = [judged.outcome[i] for i in ids
                      if judged.outcome.get(i, "unsupported") != "unsupported"]
             counts.append((asked.count("miss"), len(asked)))
         if any(n for _, n in counts) and (not brief or any(m for m, _ in counts)):
@@ -755,14 +813,9 @@ def score_text(vectors, every, brief=False):
             str(counts[o]) for o in ("miss", "late", "alarm", "undecided", "error", "crash",
                                      "timeout", "unsupported")])
     text += table_text(rows, 2)
-    flags, groups = collections.defaultdict(list), collections.defaultdict(list)
-    for case in vectors.cases:
-        groups[case.group].append(case.id)
-        for flag in case.flags:
-            flags[flag].append(case.id)
-    for title, names, members in (("misses/cases by flag", info["flags"], flags),
-                                  ("misses/cases by group", groups, groups)):
-        rows = matrix_rows(title, names, members, every, brief)
+    flags, groups = vectors.members()
+    for title, members in (("misses/cases by flag", flags), ("misses/cases by group", groups)):
+        rows = matrix_rows(title, members, every, brief)
         if len(rows) > 1:
             text += "\n" + table_text(rows, 1)
     lines = []
@@ -783,8 +836,7 @@ def score_text(vectors, every, brief=False):
         if judged.gave_pairs:
             lines.append(f"{letter} pairs: {judged.missing} missing, {judged.spurious} spurious\n")
         if judged.uses:
-            lines.append(f"{letter} limits: {len(judged.uses)} safe, the median uses "
-                         f"{100 * statistics.median(judged.uses):.1f} % of the way\n")
+            lines.append(f"{letter} limits: {uses_text(judged)}\n")
     return text + ("\n" + "".join(lines) if lines else "")
 
 
@@ -859,12 +911,7 @@ def from_csv(files, out, features, truth):
     want(not truth or len(files) == 1, truth, "--truth is of one file")
     files = [Path(f) for f in files]
     common = Path(os.path.commonpath([f.absolute().parent for f in files]))
-    out = Path(out)
-    groups, digests = [], ""
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-    except OSError as problem:
-        raise Wrong(f"{out}: {problem.strerror}") from None
+    groups = []
     for file in files:
         kind = features or features_of(file)
         queries = read_csv(file, truth)
@@ -876,27 +923,43 @@ def from_csv(files, out, features, truth):
                  "features": kind,
                  "question": "distance" if questions.pop() else "contact",
                  "precision": "double", "licence": "that of the queries"}
-        lines = []
-        for i, (t0, t1, label, distance) in enumerate(queries):
-            case = {"id": f"{name}-{i + 1}", "about": f"Query {i + 1} of {path}.",
-                    "result": "collision" if label else "free", "t0": t0, "t1": t1, "flags": [],
-                    "hard": {"kind": "unknown", "bits": 0}, "source": str(path)}
-            if distance is not None:
-                case["distance"] = distance
-            lines.append(json.dumps(case))
-        text = f'{json.dumps(group)[:-1]}, "cases": [\n' + ",\n".join(lines) + "\n]}\n"
-        write_text(out / f"{name}.json", text)
-        digest = hashlib.sha256(text.encode()).hexdigest()
-        digests += f"{digest}  {name}.json\n"
-        groups.append({"file": f"{name}.json", "sha256": digest, "cases": len(queries),
-                       **{key: group[key] for key in KIND}})
-    cases = sum(g["cases"] for g in groups)
-    info = {"schema": SET_SCHEMA, "version": "0", "profile": "converted", "cases": cases,
-            "digest": hashlib.sha256(digests.encode()).hexdigest(),
-            "licence": "that of the queries", "cite": "", "groups": groups, "flags": {}}
+        cases = [{"id": f"{name}-{i + 1}", "about": f"Query {i + 1} of {path}.",
+                  "result": "collision" if label else "free", "t0": t0, "t1": t1, "flags": [],
+                  "hard": {"kind": "unknown", "bits": 0}, "source": str(path),
+                  **({} if distance is None else {"distance": distance})}
+                 for i, (t0, t1, label, distance) in enumerate(queries)]
+        groups.append((group, cases))
+    write_set(out, {"schema": SET_SCHEMA, "version": "0", "profile": "converted", "cases": 0,
+                    "digest": "", "licence": "that of the queries", "cite": "", "groups": [],
+                    "flags": {}}, groups)
+
+
+def write_set(out, info, groups):
+    """Writes groups, each with its cases, and a set.json that names them beside those of `info`."""
+    out = Path(out)
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as problem:
+        raise Wrong(f"{out}: {problem.strerror}") from None
+    entries = {entry["file"]: entry for entry in info["groups"]}
+    texts = {}
+    for group, cases in groups:
+        lines = ",\n".join(map(json.dumps, cases))
+        text = f'{json.dumps(group)[:-1]}, "cases": [\n{lines}\n]}}\n'
+        name = f"{group['group']}.json"
+        texts[name] = text
+        entries[name] = {"file": name, "sha256": hashlib.sha256(text.encode()).hexdigest(),
+                         "cases": len(cases), **{key: group[key] for key in KIND}}
+        check_group({**group, "cases": cases}, out / name, info, entries[name])
+    for name, text in texts.items():
+        write_text(out / name, text)
+    digests = "".join(f"{entry['sha256']}  {name}\n" for name, entry in entries.items())
+    info = {**info, "groups": list(entries.values()),
+            "cases": sum(entry["cases"] for entry in entries.values()),
+            "digest": hashlib.sha256(digests.encode()).hexdigest()}
     write_text(out / "set.json", json.dumps(info, indent=1) + "\n")
-    VectorSet(out)
-    print(f"{out}: {cases} cases in {len(groups)} groups")
+    check(out)
+    print(f"{out}: {info['cases']} cases in {len(entries)} groups")
 
 
 def to_csv(group_file, out, truth):
@@ -913,7 +976,7 @@ def to_csv(group_file, out, truth):
         labels.append(case["result"] != "free")
         end = [] if truth else [str(int(labels[-1]))]
         if group["question"] == "distance":
-            end = (end or [""]) + [repr(float(case["distance"]))]
+            end = (end or [""]) + [decimal(case["distance"])]
         for point in case["t0"] + case["t1"]:
             ratios = [str(n) for x in point for n in float(x).as_integer_ratio()]
             text += ",".join(ratios + end) + "\n"
@@ -960,9 +1023,14 @@ def parser_of_all():
     one.add_argument("--timeout", type=float, default=10, metavar="S",
                      help="seconds for an answer (default: 10)")
     one.add_argument("--restart", action="store_true", help="start the program anew for each case")
+    one.add_argument("--detector", metavar="NAME",
+                     help="ask a plug-in of Assay, or a class: python:MODULE:CLASS")
+    one.add_argument("--arithmetic", metavar="WORD",
+                     help="ask the built-in detector: exact, bounded, double or float")
     one = verbs.add_parser("score", help="what results come to")
     one.add_argument("results", nargs="+")
     one.add_argument("--set", metavar="DIR")
+    one.add_argument("--out", metavar="FILE.html", help="write the matrix of all products here")
     one = verbs.add_parser("check", help="check a set")
     one.add_argument("set", metavar="DIR")
     one = verbs.add_parser("to-csv", help="a group as query file")
@@ -980,18 +1048,33 @@ def parser_of_all():
     return parser
 
 
+def asked_by(given, command):
+    """What answers: a program, or a detector of Assay."""
+    ways = [way for way in (command, given.detector, given.arithmetic) if way]
+    want(len(ways) == 1, "run", "who answers? -- COMMAND ARGS..., --detector or --arithmetic")
+    want(0 < given.timeout < math.inf, "--timeout", "wanted is a number above 0")
+    if command:
+        return Program(command, given.timeout, given.restart)
+    import hosted
+    hosted.demand_module()
+    words = hosted.assay.OPTIONS["arithmetic"]
+    want(given.detector or given.arithmetic in words, "--arithmetic", f"one of {', '.join(words)}")
+    return (hosted.PlugIn(given.detector, given.timeout) if given.detector
+            else hosted.BuiltIn(given.arithmetic))
+
+
 def main(words):
+    sys.modules.setdefault("vectors", sys.modules[__name__])  # for what is imported beside it
     command = []
     if words[:1] == ["run"] and "--" in words:
         at = words.index("--")
         words, command = words[:at], words[at + 1:]
     given = parser_of_all().parse_args(words)
     if given.verb == "run":
-        want(command, "run", "no program: vectors.py run [OPTIONS] -- COMMAND ARGS...")
-        want(0 < given.timeout < math.inf, "--timeout", "wanted is a number above 0")
         vectors = VectorSet(given.set, given.group)
+        asked = asked_by(given, command)
         write_text(given.out, "", "a")  # whether it can be written: no work is to be lost
-        results = ask_all(Program(command, given.timeout, given.restart), vectors)
+        results = ask_all(asked, vectors)
         write_results(results, given.out)
         judged = [judge(results, vectors)]
         print(score_text(vectors, judged, brief=True), end="")
@@ -1000,6 +1083,9 @@ def main(words):
     if given.verb == "score":
         vectors = VectorSet(given.set)
         judged = [judge(read_results(file, vectors), vectors) for file in given.results]
+        if given.out:
+            import matrix
+            write_text(given.out, matrix.page(vectors, judged))
         print(score_text(vectors, judged), end="")
         return exit_code(judged)
     if given.verb == "check":
@@ -1017,14 +1103,19 @@ def main(words):
     return 0
 
 
-if __name__ == "__main__":
+def end_with(work):
+    """Ends the process with the exit code of work(words of the command line), or 0."""
     try:
-        sys.exit(main(sys.argv[1:]))
+        sys.exit(work(sys.argv[1:]))
     except Wrong as wrong:
-        print("vectors.py: " + " ".join(str(wrong).split()), file=sys.stderr)
+        print(f"{Path(sys.argv[0]).name}: " + " ".join(str(wrong).split()), file=sys.stderr)
         sys.exit(2)
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         sys.exit(2)
     except KeyboardInterrupt:
         sys.exit(130)
+
+
+if __name__ == "__main__":
+    end_with(main)

@@ -210,7 +210,8 @@ class PairOfStep {
   std::int32_t corner(std::int32_t triangle, int k) const { return triangles_(triangle, k); }
 
   bool has_no_area(std::int32_t triangle, const PositionsView& x) const {
-    return properties::has_no_area(triangles_, triangle, x);
+    return has_no_area_by(triangles_, triangle,
+                          [&](std::int32_t v, int axis) { return mpq_class(x(v, axis)); });
   }
 
   bool has_no_area_at(std::int32_t triangle, double t) const {
@@ -249,11 +250,6 @@ Cause cause_without_contact(const PairOfStep& pair, bool of_distance) {
 }
 
 }  // namespace
-
-bool has_no_area(const TrianglesView& triangles, std::int32_t triangle, const PositionsView& x) {
-  return has_no_area_by(triangles, triangle,
-                        [&](std::int32_t v, int axis) { return mpq_class(x(v, axis)); });
-}
 
 Cause cause_of(const TrianglesView& triangles, const SteppedMesh& motion,
                const PairContact& contact, bool of_distance) {

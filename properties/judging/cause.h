@@ -75,10 +75,6 @@ Cause cause_of_query(const detector::TrianglesView& triangles, const detector::S
 Cause cause_of(const detector::TrianglesView& triangles, const detector::SteppedMesh& motion,
                detector::TrianglePair pair, bool of_distance = false);
 
-// Whether a triangle has no area at these places, exactly.
-bool has_no_area(const detector::TrianglesView& triangles, std::int32_t triangle,
-                 const detector::PositionsView& x);
-
 // "t inside, moving, coplanar throughout, sharing an edge, near contact at the start, huge
 // numbers". What is ordinary of the last three is not mentioned: strangers, a start far enough
 // apart, ordinary numbers.

@@ -10,6 +10,7 @@
 #include "detector/contact/elementary.h"
 #include "detector/contact_place.h"
 #include "detector/detector.h"
+#include "detector/distance/nearness.h"
 #include "detector/parallel/processor_state.h"
 #include "properties/judging/case_options.h"
 #include "reports/python/arrays.h"
@@ -175,9 +176,11 @@ py::dict words_of_options() {
 // After this many queries it is asked whether signals have come. They take about a millisecond.
 constexpr std::size_t queries_of_a_piece = 1024;
 
-// Whether it came to the end.
-bool answer(const QueriesArgument& x_t0, const QueriesArgument& x_t1, int first_group, bool* hit,
-            double* lo, double* hi, const detector::StopFunction& stop) {
+// Whether it came to the end. `test` answers a query.
+template <class Test>
+bool answer(const QueriesArgument& x_t0, const QueriesArgument& x_t1, int first_group,
+            const Test& test, bool* hit, double* lo, double* hi,
+            const detector::StopFunction& stop) {
   constexpr double no_time = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t k = 0; k < x_t0.count(); ++k) {
     if (k % queries_of_a_piece == 0 && stop()) return false;
@@ -185,7 +188,7 @@ bool answer(const QueriesArgument& x_t0, const QueriesArgument& x_t1, int first_
     query.first_group = first_group;
     for (std::size_t i = 0; i < QueriesArgument::points; ++i)
       query.points[i] = {x_t0.point(k, i), x_t1.point(k, i)};
-    const auto result = detector::test_contact(query, detector::Want::first_time);
+    const auto result = test(query);
     hit[k] = result.contact;
     lo[k] = result.contact ? result.time.lo : no_time;
     hi[k] = result.contact ? result.time.hi : no_time;
@@ -193,7 +196,17 @@ bool answer(const QueriesArgument& x_t0, const QueriesArgument& x_t1, int first_
   return true;
 }
 
-py::tuple answers(const py::object& x_t0, const py::object& x_t1, int first_group) {
+// With a separation above 0 a hit is what comes within it, exactly.
+template <int first_group>
+py::tuple answers(const py::object& x_t0, const py::object& x_t1, const std::string& arithmetic,
+                  double separation) {
+  const auto chosen = from_name<detector::Arithmetic>(arithmetic);
+  if (!chosen) throw py::value_error("arithmetic: unknown word '" + arithmetic + "'");
+  const auto test = [&](const detector::FourPoints& query) {
+    constexpr auto want = detector::Want::first_time;
+    return separation > 0 ? detector::test_near(query, separation, want)
+                          : detector::test_contact(query, want, *chosen);
+  };
   const QueriesArgument from(x_t0, "x_t0"), to(x_t1, "x_t1");
   if (from.count() != to.count())
     throw py::value_error("x_t0 has " + std::to_string(from.count()) + " queries, x_t1 " +
@@ -205,7 +218,7 @@ py::tuple answers(const py::object& x_t0, const py::object& x_t1, int first_grou
   double *los = lo.mutable_data(), *his = hi.mutable_data();
   interruptible([&](const auto& stop) {
     const detector::ProcessorState state;
-    return answer(from, to, first_group, hits, los, his, state.in_callers_state(stop));
+    return answer(from, to, first_group, test, hits, los, his, state.in_callers_state(stop));
   });
   return py::make_tuple(hit, lo, hi);
 }
@@ -316,8 +329,6 @@ PYBIND11_MODULE(_detector, module) {
       .def("restore", &PythonDetector::restore)
       .def("reset", &PythonDetector::reset);
   module.def("contact_places", contact_places);
-  module.def("vertex_face",
-             [](const py::object& x_t0, const py::object& x_t1) { return answers(x_t0, x_t1, 1); });
-  module.def("edge_edge",
-             [](const py::object& x_t0, const py::object& x_t1) { return answers(x_t0, x_t1, 2); });
+  module.def("vertex_face", answers<1>);
+  module.def("edge_edge", answers<2>);
 }

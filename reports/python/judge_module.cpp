@@ -33,16 +33,18 @@ void demand_good_input(const detector::TrianglesView& triangles,
     if (const auto bad = detector::check_positions(*x, x_t0.rows())) raise(*bad);
 }
 
-// With a distance the oracle is asked for what comes within it, and not for contacts.
+// With a distance, the sum of two doubles, the oracle is asked for what comes within it, and not
+// for contacts.
 py::dict judge(const py::object& triangles, const py::object& x_t0, const py::object& x_t1,
-               const std::optional<double>& within, int jobs) {
+               const std::optional<std::pair<double, double>>& within, int jobs) {
   const TrianglesArgument mesh(triangles, "triangles");
   const PositionsArgument from(x_t0, "x_t0"), to(x_t1, "x_t1");
   demand_good_input(mesh.view(), from.view(), to.view());
   const auto judgement = interruptible([&](const auto& stop) {
     const detector::SteppedMesh motion{from.view(), to.view()};
     const oracle::JudgeOptions options{jobs, stop};
-    return within ? oracle::judge_distance(motion, mesh.view(), {*within, 0}, {options})
+    return within ? oracle::judge_distance(motion, mesh.view(), {within->first, within->second},
+                                           {options})
                   : oracle::judge_step(motion, mesh.view(), options);
   });
   py::dict fields = arrays_of(judgement.answer, judgement.first, judgement.pairs);

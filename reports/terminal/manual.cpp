@@ -13,7 +13,6 @@ namespace {
 constexpr const char* judging = "Judge a detector";
 constexpr const char* failing = "What failed";
 constexpr const char* keeping = "Runs and certificates";
-constexpr const char* set = "The conformance set";
 constexpr const char* harness = "Beside it";
 
 struct Row {
@@ -110,30 +109,6 @@ const std::vector<Row>& table() {
        "",
        {{"assay bench --detector ./detector.so --quick",
          "A first look at the speed of a detector of one's own"}}},
-      {"vectors",
-       set,
-       "02",
-       "the set is written",
-       {{"assay vectors --out vectors", "The core set of about 1,000 cases"}}},
-      {"verify-vectors",
-       set,
-       "024",
-       "all methods agree with the set",
-       {{"assay verify-vectors vectors", "What the set states, found once more"}}},
-      {"answer-vectors",
-       set,
-       "02",
-       "the answers are written",
-       {{"assay answer-vectors vectors --out built-in.json",
-         "The answers of the built-in detector"},
-        {"assay answer-vectors vectors --detector ./detector.so --out own.json",
-         "Those of a detector of one's own"}}},
-      {"score",
-       set,
-       "0123",
-       "no answer is wrong",
-       {{"assay score built-in.json own.json --set vectors --out matrix.html",
-         "What both answered, beside each other"}}},
       {"self-test",
        harness,
        "01234",

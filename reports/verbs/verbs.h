@@ -9,7 +9,6 @@
 namespace assay::reports {
 
 // Each function adds its verb, with all its options, to the command line.
-AddedVerb add_answer_vectors(CLI::App& app);
 AddedVerb add_bench(CLI::App& app);
 AddedVerb add_certify(CLI::App& app);
 AddedVerb add_check(CLI::App& app);
@@ -21,11 +20,8 @@ AddedVerb add_replay(CLI::App& app);
 AddedVerb add_report(CLI::App& app);
 AddedVerb add_run(CLI::App& app);
 AddedVerb add_scene(CLI::App& app);
-AddedVerb add_score(CLI::App& app);
 AddedVerb add_self_test(CLI::App& app);
 AddedVerb add_shrink(CLI::App& app);
-AddedVerb add_vectors(CLI::App& app);
 AddedVerb add_verify(CLI::App& app);
-AddedVerb add_verify_vectors(CLI::App& app);
 
 }  // namespace assay::reports

@@ -25,7 +25,7 @@ LENT = "builds, and the build is only lent"
 EXAMPLES = "of files that the examples write; tests/reports/python runs those"
 MUTANTS = "compiles as the build did, and the build is only lent; test mutation_smoke runs the script"
 MISSES = "ends with 1, for the textbook test misses contacts; tests/corpus/vectors runs it"
-SET_TESTS = "takes minutes; the tests vectors_are_made and vectors_hold run it"
+SET_TESTS = "wants the Python module; tests/corpus/vectors and tests/reports/python run such lines"
 BOUNDS = "the tests bounds, bounds_changes and bounds_contracted run it"
 
 # What the reader is to have at hand: made before the first command of that README.
@@ -48,8 +48,7 @@ GIVEN_SLOW = {
 QUICK = {
     "corpus/vectors/README.md": [
         "cc -std=c99 -O2 corpus/vectors/examples/plain.c -o plain -lm",
-        "build/release/assay answer-vectors corpus/vectors --arithmetic exact --out build/exact.json",
-        "build/release/assay score build/exact.json --out build/matrix.html",
+        "export PYTHONPATH=$PWD/build/release/python",
     ],
     "tests/README.md": [
         'RC_PARAMS="seed=7 max_success=1000 max_discard_ratio=100" ctest --preset law -R Laws.L3 --verbose',
@@ -179,8 +178,8 @@ NOT_RUN = {
     "corpus/vectors/README.md": {
         "python3 corpus/vectors/vectors.py run -- ./plain": MISSES,
         "python3 corpus/vectors/vectors.py check corpus/vectors": "tests/corpus/vectors does so",
-        "build/release/assay vectors --out build/vectors": SET_TESTS,
-        "build/release/assay verify-vectors corpus/vectors": SET_TESTS,
+        "python3 corpus/vectors/vectors.py run --arithmetic exact --out build/exact.json": SET_TESTS,
+        "python3 corpus/vectors/vectors.py score build/exact.json --out build/matrix.html": SET_TESTS,
     },
     "reports/campaign/README.md": {
         "reports/nightly --out build/night": NIGHT,

@@ -30,6 +30,7 @@ from .judging import (
 )
 from .hosting import BeyondCapacity, Refused
 from .plots import plot
+from .plugin import Plugin
 from .programs import Failure, Outcome, Page, certify, replay, report, run
 from .recorder import Recorder
 from .results import (
@@ -66,6 +67,7 @@ __all__ = [
     "OPTIONS",
     "Outcome",
     "Page",
+    "Plugin",
     "Recorder",
     "Refused",
     "SeparationReport",

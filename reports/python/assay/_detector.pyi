@@ -36,8 +36,12 @@ class Detector:
 
 Answers = Tuple[npt.NDArray[np.bool_], npt.NDArray[np.float64], npt.NDArray[np.float64]]
 
-def vertex_face(x_t0: npt.ArrayLike, x_t1: npt.ArrayLike) -> Answers: ...
-def edge_edge(x_t0: npt.ArrayLike, x_t1: npt.ArrayLike) -> Answers: ...
+def vertex_face(
+    x_t0: npt.ArrayLike, x_t1: npt.ArrayLike, arithmetic: str, separation: float
+) -> Answers: ...
+def edge_edge(
+    x_t0: npt.ArrayLike, x_t1: npt.ArrayLike, arithmetic: str, separation: float
+) -> Answers: ...
 def contact_places(
     triangles: npt.ArrayLike,
     x_t0: npt.ArrayLike,

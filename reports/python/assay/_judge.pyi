@@ -9,7 +9,7 @@ def judge(
     triangles: npt.ArrayLike,
     x_t0: npt.ArrayLike,
     x_t1: npt.ArrayLike,
-    within: Optional[float],
+    within: Optional[Tuple[float, float]],
     jobs: int,
 ) -> Dict[str, Any]: ...
 def least_distance(

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Union
+import math
+from typing import Tuple, Union
 
 from numpy.typing import ArrayLike
 
@@ -127,18 +128,32 @@ class Detector:
         self._detector.reset()
 
 
-def vertex_face(x_t0: ArrayLike, x_t1: ArrayLike) -> Contacts:
+def vertex_face(
+    x_t0: ArrayLike, x_t1: ArrayLike, *, arithmetic: str = "exact", separation: float = 0
+) -> Contacts:
     """Whether and when vertices and faces first meet, exactly; about a microsecond a query.
 
     x_t0, x_t1: real numbers (k, 4, 3), the vertex and the three corners of the face at both ends of
-    the step. ValueError: another shape, or a coordinate that is not finite.
+    the step. arithmetic: another of OPTIONS["arithmetic"] is less than exact. separation: above 0,
+    whether and when they come within this distance, exactly. ValueError: another shape or word, a
+    coordinate that is not finite, or a distance that is no length.
     """
-    return Contacts(*_detector.vertex_face(x_t0, x_t1))
+    return Contacts(*_detector.vertex_face(x_t0, x_t1, *_question(arithmetic, separation)))
 
 
-def edge_edge(x_t0: ArrayLike, x_t1: ArrayLike) -> Contacts:
+def edge_edge(
+    x_t0: ArrayLike, x_t1: ArrayLike, *, arithmetic: str = "exact", separation: float = 0
+) -> Contacts:
     """The same of edges: the two ends of the one, then those of the other."""
-    return Contacts(*_detector.edge_edge(x_t0, x_t1))
+    return Contacts(*_detector.edge_edge(x_t0, x_t1, *_question(arithmetic, separation)))
+
+
+def _question(arithmetic: str, separation: float) -> Tuple[str, float]:
+    if not (math.isfinite(separation) and separation >= 0):
+        raise ValueError("separation: a length is wanted, finite and not below 0")
+    if separation > 0 and arithmetic != "exact":
+        raise ValueError("separation: only exact arithmetic answers it")
+    return arithmetic, separation
 
 
 def contact_places(result: Union[StepResult, Judgement]) -> ContactPlaces:

@@ -171,19 +171,21 @@ def judge(
     x_t0: ArrayLike,
     x_t1: Optional[ArrayLike] = None,
     *,
-    separation: float = 0,
+    separation: Union[float, Tuple[float, float]] = 0,
     jobs: Optional[int] = None,
 ) -> Judgement:
     """The oracle's answer of a step: all pairs in contact, by exact arithmetic.
 
     Without x_t1 the mesh is at rest: "collision" says that it meets itself.
     separation: above 0, all pairs of triangles that share no vertex and come within this distance,
-    each with its first time within it; "collision" says that there are some. Arguments and errors
-    are those of Detector; jobs: threads, all cores if None. Ctrl-C ends it.
+    each with its first time within it; "collision" says that there are some. Two doubles stand for
+    their exact sum. Arguments and errors are those of Detector; jobs: threads, all cores if None.
+    Ctrl-C ends it.
     """
     from . import _judge
 
-    within = _length(separation) or None
+    length, rest = separation if isinstance(separation, tuple) else (separation, 0.0)
+    within = (length, rest) if _length(length + rest) > 0 and _length(length) > 0 else None
     x_t1 = x_t0 if x_t1 is None else x_t1
     answer = _judge.judge(triangles, x_t0, x_t1, within, _jobs(jobs))
     return Judgement(**answer, triangles=triangles, x_t0=x_t0, x_t1=x_t1)
@@ -210,7 +212,7 @@ def first_time_within(
     from . import _judge
 
     first: Optional[Interval] = _judge.judge(
-        triangles, x_t0, x_t1, _length(separation), _jobs(jobs)
+        triangles, x_t0, x_t1, (_length(separation), 0.0), _jobs(jobs)
     )["first"]
     return first
 

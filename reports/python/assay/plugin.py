@@ -1,17 +1,19 @@
-"""Detectors of Python as a plug-in: the word by which the programs know one.
+"""Plug-ins: the word by which the programs know one, and one that is asked by hand.
 
-Another process imports the class by its module, so it has to stand in a file. How a class looks is in
-hosting.py, which calls it there.
+Another process imports a class in Python by its module, so it has to stand in a file. How a class
+looks is in hosting.py, which calls it there.
 """
 
 import contextlib
 import inspect
+import json
 import os
 import sys
 from pathlib import Path
-from typing import Any, Dict, Iterator, Tuple
+from typing import Any, Dict, Iterator, List, Optional, Tuple
 
 from . import hosting
+from .places import program
 
 
 def detector_word(detector: Any) -> str:
@@ -51,6 +53,37 @@ def surroundings(detector: Any) -> Iterator[None]:
                 del os.environ[name]
             else:
                 os.environ[name] = value
+
+
+class Plugin:
+    """A plug-in that is asked by hand: steps, limits and queries, in a process of its own.
+
+    detector: as of check(). seconds: processor time that a case may take. name, version: what it says
+    of itself. ValueError: it cannot serve, with the line that says why.
+    """
+
+    def __init__(self, detector: Any, *, seconds: float = 10):
+        from . import _plugin
+
+        self._detector = detector
+        with surroundings(detector):
+            self._plugin = _plugin.Plugin(
+                detector_word(detector), str(program("assay-worker")), seconds
+            )
+        self.name, self.version = self._plugin.name, self._plugin.version
+
+    def answers(
+        self, case: Dict[str, Any], *, separation: float = 0, limits: bool = False
+    ) -> Optional[List[Dict[str, Any]]]:
+        """What it answers to each step of a case: a dict each, as results of corpus/vectors hold it.
+
+        case: what a case file holds (corpus/README.md); with the option `query` it is one of two
+        features. separation: the distance that is asked about, 0 for contacts; limits: how far each
+        step may be gone. None: the detector does not serve this question, or its contract leaves out
+        the case as it is.
+        """
+        with surroundings(self._detector):
+            return self._plugin.answers(json.dumps(case), separation, limits)
 
 
 def _place(kind: type) -> Tuple[str, str]:

@@ -41,10 +41,7 @@ expect 0 certify --campaign few.json --power proof --out certified
 expect 0 verify certified/certificate.json --again 0.5
 expect 0 report certified --out certified.html
 expect 0 run --campaign few.json --detector ./libmine.so --power proof --out mine
-expect 0 answer-vectors "$data/corpus/vectors" --arithmetic exact --out answers.json
-expect 0 score answers.json
 [ "$size" = whole ] || exit 0
 expect 0 certify --campaign few.json --detector ./libmine.so --power proof --out mine
 expect 0 verify mine/certificate.json
 expect 0 bench --suite elementary --quick
-expect 0 vectors --out vectors

@@ -1,4 +1,5 @@
 """vectors.py and the programs of corpus/vectors, on a small set made by hand, and on the committed one."""
+import copy
 import json
 import os
 import shutil
@@ -282,62 +283,15 @@ class AsAModule(InScratch):
 
 
 class Examples(InScratch):
-    def compile(self, source, *options):
-        """An example, or a source by its path."""
-        program = self.scratch / Path(source).stem
-        compiler = os.environ.get("CC" if source.endswith(".c") else "CXX") or \
-            ("cc" if source.endswith(".c") else "c++")
-        subprocess.run([*compiler.split(), "-O1", "-Wall", "-Wextra", "-Wpedantic", "-Werror",
-                        ROOM / "examples" / source, "-o", program, *options], check=True)
-        return program
-
-    def test_the_header_hands_meshes_over(self):
-        source = self.scratch / "meshes.cpp"
-        source.write_text(r"""#include "assay_vectors.h"
-struct Mine : assay_vectors::Detector {
-  int meshes = 0;
-  bool mesh(const Triangles& triangles, const Points& points) override {
-    ++meshes;
-    return triangles.size() == 2 && triangles[1][2] == 5 && points.size() == 6;
-  }
-  Answer step(const Triangles&, const Points& t0, const Points& t1) override {
-    if (t0[3][2] == 3) throw std::runtime_error("too high");
-    if (t1[3][2] > 0) return Answer::free().with_pairs({});
-    return Answer::collision(0.25 * meshes, 0.5).with_pairs({{1, 0}});
-  }
-  Answer limit(const Triangles&, const Points&, const Points&) override {
-    return Answer::safe_share(0.25 * meshes);
-  }
-  Answer edge_edge(const Points&, const Points&) override { return Answer::safe_share(0.5); }
-  Answer vertex_face(const Points&, const Points&) override { return Answer::collision(NAN); }
-};
-int main(int count, char** words) {
-  Mine mine;
-  const assay_vectors::Product product = {"me\"shes", "1", "a\\b\tc"};
-  if (count < 2) return assay_vectors::serve({"meshes", "1", ""}, mine);
-  assay_vectors::run(words[1], product, mine, words[2]);
-}
-""")
-        program, file = self.compile(str(source), "-std=c++17", f"-I{ROOM}"), self.scratch / "own"
-        _, served, _ = self.ask(program)
-        subprocess.run([program, MINI, file], check=True)
-        own = vectors.read_results(file, vectors.VectorSet(MINI))
-        self.assertEqual(own["product"], {"name": 'me"shes', "version": "1", "settings": "a\\b\tc"})
-        self.assertEqual(own["answers"], served["answers"])
-        self.assertEqual(own["answers"]["st-d-0001"]["steps"],
-                         [{"answer": "error"},
-                          {"answer": "collision", "time": [0.25, 0.5], "pairs": [[0, 1]]},
-                          {"answer": "free", "pairs": []}])
-        self.assertEqual(own["answers"]["lm-d-0001"]["steps"], [{"answer": "share", "share": 0.5}])
-        for name in ("ee-d-0001", "vf-d-0001"):
-            self.assertEqual(own["answers"][name], {"answer": "error"}, "no answer to the question")
-
     def test_each_is_short(self):
         for name in ("plain.c", "textbook_cubic.py", "ipc_toolkit.py"):
             self.assertLessEqual(len((ROOM / "examples" / name).read_text().splitlines()), 60, name)
 
     def test_the_textbook_misses_what_stays_in_a_plane(self):
-        plain = self.compile("plain.c", "-std=c99", "-lm")
+        plain = self.scratch / "plain"
+        subprocess.run([*os.environ.get("CC", "cc").split(), "-std=c99", "-O1", "-Wall", "-Wextra",
+                        "-Wpedantic", "-Werror", ROOM / "examples" / "plain.c", "-o", plain, "-lm"],
+                       check=True)
         for command in ([plain], [sys.executable, ROOM / "examples" / "textbook_cubic.py"]):
             code, results, text = self.ask(*command)
             self.assertEqual(code, 1, text)
@@ -345,26 +299,6 @@ int main(int count, char** words) {
             self.assertEqual(results["answers"]["vf-d-0003"], {"answer": "free"})
             self.assertEqual(results["answers"]["vd-f-0001"], {"answer": "unsupported"})
             self.assertEqual(results["answers"]["st-d-0001"]["steps"], [{"answer": "unsupported"}] * 3)
-
-    def test_the_header_asks_and_serves_alike(self):
-        program = self.compile("with_header.cpp", "-std=c++17", "-Wshadow", "-Wconversion")
-        code, served, _ = self.ask(program)
-        self.assertEqual(code, 0)
-        subprocess.run([program, MINI], check=True, cwd=self.scratch)
-        own = json.loads((self.scratch / "results.json").read_text())
-        vectors.read_results(self.scratch / "results.json", vectors.VectorSet(MINI))
-        for results in (own, served):
-            results.pop("seconds")
-        self.assertEqual(own, served)
-        self.assertEqual(own["answers"]["vf-d-0003"], {"answer": "free"})
-        damaged = self.scratch / "damaged"
-        shutil.copytree(MINI, damaged)
-        (damaged / "steps-double.json").write_text('{"cases": [')
-        for folder, line in ((damaged, "steps-double.json: no JSON"), ("nowhere", "set.json: ")):
-            done = subprocess.run([program, folder], cwd=self.scratch, text=True, check=False,
-                                  capture_output=True)
-            self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1))
-            self.assertIn(line, done.stderr)
 
     def test_the_ipc_toolkit_by_its_interface(self):
         """Its Python module, or, where it is not installed, one that has the same functions."""
@@ -401,6 +335,118 @@ def compute_collision_free_stepsize(mesh, vertices_t0, vertices_t1):
         self.assertEqual(answers["vd-f-0001"], {"answer": "free"})
         self.assertEqual(answers["st-d-0001"]["steps"][1], {"answer": "collision"})
         self.assertIn("A misses: lm-d-0001\n", done.stdout)
+
+
+class Page(InScratch):
+    """The matrix page of `score --out`."""
+
+    def page(self, *products):
+        """Of products, each a name and answers that differ from the right ones."""
+        files = []
+        for name, changes in products:
+            results = right_answers()
+            results["product"] = {"name": name, "version": "1", "settings": "s"}
+            results["answers"].update(changes)
+            files.append(self.scratch / f"{len(files)}.json")
+            vectors.write_results(results, files[-1])
+        out = self.scratch / "page.html"
+        code, _, errors = run("score", *files, "--set", MINI, "--out", out)
+        self.assertEqual(errors, "")
+        return code, out.read_text()
+
+    def test_it_shows_misses_by_flags_and_nothing_from_elsewhere(self):
+        bad = {"ee-d-0003": {"answer": "free"}, "ee-d-0002": {"answer": "free"},
+               "vf-d-0003": {"answer": "collision"}, "vf-d-0001": {"answer": "undecided"},
+               "vf-d-0004": {"answer": "collision", "time": [1, 1]},
+               "lm-d-0001": {"steps": [{"answer": "share", "share": 0.5}]}}
+        code, text = self.page(("bad", bad), ("good", {}))
+        self.assertEqual(code, 1)
+        for part in (
+                '<tr><th scope="row">CoplanarThroughout<br><small>The cubic is zero, and a solver that '
+                'divides by it answers free.</small></th><td class="bad" data-of="A"><b>&#x2717; 1/1'
+                '</b></td><td class="good" data-of="B"><b>&#x2713; 0/1</b></td></tr>',
+                "<small>1 alarm", "1 unanswered</small>", "<h3>A bad 1: 2 misses</h3>",
+                "<h3>B good 1: no miss</h3>",
+                "<code>ee-d-0003</code> Two edges slide along one line, in one plane throughout, and "
+                "meet half way.<br><small>contact at t = 0.5; answered free. CoplanarThroughout, "
+                "ParallelEdges</small>",
+                "answered share 0.5", "<p>Alarms (1): <code>vf-d-0003</code></p>",
+                "<p>Undecided (1): <code>vf-d-0001</code></p>", "<p>Late times (1): ",
+                "<li>A bad: 0 called contact, 1 free</li>", "prefers-color-scheme: dark"):
+            self.assertIn(part, text)
+        for part in ("<script", "http:", "https:", "url(", "src=", "href="):
+            self.assertNotIn(part, text)
+
+    def test_what_a_product_calls_itself_stays_text(self):
+        code, text = self.page(('<script>alert("1")</script>&', {}))
+        self.assertEqual(code, 0)
+        self.assertNotIn("<script", text)
+        self.assertIn("&lt;script&gt;alert(&quot;1&quot;)&lt;/script&gt;&amp;", text)
+
+
+class Committed(unittest.TestCase):
+    """The set, the results and the page that stand beside vectors.py."""
+
+    def setUp(self):
+        self.set = vectors.VectorSet()
+        self.results = [vectors.read_results(file, self.set)
+                        for file in sorted((ROOM / "results").glob("*.json"))]
+
+    def test_the_page_is_that_of_the_results(self):
+        import matrix
+        every = [vectors.judge(results, self.set) for results in self.results]
+        self.assertEqual(len(every), 10)
+        self.assertEqual(matrix.page(self.set, every), (ROOM / "matrix.html").read_text())
+
+    def test_the_rationals_are_those_of_the_groups(self):
+        self.assertEqual(len(list((ROOM / "csv").glob("*/*.csv"))), 8)
+        with tempfile.TemporaryDirectory() as scratch:
+            back = Path(scratch) / "back.csv"
+            for file in (ROOM / "csv").glob("*/*.csv"):
+                vectors.to_csv(ROOM / f"{file.parent.name}-{file.stem}.json", back, None)
+                self.assertEqual(back.read_bytes(), file.read_bytes(), file)
+
+    def test_halves_are_those_of_a_step(self):
+        whole = next(c for c in self.set.cases if "SplitInvariant" in c.flags)
+        halves = [c for c in self.set.cases if c.json.get("split_of") == whole.id]
+        opposite = "free" if whole.json["result"] != "free" else "collision"
+        for change, line in (
+                (lambda w, a, b: None, None),
+                (lambda w, a, b: b.pop("split_of"), "has not two halves"),
+                (lambda w, a, b: (a.pop("split_of"), b.pop("split_of")), "has not two halves"),
+                (lambda w, a, b: a.update(t0=b["t0"]), "its halves are none"),
+                (lambda w, a, b: a.update(split_of="nothing"), "half of a case that is not there"),
+                (lambda w, a, b: w.update(result=opposite), "another result whole")):
+            cases = [copy.deepcopy(case) for case in (whole, *halves)]
+            change(*(case.json for case in cases))
+            by_id = {case.id: case for case in cases}
+            if line is None:
+                vectors.check_halves(by_id)
+                continue
+            with self.assertRaisesRegex(vectors.Wrong, line):
+                vectors.check_halves(by_id)
+
+    def test_who_broke_on_a_case_answers_it_wrongly(self):
+        """By closed sets, which is what these detectors claim: what only touches is a contact."""
+        asked = 0
+        for results in self.results:
+            for case in self.set.cases:
+                if results["product"]["name"] not in case.json.get("breaks", ()):
+                    continue
+                answers = results["answers"][case.id]
+                given = answers["steps"] if case.triangles is not None else [answers]
+                self.assertTrue(any(map(self.is_wrong, given, case.steps)),
+                                (results["product"]["name"], case.id))
+                asked += 1
+        self.assertGreater(asked, 300)
+
+    @staticmethod
+    def is_wrong(answer, step):
+        if step.result == "free" or answer["answer"] != "collision":
+            return answer["answer"] == ("collision" if step.result == "free" else "free")
+        return ("time" in answer and answer["time"][0] > step.first_time[1]) or (
+            "pairs" in answer and step.pairs is not None and
+            sorted(map(tuple, answer["pairs"])) != [tuple(p[:2]) for p in step.pairs])
 
 
 class Checking(InScratch):

@@ -30,9 +30,6 @@ void prepare(const Scratch& scratch) {
   log.step(&c.frames[0], c.frames[1], free);
   log.step(&c.frames[1], c.frames[0], free);
   log.end();
-  fs::create_directory(scratch / "vectors");
-  fs::copy(std::string(ASSAY_SOURCE_DIR) + "/corpus/vectors", scratch / "vectors",
-           fs::copy_options::recursive);
   scratch.write("tiny.json", plan_text(16));
 }
 
@@ -75,11 +72,6 @@ std::vector<Pasted> lines_to_paste(const Scratch& scratch) {
   return lines;
 }
 
-// The set takes minutes; vectors_are_made and vectors_hold run these two verbs.
-bool is_of_the_set(const std::string& command) {
-  return contains(command, "assay vectors ") || contains(command, "assay verify-vectors ");
-}
-
 TEST(Examples, RunAsTheyStandAndSoDoTheLinesThatTheyPrint) {
   const Scratch scratch;
   prepare(scratch);
@@ -92,14 +84,12 @@ TEST(Examples, RunAsTheyStandAndSoDoTheLinesThatTheyPrint) {
       SCOPED_TRACE(command);
       EXPECT_EQ(command.rfind("assay " + verb, 0), 0u);
       ++seen;
-      if (is_of_the_set(command)) continue;
       const int code = code_of(scratch, scratch / "", made_small(command));
       EXPECT_NE(code, 2) << read_text(scratch / "err");
       EXPECT_TRUE(std::any_of(manual.exit_codes.begin(), manual.exit_codes.end(),
                               [&](const auto& known) { return known.first == code; }))
           << code << read_text(scratch / "out") << read_text(scratch / "err");
       for (const auto& [folder, line] : lines_to_paste(scratch)) {
-        if (is_of_the_set(line)) continue;
         SCOPED_TRACE(line);
         ++pasted;
         const int code_of_line = code_of(scratch, folder, line);

@@ -23,7 +23,6 @@ class Outputs : public testing::Test {
   const std::string queries = std::string(ASSAY_SOURCE_DIR) + "/corpus/queries/example_vf.csv";
   const std::string plan = scratch.write("plan.json", plan_text(8));
   int folders_ = 0;
-  const std::string set = std::string(ASSAY_SOURCE_DIR) + "/corpus/vectors";
 
   std::string log() const {
     const auto path = scratch / "steps.log";
@@ -46,8 +45,7 @@ TEST_F(Outputs, ThatCannotBeWrittenAreRefusedBeforeTheWork) {
                                  "merge " + run + " --out ",
                                  "replay " + curated("A1_winding2_allpositive") + " --export ",
                                  "replay '" + log() + "#1' --export ",
-                                 "scene bend --size 100 --out ",
-                                 "vectors --out "};
+                                 "scene bend --size 100 --out "};
   for (const auto& words : folders) {
     for (const auto& place : {file, file + "/below", std::string("/proc/nowhere")})
       expect_refused(run_assay(words + place), place);
@@ -60,9 +58,7 @@ TEST_F(Outputs, ThatCannotBeWrittenAreRefusedBeforeTheWork) {
                                "report " + run + " --out ",
                                "bench --suite elementary --quick --json ",
                                "bench --suite elementary --quick --csv ",
-                               "shrink " + curated("A1_winding2_allpositive") + " --out ",
-                               "answer-vectors " + set + " --out ",
-                               "score " + set + "/results/assay_exact.json --out "};
+                               "shrink " + curated("A1_winding2_allpositive") + " --out "};
   for (const auto& words : files) {
     for (const auto& place :
          {scratch / "", file + "/below", scratch / "absent/file", std::string("/proc/nowhere")})

@@ -1,0 +1,212 @@
+#!/usr/bin/python3
+"""Makes a group of a set from case files, with the exact facts of each case.
+
+  make_group.py CASE.json... --name GROUP --out DIR [--distance D] [--limit] [--float]
+                [--flags FLAG...] [--breaks PRODUCT...]
+
+The group goes to DIR/GROUP.json, and set.json of that folder names it beside those that are there;
+a folder without a set gets one. A case is two features (its option `query`) or a mesh:
+corpus/README.md has the form. First times, pairs and least distances are those of the Python
+module `assay`; whether features pass or only touch, and by which polynomial, is found in whole
+numbers (exact.py).
+
+Of the flags it sets those that go by numbers, times and pairs; --flags adds to every case.
+"""
+import argparse
+import json
+import math
+import re
+from pathlib import Path
+
+import vectors
+from exact import Features, vanishes_within
+from hosted import assay, demand_module
+from vectors import primitive, want
+
+SIDES = ((0, 1), (1, 2), (2, 0))
+RESULTS = ("free", "acceptable", "collision")
+
+
+def points_of(frame, indices):
+    return [frame[i] for i in indices]
+
+
+def as_mesh(query):
+    """The two features as a mesh of two triangles without area, at both ends of the step."""
+    corners = [0, 0, 0, 1, 2, 3] if query.first == 1 else [0, 1, 1, 2, 3, 3]
+    return [[0, 1, 2], [3, 4, 5]], *(points_of(end, corners) for end in (query.t0, query.t1))
+
+
+def least_distance(query):
+    return assay.least_distance(*as_mesh(query), jobs=1).distance
+
+
+def comes_nearer(query, distance):
+    """Whether they come within less than the distance: less by a 2^60th of it."""
+    return assay.judge(*as_mesh(query), separation=(distance, -distance * 2.0**-60),
+                       jobs=1).answer == "collision"
+
+
+def facts_of(result, first, candidates):
+    """The polynomial is the first of the candidates that has a zero at the time."""
+    polynomial = [0, 1] if first[1] == 0 else primitive(
+        next(p for p in candidates if vanishes_within(p, *first)))
+    return {"result": result, "first_time": list(map(float, first)),
+            "polynomial": list(map(str, polynomial))}
+
+
+def query_facts(query, distance=0):
+    """Facts of a contact, or of coming within a distance."""
+    stated = {"result": "free"}
+    if distance:
+        stated.update(distance=distance, least_distance=least_distance(query))
+    ask = assay.vertex_face if query.first == 1 else assay.edge_edge
+    found = ask([query.t0], [query.t1], separation=distance)
+    if found.hit[0]:
+        more = comes_nearer(query, distance) if distance else query.passes()
+        stated.update(facts_of("collision" if more else "acceptable", (found.lo[0], found.hi[0]),
+                               query.within(distance) if distance else query.events()))
+    return stated
+
+
+def number_flags(t0, t1, is_float):
+    numbers = [abs(x) for p in t0 + t1 for x in p]
+    least, greatest = min((x for x in numbers if x), default=0), max(numbers)
+    extent = max(max(c) - min(c) for c in zip(*t0))
+    longest = max(abs(b - a) for p, q in zip(t0, t1) for a, b in zip(p, q))
+    if greatest == 0:
+        return {"AtRest"}
+    bits = 24 if is_float else 53
+    return {flag for flag, holds in (
+        ("Denormal", least < (2.0**-126 if is_float else 2.0**-1022)),
+        ("LargeNumbers", greatest >= (2.0**40 if is_float else 2.0**340)),
+        ("MixedScales", math.frexp(greatest)[1] - math.frexp(least)[1] > bits),
+        ("FarFromOrigin", extent > 0 and greatest >= extent * 2.0**(bits // 2)),
+        ("AtRest", longest == 0),
+        ("HugeStep", extent > 0 and longest >= 2.0**10 * extent)) if holds}
+
+
+def query_flags(query, stated, is_float):
+    flags = number_flags(query.t0, query.t1, is_float)
+    first, distance = stated.get("first_time"), stated.get("distance", 0)
+    if not distance and not any(query.coplanarity):
+        flags.add("CoplanarThroughout")
+    if first:
+        flags |= {"AtStart"} if first[1] == 0 else {"AtEnd"} if first[0] == 1 else set()
+        return flags | ({"AtDistance"} if distance and stated["result"] == "acceptable" else set())
+    extent = distance or max(max(c) - min(c) for c in zip(*query.t0))
+    near = extent * 2.0**(-10 if is_float else -26)
+    return flags | ({"NearMiss"} if least_distance(query) - distance <= near else set())
+
+
+def features_of(judgement, k, t0, t1):
+    """The two features of a pair that meet first; None of a piercing or of the same vertices."""
+    kind = assay.FEATURE_KINDS[judgement.features[k][0]]
+    if kind not in ("vertex_face", "edge_edge"):
+        return None
+    four = judgement.features[k][1:5]
+    return Features(1 if kind == "vertex_face" else 2, points_of(t0, four), points_of(t1, four))
+
+
+def pair_passes(triangles, judgement, k, t0, t1):
+    if not features_of(judgement, k, t0, t1):
+        return assay.FEATURE_KINDS[judgement.features[k][0]] == "piercing"
+    a, b = (triangles[t] for t in judgement.pairs[k])
+    asked = [(1, (v, *face)) for one, face in ((a, b), (b, a)) for v in one]
+    asked += [(2, (a[i], a[j], b[m], b[n])) for i, j in SIDES for m, n in SIDES]
+    return any(len(set(four)) == 4 and
+               Features(first, points_of(t0, four), points_of(t1, four)).passes()
+               for first, four in asked)
+
+
+def step_facts(triangles, t0, t1, flags, is_float):
+    """Facts of a step of a mesh; adds the flags that it has."""
+    judgement = assay.judge(triangles, t0, t1, jobs=1)
+    flags |= number_flags(t0, t1, is_float)
+    if judgement.answer == "free":
+        return {"result": "free"}
+    pairs, times = judgement.pairs.tolist(), judgement.times.tolist()
+    flags |= {"ManyContacts"} if len(pairs) >= 50 else set()
+    if any(set(triangles[a]) & set(triangles[b]) for a, b in pairs):
+        flags.add("SharedVertex")
+    passing = any(pair_passes(triangles, judgement, k, t0, t1) for k in range(len(pairs)))
+    query = features_of(judgement, times.index(list(judgement.first)), t0, t1)
+    stated = facts_of("collision" if passing else "acceptable", judgement.first,
+                      query.events() if query else [])
+    if query:
+        flags |= query_flags(query, stated, is_float)
+    stated["pairs"] = [[*pair, *time] for pair, time in zip(pairs, times)]
+    return stated
+
+
+def mesh_facts(case, is_float):
+    """Facts and flags of a mesh."""
+    triangles, frames = case["triangles"], case["frames"]
+    script = case.get("script") or [[i, i + 1, "commit"] for i in range(len(frames) - 1)]
+    flags = {"Sequence"} if len(script) > 1 else set()
+    places = {tuple(tuple(sorted(tuple(x[v]) for v in t)) for x in frames) for t in triangles}
+    flags |= {"Duplicate"} if len(places) < len(triangles) else set()
+    steps = [{"from": a, "to": b, "commit": how == "commit",
+              **step_facts(triangles, frames[a], frames[b], flags, is_float)}
+             for a, b, how in script]
+    worst = max((step["result"] for step in steps), key=RESULTS.index)
+    return {"result": worst, "triangles": triangles, "frames": frames, "steps": steps}, flags
+
+
+def case_of(file, given, features, known):
+    case = vectors.read_json(file)
+    want(isinstance(case, dict) and case.get("schema") == "assay-case/1", file, "is no case file")
+    want(case["options"].get("query", "mesh") == features, file,
+         f"is no case of {features}, as the first one is")
+    if features == "mesh":
+        stated, flags = mesh_facts(case, given.float)
+    else:
+        t0, t1 = case["frames"]
+        query = Features(1 if features == "vertex-face" else 2, t0, t1)
+        stated = {**query_facts(query, given.distance), "t0": t0, "t1": t1}
+        flags = query_flags(query, stated, given.float)
+    flags |= set(given.flags)
+    made = {"id": re.sub(r"[^\w.:-]", "-", case["id"]), "about": case["about"], **stated,
+            "flags": [flag for flag in known if flag in flags],
+            "hard": {"kind": "unknown", "bits": 0}, "source": case["source"] or str(file)}
+    return {**made, "breaks": given.breaks} if given.breaks else made
+
+
+def main(words):
+    parser = vectors.Parser(prog="make_group.py", description=__doc__,
+                            formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("files", nargs="+", metavar="CASE.json")
+    parser.add_argument("--name", required=True, metavar="GROUP")
+    parser.add_argument("--out", required=True, metavar="DIR", help="the folder of the set")
+    parser.add_argument("--distance", type=float, default=0, metavar="D",
+                        help="ask of coming within D")
+    parser.add_argument("--limit", action="store_true", help="ask how far a step may be gone")
+    parser.add_argument("--float", action="store_true", help="the coordinates are floats")
+    parser.add_argument("--flags", nargs="+", default=[], metavar="FLAG")
+    parser.add_argument("--breaks", nargs="+", default=[], metavar="PRODUCT",
+                        help="who fails on them")
+    given = parser.parse_args(words)
+    demand_module()
+    out = Path(given.out)
+    is_there = (out / "set.json").exists()
+    there = vectors.VectorSet(out if is_there else None)
+    info = there.info
+    ids = [case.id for case in there.cases if is_there and case.group != given.name]
+    if not is_there:
+        info.update(version="0", profile="own", groups=[], licence="that of its cases", cite="")
+    for flag in given.flags:
+        want(flag in info["flags"], "--flags", f"there is no flag {flag}")
+    features = vectors.read_json(given.files[0]).get("options", {}).get("query", "mesh")
+    group = {"schema": vectors.SET_SCHEMA, "version": info["version"], "group": given.name,
+             "features": features,
+             "question": "limit" if given.limit else "distance" if given.distance else "contact",
+             "precision": "float32" if given.float else "double", "licence": info["licence"]}
+    cases = [case_of(file, given, features, info["flags"]) for file in given.files]
+    ids += [case["id"] for case in cases]
+    for name in set(ids):
+        want(ids.count(name) == 1, "a case", f"{name} is there twice")
+    vectors.write_set(out, info, [(group, cases)])
+
+
+if __name__ == "__main__":
+    vectors.end_with(main)

@@ -1,0 +1,13 @@
+from typing import Any, Dict, List, Optional
+
+class Plugin:
+    """A plug-in in a process of its own."""
+
+    def __init__(self, library: str, worker: str, seconds: float) -> None: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def version(self) -> str: ...
+    def answers(
+        self, case_text: str, separation: float, asks_limits: bool
+    ) -> Optional[List[Dict[str, Any]]]: ...
