@@ -16,7 +16,6 @@
 #include "corpus/meant_word.h"
 #include "oracle/libraries.h"
 #include "reports/manual/help_text.h"
-#include "reports/manual/pages.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/words.h"
 #include "reports/verbs/verbs.h"
@@ -42,15 +41,11 @@ int refuse_verb(const std::string& word, const Manuals& manuals) {
                                      corpus::did_you_mean(corpus::names_among(manuals), word)));
 }
 
-// `help`, `help VERB`; `help --write DIR` is for whoever installs man pages and completion.
+// `help`, `help VERB`.
 int help(const Words& words, const Manuals& manuals) {
   if (words.empty()) {
     fmt::print("{}", reports::help_text(manuals));
     return reports::exit_holds;
-  }
-  if (words.size() == 2 && words[0] == "--write") {
-    const auto written = reports::write_pages(words[1], manuals);
-    return written ? reports::exit_holds : reports::refuse(written.error());
   }
   const auto asked = std::ranges::find(manuals, words[0], &reports::VerbManual::name);
   if (asked == manuals.end()) return refuse_verb(words[0], manuals);

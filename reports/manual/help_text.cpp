@@ -61,38 +61,38 @@ std::string about_with_words(const OptionManual& option) {
 
 std::string help_text(const std::vector<VerbManual>& verbs) {
   constexpr std::size_t width = 16;
-  std::string text = "usage: assay VERB [OPTION...]\n\n" + paragraph(std::string(assay_about));
+  std::string text = "Usage: assay VERB [OPTION...]\n\n" + paragraph(std::string(assay_about));
   std::vector<std::string> groups;
   for (const auto& verb : verbs) {
     if (std::ranges::find(groups, verb.group) == groups.end()) groups.push_back(verb.group);
   }
   for (const auto& group : groups) {
-    text += "\n" + group + "\n";
+    text += "\n" + group + ":\n";
     for (const auto& verb : verbs) {
       if (verb.group == group) text += row(verb.name, verb.about, width);
     }
   }
   for (const auto& [word, about] : words_beside_verbs()) text += row(word, about, width);
-  text += "\nExit codes\n";
+  text += "\nExit codes:\n";
   for (int code = 0; !exit_code_text(code).empty(); ++code)
     text += row(fmt::format("{}", code), exit_code_text(code), 3);
   return text + "\n" + paragraph(std::string(exit_code_order));
 }
 
 std::string help_text(const VerbManual& verb) {
-  constexpr std::size_t width = 23;
-  std::string text = "usage: " + verb.usage() + "\n\n" + paragraph(verb.about + ".");
+  constexpr std::size_t width = 24;
+  std::string text = "Usage: " + verb.usage() + "\n\n" + paragraph(verb.about + ".");
   for (const auto group : option_groups) {
     std::string rows;
     for (const auto& option : verb.options) {
       if (option.group == group) rows += row(option.text(), about_with_words(option), width);
     }
-    if (!rows.empty()) text += fmt::format("\n{}\n{}", title_of(group), rows);
+    if (!rows.empty()) text += fmt::format("\n{}:\n{}", title_of(group), rows);
   }
-  text += "\nExamples\n";
+  text += "\nExamples:\n";
   for (const auto& example : verb.examples)
     text += fmt::format("  {}\n      {}", example.command, wrapped(example.about, 6, 6));
-  text += "\nExit codes\n";
+  text += "\nExit codes:\n";
   for (const auto& [code, meaning] : verb.exit_codes)
     text += row(fmt::format("{}", code), meaning, 3);
   return text;

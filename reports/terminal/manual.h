@@ -1,5 +1,5 @@
-// What the command line says of itself: its verbs, their options, examples and exit codes. Help,
-// man pages and completion are made of it, so that all of them say the same.
+// What the command line says of itself: its verbs, their options, examples and exit codes. Help
+// is made of it.
 #pragma once
 
 #include <cstdint>
