@@ -284,10 +284,6 @@ Expected<int> run_replay(const ReplayRequest& request) {
   auto second = subject.process(1, true);
   const auto again = asks_twice ? second.run(*seen, subject.detector.configurations)
                                 : std::vector<properties::CaseRun>{};
-  if (!request.export_folder.empty()) {
-    BOOST_OUTCOME_TRY(export_case(request.export_folder, *seen, subject.detector, truth));
-    BOOST_OUTCOME_TRY(write_strip(request.export_folder, *seen, truth, contract));
-  }
   fmt::print("{}: {}{}\n", properties::printable(c.id), properties::size_text(c),
              c.about.empty() ? "" : "; " + properties::printable(c.about));
   if (trial) fmt::print("{}", misspelt(request.id_or_file));
@@ -295,12 +291,18 @@ Expected<int> run_replay(const ReplayRequest& request) {
   print_steps(*seen, truth, contract);
   int code = exit_holds;
   RunTexts texts;
+  std::optional<properties::Claim> broken;
+  auto exported = subject.detector;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const auto& configuration = subject.detector.configurations[i];
     const auto verdict = properties::judge_trial(
         *seen, truth, runs[i], configuration, subject.detector, asks_twice ? &again[i] : nullptr);
     std::string text = run_text(runs[i], verdict, is_query);
     if (verdict.outcome == Outcome::defect) code = exit_defect;
+    if (verdict.failure && !broken) {
+      broken = verdict.failure->claim;
+      exported = subject.detector.in(configuration);
+    }
     const bool is_open = verdict.outcome == Outcome::undecided || verdict.outcome == Outcome::error;
     if (is_open && code == exit_holds) code = exit_undecided;
     if (request.why) text += pair_story(c, configuration.options, *request.why, truth);
@@ -310,7 +312,11 @@ Expected<int> run_replay(const ReplayRequest& request) {
   if (subject.detector.built_in && print_broken_laws(c, subject.detector, runs, truth)) {
     code = exit_defect;
   }
-  if (!request.export_folder.empty()) fmt::print("exported to {}\n", request.export_folder);
+  if (!request.export_folder.empty()) {
+    BOOST_OUTCOME_TRY(export_case(request.export_folder, *seen, exported, truth, broken));
+    BOOST_OUTCOME_TRY(write_strip(request.export_folder, *seen, truth, contract));
+    fmt::print("exported to {}\n", request.export_folder);
+  }
   return code;
 }
 
