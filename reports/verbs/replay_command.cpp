@@ -20,7 +20,7 @@
 #include "reports/check/detector_choice.h"
 #include "reports/judge/log_check.h"
 #include "reports/pictures/case_scene.h"
-#include "reports/pictures/strip_svg.h"
+#include "reports/pictures/mesh_svg.h"
 #include "reports/steps/case_export.h"
 #include "reports/steps/pair_story.h"
 #include "reports/steps/step_text.h"
@@ -200,14 +200,15 @@ Expected<void> write_strip(const std::string& folder, const corpus::Case& c,
                            const std::vector<oracle::StepJudgement>& judgements,
                            const properties::Contract& contract) {
   if (c.triangles.rows() > most_shown_triangles) return outcome::success();
+  CaseScene scene;
+  scene.c = c;
+  scene.contract = contract;
   const auto script = corpus::steps_of(c);
-  for (std::size_t s = 0; s < script.size(); ++s) {
-    const auto truth = truth_of(c, judgements[s], contract);
-    if (!truth.first) continue;
-    return write_text_file((std::filesystem::path(folder) / "strip.svg").string(),
-                           strip_svg(c, script[s], *truth.first, properties::printable(c.about)));
-  }
-  return outcome::success();
+  for (std::size_t s = 0; s < script.size(); ++s)
+    scene.steps.push_back({script[s], truth_of(c, judgements[s], contract), {}, {}});
+  if (!scene.shown_pair()) return outcome::success();
+  return write_text_file((std::filesystem::path(folder) / "strip.svg").string(),
+                         strip_svg(scene, properties::printable(c.about)));
 }
 
 // A remark on an id whose campaign is none of the built-in ones, but has nearly such a name. A case
