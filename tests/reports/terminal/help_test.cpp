@@ -37,6 +37,7 @@ TEST(Help, IsOneTextHoweverItIsAsked) {
   EXPECT_EQ(run_assay("run --campaign smoke -h").out, run.out);
   EXPECT_EQ(run_assay("version").out, run_assay("--version").out);
   expect_refused(run_assay("help chekc"), "unknown verb 'chekc'; did you mean check?");
+  expect_refused(run_assay("versoin"), "unknown verb 'versoin'; did you mean version?");
 }
 
 TEST(Help, TheVersionNamesItsCommit) {
@@ -52,7 +53,7 @@ TEST(Help, OfEachVerbIsWholeAndFitsOnATerminal) {
     SCOPED_TRACE(verb);
     const auto help = run_assay("help " + verb);
     EXPECT_EQ(help.exit_code, 0);
-    EXPECT_EQ(help.out.rfind("Usage: assay " + verb, 0), 0u) << help.out;
+    EXPECT_TRUE(contains(help.out, "\n\nUsage: assay " + verb)) << help.out;
     for (const std::string part : {"\nInput:\n", "\nWhat is asked:\n", "\nWhat is written:\n"}) {
       const bool is_empty = contains(help.out, part) && !contains(help.out, part + "  ");
       EXPECT_FALSE(is_empty) << part << help.out;
@@ -84,6 +85,7 @@ TEST(Help, ShowsWordsAndDefaults) {
   EXPECT_TRUE(contains(check, "Usage: assay check [FRAME...] [OPTION...]\n")) << check;
   EXPECT_TRUE(contains(check, "--pairs WORD")) << check;
   EXPECT_TRUE(contains(check, "(default all): all, first")) << check;
+  EXPECT_TRUE(contains(check, "--apart A,B...  ")) << check;
   const auto run = run_assay("help run").out;
   EXPECT_TRUE(contains(run, "Usage: assay run --out DIR [OPTION...]\n")) << run;
   EXPECT_TRUE(contains(run, "(default quick)")) << run;
