@@ -1,13 +1,9 @@
-# Writes OUT, a header with the commit that SOURCE is at and its date; a file that says so already
-# is left alone.
+# Writes OUT, a header with the commit that SOURCE is at; a file that says so already is left alone.
 execute_process(COMMAND git rev-parse HEAD WORKING_DIRECTORY ${SOURCE}
   OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
-execute_process(COMMAND git show --no-patch --format=%cs WORKING_DIRECTORY ${SOURCE}
-  OUTPUT_VARIABLE date OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
 execute_process(COMMAND git diff --quiet HEAD WORKING_DIRECTORY ${SOURCE}
   RESULT_VARIABLE changed OUTPUT_QUIET ERROR_QUIET)
 if(commit AND NOT changed EQUAL 0)
   string(APPEND commit "-dirty")
 endif()
-file(CONFIGURE OUTPUT ${OUT} CONTENT
-  "#define ASSAY_COMMIT \"${commit}\"\n#define ASSAY_COMMIT_DATE \"${date}\"\n")
+file(CONFIGURE OUTPUT ${OUT} CONTENT "#define ASSAY_COMMIT \"${commit}\"\n")

@@ -9,15 +9,15 @@
 #include <cstdlib>
 #include <exception>
 #include <iostream>
+#include <memory>
 #include <new>
 #include <system_error>
 #include <vector>
 
 #include "corpus/meant_word.h"
 #include "oracle/libraries.h"
-#include "reports/manual/help_text.h"
-#include "reports/manual/pages.h"
 #include "reports/terminal/complaint.h"
+#include "reports/terminal/manual.h"
 #include "reports/terminal/words.h"
 #include "reports/verbs/verbs.h"
 
@@ -33,38 +33,86 @@ constexpr reports::AddedVerb (*verbs[])(CLI::App&) = {
     reports::add_scene,   reports::add_self_test};
 
 using Words = std::vector<std::string>;
-using Manuals = std::vector<reports::VerbManual>;
 
-int refuse_verb(const std::string& word, const Manuals& manuals) {
-  return reports::refuse(fmt::format("unknown verb '{}'{} (assay help lists verbs)", word,
-                                     corpus::did_you_mean(corpus::names_among(manuals), word)));
+// Help on a terminal of 80 columns: CLI11's own but for the usage, and for lines that are broken.
+class Formatter : public CLI::Formatter {
+ public:
+  Formatter() {
+    label("Positionals", reports::OptionGroup::input);
+    column_width(26);
+  }
+
+ private:
+  std::string make_description(const CLI::App* app) const override {
+    return reports::wrapped(app->get_description() + ".", 0) + "\n\n";
+  }
+  std::string make_usage(const CLI::App* app, std::string) const override {
+    if (app->get_name().empty()) return "Usage: assay VERB [OPTION...]\n";
+    std::string needed = "Usage: assay " + app->get_name(), others;
+    for (const bool is_positional : {true, false}) {
+      for (const auto* option : app->get_options()) {
+        if (option->get_positional() != is_positional) continue;
+        const auto word = make_option_name(option, is_positional) + make_option_opts(option);
+        if (option->get_required())
+          needed += " " + word;
+        else if (is_positional)
+          needed += " [" + word + "]";
+        else
+          others = " [OPTION...]";
+      }
+    }
+    return needed + others + "\n";
+  }
+  std::string make_footer(const CLI::App* app) const override { return app->get_footer(); }
+  std::string make_option_opts(const CLI::Option* option) const override {
+    const auto value = option->get_type_name();
+    const bool is_list = option->get_expected_max() >= CLI::detail::expected_max_vector_size;
+    return (value.empty() ? "" : " " + value) + (is_list ? "..." : "");
+  }
+  std::string make_option(const CLI::Option* option, bool is_positional) const override {
+    return row(make_option_name(option, is_positional) + make_option_opts(option),
+               option->get_description(), get_column_width());
+  }
+  std::string make_subcommand(const CLI::App* verb) const override {
+    constexpr std::size_t width = 18;
+    return row(verb->get_name(), verb->get_description(), width);
+  }
+  static std::string row(std::string name, const std::string& about, std::size_t width) {
+    name.insert(0, 2, ' ');
+    name += name.size() < width ? std::string(width - name.size(), ' ')
+                                : "\n" + std::string(width, ' ');
+    return name + reports::wrapped(about, width) + "\n";
+  }
+};
+
+Words verb_names(const CLI::App& app) {
+  Words names;
+  for (const auto* verb : app.get_subcommands({})) names.push_back(verb->get_name());
+  return names;
 }
 
-// `help`, `help VERB`; `help --write DIR` is for whoever installs man pages and completion.
-int help(const Words& words, const Manuals& manuals) {
-  if (words.empty()) {
-    fmt::print("{}", reports::help_text(manuals));
-    return reports::exit_holds;
-  }
-  if (words.size() == 2 && words[0] == "--write") {
-    const auto written = reports::write_pages(words[1], manuals);
-    return written ? reports::exit_holds : reports::refuse(written.error());
-  }
-  const auto asked = std::ranges::find(manuals, words[0], &reports::VerbManual::name);
-  if (asked == manuals.end()) return refuse_verb(words[0], manuals);
-  fmt::print("{}", reports::help_text(*asked));
+int refuse_verb(const CLI::App& app, const std::string& word) {
+  return reports::refuse(fmt::format("unknown verb '{}'{} (assay help lists verbs)", word,
+                                     corpus::did_you_mean(verb_names(app), word)));
+}
+
+int print_help(const CLI::App& app) {
+  // Groups have an empty line before them, and behind them another one.
+  fmt::print("{}", CLI::detail::find_and_replace(app.help(), "\n\n\n", "\n\n"));
   return reports::exit_holds;
 }
 
 // One line that says what is wrong with the words of a verb. What was not expected goes first:
 // where an option is misspelt, that is why another one is missing.
 std::string complaint_of(const CLI::ParseError& wrong, const Words& unexpected,
-                         const reports::VerbManual& verb) {
+                         const CLI::App& verb) {
   if (!unexpected.empty()) {
     const auto option = std::ranges::find_if(unexpected, [](auto& word) { return word[0] == '-'; });
     const auto name = option == unexpected.end() ? "" : option->substr(0, option->find('='));
+    Words names;
+    for (const auto* known : verb.get_options()) names.push_back(known->get_name());
     return fmt::format("not expected: {}{}", fmt::join(unexpected, " "),
-                       corpus::did_you_mean(corpus::names_among(verb.options), name));
+                       corpus::did_you_mean(names, name));
   }
   std::string text = wrong.what();
   const auto reword = [&](const std::string& before, const std::string& between,
@@ -80,34 +128,40 @@ std::string complaint_of(const CLI::ParseError& wrong, const Words& unexpected,
 }
 
 int run(const Words& words) {
-  CLI::App app;
+  CLI::App app(
+      "Assay certifies continuous self-collision detectors (continuous collision detection, CCD) "
+      "for deforming triangle meshes, against an exact oracle");
   app.set_help_flag();
+  app.formatter(std::make_shared<Formatter>());
+  app.footer(reports::exit_codes_text());
   std::vector<reports::AddedVerb> added;
-  Manuals manuals;
-  for (const auto add_verb : verbs) {
-    added.push_back(add_verb(app));
-    manuals.push_back(added.back().manual);
-  }
+  for (const auto add_verb : verbs) added.push_back(add_verb(app));
+  // These two are words in the list of verbs, and nothing is parsed of them.
+  for (const auto& [word, about] :
+       {std::pair("help", "This list; `assay help VERB` says what a verb does"),
+        {"version", "This version, and those of the libraries that its answers rest on"}})
+    app.add_subcommand(word, about)->group(reports::beside_the_verbs)->disabled();
   if (words.empty()) return reports::refuse("name a verb (assay help lists verbs)");
   const auto is_help = [](const std::string& word) { return word == "--help" || word == "-h"; };
-  if (words[0] == "help" || is_help(words[0]))
-    return help({words.begin() + 1, words.end()}, manuals);
+  const bool is_of_all = words[0] == "help" || is_help(words[0]);
+  if (is_of_all && words.size() == 1) return print_help(app);
   if (words[0] == "version" || words[0] == "--version") {
     const auto commit = reports::commit_text();
     fmt::print("{}\n{}", reports::version_text(), commit.empty() ? "" : "commit " + commit + "\n");
     return reports::exit_holds;
   }
-  const auto verb = std::ranges::find(manuals, words[0], &reports::VerbManual::name);
-  if (verb == manuals.end()) return refuse_verb(words[0], manuals);
-  if (std::any_of(words.begin() + 1, words.end(), is_help)) return help({verb->name}, manuals);
+  const auto& name = words[is_of_all];
+  const auto named = std::ranges::find(added, name, &reports::AddedVerb::name);
+  if (named == added.end()) return refuse_verb(app, name);
+  const auto& verb = *app.get_subcommand(name);
+  if (is_of_all || std::any_of(words.begin() + 1, words.end(), is_help)) return print_help(verb);
   try {
     app.parse(Words(words.rbegin(), words.rend()));
   } catch (const CLI::ParseError& wrong) {
     return reports::refuse(fmt::format("{} (assay {} --help lists options)",
-                                       complaint_of(wrong, app.remaining(true), *verb),
-                                       verb->name));
+                                       complaint_of(wrong, app.remaining(true), verb), name));
   }
-  return added[static_cast<std::size_t>(verb - manuals.begin())].act();
+  return named->act();
 }
 
 // The program may end at once, because a store is whole at any moment.

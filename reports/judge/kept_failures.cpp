@@ -134,7 +134,8 @@ Expected<std::string> KeptFailures::write_step(const FailedStep& failed,
   auto c = part(1 + relation_rings).value_or(whole);
   name(c, fmt::format("step-{}", number));
   const auto folder = folder_ / c.id;
-  BOOST_OUTCOME_TRYV(export_case(folder, c, failed.detector, properties::judge_case(c, contract)));
+  BOOST_OUTCOME_TRYV(
+      export_case(folder, c, failed.detector, properties::judge_case(c, contract), failure.claim));
   Kept kept{number, c.about, properties::size_text(c), c.id, again};
   SceneMaker scenes(std::nullopt);
   if (const auto scene = scenes.scene_of(c, "");

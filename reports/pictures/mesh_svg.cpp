@@ -26,34 +26,39 @@ std::string escaped(const std::string& text) {
   return replaced(text, written);
 }
 
+// A step of a scene at the time of its contact; as a strip, also where it begins and where it ends,
+// all from the same side.
 class Picture {
  public:
-  Picture(const CaseScene& scene, const SceneStep& step) : scene_(scene), step_(step) {
+  Picture(const CaseScene& scene, const SceneStep& step, bool is_strip)
+      : scene_(scene), step_(step) {
     const auto pair = scene.shown_pair();
     exact_ = contact_of(step.truth.pairs, pair);
     if (step.answered) answered_ = contact_of(step.answered->pairs, pair);
-    time_ = exact_ ? middle(exact_->time) : answered_ ? middle(answered_->time) : 0;
+    const double time = exact_ ? middle(exact_->time) : answered_ ? middle(answered_->time) : 0;
     pair_ = pair;
-    x_t0_ = start_of(scene.c, step.span);
-    x_t1_ = end_of(scene.c, step.span);
-    Positions all_t0 = x_t0_, all_t1 = x_t1_;
+    Positions all_t0 = start_of(scene.c, step.span), all_t1 = end_of(scene.c, step.span);
+    vertices_ = all_t0.rows();
     for (Eigen::Index t = 0; t < scene.c.triangles.rows(); ++t) {
       const auto corners = scene.c.triangles.row(t);
       faces_.push_back({corners[0], corners[1], corners[2]});
     }
     own_ = faces_.size();
     if (scene.surface && step.has_views() && !scene.surface->is_closed()) {
-      all_t0 = detector::with_apexes(x_t0_, step.answered->apexes, false);
-      all_t1 = detector::with_apexes(x_t1_, step.answered->apexes, true);
+      all_t0 = detector::with_apexes(all_t0, step.answered->apexes, false);
+      all_t1 = detector::with_apexes(all_t1, step.answered->apexes, true);
       const auto& all = scene.surface->all().triangles;
       faces_.insert(faces_.end(), all.begin() + static_cast<std::ptrdiff_t>(own_), all.end());
     }
-    x_ = (1 - time_) * all_t0 + time_ * all_t1;
+    times_ = is_strip ? std::vector<double>{0, time, 1} : std::vector<double>{time};
+    for (const double t : times_) at_.push_back((1 - t) * all_t0 + t * all_t1);
     place_in_unit_box();
     choose_side();
   }
 
-  std::string body() const {
+  // The picture of that time, without its place on the sheet.
+  std::string body(std::size_t time) {
+    now_ = time;
     std::vector<std::size_t> order(faces_.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::stable_sort(order.begin(), order.end(),
@@ -63,10 +68,14 @@ class Picture {
     for (const auto i : order) {
       if (is_shown(i)) out += outline(i);
     }
-    if (answered_) out += mark(*answered_, "#d6336c", "fill=\"none\" stroke=\"#d6336c\"", 9);
-    if (exact_) out += mark(*exact_, "#111", "fill=\"#111\" stroke=\"#fff\"", 5);
+    if (now_ > 0) out += ways();
+    const bool is_of_contact = at_.size() == 1 || now_ == 1;
+    if (answered_ && is_of_contact)
+      out += mark(*answered_, "#d6336c", "fill=\"none\" stroke=\"#d6336c\"", 9);
+    if (exact_ && is_of_contact) out += mark(*exact_, "#111", "fill=\"#111\" stroke=\"#fff\"", 5);
     return out;
   }
+  const std::vector<double>& times() const { return times_; }
   // "distance 0.0098, d 0.01", of the exact contact or else of the detector's; empty if nobody asks
   // for a distance.
   std::string distance_text() const {
@@ -81,13 +90,22 @@ class Picture {
   // Coordinates may be of any size, so they are divided by the largest before anything is added
   // up.
   void place_in_unit_box() {
-    const double largest = x_.topRows(x_t0_.rows()).cwiseAbs().maxCoeff();
+    double largest = 0;
+    for (const auto& x : at_)
+      largest = std::max(largest, x.topRows(vertices_).cwiseAbs().maxCoeff());
     scale_ = largest > 0 ? largest : 1;
-    const Positions own = x_.topRows(x_t0_.rows()) / scale_;
-    low_ = own.colwise().minCoeff().transpose();
-    size_ = (own.colwise().maxCoeff().transpose() - low_).maxCoeff();
+    low_ = Vector::Constant(1e300);
+    Vector high = -low_;
+    for (const auto& x : at_) {
+      const Positions own = x.topRows(vertices_) / scale_;
+      low_ = low_.cwiseMin(own.colwise().minCoeff().transpose());
+      high = high.cwiseMax(own.colwise().maxCoeff().transpose());
+    }
+    size_ = (high - low_).maxCoeff();
     if (!(size_ > 0)) size_ = 1;
-    for (Eigen::Index v = 0; v < x_.rows(); ++v) x_.row(v) = unit(x_.row(v).transpose());
+    for (auto& x : at_) {
+      for (Eigen::Index v = 0; v < x.rows(); ++v) x.row(v) = unit(x.row(v).transpose());
+    }
   }
   Vector unit(const Vector& point) const { return (point / scale_ - low_) / size_; }
 
@@ -104,11 +122,13 @@ class Picture {
     for (const auto& [sx, sy] : {std::pair(1, 1), {-1, 1}, {-1, -1}, {1, -1}}) {
       const Vector towards = Vector(sx, sy, 1).normalized();
       double least = 1e300;
-      for (std::size_t i = 0; i < own_; ++i) {
-        if (!is_shown(i)) continue;
-        const auto& f = faces_[i];
-        const Vector normal = (at(f[1]) - at(f[0])).cross(at(f[2]) - at(f[0]));
-        least = std::min(least, std::abs(normal.dot(towards)));
+      for (now_ = 0; now_ < at_.size(); ++now_) {
+        for (std::size_t i = 0; i < own_; ++i) {
+          if (!is_shown(i)) continue;
+          const auto& f = faces_[i];
+          const Vector normal = (at(f[1]) - at(f[0])).cross(at(f[2]) - at(f[0]));
+          least = std::min(least, std::abs(normal.dot(towards)));
+        }
       }
       if (are_apart) least *= apart.cross(towards).norm();
       if (least <= most * (1 + 1e-9)) continue;
@@ -119,16 +139,18 @@ class Picture {
     up_ = towards_.cross(right_);
     flat_low_ = Eigen::Vector2d(1e300, 1e300);
     Eigen::Vector2d high = -flat_low_;
-    for (Eigen::Index v = 0; v < x_t0_.rows(); ++v) {
-      const Eigen::Vector2d p = flat(x_.row(v).transpose());
-      flat_low_ = flat_low_.cwiseMin(p);
-      high = high.cwiseMax(p);
+    for (const auto& x : at_) {
+      for (Eigen::Index v = 0; v < vertices_; ++v) {
+        const Eigen::Vector2d p = flat(x.row(v).transpose());
+        flat_low_ = flat_low_.cwiseMin(p);
+        high = high.cwiseMax(p);
+      }
     }
     flat_size_ = std::max((high - flat_low_).maxCoeff(), 1e-9);
     shift_ = 0.5 * (Eigen::Vector2d(flat_size_, flat_size_) - (high - flat_low_));
   }
 
-  Vector at(std::int32_t vertex) const { return x_.row(vertex).transpose(); }
+  Vector at(std::int32_t vertex) const { return at_[now_].row(vertex).transpose(); }
   Eigen::Vector2d flat(const Vector& p) const { return {p.dot(right_), -p.dot(up_)}; }
   Eigen::Vector2d pixel(const Vector& p) const {
     const Eigen::Vector2d part = (flat(p) - flat_low_ + shift_) / flat_size_;
@@ -185,6 +207,20 @@ class Picture {
         "paint-order=\"stroke\">{}</text>\n",
         points(i), centre[0], centre[1] + 4, i);
   }
+  // From where the vertices that move were when the step began.
+  std::string ways() const {
+    std::string out;
+    for (Eigen::Index v = 0; v < vertices_; ++v) {
+      const Vector from = at_[0].row(v).transpose(), to = at_[now_].row(v).transpose();
+      const auto p = pixel(from), q = pixel(to);
+      if ((from - to).norm() > 1e-9)
+        out += fmt::format(
+            "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"#888\" "
+            "stroke-dasharray=\"5 4\"/>\n",
+            p[0], p[1], q[0], q[1]);
+    }
+    return out;
+  }
   // A circle if the two places are one in the picture, else two smaller ones and the segment.
   std::string mark(const detector::PairContact& contact, const char* colour, const char* look,
                    int radius) const {
@@ -208,8 +244,10 @@ class Picture {
   const SceneStep& step_;
   const detector::PairContact *exact_ = nullptr, *answered_ = nullptr;
   std::optional<detector::TrianglePair> pair_;
-  double time_ = 0;
-  Positions x_t0_, x_t1_, x_;
+  std::vector<double> times_;
+  std::vector<Positions> at_;  // at these times, in a unit box; apexes of ghosts stand behind
+  std::size_t now_ = 0;        // the time that is drawn
+  Eigen::Index vertices_ = 0;
   std::vector<Corners> faces_;  // those of the mesh, then those of ghosts
   std::size_t own_ = 0;
   double scale_ = 1, size_ = 1, flat_size_ = 1;
@@ -242,6 +280,14 @@ class Caption {
   int count_ = 0;
 };
 
+std::string sheet(double sheet_width, double height, const std::string& title) {
+  return fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
+      "viewBox=\"0 0 {0} {1}\" font-family=\"sans-serif\" font-size=\"12\">\n"
+      "<title>{2}</title>\n",
+      sheet_width, height, escaped(title));
+}
+
 }  // namespace
 
 std::string mesh_svg(const CaseScene& scene, const std::string& title) {
@@ -258,16 +304,24 @@ std::string mesh_svg(const CaseScene& scene, const std::string& title) {
   }
   std::string body;
   if (!scene.steps.empty()) {
-    const Picture shown(scene, scene.steps[scene.shown_step()]);
-    body = shown.body();
+    Picture shown(scene, scene.steps[scene.shown_step()], false);
+    body = shown.body(0);
     caption.add(shown.distance_text());
   }
-  return fmt::format(
-             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
-             "viewBox=\"0 0 {0} {1}\" font-family=\"sans-serif\" font-size=\"12\">\n"
-             "<title>{2}</title>\n",
-             width, picture + caption.height(), escaped(title)) +
-         body + caption.rows() + "</svg>\n";
+  return sheet(width, picture + caption.height(), title) + body + caption.rows() + "</svg>\n";
+}
+
+std::string strip_svg(const CaseScene& scene, const std::string& title) {
+  Picture shown(scene, scene.steps[scene.shown_step()], true);
+  const auto& times = shown.times();
+  std::string out = sheet(width * static_cast<double>(times.size()), picture + 2 * row, title);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    Caption caption;
+    caption.add(fmt::format("t = {:.6g}{}", times[i], i == 1 ? ": they meet" : ""));
+    out += fmt::format("<g transform=\"translate({:.0f},0)\">\n", width * static_cast<double>(i)) +
+           shown.body(i) + caption.rows() + "</g>\n";
+  }
+  return out + "</svg>\n";
 }
 
 }  // namespace assay::reports

@@ -16,4 +16,9 @@ namespace assay::reports {
 // O(n log n) in the triangles.
 std::string mesh_svg(const CaseScene& scene, const std::string& title);
 
+// The same contact as a strip of three such pictures from one side: where the step begins, where
+// the two meet, where it ends. Dashes show the ways of the vertices that move. `title` is told to
+// readers who do not see the picture. REQUIRES a step.
+std::string strip_svg(const CaseScene& scene, const std::string& title);
+
 }  // namespace assay::reports

@@ -12,10 +12,15 @@
 #include "properties/judging/step_truth.h"
 #include "properties/worker/case_player.h"
 #include "properties/worker/plugin/query_case.h"
-#include "reports/steps/exported_programs.h"
+#include "reports/steps/exported_case.h"
+#include "reports/steps/exported_plugin.h"
 #include "reports/terminal/words.h"
 
 namespace assay::reports {
+
+// The two headers as texts; CMakeLists.txt makes them of the files.
+extern const char *const exported_case_header, *const exported_plugin_header;
+
 namespace {
 
 // One line for each row of three numbers.
@@ -46,169 +51,151 @@ std::string fraction_of(double share) {
              : fmt::format("{}/2^{}", numerator, halvings);
 }
 
-// The rows of the three lists in which a step stands.
-struct StepRows {
-  std::string steps, pairs, allowed;
-  std::size_t pair_count = 0, allowed_count = 0;
-};
-
-std::string pair_row(const detector::PairContact& contact, int part) {
-  return fmt::format("    {{{}, {}, {}, {}, {}}},\n", contact.pair.a, contact.pair.b,
-                     contact.time.lo, contact.time.hi, part);
+std::string pair_rows(const std::vector<detector::PairContact>& contacts,
+                      const std::map<detector::TrianglePair, int>& part_of) {
+  std::string rows;
+  for (const auto& contact : contacts) {
+    const auto part = part_of.find(contact.pair);
+    rows +=
+        fmt::format("\n     {{{}, {}, {}, {}, {}}},", contact.pair.a, contact.pair.b,
+                    contact.time.lo, contact.time.hi, part == part_of.end() ? -1 : part->second);
+  }
+  return "{" + rows + "}";
 }
 
 // `allowed` may be reported or not: what the contract leaves out or, if it has a slack, all that
 // comes within that.
-void add_step(const corpus::CaseStep& step, const properties::StepTruth& truth,
-              const std::vector<detector::PairContact>& allowed, bool is_query, StepRows& rows) {
+std::string step_row(const corpus::CaseStep& step, const properties::StepTruth& truth,
+                     const std::vector<detector::PairContact>& allowed, bool is_query) {
   const auto time = truth.first ? truth.first->time : detector::TimeEnclosure{};
-  // The two triangles of a query only hold the features that are asked for.
-  const std::size_t pairs = is_query ? 0 : truth.pairs.size();
-  rows.steps += fmt::format("    {{{}, {}, {}, {}, {}, {}, \"{}\", \"{}\", {}, {}, {}, {}}},\n",
-                            step.from, step.to, step.commit, truth.first.has_value(), time.lo,
-                            time.hi, fraction_of(time.lo), fraction_of(time.hi), rows.pair_count,
-                            pairs, rows.allowed_count, allowed.size());
   std::map<detector::TrianglePair, int> part_of;
   int part = 0;
   for (const auto& contacts : properties::contact_parts(truth.pairs, time)) {
     for (const auto& contact : contacts) part_of[contact.pair] = part;
     ++part;
   }
-  for (std::size_t i = 0; i < pairs; ++i) {
-    const auto found = part_of.find(truth.pairs[i].pair);
-    rows.pairs += pair_row(truth.pairs[i], found == part_of.end() ? -1 : found->second);
-  }
-  for (const auto& contact : allowed) rows.allowed += pair_row(contact, -1);
-  rows.pair_count += pairs;
-  rows.allowed_count += allowed.size();
+  return fmt::format("   {{{}, {}, {}, {}, {}, {}, \"{}\", \"{}\",\n    {},\n    {}}},\n",
+                     step.from, step.to, step.commit, truth.first.has_value(), time.lo, time.hi,
+                     fraction_of(time.lo), fraction_of(time.hi),
+                     // The two triangles of a query only hold the features that are asked for.
+                     is_query ? "{}" : pair_rows(truth.pairs, part_of), pair_rows(allowed, {}));
 }
 
-constexpr const char* head = R"(#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <string>
-#include <vector>
+constexpr const char* arrays_text = R"(#include "exported_case.h"
 
-)";
+using namespace exported_case;
 
-constexpr const char* mesh_text =
-    R"(// The mesh: vertex indices of each triangle, counter-clockwise seen from outside.
+{}
 static const int triangles[][3] = {{
 {}}};
-static const int triangle_count = {}, vertex_count = {};
 
 // Where the vertices are; within a step they move along straight lines.
-)";
-
-constexpr const char* query_text =
-    R"(// The step of four points: a vertex and the three corners of a face, or the two ends of one edge
-// and the two of another. The question is whether these two features meet.
-static const bool is_vertex_face = {};
-static const int triangle_count = 2;
-
-// Where the points are; within the step they move along straight lines.
-)";
-
-constexpr const char* lists_text = R"(static const double frames[][{}][3] = {{
+static const double frames[][{}][3] = {{
 {}}};
 
-// From frame `from` to frame `to`; with `commit` the detector's state goes on. The first contact
-// time t* is `lo` where lo and hi are one number, else strictly between the two, which are adjacent
-// doubles. What meets stands in `pairs` from `first_pair` on.
-struct Step {{
-  int from, to;
-  bool commit, collision;
-  double lo, hi;
-  const char *lo_as_fraction, *hi_as_fraction;
-  int first_pair, pair_count, first_allowed, allowed_count;
-}};
-static const Step steps[] = {{
-{}}};
-static const int step_count = {};
-
-// Two triangles and the interval of their first time. The pairs that meet at t* are the edges of a
-// graph of triangles. `part` is the number of its connected part, and -1 of a pair that meets
-// later.
-struct Pair {{
-  int a, b;
-  double lo, hi;
-  int part;
-}};
-static const Pair pairs[] = {{
-{}    {{-1, -1, 0, 0, -1}},  // the end
-}};
-// What the detector may report or not, but not earlier: contacts that the contract leaves out, or
-// all that comes within its margin.
-static const Pair allowed[] = {{
-{}    {{-1, -1, 0, 0, -1}},  // the end
-}};
-
-// What is claimed of the detector, and asked of it here; the bits are those of
-// detector/plugin/assay_detector.h.
-enum Claim : unsigned {{
-{}
-}};
-static const unsigned claims = {};
-static const double time_tolerance = {};
-static const double promised = {};  // of a limiter: its progress
-static const double unit = {};  // in the last place of 1, in the detector's numbers
-static const bool takes_displacements = {};  // in place of ends
+// The steps with their exact answers, what is asked of each, and the numbers of the contract.
+static const Case the_case = {{
+  {}, &triangles[0][0], {}, {}, &frames[0][0][0],
+  {{
+{}  }},
+  {{{}}},
+  {}, {}, {}, {}}};
 )";
 
-// "free_sound | total", in the words of the exported file.
-std::string claims_text(const properties::DetectorUnderTest& detector, bool is_query) {
-  using properties::Claim;
-  std::vector<std::string> names;
-  const auto claims = detector.claims_in(detector.configurations.front());
-  auto judged = properties::judged_claims(claims, detector.contract);
-  // The features of a query are no neighbours, so a slack does not make this void.
-  if (is_query) judged.set(Claim::no_spurious, claims.has(Claim::no_spurious));
-  for (const auto claim : list_of(judged)) names.push_back(replaced(name_of(claim), {{'-', "_"}}));
-  return names.empty() ? "0" : joined(names, " | ");
+constexpr const char* mesh_about =
+    "// The mesh: vertex indices of each triangle, counter-clockwise seen from outside.";
+constexpr const char* query_about =
+    "// The step of four points: a vertex and the three corners of a face, or the two ends of one "
+    "edge\n"
+    "// and the two of another. The question is whether these two features meet; these triangles "
+    "only\n"
+    "// hold them.";
+
+constexpr const char* filled_in_program = R"(
+#ifndef CASE_ARRAYS_ONLY
+
+// To be filled in: your detector's answer to a step from x_t0 to x_t1, three numbers a vertex.
+static Found ask_your_detector(const double* x_t0, const double* x_t1) {
+  (void)x_t0, (void)x_t1;
+  Found found;
+  return found;  // with found.filled_in = true
 }
 
-// "  free_sound = 1,", and so on: a line for each claim that there is.
-std::string all_claims_text() {
-  std::vector<std::string> lines;
-  for (const auto claim : properties::all_claims())
-    lines.push_back(fmt::format("  {} = {}", replaced(name_of(claim), {{'-', "_"}}),
-                                properties::Claims{claim}.bits()));
-  return joined(lines, ",\n");
+int main() {
+  bool wrong = false;
+  for (std::size_t s = 0; s < the_case.steps.size(); ++s) {
+    const double* const x_t0 = the_case.frame(the_case.steps[s].from);
+    const double* const x_t1 = the_case.frame(the_case.steps[s].to);
+    const Found found = ask_your_detector(x_t0, x_t1);
+    if (!found.filled_in) {
+      std::printf("fill in ask_your_detector()\n");
+      return 2;
+    }
+    wrong = is_wrong(the_case, s, found, ask_your_detector(x_t0, x_t1)) || wrong;
+  }
+  return wrong ? 1 : 0;
+}
+
+#endif
+)";
+
+// Whoever adds a claim adds it to exported_case.h, and there the compiler asks how it is judged.
+static_assert(static_cast<int>(exported_case::Claim::times_unique) ==
+              static_cast<int>(properties::Claim::times_unique));
+
+// What an answer is asked for: the broken claim, or all that are judged if none is broken.
+std::string asked_text(const properties::DetectorUnderTest& detector, bool is_query,
+                       std::optional<properties::Claim> broken) {
+  using properties::Claim;
+  const auto claims = detector.claims_in(detector.configurations.front());
+  auto asked = properties::judged_claims(claims, detector.contract);
+  // The features of a query are no neighbours, so a slack does not make this void.
+  if (is_query) asked.set(Claim::no_spurious, claims.has(Claim::no_spurious));
+  if (broken) asked = {*broken};
+  std::vector<std::string> names;
+  for (const auto claim : all_values<Claim>) {
+    if (asked.has(claim))
+      names.push_back(fmt::format("{{Claim::{}, \"{}\"}}", replaced(name_of(claim), {{'-', "_"}}),
+                                  name_of(claim)));
+  }
+  return joined(names, ", ");
 }
 
 // The arrays of the case and what its answers are asked for, with a function to fill in.
 std::string case_text(const corpus::Case& c, const properties::DetectorUnderTest& detector,
-                      const std::vector<oracle::StepJudgement>& judgements) {
+                      const std::vector<oracle::StepJudgement>& judgements,
+                      std::optional<properties::Claim> broken) {
   const auto query = properties::query_of(c);
-  StepRows rows;
+  const auto& contract = detector.contract;
   const auto script = corpus::steps_of(c);
+  std::string steps, frames;
   for (std::size_t s = 0; s < script.size(); ++s) {
-    const auto truth = truth_of(c, judgements[s], detector.contract);
-    add_step(script[s], truth, judgements[s].within_slack.value_or(truth.left_out),
-             query.has_value(), rows);
+    const auto truth = truth_of(c, judgements[s], contract);
+    steps += step_row(script[s], truth, judgements[s].within_slack.value_or(truth.left_out),
+                      query.has_value());
   }
-  std::string frames;
   for (const auto& frame : c.frames)
     frames += fmt::format("  {{\n{}  }},\n", rows_text(row_of_array, frame));
-  const auto phrases = phrases_of(detector.contract);
+  const auto phrases = phrases_of(contract);
   std::string out =
       fmt::format("// Case {}, with the exact answer to each step.\n// Contract: {}.\n", c.id,
                   phrases.empty() ? "leaves nothing out" : joined(phrases, ", "));
-  if (detector.contract.separation > 0) out += "// To meet is here to come within that distance.\n";
+  if (contract.separation > 0) out += "// To meet is here to come within that distance.\n";
   if (c.counted) out += "// Of the pairs that count: `counted` of case.json says which do.\n";
-  out += head;
-  out += query ? fmt::format(fmt::runtime(query_text), query->first_group == 1)
-               : fmt::format(fmt::runtime(mesh_text), rows_text(row_of_array, c.triangles),
-                             c.triangles.rows(), c.frames[0].rows());
-  out += fmt::format(fmt::runtime(lists_text), c.frames[0].rows(), frames, rows.steps,
-                     script.size(), rows.pairs, rows.allowed, all_claims_text(),
-                     claims_text(detector, query.has_value()), detector.contract.time_tolerance,
-                     detector.contract.progress,
-                     detector.contract.coordinates == properties::Coordinates::float32
-                         ? std::numeric_limits<float>::epsilon()
-                         : std::numeric_limits<double>::epsilon(),
-                     detector.contract.motion == properties::MotionGiven::displacement);
-  return out + judging_program;
+  const auto asked = asked_text(detector, query.has_value(), broken);
+  const bool is_float = contract.coordinates == properties::Coordinates::float32;
+  return out +
+         fmt::format(fmt::runtime(arrays_text), query ? query_about : mesh_about,
+                     rows_text(row_of_array, c.triangles), c.frames[0].rows(), frames,
+                     !query                    ? 0
+                     : query->first_group == 1 ? 1
+                                               : 2,
+                     c.triangles.rows(), c.frames[0].rows(), steps, asked, contract.time_tolerance,
+                     contract.progress,
+                     is_float ? std::numeric_limits<float>::epsilon()
+                              : std::numeric_limits<double>::epsilon(),
+                     contract.motion == properties::MotionGiven::displacement) +
+         filled_in_program;
 }
 
 std::string point_text(const detector::Point& p) {
@@ -280,6 +267,72 @@ std::string told_relation_text(const corpus::Case& c) {
                      joined(members, ", "));
 }
 
+constexpr const char* plugin_head =
+    R"(// The same case through a plug-in: ./case_plugin ./libmine.so
+// Needs detector/plugin/assay_detector.h: c++ -I SOURCES-OF-ASSAY FOLDER/case_plugin.cpp -ldl
+#define CASE_ARRAYS_ONLY
+#include "case.cpp"
+
+#include "exported_plugin.h"
+
+)";
+
+constexpr const char* plugin_main = R"(
+int main(int argc, char** argv) { return ask_library(the_case, counted, argc, argv); }
+)";
+
+constexpr const char* test_head =
+    R"(// The same case through the built-in detector: a GoogleTest, to be compiled with
+// -I SOURCES-OF-ASSAY and linked with its detector.
+#define CASE_ARRAYS_ONLY
+#include "case.cpp"
+
+#include <gtest/gtest.h>
+
+#include "detector/detector.h"
+#include "detector/step_result.h"
+
+namespace builtin = assay::detector;
+using Views = std::vector<builtin::ViewPrimitive>;
+
+static Found found_by(const builtin::StepResult& result) {
+  Found found;
+  found.collision = result.answer == builtin::Answer::collision;
+  found.is_answered = found.collision || result.answer == builtin::Answer::free;
+  if (found.collision) found.lo = result.first.lo, found.hi = result.first.hi;
+  for (const auto& one : result.pairs)
+    found.pairs.push_back({one.pair.a, one.pair.b, one.time.lo, one.time.hi, -1});
+  if (result.answer == builtin::Answer::error) found.error = result.problem->message;
+  return found;
+}
+
+static builtin::Positions frame(int number) {
+  return Eigen::Map<const builtin::Positions>(the_case.frame(number), the_case.vertex_count, 3);
+}
+)";
+
+constexpr const char* test_program = R"(
+TEST(AssayCase, Holds) {
+  const builtin::Triangles mesh =
+      Eigen::Map<const builtin::Triangles>(the_case.triangles, the_case.triangle_count, 3);
+  auto made = builtin::Detector::create(mesh, frame(0), options);
+  ASSERT_EQ(made.has_value(), !is_refused);
+  if (is_refused) return;
+  auto again = builtin::Detector::create(mesh, frame(0), options);
+  for (std::size_t s = 0; s < the_case.steps.size(); ++s) {
+    const auto ask = [s](builtin::Detector& detector) {
+      const Step& step = the_case.steps[s];
+      const auto x_t0 = frame(step.from), x_t1 = frame(step.to);
+      return found_by(step.commit ? detector.step(x_t0, x_t1, views[s])
+                                  : detector.evaluate(x_t0, x_t1, views[s]));
+    };
+    const Found found = ask(made.value());
+    EXPECT_TRUE(found.is_answered);
+    EXPECT_FALSE(is_wrong(the_case, s, found, ask(again.value())));
+  }
+}
+)";
+
 // The options of the built-in detector, the view that each step is given, and the test.
 std::string test_text(const corpus::Case& c, const detector::Options& options) {
   std::string views;
@@ -297,36 +350,35 @@ std::string test_text(const corpus::Case& c, const detector::Options& options) {
   return fmt::format(
       "{}{}static const builtin::Options options = {{\n{}{}{}{}{}}};\n"
       "static const Views views[] = {{\n{}}};\n"
-      "static const bool is_refused = {}, has_unique_times = {};\n{}",
+      "static const bool is_refused = {};\n{}",
       test_head, pairs ? relation_text(*pairs) : "", chosen("Culling", name_of(options.culling)),
       chosen("Start", name_of(options.start)), chosen("Pairs", name_of(options.pairs)),
       chosen("Arithmetic", name_of(options.arithmetic)),
       fmt::format("  1, {}, {:a}", pairs ? "&counted" : "nullptr", options.separation), views,
-      c.expected.answer == detector::Answer::error,
-      properties::claims_of(options).has(properties::Claim::times_unique), test_program);
+      c.expected.answer == detector::Answer::error, test_program);
 }
 
 }  // namespace
 
 Expected<void> export_case(const std::filesystem::path& folder, const corpus::Case& c,
                            const properties::DetectorUnderTest& detector,
-                           const std::vector<oracle::StepJudgement>& truth) {
+                           const std::vector<oracle::StepJudgement>& truth,
+                           std::optional<properties::Claim> broken) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
     return Problem{fmt::format("{}: cannot be made: {}", folder.string(), error.message())};
   std::map<std::string, std::string> files = {{"case.json", corpus::case_text(c)},
-                                              {"case.cpp", case_text(c, detector, truth)}};
+                                              {"case.cpp", case_text(c, detector, truth, broken)},
+                                              {"exported_case.h", exported_case_header}};
   const auto faces = rows_text("f {} {} {}\n", c.triangles, 1);
   for (std::size_t f = 0; f < c.frames.size(); ++f)
     files[fmt::format("frame_{:04}.obj", f)] = rows_text("v {} {} {}\n", c.frames[f]) + faces;
   if (detector.built_in) {
     files["case_test.cpp"] = test_text(c, detector.configurations.front().options);
   } else {
-    files["case_plugin.cpp"] =
-        std::string(reading_program) +
-        (properties::says_query(c) ? query_program : told_relation_text(c) + mesh_program) +
-        plugin_program;
+    files["case_plugin.cpp"] = plugin_head + told_relation_text(c) + plugin_main;
+    files["exported_plugin.h"] = exported_plugin_header;
   }
   for (const auto& [name, text] : files) {
     BOOST_OUTCOME_TRY(corpus::write_file_atomically(folder / name, text));

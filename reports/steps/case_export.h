@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,21 +16,22 @@ namespace assay::reports {
 // FOLDER/case.json, FOLDER/case.cpp, and a second C++ file that puts FOLDER/case.cpp to the
 // detector.
 //
-// FOLDER/case.cpp needs neither Assay nor a test framework. It holds mesh and frames, or the four
-// points of a query (properties/worker/plugin/query_case.h); for each step what the oracle finds
-// that counts under the contract, with its time as decimals and as fractions, and what else may be
-// reported, because the contract leaves it out or has a slack; the claims; a function that is left
-// to be filled in, and a main() that asks for each claim. Its exit codes are 0: no claim is broken,
-// 1: one is, 2: not filled in.
+// FOLDER/case.cpp needs C++17 and FOLDER/exported_case.h alone. It holds mesh and frames, or the
+// four points of a query (properties/worker/plugin/query_case.h); for each step what the oracle
+// finds that counts under the contract, with its time as decimals and as fractions, and what else
+// may be reported, because the contract leaves it out or has a slack; a function that is left to be
+// filled in, and a main() that asks its answers for the `broken` claim, or for each claim if none
+// is broken. Its exit codes are 0: no claim is broken, 1: one is, 2: not filled in.
 //
 // For a plug-in the second file is FOLDER/case_plugin.cpp, whose program takes a library as its
-// word and asks its assay_detector(); it ends with 1 too where the library crashes or exits, if
-// `total` is claimed. For the built-in detector it is FOLDER/case_test.cpp, a GoogleTest of the
-// first configuration, which needs the library assay::detector.
+// word and asks its assay_detector() (exported_plugin.h); it ends with 1 too where the library
+// crashes or exits, if `total` is asked. For the built-in detector it is FOLDER/case_test.cpp, a
+// GoogleTest of the first configuration, which needs the library assay::detector.
 //
 // REQUIRES judgements of a contracted case. Fails if a file cannot be written.
 Expected<void> export_case(const std::filesystem::path& folder, const corpus::Case& c,
                            const properties::DetectorUnderTest& detector,
-                           const std::vector<oracle::StepJudgement>& truth);
+                           const std::vector<oracle::StepJudgement>& truth,
+                           std::optional<properties::Claim> broken);
 
 }  // namespace assay::reports

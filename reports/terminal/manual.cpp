@@ -1,8 +1,9 @@
 #include "reports/terminal/manual.h"
 
-#include <algorithm>
-#include <boost/assert.hpp>
-#include <iterator>
+#include <fmt/format.h>
+
+#include <array>
+#include <sstream>
 
 #include "reports/terminal/complaint.h"
 
@@ -13,23 +14,20 @@ namespace {
 constexpr const char* judging = "Judge a detector";
 constexpr const char* failing = "What failed";
 constexpr const char* keeping = "Runs and certificates";
-constexpr const char* harness = "Beside it";
 
-struct Row {
-  const char* verb;
-  const char* group;
-  const char* codes;  // the exit codes that the verb may end with, a digit each
-  // What exit code 0 means where no claim is judged; empty: that all claims hold.
-  const char* done;
-  std::vector<Example> examples;
-};
+constexpr std::array meanings = {"all claims hold",
+                                 "a defect",
+                                 "usage or input error",
+                                 "too much undecided",
+                                 "the harness failed its own check",
+                                 "collision, with --fail-on-collision"};
 
-// The examples can be run one after the other, in this order, in a folder that holds what is a
-// reader's own: two frames, queries of vertex-face, a log of a recorder, and a plug-in.
-const std::vector<Row>& table() {
-  static const std::vector<Row> rows = {
+}  // namespace
+
+const std::vector<VerbManual>& verb_manuals() {
+  static const std::vector<VerbManual> rows = {
       {"scene",
-       harness,
+       beside_the_verbs,
        "02",
        "the frames are written",
        {{"assay scene bend --out bend", "Frames of a tube that is bent until its ends meet"}}},
@@ -110,91 +108,43 @@ const std::vector<Row>& table() {
        {{"assay bench --detector ./detector.so --quick",
          "A first look at the speed of a detector of one's own"}}},
       {"self-test",
-       harness,
+       beside_the_verbs,
        "01234",
        "no method contradicts another",
        {{"assay self-test --queries 1000", "The oracle against every other method, in short"}}}};
   return rows;
 }
 
-}  // namespace
-
-std::string_view title_of(OptionGroup group) {
-  switch (group) {
-    case OptionGroup::input:
-      return "Input";
-    case OptionGroup::question:
-      return "What is asked";
-    case OptionGroup::detector:
-      return "The detector";
-    case OptionGroup::limits:
-      return "Limits and threads";
-    case OptionGroup::output:
-      return "What is written";
+std::string VerbManual::text() const {
+  std::string text = "Examples:\n";
+  for (const auto& [command, about] : examples)
+    text += fmt::format("  {}\n      {}\n", command, wrapped(about, 6));
+  text += "\nExit codes:\n";
+  for (const char* digit = codes; *digit; ++digit) {
+    const auto code = static_cast<std::size_t>(*digit - '0');
+    text += fmt::format("  {}  {}\n", code, code == exit_holds && *done ? done : meanings[code]);
   }
-  return "";
+  return text;
 }
 
-std::string exit_code_text(int code) {
-  switch (code) {
-    case exit_holds:
-      return "all claims hold";
-    case exit_defect:
-      return "a defect";
-    case exit_usage:
-      return "usage or input error";
-    case exit_undecided:
-      return "too much undecided";
-    case exit_unsound:
-      return "the harness failed its own check";
-    case exit_collision:
-      return "collision, with --fail-on-collision";
-    default:
-      return "";
+std::string exit_codes_text() {
+  std::string text = "Exit codes:\n";
+  for (std::size_t code = 0; code < meanings.size(); ++code)
+    text += fmt::format("  {}  {}\n", code, meanings[code]);
+  return text + "\nIf several apply, it is the first of 2, 4, 1, 3, 5, 0.\n";
+}
+
+std::string wrapped(const std::string& text, std::size_t indent) {
+  constexpr std::size_t columns = 80;
+  std::string out, word;
+  std::size_t at = indent;
+  for (std::istringstream words(text); words >> word;) {
+    const bool is_first = out.empty(), fits = at + 1 + word.size() <= columns;
+    out += is_first ? "" : fits ? " " : "\n" + std::string(indent, ' ');
+    at = is_first || !fits ? indent + word.size() : at + 1 + word.size();
+    out += word;
   }
-}
-
-std::string OptionManual::text() const {
-  const std::string more = repeats ? "..." : "";
-  return value.empty() ? name + more : name + " " + value + more;
-}
-
-std::string VerbManual::usage() const {
-  std::string text = "assay " + name;
-  bool has_more = false;
-  for (const auto& option : options) {
-    if (option.is_positional())
-      text += option.is_required ? " " + option.text() : " [" + option.text() + "]";
-  }
-  for (const auto& option : options) {
-    if (option.is_positional()) continue;
-    if (option.is_required) text += " " + option.text();
-    has_more = has_more || !option.is_required;
-  }
-  return has_more ? text + " [OPTION...]" : text;
-}
-
-VerbManual manual_of(const std::string& name, const std::string& about) {
-  const auto row = std::ranges::find(table(), name, &Row::verb);
-  BOOST_ASSERT(row != table().end());
-  VerbManual manual = {name, about, row->group, {}, row->examples, {}};
-  for (const char* digit = row->codes; *digit; ++digit) {
-    const int code = *digit - '0';
-    const bool is_done = code == exit_holds && *row->done;
-    manual.exit_codes.emplace_back(code, is_done ? row->done : exit_code_text(code));
-  }
-  return manual;
-}
-
-std::vector<std::string> verbs_with_examples() {
-  std::vector<std::string> verbs;
-  for (const auto& row : table()) verbs.emplace_back(row.verb);
-  return verbs;
-}
-
-std::vector<Example> words_beside_verbs() {
-  return {{"help", "This list; `assay help VERB` says what a verb does"},
-          {"version", "This version, and those of the libraries that its answers rest on"}};
+  return out;
 }
 
 }  // namespace assay::reports

@@ -3,23 +3,17 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <boost/assert.hpp>
 #include <cmath>
 #include <thread>
 
 #include "corpus/meant_word.h"
+#include "reports/terminal/manual.h"
 #include "reports/terminal/words.h"
 
 namespace assay::reports {
 
 namespace {
-
-// What help shows behind an option that lists its words.
-constexpr const char* any_word = "WORD";
-
-template <class Target>
-constexpr bool is_list = false;
-template <class Item>
-constexpr bool is_list<std::vector<Item>> = true;
 
 // The words of a list such as "all, first".
 std::vector<std::string> words_of(const std::string& list) {
@@ -37,29 +31,27 @@ std::vector<std::string> words_of(const std::string& list) {
 
 VerbOption VerbOption::required() {
   option_->required();
-  manual_.is_required = true;
+  if (!option_->get_positional()) say(" (needed)");
   return *this;
 }
 
 VerbOption VerbOption::with(const Check& check) {
-  option_->check(CLI::Validator(check.complaint, ""));
-  if (manual_.value == any_word) return among(words_of(check.words));
+  option_->check(CLI::Validator(check, ""));
   return *this;
 }
 
 VerbOption VerbOption::in_range(std::uint64_t least, std::uint64_t most) {
-  const auto form = fmt::format("a whole number from {} to {}", least, most);
-  return with({form, [=](const std::string& word) {
-                 const auto number = whole_number_of<std::uint64_t>(word);
-                 return number && *number >= least && *number <= most
-                            ? ""
-                            : fmt::format("'{}' is not {}", word, form);
-               }});
+  return with([=](const std::string& word) {
+    const auto number = whole_number_of<std::uint64_t>(word);
+    return number && *number >= least && *number <= most
+               ? ""
+               : fmt::format("'{}' is not a whole number from {} to {}", word, least, most);
+  });
 }
 
 VerbOption VerbOption::shows_default() {
   option_->capture_default_str();
-  manual_.default_word = option_->get_default_str();
+  say(fmt::format(" (default {})", option_->get_default_str()));
   return *this;
 }
 
@@ -68,37 +60,43 @@ VerbOption VerbOption::excludes(VerbOption other) {
   return *this;
 }
 
-VerbOption VerbOption::in(OptionGroup group) {
-  manual_.group = group;
+VerbOption VerbOption::in(const char* group) {
+  option_->group(group);
   return *this;
 }
 
-VerbOption VerbOption::among(std::vector<std::string> words, bool or_others) {
-  manual_.words = std::move(words);
-  manual_.takes_others = or_others;
+VerbOption VerbOption::among(const std::vector<std::string>& words) {
+  say(": " + joined(words, ", "));
   return *this;
+}
+
+void VerbOption::say(const std::string& more) {
+  option_->description(option_->get_description() + more);
 }
 
 Verb::Verb(CLI::App& app, const std::string& name, const std::string& about)
-    : app_(app.add_subcommand(name, about)), manual_(manual_of(name, about)) {}
-
-OptionManual& Verb::note(const std::string& name, const std::string& about) {
-  const auto blank = name.find(' ');
-  OptionManual option;
-  option.name = name.substr(0, blank);
-  if (blank != std::string::npos) option.value = name.substr(blank + 1);
-  option.about = about;
-  if (option.is_positional()) option.group = OptionGroup::input;
-  return manual_.options.emplace_back(std::move(option));
+    : app_(app.add_subcommand(name, about)) {
+  const auto manual = std::ranges::find(verb_manuals(), name, &VerbManual::verb);
+  BOOST_ASSERT(manual != verb_manuals().end());
+  app_->group(manual->group);
+  app_->footer(manual->text());
 }
+
+namespace {
+
+// Says what stands behind an option, "DIR" of "--out DIR", and its first title.
+VerbOption named(CLI::Option* option, const std::string& name) {
+  const auto blank = name.find(' ');
+  option->type_name(blank == std::string::npos ? "" : name.substr(blank + 1));
+  option->group(OptionGroup::question);
+  return VerbOption(option);
+}
+
+}  // namespace
 
 template <class Target>
 VerbOption Verb::add(const std::string& name, Target& target, const std::string& about) {
-  auto& manual = note(name, about);
-  manual.repeats = is_list<Target>;
-  auto* option = app_->add_option(manual.name, target, about);
-  if (!manual.value.empty()) option->type_name(manual.value);
-  return VerbOption(option, manual);
+  return named(app_->add_option(name.substr(0, name.find(' ')), target, about), name);
 }
 template VerbOption Verb::add(const std::string&, std::string&, const std::string&);
 template VerbOption Verb::add(const std::string&, std::vector<std::string>&, const std::string&);
@@ -111,17 +109,14 @@ template VerbOption Verb::add(const std::string&, std::vector<double>&, const st
 template VerbOption Verb::add(const std::string&, std::optional<double>&, const std::string&);
 
 VerbOption Verb::add_flag(const std::string& name, bool& target, const std::string& about) {
-  return VerbOption(app_->add_flag(name, target, about), note(name, about));
+  return named(app_->add_flag(name, target, about), name);
 }
 
 VerbOption Verb::add_word(const std::string& name,
                           std::function<void(const std::string& word)> take,
                           const std::string& about) {
-  auto& manual = note(name, about);
-  if (manual.value.empty()) manual.value = any_word;
-  auto* option = app_->add_option_function<std::string>(manual.name, std::move(take), about);
-  option->type_name(manual.value);
-  return VerbOption(option, manual);
+  const auto word = name.substr(0, name.find(' '));
+  return named(app_->add_option_function<std::string>(word, std::move(take), about), name);
 }
 
 std::string wrong_word(const std::string& word, const std::string& wanted) {
@@ -173,41 +168,41 @@ std::string memory_word(std::uint64_t bytes) {
   return fmt::format("{}{}", bytes, units[unit]);
 }
 
+namespace {
+
+// Numbers for which `is_right` holds, which are `what`.
+template <class IsRight>
+Check number(IsRight is_right, const char* what) {
+  return [=](const std::string& word) {
+    const auto number = number_of(word);
+    return number && std::isfinite(*number) && is_right(*number)
+               ? ""
+               : fmt::format("'{}' is not {}", word, what);
+  };
+}
+
+}  // namespace
+
 Check positive() {
-  return {"NUMBER > 0", [](const std::string& word) {
-            const auto number = number_of(word);
-            return number && *number > 0 && std::isfinite(*number)
-                       ? ""
-                       : fmt::format("'{}' is not a number above 0", word);
-          }};
+  return number([](double x) { return x > 0; }, "a number above 0");
 }
 
 Check length() {
-  return {"NUMBER >= 0", [](const std::string& word) {
-            const auto number = number_of(word);
-            return number && *number >= 0 && std::isfinite(*number)
-                       ? ""
-                       : fmt::format("'{}' is not a number of 0 or more", word);
-          }};
+  return number([](double x) { return x >= 0; }, "a number of 0 or more");
+}
+
+Check share() {
+  return number([](double x) { return x > 0 && x <= 1; }, "a number above 0, at most 1");
 }
 
 // This check is needed because CLI11 reads "-1", and numbers beyond 64 bits, as the largest
 // unsigned number.
 Check whole_number() {
-  return {"NUMBER >= 0", [](const std::string& word) {
-            return whole_number_of<std::uint64_t>(word)
-                       ? ""
-                       : fmt::format("'{}' is not a whole number of 64 bits", word);
-          }};
-}
-
-Check share() {
-  return {"0 < SHARE <= 1", [](const std::string& word) {
-            const auto number = number_of(word);
-            return number && *number > 0 && *number <= 1
-                       ? ""
-                       : fmt::format("'{}' is not a number above 0, at most 1", word);
-          }};
+  return [](const std::string& word) {
+    return whole_number_of<std::uint64_t>(word)
+               ? ""
+               : fmt::format("'{}' is not a whole number of 64 bits", word);
+  };
 }
 
 void add_limits(Verb& verb, std::optional<double>& seconds, std::optional<std::uint64_t>& bytes) {

@@ -1,8 +1,8 @@
 // A verb and its options, as the verb's own file states them; checks of the words after an option,
 // and the options that several verbs have.
 //
-// CLI11 parses the command line behind this header. It takes six seconds to compile, so only
-// option_words.cpp and main.cpp include it.
+// CLI11 parses the command line behind this header, and formats help. It takes six seconds to
+// compile, so only option_words.cpp and main.cpp include it.
 #pragma once
 
 #include <fmt/format.h>
@@ -19,7 +19,6 @@
 
 #include "properties/judging/subject.h"
 #include "reports/terminal/complaint.h"
-#include "reports/terminal/manual.h"
 
 namespace CLI {
 class App;
@@ -28,16 +27,20 @@ class Option;
 
 namespace assay::reports {
 
-// A check of the word after an option.
-struct Check {
-  std::string words;  // the words that it may be, such as "all, first"; or their form
-  // One clear line that says what is wrong with the word; empty if nothing is.
-  std::function<std::string(const std::string& word)> complaint;
+// The titles under which the options of a verb stand.
+struct OptionGroup {
+  static constexpr const char *input = "Input", *question = "What is asked",
+                              *detector = "The detector", *limits = "Limits and threads",
+                              *output = "What is written";
 };
+
+// A check of the word after an option: one clear line that says what is wrong with it; empty if
+// nothing is.
+using Check = std::function<std::string(const std::string& word)>;
 
 class VerbOption {
  public:
-  VerbOption(CLI::Option* option, OptionManual& manual) : option_(option), manual_(manual) {}
+  explicit VerbOption(CLI::Option* option) : option_(option) {}
   VerbOption required();
   VerbOption with(const Check& check);
   VerbOption in_range(std::uint64_t least, std::uint64_t most);
@@ -45,15 +48,14 @@ class VerbOption {
   VerbOption shows_default();
   // The two may not be given together.
   VerbOption excludes(VerbOption other);
-  // Under which title help shows it: OptionGroup::question, or input for words without an option,
-  // unless told otherwise.
-  VerbOption in(OptionGroup group);
-  // Words that it may be; `or_others`: of which there are others, such as files.
-  VerbOption among(std::vector<std::string> words, bool or_others = false);
+  // Under which title help shows it, in place of OptionGroup::question.
+  VerbOption in(const char* group);
+  // Help lists the words that it may be.
+  VerbOption among(const std::vector<std::string>& words);
 
  private:
+  void say(const std::string& more);
   CLI::Option* option_;
-  OptionManual& manual_;  // of a Verb
 };
 
 class Verb {
@@ -66,23 +68,18 @@ class Verb {
   template <class Target>
   VerbOption add(const std::string& name, Target& target, const std::string& about);
   VerbOption add_flag(const std::string& name, bool& target, const std::string& about);
-  // `take` is called with the word, once it has passed the checks. If nothing stands behind the
-  // name, the words of its check are all that there are.
+  // `take` is called with the word, once it has passed the checks.
   VerbOption add_word(const std::string& name, std::function<void(const std::string& word)> take,
                       const std::string& about);
 
-  const VerbManual& manual() const { return manual_; }
-
  private:
-  OptionManual& note(const std::string& name, const std::string& about);
   CLI::App* app_;
-  VerbManual manual_;
 };
 
-// A verb of the command line: what it says of itself, and what it does once the command line is
-// parsed, which returns the exit code.
+// A verb of the command line: its name, and what it does once the command line is parsed, which
+// returns the exit code.
 struct AddedVerb {
-  VerbManual manual;
+  std::string name;
   std::function<int()> act;
 };
 
@@ -95,7 +92,7 @@ AddedVerb make_verb(CLI::App& app, const char* name, const char* about,
   const auto request = std::make_shared<Request>();
   Verb verb(app, name, about);
   add_options(verb, *request);
-  return {verb.manual(), [request, run] {
+  return {name, [request, run] {
             const auto code = run(*request);
             return code ? code.value() : refuse(code.error());
           }};
@@ -107,18 +104,22 @@ std::string wrong_word(const std::string& word, const std::string& wanted);
 // A check that takes the words that `parse` takes: a fixed set, or words of a certain form.
 template <class Parse>
 Check one_of(const std::string& words, Parse parse) {
-  return {words, [words, parse](const std::string& word) {
-            return parse(word) ? std::string() : wrong_word(word, words);
-          }};
+  return [words, parse](const std::string& word) {
+    return parse(word) ? std::string() : wrong_word(word, words);
+  };
 }
 
-// An option whose word is one of `words`. Its target stays as it is if the option is not given.
+// An option whose word is one of `words`, or has the form that the option's name tells ("--why
+// A,B"). Its target stays as it is if the option is not given.
 template <class Target, class Parse>
 VerbOption add_choice(Verb& verb, const std::string& name, Target& target, const std::string& words,
                       Parse parse, const std::string& about) {
+  const bool has_form = name.find(' ') != std::string::npos;
   return verb
       .add_word(
-          name, [&target, parse](const std::string& word) { target = *parse(word); }, about)
+          has_form ? name : name + " WORD",
+          [&target, parse](const std::string& word) { target = *parse(word); },
+          has_form ? about : about + ": " + words)
       .with(one_of(words, parse));
 }
 

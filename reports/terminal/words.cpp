@@ -109,8 +109,6 @@ std::string replaced(std::string_view text, const std::map<char, std::string_vie
 
 std::string commit_text() { return ASSAY_COMMIT; }
 
-std::string commit_date() { return ASSAY_COMMIT_DATE; }
-
 std::string version_text() {
   return fmt::format(
       "assay {} ({}, Eigen {}.{}.{}, Boost {}.{}.{}, nlohmann-json {}.{}.{}, fmt {}.{}.{}, CLI11 "

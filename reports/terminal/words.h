@@ -49,8 +49,6 @@ std::string absolute_path(const std::filesystem::path& path);
 // The commit: 40 hexadecimal digits, followed by "-dirty" if tracked files were changed. Empty if
 // the program was built outside of a git repository.
 std::string commit_text();
-// Its date, as "2026-01-31"; empty outside of a git repository.
-std::string commit_date();
 
 // "assay 0.2.0 (CGAL 5.5.1, GMP ..., ...)": this program and the libraries that its answers rest
 // on.

@@ -12,7 +12,6 @@
 #include <set>
 
 #include "corpus/digest.h"
-#include "corpus/meant_word.h"
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/ledger/binding.h"
 #include "properties/campaign/ledger/run_folder.h"
@@ -269,8 +268,7 @@ void add_options(Verb& verb, CampaignWords& words) {
   words.campaign = "smoke";
   verb.add("--campaign NAME|FILE", words.campaign,
            "smoke, quick, nightly, release, or a campaign file (.json)")
-      .shows_default()
-      .among(corpus::names_among(properties::named_plans()), true);
+      .shows_default();
   add_campaign_options(verb, words);
   verb.add("--out DIR", words.out, "Folder for the certificate; shards that it holds are taken")
       .required()

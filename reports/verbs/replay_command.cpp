@@ -20,7 +20,7 @@
 #include "reports/check/detector_choice.h"
 #include "reports/judge/log_check.h"
 #include "reports/pictures/case_scene.h"
-#include "reports/pictures/strip_svg.h"
+#include "reports/pictures/mesh_svg.h"
 #include "reports/steps/case_export.h"
 #include "reports/steps/pair_story.h"
 #include "reports/steps/step_text.h"
@@ -200,14 +200,15 @@ Expected<void> write_strip(const std::string& folder, const corpus::Case& c,
                            const std::vector<oracle::StepJudgement>& judgements,
                            const properties::Contract& contract) {
   if (c.triangles.rows() > most_shown_triangles) return outcome::success();
+  CaseScene scene;
+  scene.c = c;
+  scene.contract = contract;
   const auto script = corpus::steps_of(c);
-  for (std::size_t s = 0; s < script.size(); ++s) {
-    const auto truth = truth_of(c, judgements[s], contract);
-    if (!truth.first) continue;
-    return write_text_file((std::filesystem::path(folder) / "strip.svg").string(),
-                           strip_svg(c, script[s], *truth.first, properties::printable(c.about)));
-  }
-  return outcome::success();
+  for (std::size_t s = 0; s < script.size(); ++s)
+    scene.steps.push_back({script[s], truth_of(c, judgements[s], contract), {}, {}});
+  if (!scene.shown_pair()) return outcome::success();
+  return write_text_file((std::filesystem::path(folder) / "strip.svg").string(),
+                         strip_svg(scene, properties::printable(c.about)));
 }
 
 // A remark on an id whose campaign is none of the built-in ones, but has nearly such a name. A case
@@ -284,10 +285,6 @@ Expected<int> run_replay(const ReplayRequest& request) {
   auto second = subject.process(1, true);
   const auto again = asks_twice ? second.run(*seen, subject.detector.configurations)
                                 : std::vector<properties::CaseRun>{};
-  if (!request.export_folder.empty()) {
-    BOOST_OUTCOME_TRY(export_case(request.export_folder, *seen, subject.detector, truth));
-    BOOST_OUTCOME_TRY(write_strip(request.export_folder, *seen, truth, contract));
-  }
   fmt::print("{}: {}{}\n", properties::printable(c.id), properties::size_text(c),
              c.about.empty() ? "" : "; " + properties::printable(c.about));
   if (trial) fmt::print("{}", misspelt(request.id_or_file));
@@ -295,12 +292,18 @@ Expected<int> run_replay(const ReplayRequest& request) {
   print_steps(*seen, truth, contract);
   int code = exit_holds;
   RunTexts texts;
+  std::optional<properties::Claim> broken;
+  auto exported = subject.detector;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const auto& configuration = subject.detector.configurations[i];
     const auto verdict = properties::judge_trial(
         *seen, truth, runs[i], configuration, subject.detector, asks_twice ? &again[i] : nullptr);
     std::string text = run_text(runs[i], verdict, is_query);
     if (verdict.outcome == Outcome::defect) code = exit_defect;
+    if (verdict.failure && !broken) {
+      broken = verdict.failure->claim;
+      exported = subject.detector.in(configuration);
+    }
     const bool is_open = verdict.outcome == Outcome::undecided || verdict.outcome == Outcome::error;
     if (is_open && code == exit_holds) code = exit_undecided;
     if (request.why) text += pair_story(c, configuration.options, *request.why, truth);
@@ -310,7 +313,11 @@ Expected<int> run_replay(const ReplayRequest& request) {
   if (subject.detector.built_in && print_broken_laws(c, subject.detector, runs, truth)) {
     code = exit_defect;
   }
-  if (!request.export_folder.empty()) fmt::print("exported to {}\n", request.export_folder);
+  if (!request.export_folder.empty()) {
+    BOOST_OUTCOME_TRY(export_case(request.export_folder, *seen, exported, truth, broken));
+    BOOST_OUTCOME_TRY(write_strip(request.export_folder, *seen, truth, contract));
+    fmt::print("exported to {}\n", request.export_folder);
+  }
   return code;
 }
 

@@ -118,8 +118,7 @@ void add_options(Verb& verb, RunRequest& request) {
   request.words.campaign = "quick";
   verb.add("--campaign NAME|FILE", request.words.campaign,
            "smoke, quick, nightly, release, faults, or a campaign file (.json)")
-      .shows_default()
-      .among(corpus::names_among(properties::named_plans()), true);
+      .shows_default();
   add_campaign_options(verb, request.words);
   add_choice(verb, "--shard I/N", request.shard, "I/N with 1 <= I <= N", shard_of,
              "I/N: the part of the cases that this run makes (default 1/1)");

@@ -21,6 +21,22 @@ done
 if [ -d "$build/python/assay" ]; then
   ls lib/python3*/dist-packages/assay/__init__.py >/dev/null || fail "the Python module is not installed"
 fi
+# A man page for the program and for each verb, in which formatters find nothing to warn of.
+if command -v help2man >/dev/null; then
+  verbs=$(bin/assay help | sed -n 's/^  \([a-z][a-z-]*\) .*/assay-\1/p')
+  for page in assay $(echo "$verbs" | grep -vx -e assay-help -e assay-version); do
+    page=share/man/man1/$page.1
+    [ -f "$page" ] || fail "$page is not installed"
+    grep -q '^[.]B assay$' "$page" || fail "$page has no synopsis"
+    warned=$(command -v groff >/dev/null && groff -man -Tutf8 -ww -z "$page" 2>&1) || true
+    [ -z "$warned" ] || fail "$page: $warned"
+  done
+  grep -q '^.fB.-.-culling' share/man/man1/assay-check.1 || fail "assay-check.1 lacks an option"
+fi
+mkdir "$scratch/few"
+ln -s "$(command -v rm)" "$scratch/few"
+(PATH=$scratch/few /bin/bash "$sources/reports/package/man_pages" "$scratch/few" "$scratch/few") |
+  grep -qx "no man pages: help2man is not installed" || fail "that there are no pages is not said"
 if found=$(grep -rlF -e "$sources/" -e "$build/" .); then
   fail "paths of the machine that built it are in: $found"
 fi

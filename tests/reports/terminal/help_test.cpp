@@ -37,6 +37,7 @@ TEST(Help, IsOneTextHoweverItIsAsked) {
   EXPECT_EQ(run_assay("run --campaign smoke -h").out, run.out);
   EXPECT_EQ(run_assay("version").out, run_assay("--version").out);
   expect_refused(run_assay("help chekc"), "unknown verb 'chekc'; did you mean check?");
+  expect_refused(run_assay("versoin"), "unknown verb 'versoin'; did you mean version?");
 }
 
 TEST(Help, TheVersionNamesItsCommit) {
@@ -52,13 +53,13 @@ TEST(Help, OfEachVerbIsWholeAndFitsOnATerminal) {
     SCOPED_TRACE(verb);
     const auto help = run_assay("help " + verb);
     EXPECT_EQ(help.exit_code, 0);
-    EXPECT_EQ(help.out.rfind("usage: assay " + verb, 0), 0u) << help.out;
-    for (const std::string part : {"\nInput\n", "\nWhat is asked\n", "\nWhat is written\n"}) {
+    EXPECT_TRUE(contains(help.out, "\n\nUsage: assay " + verb)) << help.out;
+    for (const std::string part : {"\nInput:\n", "\nWhat is asked:\n", "\nWhat is written:\n"}) {
       const bool is_empty = contains(help.out, part) && !contains(help.out, part + "  ");
       EXPECT_FALSE(is_empty) << part << help.out;
     }
-    EXPECT_TRUE(contains(help.out, "\nExamples\n  assay " + verb)) << help.out;
-    EXPECT_TRUE(contains(help.out, "\nExit codes\n  0  ")) << help.out;
+    EXPECT_TRUE(contains(help.out, "\nExamples:\n  assay " + verb)) << help.out;
+    EXPECT_TRUE(contains(help.out, "\nExit codes:\n  0  ")) << help.out;
     for (const std::string word : {"TEXT", "UINT", "FLOAT", "INT ", "REQUIRED", "OPTIONS"})
       EXPECT_FALSE(contains(help.out, word)) << word << help.out;
     for (const auto& line : lines_of(help.out)) {
@@ -81,11 +82,12 @@ TEST(Help, SaysTheExitCodesOfTheDesign) {
 
 TEST(Help, ShowsWordsAndDefaults) {
   const auto check = run_assay("help check").out;
-  EXPECT_TRUE(contains(check, "usage: assay check [FRAME...] [OPTION...]\n")) << check;
+  EXPECT_TRUE(contains(check, "Usage: assay check [FRAME...] [OPTION...]\n")) << check;
   EXPECT_TRUE(contains(check, "--pairs WORD")) << check;
   EXPECT_TRUE(contains(check, "(default all): all, first")) << check;
+  EXPECT_TRUE(contains(check, "--apart A,B...  ")) << check;
   const auto run = run_assay("help run").out;
-  EXPECT_TRUE(contains(run, "usage: assay run --out DIR [OPTION...]\n")) << run;
+  EXPECT_TRUE(contains(run, "Usage: assay run --out DIR [OPTION...]\n")) << run;
   EXPECT_TRUE(contains(run, "(default quick)")) << run;
 }
 

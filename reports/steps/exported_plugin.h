@@ -1,0 +1,210 @@
+// A program that puts an exported case to a plug-in: ./case_plugin ./libmine.so
+#pragma once
+
+#include <dlfcn.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <tuple>
+
+#include "detector/plugin/assay_detector.h"
+#include "reports/steps/exported_case.h"
+
+namespace exported_case {
+
+inline bool is_time(double lo, double hi) { return 0 <= lo && lo <= hi && hi <= 1; }
+
+// Returns what breaks the rules of the interface; empty if nothing does.
+inline std::string read_pairs(const Case& c, std::uint64_t count, const std::int32_t* raw,
+                              const double* times, std::vector<Pair>& list) {
+  if (count > 0 && !raw) return "pairs are counted but not given";
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const int a = std::min(raw[2 * i], raw[2 * i + 1]), b = std::max(raw[2 * i], raw[2 * i + 1]);
+    const double lo = times ? times[2 * i] : 0, hi = times ? times[2 * i + 1] : 1;
+    if (a < 0 || a == b || b >= c.triangle_count) return "a pair names no two triangles";
+    if (!is_time(lo, hi)) return "the time of a pair is no interval in [0, 1]";
+    list.push_back({a, b, lo, hi, -1});
+  }
+  std::sort(list.begin(), list.end(), [](const Pair& x, const Pair& y) {
+    return std::tie(x.a, x.b, x.lo) < std::tie(y.a, y.b, y.lo);
+  });
+  return "";
+}
+
+// Returns what stands in the way of an answer; empty if nothing does, or it is undecided.
+inline std::string read_result(const Case& c, const assay_result& raw, Found& found) {
+  if (raw.answer == ASSAY_ERROR) return raw.message ? raw.message : "an error without a message";
+  if (raw.answer == ASSAY_FREE) return raw.pair_count == 0 ? "" : "answers free and gives pairs";
+  if (raw.answer != ASSAY_COLLISION && raw.answer != ASSAY_UNDECIDED) return "its answer is none";
+  found.is_answered = found.collision = raw.answer == ASSAY_COLLISION;
+  if (found.collision) {
+    found.lo = raw.first_lo;
+    found.hi = raw.first_hi;
+    if (!is_time(found.lo, found.hi)) return "its first time is no interval in [0, 1]";
+  }
+  return read_pairs(c, raw.pair_count, raw.pairs, raw.pair_times, found.pairs);
+}
+
+// A plug-in that is asked for one case after its first call has said what it holds.
+class Plugin {
+ public:
+  Plugin(const Case& c, const assay_detector_api* api, const assay_counted_pairs* counted)
+      : case_(c), api_(api), counted_(counted) {}
+
+  // Returns what it lacks to be asked at all; empty if nothing.
+  const char* lacking() const {
+    if (case_.query) return api_->abi_version >= 2 && api_->query ? "" : "it has no query";
+    return api_->create && (api_->evaluate || has_candidates() || has_limit())
+               ? ""
+               : "it takes no steps";
+  }
+
+  std::vector<Found> run() const {
+    std::vector<Found> list(case_.steps.size());
+    if (case_.query) {
+      ask_query(case_.steps[0], list[0]);
+      return list;
+    }
+    assay_handle* handle = nullptr;
+    const char* message = nullptr;
+    const char* failing = "create";
+    std::int32_t code = api_->create(case_.triangles, case_.triangle_count, case_.frames,
+                                     case_.vertex_count, &handle, &message);
+    if (code == ASSAY_OK && handle && counted_) {
+      message = nullptr;
+      failing = "count";
+      const bool takes_it = api_->abi_version >= 3 && api_->count;
+      code = takes_it ? api_->count(handle, counted_) : std::int32_t(ASSAY_REFUSED);
+    }
+    for (std::size_t s = 0; s < list.size(); ++s) {
+      Found& found = list[s];
+      if (code == ASSAY_OK && handle) {
+        ask(handle, case_.steps[s], found);
+        continue;
+      }
+      found.is_answered = false;
+      if (code != ASSAY_OUT_OF_MEMORY) found.error = message ? message : why(failing);
+    }
+    if (handle) api_->destroy(handle);
+    return list;
+  }
+
+ private:
+  bool has_candidates() const { return api_->abi_version >= 2 && api_->candidates; }
+  bool has_limit() const { return api_->abi_version >= 3 && api_->limit; }
+  std::string why(const char* function) const {
+    const char* text = api_->abi_version >= 2 && api_->error_text ? api_->error_text() : nullptr;
+    return text ? text : std::string(function) + " failed";
+  }
+  // Notes a return code; true if the call did its work.
+  bool succeeded(const char* function, std::int32_t code, Found& found) const {
+    if (code == ASSAY_OK) return true;
+    found.is_answered = false;
+    if (code != ASSAY_OUT_OF_MEMORY) found.error = why(function);
+    return false;
+  }
+
+  // Where a step goes, as the detector is told it: by its end or by its displacement.
+  std::vector<double> told(const Step& step) const {
+    const double *x_t0 = case_.frame(step.from), *x_t1 = case_.frame(step.to);
+    std::vector<double> way(x_t1, x_t1 + case_.coordinates());
+    for (std::size_t i = 0; case_.takes_displacements && i < way.size(); ++i)
+      way[i] = static_cast<float>(x_t1[i] - x_t0[i]);
+    return way;
+  }
+
+  void ask_query(const Step& step, Found& found) const {
+    assay_query_result raw = {};
+    const auto way = told(step);
+    const std::int32_t code =
+        api_->query(case_.query == 1 ? ASSAY_QUERY_VERTEX_FACE : ASSAY_QUERY_EDGE_EDGE,
+                    case_.frame(step.from), way.data(), &raw);
+    assay_result alike = {};
+    alike.answer = raw.answer;
+    alike.first_lo = raw.first_lo;
+    alike.first_hi = raw.first_hi;
+    if (succeeded("query", code, found)) found.error = read_result(case_, alike, found);
+  }
+
+  // All parts are asked, in the order in which Assay asks them; the first error counts, that of the
+  // step itself before others.
+  void ask(assay_handle* handle, const Step& step, Found& found) const {
+    const double* const x_t0 = case_.frame(step.from);
+    const auto way = told(step);
+    std::string error;
+    if (has_candidates()) {
+      assay_candidates raw = {};
+      if (succeeded("candidates", api_->candidates(handle, x_t0, way.data(), &raw), found))
+        found.error = read_pairs(case_, raw.pair_count, raw.pairs, nullptr, found.candidates);
+      error = found.error;
+    }
+    if (has_limit()) {
+      assay_limit raw = {};
+      raw.share = -1;
+      if (succeeded("limit", api_->limit(handle, x_t0, way.data(), &raw), found)) {
+        found.share = raw.share;
+        if (raw.share != -1 && !(raw.share >= 0 && raw.share <= 1))
+          found.error = "its share is none";
+        // Where it says no positions, only whether they are the end is asked here.
+        const double* const stop = raw.positions    ? raw.positions
+                                   : raw.share == 1 ? case_.frame(step.to)
+                                                    : x_t0;
+        found.stop.assign(stop, stop + case_.coordinates());
+      }
+      error = found.error;
+    }
+    found.error.clear();
+    found.is_answered = api_->evaluate != nullptr;
+    if (api_->evaluate) ask_step(handle, step, way, found);
+    if (found.error.empty()) found.error = error;
+  }
+
+  void ask_step(assay_handle* handle, const Step& step, const std::vector<double>& way,
+                Found& found) const {
+    assay_result raw = {};
+    const std::int32_t code = api_->evaluate(handle, case_.frame(step.from), way.data());
+    if (!succeeded("evaluate", code, found)) return;
+    if (!succeeded("result", api_->result(handle, &raw), found)) return;
+    const bool reports_none =
+        api_->abi_version >= 2 && api_->describe()->reports == ASSAY_REPORTS_NO_PAIRS;
+    found.error = reports_none && raw.pair_count > 0 ? "gives pairs, and says that it reports none"
+                                                     : read_result(case_, raw, found);
+    if (step.commit && found.is_answered && found.error.empty())
+      succeeded("commit", api_->commit(handle), found);
+  }
+
+  const Case& case_;
+  const assay_detector_api* api_;
+  const assay_counted_pairs* counted_;
+};
+
+// The program. Its word is the library. Returns 0 if no claim that is asked is broken, 1 if one is,
+// and 2 if nothing can be asked. Where the library crashes, it does; where the library exits, it
+// ends with 1.
+inline int ask_library(const Case& c, const assay_counted_pairs* counted, int argc, char** argv) {
+  void* library = argc > 1 ? dlopen(argv[1], RTLD_NOW) : nullptr;
+  void* entry = library ? dlsym(library, "assay_detector") : nullptr;
+  if (!entry) {
+    std::printf("usage: case_plugin LIB.so: %s\n", argc > 1 ? dlerror() : "no library");
+    return 2;
+  }
+  const assay_detector_api* api = reinterpret_cast<const assay_detector_api* (*)()>(entry)();
+  const Plugin plugin(c, api, counted);
+  if (*plugin.lacking()) {
+    std::printf("%s: %s\n", argv[1], plugin.lacking());
+    return 2;
+  }
+  static bool is_done = false;
+  std::atexit([] {
+    if (!is_done) std::_Exit(1);
+  });
+  if (api->abi_version >= 2 && api->use_threads) api->use_threads(1);
+  const std::vector<Found> found = plugin.run(), again = plugin.run();
+  is_done = true;
+  bool wrong = false;
+  for (std::size_t s = 0; s < c.steps.size(); ++s)
+    wrong = is_wrong(c, s, found[s], again[s]) || wrong;
+  return wrong ? 1 : 0;
+}
+
+}  // namespace exported_case
