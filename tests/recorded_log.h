@@ -28,7 +28,7 @@ class LogWriter {
             const detector::Positions& first,
             const assay_description& description = all_claims_description(),
             std::uint64_t every = 1) {
-    const assay_record_settings settings = {path.c_str(), every, 0, 1};
+    const assay_record_settings settings = {path.c_str(), every, 1};
     const auto m = static_cast<std::uint64_t>(triangles.rows());
     EXPECT_EQ(assay_record_begin(&recorder_, &settings, &description, triangles.data(), m,
                                  array(first), static_cast<std::uint64_t>(first.rows()), nullptr),

@@ -6,12 +6,14 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <boost/outcome/try.hpp>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <nlohmann/json.hpp>
+#include <utility>
 
-#include "corpus/formats/cbor_map.h"
 #include "detector/mesh/mesh_checks.h"
 
 namespace assay::corpus {
@@ -19,12 +21,13 @@ namespace {
 
 using detector::Positions;
 
+using Json = nlohmann::json;
+
 // A record: an array of four letters, the body as bytes of CBOR, and its checksum.
-constexpr std::string_view before_length("\xD8\x18\x5B", 3);
+constexpr std::string_view mark_of_record("\x83\x44\x41\x53\x52\x31\xD8\x18\x5B", 9);
 constexpr char before_checksum = '\x1A';
 constexpr std::size_t head_bytes = 17, length_bytes = 8, tail_bytes = 5;
 constexpr std::size_t piece_bytes = std::size_t{1} << 20;
-constexpr const char* no_record = "no record";
 
 template <class Number>
 Number big_endian(const char* bytes) {
@@ -32,6 +35,54 @@ Number big_endian(const char* bytes) {
   for (std::size_t i = 0; i < sizeof(Number); ++i)
     out = static_cast<Number>(out << 8 | static_cast<std::uint8_t>(bytes[i]));
   return out;
+}
+
+// The value of a key. Null if it is not there.
+const Json& value_of(const Json& map, const char* key) {
+  static const Json none;
+  const auto found = map.find(key);
+  return found == map.end() ? none : *found;
+}
+
+std::optional<std::int64_t> integer(const Json& value) {
+  const bool is_too_large =
+      value.is_number_unsigned() && !std::in_range<std::int64_t>(value.get<std::uint64_t>());
+  if (!value.is_number_integer() || is_too_large) return std::nullopt;
+  return value.get<std::int64_t>();
+}
+
+std::string text(const Json& value) { return value.is_string() ? value.get<std::string>() : ""; }
+
+// Returns a typed array of RFC 8746. `big` is its tag where the first byte of a number is its
+// highest; the tag is 4 more where it is the lowest. Nothing if the value is no such array.
+template <class Number>
+std::optional<std::vector<Number>> typed_array(const Json& value, std::uint64_t big) {
+  if (!value.is_binary()) return std::nullopt;
+  const auto& bytes = value.get_binary();
+  const bool is_big = bytes.subtype() == big;
+  if ((!is_big && bytes.subtype() != big + 4) || bytes.size() % sizeof(Number) != 0)
+    return std::nullopt;
+  std::vector<Number> numbers(bytes.size() / sizeof(Number));
+  if (!numbers.empty()) std::memcpy(numbers.data(), bytes.data(), bytes.size());
+  if (is_big == (std::endian::native == std::endian::big)) return numbers;
+  for (Number& number : numbers) {
+    auto raw = std::bit_cast<std::array<std::uint8_t, sizeof(Number)>>(number);
+    std::ranges::reverse(raw);
+    number = std::bit_cast<Number>(raw);
+  }
+  return numbers;
+}
+
+std::optional<std::vector<double>> doubles(const Json& value) {
+  constexpr std::uint64_t float32_big = 81, float64_big = 82;
+  const auto floats = typed_array<float>(value, float32_big);
+  if (floats) return std::vector<double>(floats->begin(), floats->end());
+  return typed_array<double>(value, float64_big);
+}
+
+std::optional<std::vector<std::int32_t>> integers(const Json& value) {
+  constexpr std::uint64_t int32_big = 74;
+  return typed_array<std::int32_t>(value, int32_big);
 }
 
 std::optional<Positions> positions_of(const std::vector<double>& numbers, std::int64_t vertices) {
@@ -42,45 +93,27 @@ std::optional<Positions> positions_of(const std::vector<double>& numbers, std::i
 // Reads the members of a map into those of a struct. Members that are not there stay as they are.
 class Members {
  public:
-  explicit Members(const CborMap& map) : map_(map) {}
-  Members& operator()(const char* key, std::int32_t& value) {
-    if (!map_.has(key)) return *this;
-    const auto read = map_.integer(key);
-    if (read && *read == static_cast<std::int32_t>(*read)) {
-      value = static_cast<std::int32_t>(*read);
+  explicit Members(const Json& map) : map_(map) {}
+  template <class Number>
+  Members& operator()(const char* key, Number& value) {
+    if (!map_.contains(key)) return *this;
+    const Json& read = map_[key];
+    if constexpr (std::is_floating_point_v<Number>) {
+      if (!read.is_number()) return is_wrong(key);
+      value = read.get<Number>();
     } else {
-      wrong_ = key;
-    }
-    return *this;
-  }
-  Members& operator()(const char* key, std::uint64_t& value) {
-    if (!map_.has(key)) return *this;
-    const auto read = map_.integer(key);
-    if (read && *read >= 0) {
-      value = static_cast<std::uint64_t>(*read);
-    } else {
-      wrong_ = key;
-    }
-    return *this;
-  }
-  Members& operator()(const char* key, double& value) {
-    if (!map_.has(key)) return *this;
-    if (const auto read = map_.number(key)) {
-      value = *read;
-    } else {
-      wrong_ = key;
+      const auto whole = integer(read);
+      if (!whole || !std::in_range<Number>(*whole)) return is_wrong(key);
+      value = static_cast<Number>(*whole);
     }
     return *this;
   }
   // Each item is made of so many numbers in a row.
   template <std::size_t row, class Item, class Make>
   Members& list(const char* key, std::vector<Item>& items, const Make& make) {
-    if (!map_.has(key)) return *this;
-    const auto read = map_.integers(key);
-    if (!read || read->size() % row != 0) {
-      wrong_ = key;
-      return *this;
-    }
+    if (!map_.contains(key)) return *this;
+    const auto read = integers(map_[key]);
+    if (!read || read->size() % row != 0) return is_wrong(key);
     for (std::size_t i = 0; i < read->size(); i += row) items.push_back(make(read->data() + i));
     return *this;
   }
@@ -88,16 +121,19 @@ class Members {
   const std::string& wrong() const { return wrong_; }
 
  private:
-  const CborMap& map_;
+  Members& is_wrong(const char* key) {
+    wrong_ = key;
+    return *this;
+  }
+
+  const Json& map_;
   std::string wrong_;
 };
 
-std::string read_description(const CborMap& body, assay_description& d) {
-  const auto claims = body.integer("claims");
-  if (!claims || *claims != static_cast<std::uint32_t>(*claims)) return "claims";
-  d.claims = static_cast<std::uint32_t>(*claims);
-  return Members(body)("adjacency", d.adjacency)("coordinates", d.coordinates)("margin", d.margin)(
-             "start", d.start)("start_distance", d.start_distance)(
+std::string read_description(const Json& body, assay_description& d) {
+  if (!body.contains("claims")) return "claims";
+  return Members(body)("claims", d.claims)("adjacency", d.adjacency)("coordinates", d.coordinates)(
+             "margin", d.margin)("start", d.start)("start_distance", d.start_distance)(
              "least_nonzero", d.least_nonzero)("largest", d.largest)("features", d.features)(
              "time_tolerance", d.time_tolerance)("reports", d.reports)("separation", d.separation)(
              "counts", d.counts)("rings", d.rings)("rest_distance", d.rest_distance)(
@@ -107,7 +143,7 @@ std::string read_description(const CborMap& body, assay_description& d) {
       .wrong();
 }
 
-std::string read_counted(const CborMap& map, detector::CountedPairs& counted) {
+std::string read_counted(const Json& map, detector::CountedPairs& counted) {
   std::int32_t level = ASSAY_COUNTS_TRIANGLES;
   Members members(map);
   members("level", level)("rings", counted.rings)("rest_distance", counted.rest_distance);
@@ -127,8 +163,8 @@ std::string read_counted(const CborMap& map, detector::CountedPairs& counted) {
   if (level != ASSAY_COUNTS_TRIANGLES && level != ASSAY_COUNTS_FEATURES) return "level";
   counted.level = level == ASSAY_COUNTS_FEATURES ? detector::CountedLevel::features
                                                  : detector::CountedLevel::triangles;
-  if (map.has("rest")) {
-    const auto rest = map.doubles("rest");
+  if (map.contains("rest")) {
+    const auto rest = doubles(map["rest"]);
     if (!rest || rest->size() % 3 != 0) return "rest";
     for (std::size_t i = 0; i < rest->size(); i += 3)
       counted.rest.push_back({(*rest)[i], (*rest)[i + 1], (*rest)[i + 2]});
@@ -147,7 +183,39 @@ std::optional<Positions> exact_sum(const Positions& x, const Positions& way) {
   return end;
 }
 
+std::optional<Positions> places(const Json& value, Eigen::Index vertices) {
+  const auto numbers = doubles(value);
+  return numbers ? positions_of(*numbers, vertices) : std::nullopt;
+}
+
+// Returns where a step ended: there the next one starts if it does not say where.
+std::optional<Positions> end_of(const Json& body, Eigen::Index vertices) {
+  return places(value_of(body, body.contains("committed") ? "committed" : "x1"), vertices);
+}
+
+// Returns the body as a map, each array with its tag. Null if the bytes are no such map, or if its
+// map names a key twice.
+Json parse(const std::string& body) {
+  constexpr unsigned map_head = 0xA0, map_head_of_a_byte = 0xB8;
+  Json map;
+  try {
+    map = Json::from_cbor(body, true, true, Json::cbor_tag_handler_t::store);
+  } catch (const Json::exception&) {
+    return nullptr;
+  }
+  const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(body[i]); };
+  const std::size_t keys = byte(0) == map_head_of_a_byte ? byte(1) : byte(0) - map_head;
+  if (!map.is_object() || map.size() != keys) return nullptr;
+  return map;
+}
+
 }  // namespace
+
+// A whole record, and where it ends.
+struct StepLog::Record {
+  Json body;
+  std::uint64_t end = 0;
+};
 
 bool StepLog::read(std::uint64_t offset, std::size_t count, std::string& bytes) {
   if (offset > size_ || count > size_ - offset) return false;
@@ -158,71 +226,50 @@ bool StepLog::read(std::uint64_t offset, std::size_t count, std::string& bytes) 
 
 std::optional<StepLog::Record> StepLog::record_at(std::uint64_t offset) {
   std::string head;
-  if (!read(offset, head_bytes, head) || !head.starts_with(mark_of_log) ||
-      head.compare(mark_of_log.size(), before_length.size(), before_length) != 0)
-    return std::nullopt;
+  if (!read(offset, head_bytes, head) || !head.starts_with(mark_of_record)) return std::nullopt;
   const auto length = big_endian<std::uint64_t>(head.data() + head_bytes - length_bytes);
-  auto body = body_at(offset + head_bytes, length);
+  const auto body = body_at(offset + head_bytes, length);
   if (!body) return std::nullopt;
-  return Record{std::move(*body), offset + head_bytes + length + tail_bytes};
+  return Record{parse(*body), offset + head_bytes + length + tail_bytes};
 }
 
 // The body of this length, if its checksum stands behind it.
 std::optional<std::string> StepLog::body_at(std::uint64_t offset, std::uint64_t length) {
   const auto left = size_ - offset;
   if (left < tail_bytes || length > left - tail_bytes) return std::nullopt;
-  // Most places in damaged bytes end here, and little was read.
-  std::string tail;
+  std::string tail, piece;
   if (!read(offset + length, tail_bytes, tail) || tail[0] != before_checksum) return std::nullopt;
   // A length that is wrong may be any, so the body is summed before it is kept as a whole.
   uLong sum = 0;
-  std::string piece;
   for (std::uint64_t done = 0; done < length; done += piece.size()) {
     const auto count = std::min<std::uint64_t>(length - done, piece_bytes);
     if (!read(offset + done, count, piece)) return std::nullopt;
     sum = ::crc32_z(sum, reinterpret_cast<const Bytef*>(piece.data()), piece.size());
   }
-  summed_ += length;
   if (sum != big_endian<std::uint32_t>(tail.data() + 1)) return std::nullopt;
   if (length > piece_bytes && !read(offset, length, piece)) return std::nullopt;
   return piece;
 }
 
 // Whether all that is left is the beginning of one record. If a whole body and its checksum are
-// there, the length alone is wrong.
+// there, or further records, the length alone is wrong.
 bool StepLog::begins_record(std::uint64_t offset) {
   const auto left = size_ - offset;
-  std::string head;
-  if (!read(offset, std::min<std::uint64_t>(left, head_bytes), head)) return false;
-  const auto form = std::string(mark_of_log).append(before_length);
-  if (!form.starts_with(std::string_view(head).substr(0, form.size()))) return false;
+  std::string piece;
+  if (!read(offset, std::min<std::uint64_t>(left, head_bytes), piece) ||
+      !mark_of_record.starts_with(std::string_view(piece).substr(0, mark_of_record.size())))
+    return false;
   if (left < head_bytes) return true;
   const auto body = left - head_bytes;
-  const auto length = big_endian<std::uint64_t>(head.data() + form.size());
+  const auto length = big_endian<std::uint64_t>(piece.data() + mark_of_record.size());
   if (length <= body && body - length >= tail_bytes) return false;
-  return body < tail_bytes || !body_at(offset + head_bytes, body - tail_bytes);
-}
-
-// Where the next whole record begins, behind this place.
-std::optional<std::uint64_t> StepLog::next_record(std::uint64_t offset) {
-  std::string piece;
-  for (std::uint64_t from = offset + 1; from + head_bytes <= size_;) {
-    const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(piece_bytes, size_ - from));
-    if (!read(from, count, piece)) return std::nullopt;
-    for (auto at = piece.find(mark_of_log); at != std::string::npos;
-         at = piece.find(mark_of_log, at + 1)) {
-      if (record_at(from + at)) return from + at;
-      if (summed_ > most_summed()) return std::nullopt;
-    }
-    if (count < piece_bytes) break;
-    from += count - mark_of_log.size();  // a mark may lie across both pieces
+  if (body >= tail_bytes && body_at(offset + head_bytes, body - tail_bytes)) return false;
+  for (auto from = offset + 1; from + mark_of_record.size() <= size_;) {
+    if (!read(from, std::min<std::uint64_t>(piece_bytes, size_ - from), piece)) return false;
+    if (piece.find(mark_of_record) != std::string::npos) return false;
+    from += piece.size() - mark_of_record.size() + 1;  // a mark may lie across both pieces
   }
-  return std::nullopt;
-}
-
-std::optional<Positions> StepLog::places(const CborMap& body, const char* key) const {
-  const auto numbers = body.doubles(key);
-  return numbers ? positions_of(*numbers, head_.positions.rows()) : std::nullopt;
+  return true;
 }
 
 Expected<StepLog> StepLog::open(const std::filesystem::path& path) {
@@ -253,18 +300,18 @@ Expected<void> StepLog::begin() {
   const auto wrong = [&](std::string_view what) {
     return problem_in(path_, fmt::format("its first record: {}", what));
   };
-  const auto body = CborMap::parse(record->body);
-  if (!body || body->text("type") != "begin") return wrong("it is none that begins a log");
-  if (const auto version = body->integer("log"); version != 1)
+  const Json& body = record->body;
+  if (text(value_of(body, "type")) != "begin") return wrong("it is none that begins a log");
+  if (const auto version = integer(value_of(body, "log")); version != 1)
     return wrong(version ? fmt::format("log version {}, this program reads 1", *version)
                          : "log is missing or no number");
-  head_.name = body->text("name").value_or("");
-  head_.version = body->text("version").value_or("");
-  if (const auto field = read_description(*body, head_.description); !field.empty())
+  head_.name = text(value_of(body, "name"));
+  head_.version = text(value_of(body, "version"));
+  if (const auto field = read_description(body, head_.description); !field.empty())
     return wrong(field + " is none");
-  const auto vertices = body->integer("vertices");
-  const auto triangles = body->integers("triangles");
-  const auto positions = body->doubles("positions");
+  const auto vertices = integer(value_of(body, "vertices"));
+  const auto triangles = integers(value_of(body, "triangles"));
+  const auto positions = doubles(value_of(body, "positions"));
   if (!vertices || !triangles || !positions || triangles->size() % 3 != 0 || *vertices < 0 ||
       *vertices > std::numeric_limits<std::int32_t>::max())
     return wrong("vertices, triangles or positions are missing");
@@ -277,9 +324,9 @@ Expected<void> StepLog::begin() {
     return wrong(bad->message);
   if (const auto bad = detector::check_triangles(head_.triangles, *vertices))
     return wrong(bad->message);
-  if (body->has("counted") && !body->map("counted")) return wrong("counted is none");
-  if (const auto* map = body->map("counted")) {
-    if (const auto field = read_counted(*map, head_.counted.emplace()); !field.empty())
+  if (const Json& counted = value_of(body, "counted"); body.contains("counted")) {
+    if (!counted.is_object()) return wrong("counted is none");
+    if (const auto field = read_counted(counted, head_.counted.emplace()); !field.empty())
       return wrong(fmt::format("counted.{} is none", field));
     if (const auto bad = detector::check_counted_pairs(*head_.counted, head_.triangles, *vertices))
       return wrong(bad->message);
@@ -287,13 +334,6 @@ Expected<void> StepLog::begin() {
   scanned_ = record->end;
   next_record_ = 1;
   return boost::outcome_v2::success();
-}
-
-// What is whole is summed once. Where many heads are damaged, each with a length that fits, the
-// search for the next record would take time by the square of their number.
-std::uint64_t StepLog::most_summed() const {
-  constexpr std::uint64_t times = 20, least = std::uint64_t{1} << 30;
-  return times * size_ + least;
 }
 
 Expected<void> StepLog::go_on() {
@@ -304,70 +344,43 @@ Expected<void> StepLog::go_on() {
   }, opened{};
   if (::stat(path_.c_str(), &named) != 0 || ::fstat(::fileno(file_.get()), &opened) != 0 ||
       named.st_ino != opened.st_ino)
-    return problem_in(path_, "another file is in its place now, as where a ring turns");
+    return problem_in(path_, "another file is in its place now");
   if (size_ < scanned_) return problem_in(path_, "it was cut while it was read");
-  while (scanned_ < size_) {
-    if (const auto record = record_at(scanned_)) {
-      const auto offset = scanned_;
-      scanned_ = record->end;
-      take(*record, offset);
-      continue;
-    }
-    const auto next = next_record(scanned_);
-    if (!next && summed_ > most_summed()) {
-      damages_.push_back({scanned_, size_, "so many lengths are wrong that it is not searched"});
-      scanned_ = size_;
-    }
-    if (!next) break;
-    damages_.push_back({scanned_, *next, no_record});
-    scanned_ = *next;
+  why_damaged_.clear();
+  while (scanned_ < size_ && why_damaged_.empty()) {
+    const auto record = record_at(scanned_);
+    why_damaged_ = record ? take(record->body) : "no record";
+    if (why_damaged_.empty()) scanned_ = record->end;
   }
-  rest_is_cut_record_ = begins_record(scanned_);
+  is_cut_ = scanned_ < size_ && begins_record(scanned_);
   return boost::outcome_v2::success();
 }
 
-std::vector<LogDamage> StepLog::damages() const {
-  auto damages = damages_;
-  if (scanned_ < size_ && !rest_is_cut_record_) damages.push_back({scanned_, size_, no_record});
-  return damages;
+std::optional<LogDamage> StepLog::damage() const {
+  if (scanned_ == size_) return std::nullopt;
+  return LogDamage{scanned_, size_, is_cut_ ? "the beginning of a record" : why_damaged_, is_cut_};
 }
 
-std::optional<LogDamage> StepLog::cut_record() const {
-  if (scanned_ == size_ || !rest_is_cut_record_) return std::nullopt;
-  return LogDamage{scanned_, size_, "the beginning of a record"};
-}
-
-// What a whole record holds may still be anything.
-void StepLog::take(const Record& record, std::uint64_t offset) {
-  const auto damaged = [&](std::string what) {
-    damages_.push_back({offset, record.end, std::move(what)});
-  };
-  const auto body = CborMap::parse(record.body);
-  const auto type = body ? body->text("type") : std::nullopt;
-  const auto number = body ? body->integer("record") : std::nullopt;
-  if (!type || !number || *number < 0) return damaged("a record that nothing is known of");
-  const auto counted = static_cast<std::uint64_t>(*number);
-  if (*type == "begin") return damaged("another log begins; read it by itself");
-  if (counted < next_record_) return damaged("a record that was there before");
-  if (counted > next_record_ && (damages_.empty() || damages_.back().to != offset)) {
-    damages_.push_back(
-        {offset, offset, fmt::format("{} records are missing", counted - next_record_)});
-  }
-  next_record_ = counted + 1;
-  if (*type == "end") {
-    is_ended_ = true;
-    return;
-  }
-  const auto step = body->integer("step");
-  if (!step || *step < 0) return damaged("a record without the number of its step");
-  if (*type == "note") {
-    notes_.emplace(*step, body->text("text").value_or(""));
-  } else if (*type == "step") {
-    const auto place = static_cast<std::uint64_t>(*step);
-    if (!steps_.empty() && place <= steps_.back().number)
-      return damaged("a step that was there before");
-    steps_.push_back({offset, place});
+// Returns why the log cannot go on with this record; empty if it can.
+std::string StepLog::take(const Json& body) {
+  const auto type = text(value_of(body, "type"));
+  const auto number = integer(value_of(body, "record"));
+  if (type.empty() || !number) return "a record that nothing is known of";
+  if (type == "begin") return "another log begins; read it by itself";
+  if (*number != next_record_)
+    return fmt::format("record {} in place of record {}", *number, next_record_);
+  const auto step = integer(value_of(body, "step"));
+  const bool is_end = type == "end";
+  if (!is_end && (!step || *step < 0)) return "a record without the number of its step";
+  const auto place = static_cast<std::uint64_t>(step.value_or(0));
+  if (type == "note") notes_.emplace(place, text(value_of(body, "text")));
+  if (type == "step") {
+    if (!steps_.empty() && place <= steps_.back().number) return "a step that was there before";
+    steps_.push_back({scanned_, place});
   }  // records of later versions are passed over
+  is_ended_ |= is_end;
+  ++next_record_;
+  return "";
 }
 
 std::optional<std::size_t> StepLog::place_of(std::uint64_t number) const {
@@ -376,28 +389,24 @@ std::optional<std::size_t> StepLog::place_of(std::uint64_t number) const {
   return static_cast<std::size_t>(found - steps_.begin());
 }
 
-std::optional<Positions> StepLog::end_of(const CborMap& body) const {
-  return body.has("committed") ? places(body, "committed") : places(body, "x1");
-}
-
 // Returns why it is not known which step this is; empty if it is known.
-std::string StepLog::read_motion(const CborMap& body, std::size_t i, LogStep& step) {
+std::string StepLog::read_motion(const Json& body, std::size_t i, LogStep& step) {
+  const auto vertices = head_.positions.rows();
   std::optional<Positions> start;
-  if (body.has("x0")) {
-    start = places(body, "x0");
+  if (body.contains("x0")) {
+    start = places(body["x0"], vertices);
   } else if (i > 0 && steps_[i - 1].number + 1 == step.number) {
     if (ended_step_ != i - 1) {
-      end_.reset();
       const auto before = record_at(steps_[i - 1].offset);
-      const auto map = before ? CborMap::parse(before->body) : std::nullopt;
-      if (map) end_ = end_of(*map);
+      end_ = before ? end_of(before->body, vertices) : std::nullopt;
     }
     start = end_;
     if (!start) return "it starts where the step before it ended, and that is not known";
   } else {
     return "it starts where the step before it ended, and that one is lost";
   }
-  const auto end = places(body, "x1"), way = places(body, "dx");
+  const auto end = places(value_of(body, "x1"), vertices),
+             way = places(value_of(body, "dx"), vertices);
   if (!start || end.has_value() == way.has_value())
     return "its positions are not those of the mesh";
   step.x_t0 = *start;
@@ -416,38 +425,39 @@ std::string StepLog::read_motion(const CborMap& body, std::size_t i, LogStep& st
 
 Expected<LogStep> StepLog::step(std::size_t i) {
   const auto record = record_at(steps_[i].offset);
-  const auto body = record ? CborMap::parse(record->body) : std::nullopt;
-  if (!body) return problem_in(path_, "it was changed while it was read");
+  if (!record || record->body.is_null())
+    return problem_in(path_, "it was changed while it was read");
+  const Json& body = record->body;
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const auto number = [&](const char* key, double otherwise) {
+    const Json& value = value_of(body, key);
+    return value.is_number() ? value.get<double>() : otherwise;
+  };
   LogStep step;
   step.number = steps_[i].number;
-  step.why_unknown = read_motion(*body, i, step);
-  end_ = end_of(*body);
+  step.why_unknown = read_motion(body, i, step);
+  end_ = end_of(body, head_.positions.rows());
   ended_step_ = i;
-  if (body->has("answer")) {
+  if (body.contains("answer")) {
     LoggedAnswer& logged = step.answer.emplace();
-    const auto answer = body->integer("answer").value_or(-1);
-    // What is no int32 is no answer either.
-    logged.answer =
-        answer == static_cast<std::int32_t>(answer) ? static_cast<std::int32_t>(answer) : -1;
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    logged.first_lo = body->number("first_lo").value_or(none);
-    logged.first_hi = body->number("first_hi").value_or(none);
-    const auto pairs = body->integers("pairs");
-    const auto times = body->doubles("pair_times");
-    if ((!pairs && body->has("pairs")) || (!times && body->has("pair_times"))) logged.answer = -1;
+    if (!Members(body)("answer", logged.answer).wrong().empty()) logged.answer = -1;
+    logged.first_lo = number("first_lo", none);
+    logged.first_hi = number("first_hi", none);
+    const auto pairs = integers(value_of(body, "pairs"));
+    const auto times = doubles(value_of(body, "pair_times"));
+    if ((!pairs && body.contains("pairs")) || (!times && body.contains("pair_times")))
+      logged.answer = -1;
     if (pairs) logged.pairs = *pairs;
     if (times) logged.pair_times = *times;
-    logged.message = body->text("message").value_or("");
+    logged.message = text(value_of(body, "message"));
   }
-  if (body->has("share") || body->has("positions")) {
+  if (body.contains("share") || body.contains("positions")) {
     LoggedLimit& limit = step.limit.emplace();
-    limit.share = body->number("share").value_or(-1);
-    limit.positions = places(*body, "positions");
+    limit.share = number("share", -1);
+    limit.positions = places(value_of(body, "positions"), head_.positions.rows());
     // What are no positions are none that a limiter may give.
-    if (body->has("positions") && !limit.positions) {
-      constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    if (body.contains("positions") && !limit.positions)
       limit.positions = Positions::Constant(head_.positions.rows(), 3, none);
-    }
   }
   return step;
 }

@@ -1,13 +1,13 @@
 // Logs of steps, as a simulator recorded them (detector/plugin/assay_record.h; the format is in
 // corpus/README.md): a mesh, what its detector claims, and steps with the detector's answers.
 //
-// A log may be cut anywhere, and any of its bytes may be wrong. Whatever record is whole is read,
-// and what lies between such records is named.
+// A log may be cut anywhere, and any of its bytes may be wrong. It is read up to its first damage.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,8 +19,6 @@
 #include "detector/plugin/assay_detector.h"
 
 namespace assay::corpus {
-
-class CborMap;
 
 // The bytes with which a log begins, and each of its records.
 inline constexpr std::string_view mark_of_log("\x83\x44\x41\x53\x52\x31", 6);
@@ -58,10 +56,11 @@ struct LogStep {
   std::string why_unknown;
 };
 
-// Bytes that are no record, or records that are not there.
+// The end of a file, of which nothing is read.
 struct LogDamage {
-  std::uint64_t from = 0, to = 0;  // bytes of the file; equal if records are missing in between
-  std::string what;
+  std::uint64_t from = 0, to = 0;  // bytes of the file
+  std::string what;                // begins there
+  bool is_cut = false;  // one record, of which the end is missing: it was cut, or is being written
 };
 
 class StepLog {
@@ -77,9 +76,8 @@ class StepLog {
   // Step i < count(). Its cost is that of one step, if steps are asked for in order.
   Expected<LogStep> step(std::size_t i);
 
-  std::vector<LogDamage> damages() const;
-  // The beginning of a record that stands at the end of the file: it was cut, or is being written.
-  std::optional<LogDamage> cut_record() const;
+  // Nothing if the file was read to its end.
+  std::optional<LogDamage> damage() const;
   // The recorder was told to end.
   bool is_ended() const { return is_ended_; }
   // What the caller noted before each step.
@@ -92,33 +90,25 @@ class StepLog {
   struct Place {
     std::uint64_t offset, number;
   };
-  struct Record {
-    std::string body;
-    std::uint64_t end = 0;  // behind it
-  };
+  struct Record;
 
   explicit StepLog(std::filesystem::path path) : path_(std::move(path)) {}
   std::optional<Record> record_at(std::uint64_t offset);
   std::optional<std::string> body_at(std::uint64_t offset, std::uint64_t length);
   bool begins_record(std::uint64_t offset);
-  std::optional<std::uint64_t> next_record(std::uint64_t offset);
-  std::uint64_t most_summed() const;
   bool read(std::uint64_t offset, std::size_t count, std::string& bytes);
   Expected<void> begin();
-  void take(const Record& record, std::uint64_t offset);
-  std::optional<detector::Positions> places(const CborMap& body, const char* key) const;
-  // Where the step of this record ended, for the next one that starts there.
-  std::optional<detector::Positions> end_of(const CborMap& body) const;
-  std::string read_motion(const CborMap& body, std::size_t i, LogStep& step);
+  std::string take(const nlohmann::json& body);
+  std::string read_motion(const nlohmann::json& body, std::size_t i, LogStep& step);
 
   std::filesystem::path path_;
   OpenFile file_;
-  std::uint64_t size_ = 0, scanned_ = 0, next_record_ = 0;
-  std::uint64_t summed_ = 0;  // bytes of bodies, so far
-  bool is_ended_ = false, rest_is_cut_record_ = false;
+  std::uint64_t size_ = 0, scanned_ = 0;
+  std::int64_t next_record_ = 0;
+  bool is_ended_ = false, is_cut_ = false;
+  std::string why_damaged_;  // from scanned_ on
   LogHead head_{};
   std::vector<Place> steps_;
-  std::vector<LogDamage> damages_;
   std::multimap<std::uint64_t, std::string> notes_;
   // The end of the step that was read last, so that the next one need not read it again.
   std::optional<std::size_t> ended_step_;

@@ -3,7 +3,7 @@
  * beside it are all that is needed, and nothing is linked.
  *
  *   assay_recorder recorder;
- *   assay_record_settings settings = {"steps.log", 1, 0, 0};
+ *   assay_record_settings settings = {"steps.log", 1, 0};
  *   assay_record_begin(&recorder, &settings, &description, triangles, m, positions, n, NULL);
  *   for each step: assay_record_step(&recorder, &step);
  *   assay_record_end(&recorder);
@@ -12,17 +12,17 @@
  * those that are not finite too: what a simulator did is not mended.
  *
  * MEMORY. The caller owns the recorder, about 17 KB, and all arrays; none is needed once the call
- * has returned. The recorder allocates the begin record if there is a ring, and the positions of
- * one frame if there is a ring, if steps are left out, or if a write failed. assay_record_end
- * frees them.
+ * has returned. The recorder allocates a copy of the path, and the positions of one frame if steps
+ * are left out. assay_record_end frees them.
  *
  * THREADS. A recorder is used by one thread at a time; different recorders know nothing of each
  * other.
  *
  * ERRORS. Each function that returns int32_t returns ASSAY_OK, or one of the numbers below;
  * assay_record_error tells one line about it. After a call that was refused nothing is written,
- * and the recorder is as before. After a write that failed the record is lost, perhaps in its
- * middle, its step and record are counted, and later records are tried all the same.
+ * and the recorder is as before. A write that failed ends the log, perhaps in the middle of a
+ * record: later records are refused with the same error, for a log is read up to its first damage.
+ * End it, and begin another one in another file.
  *
  * COST. Arrays are written from the caller's memory at once, without a buffer between: a process
  * that is killed loses at most the record that it was writing. A step costs at most about twice
@@ -47,9 +47,7 @@ enum {
   ASSAY_RECORD_NOT_BEGUN = 18,      /* refused: begin did not succeed, or end was called */
   ASSAY_RECORD_FILE_EXISTS = 19,    /* refused: a file is there that would be overwritten */
   ASSAY_RECORD_NOT_OPENED = 20,     /* the file could not be opened */
-  ASSAY_RECORD_NOT_WRITTEN = 21,    /* the record could not be written, or not wholly */
-  ASSAY_RECORD_NOT_RENAMED = 22,    /* a file could not be renamed. Of a step: it was recorded all
-                                       the same, in a file that goes on growing */
+  ASSAY_RECORD_NOT_WRITTEN = 21,    /* this record or an earlier one could not be written wholly */
   ASSAY_RECORD_NO_ANSWER = 23       /* refused: result or limit can be the answer of no detector, as
                                        a time outside of [0, 1] cannot; its judge would find nothing
                                        to judge */
@@ -59,11 +57,7 @@ enum {
 typedef struct assay_record_settings {
   const char* path;
   uint64_t every;    /* one step of so many is recorded, the first one included; 0 and 1: each */
-  uint64_t ring;     /* 0: the file holds all steps. K: it holds the newest ones. The step behind
-                        its K-th one renames it to path.before, in place of an older one, and begins
-                        a new file. Each of the two is a log by itself, and together they hold at
-                        least the last K recorded steps */
-  int32_t overwrite; /* 0: files that are there and not empty are refused; else they are lost */
+  int32_t overwrite; /* 0: a file that is there and not empty is refused; 1: it is lost */
 } assay_record_settings;
 
 /* An array of vertex_count x 3 numbers, double or float. data NULL: it is absent. */
@@ -89,26 +83,20 @@ typedef struct assay_recorder {
   /* The record that is being written. */
   unsigned char staged[256]; /* small pieces, until a large one or the end of the record */
   size_t staged_size;
-  unsigned char* memory; /* where a record is put together that goes to no file, or NULL */
   uint64_t body_size, keys;
   int32_t is_counted; /* it is gone through a first time, to learn body_size and keys */
-  int32_t has_failed; /* something of it could not be written, for this reason (errno) */
+  int32_t has_failed; /* something could not be written, for this reason (errno) */
   int32_t reason;
   uint32_t crc;
   /* The log. */
-  int32_t is_begun, overwrite, no_begin_record;
+  int32_t is_begun;
   int32_t triangle_count; /* it lies where there was a gap */
-  uint64_t every, ring, vertex_count;
-  char *path, *other_path;
+  uint64_t every, vertex_count;
+  char* path;
   FILE* file;
-  unsigned char* begin_record;
-  size_t begin_size;
-  uint64_t next_step, next_record, steps_in_file, first_in_file;
-  int32_t keeps_file; /* assay_record_keep was told of the file that is being written */
-  int32_t has_before; /* path.before is of this recording */
-  uint64_t first_before;
+  uint64_t next_step, next_record;
   /* Where the last step ended. */
-  int32_t end_is_known, end_is_in_file, end_is_float32;
+  int32_t end_is_known, end_is_float32;
   void* end;
 } assay_recorder;
 
@@ -133,11 +121,6 @@ static inline int32_t assay_record_step(assay_recorder* recorder,
 
 /* Records a line of text before the next step. Bytes that are no UTF-8 become question marks. */
 static inline int32_t assay_record_note(assay_recorder* recorder, const char* text);
-
-/* Saves the newest steps of a ring from being replaced, when something was seen that is worth it.
- * path.before is renamed to path.kept-F at once, and the file that is being written when it is
- * full, where F is the number of the file's first step. Without a ring nothing is lost anyway. */
-static inline int32_t assay_record_keep(assay_recorder* recorder);
 
 /* Records how many steps there were, closes the file and frees what the recorder allocated, even
  * if it could not write. A recorder that was begun is ended once. */
@@ -256,7 +239,6 @@ static inline void assay_record_to_file_(assay_recorder* r, const void* data, si
   if (fwrite(data, 1, n, r->file) == n) return;
   r->has_failed = 1;
   r->reason = errno;
-  clearerr(r->file);
 }
 
 static inline void assay_record_flush_(assay_recorder* r) {
@@ -266,11 +248,6 @@ static inline void assay_record_flush_(assay_recorder* r) {
 
 /* Bytes outside of a body, or whose sum is taken. */
 static inline void assay_record_raw_(assay_recorder* r, const void* data, size_t n) {
-  if (r->memory) {
-    memcpy(r->memory, data, n);
-    r->memory += n;
-    return;
-  }
   if (n > sizeof r->staged - r->staged_size) assay_record_flush_(r);
   if (n > sizeof r->staged) {
     assay_record_to_file_(r, data, n);
@@ -510,24 +487,15 @@ static inline void assay_record_end_body_(assay_recorder* r, const assay_record_
 
 typedef void (*assay_record_body_)(assay_recorder*, const assay_record_content_*);
 
-/* Goes through a body once without writing it. Returns the size of the whole record. */
-static inline uint64_t assay_record_measure_(assay_recorder* r, assay_record_body_ body,
-                                             const assay_record_content_* content) {
-  unsigned char head[9];
+/* Goes through a body twice: first without writing it, to learn its size. */
+static inline int32_t assay_record_write_(assay_recorder* r, assay_record_body_ body,
+                                          const assay_record_content_* content) {
+  unsigned char head[9], frame[17] = {0x83, 0x44, 'A', 'S', 'R', '1', 0xD8, 0x18, 0x5B};
   r->is_counted = 1;
-  r->body_size = 0;
-  r->keys = 0;
+  r->body_size = r->keys = 0;
   body(r, content);
   r->is_counted = 0;
-  r->body_size += assay_record_head_bytes_(head, 5, r->keys);
-  return 17u + r->body_size + 5u;
-}
-
-/* Writes the record that was measured. */
-static inline void assay_record_compose_(assay_recorder* r, assay_record_body_ body,
-                                         const assay_record_content_* content) {
-  unsigned char frame[17] = {0x83, 0x44, 'A', 'S', 'R', '1', 0xD8, 0x18, 0x5B};
-  assay_record_big_endian_(frame + 9, r->body_size, 8);
+  assay_record_big_endian_(frame + 9, r->body_size + assay_record_head_bytes_(head, 5, r->keys), 8);
   r->crc = 0xFFFFFFFFu;
   assay_record_raw_(r, frame, sizeof frame);
   assay_record_head_(r, 5, r->keys);
@@ -535,18 +503,10 @@ static inline void assay_record_compose_(assay_recorder* r, assay_record_body_ b
   frame[0] = 0x1A;
   assay_record_big_endian_(frame + 1, r->crc ^ 0xFFFFFFFFu, 4);
   assay_record_raw_(r, frame, 5);
-}
-
-/* r->other_path becomes the name of a file beside the log: .before, or .kept-FIRST. */
-static inline const char* assay_record_before_(assay_recorder* r) {
-  (void)snprintf(r->other_path, strlen(r->path) + 32, "%s.before", r->path);
-  return r->other_path;
-}
-
-static inline const char* assay_record_kept_(assay_recorder* r, uint64_t first) {
-  (void)snprintf(r->other_path, strlen(r->path) + 32, "%s.kept-%llu", r->path,
-                 (unsigned long long)first);
-  return r->other_path;
+  assay_record_flush_(r);
+  ++r->next_record;
+  if (!r->has_failed) return ASSAY_OK;
+  return assay_record_fail_(r, ASSAY_RECORD_NOT_WRITTEN, "cannot write to", r->path, r->reason);
 }
 
 static inline int32_t assay_record_is_there_(const char* path) {
@@ -556,99 +516,12 @@ static inline int32_t assay_record_is_there_(const char* path) {
   return is_there;
 }
 
-/* Not every system renames to the name of a file that is there. */
-static inline int32_t assay_record_move_(assay_recorder* r, const char* from, const char* to) {
-  (void)remove(to);
-  errno = 0;
-  if (rename(from, to) == 0) return ASSAY_OK;
-  return assay_record_fail_(r, ASSAY_RECORD_NOT_RENAMED, "cannot rename to", to, errno);
-}
-
-static inline int32_t assay_record_open_(assay_recorder* r, const char* mode) {
-  errno = 0;
-  r->file = fopen(r->path, mode);
-  if (!r->file)
-    return assay_record_fail_(r, ASSAY_RECORD_NOT_OPENED, "cannot open", r->path, errno);
-  (void)setvbuf(r->file, NULL, _IONBF, 0);
-  return ASSAY_OK;
-}
-
-/* What is wrong after writing, if anything is. */
-static inline int32_t assay_record_told_(assay_recorder* r) {
-  if (!r->has_failed) return ASSAY_OK;
-  r->has_failed = 0;
-  return assay_record_fail_(r, ASSAY_RECORD_NOT_WRITTEN, "cannot write to", r->path, r->reason);
-}
-
-/* Opens the file and writes its begin record, where an earlier call could not. */
-static inline int32_t assay_record_ready_(assay_recorder* r) {
-  int32_t code = r->file ? ASSAY_OK : assay_record_open_(r, r->no_begin_record ? "wb" : "ab");
-  if (code != ASSAY_OK || !r->no_begin_record) return code;
-  assay_record_to_file_(r, r->begin_record, r->begin_size);
-  code = assay_record_told_(r);
-  r->no_begin_record = code != ASSAY_OK;
-  if (code != ASSAY_OK) {
-    (void)fclose(r->file);
-    r->file = NULL;
-  }
-  return code;
-}
-
-static inline int32_t assay_record_write_(assay_recorder* r, assay_record_body_ body,
-                                          const assay_record_content_* content) {
-  int32_t code = assay_record_ready_(r);
-  if (code == ASSAY_OK) {
-    (void)assay_record_measure_(r, body, content);
-    assay_record_compose_(r, body, content);
-    assay_record_flush_(r);
-    code = assay_record_told_(r);
-  }
-  ++r->next_record;
-  return code;
-}
-
-/* The file is full: it goes out of the way, and the next record begins another one. */
-static inline int32_t assay_record_turn_(assay_recorder* r) {
-  int32_t code = ASSAY_OK, closed = ASSAY_OK;
-  if (r->file && fclose(r->file) != 0)
-    closed = assay_record_fail_(r, ASSAY_RECORD_NOT_WRITTEN, "cannot close", r->path, errno);
-  r->file = NULL;
-  code = assay_record_move_(
-      r, r->path,
-      r->keeps_file ? assay_record_kept_(r, r->first_in_file) : assay_record_before_(r));
-  if (code != ASSAY_OK) {
-    (void)assay_record_open_(r, "ab");
-    return code;
-  }
-  if (!r->keeps_file) {
-    r->has_before = 1;
-    r->first_before = r->first_in_file;
-  }
-  r->keeps_file = 0;
-  r->no_begin_record = 1;
-  r->next_record = 1;
-  r->steps_in_file = 0;
-  r->end_is_in_file = 0;
-  return closed;
-}
-
-/* Copies where a step ended. Without memory for it, the next step has to say where it starts. */
-static inline int32_t assay_record_copy_end_(assay_recorder* r, assay_record_array end) {
-  if (!r->end) r->end = malloc((size_t)(24u * r->vertex_count));
-  r->end_is_float32 = end.is_float32;
-  if (r->end) memcpy(r->end, end.data, (size_t)((end.is_float32 ? 12u : 24u) * r->vertex_count));
-  return r->end != NULL;
-}
-
 static inline void assay_record_free_(assay_recorder* r) {
   if (r->file) (void)fclose(r->file);
   free(r->path);
-  free(r->other_path);
-  free(r->begin_record);
   free(r->end);
   r->file = NULL;
-  r->path = r->other_path = NULL;
-  r->begin_record = NULL;
+  r->path = NULL;
   r->end = NULL;
   r->is_begun = 0;
 }
@@ -678,32 +551,23 @@ static inline int32_t assay_record_check_mesh_(assay_recorder* r, const assay_re
   return ASSAY_OK;
 }
 
-/* What may be refused before the file is touched, and what has to be allocated. */
-static inline int32_t assay_record_prepare_(assay_recorder* r, const assay_record_settings* s,
-                                            const assay_record_content_* content) {
-  const size_t length = strlen(s->path);
-  uint64_t size;
+/* Opens the file, after all that may be refused, and allocates what is needed. */
+static inline int32_t assay_record_open_(assay_recorder* r, const assay_record_settings* s) {
+  const size_t length = strlen(s->path) + 1;
   r->every = s->every ? s->every : 1;
-  r->ring = s->ring;
-  r->overwrite = s->overwrite;
-  r->path = (char*)malloc(length + 1);
-  r->other_path = (char*)malloc(length + 32);
-  size = assay_record_measure_(r, assay_record_begin_body_, content);
-  r->begin_size = (size_t)size;
-  r->begin_record = r->begin_size == size ? (unsigned char*)malloc(r->begin_size) : NULL;
-  if (r->every > 1 || r->ring) r->end = malloc((size_t)(24u * r->vertex_count));
-  if (!r->path || !r->other_path || !r->begin_record || ((r->every > 1 || r->ring) && !r->end))
+  r->path = (char*)malloc(length);
+  if (r->every > 1) r->end = malloc((size_t)(24u * r->vertex_count));
+  if (!r->path || (r->every > 1 && !r->end))
     return assay_record_fail_(r, ASSAY_OUT_OF_MEMORY, "out of memory", "", 0);
-  memcpy(r->path, s->path, length + 1);
-  if (!r->overwrite && assay_record_is_there_(r->path))
+  memcpy(r->path, s->path, length);
+  if (!s->overwrite && assay_record_is_there_(r->path))
     return assay_record_fail_(r, ASSAY_RECORD_FILE_EXISTS, "there is a file", r->path, 0);
-  if (r->ring && !r->overwrite && assay_record_is_there_(assay_record_before_(r)))
-    return assay_record_fail_(r, ASSAY_RECORD_FILE_EXISTS, "there is a file", r->other_path, 0);
   assay_record_make_tables_(r);
-  r->memory = r->begin_record;
-  assay_record_compose_(r, assay_record_begin_body_, content);
-  r->memory = NULL;
-  r->no_begin_record = 1;
+  errno = 0;
+  r->file = fopen(r->path, "wb");
+  if (!r->file)
+    return assay_record_fail_(r, ASSAY_RECORD_NOT_OPENED, "cannot open", r->path, errno);
+  (void)setvbuf(r->file, NULL, _IONBF, 0);
   return ASSAY_OK;
 }
 
@@ -724,25 +588,19 @@ static inline int32_t assay_record_begin(assay_recorder* recorder,
   content.counted = counted;
   if (!settings || !settings->path || !*settings->path)
     return assay_record_wrong_(recorder, "the path is missing");
+  if (settings->overwrite != 0 && settings->overwrite != 1)
+    return assay_record_wrong_(recorder, "overwrite is 0 or 1");
   code = assay_record_check_mesh_(recorder, &content, vertex_count);
   if (code != ASSAY_OK) return code;
   recorder->vertex_count = vertex_count;
   recorder->triangle_count = (int32_t)triangle_count;
-  code = assay_record_prepare_(recorder, settings, &content);
-  if (code == ASSAY_OK) code = assay_record_ready_(recorder);
-  if (code != ASSAY_OK) {
+  code = assay_record_open_(recorder, settings);
+  if (code == ASSAY_OK) code = assay_record_write_(recorder, assay_record_begin_body_, &content);
+  if (code != ASSAY_OK)
     assay_record_free_(recorder);
-    return code;
-  }
-  if (recorder->ring) {
-    (void)remove(assay_record_before_(recorder));
-  } else {
-    free(recorder->begin_record);
-    recorder->begin_record = NULL;
-  }
-  recorder->next_record = 1;
-  recorder->is_begun = 1;
-  return ASSAY_OK;
+  else
+    recorder->is_begun = 1;
+  return code;
 }
 
 /* lo <= hi, both in [0, 1]; 0 for a NaN. */
@@ -801,29 +659,26 @@ static inline int32_t assay_record_step(assay_recorder* recorder,
   assay_recorder* const r = recorder;
   assay_record_content_ content;
   assay_record_array end;
-  int32_t code = assay_record_check_step_(r, step), turned = ASSAY_OK, is_recorded;
+  int32_t code = assay_record_check_step_(r, step);
   if (code != ASSAY_OK) return code;
-  is_recorded = r->next_step % r->every == 0;
   end = step->committed.data ? step->committed : step->x1;
-  if (is_recorded) {
+  if (r->next_step % r->every == 0) {
     memset(&content, 0, sizeof content);
     content.step = step;
     content.x0 = step->x0;
-    if (r->ring && r->steps_in_file >= r->ring) turned = assay_record_turn_(r);
-    if (!step->x0.data && !r->end_is_in_file) {
+    if (!step->x0.data && r->every > 1) {
       content.x0.data = r->end;
       content.x0.is_float32 = r->end_is_float32;
     }
     code = assay_record_write_(r, assay_record_step_body_, &content);
-    if (code == ASSAY_OK && r->steps_in_file++ == 0) r->first_in_file = r->next_step;
   }
   ++r->next_step;
-  r->end_is_in_file = is_recorded && code == ASSAY_OK;
   r->end_is_known = end.data != NULL;
-  if (end.data && r->next_step % r->every == 0 &&
-      (!r->end_is_in_file || (r->ring && r->steps_in_file >= r->ring)))
-    r->end_is_known = assay_record_copy_end_(r, end);
-  return code == ASSAY_OK ? turned : code;
+  if (end.data && r->every > 1 && r->next_step % r->every == 0) {
+    memcpy(r->end, end.data, (size_t)((end.is_float32 ? 12u : 24u) * r->vertex_count));
+    r->end_is_float32 = end.is_float32;
+  }
+  return code;
 }
 
 static inline int32_t assay_record_note(assay_recorder* recorder, const char* text) {
@@ -834,29 +689,6 @@ static inline int32_t assay_record_note(assay_recorder* recorder, const char* te
     return assay_record_fail_(recorder, ASSAY_RECORD_NOT_BEGUN, "nothing is being recorded", "", 0);
   if (!text) return assay_record_wrong_(recorder, "the text is missing");
   return assay_record_write_(recorder, assay_record_note_body_, &content);
-}
-
-static inline int32_t assay_record_keep(assay_recorder* recorder) {
-  assay_recorder* const r = recorder;
-  int32_t code = ASSAY_OK;
-  char* before;
-  if (!r->is_begun)
-    return assay_record_fail_(r, ASSAY_RECORD_NOT_BEGUN, "nothing is being recorded", "", 0);
-  if (!r->ring) return ASSAY_OK;
-  if (!r->overwrite &&
-      ((r->has_before && assay_record_is_there_(assay_record_kept_(r, r->first_before))) ||
-       (r->steps_in_file && assay_record_is_there_(assay_record_kept_(r, r->first_in_file)))))
-    return assay_record_fail_(r, ASSAY_RECORD_FILE_EXISTS, "there is a file", r->other_path, 0);
-  if (r->has_before) {
-    before = (char*)malloc(strlen(r->path) + 32);
-    if (!before) return assay_record_fail_(r, ASSAY_OUT_OF_MEMORY, "out of memory", "", 0);
-    (void)strcpy(before, assay_record_before_(r));
-    code = assay_record_move_(r, before, assay_record_kept_(r, r->first_before));
-    free(before);
-    if (code == ASSAY_OK) r->has_before = 0;
-  }
-  if (r->steps_in_file) r->keeps_file = 1;
-  return code;
 }
 
 static inline int32_t assay_record_end(assay_recorder* recorder) {

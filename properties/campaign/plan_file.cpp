@@ -3,7 +3,7 @@
 #include <boost/outcome/try.hpp>
 
 #include "corpus/file_bytes.h"
-#include "corpus/json_fields.h"
+#include "corpus/json_reader.h"
 #include "corpus/meant_word.h"
 #include "detector/mesh/problem.h"
 #include "properties/campaign/plan.h"
@@ -13,11 +13,11 @@
 namespace assay::properties {
 namespace {
 
-using corpus::JsonField;
+using corpus::JsonField, corpus::Refused;
 using Json = corpus::Json;
 
 constexpr const char* schema = "assay-campaign/1";
-constexpr std::int64_t most_cases = 1'000'000'000, most_repeated_triangles = 1'000'000;
+constexpr corpus::Below most_cases{1'000'000'000}, most_repeated_triangles{1'000'000};
 
 // What a number has to be, and how that is said.
 struct Rule {
@@ -86,149 +86,103 @@ struct NameList {
   }
 };
 
-class PlanReader {
+class PlanReader : public corpus::JsonReader<PlanReader> {
  public:
-  explicit PlanReader(JsonField object) : object_(std::move(object)) {}
-
-  template <class T, class... Rules>
-  void must(const char* name, T&& x, const Rules&... rules) {
-    if (!result_) return;
-    auto field = object_.at(name);
-    if (field) {
-      result_ = read(field.value(), x, rules...);
-    } else {
-      result_ = field.error();
-    }
-  }
-  template <class T, class... Rules>
-  void may(const char* name, T&& x, const Rules&... rules) {
-    if (object_.has(name)) must(name, x, rules...);
-  }
+  using JsonReader::JsonReader, JsonReader::read;
 
   // Reads all fields of an object. An unknown key is refused, because a misspelt limit must not
   // pass for a limit that was not stated; `also` are known ones that are not read here.
   template <class T>
-  static corpus::Expected<void> read_all(const JsonField& object, T& x,
-                                         std::vector<std::string> also = {}) {
-    if (!object.json().is_object()) return object.problem("an object expected");
+  static void read_all(const JsonField& object, T& x, std::vector<std::string> also = {}) {
+    if (!object.json().is_object()) throw Refused{object.problem("an object expected")};
     NameList known{std::move(also)};
     fields(known, x);
     for (const auto& [key, value] : object.json().items()) {
       if (std::find(known.names.begin(), known.names.end(), key) == known.names.end())
-        return object.problem("no field '" + key + "' is known");
+        throw Refused{object.problem("no field '" + key + "' is known")};
     }
     PlanReader reader(object);
     fields(reader, x);
-    return reader.result_;
   }
 
- private:
-  using Result = corpus::Expected<void>;
-
-  static Result read(const JsonField& field, std::string& x) {
-    BOOST_OUTCOME_TRY(text, field.text());
-    x = text;
-    return boost::outcome_v2::success();
-  }
-  static Result read(const JsonField& field, bool& x) {
-    if (!field.json().is_boolean()) return field.problem("true or false expected");
+  static void read(const JsonField& field, bool& x) {
+    if (!field.json().is_boolean()) throw Refused{field.problem("true or false expected")};
     x = field.json().get<bool>();
-    return boost::outcome_v2::success();
   }
-  static Result read(const JsonField& field, double& x, const Rule& rule) {
-    BOOST_OUTCOME_TRY(number, field.number());
-    x = number;
-    if (!rule.holds(x)) return field.problem(rule.expected);
-    return boost::outcome_v2::success();
+  static void read(const JsonField& field, double& x, const Rule& rule) {
+    read(field, x);
+    if (!rule.holds(x)) throw Refused{field.problem(rule.expected)};
   }
-  template <class Integer>
-  static Result read(const JsonField& field, Integer& x, std::int64_t end) {
-    BOOST_OUTCOME_TRY(number, field.integer(0, end));
-    x = static_cast<Integer>(number);
-    return boost::outcome_v2::success();
+  static void read(const JsonField& field, const Seconds& x) {
+    if (!field.json().is_null()) read(field, x.value, at_least_0);
   }
-  static Result read(const JsonField& field, const Seconds& x) {
-    if (field.json().is_null()) return boost::outcome_v2::success();
-    return read(field, x.value, at_least_0);
-  }
-  static Result read(const JsonField& field, const Bytes& x) {
+  static void read(const JsonField& field, const Bytes& x) {
     constexpr std::uint64_t most = std::uint64_t{1} << 60;
     if (!field.json().is_number_unsigned() || field.json().get<std::uint64_t>() > most)
-      return field.problem("a whole number of bytes expected");
+      throw Refused{field.problem("a whole number of bytes expected")};
     x.value = field.json().get<std::uint64_t>();
-    return boost::outcome_v2::success();
   }
-  static Result read(const JsonField& field, Policy& policy) { return read_all(field, policy); }
-  static Result read(const JsonField& field, std::vector<StratumPlan>& strata) {
-    BOOST_OUTCOME_TRY(size, field.size());
+  static void read(const JsonField& field, Policy& policy) { read_all(field, policy); }
+  static void read(const JsonField& field, std::vector<StratumPlan>& strata) {
+    const auto size = corpus::want(field.size());
     for (std::size_t i = 0; i < size; ++i) {
       StratumPlan stratum;
-      BOOST_OUTCOME_TRY(read_all(field.item(i), stratum));
-      const auto family = [&] { return field.item(i).at("family").value(); };
-      if (!find_family(stratum.family)) return family().problem("no family of this name");
+      read_all(field.item(i), stratum);
+      const auto family = field.item(i).at("family").value();
+      if (!find_family(stratum.family)) throw Refused{family.problem("no family of this name")};
       if (std::any_of(strata.begin(), strata.end(),
                       [&](const StratumPlan& other) { return other.family == stratum.family; }))
-        return family().problem("this family is there already");
+        throw Refused{family.problem("this family is there already")};
       strata.push_back(std::move(stratum));
     }
-    return boost::outcome_v2::success();
   }
-  static Result read(const JsonField& field, std::vector<SpeedLimit>& limits) {
-    if (!field.json().is_object()) return field.problem("an object expected");
+  static void read(const JsonField& field, std::vector<SpeedLimit>& limits) {
+    if (!field.json().is_object()) throw Refused{field.problem("an object expected")};
     for (const auto& [figure, value] : field.json().items()) {
       if (std::find(std::begin(speed_figures), std::end(speed_figures), figure) ==
           std::end(speed_figures))
-        return field.problem("no figure '" + figure + "' is known");
+        throw Refused{field.problem("no figure '" + figure + "' is known")};
       limits.push_back({figure, 0});
-      BOOST_OUTCOME_TRY(limit, field.at(figure));
-      BOOST_OUTCOME_TRY(read(limit, limits.back().limit, above_0));
+      read(corpus::want(field.at(figure)), limits.back().limit, above_0);
     }
-    return boost::outcome_v2::success();
   }
-
-  JsonField object_;
-  Result result_ = boost::outcome_v2::success();
 };
 
 class PlanWriter {
  public:
   template <class T, class... Rules>
   void must(const char* name, const T& x, const Rules&...) {
-    json[name] = json_of(x);
+    write(json[name], x);
   }
   template <class T, class... Rules>
   void may(const char* name, const T& x, const Rules&...) {
-    json[name] = json_of(x);
+    write(json[name], x);
   }
   Json json;
 
  private:
-  template <class T>
-  static Json json_of(const T& x) {
-    return x;
+  static void write(Json& out, const auto& x) { out = x; }
+  static void write(Json& out, const Seconds& x) { out = x.value > 0 ? Json(x.value) : Json(); }
+  static void write(Json& out, const Bytes& x) { out = x.value; }
+  static void write(Json& out, const Policy& policy) { out = written(policy); }
+  static void write(Json& out, const std::vector<StratumPlan>& strata) {
+    out = Json::array();
+    for (const StratumPlan& stratum : strata) out.push_back(written(stratum));
   }
-  static Json json_of(const Seconds& x) { return x.value > 0 ? Json(x.value) : Json(nullptr); }
-  static Json json_of(const Bytes& x) { return x.value; }
-  static Json json_of(Policy policy) { return written(policy); }
-  static Json json_of(const std::vector<StratumPlan>& strata) {
-    Json list = Json::array();
-    for (StratumPlan stratum : strata) list.push_back(written(stratum));
-    return list;
-  }
-  static Json json_of(const std::vector<SpeedLimit>& limits) {
-    Json object = Json::object();
-    for (const auto& [figure, limit] : limits) object[figure] = limit;
-    return object;
+  static void write(Json& out, const std::vector<SpeedLimit>& limits) {
+    out = Json::object();
+    for (const auto& [figure, limit] : limits) out[figure] = limit;
   }
   template <class T>
-  static Json written(T& x) {
+  static Json written(T x) {
     PlanWriter writer;
     fields(writer, x);
     return writer.json;
   }
 };
 
-corpus::Expected<void> check_whole(const JsonField& top, const CampaignPlan& plan) {
+// Returns what is wrong with the plan as a whole, if anything is.
+std::optional<corpus::Problem> fault_of(const JsonField& top, const CampaignPlan& plan) {
   const auto name_letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
   // The name becomes part of ids and of file names.
   if (plan.name.empty() || plan.name.find_first_not_of(name_letters) != std::string::npos)
@@ -243,21 +197,23 @@ corpus::Expected<void> check_whole(const JsonField& top, const CampaignPlan& pla
                                      [](const StratumPlan& s) { return s.cases > 0; });
   if (!has_cases && plan.fault_cases == 0 && plan.tetrahedron_seconds == 0 && plan.search == 0)
     return top.problem("there is nothing to do");
-  return boost::outcome_v2::success();
+  return std::nullopt;
 }
 
 }  // namespace
 
 corpus::Expected<CampaignPlan> parse_plan(const std::string& text,
-                                          const std::filesystem::path& name) {
-  BOOST_OUTCOME_TRY(json, corpus::parse_json(text, name));
+                                          const std::filesystem::path& name) try {
+  const auto json = corpus::want(corpus::parse_json(text, name));
   const JsonField top(json, name);
-  BOOST_OUTCOME_TRY(schema_field, top.at("schema"));
+  const auto schema_field = corpus::want(top.at("schema"));
   if (schema_field.json() != schema) return schema_field.problem(std::string(schema) + " expected");
   CampaignPlan plan;
-  BOOST_OUTCOME_TRY(PlanReader::read_all(top, plan, {"schema", "about"}));
-  BOOST_OUTCOME_TRY(check_whole(top, plan));
+  PlanReader::read_all(top, plan, {"schema", "about"});
+  if (auto fault = fault_of(top, plan)) return *fault;
   return plan;
+} catch (const Refused& refused) {
+  return refused.problem;
 }
 
 std::string plan_text(const CampaignPlan& plan) {

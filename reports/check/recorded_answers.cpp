@@ -41,7 +41,8 @@ class RecordedSteps : public corpus::StepSource {
       return s < log_.count() || (selection_.step && log_.count() > 0 &&
                                   log_.number_of(log_.count() - 1) >= *selection_.step);
     };
-    while (selection_.follow && !is_there() && !log_.is_ended()) {
+    const auto is_damaged = [&] { return log_.damage() && !log_.damage()->is_cut; };
+    while (selection_.follow && !is_there() && !log_.is_ended() && !is_damaged()) {
       std::this_thread::sleep_for(pause);
       BOOST_OUTCOME_TRYV(log_.go_on());
     }
@@ -60,11 +61,11 @@ class RecordedSteps : public corpus::StepSource {
 
   std::vector<std::string> lost() const override {
     std::vector<std::string> lines;
-    for (const auto& damage : log_.damages()) {
-      lines.push_back(damage.to > damage.from
-                          ? fmt::format("bytes {} to {}: {}", damage.from, damage.to, damage.what)
-                          : fmt::format("before byte {}: {}", damage.from, damage.what));
-    }
+    if (const auto damage = log_.damage(); damage && !damage->is_cut)
+      lines.push_back(fmt::format(
+          "bytes {} to {}, from the first damage to the end of the log ({}); steps read before it: "
+          "{}",
+          damage->from, damage->to, damage->what, log_.count()));
     lines.insert(lines.end(), unknown_.begin(), unknown_.end());
     return lines;
   }
@@ -74,14 +75,13 @@ class RecordedSteps : public corpus::StepSource {
     if (unanswered_ > 0)
       lines.push_back(
           fmt::format("{} step{} without an answer", unanswered_, unanswered_ == 1 ? "" : "s"));
-    if (const auto cut = log_.cut_record()) {
+    const auto damage = log_.damage();
+    if (damage && damage->is_cut)
       lines.push_back(
           fmt::format("bytes {} to {}, the last of the log, are {}: it was cut, or is "
                       "being written",
-                      cut->from, cut->to, cut->what));
-    } else if (!log_.is_ended()) {
-      lines.emplace_back("the recorder was not told to end the log");
-    }
+                      damage->from, damage->to, damage->what));
+    if (!damage && !log_.is_ended()) lines.emplace_back("the recorder was not told to end the log");
     return lines;
   }
 

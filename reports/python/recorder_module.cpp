@@ -35,8 +35,7 @@ class Recorder {
   // distance at rest, places at rest); `described` is what hosting.described() gives.
   Recorder(const std::string& path, const std::pair<Integers, py::array>& mesh,
            const std::pair<std::string, std::string>& name,
-           const std::pair<std::uint32_t, py::dict>& described, std::uint64_t every,
-           std::uint64_t ring, bool overwrite,
+           const std::pair<std::uint32_t, py::dict>& described, std::uint64_t every, bool overwrite,
            const std::pair<std::optional<Integers>, Integers>& counted,
            const std::tuple<std::int32_t, double, Reals>& near) {
     assay_description description = {};
@@ -52,7 +51,7 @@ class Recorder {
     pairs.rest_distance = std::get<1>(near);
     if (pairs.rest_distance > 0) pairs.rest = std::get<2>(near).data();
     const bool leaves_out = pairs.apart_count > 0 || pairs.rings > 0 || pairs.rest_distance > 0;
-    const assay_record_settings settings = {path.c_str(), every, ring, overwrite};
+    const assay_record_settings settings = {path.c_str(), every, overwrite};
     demand(assay_record_begin(&recorder_, &settings, &description, mesh.first.data(),
                               static_cast<std::uint64_t>(mesh.first.size()) / 3,
                               array_of(mesh.second),
@@ -93,14 +92,13 @@ class Recorder {
     demand(assay_record_step(&recorder_, &data));
   }
   void note(const std::string& text) { demand(assay_record_note(&recorder_, text.c_str())); }
-  void keep() { demand(assay_record_keep(&recorder_)); }
   void end() { demand(assay_record_end(&recorder_)); }
   bool is_recording() const { return recorder_.is_begun; }
 
  private:
   void demand(std::int32_t code) const {
     if (code == ASSAY_OK) return;
-    const bool is_of_a_file = ASSAY_RECORD_NOT_OPENED <= code && code <= ASSAY_RECORD_NOT_RENAMED;
+    const bool is_of_a_file = ASSAY_RECORD_NOT_OPENED <= code && code <= ASSAY_RECORD_NOT_WRITTEN;
     PyObject* const kind = code == ASSAY_OUT_OF_MEMORY        ? PyExc_MemoryError
                            : code == ASSAY_RECORD_FILE_EXISTS ? PyExc_FileExistsError
                            : is_of_a_file                     ? PyExc_OSError
@@ -123,12 +121,11 @@ PYBIND11_MODULE(_recorder, module) {
   using Pair = std::pair<std::string, std::string>;
   py::class_<Recorder>(module, "Recorder")
       .def(py::init<const std::string&, const std::pair<Integers, py::array>&, const Pair&,
-                    const std::pair<std::uint32_t, py::dict>&, std::uint64_t, std::uint64_t, bool,
+                    const std::pair<std::uint32_t, py::dict>&, std::uint64_t, bool,
                     const std::pair<std::optional<Integers>, Integers>&,
                     const std::tuple<std::int32_t, double, Reals>&>())
       .def("step", &Recorder::step)
       .def("note", &Recorder::note)
-      .def("keep", &Recorder::keep)
       .def("end", &Recorder::end)
       .def_property_readonly("is_recording", &Recorder::is_recording);
 }

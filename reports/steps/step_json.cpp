@@ -3,6 +3,22 @@
 #include <nlohmann/json.hpp>
 
 #include "detector/step_result.h"
+#include "properties/json_fields.h"
+
+namespace assay::detector {
+
+ASSAY_FIELDS(MarkingCounts, changed, marked, cleared)
+ASSAY_FIELDS(ContactRungCounts, axis, filter, fixed, unbounded, open)
+ASSAY_FIELDS(ViewCounts, lanes, filter, exact, open)
+ASSAY_FIELDS(ReleaseCounts, in_doubt, released, pairs, elementary_tests, winding_numbers)
+ASSAY_FIELDS(StepTimes, view_test, start, ghosts, broad_phase, narrow_phase, closure, total)
+template <class Archive>
+void fields(Archive& archive, GhostCounts& counts) {
+  archive("pairs", counts.pairs, "elementary_tests", counts.elementary_tests, "near_triangles",
+          counts.near_triangles);
+}
+
+}  // namespace assay::detector
 
 namespace assay::reports {
 
@@ -107,6 +123,8 @@ Json to_json(const properties::StepDiff& diff, const properties::BodyNames& bodi
 Json step_json(const detector::StepResult& result, const JudgedByOracle* oracle,
                const properties::BodyNames& bodies) {
   const bool collision = result.answer == detector::Answer::collision;
+  const auto& counts = result.counts;
+  const auto json_of = [](const auto& x) { return properties::json_of_fields<Json>(x); };
   Json step = {{"answer", properties::name_of(result.answer)},
                {"first_time", collision ? to_json(result.first) : Json()},
                {"views", name_of(result.views)},
@@ -115,49 +133,22 @@ Json step_json(const detector::StepResult& result, const JudgedByOracle* oracle,
                {"view_zero", result.view_zero},
                {"violated", result.violated},
                {"dirty", result.dirty},
-               {"free_components", result.counts.free_components},
-               {"box_tests", result.counts.search.box_tests},
-               {"contour_tests", result.counts.search.contour_tests},
-               {"child_counts", result.counts.search.child_counts},
-               {"skipped", result.counts.search.skipped},
-               {"marking",
-                {{"changed", result.counts.marking.changed},
-                 {"marked", result.counts.marking.marked},
-                 {"cleared", result.counts.marking.cleared}}},
-               {"candidate_pairs", result.counts.search.candidate_pairs},
-               {"elementary_tests", result.counts.narrow.elementary_tests},
-               {"rungs",
-                {{"axis", result.counts.narrow.rungs.axis},
-                 {"filter", result.counts.narrow.rungs.filter},
-                 {"fixed", result.counts.narrow.rungs.fixed},
-                 {"unbounded", result.counts.narrow.rungs.unbounded},
-                 {"open", result.counts.narrow.rungs.open}}},
-               {"view_rungs",
-                {{"lanes", result.counts.view.lanes},
-                 {"filter", result.counts.view.filter},
-                 {"exact", result.counts.view.exact},
-                 {"open", result.counts.view.open}}},
-               {"closure_rounds", result.counts.closure_rounds},
-               {"winding_numbers", result.counts.winding_numbers},
-               {"ghosts",
-                {{"pairs", result.counts.ghosts.pairs},
-                 {"elementary_tests", result.counts.ghosts.elementary_tests},
-                 {"near_triangles", result.counts.ghosts.near_triangles}}},
-               {"release",
-                {{"in_doubt", result.counts.release.in_doubt},
-                 {"released", result.counts.release.released},
-                 {"pairs", result.counts.release.pairs},
-                 {"elementary_tests", result.counts.release.elementary_tests},
-                 {"winding_numbers", result.counts.release.winding_numbers}}},
+               {"free_components", counts.free_components},
+               {"box_tests", counts.search.box_tests},
+               {"contour_tests", counts.search.contour_tests},
+               {"child_counts", counts.search.child_counts},
+               {"skipped", counts.search.skipped},
+               {"marking", json_of(counts.marking)},
+               {"candidate_pairs", counts.search.candidate_pairs},
+               {"elementary_tests", counts.narrow.elementary_tests},
+               {"rungs", json_of(counts.narrow.rungs)},
+               {"view_rungs", json_of(counts.view)},
+               {"closure_rounds", counts.closure_rounds},
+               {"winding_numbers", counts.winding_numbers},
+               {"ghosts", json_of(counts.ghosts)},
+               {"release", json_of(counts.release)},
                {"pairs", pairs_json(result.pairs, bodies)},
-               {"times_ms",
-                {{"view_test", result.times.view_test},
-                 {"start", result.times.start},
-                 {"ghosts", result.times.ghosts},
-                 {"broad_phase", result.times.broad_phase},
-                 {"narrow_phase", result.times.narrow_phase},
-                 {"closure", result.times.closure},
-                 {"total", result.times.total}}}};
+               {"times_ms", json_of(result.times)}};
   step["second_opinion"] = nullptr;
   if (!oracle) {
     step["oracle"] = nullptr;

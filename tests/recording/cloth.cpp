@@ -228,7 +228,7 @@ int main(int count, char** words) {
                        ASSAY_CLAIM_ALL_PAIRS;
   description.adjacency = ASSAY_ADJACENCY_NO_SHARED_VERTEX;
   description.start = ASSAY_START_FREE;
-  assay_record_settings settings = {words[1], 1, 0, 1};
+  assay_record_settings settings = {words[1], 1, 1};
   assay_recorder recorder;
   int32_t code = assay_record_begin(&recorder, &settings, &description, simulator.corners.data(),
                                     simulator.corners.size() / 3, {simulator.x.data(), 0},

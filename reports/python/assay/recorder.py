@@ -24,17 +24,16 @@ class Recorder:
     do not meet, or a body paired with itself. rings, rest_distance: pairs that do not count, as of
     assay.check; at rest the mesh is at `positions`.
 
-    every: one step of so many is recorded. ring: 0, or the number of newest steps that two files,
-    path and path.before, hold at least. overwrite: whether files that are there may be lost.
+    every: one step of so many is recorded. overwrite: whether a file that is there may be lost.
 
     Arrays of float32 are recorded as float32, others as float64 where that is exact; positions that
     are not finite are recorded too, and an answer that can be none, as a time outside of [0, 1], is
-    refused. Calls write at once: a process that is killed loses at most the
-    record that it was writing. A recorder is of one thread at a time.
+    refused. Calls write at once: a process that is killed loses at most the record that it was
+    writing. A recorder is of one thread at a time.
 
     ValueError: an argument that is refused; TypeError: no numbers; FileExistsError, OSError: a file
-    that is there, or cannot be written. After ValueError and TypeError nothing is written; after an
-    OSError of a step the next ones are tried all the same.
+    that is there, or cannot be written. After ValueError and TypeError nothing is written; an
+    OSError of a step ends the log, so that each later call fails too.
     """
 
     def __init__(
@@ -48,15 +47,14 @@ class Recorder:
         claims: Iterable[str] = (),
         contract: Optional[Dict[str, Any]] = None,
         every: int = 1,
-        ring: int = 0,
         overwrite: bool = False,
         bodies: Optional[ArrayLike] = None,
         apart: Sequence[Tuple[int, int]] = (),
         rings: int = 0,
         rest_distance: float = 0,
     ):
-        if every < 0 or ring < 0:
-            raise ValueError("every and ring are numbers of steps")
+        if every < 0:
+            raise ValueError("every is a number of steps")
         rest = _frame(positions, "positions", True)
         self._vertices = len(rest)
         body = None if bodies is None else hosting.int32_of(bodies, "bodies")
@@ -68,7 +66,6 @@ class Recorder:
             (name, version),
             hosting.described(claims, contract or {}, _recorder.CLAIMS, _recorder.MEMBERS),
             every,
-            ring,
             overwrite,
             (body, hosting.pairs_of(list(apart))),
             (rings, rest_distance, np.ascontiguousarray(rest, np.float64)),
@@ -122,10 +119,6 @@ class Recorder:
     def note(self, text: str) -> None:
         """Records a line of text before the next step."""
         self._recorder.note(text)
-
-    def keep(self) -> None:
-        """Saves the newest steps of a ring: its files will be path.kept-F, F their first step."""
-        self._recorder.keep()
 
     def end(self) -> None:
         """Records how many steps there were, and closes the file."""

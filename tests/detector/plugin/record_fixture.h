@@ -115,7 +115,7 @@ class Recording : public testing::Test {
   const std::string path = folder / "steps.log";
   const std::vector<std::int32_t> triangles = {0, 1, 2, 2, 1, 3};
   const std::vector<double> rest = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0.1};
-  assay_record_settings settings = {path.c_str(), 1, 0, 0};
+  assay_record_settings settings = {path.c_str(), 1, 0};
   assay_description description = {};
   assay_recorder recorder = {};
   assay_record_step_data data = {};

@@ -131,7 +131,7 @@ TEST(Schemas, RecordsOfLogsAreOfTheirs) {
   assay_counted_pairs counted = {};
   counted.body = body;
   const auto path = scratch / "counted.log";
-  const assay_record_settings settings = {path.c_str(), 1, 0, 1};
+  const assay_record_settings settings = {path.c_str(), 1, 1};
   const auto description = all_claims_description();
   ASSERT_EQ(assay_record_begin(&recorder, &settings, &description, c.triangles.data(), 2,
                                {places, 1}, 6, &counted),

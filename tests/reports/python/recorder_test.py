@@ -145,28 +145,13 @@ def test_rows_apart_other_numbers_and_nan_are_recorded(path, pair):
     assert second["x1"].dtype == np.float64 and (second["x1"] == 1).all()
 
 
-def test_a_ring_holds_the_newest_steps(path, pair):
-    frames = [np.full((8, 3), k, np.float32) for k in range(12)]
-    with assay.Recorder(path, pair.triangles, pair.x_t0, **MINE, ring=4, every=1) as recorder:
-        recorder.step(pair.x_t0, frames[0])
-        for frame in frames[1:6]:
-            recorder.step(x1=frame)
-        recorder.keep()
-        for frame in frames[6:]:
-            recorder.step(x1=frame)
-    kept = [path.with_name(f"steps.log{end}") for end in (".kept-0", ".kept-4", "")]
-    numbers = [[r["step"] for r in records(file) if r["type"] == "step"] for file in kept]
-    assert numbers == [[0, 1, 2, 3], [4, 5, 6, 7], [8, 9, 10, 11]]
-    assert (records(kept[1])[1]["x0"] == 3).all()
-
-
 def test_what_is_wrong_is_refused_in_one_line(path, pair):
     for words, text in (
         ({"claims": ["all-sound"]}, "claims: 'all-sound' is none of free-sound"),
         ({"contract": {"adjacent": 1}}, "'adjacent' is none of its members"),
         ({"contract": {"start": "never"}}, "contract: start: 'never' is none of"),
         ({"bodies": [0]}, r"bodies: shape \(1,\) is not \(8,\)"),
-        ({"every": -1}, "every and ring"),
+        ({"every": -1}, "every is a number"),
     ):
         with pytest.raises(ValueError, match=text):
             assay.Recorder(path, pair.triangles, pair.x_t0, **MINE, **words)

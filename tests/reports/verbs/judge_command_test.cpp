@@ -261,8 +261,9 @@ TEST_F(JudgeCommand, WhatIsLostIsSaid) {
   bad[bad.size() / 2] ^= 1;
   const auto damaged = run_assay("judge " + scratch_.write("bad.log", bad));
   EXPECT_EQ(damaged.exit_code, 3) << damaged.out;
-  EXPECT_TRUE(says(damaged.out, "lost: bytes "));
-  EXPECT_TRUE(says(damaged.out, "that one is lost"));
+  EXPECT_TRUE(says(damaged.out, fmt::format("to {}, from the first damage to the end of the log "
+                                            "(no record); steps read before it: 4\n",
+                                            good.size())));
   EXPECT_TRUE(says(damaged.out, "undecided: a part of the input is lost"));
   const auto cut =
       run_assay("judge " + scratch_.write("cut.log", good.substr(0, good.size() - 99)));
@@ -279,7 +280,9 @@ TEST_F(JudgeCommand, ALogWhoseRearIsDestroyedIsUndecided) {
     const auto judged = run_assay(
         "judge " + scratch_.write("rear.log", good.substr(0, kept) + std::string(size, '\0')));
     EXPECT_EQ(judged.exit_code, 3) << judged.out;
-    EXPECT_TRUE(says(judged.out, fmt::format("to {}: no record", kept + size)));
+    EXPECT_TRUE(says(judged.out,
+                     fmt::format("to {}, from the first damage to the end of the log (no record)",
+                                 kept + size)));
     EXPECT_TRUE(says(judged.out, "undecided: a part of the input is lost"));
   }
 }
