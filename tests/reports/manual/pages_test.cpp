@@ -80,7 +80,7 @@ TEST_F(Pages, BashCompletesVerbsOptionsAndTheirWords) {
   EXPECT_EQ(completed("assay check a.obj --culling view-"), "view-auto\nview-point\nview-line\n");
   EXPECT_EQ(completed("assay scene twi"), "twist\n");
   EXPECT_EQ(completed("assay list fa"), "faults\nfailures\n");
-  EXPECT_EQ(completed("assay bench --suite thr"), "threads\n");
+  EXPECT_EQ(completed("assay bench --suite seq"), "sequences\n");
   const auto options = completed("assay merge --");
   EXPECT_TRUE(contains(options, "--out\n")) << options;
   EXPECT_FALSE(contains(options, "--campaign\n")) << options;
