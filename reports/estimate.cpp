@@ -59,30 +59,6 @@ double quantile(std::vector<double> samples, double share) {
   return *at;
 }
 
-Line fit_line(std::span<const double> x, std::span<const double> y) {
-  const auto n = static_cast<double>(x.size());
-  double mean_x = 0, mean_y = 0, xx = 0, xy = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    mean_x += x[i] / n;
-    mean_y += y[i] / n;
-  }
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    xx += (x[i] - mean_x) * (x[i] - mean_x);
-    xy += (x[i] - mean_x) * (y[i] - mean_y);
-  }
-  const double slope = xy / xx;
-  return {mean_y - slope * mean_x, slope};
-}
-
-double growth_exponent(std::span<const double> sizes, std::span<const double> times) {
-  std::vector<double> x, y;
-  for (std::size_t i = 0; i < sizes.size(); ++i) {
-    x.push_back(std::log(sizes[i]));
-    y.push_back(std::log(times[i]));
-  }
-  return fit_line(x, y).slope;
-}
-
 namespace {
 
 // Computes the median, and reorders its argument for that.
@@ -126,20 +102,6 @@ Estimate bootstrap_median(std::vector<double> samples) {
 
 Estimate bootstrap_ratio(std::span<const double> a, std::span<const double> b) {
   return bootstrap_median(ratios(a, b));
-}
-
-Estimate bootstrap_ratio_of_sums(std::span<const double> a, std::span<const double> b) {
-  const auto sums = [&](const std::vector<std::size_t>& items) {
-    double sum_a = 0, sum_b = 0;
-    for (const auto i : items) sum_a += a[i], sum_b += b[i];
-    return sum_a / sum_b;
-  };
-  auto out = over_draws(a.size(), sums);
-  std::vector<std::size_t> all(a.size());
-  std::iota(all.begin(), all.end(), 0);
-  out.value = sums(all);
-  out.samples = ratios(a, b);
-  return out;
 }
 
 }  // namespace assay::reports

@@ -1,6 +1,6 @@
 // Medians of repeated measurements with intervals that need no model of their noise, ratios of
-// interleaved measurements, quantiles, and exponents of growth. Rank intervals first, then
-// intervals by the bootstrap. All of it is deterministic.
+// interleaved measurements, quantiles. Rank intervals stand first, then intervals by the bootstrap.
+// All of it is deterministic.
 #pragma once
 
 #include <cstddef>
@@ -40,15 +40,6 @@ std::size_t rank_of_lower_end(std::size_t n);
 // empty.
 double quantile(std::vector<double> samples, double share);
 
-// Least squares y = intercept + slope * x. REQUIRES at least two different x.
-struct Line {
-  double intercept = 0, slope = 0;
-};
-Line fit_line(std::span<const double> x, std::span<const double> y);
-
-// The e of time ~ size^e: the slope of log time over log size.
-double growth_exponent(std::span<const double> sizes, std::span<const double> times);
-
 // Percentile bootstrap intervals of medians (Efron and Tibshirani, "An Introduction to the
 // Bootstrap", 1993, section 13.3): the samples are drawn again with replacement many times, and
 // the interval holds the middle 95 % of the medians of the draws.
@@ -65,9 +56,5 @@ Estimate bootstrap_median(std::vector<double> samples);
 // The same for the ratios a[i] / b[i] of measurements taken next to each other. REQUIRES equal
 // sizes.
 Estimate bootstrap_ratio(std::span<const double> a, std::span<const double> b);
-
-// sum(a) / sum(b): a rate over items of very different size, such as cases. The interval comes
-// from drawing items, and the samples are a[i] / b[i]. REQUIRES equal sizes.
-Estimate bootstrap_ratio_of_sums(std::span<const double> a, std::span<const double> b);
 
 }  // namespace assay::reports

@@ -9,6 +9,10 @@ assay_packages="g++ cmake ninja-build ccache libcgal-dev libgmp-dev libmpfr-dev 
 # shellcheck disable=SC2034
 assay_peer_packages="libfcl-dev libbullet-dev"
 
+# For micro benches (tests/bench); without it they are left out.
+# shellcheck disable=SC2034
+assay_bench_packages="libbenchmark-dev"
+
 # For the Python module (reports/python) and its tests; without them it is left out.
 # shellcheck disable=SC2034
 assay_python_packages="python3 python3-dev pybind11-dev python3-numpy python3-meshio python3-pytest

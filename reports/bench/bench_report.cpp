@@ -113,12 +113,11 @@ Json to_json(const BenchReport& report, const std::string& version) {
                                "wanted", wanted, "outcome", name_of(row.outcome()), "note",
                                row.note));
   }
-  Json json = json_object("schema", "assay-bench/1", "version", version, "suite", report.suite,
+  Json json = json_object("schema", "assay-bench/2", "version", version, "suite", report.suite,
                           "rows", rows);
   // Every field is there in every suite.
-  for (const std::string name :
-       {"scatter", "heat", "variants", "families", "sizes", "detector", "sequences", "peers",
-        "peer_families", "absent_peers", "unsafe_answers"}) {
+  for (const std::string name : {"heat", "variants", "families", "detector", "sequences", "peers",
+                                 "peer_families", "absent_peers", "unsafe_answers"}) {
     const auto figures = report.figures.find(name);
     json[name] = figures != report.figures.end() ? figures->second
                  : name == "detector"            ? Json()

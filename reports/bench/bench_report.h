@@ -1,5 +1,5 @@
 // The result of a suite of benches: rows, wrong answers, and what else a suite tells, in forms that
-// do not depend on the suite. It is written as text, as JSON (schema assay-bench/1,
+// do not depend on the suite. It is written as text, as JSON (schema assay-bench/2,
 // reports/bench/README.md) and as CSV, each in one way.
 #pragma once
 
@@ -38,50 +38,6 @@ inline std::optional<Wanted> wanted_if(bool condition, Wanted wanted) {
 
 namespace wanted {
 
-// The elementary test in exact arithmetic, as the mean of many queries. Candidates are the feature
-// pairs of the rod-twist step whose moving boxes meet; few of them are hits. Of the simulation
-// queries nearly all are hits, and of the hand-made ones many are degenerate.
-inline constexpr Wanted yes_no_of_a_candidate_us = at_most(0.3);
-inline constexpr Wanted yes_no_of_a_candidate_in_lanes_us = at_most(0.1);
-inline constexpr Wanted yes_no_of_a_simulation_query_us = at_most(1);
-inline constexpr Wanted yes_no_of_a_hand_made_query_us = at_most(10);
-inline constexpr Wanted hit_with_its_time_us = at_most(3);
-// The time that one query in a thousand exceeds, for random queries with exponents within 2^+-100
-// and for such queries with exponents over all doubles.
-inline constexpr Wanted slow_query_of_usual_numbers_ms = below(1);
-inline constexpr Wanted slow_query_of_any_numbers_ms = below(10);
-// The slowest query or view of the kept family with exponents over all doubles.
-inline constexpr Wanted slowest_query_of_any_numbers_ms = below(100);
-
-// The view test of a mesh, over the time of writing its swept boxes, in the instruction set that
-// the detector chooses.
-inline constexpr Wanted view_test_of_a_point_over_boxes = at_most(2.5);
-inline constexpr Wanted view_test_of_a_line_over_boxes = at_most(3);
-
-// A step in which all triangles are positive, so that no tree is touched. The time is that of a
-// mesh of so many triangles, seen from a point.
-inline constexpr int free_step_triangles = 327'680;
-inline constexpr Wanted free_step_ms = at_most(10);
-inline constexpr Wanted free_step_over_bvh = at_most(1. / 50);
-// Over a pass that only reads the same positions and triangles.
-inline constexpr Wanted free_step_over_plain_pass = at_most(4);
-
-// View sets, in percent of the triangles: V+ and V- on bent and twisted tubes seen from a line; V+
-// of the bunny, at rest and bent; the triangles that are V0 in bounded arithmetic and not in
-// exact.
-inline constexpr Wanted tube_settled_from_a_line_percent = at_least(95);
-inline constexpr Wanted bunny_positive_from_a_point_percent = at_least(89);
-inline constexpr Wanted bunny_positive_from_a_line_percent = at_least(94);
-inline constexpr Wanted zero_beyond_exact_in_bounded_percent = at_most(0.1);
-
-// The whole step of rod-twist (79,864 triangles, all pairs, exact) with a culling that uses views.
-inline constexpr Wanted rod_twist_step_s = at_most(1.2);
-// The same by bvh, and its broad phase alone.
-inline constexpr Wanted rod_twist_bvh_step_s = at_most(0.4);
-inline constexpr Wanted rod_twist_bvh_broad_phase_s = at_most(0.25);
-inline constexpr Wanted rod_twist_candidates_over_bvh = at_most(0.7);
-inline constexpr Wanted rod_twist_step_over_bvh = at_most(0.85);
-
 // The whole step of any mesh. view-auto falls back to bvh if views do not pay, so it may lose only
 // what it takes to find that out.
 inline constexpr Wanted view_auto_over_bvh = at_most(1.05);
@@ -95,35 +51,6 @@ inline constexpr Wanted auto_over_best_culling = at_most(1.05);
 inline constexpr Wanted auto_step_over_best_culling = at_most(1.15);
 inline constexpr Wanted first_step_over_bvh = at_most(1.1);
 inline constexpr Wanted two_threads_gain = at_least(1.8);
-
-// Several threads: what a free step gains from a second one, over what a plain pass over the same
-// arrays gains from it; and the memory that each further thread takes, in percent of what one
-// takes.
-inline constexpr Wanted free_step_gain_over_plain_pass = at_least(0.9);
-inline constexpr Wanted memory_a_thread_percent = at_most(10);
-
-// Marking of the vBVHs, in percent of a step that searches. The thesis says "low"; this is how
-// that is read here.
-inline constexpr Wanted marking_percent = at_most(5);
-
-// The oracle: the rod-twist step on two threads, its memory beyond that of the mesh itself, the
-// mean of a simulation query, yes or no, and a step of scene bend over its feature candidates:
-// where the mirrored ends of the tube meet, queries are degenerate.
-inline constexpr Wanted oracle_rod_twist_s = at_most(30);
-inline constexpr Wanted oracle_rod_twist_gb = at_most(3);
-inline constexpr Wanted oracle_simulation_query_us = at_most(20);
-inline constexpr Wanted oracle_planar_candidate_us = at_most(10);
-
-// A campaign: the steps that oracle and detector, in all its configurations, judge in a second on
-// a core.
-inline constexpr Wanted judged_generic_steps_a_second = at_least(100);
-inline constexpr Wanted judged_degenerate_steps_a_second = at_least(10);
-
-// Growth from a thousand to four million triangles: the highest memory of preprocessing and a
-// step.
-// The exponent of times has no name, because it is held against that of n log n over the same
-// sizes.
-inline constexpr Wanted memory_bytes_a_triangle = at_most(300);
 
 }  // namespace wanted
 

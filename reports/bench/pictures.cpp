@@ -60,11 +60,6 @@ std::string plot(int width, int height, const std::string& settings,
       are_several ? "unset multiplot\n" : "");
 }
 
-// Where a panel stands on the sheet, from left to right.
-std::string between(double left, double right) {
-  return fmt::format("set lmargin at screen {}\nset rmargin at screen {}\n", left, right);
-}
-
 }  // namespace
 
 std::string quoted_for_gnuplot(const std::string& words) {
@@ -74,127 +69,6 @@ std::string quoted_for_gnuplot(const std::string& words) {
     text += c;
   }
   return text + '"';
-}
-
-namespace {
-
-// Colours and point types (numbers of gnuplot) of lines, in their order.
-struct Look {
-  const char* colour;
-  int point_type;
-};
-constexpr Look growth_looks[] = {{colour::blue, 7}, {colour::green, 5}, {colour::vermilion, 9}};
-
-}  // namespace
-
-std::string growth_picture(std::span<const GrowthPoint> points) {
-  Panel panel;
-  for (std::size_t begin = 0, l = 0; begin < points.size(); ++l) {
-    std::size_t end = begin;
-    while (end < points.size() && points[end].label == points[begin].label) ++end;
-    const auto& last = points[end - 1];
-    const double at_last = last.triangles * std::log(last.triangles);
-    std::string line, guide;  // the guide is n log n through the last point
-    for (const auto& p : points.subspan(begin, end - begin)) {
-      const double ms = last.ms.value * p.triangles * std::log(p.triangles) / at_last;
-      guide += fmt::format("{} {}\n", p.triangles, ms);
-      line += fmt::format("{} {} {} {}\n", p.triangles, p.ms.value, p.ms.lo, p.ms.hi);
-    }
-    const auto& look = growth_looks[l % std::size(growth_looks)];
-    panel.series.push_back(
-        {guide, fmt::format("using 1:2 with lines linecolor '{}' linewidth 0.8 dashtype 2 notitle",
-                            look.colour)});
-    panel.series.push_back(
-        {line, fmt::format("using 1:2:3:4 with yerrorlines pointtype {} pointsize 0.8 linecolor "
-                           "'{}' linewidth 1.2 title {} noenhanced",
-                           look.point_type, look.colour, quoted_for_gnuplot(last.label))});
-    begin = end;
-  }
-  return plot(760, 520,
-              "set logscale xy\nset format x '10^{%L}'\nset format y '10^{%L}'\n"
-              "set title 'Time against triangles; dashed: n log n through the last point'\n"
-              "set xlabel 'triangles'\nset ylabel 'processor time, ms'\nset key top left\n",
-              {panel});
-}
-
-BreakEven break_even(std::span<const ScatterPoint> points) {
-  std::vector<double> shares, logs;
-  BreakEven out;
-  for (const auto& p : points) {
-    if (p.ratio > 1) out.last_crossing = std::max(out.last_crossing, p.share);
-    if (p.share >= 1) continue;
-    shares.push_back(p.share);
-    logs.push_back(std::log(p.ratio));
-  }
-  if (shares.size() < 2) return out;
-  const Line line = fit_line(shares, logs);
-  if (line.slope != 0) {
-    const double share = -line.intercept / line.slope;
-    if (share >= 0 && share <= 1) out.by_fit = share;
-  }
-  return out;
-}
-
-namespace {
-
-// A culling in the picture of shares.
-struct CullingLook {
-  const char* culling;
-  Look look;
-};
-constexpr CullingLook culling_looks[] = {{"view-point", {colour::blue, 9}},
-                                         {"view-line", {colour::vermilion, 11}},
-                                         {"view-auto", {colour::green, 6}}};
-
-Panel share_panel(std::span<const ScatterPoint> points, const std::string& over,
-                  const std::string& title) {
-  Panel panel;
-  panel.first = "1 with lines linecolor '#000000' dashtype 2 notitle";
-  std::string crossings;  // where the fitted lines cross 1, in words below the title
-  for (const auto& [culling, look] : culling_looks) {
-    const bool is_automatic = std::string(culling) == "view-auto";
-    std::vector<ScatterPoint> chosen;
-    std::string data;
-    for (const auto& p : points) {
-      // A step of view-auto that fell back to bvh has no view sets, so it has no share.
-      if (p.culling != culling || p.over != over || (is_automatic && !(p.share > 0))) continue;
-      chosen.push_back(p);
-      data += fmt::format("{} {} {} {}\n", 100 * p.share, p.ratio, p.lo, p.hi);
-    }
-    panel.series.push_back(
-        {data, fmt::format("using 1:2:3:4 with yerrorbars pointtype {} pointsize 0.6 linecolor "
-                           "'{}' linewidth 0.6 title '{}'",
-                           look.point_type, look.colour, culling)});
-    if (is_automatic) continue;
-    const auto found = break_even(chosen);
-    crossings += fmt::format("{}{} {}", crossings.empty() ? "" : ", ", culling,
-                             found.by_fit ? fmt::format("{:.0f} %", 100 * *found.by_fit) : "none");
-  }
-  panel.settings = fmt::format("set title \"{}\\nfitted break-even: {}\"\n", title, crossings);
-  return panel;
-}
-
-}  // namespace
-
-std::string share_picture(std::span<const ScatterPoint> points) {
-  // The range is the same for both panels: twice as far as any ratio.
-  double least = 0.3, most = 3;
-  for (const auto& p : points) {
-    least = std::min(least, p.lo);
-    most = std::max(most, p.hi);
-  }
-  auto left = share_panel(points, "bvh", "Over bvh: below the line views are faster");
-  auto right = share_panel(points, "normal-cone", "Over the traditional scheme (normal-cone)");
-  left.settings += between(0.085, 0.5) + "set ylabel 'time of a step, times'\n";
-  right.settings += between(0.57, 0.98) + "unset ylabel\nset key off\n";
-  return plot(
-      1000, 500,
-      fmt::format("set yrange [{:.4g}:{:.4g}]\nset logscale y\nset xrange [-2:102]\nset xtics 20\n"
-                  "set ytics (0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1, 3, 10, 30, 100, 300)\n"
-                  "set xlabel 'share of V+ among the triangles, %'\nset key bottom left\n"
-                  "set bmargin at screen 0.13\nset tmargin at screen 0.86\n",
-                  least / 2, most * 2),
-      {left, right});
 }
 
 namespace {

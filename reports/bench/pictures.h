@@ -22,43 +22,6 @@ inline constexpr const char *blue = "#0072B2", *orange = "#E69F00", *green = "#0
 // The words between double quotes. If `noenhanced` follows, gnuplot takes them as they are.
 std::string quoted_for_gnuplot(const std::string& words);
 
-// The time of one thing at one size.
-struct GrowthPoint {
-  std::string label;
-  double triangles = 0;
-  Estimate ms;
-};
-
-// Times against triangles, both logarithmic, beside n log n. REQUIRES points in the order of label,
-// then of triangles.
-std::string growth_picture(std::span<const GrowthPoint> points);
-
-// A step of the break-even scatter.
-struct ScatterPoint {
-  std::string scene;
-  std::string culling;
-  double share = 0;          // share of V+ among all triangles
-  double ratio = 0;          // time of the step over that of culling `over`
-  double lo = 0, hi = 0;     // interval of the ratio
-  std::string over = "bvh";  // or "normal-cone"
-};
-
-// From which share of V+ on a step with views costs no more than one with culling bvh.
-struct BreakEven {
-  // The share at which the line fitted to log(ratio) over the share crosses 1. It is fitted to the
-  // steps that search; those with a share of 1 touch no tree and are left out. Nothing if it does
-  // not cross within [0, 1].
-  std::optional<double> by_fit;
-  // The last crossing: the largest share of a point with a ratio above 1, so that every step with
-  // a larger share was faster than bvh. 0 if all were.
-  double last_crossing = 0;
-};
-BreakEven break_even(std::span<const ScatterPoint> points);
-
-// The time of a step with views over that of bvh, and over that of normal-cone, against the share
-// of triangles that are seen positive (V+).
-std::string share_picture(std::span<const ScatterPoint> points);
-
 // How often one thing was right in one way of doing it.
 struct HeatCell {
   std::string row, column;

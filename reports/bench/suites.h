@@ -40,19 +40,6 @@ struct UnusableData : std::runtime_error {
 
 using RunSuite = BenchReport(const BenchSettings& settings, const BenchProgress& progress);
 
-// The elementary test: times by kind of query, answers against labels, in each arithmetic.
-RunSuite elementary_suite;
-// The view test against the writing of swept boxes; free steps; how tight the view sets are.
-RunSuite view_suite;
-// Time and memory from a thousand to four million triangles.
-RunSuite growth_suite;
-// Scenes of the sizes and kinds that people have: times, memory, threads, the oracle's judgement.
-RunSuite sizes_suite;
-// Where the time of a step without views goes, stage by stage, and the limit that a bare loop sets.
-RunSuite stages_suite;
-// The thesis's claims about costs, the whole step against culling bvh, and the share of V+ at
-// which views break even.
-RunSuite claims_suite;
 // Where each arithmetic breaks, in the corpus's hard families.
 RunSuite stability_suite;
 // Every arithmetic, culling and kind of pairs on the same steps: time, and error against the
@@ -61,12 +48,7 @@ RunSuite speed_error_suite;
 // Whole sequences by each culling and by several threads: what the default costs beside the best
 // choice.
 RunSuite sequences_suite;
-// What several threads gain and take, and what more cores would gain.
-RunSuite threads_suite;
 // Those detectors of others that are there, beside the built-in one: time and error.
 RunSuite peers_suite;
-// What judging costs: the oracle on a real step and on queries, and the steps that a campaign
-// judges in a second.
-RunSuite harness_suite;
 
 }  // namespace assay::reports

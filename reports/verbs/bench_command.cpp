@@ -32,18 +32,10 @@ struct Suite {
   RunSuite* run;
   bool has_picture = false;
 };
-constexpr Suite suites[] = {{"elementary", elementary_suite},
-                            {"view", view_suite},
-                            {"growth", growth_suite, true},
-                            {"sizes", sizes_suite},
-                            {"stages", stages_suite},
-                            {"claims", claims_suite, true},
-                            {"stability", stability_suite, true},
+constexpr Suite suites[] = {{"stability", stability_suite, true},
                             {"speed-error", speed_error_suite, true},
                             {"sequences", sequences_suite},
-                            {"threads", threads_suite},
-                            {"peers", peers_suite, true},
-                            {"harness", harness_suite}};
+                            {"peers", peers_suite, true}};
 
 const Suite* suite_named(std::string_view name) {
   const auto* found = std::find_if(std::begin(suites), std::end(suites),
@@ -57,7 +49,7 @@ std::string no_picture(const BenchRequest& request, const Suite* suite) {
   if (request.svg_file.empty()) return {};
   if (!suite || !suite->has_picture) {
     return (suite ? "suite " + request.suite : std::string("bench --detector")) +
-           " has no picture; growth, claims, stability, speed-error and peers have one";
+           " has no picture; stability, speed-error and peers have one";
   }
   return cannot_draw();
 }
@@ -135,11 +127,11 @@ void add_options(Verb& verb, BenchRequest& request) {
   verb.add("--peers DIR", request.settings.peers,
            "Suite peers: folder of the plug-ins (default: peers beside the program, where target "
            "`peers` builds them)");
-  verb.add("--json FILE", request.json_file, "Write all figures here (assay-bench/1)")
+  verb.add("--json FILE", request.json_file, "Write all figures here (assay-bench/2)")
       .in(OptionGroup::output);
   verb.add("--csv FILE", request.csv_file, "Write the raw samples here").in(OptionGroup::output);
   verb.add("--svg FILE", request.svg_file,
-           "Draw the suite's picture here (growth, claims, stability, speed-error, peers; needs "
+           "Draw the suite's picture here (stability, speed-error, peers; needs "
            "gnuplot)")
       .in(OptionGroup::output);
 }

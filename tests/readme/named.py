@@ -47,7 +47,7 @@ def not_in_help(words, clone):
         return [f"{' '.join(program)} --help ends with {code}"]
     text = " ".join(words[len(program):])
     options = re.findall(r"--[a-z][-a-z]*", text)
-    # assay bench --suite view|growth
+    # assay bench --suite peers|sequences
     choices = [c for group in re.findall(r"[a-z][-a-z]*(?:\|[a-z][-a-z]*)+", text)
                for c in group.split("|")]
     return [f"{' '.join(program)} knows no {name}" for name in options + choices

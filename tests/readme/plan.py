@@ -95,6 +95,11 @@ SLOW = {
     "reports/queries/README.md": [
         "assay self-test --jobs 2",
     ],
+    "tests/bench/README.md": [
+        "build/release/assay-micro --benchmark_list_tests",
+        "build/release/assay-micro --benchmark_filter=look --benchmark_repetitions=9 "
+        "--benchmark_enable_random_interleaving=true",
+    ],
     "reports/bench/README.md": [
         "assay bench --suite speed-error --svg reports/pictures/speed-error.svg",
     ],

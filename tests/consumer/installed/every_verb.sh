@@ -44,4 +44,4 @@ expect 0 run --campaign few.json --detector ./libmine.so --power proof --out min
 [ "$size" = whole ] || exit 0
 expect 0 certify --campaign few.json --detector ./libmine.so --power proof --out mine
 expect 0 verify mine/certificate.json
-expect 0 bench --suite elementary --quick
+expect 0 bench --suite stability --quick

@@ -117,7 +117,7 @@ TEST(DetectorBench, TheVerbRefusesInOneLine) {
   for (const std::string& arguments :
        {std::string("--detector /nowhere/x.so"), "--detector " + library("without_entry"),
         "--detector " + library("query_alone"), "--detector " + library("candidates_alone"),
-        "--detector " + library("example") + " --suite view",
+        "--detector " + library("example") + " --suite sequences",
         "--detector " + library("example") + " --svg x.svg",
         "--detector " + library("example") + " --case-seconds 0",
         "--detector " + library("example") + " --threads 0"}) {

@@ -48,14 +48,6 @@ TEST(Bootstrap, RatiosAreTakenRoundByRound) {
   EXPECT_EQ(bootstrap_ratio(a, b).hi, 2);
 }
 
-TEST(Bootstrap, ARateIsOfTheSums) {
-  const std::vector<double> steps = {1, 1, 2}, seconds = {1, 1, 98};
-  const auto rate = bootstrap_ratio_of_sums(steps, seconds);
-  EXPECT_DOUBLE_EQ(rate.value, 0.04);  // not the median of 1, 1 and 0.02
-  EXPECT_NEAR(rate.lo, 2. / 98, 1e-12);
-  EXPECT_EQ(rate.hi, 1);
-}
-
 TEST(Variants, EveryArithmeticCullingAndKindOfPairs) {
   EXPECT_EQ(all_variants(false).size(), 4u * 6u * 2u);
   EXPECT_EQ(all_variants(true).size(), 4u * 7u * 2u);

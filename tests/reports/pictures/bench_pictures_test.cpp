@@ -28,22 +28,9 @@ std::string errors() {
   return speed_error_picture(std::array{exact, doubles});
 }
 
-std::string shares() {
-  const ScatterPoint points[] = {{"bend", "view-point", 0.25, 2, 1.9, 2.1, "bvh"},
-                                 {"bend", "view-point", 0.75, 0.5, 0.4, 0.6, "bvh"},
-                                 {"bend", "view-line", 0.5, 0.7, 0.6, 0.8, "normal-cone"}};
-  return share_picture(points);
-}
-
 std::string heat() {
   const HeatCell cells[] = {{"slivers", "double", 3, 3, 0}, {"slivers", "double", 3, 0, 2}};
   return heat_picture(cells);
-}
-
-std::string growth() {
-  const GrowthPoint points[] = {{"free step", 1'000, about(0.1)},
-                                {"free step", 100'000, about(12)}};
-  return growth_picture(points);
 }
 
 TEST(PictureScripts, HoldEveryPointWithItsIntervals) {
@@ -51,11 +38,7 @@ TEST(PictureScripts, HoldEveryPointWithItsIntervals) {
   EXPECT_NE(errors().find("0.5 0.45 0.55 6.25 5 7"), std::string::npos);
   EXPECT_NE(errors().find("% of 321 steps"), std::string::npos);
   EXPECT_EQ(count(errors(), "Pareto line"), 1u);
-  EXPECT_NE(shares().find("25 2 1.9 2.1\n75 0.5 0.4 0.6\n"), std::string::npos) << shares();
-  // The line through log 2 at 25 % and log 1/2 at 75 % crosses 0 at 50 %.
-  EXPECT_NE(shares().find("view-point 50 %, view-line none"), std::string::npos);
   EXPECT_NE(heat().find("0 0 0.5 16777215 \"50 %   2 missed\"\n"), std::string::npos) << heat();
-  EXPECT_NE(growth().find("1000 0.1 0.09"), std::string::npos) << growth();
 }
 
 TEST(PictureScripts, WordsAreQuoted) {
@@ -84,7 +67,7 @@ TEST(Gnuplot, CommittedPicturesAreReadableInBothSchemes) {
 
 TEST(Gnuplot, DrawsEveryPicture) {
   if (const auto problem = cannot_draw(); !problem.empty()) GTEST_SKIP() << problem;
-  for (const auto picture : {errors, shares, growth, heat}) {
+  for (const auto picture : {errors, heat}) {
     const auto drawing = draw(picture());
     EXPECT_EQ(drawing.problem, "");
     EXPECT_NE(drawing.svg.find("</svg>"), std::string::npos);

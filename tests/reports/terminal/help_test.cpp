@@ -103,7 +103,7 @@ TEST(Help, WordsThatAreMisspeltMeanOthers) {
   expect_refused(run_assay("run --campaign smok" + out), "did you mean smoke?");
   expect_refused(run_assay("scene bned" + out), "no scene is named bned; did you mean bend?");
   expect_refused(run_assay("list scnes"), "did you mean scenes?");
-  expect_refused(run_assay("bench --suite elementry"), "did you mean elementary?");
+  expect_refused(run_assay("bench --suite stabilty"), "did you mean stability?");
   expect_refused(run_assay("check a.obj b.obj --culling bhv"), "did you mean bvh?");
   expect_refused(run_assay("run --out"), "--out: DIR missing (assay run --help lists options)");
   expect_refused(run_assay("check a b --no-oracle --second-opinion 0.5"),

@@ -56,8 +56,8 @@ TEST_F(Outputs, ThatCannotBeWrittenAreRefusedBeforeTheWork) {
                                judge + " --json ",
                                judge + " --junit ",
                                "report " + run + " --out ",
-                               "bench --suite elementary --quick --json ",
-                               "bench --suite elementary --quick --csv ",
+                               "bench --suite stability --quick --json ",
+                               "bench --suite stability --quick --csv ",
                                "shrink " + curated("A1_winding2_allpositive") + " --out "};
   for (const auto& words : files) {
     for (const auto& place :
@@ -89,8 +89,7 @@ TEST_F(Outputs, AFileOfAFolderThatCannotBeWrittenIsRefusedToo) {
 
 TEST_F(Outputs, TwoOutputsAreNotOneFile) {
   const auto one = scratch / "one";
-  expect_refused(run_assay("bench --suite elementary --quick --json " + one + " --csv " + one),
-                 one);
+  expect_refused(run_assay("bench --suite stability --quick --json " + one + " --csv " + one), one);
   expect_refused(run_assay("judge " + log() + " --json " + one + " --junit " + one), one);
 }
 
