@@ -116,8 +116,8 @@ Json to_json(const BenchReport& report, const std::string& version) {
   Json json = json_object("schema", "assay-bench/2", "version", version, "suite", report.suite,
                           "rows", rows);
   // Every field is there in every suite.
-  for (const std::string name : {"heat", "variants", "families", "detector", "sequences", "peers",
-                                 "peer_families", "absent_peers", "unsafe_answers"}) {
+  for (const std::string name :
+       {"subjects", "families", "heat", "detector", "absent_peers", "unsafe_answers"}) {
     const auto figures = report.figures.find(name);
     json[name] = figures != report.figures.end() ? figures->second
                  : name == "detector"            ? Json()

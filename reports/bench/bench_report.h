@@ -83,7 +83,6 @@ struct BenchReport {
   // each has; the others of a line are empty. No lines: the CSV is of the samples of the rows.
   std::vector<std::string> columns;
   std::vector<std::pair<std::size_t, std::string>> samples;
-  std::string picture;  // a script for gnuplot; empty: the suite has none
 
   void add(std::string label, std::string unit, Estimate measured,
            std::optional<Wanted> wanted = std::nullopt, std::string note = {});

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "properties/judging/subject.h"
 #include "reports/bench/bench_report.h"
 
 namespace assay::reports {
@@ -50,5 +51,13 @@ RunSuite speed_error_suite;
 RunSuite sequences_suite;
 // Those detectors of others that are there, beside the built-in one: time and error.
 RunSuite peers_suite;
+
+// Times a plug-in beside the built-in detector, on the same steps of scenes and public sequences:
+// each in a worker of its own, in turn, a whole sequence each time. The built-in detector answers
+// what the plug-in claims. A claim that either breaks is a wrong answer. With a scale below 1,
+// public sequences of more than 10,000 triangles are left out. REQUIRES a plug-in that has steps.
+// `limits.seconds` of it is the processor time that one run of a sequence may take.
+BenchReport detector_suite(const BenchSettings& settings, const properties::Subject& plugin,
+                           const BenchProgress& progress);
 
 }  // namespace assay::reports

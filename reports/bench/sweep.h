@@ -1,6 +1,6 @@
-// Times several subjects on the same cases, side by side, and returns samples: the time of each
-// round, the results and their hashes. A subject is the built-in detector in this process, by its
-// options, or any detector in a worker. What is compared is measured in turn (interleave.h).
+// Times several subjects on the same case, side by side, and returns what they answered and the
+// times of each round. A subject is the built-in detector in this process, by its options, or any
+// detector in a worker. What is compared is measured in turn (interleave.h).
 #pragma once
 
 #include <cmath>
@@ -68,78 +68,49 @@ detector::Options options_of_sequence(detector::Culling culling, detector::Start
 // The detector. Throws UnusableData, with this name, if the mesh was refused.
 detector::Detector made(detector::Expected<detector::Detector> detector, const std::string& name);
 
-// Two exact cullings that are asked for all pairs of one step must find the same. A difference in
-// answers, pairs or their times is a wrong answer in the report.
-void check_same_pairs(const std::string& name, const detector::StepResult& a,
-                      const detector::StepResult& b, BenchReport& report);
+// How a case is played and timed.
+using Clock = double(const std::function<void()>& work);  // ns_of, wall_ns_of
 
-// One subject at one step.
-struct SweptStep {
-  std::vector<double> ns;              // processor time of the step, one sample for each round
-  std::vector<double> broad_phase_ns;  // of the same rounds
-  detector::StepResult result;         // of the last evaluation
-  std::uint64_t hash = 0;              // of that result (result_hash)
-  bool differs = false;                // two evaluations gave different results
+struct SweptSubject {
+  properties::WorkerProcess* worker = nullptr;  // null: the built-in detector in this process
+  properties::Configuration configuration;      // is_timed is set
 };
 
-// Each subject carries its own state from step to step, as it would for a user. All of them
-// evaluate each step rounds + 1 times in turn. Then `on_step` gets what they did, in the order of
-// the subjects, and then the step is committed if the case says so. `tick` is called between
-// evaluations. Throws UnusableData if a mesh is refused or a step is an error.
-using OnStep = std::function<void(std::size_t step, std::span<const SweptStep> subjects)>;
-void sweep_steps(
-    const corpus::Case& c, std::span<const detector::Options> subjects, int rounds,
-    const OnStep& on_step, const std::function<void()>& tick = [] {});
+struct SweepPlan {
+  int rounds = 2;
+  Clock* clock = ns_of;  // of subjects in this process
+  // Subjects in this process look at each step once before it is timed, so that a short case does
+  // not show what new memory costs.
+  bool is_warm = false;
+  // A subject whose first run had a step of more seconds is not run again. The samples of all
+  // rounds are then those of that run.
+  double longest_repeated = HUGE_VAL;
+  // A subject that took so many times as long as the fastest one takes part in two rounds alone.
+  double far_off = HUGE_VAL;
+  std::function<void()> tick = [] {};  // called between runs
+};
 
-// One subject on a whole sequence.
-struct SweptRun {
-  std::vector<std::vector<double>> ns;        // [round][step]
-  std::vector<detector::StepResult> results;  // of the round that is thrown away
+// The runs of one case by one subject.
+struct SweptRuns {
+  std::optional<properties::CaseRun> first;   // the one that is judged
+  std::vector<properties::RunTimes> samples;  // of each round, without the first run
+  std::string ended;                          // how a run ended that did not complete, in words
+  bool is_once = false;  // the first run is the only one, and stands for every round
+  bool has_differing_runs = false;
 
-  // For each round: the sum over its steps.
-  std::vector<double> sums() const;
-  // The times of one step, one for each round.
+  std::vector<double> sums() const;  // ms of all steps, one for each round
   std::vector<double> of_step(std::size_t step) const;
+  std::vector<double> create_ms() const;
 };
+
+// Runs the case rounds + 1 times by each subject, in turn, a whole case each time; the first round
+// is judged and not timed. The times of a worker are those of its own clock, with all of its
+// threads. A subject whose run did not complete is not run again. Throws UnusableData if the
+// detector in this process refuses the mesh, or a step of it is an error.
+std::vector<SweptRuns> sweep(const corpus::Case& c, std::span<const SweptSubject> subjects,
+                             const SweepPlan& plan);
 
 // The ratio over the rounds that both took part in.
 Estimate ratio_in_common(const std::vector<double>& a, const std::vector<double>& b);
-
-// In each round every subject makes a detector and plays all frames, which take `clock` (ns_of or
-// wall_ns_of) a step. A first round is thrown away. A subject that took three times as long as the
-// fastest one in that round takes part in the next two rounds alone, so it has fewer times than
-// the others.
-//
-// If a subject's answers, pairs or times of contact differ from those of the first subject, the
-// report counts a wrong answer. Runs with one culling must also agree in everything that
-// result_hash() covers, whatever their threads.
-using Clock = double(const std::function<void()>& work);
-std::vector<SweptRun> sweep_runs(const std::string& name, const corpus::Sequence& sequence,
-                                 std::span<const detector::Options> subjects, int rounds,
-                                 Clock& clock, BenchReport& report);
-
-// The runs of one case by one detector in a worker. The first run is judged.
-struct WorkerRuns {
-  std::optional<properties::CaseRun> first;
-  std::vector<double> create_ms;  // without the first run, unless it is the only one
-  std::vector<double> ms_a_step;  // as create_ms
-  std::string ended;              // how a run ended that did not complete, in words
-  bool is_once = false;           // the first run is the only one, and stands for every round
-  bool has_differing_runs = false;
-};
-
-struct WorkerSubject {
-  properties::WorkerProcess* worker;
-  properties::Configuration configuration;  // is_timed is set
-};
-
-// Runs the case rounds + 1 times by each subject, in turn, a whole case each time. The times are
-// those of the worker's own clock, with all of its threads. A subject does not run the case again
-// after a run that did not complete, nor if its first run had a step of more than
-// `longest_repeated` seconds; the samples of all rounds are then those of that run.
-std::vector<WorkerRuns> sweep_workers(const corpus::Case& c,
-                                      std::span<const WorkerSubject> subjects, int rounds,
-                                      const std::function<void()>& tick,
-                                      double longest_repeated = HUGE_VAL);
 
 }  // namespace assay::reports

@@ -1,5 +1,4 @@
-// `assay bench` runs one suite. It prints the rows, and writes the figures as JSON and CSV and the
-// picture.
+// `assay bench` runs one suite. It prints the rows, and writes the figures as JSON and CSV.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,9 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "corpus/meant_word.h"
-#include "reports/bench/pictures.h"
 #include "reports/bench/suites.h"
-#include "reports/bench/workers/detector_suite.h"
 #include "reports/check/detector_choice.h"
 #include "reports/terminal/progress.h"
 #include "reports/terminal/text_file.h"
@@ -24,34 +21,22 @@ struct BenchRequest {
   DetectorWords detector;  // the plug-in; not asked for if there is a suite
   BenchSettings settings;
   bool is_quick = false;
-  std::string json_file, csv_file, svg_file;  // an empty name: not written
+  std::string json_file, csv_file;  // an empty name: not written
 };
 
 struct Suite {
   std::string_view name;
   RunSuite* run;
-  bool has_picture = false;
 };
-constexpr Suite suites[] = {{"stability", stability_suite, true},
-                            {"speed-error", speed_error_suite, true},
+constexpr Suite suites[] = {{"stability", stability_suite},
+                            {"speed-error", speed_error_suite},
                             {"sequences", sequences_suite},
-                            {"peers", peers_suite, true}};
+                            {"peers", peers_suite}};
 
 const Suite* suite_named(std::string_view name) {
   const auto* found = std::find_if(std::begin(suites), std::end(suites),
                                    [&](const Suite& suite) { return suite.name == name; });
   return found == std::end(suites) ? nullptr : found;
-}
-
-// Says why no picture can be drawn. This is asked before the suite runs, because otherwise it
-// would be known only minutes later.
-std::string no_picture(const BenchRequest& request, const Suite* suite) {
-  if (request.svg_file.empty()) return {};
-  if (!suite || !suite->has_picture) {
-    return (suite ? "suite " + request.suite : std::string("bench --detector")) +
-           " has no picture; stability, speed-error and peers have one";
-  }
-  return cannot_draw();
 }
 
 constexpr double quick_scale = .1;
@@ -74,9 +59,7 @@ Expected<BenchReport> measure(const BenchRequest& request) {
 Expected<int> run_bench(const BenchRequest& request) try {
   if (request.suite.empty() && request.detector.library.empty())
     return Problem{"bench: --suite NAME, or --detector LIB.so, says what to measure"};
-  const auto* suite = suite_named(request.suite);
-  BOOST_OUTCOME_TRY(may_write({request.json_file, request.csv_file, request.svg_file}));
-  if (const auto problem = no_picture(request, suite); !problem.empty()) return Problem{problem};
+  BOOST_OUTCOME_TRY(may_write({request.json_file, request.csv_file}));
   BOOST_OUTCOME_TRY(report, measure(request));
   fmt::print("suite {}, data {}\n", report.suite, request.settings.data);
   fmt::print("{}", text_of(report));
@@ -91,11 +74,6 @@ Expected<int> run_bench(const BenchRequest& request) try {
       write(request.json_file,
             json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"));
   BOOST_OUTCOME_TRY(write(request.csv_file, csv_of(report)));
-  if (!request.svg_file.empty()) {
-    const auto drawing = draw(report.picture);
-    if (!drawing.problem.empty()) return Problem{drawing.problem};
-    BOOST_OUTCOME_TRY(write(request.svg_file, drawing.svg));
-  }
   return report.wrong_answers.empty() ? exit_holds : exit_defect;
 } catch (const UnusableData& problem) {
   return Problem{problem.what()};
@@ -130,10 +108,6 @@ void add_options(Verb& verb, BenchRequest& request) {
   verb.add("--json FILE", request.json_file, "Write all figures here (assay-bench/2)")
       .in(OptionGroup::output);
   verb.add("--csv FILE", request.csv_file, "Write the raw samples here").in(OptionGroup::output);
-  verb.add("--svg FILE", request.svg_file,
-           "Draw the suite's picture here (stability, speed-error, peers; needs "
-           "gnuplot)")
-      .in(OptionGroup::output);
 }
 
 }  // namespace

@@ -101,10 +101,12 @@ SLOW = {
         "--benchmark_enable_random_interleaving=true",
     ],
     "reports/bench/README.md": [
-        "assay bench --suite speed-error --svg reports/pictures/speed-error.svg",
+        "assay bench --suite speed-error --json build/speed-error.json",
+        "python3 reports/pictures/benches.py build/speed-error.json reports/pictures/speed-error.svg",
     ],
     "corpus/peers/README.md": [
-        "assay bench --suite peers --svg reports/pictures/peers.svg",
+        "assay bench --suite peers --json build/peers.json",
+        "python3 reports/pictures/benches.py build/peers.json reports/pictures/peers.svg",
     ],
     "reports/campaign/README.md": [
         "assay run --campaign smoke --out build/smoke",

@@ -5,8 +5,8 @@
 #include "properties/judging/case_check.h"
 #include "properties/judging/contracted_case.h"
 #include "properties/judging/judged_run.h"
-#include "reports/bench/workers/confirmation.h"
-#include "reports/bench/workers/peers.h"
+#include "reports/bench/compared/confirmation.h"
+#include "reports/bench/compared/tables.h"
 #include "tests/reports/program.h"
 
 namespace assay::reports {
@@ -40,48 +40,45 @@ CaseFamily two_steps(const std::string& kind) {
 
 struct SmallRun {
   Peers peers;
-  std::vector<PeerFamily> families;
-  std::vector<PeerRow> rows;
-  std::vector<std::string> wrong;
+  BenchReport report = BenchReport("peers");
+  std::vector<FamilyRow> families;
   std::vector<UnsafeAnswer> answers;
-
-  std::string text() const { return peers_text(rows, families, peers.absent, answers); }
+  std::vector<SubjectRow> rows;
+  std::string remarks;
 
   explicit SmallRun(const std::vector<std::string>& names) {
     const tests::Scratch scratch;
     put_peers(scratch, names);
     peers = find_peers(scratch / "");
-    PeerRuns runs(peers.subjects, {.small_seconds = .2, .large_seconds = .2});
-    families = runs.run(two_steps("generated"), wrong, answers, [] {});
-    rows = peer_rows(families, peers.subjects);
-  }
-  const PeerRow& row(const std::string& detector) const {
-    const auto found = std::find_if(rows.begin(), rows.end(),
-                                    [&](const auto& one) { return one.subject.name == detector; });
-    if (found == rows.end()) throw std::runtime_error("no row " + detector);
-    return *found;
+    Comparison comparison(peers.subjects, {.small_seconds = .2, .large_seconds = .2}, report);
+    comparison.run(two_steps("generated"));
+    families = comparison.rows();
+    answers = comparison.unsafe();
+    rows = by_subject(families, peers.subjects);
+    remarks = remarks_text(comparison, peers.absent);
+    add_figures(rows, comparison, report);
   }
 };
 
 TEST(PeersBench, ThoseOfAFolderStandBesideTheBuiltIn) {
   const SmallRun run({"always_free", "always_collision"});
-  EXPECT_TRUE(run.wrong.empty());
-  EXPECT_EQ(run.text().find("by the oracle alone"), std::string::npos);
+  EXPECT_TRUE(run.report.wrong_answers.empty());
+  EXPECT_EQ(run.remarks.find("by the oracle alone"), std::string::npos);
   ASSERT_EQ(run.rows.size(), 6u + 2u);
   for (const auto& row : run.rows) {
-    EXPECT_EQ(row.counts.errors.steps, 2u) << row.subject.name;
-    EXPECT_EQ(row.counts.errors.contact, 1u) << row.subject.name;
-    ASSERT_TRUE(row.over) << row.subject.name;
+    EXPECT_EQ(row.counts.errors.steps, 2u) << row.subject->name;
+    EXPECT_EQ(row.counts.errors.contact, 1u) << row.subject->name;
+    ASSERT_TRUE(row.over) << row.subject->name;
     EXPECT_GT(row.over->value, 0);
   }
   const auto& exact = run.rows.front();
-  EXPECT_EQ(exact.subject.name, "built-in, exact, bvh");
+  EXPECT_EQ(exact.subject->name, "built-in, exact, bvh");
   EXPECT_EQ(exact.over->value, 1);
   EXPECT_EQ(exact.counts.errors.unsafe + exact.counts.errors.false_alarms, 0u);
   EXPECT_EQ(exact.answers, "answer, time, pairs");
   std::uint64_t missed = 0, confirmed = 0;
   for (const auto& row : run.rows) {
-    if (row.subject.detector.built_in) continue;
+    if (row.subject->detector.built_in) continue;
     const bool is_free = row.counts.errors.missed > 0;
     EXPECT_EQ(row.counts.errors.false_alarms, is_free ? 0u : 1u);
     missed += row.counts.errors.missed;
@@ -96,16 +93,16 @@ TEST(PeersBench, ThoseOfAFolderStandBesideTheBuiltIn) {
 
 TEST(PeersBench, OneThatHangsOrCrashesEndsNothingElse) {
   const SmallRun run({"hang", "crash", "always_free", "query_alone"});
-  EXPECT_TRUE(run.wrong.empty());
+  EXPECT_TRUE(run.report.wrong_answers.empty());
   std::uint64_t ended = 0;
   for (const auto& row : run.rows) ended += row.ended;
   EXPECT_GE(ended, 2u) << "the hanging one ends early in each case";
   for (const auto& row : run.rows) {
     if (row.ended < 2) continue;
-    EXPECT_EQ(row.counts.errors.undecided, 2u) << row.subject.name;
-    EXPECT_FALSE(row.over) << row.subject.name;
+    EXPECT_EQ(row.counts.errors.undecided, 2u) << row.subject->name;
+    EXPECT_FALSE(row.over) << row.subject->name;
   }
-  const auto text = run.text();
+  const auto& text = run.remarks;
   EXPECT_NE(text.find("hung"), std::string::npos) << text;
   EXPECT_NE(text.find("absent: plugin_query_alone: it holds no steps"), std::string::npos) << text;
   EXPECT_NE(text.find("absent: fcl_elementary: libfcl-dev was not there"), std::string::npos);
@@ -125,20 +122,18 @@ TEST(PeersBench, OneThatIsAskedForADistanceTakesNoPart) {
 
 TEST(PeersBench, WhatNobodyPromisedStandsInBrackets) {
   SmallRun run({"always_free"});
-  run.rows.back().subject.detector.claims.set(properties::Claim::free_sound, false);
-  const auto text = run.text();
+  auto modest = *run.rows.back().subject;
+  modest.counted.set(properties::Claim::free_sound, false);
+  run.rows.back().subject = &modest;
+  const auto text = subjects_text(run.rows, "detector");
   EXPECT_NE(text.find("(1)"), std::string::npos) << text;
-  BenchReport report("peers");
-  add_figures(run.rows, run.families, run.peers.absent, run.answers, report);
-  const auto& picture = report.picture;
-  EXPECT_NE(picture.find("built-in, exact, auto"), std::string::npos);
-  EXPECT_NE(picture.find("constant answer"), std::string::npos);
-  const auto json = to_json(report, "version");
-  EXPECT_EQ(json["peers"].size(), run.rows.size());
-  EXPECT_EQ(json["peers"][0]["time_over_reference"]["median"], 1);
-  const auto csv = csv_of(report);
+  const auto json = to_json(run.report, "version");
+  EXPECT_EQ(json["subjects"].size(), run.rows.size());
+  EXPECT_EQ(json["subjects"][0]["time_over_reference"]["median"], 1);
+  // A line for each step of each subject that completed it.
+  const auto csv = csv_of(run.report);
   EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')),
-            1 + run.families.size());
+            1 + 2 * run.rows.size());
 }
 
 TEST(PeersBench, AContactIsConfirmedOnlyWhereThereIsOne) {
@@ -215,7 +210,7 @@ TEST(PeersBench, EachPeerThatIsPresentMissesItsStoredMesh) {
   const Peers peers = find_peers(ASSAY_PEER_DIR);
   const fs::path folder = fs::path(ASSAY_SOURCE_DIR) / "corpus/peers/meshes";
   std::size_t present = 0;
-  const auto expect_missed = [&](const PeerSubject& subject, const fs::path& file) {
+  const auto expect_missed = [&](const BenchSubject& subject, const fs::path& file) {
     if (!fs::exists(file)) return;
     ++present;
     const auto c = corpus::read_case(file.string()).value();
@@ -226,7 +221,7 @@ TEST(PeersBench, EachPeerThatIsPresentMissesItsStoredMesh) {
     const auto run = worker.run(*seen, {&configuration, 1}).front();
     std::vector<UnsafeAnswer> answers;
     const auto counts = counts_of(
-        subject, *seen, run, properties::judge_case(*seen, subject.detector.contract), answers);
+        subject, *seen, run, properties::judge_case(*seen, subject.detector.contract), &answers);
     EXPECT_EQ(counts.errors.missed, 1u) << subject.name;
     EXPECT_EQ(counts.confirmed, 1u) << subject.name;
     EXPECT_GT(run.times->peak_bytes, 100'000u) << subject.name;

@@ -1,11 +1,10 @@
 // Suite speed-error: its statistics on known numbers, its judgements on steps that floats get
 // wrong, its files.
-#include "reports/bench/whole/speed_error.h"
-
 #include <nlohmann/json.hpp>
 
 #include "properties/random.h"
 #include "reports/bench/cases.h"
+#include "reports/bench/compared/tables.h"
 #include "reports/estimate.h"
 #include "tests/reports/json_schema.h"
 #include "tests/test.h"
@@ -49,82 +48,50 @@ TEST(Bootstrap, RatiosAreTakenRoundByRound) {
 }
 
 TEST(Variants, EveryArithmeticCullingAndKindOfPairs) {
-  EXPECT_EQ(all_variants(false).size(), 4u * 6u * 2u);
-  EXPECT_EQ(all_variants(true).size(), 4u * 7u * 2u);
-  EXPECT_EQ(all_variants(false).front(), reference_variant);
-  EXPECT_EQ(name_of(reference_variant), "exact bvh all");
-}
-
-// A step that is judged, with these errors beside its contact.
-VariantStep judged(const std::string& family, Variant variant, double ns,
-                   properties::StepErrors errors = {}) {
-  VariantStep step;
-  step.family = family;
-  step.kind = "scene";
-  step.variant = variant;
-  step.triangles = 10;
-  step.ns = {ns, 2 * ns, 3 * ns};
-  step.reference_ns = {100, 200, 300};
-  step.errors = errors;
-  step.errors.steps = step.errors.contact = 1;
-  return step;
+  const auto variants = all_variants();
+  EXPECT_EQ(variants.size(), 4u * 7u * 2u);
+  EXPECT_EQ(variants.front().name, "exact bvh all");
 }
 
 TEST(ErrorSummary, TimesErrorsAndParetoLine) {
-  const Variant doubles{Arithmetic::double_precision, Culling::bvh, Pairs::all},
-      floats{Arithmetic::single_precision, Culling::bvh, Pairs::all};
-  properties::StepErrors right, missed, alarm, missing, late, both;
-  missed.missed = missed.unsafe = 1;
-  alarm.false_alarms = alarm.alarming = 1;
-  missing.missing = 2;
-  missing.unsafe = late.unsafe = 1;
-  late.late = {1, 0.25, 3, {{0.25, 1}}};
-  both = missed;
-  both.alarming = 1;
-  both.spurious = 4;
-  std::vector<VariantStep> steps;
-  // Two steps of each family. Doubles: two unsafe steps of the first. Floats: three unsafe ones,
+  const std::vector subjects = {variant_of(Arithmetic::exact, Culling::bvh, Pairs::all),
+                                variant_of(Arithmetic::double_precision, Culling::bvh, Pairs::all),
+                                variant_of(Arithmetic::single_precision, Culling::bvh, Pairs::all)};
+  // Two families of two steps. Doubles: two unsafe steps of the first. Floats: three unsafe ones,
   // and two alarming ones.
-  const properties::StepErrors of_doubles[] = {missing, late, right, right},
-                               of_floats[] = {alarm, missed, both, missed};
-  for (std::size_t s = 0; s < 4; ++s) {
-    const std::string family = s < 2 ? "a" : "b";
-    steps.push_back(judged(family, reference_variant, 100));
-    steps.push_back(judged(family, doubles, 50, of_doubles[s]));
-    steps.push_back(judged(family, floats, 60, of_floats[s]));
+  const std::uint64_t unsafe[2][3] = {{0, 2, 1}, {0, 0, 2}},
+                      alarming[2][3] = {{0, 0, 1}, {0, 0, 1}};
+  std::vector<FamilyRow> families;
+  for (std::size_t f = 0; f < 2; ++f) {
+    for (std::size_t i = 0; i < subjects.size(); ++i) {
+      FamilyRow row{subjects[i].name, f == 0 ? "a" : "b", "scene"};
+      const double ms[] = {100, 50, 60};
+      row.ms = {ms[i], 2 * ms[i], 3 * ms[i]};
+      row.reference_ms = {100, 200, 300};
+      row.create_ms = row.reference_create_ms = {1, 1, 1};
+      row.cases = row.cases_timed = 1;
+      row.steps = row.steps_timed = 2;
+      row.counts.errors.steps = 2;
+      row.counts.errors.unsafe = unsafe[f][i];
+      row.counts.errors.alarming = alarming[f][i];
+      families.push_back(row);
+    }
   }
-  const auto families = by_family(steps);
-  ASSERT_EQ(families.size(), 6u);
-  EXPECT_EQ(families[0].variant, reference_variant);
-  EXPECT_EQ(families[1].over_reference.value, 0.5);
-  EXPECT_EQ(families[1].ns_a_step.value, 100);
-  EXPECT_EQ(families[1].ns_a_triangle.value, 10);
-  EXPECT_EQ(families[1].errors.unsafe, 2u);
-  EXPECT_EQ(families[1].errors.missing, 2u);
-  EXPECT_EQ(families[1].errors.late.steps, 1u);
-  EXPECT_EQ(families[1].errors.late.worst_ulps, 3);
-  EXPECT_EQ(time_over(families, "b", floats, doubles).value, 1.2);
-  const auto variants = by_variant(families);
-  ASSERT_EQ(variants.size(), 3u);
-  EXPECT_EQ(variants[1].unsafe.share, 0.5);
-  EXPECT_LT(variants[1].unsafe.lo, 0.1);  // two of four say little
-  EXPECT_GT(variants[1].unsafe.hi, 0.9);
-  EXPECT_EQ(variants[0].unsafe.lo, 0);
-  EXPECT_NEAR(variants[0].unsafe.hi, 1 - std::pow(0.025, 0.25), 1e-9);
+  EXPECT_EQ(families[1].over()->value, 0.5);
+  const auto rows = by_subject(families, subjects);
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[1].over->value, 0.5);
+  EXPECT_EQ(rows[1].unsafe.share, 0.5);
+  EXPECT_LT(rows[1].unsafe.lo, 0.1);  // two of four say little
+  EXPECT_GT(rows[1].unsafe.hi, 0.9);
+  EXPECT_EQ(rows[0].unsafe.lo, 0);
+  EXPECT_NEAR(rows[0].unsafe.hi, 1 - std::pow(0.025, 0.25), 1e-9);
   // Floats are slower than doubles and worse in both.
-  EXPECT_TRUE(variants[0].unsafe.on_pareto_line);
-  EXPECT_TRUE(variants[1].unsafe.on_pareto_line);
-  EXPECT_FALSE(variants[2].unsafe.on_pareto_line);
-  EXPECT_FALSE(variants[0].alarming.on_pareto_line);  // doubles are faster, and as right in that
-  BenchReport report("speed-error");
-  add_figures(steps, families, variants, report);
-  EXPECT_NE(report.below.find("2 families (2 scene), 4 steps\n"), std::string::npos);
-  const auto csv = csv_of(report);
-  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 12);
-  EXPECT_TRUE(csv.starts_with("family,kind,case,step,triangles,arithmetic,culling,pairs,hash,"))
-      << csv;
-  EXPECT_NE(csv.find("double,bvh,all,0000000000000000,0,0,0,1,"), std::string::npos) << csv;
-  EXPECT_NE(csv.find(",50 100 150\n"), std::string::npos) << csv;
+  EXPECT_TRUE(rows[0].unsafe.on_pareto_line);
+  EXPECT_TRUE(rows[1].unsafe.on_pareto_line);
+  EXPECT_FALSE(rows[2].unsafe.on_pareto_line);
+  EXPECT_FALSE(rows[0].alarming.on_pareto_line);  // doubles are faster, and as right in that
+  EXPECT_NE(subjects_text(rows, "variant").find("double bvh all"), std::string::npos);
 }
 
 TEST(AroundFirstContact, EndsSoonAfterIt) {
@@ -138,36 +105,39 @@ TEST(AroundFirstContact, EndsSoonAfterIt) {
 
 // Small cases on which floats are wrong, and doubles a little: the judge must see it.
 TEST(ErrorRuns, FloatsAreWrongAndExactIsNot) {
-  std::vector<std::string> missing, wrong;
+  std::vector<std::string> missing;
   const auto families = all_families({"/nowhere", 0.1}, missing);
   EXPECT_EQ(missing.size(), 4u);
-  std::vector<VariantStep> steps;
+  const auto variants = all_variants();
+  BenchReport report("some");
+  Comparison comparison(variants, {.longest_repeated = HUGE_VAL}, report);
   for (const auto& family : families) {
-    if (family.name != "closed-near-degenerate") continue;
-    for (const auto& timed : family.cases()) {
-      const auto done = run_case(family, timed, wrong, [] {});
-      steps.insert(steps.end(), done.begin(), done.end());
-    }
+    if (family.name == "closed-near-degenerate") comparison.run(family);
   }
-  EXPECT_TRUE(wrong.empty()) << wrong.front();
+  EXPECT_TRUE(report.wrong_answers.empty()) << report.wrong_answers.front();
   using properties::StepErrors;
-  const auto count = [&](Arithmetic arithmetic, std::uint64_t StepErrors::*member) {
+  const auto count = [&](const std::string& arithmetic, std::uint64_t StepErrors::*member) {
     std::uint64_t sum = 0;
-    for (const auto& s : steps) sum += s.variant.arithmetic == arithmetic ? s.errors.*member : 0;
+    for (const auto& row : comparison.rows())
+      sum += row.subject.starts_with(arithmetic) ? row.counts.errors.*member : 0;
     return sum;
   };
-  EXPECT_EQ(count(Arithmetic::exact, &StepErrors::unsafe), 0u);
-  EXPECT_EQ(count(Arithmetic::exact, &StepErrors::alarming), 0u);
-  EXPECT_EQ(count(Arithmetic::bounded, &StepErrors::unsafe), 0u);
-  EXPECT_GT(count(Arithmetic::single_precision, &StepErrors::unsafe), 0u);
-  EXPECT_GT(count(Arithmetic::single_precision, &StepErrors::alarming), 0u);
-  EXPECT_GT(count(Arithmetic::double_precision, &StepErrors::unsafe), 0u);
+  EXPECT_EQ(count("exact ", &StepErrors::unsafe), 0u);
+  EXPECT_EQ(count("exact ", &StepErrors::alarming), 0u);
+  EXPECT_EQ(count("bounded ", &StepErrors::unsafe), 0u);
+  EXPECT_GT(count("float ", &StepErrors::unsafe), 0u);
+  EXPECT_GT(count("float ", &StepErrors::alarming), 0u);
+  EXPECT_GT(count("double ", &StepErrors::unsafe), 0u);
+  // A line for each step and subject, with the times of all rounds.
+  const auto csv = csv_of(report);
+  EXPECT_TRUE(csv.starts_with("family,kind,case,step,triangles,subject,hash,box_tests,")) << csv;
+  EXPECT_NE(csv.find("float bvh all"), std::string::npos);
 }
 
 TEST(SpeedErrorSuite, EveryFamilyAndVariant) {
   const BenchReport report = speed_error_suite({"/nowhere", 0.01}, {});
   EXPECT_TRUE(report.wrong_answers.empty()) << text_of(report);
-  EXPECT_EQ(report.figures.at("variants").size(), all_variants(true).size());
+  EXPECT_EQ(report.figures.at("subjects").size(), all_variants().size());
   for (const auto& row : report.rows) {
     EXPECT_TRUE(!row.measured || std::isfinite(row.measured->value)) << row.label;
     if (row.label == "wrong answers, exact") {
@@ -178,8 +148,8 @@ TEST(SpeedErrorSuite, EveryFamilyAndVariant) {
   tests::expect_schema("bench", json);
   EXPECT_EQ(json["families"].size(), report.figures.at("families").size());
   EXPECT_EQ(json["families"][0]["time_over_reference"]["samples"].size(), 2u);
-  EXPECT_EQ(json["variants"][0]["errors"]["unsafe"], 0);
-  EXPECT_NE(text_of(report).find("double     view-auto   all"), std::string::npos);
+  EXPECT_EQ(json["subjects"][0]["counts"]["unsafe"], 0);
+  EXPECT_NE(text_of(report).find("double view-auto all"), std::string::npos);
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 // Suite `stability`: right arithmetic is shown as right, and arithmetic that is wrong on purpose as
 // wrong in the way that it is.
-#include "reports/bench/whole/stability.h"
+#include "reports/bench/stability/stability.h"
 
 #include <nlohmann/json.hpp>
 
 #include "detector/step/stages.h"
-#include "reports/bench/whole/stability_changes.h"
+#include "reports/bench/stability/stability_changes.h"
 #include "tests/reports/json_schema.h"
 #include "tests/test.h"
 

@@ -12,14 +12,14 @@ TEST(PeersSuite, EveryPeerThatIsPresentHasFigures) {
                        (scratch / "peers.json"));
   ASSERT_EQ(done.exit_code, 0) << done.out << done.err;
   const auto json = nlohmann::json::parse(tests::read_text(scratch / "peers.json"));
-  ASSERT_GE(json["peers"].size(), 6u + 5u) << "these need no library";
+  ASSERT_GE(json["subjects"].size(), 6u + 5u) << "these need no library";
   for (const auto& absent : json["absent_peers"]) {
     const std::string name = absent["name"];
     EXPECT_FALSE(absent["why"].get<std::string>().empty()) << name;
     EXPECT_NE(done.out.find("absent: " + name), std::string::npos);
   }
-  for (const auto& row : json["peers"]) {
-    const std::string name = row["detector"];
+  for (const auto& row : json["subjects"]) {
+    const std::string name = row["subject"];
     const auto& counts = row["counts"];
     EXPECT_FALSE(row["time_over_reference"].is_null()) << name;
     EXPECT_FALSE(row["bytes_a_triangle"].is_null()) << name;
@@ -29,7 +29,7 @@ TEST(PeersSuite, EveryPeerThatIsPresentHasFigures) {
     if (!row["is_built_in"].get<bool>()) {
       // Nobody is accused by the oracle alone.
       for (const auto& answer : json["unsafe_answers"]) {
-        if (answer["detector"] == name && answer["what"] == "missed") {
+        if (answer["subject"] == name && answer["what"] == "missed") {
           EXPECT_TRUE(answer["confirmed"].get<bool>()) << answer.dump();
         }
       }

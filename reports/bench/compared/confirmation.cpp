@@ -1,4 +1,4 @@
-#include "reports/bench/workers/confirmation.h"
+#include "reports/bench/compared/confirmation.h"
 
 #include <algorithm>
 #include <cmath>

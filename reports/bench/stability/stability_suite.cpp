@@ -4,9 +4,8 @@
 
 #include <algorithm>
 
-#include "reports/bench/pictures.h"
-#include "reports/bench/whole/stability.h"
-#include "reports/bench/whole/stability_changes.h"
+#include "reports/bench/stability/stability.h"
+#include "reports/bench/stability/stability_changes.h"
 
 namespace assay::reports {
 namespace {
@@ -173,7 +172,6 @@ BenchReport stability_of(std::span<const corpus::HardFamily> families,
                          const BenchProgress& progress, std::vector<StabilityCell>* cells) {
   BenchReport report("stability");
   AllFound all;
-  std::vector<HeatCell> heat;
   for (const auto& family : families) {
     progress.phase(std::string(family.name));
     std::vector<std::string> disagreements;
@@ -185,8 +183,6 @@ BenchReport stability_of(std::span<const corpus::HardFamily> families,
     }
     for (const auto& of_subject : found) {
       for (const auto& cell : of_subject.cells) {
-        heat.push_back({cell.family, cell.arithmetic, cell.cases, cell.right,
-                        static_cast<int>(cell.errors.missed)});
         if (cells) cells->push_back(cell);
       }
     }
@@ -194,7 +190,6 @@ BenchReport stability_of(std::span<const corpus::HardFamily> families,
     all.emplace_back(family.name, std::move(found));
   }
   add_common_rows(subjects, all, report);
-  report.picture = heat_picture(heat);
   return report;
 }
 

@@ -1,12 +1,12 @@
-#include "reports/bench/whole/stability.h"
+#include "reports/bench/stability/stability.h"
 
 #include <algorithm>
 
 #include "oracle/view/view_sign.h"
 #include "properties/judging/case_options.h"
 #include "properties/worker/case_player.h"
+#include "reports/bench/stability/stability_changes.h"
 #include "reports/bench/sweep.h"
-#include "reports/bench/whole/stability_changes.h"
 
 namespace assay::reports {
 

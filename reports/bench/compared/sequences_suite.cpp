@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <thread>
 
 #include "reports/bench/cases.h"
@@ -47,7 +48,7 @@ std::vector<Options> subjects_of(Start start, std::uint32_t cores) {
 struct Played {
   std::string name;
   std::vector<Options> subjects;
-  std::vector<SweptRun> runs;  // by subject
+  std::vector<SweptRuns> runs;  // by subject
 
   static constexpr std::size_t singles = 4, automatic = 4, bvh_of_all = 5, automatic_of_all = 6;
   std::size_t best_single() const {
@@ -57,8 +58,33 @@ struct Played {
     }
     return best;
   }
-  std::size_t steps() const { return runs[0].results.size(); }
+  std::size_t steps() const { return runs[0].first->steps.size(); }
 };
+
+// All runs must agree in answers, pairs and times of contact, and runs with one culling in
+// everything that result_hash() covers, whatever their threads.
+void find_differences(const Played& played, BenchReport& report) {
+  std::map<std::pair<std::size_t, Culling>, std::uint64_t> hashes;
+  for (std::size_t i = 0; i < played.runs.size(); ++i) {
+    for (std::size_t s = 0; s < played.steps(); ++s) {
+      const auto& result = played.runs[i].first->steps[s];
+      const auto label = fmt::format("{}, step {}", played.name, s + 1);
+      const auto hash = result_hash(result);
+      if (hashes.try_emplace({s, played.subjects[i].culling}, hash).first->second != hash)
+        report.wrong_answers.push_back(label + ": the same culling gives another result");
+      const auto& first = played.runs[0].first->steps[s];
+      const bool same =
+          result.answer == first.answer && result.first == first.first &&
+          std::equal(result.pairs.begin(), result.pairs.end(), first.pairs.begin(),
+                     first.pairs.end(), [](const PairContact& one, const PairContact& other) {
+                       return one.pair == other.pair && one.time == other.time;
+                     });
+      if (!same) report.wrong_answers.push_back(label + ": two cullings find different pairs");
+    }
+    if (played.runs[i].has_differing_runs)
+      report.wrong_answers.push_back(played.name + ": two runs differ");
+  }
+}
 
 // Adds the times of all cullings over that of bvh, for users who want to choose by themselves.
 void add_table_rows(const Played& played, BenchReport& report) {
@@ -70,7 +96,7 @@ void add_table_rows(const Played& played, BenchReport& report) {
                     subject.threads, subject.threads == 1 ? "" : "s"),
         "times", ratio_in_common(sums, played.runs[0].sums()), {},
         fmt::format("{:.2f} ms a step",
-                    1e-6 * median_of(sums).value / static_cast<double>(played.steps())));
+                    median_of(sums).value / static_cast<double>(played.steps())));
   }
 }
 
@@ -87,8 +113,8 @@ void judge_automatic(const Played& played, BenchReport& report) {
   for (std::size_t s = 0; s < played.steps(); ++s) {
     const double ratio = ratio_in_common(automatic.of_step(s), best.of_step(s)).value;
     ratios.push_back(ratio);
-    constexpr double long_enough_ns = 1e6;
-    if (ratio > worst && median_of(automatic.of_step(s)).value >= long_enough_ns) {
+    constexpr double long_enough_ms = 1;
+    if (ratio > worst && median_of(automatic.of_step(s)).value >= long_enough_ms) {
       worst = ratio;
       worst_step = s;
     }
@@ -124,8 +150,17 @@ BenchReport sequences_suite(const BenchSettings& settings, const BenchProgress& 
   const auto play = [&](const std::string& name, const corpus::Sequence& sequence, Start start) {
     progress.phase(name);
     Played played{name, subjects_of(start, cores), {}};
-    played.runs = sweep_runs(name, sequence, played.subjects, settings.rounds(full_rounds),
-                             wall_ns_of, report);
+    const auto timed = timed_case(name, sequence, start);
+    std::vector<SweptSubject> swept;
+    for (const auto& options : played.subjects) swept.push_back({nullptr, {name, options}});
+    // A culling that takes three times as long as another one is no choice, and two rounds suffice
+    // to tell how far off it is.
+    played.runs = sweep(timed.c, swept,
+                        {.rounds = settings.rounds(full_rounds),
+                         .clock = wall_ns_of,
+                         .far_off = 3,
+                         .tick = progress.tick});
+    find_differences(played, report);
     add_table_rows(played, report);
     judge_automatic(played, report);
     if (cores > 1) judge_threads(played, cores, report);

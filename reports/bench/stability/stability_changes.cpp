@@ -1,4 +1,4 @@
-#include "reports/bench/whole/stability_changes.h"
+#include "reports/bench/stability/stability_changes.h"
 
 #include <algorithm>
 #include <cmath>

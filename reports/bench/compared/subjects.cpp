@@ -1,0 +1,136 @@
+#include "reports/bench/compared/subjects.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "properties/worker/worker_process.h"
+
+namespace assay::reports {
+
+using detector::Arithmetic;
+using detector::Culling;
+using detector::Pairs;
+
+properties::WorkerProcess BenchSubject::make_worker(double seconds) const {
+  return {worker, plugin, {.seconds = seconds}};
+}
+
+BenchSubject variant_of(Arithmetic arithmetic, Culling culling, Pairs pairs) {
+  BenchSubject subject;
+  subject.name = fmt::format("{} {} {}", name_of(arithmetic), name_of(culling), name_of(pairs));
+  subject.options = {culling, detector::Start::verified, pairs, arithmetic};
+  subject.is_here = true;
+  subject.detector.built_in = true;
+  subject.detector.claims = properties::claims_of(subject.options);
+  subject.counted = properties::claims_of({.pairs = pairs});
+  return subject;
+}
+
+std::vector<BenchSubject> all_variants() {
+  auto variants = std::vector{variant_of(Arithmetic::exact, Culling::bvh, Pairs::all)};
+  for (const auto arithmetic : all_values<Arithmetic>) {
+    for (const auto culling : all_values<Culling>) {
+      for (const auto pairs : all_values<Pairs>) {
+        auto variant = variant_of(arithmetic, culling, pairs);
+        if (variant.name != variants.front().name) variants.push_back(std::move(variant));
+      }
+    }
+  }
+  return variants;
+}
+
+BenchSubject built_in_in_worker(const detector::Options& options) {
+  BenchSubject subject;
+  subject.worker = properties::worker_program();
+  subject.name =
+      fmt::format("built-in, {}, {}", name_of(options.arithmetic), name_of(options.culling));
+  subject.options = options;
+  subject.detector.built_in = true;
+  subject.detector.claims = properties::claims_of(options);
+  subject.detector.contract = properties::contract_of(options);
+  subject.counted = properties::claims_of({}).only(properties::claims_from_outside);
+  return subject;
+}
+
+namespace {
+
+// The detectors for which corpus/peers has adapters, and what each is built with.
+struct KnownPeer {
+  const char *file, *needs;
+};
+constexpr const char* of_tight_inclusion =
+    "Tight-Inclusion was not found when it was built (corpus/peers/README.md)";
+constexpr const char* of_ipc_toolkit =
+    "the IPC Toolkit was not found when it was built (corpus/peers/README.md)";
+constexpr KnownPeer known_peers[] = {{"cubic_double", nullptr},
+                                     {"cubic_float", nullptr},
+                                     {"cubic_eigen", "libeigen3-dev was not there"},
+                                     {"sampled_1", nullptr},
+                                     {"sampled_10", nullptr},
+                                     {"sampled_100", nullptr},
+                                     {"fcl_elementary", "libfcl-dev was not there"},
+                                     {"bullet_bernstein", "libbullet-dev was not there"},
+                                     {"tight_inclusion", of_tight_inclusion},
+                                     {"ipc_tight_inclusion", of_ipc_toolkit},
+                                     {"ipc_additive", of_ipc_toolkit}};
+
+void add_library(const std::filesystem::path& file, Peers& peers) {
+  auto opened = properties::Subject::open(properties::worker_program(), file.string(),
+                                          properties::DetectorPart::by_library, {});
+  const std::string file_name = file.stem().string();
+  const auto why = !opened                                           ? opened.error().message
+                   : !opened.value().description.parts.steps         ? "it holds no steps"
+                   : opened.value().detector.contract.separation > 0 ? "it is asked for a distance"
+                                                                     : "";
+  if (!why.empty()) {
+    peers.absent.push_back({file_name, why});
+    return;
+  }
+  BenchSubject subject{std::move(opened.value())};
+  subject.name = subject.description.name;
+  subject.must_hold = false;
+  subject.counted = subject.detector.claims;
+  if (std::any_of(peers.subjects.begin(), peers.subjects.end(),
+                  [&](const BenchSubject& other) { return other.name == subject.name; }))
+    subject.name += fmt::format(" ({})", file_name);
+  peers.subjects.push_back(std::move(subject));
+}
+
+// Known detectors stand in the order of their list. Others stand behind them, by name.
+std::size_t place_of(const std::filesystem::path& file) {
+  const auto* known = std::find_if(std::begin(known_peers), std::end(known_peers),
+                                   [&](const KnownPeer& peer) { return file.stem() == peer.file; });
+  return static_cast<std::size_t>(known - std::begin(known_peers));
+}
+
+}  // namespace
+
+Peers find_peers(const std::string& folder) {
+  Peers peers;
+  for (const auto arithmetic :
+       {Arithmetic::exact, Arithmetic::bounded, Arithmetic::double_precision}) {
+    for (const auto culling : {Culling::bvh, Culling::automatic})
+      peers.subjects.push_back(
+          built_in_in_worker({culling, detector::Start::verified, Pairs::all, arithmetic}));
+  }
+  std::vector<std::filesystem::path> files;
+  std::error_code unreadable;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, unreadable)) {
+    if (entry.path().extension() == ".so") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) {
+    return std::pair(place_of(a), a) < std::pair(place_of(b), b);
+  });
+  for (const auto& file : files) add_library(file, peers);
+  for (const auto& [file, needs] : known_peers) {
+    const bool is_there = std::any_of(
+        files.begin(), files.end(), [name = file](const auto& one) { return one.stem() == name; });
+    if (is_there) continue;
+    peers.absent.push_back({file, needs ? needs : fmt::format("{}.so is not in {}", file, folder)});
+  }
+  return peers;
+}
+
+}  // namespace assay::reports
