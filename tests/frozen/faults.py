@@ -43,9 +43,10 @@ def main():
                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
         found = ended.returncode == 1 and "Traceback" not in ended.stdout
         rows = [line for line in ended.stdout.splitlines() if line.startswith("-")]
-        print(f"{name:24} {'found' if found else 'MISSED'}: {len(rows)} rows; "
+        is_right = found != (name == "none")
+        print(f"{name:24} {'right' if is_right else 'WRONG'}: {len(rows)} rows differ; "
               f"{rows[0][:100] if rows else ''}", flush=True)
-        if found == (name == "none"):
+        if not is_right:
             missed.append(name)
     print(f"{len(chosen)} faults, wrong: {', '.join(missed) or 'none'}")
     return 1 if missed else 0

@@ -1,0 +1,100 @@
+// No room grows: each has a budget of lines, which falls with what goes; and what lines are for.
+#include <iomanip>
+#include <iostream>
+
+#include "tests/house/tree.h"
+
+namespace assay::tests {
+namespace {
+
+// Lines that are neither blank nor a comment alone.
+std::size_t lines_of(const std::string& path) {
+  std::istringstream in(text_of(path));
+  std::size_t lines = 0;
+  for (std::string line; std::getline(in, line);) {
+    const auto begin = line.find_first_not_of(" \t");
+    lines += begin != std::string::npos && line.compare(begin, 2, "//") != 0 ? 1 : 0;
+  }
+  return lines;
+}
+
+// A budget is what the room has today. It falls with the room, and rises only by what the change
+// that is asked for is allowed. Detectors of others count apart.
+TEST(Budget, NoRoomGrows) {
+  const std::map<std::string, std::size_t> budgets = {
+      {"detector", 15873},   {"oracle", 6474},   {"corpus", 5526}, {"corpus/peers", 889},
+      {"properties", 29258}, {"reports", 14906}, {"tests", 48110}};
+  std::map<std::string, std::size_t> lines;
+  for (const auto* room : rooms) {
+    for (const auto& file : files_below(room)) {
+      if (!is_source(file)) continue;
+      lines[file.starts_with("corpus/peers/") ? "corpus/peers" : room] += lines_of(file);
+    }
+  }
+  constexpr std::size_t slack = 100;  // so much may go before the budget has to follow
+  for (const auto& [room, budget] : budgets) {
+    EXPECT_LE(lines[room], budget) << room << " grows: take something out, or say who allows it";
+    EXPECT_GE(lines[room] + slack, budget) << room << " has shrunk: let its budget fall";
+  }
+}
+
+struct Capability {
+  const char* what;
+  const char* who;                  // uses it
+  std::vector<std::string> places;  // what their paths begin with; the first row that fits counts
+};
+
+const std::vector<Capability>& capabilities() {
+  static const std::vector<Capability> list = {
+      {"distances", "owners of detectors that keep one", {"detector/distance", "oracle/distance"}},
+      {"the plug-in interface", "owners of a detector", {"detector/plugin"}},
+      {"a detector that is right", "simulations", {"detector/"}},
+      {"exact judgement", "everybody", {"oracle/"}},
+      {"detectors of others", "who reads the comparison", {"corpus/peers"}},
+      {"meshes, cases, queries, scenes in files", "everybody", {"corpus/"}},
+      {"what a detector claims, and how it is judged",
+       "everybody",
+       {"properties/claims", "properties/judging", "properties/queries"}},
+      {"random cases", "campaigns", {"properties/generators"}},
+      {"laws as tests", "who reads the proof", {"properties/laws", "properties/worlds"}},
+      {"planted faults", "who doubts the judge", {"properties/faults"}},
+      {"the search for failures", "owners of a detector", {"properties/search"}},
+      {"smallest meshes", "owners of a detector", {"properties/reducer"}},
+      {"a detector in a process of its own", "everybody", {"properties/worker"}},
+      {"campaigns and gates", "owners, reviewers", {"properties/campaign", "reports/campaign"}},
+      {"certificates and pages", "reviewers", {"reports/certificate", "reports/page"}},
+      {"check, judge, queries",
+       "owners of a simulator, of a mesh",
+       {"reports/check", "reports/judge", "reports/queries", "reports/steps", "reports/pictures"}},
+      {"benches", "who compares speed and error", {"reports/bench"}},
+      {"the Python module", "researchers", {"reports/python"}},
+      {"the command line", "everybody", {"reports/terminal", "reports/verbs", "reports/"}},
+      {"what rooms share", "the rooms", {"properties/"}}};
+  return list;
+}
+
+TEST(Budget, EachLineServesACapability) {
+  std::map<const Capability*, std::size_t> lines;
+  for (const auto* room : rooms) {
+    if (std::string(room) == "tests") continue;
+    for (const auto& file : files_below(room)) {
+      if (!is_source(file)) continue;
+      const auto fits = [&](const Capability& one) {
+        return std::any_of(one.places.begin(), one.places.end(),
+                           [&](const auto& place) { return file.starts_with(place); });
+      };
+      const auto& all = capabilities();
+      const auto found = std::find_if(all.begin(), all.end(), fits);
+      ASSERT_NE(found, all.end()) << file;
+      lines[&*found] += lines_of(file);
+    }
+  }
+  for (const auto& one : capabilities()) {
+    EXPECT_GT(lines[&one], 0u) << one.what << ": nothing is there";
+    std::cout << std::left << std::setw(46) << one.what << std::setw(36) << one.who << std::right
+              << std::setw(7) << lines[&one] << "\n";
+  }
+}
+
+}  // namespace
+}  // namespace assay::tests
