@@ -63,16 +63,4 @@ class JsonField {
   std::string place_;
 };
 
-// Reads an array, item by item.
-template <class T, class ReadItem>
-Expected<std::vector<T>> read_list(const JsonField& field, ReadItem read_item) {
-  BOOST_OUTCOME_TRY(size, field.size());
-  std::vector<T> list;
-  for (std::size_t i = 0; i < size; ++i) {
-    BOOST_OUTCOME_TRY(item, read_item(field.item(i)));
-    list.push_back(std::move(item));
-  }
-  return list;
-}
-
 }  // namespace assay::corpus

@@ -14,7 +14,7 @@ namespace {
 
 using detector::Point;
 
-// A rule: triangles name vertices below `vertices`, and unless they may, none twice.
+// A rule: triangles name vertices below `vertices`. Unless `may_repeat`, none names one twice.
 struct Corners {
   std::int64_t vertices;
   bool may_repeat;

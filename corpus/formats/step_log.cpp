@@ -12,7 +12,9 @@
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "detector/mesh/mesh_checks.h"
 
@@ -193,20 +195,68 @@ std::optional<Positions> end_of(const Json& body, Eigen::Index vertices) {
   return places(value_of(body, body.contains("committed") ? "committed" : "x1"), vertices);
 }
 
-// Returns the body as a map, each array with its tag. Null if the bytes are no such map, or if its
+// Returns the number of keys in all maps of the bytes. Nothing unless they are one item of definite
+// lengths, nested so little that from_cbor, which calls itself for each level, stays in its stack; a
+// tag is one of bytes, as typed arrays have it, and no number is below those of 64 bits.
+std::optional<std::uint64_t> keys_of(std::string_view bytes) {
+  enum Major : unsigned { negative = 1, byte_text = 2, text = 3, array = 4, map = 5, tag = 6 };
+  constexpr std::size_t deepest = 64;
+  constexpr auto most_negative =
+      static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+  std::vector<std::uint64_t> left = {1};  // items that are to come, by level
+  std::uint64_t keys = 0;
+  while (!left.empty()) {
+    if (left.back() == 0) {
+      left.pop_back();
+      continue;
+    }
+    --left.back();
+    if (bytes.empty()) return std::nullopt;
+    const auto head = static_cast<std::uint8_t>(bytes[0]);
+    const unsigned major = head >> 5, info = head & 31;
+    const std::size_t more = info < 24 ? 0 : std::size_t{1} << (info - 24);
+    if (info > 27 || 1 + more > bytes.size()) return std::nullopt;
+    std::uint64_t argument = more == 0 ? info : 0;
+    for (std::size_t i = 1; i <= more; ++i)
+      argument = argument << 8 | static_cast<std::uint8_t>(bytes[i]);
+    bytes.remove_prefix(1 + more);
+    // What an item holds takes a byte at least.
+    if (major >= byte_text && major <= map && argument > bytes.size()) return std::nullopt;
+    if (major == negative && argument > most_negative) return std::nullopt;
+    if (major == byte_text || major == text) bytes.remove_prefix(argument);
+    if (major == array || major == map) {
+      if (left.size() > deepest) return std::nullopt;
+      keys += major == map ? argument : 0;
+      left.push_back(major == map ? 2 * argument : argument);
+    }
+    if (major == tag) {
+      if (bytes.empty() || static_cast<std::uint8_t>(bytes[0]) >> 5 != byte_text)
+        return std::nullopt;
+      ++left.back();
+    }
+  }
+  return bytes.empty() ? std::optional(keys) : std::nullopt;
+}
+
+std::uint64_t keys_of(const Json& value) {
+  std::uint64_t keys = value.is_object() ? value.size() : 0;
+  if (value.is_structured()) {
+    for (const auto& member : value) keys += keys_of(member);
+  }
+  return keys;
+}
+
+// Returns the body as a map, each array with its tag. Null if the bytes are no such map, or if a
 // map names a key twice.
 Json parse(const std::string& body) {
-  constexpr unsigned map_head = 0xA0, map_head_of_a_byte = 0xB8;
-  Json map;
+  const auto keys = keys_of(std::string_view(body));
+  if (!keys) return nullptr;
   try {
-    map = Json::from_cbor(body, true, true, Json::cbor_tag_handler_t::store);
+    auto map = Json::from_cbor(body, true, true, Json::cbor_tag_handler_t::store);
+    return map.is_object() && keys_of(map) == *keys ? map : Json(nullptr);
   } catch (const Json::exception&) {
     return nullptr;
   }
-  const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(body[i]); };
-  const std::size_t keys = byte(0) == map_head_of_a_byte ? byte(1) : byte(0) - map_head;
-  if (!map.is_object() || map.size() != keys) return nullptr;
-  return map;
 }
 
 }  // namespace

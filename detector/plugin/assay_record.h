@@ -90,7 +90,7 @@ typedef struct assay_recorder {
   uint32_t crc;
   /* The log. */
   int32_t is_begun;
-  int32_t triangle_count; /* it lies where there was a gap */
+  int32_t triangle_count; /* here it takes no padding */
   uint64_t every, vertex_count;
   char* path;
   FILE* file;

@@ -154,7 +154,41 @@ TEST_F(ForeignLogs, MapsThatAreNoneEndThem) {
   endless[0] = 0xBF;
   endless.push_back(0xFF);
   cut.pop_back();
-  for (const auto& body : {twice, endless, cut, std::vector<std::uint8_t>()}) {
+  // A map of 300 members, as nlohmann writes it; its last key renamed to one that is there.
+  auto many = step(0);
+  for (int i = 0; i < 300; ++i) many["later" + std::to_string(1000 + i)] = i;
+  ASSERT_EQ(StepLog::open(write("many.log", record(begin()) + record(Json::to_cbor(many))))
+                .value()
+                .count(),
+            1u);
+  auto same = Json::to_cbor(many);
+  const std::string last = "later1299", other = "later1298";
+  std::copy(other.begin(), other.end(),
+            std::search(same.begin(), same.end(), last.begin(), last.end()));
+  const auto with = [&](std::vector<std::uint8_t> value) {
+    auto body = good;
+    ++body[0];
+    body.insert(body.end(), {0x61, 'x'});
+    body.insert(body.end(), value.begin(), value.end());
+    return body;
+  };
+  // -2^64, which no integer holds; a map that names a key twice; a tag before a text.
+  std::vector<std::vector<std::uint8_t>> bodies = {
+      twice,
+      endless,
+      cut,
+      {},
+      same,
+      with({0x3B, 255, 255, 255, 255, 255, 255, 255, 255}),
+      with({0xA2, 0x61, 'a', 0, 0x61, 'a', 1}),
+      with({0xC0, 0x61, 'a'})};
+  EXPECT_EQ(StepLog::open(write("x.log", record(begin()) + record(with({0xA1, 0x61, 'a', 0}))))
+                .value()
+                .count(),
+            1u);
+  for (const std::uint8_t holder : {0x81, 0x9F, 0xC6, 0xBF, 0x5F, 0x7F})
+    bodies.emplace_back(1'000'000, holder);
+  for (const auto& body : bodies) {
     const auto log = StepLog::open(write("map.log", record(begin()) + record(body)));
     EXPECT_EQ(log.value().count(), 0u);
     EXPECT_EQ(log.value().damage()->what, "a record that nothing is known of");

@@ -286,8 +286,8 @@ TEST_F(StepLogs, GrowWhileTheyAreRead) {
   writer.end();
   ASSERT_TRUE(log.go_on());
   EXPECT_TRUE(log.is_ended());
-  std::filesystem::rename(path, path.string() + ".before");
-  write("grows.log", bytes_of(path.string() + ".before"));
+  std::filesystem::rename(path, path.string() + ".moved");
+  write("grows.log", bytes_of(path.string() + ".moved"));
   EXPECT_FALSE(log.go_on());
 }
 
