@@ -152,6 +152,7 @@ std::string asked_text(const properties::DetectorUnderTest& detector, bool is_qu
   // The features of a query are no neighbours, so a slack does not make this void.
   if (is_query) asked.set(Claim::no_spurious, claims.has(Claim::no_spurious));
   if (broken) asked = {*broken};
+  asked.set(Claim::times_unique, false);  // nobody claims it but the built-in detector: test_text
   std::vector<std::string> names;
   for (const auto claim : all_values<Claim>) {
     if (asked.has(claim))
@@ -329,12 +330,16 @@ TEST(AssayCase, Holds) {
     const Found found = ask(made.value());
     EXPECT_TRUE(found.is_answered);
     EXPECT_FALSE(is_wrong(the_case, s, found, ask(again.value())));
+    if (has_unique_times)
+      EXPECT_TRUE(holds(Claim::times_unique, the_case, the_case.steps[s], found));
   }
 }
 )";
 
 // The options of the built-in detector, the view that each step is given, and the test.
-std::string test_text(const corpus::Case& c, const detector::Options& options) {
+std::string test_text(const corpus::Case& c, const properties::DetectorUnderTest& detector) {
+  const auto& configuration = detector.configurations.front();
+  const auto& options = configuration.options;
   std::string views;
   for (std::size_t s = 0; s < corpus::steps_of(c).size(); ++s) {
     std::string given;
@@ -350,12 +355,13 @@ std::string test_text(const corpus::Case& c, const detector::Options& options) {
   return fmt::format(
       "{}{}static const builtin::Options options = {{\n{}{}{}{}{}}};\n"
       "static const Views views[] = {{\n{}}};\n"
-      "static const bool is_refused = {};\n{}",
+      "static const bool is_refused = {}, has_unique_times = {};\n{}",
       test_head, pairs ? relation_text(*pairs) : "", chosen("Culling", name_of(options.culling)),
       chosen("Start", name_of(options.start)), chosen("Pairs", name_of(options.pairs)),
       chosen("Arithmetic", name_of(options.arithmetic)),
       fmt::format("  1, {}, {:a}", pairs ? "&counted" : "nullptr", options.separation), views,
-      c.expected.answer == detector::Answer::error, test_program);
+      c.expected.answer == detector::Answer::error,
+      detector.claims_in(configuration).has(properties::Claim::times_unique), test_program);
 }
 
 }  // namespace
@@ -375,7 +381,7 @@ Expected<void> export_case(const std::filesystem::path& folder, const corpus::Ca
   for (std::size_t f = 0; f < c.frames.size(); ++f)
     files[fmt::format("frame_{:04}.obj", f)] = rows_text("v {} {} {}\n", c.frames[f]) + faces;
   if (detector.built_in) {
-    files["case_test.cpp"] = test_text(c, detector.configurations.front().options);
+    files["case_test.cpp"] = test_text(c, detector);
   } else {
     files["case_plugin.cpp"] = plugin_head + told_relation_text(c) + plugin_main;
     files["exported_plugin.h"] = exported_plugin_header;
