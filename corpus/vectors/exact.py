@@ -1,6 +1,6 @@
 """Exact facts of two moving features, in whole numbers: whether they pass or only touch, and the
-polynomials of their times. F, L and D are those of oracle/query/contact_events.h, found in another
-way.
+polynomials of their times. What coplanarity, sides and gaps are stands in
+oracle/query/contact_events.h as F, L and D; they are found in another way here.
 
 A polynomial is a list of whole numbers: c0 + c1 t + ...
 """

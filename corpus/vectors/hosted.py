@@ -80,8 +80,11 @@ class PlugIn:
         pass
 
     def answers(self, case):
-        given = self.detector.answers(case_file_of(case), separation=case.distance or 0,
-                                      limits=case.question == "limit")
+        try:
+            given = self.detector.answers(case_file_of(case), separation=case.distance or 0,
+                                          limits=case.question == "limit")
+        except (ValueError, RuntimeError) as problem:
+            raise Wrong(f"case {case.id}: {problem}") from None
         return given or [{"answer": "unsupported"}] * len(case.steps)
 
 

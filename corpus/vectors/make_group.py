@@ -38,7 +38,8 @@ def as_mesh(query):
 
 
 def least_distance(query):
-    return assay.least_distance(*as_mesh(query), jobs=1).distance
+    found = assay.least_distance(*as_mesh(query), jobs=1)
+    return found.distance if found else math.inf  # beyond all doubles
 
 
 def comes_nearer(query, distance):
@@ -59,12 +60,12 @@ def query_facts(query, distance=0):
     """Facts of a contact, or of coming within a distance."""
     stated = {"result": "free"}
     if distance:
-        stated.update(distance=distance, least_distance=least_distance(query))
-    ask = assay.vertex_face if query.first == 1 else assay.edge_edge
-    found = ask([query.t0], [query.t1], separation=distance)
-    if found.hit[0]:
+        stated["distance"], least = distance, least_distance(query)
+        stated.update({"least_distance": least} if least < math.inf else {})
+    found = assay.judge(*as_mesh(query), separation=distance, jobs=1)
+    if found.answer == "collision":
         more = comes_nearer(query, distance) if distance else query.passes()
-        stated.update(facts_of("collision" if more else "acceptable", (found.lo[0], found.hi[0]),
+        stated.update(facts_of("collision" if more else "acceptable", found.first,
                                query.within(distance) if distance else query.events()))
     return stated
 
@@ -153,9 +154,23 @@ def mesh_facts(case, is_float):
     return {"result": worst, "triangles": triangles, "frames": frames, "steps": steps}, flags
 
 
-def case_of(file, given, features, known):
+def read_case(file):
+    """A case file that the project's own reader takes."""
+    from assay import _judge
+    try:
+        _judge.read_case(str(file))
+    except ValueError as problem:
+        raise vectors.Wrong(str(problem)) from None
     case = vectors.read_json(file)
-    want(isinstance(case, dict) and case.get("schema") == "assay-case/1", file, "is no case file")
+    query = case["options"].get("query")
+    want(query in (None, "vertex-face", "edge-edge"), file, f"{query} is no query")
+    want(not query or (len(case["frames"]) == 2 and all(len(x) == 4 for x in case["frames"])), file,
+         "a query has two frames of four points")
+    return case
+
+
+def case_of(file, given, features, known):
+    case = read_case(file)
     want(case["options"].get("query", "mesh") == features, file,
          f"is no case of {features}, as the first one is")
     if features == "mesh":
@@ -196,7 +211,8 @@ def main(words):
         info.update(version="0", profile="own", groups=[], licence="that of its cases", cite="")
     for flag in given.flags:
         want(flag in info["flags"], "--flags", f"there is no flag {flag}")
-    features = vectors.read_json(given.files[0]).get("options", {}).get("query", "mesh")
+    want(0 <= given.distance < math.inf, "--distance", "a length is wanted")
+    features = read_case(given.files[0])["options"].get("query", "mesh")
     group = {"schema": vectors.SET_SCHEMA, "version": info["version"], "group": given.name,
              "features": features,
              "question": "limit" if given.limit else "distance" if given.distance else "contact",

@@ -31,6 +31,7 @@ import subprocess
 import sys
 import threading
 import time
+import traceback
 from fractions import Fraction
 from pathlib import Path
 
@@ -228,6 +229,8 @@ def check_case(case, group, flags, place):
     for flag in case["flags"]:
         want(flag in flags, place, f"set.json knows no flag {flag}")
     want(is_list(case.get("breaks", []), None, is_text), place, "breaks is not a list of texts")
+    want(is_text(case.get("split_of", "")) and ("split_of" not in case or group["features"] != "mesh"),
+         place, "split_of is not the id of a query")
     if group["features"] == "mesh":
         check_mesh(case, group, place)
         points = [p for frame in case["frames"] for p in frame]
@@ -246,8 +249,9 @@ def check_mesh(case, group, place):
          is_list(frames, None, lambda f: is_list(f, len(frames[0]), TRIPLE)), place,
          "frames are not lists of as many points each")
     index = (lambda x: is_count(x, len(frames[0])))
-    want(is_list(case.get("triangles"), None, lambda t: is_list(t, 3, index)), place,
-         "triangles are not three indices of points each")
+    want(case.get("triangles") and is_list(
+        case["triangles"], None, lambda t: is_list(t, 3, index) and len(set(t)) == 3), place,
+        "triangles are not three different indices of points each")
     steps = case.get("steps")
     want(is_list(steps, 1 if group["question"] == "limit" else None, lambda s: isinstance(s, dict))
          and steps, place, "steps are not a list (of one, where a limit is asked)")
@@ -257,6 +261,8 @@ def check_mesh(case, group, place):
         want_fields(step, {"from": number, "to": number, "result": one_of(*RESULTS)}, here)
         want(isinstance(step.get("commit", True), bool), here, "commit is not true or false")
         check_truth(step, here)
+        want(group["question"] != "limit" or step.get("first_time") != [0, 0], here,
+             "a limit is asked of a step that begins in contact")
         triangle = (lambda x: is_count(x, len(case["triangles"])))
         pairs = step.get("pairs", [])
         want(isinstance(pairs, list), here, "pairs are no list")
@@ -347,8 +353,8 @@ def has_zero(coefficients, lo, hi):
     """Whether the polynomial has a zero in [lo, hi], exactly."""
     p = primitive([int(c) for c in coefficients])
     lo, hi = Fraction(lo), Fraction(hi)
-    return not p or 0 in (sign_at(p, lo), sign_at(p, hi)) or zeros_between(
-        sturm_chain(p), lo, hi) > 0
+    return bool(p) and (0 in (sign_at(p, lo), sign_at(p, hi)) or
+                        zeros_between(sturm_chain(p), lo, hi) > 0)
 
 
 def check(folder):
@@ -376,6 +382,7 @@ def check_halves(cases):
         whole, both = case.json, halves[name]
         if not both and ("SplitInvariant" not in case.flags or "split_of" in whole):
             continue
+        want("SplitInvariant" in case.flags, f"case {name}", "has halves, and no flag says so")
         want(len(both) == 2, f"case {name}", "has not two halves")
         ways = [[[Fraction(b) - Fraction(a) for a, b in zip(p, q)]
                  for p, q in zip(h["t0"], h["t1"])] for h in both]
@@ -843,7 +850,8 @@ def score_text(vectors, every, brief=False):
 def exit_code(every):
     if any(judged.ids("miss", "late", "alarm") for judged in every):
         return 1
-    return 3 if any(judged.ids(*NO_ANSWERS) for judged in every) else 0
+    is_silent = [set(judged.outcome.values()) <= {"unsupported"} for judged in every]
+    return 3 if any(is_silent) or any(judged.ids(*NO_ANSWERS) for judged in every) else 0
 
 
 # --- rational CSV -------------------------------------------------------------------------------
@@ -947,16 +955,20 @@ def write_set(out, info, groups):
         lines = ",\n".join(map(json.dumps, cases))
         text = f'{json.dumps(group)[:-1]}, "cases": [\n{lines}\n]}}\n'
         name = f"{group['group']}.json"
+        want(name not in texts and name != "set.json", out / name,
+             "two groups have this name, or it is that of the set")
         texts[name] = text
         entries[name] = {"file": name, "sha256": hashlib.sha256(text.encode()).hexdigest(),
                          "cases": len(cases), **{key: group[key] for key in KIND}}
         check_group({**group, "cases": cases}, out / name, info, entries[name])
-    for name, text in texts.items():
-        write_text(out / name, text)
     digests = "".join(f"{entry['sha256']}  {name}\n" for name, entry in entries.items())
     info = {**info, "groups": list(entries.values()),
             "cases": sum(entry["cases"] for entry in entries.values()),
             "digest": hashlib.sha256(digests.encode()).hexdigest()}
+    # Nothing is written of what would be refused, so that a set that is there stays whole.
+    check_set(info, out / "set.json")
+    for name, text in texts.items():
+        write_text(out / name, text)
     write_text(out / "set.json", json.dumps(info, indent=1) + "\n")
     check(out)
     print(f"{out}: {info['cases']} cases in {len(entries)} groups")
@@ -1053,6 +1065,7 @@ def asked_by(given, command):
     ways = [way for way in (command, given.detector, given.arithmetic) if way]
     want(len(ways) == 1, "run", "who answers? -- COMMAND ARGS..., --detector or --arithmetic")
     want(0 < given.timeout < math.inf, "--timeout", "wanted is a number above 0")
+    write_text(given.out, "", "a")  # whether it can be written: no work is to be lost
     if command:
         return Program(command, given.timeout, given.restart)
     import hosted
@@ -1072,9 +1085,7 @@ def main(words):
     given = parser_of_all().parse_args(words)
     if given.verb == "run":
         vectors = VectorSet(given.set, given.group)
-        asked = asked_by(given, command)
-        write_text(given.out, "", "a")  # whether it can be written: no work is to be lost
-        results = ask_all(asked, vectors)
+        results = ask_all(asked_by(given, command), vectors)
         write_results(results, given.out)
         judged = [judge(results, vectors)]
         print(score_text(vectors, judged, brief=True), end="")
@@ -1115,6 +1126,9 @@ def end_with(work):
         sys.exit(2)
     except KeyboardInterrupt:
         sys.exit(130)
+    except Exception:  # a fault of this script, which must not be taken for a miss
+        traceback.print_exc()
+        sys.exit(4)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Plug-ins: the word by which the programs know one, and one that is asked by hand.
+"""Names a detector for the programs, and asks a plug-in by hand.
 
 Another process imports a class in Python by its module, so it has to stand in a file. How a class
 looks is in hosting.py, which calls it there.
@@ -39,7 +39,7 @@ def environment(detector: Any) -> Dict[str, str]:
 
 @contextlib.contextmanager
 def surroundings(detector: Any) -> Iterator[None]:
-    """The same, of this process, whose children inherit them."""
+    """Sets these variables in this process, whose children inherit them, and puts them back."""
     if detector is None:
         yield
         return

@@ -144,7 +144,7 @@ class Polynomials(unittest.TestCase):
                 (["1", "0", "1"], 0.0, 1.0, False),
                 (["-1", "0", "0", "8"], 0.25, 0.75, True),
                 (["-1", "0", "0", "8"], 0.6, 0.75, False),
-                (["1"], 0.0, 1.0, False), (["0", "0"], 0.0, 1.0, True)):
+                (["1"], 0.0, 1.0, False), (["0", "0"], 0.0, 1.0, False)):
             self.assertEqual(vectors.has_zero(polynomial, lo, hi), wanted, polynomial)
 
 
@@ -289,7 +289,7 @@ class Examples(InScratch):
 
     def test_the_textbook_misses_what_stays_in_a_plane(self):
         plain = self.scratch / "plain"
-        subprocess.run([*os.environ.get("CC", "cc").split(), "-std=c99", "-O1", "-Wall", "-Wextra",
+        subprocess.run([*(os.environ.get("CC") or "cc").split(), "-std=c99", "-O1", "-Wall", "-Wextra",
                         "-Wpedantic", "-Werror", ROOM / "examples" / "plain.c", "-o", plain, "-lm"],
                        check=True)
         for command in ([plain], [sys.executable, ROOM / "examples" / "textbook_cubic.py"]):
@@ -438,7 +438,7 @@ class Committed(unittest.TestCase):
                 self.assertTrue(any(map(self.is_wrong, given, case.steps)),
                                 (results["product"]["name"], case.id))
                 asked += 1
-        self.assertGreater(asked, 300)
+        self.assertEqual(asked, sum(len(case.json.get("breaks", ())) for case in self.set.cases))
 
     @staticmethod
     def is_wrong(answer, step):
@@ -477,15 +477,11 @@ class Checking(InScratch):
         self.assertIn("11 cases in 5 groups", text)
 
     def test_the_committed_set_holds(self):
-        if not (ROOM / "set.json").exists():
-            self.skipTest("no set is committed yet")
         code, text, errors = run("check", ROOM)
         self.assertEqual(code, 0, errors)
         self.assertIn("holds", text)
 
     def test_the_readme_shows_the_flags_of_the_set(self):
-        if not (ROOM / "set.json").exists():
-            self.skipTest("no set is committed yet")
         self.assertIn(vectors.flags_text(vectors.VectorSet(ROOM)), (ROOM / "README.md").read_text(),
                       "vectors.py flags --into README.md writes them")
 
