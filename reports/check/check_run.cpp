@@ -338,12 +338,10 @@ class CheckRun {
     return !question_.no_oracle && (!steps_.counted() || steps_.counted()->count_all());
   }
 
-  // The components of a mesh without bodies, in the place of its bodies. Of very many each is taken
-  // as a part of one, since who has so many does not ask.
+  // By vertex: the component of a mesh without bodies, where else its body stands.
   std::vector<std::int32_t> component_by_vertex() const {
-    constexpr std::size_t most = 1000;
     std::vector<std::int32_t> component(static_cast<std::size_t>(steps_.first_frame().rows()), 0);
-    for (std::size_t c = 0; c < mesh_.components.size() && mesh_.components.size() <= most; ++c) {
+    for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
       for (const auto v : mesh_.components[c].vertices)
         component[properties::at(v)] = static_cast<std::int32_t>(c);
     }
@@ -355,8 +353,13 @@ class CheckRun {
   void tell_nested(const corpus::SourceStep& step,
                    const std::vector<detector::PairContact>& pairs) {
     if (bodies_.empty() && !is_at_rest_) return;
+    // Each box of a component is held against each other.
+    constexpr std::size_t most_components = 1000;
+    if (bodies_.empty() && mesh_.components.size() > most_components)
+      return say("  not looked for: components inside of others, because there are over 1,000\n");
     nested_ = nested_bodies(
         step.x_t0, mesh_, bodies_.empty() ? component_by_vertex() : steps_.counted()->body, pairs);
+    if (bodies_.empty()) nested_ = innermost(*nested_);
     // A component has no name that its owner knows.
     const auto name = [&](std::int32_t part) {
       return bodies_.empty() ? fmt::format("the component of triangle {}",

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -98,6 +99,20 @@ std::vector<NestedBodies> nested_bodies(const detector::PositionsView& x,
     }
   }
   return nested;
+}
+
+std::vector<NestedBodies> innermost(const std::vector<NestedBodies>& nested) {
+  std::map<std::int32_t, std::set<std::int32_t>> around;  // by inner
+  for (const auto& [inner, outer] : nested) around[inner].insert(outer);
+  std::vector<NestedBodies> list;
+  for (const auto& [inner, outer] : nested) {
+    const auto& others = around[inner];
+    const bool is_apart = std::any_of(others.begin(), others.end(), [&, o = outer](auto between) {
+      return around.count(between) && around[between].count(o);
+    });
+    if (!is_apart) list.push_back({inner, outer});
+  }
+  return list;
 }
 
 }  // namespace assay::reports

@@ -21,4 +21,7 @@ std::vector<NestedBodies> nested_bodies(const detector::PositionsView& x,
                                         const std::vector<std::int32_t>& body,
                                         const std::vector<detector::PairContact>& pairs);
 
+// Of these those that no third lies between: shells within shells have one each.
+std::vector<NestedBodies> innermost(const std::vector<NestedBodies>& nested);
+
 }  // namespace assay::reports

@@ -112,18 +112,22 @@ TEST_F(AtRest, ABodyInsideOfAnotherIsTold) {
   EXPECT_EQ(report()["inside"], json::parse(R"([{"body": 0, "of": 1}])"));
   EXPECT_FALSE(contains(nested.out, "body 2 lies")) << nested.out;
   // Of one file the components are told, too.
-  const auto of_one = [](std::string file, const std::string& other) {
+  const auto of_one = [](const std::string& file, const std::string& other) {
+    const auto whole = read_text(file);
     auto added = read_text(other);
+    std::size_t vertices = 0;
+    for (std::size_t v = whole.find("v "); v != std::string::npos; v = whole.find("v ", v + 2))
+      ++vertices;
     for (std::size_t f = added.find("f "); f != std::string::npos; f = added.find("f ", f + 2)) {
       std::istringstream corners(added.substr(f + 2));
       std::size_t a = 0, b = 0, c = 0;
       corners >> a >> b >> c;
       const auto end = added.find('\n', f);
-      added.replace(
-          f, end - f,
-          "f " + std::to_string(a + 8) + " " + std::to_string(b + 8) + " " + std::to_string(c + 8));
+      added.replace(f, end - f,
+                    "f " + std::to_string(a + vertices) + " " + std::to_string(b + vertices) + " " +
+                        std::to_string(c + vertices));
     }
-    return read_text(file) + added;
+    return whole + added;
   };
   const auto both = scratch.write(
       "both.obj", of_one(box("big.obj", {0, 0, 0}, 4), box("small.obj", {1, 1, 1}, 1)));
@@ -133,6 +137,12 @@ TEST_F(AtRest, ABodyInsideOfAnotherIsTold) {
                        "triangle 0; their surfaces do not meet\n"))
       << one_file.out;
   EXPECT_EQ(report()["inside"], json::parse(R"([{"component": 1, "of": 0}])"));
+  // Of three, one in another, each is told with the one next around it.
+  const auto three =
+      scratch.write("three.obj", of_one(both, box("least.obj", {1.2, 1.2, 1.2}, 0.2)));
+  check(three);
+  EXPECT_EQ(report()["inside"],
+            json::parse(R"([{"component": 1, "of": 0}, {"component": 2, "of": 1}])"));
   // An inside that is touched from within is met.
   const auto touched =
       check("--body " + box("small.obj", {0, 1, 1}, 1) + " --body " + box("big.obj", {0, 0, 0}, 4));
@@ -221,6 +231,7 @@ TEST_F(AtRest, TheMeshIsWrittenWithItsContactsInRed) {
   auto three = read_text(touching) + "v 1 1 -1\nv 1 1 1\nv 2 1 1\nf 7 8 9\n";
   const auto both = check(scratch.write("both.obj", three) + " --ply " + file);
   const auto crossing = both.out.find(", crossing\n"), touched = both.out.find(", touching\n");
+  ASSERT_NE(touched, std::string::npos) << both.out;
   EXPECT_LT(crossing, touched) << both.out << "those that cross come first";
   const auto colours = read_text(file);
   constexpr std::size_t face = 16;  // a byte, three numbers, three colours
