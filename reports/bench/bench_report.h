@@ -16,22 +16,19 @@
 
 namespace assay::reports {
 
-// What the suites of `assay bench` want to see: speeds, memory and shares, each under a name that
-// ends with its unit. A name without a unit is a ratio. Suites hand these values to their rows;
+// What the suites of `assay bench` want to see: ratios. Suites hand these values to their rows;
 // reports/bench/README.md says which row is held against which of them.
 //
 // Only a bound that somebody chose has a name here. The others stand in their rows: no wrong
-// answer (at_most(0)), every answer the same (at_least(100) %), cheaper than what it replaces
-// (below(1)).
+// answer (at_most(0)), every answer the same (at_least(100) %).
 
 // What a row is held against.
 struct Wanted {
-  enum class Sense : unsigned char { at_most, at_least, below } sense = Sense::at_most;
+  enum class Sense : unsigned char { at_most, at_least } sense = Sense::at_most;
   double bound = 0;
 };
 constexpr Wanted at_most(double bound) { return {Wanted::Sense::at_most, bound}; }
 constexpr Wanted at_least(double bound) { return {Wanted::Sense::at_least, bound}; }
-constexpr Wanted below(double bound) { return {Wanted::Sense::below, bound}; }
 inline std::optional<Wanted> wanted_if(bool condition, Wanted wanted) {
   return condition ? std::optional(wanted) : std::nullopt;
 }

@@ -92,6 +92,7 @@ constexpr PublicFiles public_files[] = {
     {"rod-twist", "scalable-ccd/rod-twist/frames/{}.ply", 3036, 3037, true},
     {"thick-cloth", "ipc-toolkit/thick-cloth/t{}.ply", 0, 1, false},
     {"kick", "codim-ipc-kick/shell{}.obj.gz", 56, 62, false}};
+constexpr const char* bunny = "ipc-toolkit/bunny.ply";
 
 bool is_there(const std::filesystem::path& file) {
   std::error_code ignored;
@@ -123,26 +124,16 @@ std::vector<RealSequence> real_sequences(const BenchSettings& settings,
   if (auto bent = bent_bunny(settings)) {
     list.push_back({"bunny-bent", std::move(*bent), true});
   } else {
-    missing.push_back(bunny_file(settings));
+    missing.push_back(settings.file(bunny));
   }
   return list;
 }
 
-std::string bunny_file(const BenchSettings& settings) {
-  return settings.file("ipc-toolkit/bunny.ply");
-}
-
-std::optional<corpus::Mesh> bunny_at_rest(const BenchSettings& settings) {
-  const std::string file = bunny_file(settings);
-  if (!is_there(file)) return std::nullopt;
-  return used(corpus::read_mesh(file));
-}
-
 std::optional<corpus::Sequence> bent_bunny(const BenchSettings& settings) {
-  auto mesh = bunny_at_rest(settings);
-  if (!mesh) return std::nullopt;
+  const auto file = settings.file(bunny);
+  if (!is_there(file)) return std::nullopt;
   constexpr int frames = 6;
-  return used(corpus::make_scene("bend", {0, frames, std::move(mesh)}));
+  return used(corpus::make_scene("bend", {0, frames, used(corpus::read_mesh(file))}));
 }
 
 std::optional<corpus::Sequence> rod_twist_step(const BenchSettings& settings) {

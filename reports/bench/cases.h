@@ -49,13 +49,10 @@ std::vector<RealSequence> real_sequences(const BenchSettings& settings,
 std::optional<RealSequence> real_sequence(const BenchSettings& settings, const std::string& name,
                                           std::vector<std::string>& missing);
 
-std::string bunny_file(const BenchSettings& settings);
-// Nothing if the bunny is not there.
-std::optional<corpus::Mesh> bunny_at_rest(const BenchSettings& settings);
-// The bunny as it is bent into a ring in five steps.
+// The bunny as it is bent into a ring in five steps; nothing if it is not there.
 std::optional<corpus::Sequence> bent_bunny(const BenchSettings& settings);
 
-// The step of rod-twist alone, of which bench_report.h asks most; nothing if it is not there.
+// The step of rod-twist alone; nothing if it is not there.
 std::optional<corpus::Sequence> rod_twist_step(const BenchSettings& settings);
 
 // A case, and what is known of its start.

@@ -23,10 +23,4 @@ using Measurement = std::function<double()>;
 std::vector<std::vector<double>> interleave(int rounds,
                                             const std::vector<Measurement>& measurements);
 
-// Keeps the compiler from optimising away a result that nothing else reads.
-template <class T>
-void keep(const T& value) {
-  asm volatile("" : : "g"(&value) : "memory");
-}
-
 }  // namespace assay::reports

@@ -15,8 +15,8 @@ namespace assay::reports {
 struct BenchSettings {
   std::string data;  // the folder of the public data; rows say what is not there
   double scale = 1;  // factor of mesh sizes, query counts and rounds; tests take less
-  // For suite peers: the folder of the plug-ins, the processor seconds that a sequence may take,
-  // and the threads of the oracle.
+  // Of comparisons: the folder of the plug-ins, the processor seconds that a sequence may take, and
+  // the threads of the oracle.
   std::string peers = {};
   double case_seconds = 60;
   int jobs = 1;

@@ -88,11 +88,6 @@ const StepResult& TimedStep::result() {
   return result_;
 }
 
-double TimedStep::positive_share() {
-  const auto triangles = static_cast<double>(detector_.topology().triangles.size());
-  return static_cast<double>(result().view_positive) / triangles;
-}
-
 Options bench_options(Culling culling, Arithmetic arithmetic) {
   return {culling, Start::clean, Pairs::all, arithmetic};
 }

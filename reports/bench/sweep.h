@@ -44,8 +44,6 @@ class TimedStep {
   double time();
   // The result of the last evaluation. Evaluates the step once if there was none.
   const detector::StepResult& result();
-  // The share of V+ among all triangles, leaving doubts aside.
-  double positive_share();
 
  private:
   std::string name_;

@@ -183,9 +183,16 @@ def main():
     if len(sys.argv) != 3 or sys.argv[1].startswith("-"):
         print(__doc__.strip())
         return 0 if "--help" in sys.argv else 2
-    report = json.loads(Path(sys.argv[1]).read_text())
+    try:
+        report = json.loads(Path(sys.argv[1]).read_text())
+    except (OSError, ValueError) as problem:
+        print(f"{sys.argv[1]}: {problem}", file=sys.stderr)
+        return 2
+    if not isinstance(report, dict) or report.get("schema") != "assay-bench/2":
+        print(f"{sys.argv[1]}: not a report of assay bench (assay-bench/2)", file=sys.stderr)
+        return 2
     draw = {"speed-error": speed_against_error, "peers": speed_against_error,
-            "stability": heat}.get(report["suite"])
+            "stability": heat}.get(report.get("suite"))
     if not draw:
         print(f"suite {report['suite']} has no picture", file=sys.stderr)
         return 2

@@ -28,6 +28,8 @@ inline constexpr const char* step_names[] = {"rod-twist", "rod-twist-shortened",
                                              "layered-cloth", "crumpling-sphere"};
 // Made once. Nothing if its data is not there.
 const std::optional<corpus::Sequence>& step_named(const std::string& name);
+// Why there is none: of the public data that is no fault.
+const char* why_absent(const std::string& name);
 
 // Adds the time of each of `items` things to what is shown.
 void show_each(benchmark::State& state, std::size_t items);

@@ -19,7 +19,7 @@
 
 namespace assay::reports {
 
-// What was counted of answers that the oracle judged. Nothing is judged twice.
+// What was counted of answers that the oracle judged.
 struct JudgedCounts {
   properties::StepErrors errors;       // of the steps that the contract takes
   std::uint64_t left_out = 0;          // steps that it does not take

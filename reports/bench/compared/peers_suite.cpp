@@ -63,6 +63,7 @@ std::vector<BenchSubject> beside_built_in(const properties::Subject& plugin) {
   subjects[0].is_vouched_for = contract.start != properties::StartRule::any;
   BenchSubject subject{plugin};
   subject.name = plugin.description.name;
+  if (subject.name == subjects[0].name) subject.name += " (plug-in)";
   subject.counted = claims;
   subjects.push_back(std::move(subject));
   return subjects;
@@ -164,9 +165,9 @@ BenchReport detector_suite(const BenchSettings& settings, const properties::Subj
   const auto& about = plugin.description;
   report.above = plugin_text(plugin) +
                  fmt::format(
-                     "\nbeside the built-in detector, auto, exact, {} pairs; processor time in ms "
+                     "\nbeside the built-in detector, {}, exact, {} pairs; processor time in ms "
                      "with all threads, medians\n",
-                     name_of(subjects[0].options.pairs)) +
+                     name_of(subjects[0].options.culling), name_of(subjects[0].options.pairs)) +
                  sequences_text(comparison.rows(), subjects[1]);
   add_figures(by_subject(comparison.rows(), subjects), comparison, report);
   report.figures["detector"] = json_object(

@@ -38,7 +38,7 @@ class Benches(unittest.TestCase):
     def draw(self, report):
         with tempfile.TemporaryDirectory() as folder:
             given, drawn = Path(folder) / "report.json", Path(folder) / "picture.svg"
-            given.write_text(json.dumps(report))
+            given.write_text(json.dumps({"schema": "assay-bench/2", **report}))
             done = subprocess.run([sys.executable, PICTURES / "benches.py", given, drawn],
                                   capture_output=True, text=True)
             return done.returncode, drawn.read_text() if drawn.exists() else done.stderr
@@ -65,6 +65,8 @@ class Benches(unittest.TestCase):
 
     def test_a_suite_without_a_picture_is_named(self):
         self.assertEqual(self.draw({"suite": "sequences"}), (2, "suite sequences has no picture\n"))
+        code, told = self.draw({"schema": "assay-bench/1", "suite": "peers"})
+        self.assertEqual((code, told.count("\n")), (2, 1), told)
 
     # On a dark page a white ground is a slab, and dark letters are not seen.
     def test_committed_pictures_know_both_schemes(self):
