@@ -196,8 +196,8 @@ std::optional<Positions> end_of(const Json& body, Eigen::Index vertices) {
 }
 
 // Returns the number of keys in all maps of the bytes. Nothing unless they are one item of definite
-// lengths, nested so little that from_cbor, which calls itself for each level, stays in its stack; a
-// tag is one of bytes, as typed arrays have it, and no number is below those of 64 bits.
+// lengths, nested so little that from_cbor, which calls itself for each level, stays in its
+// stack. A tag is one of bytes, as typed arrays have it, and no number is below those of 64 bits.
 std::optional<std::uint64_t> keys_of(std::string_view bytes) {
   enum Major : unsigned { negative = 1, byte_text = 2, text = 3, array = 4, map = 5, tag = 6 };
   constexpr std::size_t deepest = 64;

@@ -24,9 +24,10 @@ namespace assay::reports {
 // is broken. Its exit codes are 0: no claim is broken, 1: one is, 2: not filled in.
 //
 // For a plug-in the second file is FOLDER/case_plugin.cpp, whose program takes a library as its
-// word and asks its assay_detector() (exported_plugin.h), once in a process of its own; it ends with
-// 1 too where the library crashes or exits, if `total` is asked. For the built-in detector it is FOLDER/case_test.cpp, a
-// GoogleTest of the first configuration, which needs the library assay::detector.
+// word and asks its assay_detector() (exported_plugin.h), once in a process of its own. If `total`
+// is asked, it also ends with 1 where the library crashes or exits. For the built-in detector it is
+// FOLDER/case_test.cpp, a GoogleTest of the first configuration, which needs the library
+// assay::detector.
 //
 // REQUIRES judgements of a contracted case. Fails if a file cannot be written.
 Expected<void> export_case(const std::filesystem::path& folder, const corpus::Case& c,
