@@ -219,7 +219,7 @@ TEST_F(Trials, FailuresShrinkAndGoOnShrinking) {
   Store store = open("store");
   run_trials(request, store, in_ten_minutes(), {});
   ASSERT_FALSE(store.failures().empty());
-  constexpr std::uint64_t few = 40, many = 400;
+  constexpr std::uint64_t few = 20, many = 100;
   constexpr double seconds = 1000;  // beyond the deadline: more than a failure will have had
   shrink_failures(request, store, {seconds, few}, in_ten_minutes(), {});
   std::set<std::string> signatures, shrunk;

@@ -62,7 +62,7 @@ TEST_F(Repetitions, ADetectorThatIsWrongOnLargeMeshesAloneIsFound) {
   // Free above 600 triangles, whatever it claims; every mesh of the trials is smaller.
   for (const std::string claims : {"", " claims=129"}) {
     std::filesystem::remove_all(out);
-    const auto made = judge("run", "steps_and_query", 1500, "--part steps --threads 3",
+    const auto made = judge("run", "steps_and_query", 900, "--part steps --threads 3",
                             "ASSAY_QUERY='free-above=600" + claims + "' ");
     EXPECT_EQ(made.exit_code, 1) << made.out << made.err;
     EXPECT_TRUE(contains(made.out, "DEFECT free-sound: answered free, ")) << made.out;
@@ -109,7 +109,7 @@ TEST_F(Repetitions, ADetectorThatIsWrongAfterManyCommitsIsFound) {
 }
 
 TEST_F(Repetitions, TheSecondRunOfATrialAsksAgainAndWithOtherThreads) {
-  const auto plan = scratch.write("many.json", plan_text(128));
+  const auto plan = scratch.write("many.json", plan_text(64));
   for (const std::string word : {"free-again", "free-threaded"}) {
     std::filesystem::remove_all(out);
     const auto made = run_assay("run --campaign " + plan + " --jobs 2 --out " + out +
