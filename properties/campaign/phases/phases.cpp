@@ -9,7 +9,6 @@
 #include "properties/campaign/ledger/run_folder.h"
 #include "properties/campaign/ledger/store_problem.h"
 #include "properties/campaign/phases/fault_hunt.h"
-#include "properties/campaign/phases/lasting_worker.h"
 #include "properties/campaign/phases/repetitions.h"
 #include "properties/campaign/phases/shrink.h"
 #include "properties/worlds/tetrahedron_world.h"
@@ -32,9 +31,7 @@ class CampaignRun {
  public:
   CampaignRun(const CampaignRequest& request, const std::filesystem::path& corpus, Store& store,
               CampaignObserver& observer)
-      : request_(request), corpus_(corpus), store_(store), observer_(observer) {
-    if (request.plugin) lasting_.emplace(request);
-  }
+      : request_(request), corpus_(corpus), store_(store), observer_(observer) {}
 
   void run() {
     note_library(store_, request_);
@@ -44,13 +41,11 @@ class CampaignRun {
     const Canary canary = meet_canary(request_);
     store_.set(to_row(canary));
     observer_.on_canary(canary);
-    if (lasting_) lasting_->begin();
-    const auto loaded = Clock::now();
     observer_.on_phase("trials");
     const bool complete = judge_trials();
-    if (complete && lasting_) {
+    if (complete && request_.plugin) {
       observer_.on_phase("repetitions");
-      repeat_large_meshes(request_, store_, *lasting_, after(1),
+      repeat_large_meshes(request_, store_, after(1),
                           [&](const std::string& input) { observer_.on_shrinking(input); });
     }
     if (complete && request_.plan.search > 0) {
@@ -76,7 +71,6 @@ class CampaignRun {
       observer_.on_phase("tetrahedron");
       explore_worlds();
     }
-    if (lasting_) ask_again(loaded);
   }
 
  private:
@@ -174,20 +168,11 @@ class CampaignRun {
     }
   }
 
-  // However late it is: it takes a small share of the time of the trials.
-  void ask_again(Clock::time_point loaded) {
-    observer_.on_phase("asked again");
-    const auto asked = lasting_->ask_again(store_);
-    observer_.on_asked_again(asked, std::chrono::duration<double>(Clock::now() - loaded).count());
-    if (asked.wrong > 0) observer_.on_failures_shrunk(value_or_throw(store_.kept_failures()));
-  }
-
   const CampaignRequest& request_;
   const std::filesystem::path& corpus_;
   Store& store_;
   CampaignObserver& observer_;
   const RunDeadline begin_ = Clock::now();
-  std::optional<LastingWorker> lasting_;  // of a plug-in
 };
 
 }  // namespace
