@@ -82,8 +82,8 @@ class Certification {
                            absolute_path(words_.own_cases), absolute_path(words_.data)});
     keep(input_digests());
     if (request_.plugin)
-      keep(properties::PluginIsolation{properties::checks_shard, name_of(request_.limits.isolation),
-                                       text_of(request_.limits.least)});
+      keep(properties::PluginIsolation{properties::checks_shard, request_.isolation_word(),
+                                       name_of(request_.isolation)});
     keep(properties::asked_of_a_certificate());
   }
 
@@ -140,7 +140,6 @@ class Certification {
     BOOST_OUTCOME_TRY(store, properties::Store::open(properties::store_file(out_, request_.shard),
                                                      properties::binding_of(request_)));
     store_ = std::move(store);
-    BOOST_OUTCOME_TRY(properties::keeps_isolation(request_, *store_));
     return outcome::success();
   }
 

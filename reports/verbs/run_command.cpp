@@ -100,7 +100,6 @@ Expected<int> run_campaign(const RunRequest& command) {
   BOOST_OUTCOME_TRY(may_keep_run(out, {"junit" + part + ".xml", "summary" + part + ".md"}));
   BOOST_OUTCOME_TRY(store, properties::Store::open(properties::store_file(out, request.shard),
                                                    properties::binding_of(request)));
-  BOOST_OUTCOME_TRY(properties::keeps_isolation(request, store));
   const auto findings = run_shard(request, store, out);
   if (!findings) {
     auto problem = findings.error();

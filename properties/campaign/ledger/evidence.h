@@ -107,8 +107,8 @@ struct World {
   std::uint64_t progress() const;
 };
 
-// How well the process of a plug-in was isolated in all trials of a shard, or in the corpus (shard
-// "checks"), in the words of isolation.h.
+// How the process of a plug-in was isolated in all trials of a shard, or in the corpus (shard
+// "checks"): the word that was asked for, empty if none was, and the word of what it had.
 struct PluginIsolation {
   static constexpr const char* kind = "isolation";
   std::string shard, asked, got;

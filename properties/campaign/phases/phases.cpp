@@ -76,18 +76,13 @@ class CampaignRun {
  private:
   // Notes the isolation of all trials that the store holds, including those of an earlier call.
   void note_isolation() {
-    PluginIsolation now{text_of(request_.shard), name_of(request_.limits.isolation),
-                        text_of(request_.limits.least)};
-    if (store_.trial_count() > 0) {
-      for (const auto& before : stored().isolation) {
-        now.asked = name_of(weaker(request_.limits.isolation, before.asked));
-        now.got = text_of(common_to(request_.limits.least, isolation_of(before.got)));
-      }
+    PluginIsolation now{text_of(request_.shard), request_.isolation_word(),
+                        name_of(request_.isolation)};
+    for (const auto& before : stored().isolation) {
+      if (store_.trial_count() > 0 && before.got == name_of(Isolation::limits))
+        now.got = before.got;
     }
     store_.set(to_row(now));
-  }
-  static IsolationMode weaker(IsolationMode mode, const std::string& other) {
-    return std::min(mode, from_name<IsolationMode>(other).value_or(IsolationMode::none));
   }
 
   RunDeadline after(double share) const { return deadline_after(begin_, request_.plan, share); }
@@ -176,19 +171,6 @@ class CampaignRun {
 };
 
 }  // namespace
-
-Expected<void> keeps_isolation(const CampaignRequest& request, const Store& store) {
-  if (!request.plugin || store.trial_count() == 0) return boost::outcome_v2::success();
-  return catch_store_problem([&] {
-    for (const auto& before : facts_in(store).isolation) {
-      if (covers(request.limits.least, isolation_of(before.got))) continue;
-      throw StoreProblem(
-          fmt::format("this run began with isolation {}, and would go on with {}: "
-                      "ask for no less, or for another --out",
-                      before.got, text_of(request.limits.least)));
-    }
-  });
-}
 
 Expected<void> run_campaign(const CampaignRequest& request, const std::filesystem::path& corpus,
                             Store& store, CampaignObserver& observer) {

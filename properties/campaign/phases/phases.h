@@ -41,10 +41,6 @@ class CampaignObserver {
   virtual void on_world(const std::string& /*world*/) {}
 };
 
-// Whether the run may go on as it is asked for: not if the store holds trials of a plug-in that was
-// better isolated than it is now.
-Expected<void> keeps_isolation(const CampaignRequest& request, const Store& store);
-
 // Does what the store does not hold yet: the trials, the shrinking of what failed, and the planted
 // faults (or it takes the request's proof of them). Trials have nine tenths of the plan's time; if
 // some are missing then, failures are shrunk in the last tenth and nothing else is begun. The
