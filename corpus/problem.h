@@ -16,7 +16,6 @@ enum class ProblemKind {
   other,
   out_of_memory,    // a plug-in had too little memory for a step: the step is undecided
   beyond_capacity,  // a plug-in refused a step as more than it holds
-  not_as_stored,    // a row is not as this process stored it, or found it when it began
 };
 
 // `message` is one line without a line break, for a user; it names the file where there is one, and

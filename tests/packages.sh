@@ -3,7 +3,7 @@
 
 assay_packages="g++ cmake ninja-build ccache libcgal-dev libgmp-dev libmpfr-dev libmpfi-dev
   libeigen3-dev libboost-dev libtbb-dev libgtest-dev librapidcheck-dev libcli11-dev libfmt-dev
-  nlohmann-json3-dev libsqlite3-dev libseccomp-dev libssl-dev zlib1g-dev"
+  nlohmann-json3-dev libsqlite3-dev libseccomp-dev libssl-dev zlib1g-dev bubblewrap"
 
 # Detectors of others that tests judge (corpus/peers); the program itself needs none of them.
 # shellcheck disable=SC2034

@@ -37,7 +37,6 @@ struct CampaignRequest : Subject {
   std::uint64_t seed = default_seed;
   int jobs = 1;
   Shard shard;
-  std::filesystem::path folder;  // of the run; the plug-in does not read what it holds
   // The proof of another run of this build that planted faults are found. If it is given, no fault
   // is planted in this run.
   std::optional<PowerProof> power;
@@ -47,12 +46,14 @@ struct CampaignRequest : Subject {
   // (phases/repetitions.h).
   std::vector<corpus::Case> repeated;
 
+  // The word of the isolation that was asked for; empty if none was.
+  const char* isolation_word() const { return limits.isolation ? name_of(*limits.isolation) : ""; }
+
   // The limits of the workers that run the campaign's cases.
   WorkerLimits worker_limits(std::uint32_t variation = 0) const {
     auto of_case = limits;
     of_case.seconds = plan.case_seconds;
     of_case.bytes = plan.case_bytes;
-    of_case.unread = folder;
     of_case.variation = variation;
     return of_case;
   }

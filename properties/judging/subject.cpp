@@ -87,7 +87,7 @@ Expected<Subject> Subject::open(std::filesystem::path worker, const std::string&
   auto process = subject.process();
   auto described = process.describe();
   if (!described) return described.error();
-  subject.limits.least = process.isolation();
+  subject.isolation = process.isolation();
   auto& plugin = subject.description = std::move(described.value());
   // The words of the plug-in go into ids, files and pages, so they must be printable.
   plugin.name = printable(plugin.name);

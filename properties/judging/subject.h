@@ -58,11 +58,11 @@ struct Subject {
   std::optional<std::filesystem::path> plugin;  // nothing: the built-in detector
   std::shared_ptr<const JudgedLibrary> judged;  // its file, kept for all of its processes
   PluginDescription description;                // what the plug-in says of itself
-  // Of its processes. `least` is the isolation that the first of them had.
-  WorkerLimits limits;
+  WorkerLimits limits;                          // of its processes
+  Isolation isolation = Isolation::limits;      // that the first of a plug-in's processes had
 
   // The detector in this library; the built-in one, if it is empty. Fails if it cannot serve, does
-  // not hold the part that is asked for, or cannot be isolated although that is required.
+  // not hold the part that is asked for, or cannot be isolated as it is asked for.
   static Expected<Subject> open(std::filesystem::path worker, const std::string& library,
                                 DetectorPart part, const WorkerLimits& limits);
 

@@ -20,6 +20,8 @@ Channel::~Channel() {
 std::optional<std::pair<Channel, Channel>> Channel::connected() {
   std::array<int, 2> ends;
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) return std::nullopt;
+  const int yes = 1;
+  ::setsockopt(ends[0], SOL_SOCKET, SO_PASSCRED, &yes, sizeof yes);
   return std::pair(Channel(ends[0]), Channel(ends[1]));
 }
 
@@ -65,6 +67,24 @@ Transfer Channel::send(const std::string& message, const Patience& patience) {
   return Transfer::done;
 }
 
+ssize_t Channel::read_some(char* bytes, std::size_t size) {
+  iovec room = {bytes, size};
+  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(ucred))> beside = {};
+  msghdr message = {};
+  message.msg_iov = &room;
+  message.msg_iovlen = 1;
+  message.msg_control = beside.data();
+  message.msg_controllen = beside.size();
+  const ssize_t got = ::recvmsg(descriptor_, &message, MSG_CMSG_CLOEXEC);
+  const cmsghdr* head = got > 0 ? CMSG_FIRSTHDR(&message) : nullptr;
+  if (head && head->cmsg_level == SOL_SOCKET && head->cmsg_type == SCM_CREDENTIALS) {
+    ucred who;
+    std::memcpy(&who, CMSG_DATA(head), sizeof who);
+    sender_ = who.pid;
+  }
+  return got;
+}
+
 Transfer Channel::receive(std::string& message, const Patience& patience, std::uint64_t most) {
   std::uint64_t length = 0;
   constexpr std::size_t head = sizeof length;
@@ -83,7 +103,7 @@ Transfer Channel::receive(std::string& message, const Patience& patience, std::u
     if (waited != Transfer::done) return waited;
     const std::size_t had = received_.size();
     received_.resize(had + block);
-    const ssize_t now = ::recv(descriptor_, received_.data() + had, block, 0);
+    const ssize_t now = read_some(received_.data() + had, block);
     received_.resize(had + (now > 0 ? static_cast<std::size_t>(now) : 0));
     if (now == 0 || (now < 0 && errno != EINTR)) return Transfer::closed;
   }

@@ -2,6 +2,8 @@
 // SIGPIPE.
 #pragma once
 
+#include <sys/types.h>
+
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -23,14 +25,19 @@ class Channel {
  public:
   explicit Channel(int descriptor) : descriptor_(descriptor) {}
   Channel(Channel&& other) noexcept
-      : descriptor_(std::exchange(other.descriptor_, -1)), received_(std::move(other.received_)) {}
+      : descriptor_(std::exchange(other.descriptor_, -1)),
+        sender_(other.sender_),
+        received_(std::move(other.received_)) {}
   Channel& operator=(Channel&&) = delete;
   ~Channel();  // closes
 
-  // Two connected channels, both closed on exec; nothing if the system has no more.
+  // Two connected channels, both closed on exec; nothing if the system has no more. The first one
+  // tells its senders.
   static std::optional<std::pair<Channel, Channel>> connected();
 
   int descriptor() const { return descriptor_; }
+  // The process that sent what was received last, as this process sees it; 0: unknown.
+  pid_t sender() const { return sender_; }
   Transfer send(const std::string& message, const Patience& patience = {});
   // Receives a message of at most `most` bytes. Memory is taken only for what has come, and not
   // for what was announced.
@@ -42,7 +49,10 @@ class Channel {
  private:
   Transfer wait_for(short events, const Patience& patience) const;
 
+  ssize_t read_some(char* bytes, std::size_t size);
+
   int descriptor_;
+  pid_t sender_ = 0;
   std::string received_;  // bytes received beyond the last message
 };
 

@@ -22,15 +22,10 @@ namespace assay::properties {
 namespace {
 
 ChildEnd end_of(int status) {
+  if (WIFSIGNALED(status)) return end_by_signal(WTERMSIG(status));
   ChildEnd end;
-  if (WIFSIGNALED(status)) {
-    end.signal = WTERMSIG(status);
-    end.text =
-        "killed by signal " + std::to_string(end.signal) + " (" + ::strsignal(end.signal) + ")";
-  } else {
-    end.code = WEXITSTATUS(status);
-    end.text = "exited with code " + std::to_string(end.code);
-  }
+  end.code = WEXITSTATUS(status);
+  end.text = "exited with code " + std::to_string(end.code);
   return end;
 }
 
@@ -47,6 +42,13 @@ State state_of(pid_t id) {
 }
 
 }  // namespace
+
+ChildEnd end_by_signal(int signal) {
+  ChildEnd end;
+  end.signal = signal;
+  end.text = "killed by signal " + std::to_string(signal) + " (" + ::strsignal(signal) + ")";
+  return end;
+}
 
 ChildEnd end_of_child(pid_t id) {
   int status = 0;
@@ -71,7 +73,7 @@ bool was_killed_from_outside(const ChildEnd& end) {
 
 Expected<ChildProcess> ChildProcess::start(const std::filesystem::path& program,
                                            const std::vector<std::string>& arguments,
-                                           int descriptor, int printed) {
+                                           const std::vector<PassedDescriptor>& descriptors) {
   std::string name = program.string();
   std::vector<std::string> words = arguments;
   std::vector<char*> argv = {name.data()};
@@ -81,21 +83,19 @@ Expected<ChildProcess> ChildProcess::start(const std::filesystem::path& program,
   posix_spawn_file_actions_t actions;
   ::posix_spawn_file_actions_init(&actions);
   ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  ::posix_spawn_file_actions_adddup2(&actions, descriptor, child_descriptor);
-  if (printed > printed_descriptor)
-    ::posix_spawn_file_actions_adddup2(&actions, printed, printed_descriptor);
+  for (const auto& [here, there] : descriptors)
+    ::posix_spawn_file_actions_adddup2(&actions, here, there);
   posix_spawnattr_t attributes;
   ::posix_spawnattr_init(&attributes);
-  ::posix_spawnattr_setflags(
-      &attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-  ::posix_spawnattr_setpgroup(&attributes, 0);
+  ::posix_spawnattr_setflags(&attributes,
+                             POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
   sigset_t none, all;
   ::sigemptyset(&none);
   ::sigfillset(&all);
   ::posix_spawnattr_setsigmask(&attributes, &none);
   ::posix_spawnattr_setsigdefault(&attributes, &all);
   pid_t id = -1;
-  const int error = ::posix_spawn(&id, name.c_str(), &actions, &attributes, argv.data(), environ);
+  const int error = ::posix_spawnp(&id, name.c_str(), &actions, &attributes, argv.data(), environ);
   ::posix_spawnattr_destroy(&attributes);
   ::posix_spawn_file_actions_destroy(&actions);
   if (error != 0) {

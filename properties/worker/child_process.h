@@ -16,9 +16,16 @@
 
 namespace assay::properties {
 
-// The descriptors under which the child finds its end of the channel, and the one into which it
-// writes what a plug-in prints.
-inline constexpr int child_descriptor = 3, printed_descriptor = 4;
+// The descriptor under which the child finds its end of the channel.
+inline constexpr int child_descriptor = 3;
+
+// An open file of this process, and the number under which the child has it. REQUIRES that `here`
+// is no number that another file gets there: least_passed_descriptor or more is none, and the
+// first of a list may have any number.
+struct PassedDescriptor {
+  int here, there;
+};
+inline constexpr int least_passed_descriptor = 10;
 
 struct ChildEnd {
   int signal = 0;        // the signal that killed it; 0: it exited
@@ -27,6 +34,9 @@ struct ChildEnd {
   // "killed by signal 11 (Segmentation fault)", "exited with code 0"; empty when by_host.
   std::string text;
 };
+
+// The end of one that a signal killed.
+ChildEnd end_by_signal(int signal);
 
 // Waits for the end of a child of this process. REQUIRES that nobody has waited for it.
 ChildEnd end_of_child(pid_t id);
@@ -37,17 +47,17 @@ ChildEnd end_of_child(pid_t id);
 // is closed or interrupted. The child may also send them to itself on purpose.
 bool was_killed_from_outside(const ChildEnd& end);
 
-// The child leads a process group of its own, so that a terminal's ctrl-C reaches the host alone.
+// The child leads a session and a process group of its own, so that it has no terminal, and ctrl-C
+// reaches the host alone.
 // It starts with no signal blocked or ignored, even if the host, or the shell that started the
 // host, ignores some. Otherwise a detector could outlive a signal that would end it anywhere else.
 class ChildProcess {
  public:
-  // Starts the program with an empty stdin. `descriptor` becomes child_descriptor of the child.
-  // `printed` becomes printed_descriptor, if it is given and greater than both of these numbers.
-  // The problem states the system's reason.
+  // Starts the program with an empty stdin. One that is named without a folder is searched for as
+  // by a shell. The problem states the system's reason.
   static Expected<ChildProcess> start(const std::filesystem::path& program,
-                                      const std::vector<std::string>& arguments, int descriptor,
-                                      int printed = -1);
+                                      const std::vector<std::string>& arguments,
+                                      const std::vector<PassedDescriptor>& descriptors);
   ChildProcess(ChildProcess&& other) noexcept : id_(std::exchange(other.id_, -1)) {}
   ChildProcess& operator=(ChildProcess&&) = delete;
   ~ChildProcess();  // waits a fifth of a second, then kills

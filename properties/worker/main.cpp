@@ -1,6 +1,5 @@
 // assay-worker runs detectors on the cases that its host sends, until the host closes the channel.
 // It holds the built-in detector and, if a library is named, a plug-in. It never holds the oracle.
-#include <fcntl.h>
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -18,8 +17,7 @@
 #include <vector>
 
 #include "properties/worker/channel.h"
-#include "properties/worker/isolation/keeper.h"
-#include "properties/worker/isolation/walls.h"
+#include "properties/worker/isolation/own_limits.h"
 #include "properties/worker/messages.h"
 #include "properties/worker/plugin/plugin_host.h"
 #include "properties/worker/plugin/python_word.h"
@@ -37,14 +35,13 @@ std::optional<std::uint64_t> number(std::string_view word) {
   return value;
 }
 
-// Settles how this process lives and dies. It dies with its host, and before its host if memory is
-// short. It leaves no core file and prints nothing on stdout. It is not stopped when it prints on
-// a terminal, although its process group is in the background there.
+// Settles how this process lives and dies. It dies with its host (behind bwrap, which ends it,
+// `host` is 0), and before its host if memory is short. It leaves no core file and prints nothing
+// on stdout.
 bool settle(std::uint64_t host) {
-  if (::prctl(PR_SET_PDEATHSIG, SIGKILL) != 0) return false;
+  if (host > 0 && ::prctl(PR_SET_PDEATHSIG, SIGKILL) != 0) return false;
   // The host may have died before this took effect.
-  if (static_cast<std::uint64_t>(::getppid()) != host) return false;
-  ::signal(SIGTTOU, SIG_IGN);
+  if (host > 0 && static_cast<std::uint64_t>(::getppid()) != host) return false;
   const rlimit no_core = {0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
   end_first_without_memory();
@@ -111,37 +108,34 @@ int serve(Channel channel, const LoadedPlugin* library) {
 
 }  // namespace
 
-// The arguments are the descriptor of the channel, the process of the host and a limit in bytes.
-// For a plug-in these follow: the isolation, its scratch folder, the library, how many threads it
-// may use, and its name as the user calls it, which may be the word of a detector in Python. Then
-// come a folder in which it reads no file, or an empty word, the number by which this worker
-// differs from others, and 1 where each step is evaluated twice, else 0. At last come copies of
-// files, each followed by the path of its original.
+// The arguments are the descriptor of the channel, the process of the host (0 behind bwrap) and a
+// limit in bytes. For a plug-in these follow: the library, its scratch folder, how many threads it
+// may use, its name as the user calls it, which may be the word of a detector in Python, the number
+// by which this worker differs from others, and 1 where each step is evaluated twice, else 0.
 int main(int argc, char** argv) {
   const std::span<char*> words(argv, static_cast<std::size_t>(argc));
-  constexpr std::size_t built_in = 4, with_plugin = 12;
-  const bool is_with_plugin = words.size() >= with_plugin && (words.size() - with_plugin) % 2 == 0;
-  if (words.size() == built_in || is_with_plugin) {
+  constexpr std::size_t built_in = 4, with_plugin = 10;
+  if (words.size() == built_in || words.size() == with_plugin) {
     const auto channel = number(words[1]), host = number(words[2]), bytes = number(words[3]);
     if (channel && host && bytes && settle(*host)) {
       Channel to_host(static_cast<int>(*channel));
-      if (words.size() == built_in) {
+      if (words.size() == built_in)
         return limit_memory(*bytes) ? serve(std::move(to_host), nullptr) : exit_usage;
-      }
-      const auto mode = assay::from_name<IsolationMode>(words[4]);
-      const auto threads = number(words[7]), variation = number(words[10]),
-                 asks_twice = number(words[11]);
-      if (mode && threads && variation && asks_twice) {
+      const auto threads = number(words[6]), variation = number(words[8]),
+                 asks_twice = number(words[9]);
+      if (threads && variation && asks_twice) {
         vary(*variation);
-        const LoadedPlugin plugin{words[6], static_cast<std::uint32_t>(*threads), words[8],
+        ::setenv("TMPDIR", words[5], 1);
+        const LoadedPlugin plugin{words[4], static_cast<std::uint32_t>(*threads), words[7],
                                   *asks_twice != 0};
         if (const auto word = python_word_of(plugin.called))
           ::setenv(python_detector_variable, word->text().c_str(), 1);
-        std::vector<ReplacedFile> replaced;
-        for (std::size_t i = with_plugin; i < words.size(); i += 2)
-          replaced.push_back({words[i], words[i + 1]});
-        keep(std::move(to_host), {*mode, words[5], *bytes, words[9], std::move(replaced)},
-             [&plugin](Channel to_keeper) { return serve(std::move(to_keeper), &plugin); });
+        ::close_range(static_cast<unsigned>(*channel) + 1, ~0U, 0);  // what the host left open
+        const bool is_alone = *host == 0;
+        if (is_alone) ::setsid();  // bwrap's is out of its sight
+        if (!limit_plugin(*bytes, is_alone)) return exit_usage;
+        // An exception that nobody catches ends the process as it would end any other.
+        std::exit(serve(std::move(to_host), &plugin));
       }
     }
   }

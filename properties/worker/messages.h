@@ -1,6 +1,5 @@
-// What travels between the host and its worker, field by field, and the rules that a worker's
-// replies must keep to be believed. A new field of a result or an option does not compile
-// until it is named here.
+// What travels between the host and its worker, field by field. A new field of a result or an
+// option does not compile until it is named here.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +12,6 @@
 #include "detector/step_result.h"
 #include "properties/problem.h"
 #include "properties/worker/case_run.h"
-#include "properties/worker/isolation/keeper.h"
 #include "properties/worker/plugin/plugin_description.h"
 #include "properties/worker/plugin/query_case.h"
 #include "properties/worker/wire.h"
@@ -69,8 +67,6 @@ void fields(Wire& wire, Claims& claims) {
   claims = Claims::of_bits(bits);
 }
 
-ASSAY_FIELDS(Isolation, files, processes, calls)
-ASSAY_FIELDS(KeeperHello, wire_version, isolation, process, has_copies)
 ASSAY_FIELDS(PluginParts, steps, query, candidates, limit, takes_threads)
 ASSAY_FIELDS(PluginDescription, name, version, claims, contract, parts)
 
@@ -127,9 +123,8 @@ constexpr std::uint64_t wire_version() {
   return hash;
 }
 
-// The rules. A plug-in shares its process with the code that replies, so it can send
-// whatever it likes. So no part of a reply is believed before it has been checked. A reply that
-// breaks a rule counts as a crash of the plug-in.
+// What a plug-in says is checked where it is read (plugin_reading.h), in its own process. If that
+// process damages its own memory, its reply may be none; such a reply counts as a crash.
 
 // Bytes of the longest line of text in a reply.
 inline constexpr std::size_t longest_reply_text = 4096;
@@ -140,33 +135,7 @@ std::uint64_t longest_reply(const corpus::Case& c);
 // The most bytes that the first message of a worker may have.
 inline constexpr std::uint64_t longest_hello = 4 * longest_reply_text;
 
-// Which rule is broken by a run of a plug-in on this case; empty: none. The rules:
-// - A run that completed has a result for each step. One that was refused, or ran out of memory,
-//   has no results. No run claims an end that only the host can see (crashed, hung, not run).
-// - Every text is one printable line.
-// - A result states pairs only if its answer is neither `free` nor an error. Each is a pair of two
-//   triangles of the mesh; pairs ascend, each once.
-// - Intervals lie in [0, 1].
-// - A result states nothing that plug-ins are not asked for, such as views.
-// - If the description claims candidates, there is a list of such pairs for each step, and else
-//   none.
-// - The same of limits: each has a share from 0 to 1, or -1 where no claim speaks of it, and finite
-//   positions of all vertices.
-// - A run of a query (query_case.h) states neither pairs, candidates nor limits, and has an answer.
-// - If a step is refused as beyond the capacity, that is said of each step, and such a step is an
-//   error.
-// - Otherwise there are answers if and only if the plug-in has the part of steps.
-// - Times, if there are any, are finite and not negative, one for each step.
-std::string broken_rule(const corpus::Case& c, const CaseRun& run,
-                        const PluginDescription& description);
-
-// The same for a description: a name and a version in one printable line each that may be such
-// (fault_of_name), a margin that is a length, at least one part that can be judged, and claims on
-// candidates and limits if and only if it has them.
-std::string broken_rule(const PluginDescription& description);
-
-// The same for the reason why a plug-in cannot be loaded: a message of PluginHost::open, in one
-// printable line.
-std::string broken_rule(const std::string& refusal);
+// Whether all that the run of a case says is about that case: its steps, triangles and vertices.
+bool fits(const CaseRun& run, const corpus::Case& c);
 
 }  // namespace assay::properties

@@ -31,7 +31,7 @@ ProcessTree look_at(pid_t root, pid_t apart = 0);
 // Seconds of processor time since a beginning, which is the construction or the last lap().
 //
 // The threads of the process, ended ones included, are measured to the nanosecond; that takes 0.2
-// us. If another process does the work for it (a plug-in behind its keeper), that one is measured
+// us. If another process does the work for it (a worker behind bwrap), that one is measured
 // in this way, and the process itself is not counted.
 //
 // The processes that it started are measured only when look() is called. What they used before the

@@ -4,11 +4,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <random>
 #include <thread>
 
 #include "properties/worker/channel.h"
 #include "properties/worker/child_process.h"
+#include "properties/worker/isolation/bubblewrap.h"
 #include "properties/worker/isolation/printed_words.h"
 #include "properties/worker/isolation/scratch_folder.h"
 #include "properties/worker/messages.h"
@@ -34,13 +34,6 @@ std::string broken(const std::string& rule) {
   return fmt::format("sent a reply that is none: {}", rule);
 }
 
-// Draws the number of a request. A reply to another request, or one that was sent before there was
-// a request, has another number.
-std::uint64_t draw_number() {
-  static thread_local std::mt19937_64 numbers(std::random_device{}());
-  return numbers();
-}
-
 }  // namespace
 
 struct WorkerProcess::Parts {
@@ -48,10 +41,19 @@ struct WorkerProcess::Parts {
     ChildProcess child;
     Channel channel;
     std::thread::id starter;
-    pid_t plugin = 0;  // the process of the plug-in; 0 if there is none or it is not known
-    std::optional<PrintedPipe> printed;
+    std::optional<PrintedFile> printed;
+    bool is_behind_bubblewrap = false;
 
     std::string take_printed() { return printed ? printed->take() : ""; }
+    ChildEnd finish(std::chrono::milliseconds patience) {
+      const ChildEnd end = child.finish(patience);
+      return is_behind_bubblewrap ? end_behind_bubblewrap(end) : end;
+    }
+    // Looked at while the worker is waited for.
+    std::optional<std::chrono::milliseconds> wait(WorkerWatch& watch) {
+      if (printed) printed->keep_short();
+      return watch.patience();
+    }
   };
 
   std::filesystem::path program;
@@ -61,13 +63,13 @@ struct WorkerProcess::Parts {
   std::optional<ScratchFolder> scratch;
   std::optional<Live> live;
   PluginDescription description;
-  Isolation isolation;
+  Isolation isolation = Isolation::limits;
   // A plug-in that was loaded before, and dies or hangs when it is loaded again, does so by itself
   // and not because it cannot be loaded.
   bool was_loaded = false;
   RunEnd end_of_loading = RunEnd::not_run;
   std::string printed_while_loaded;  // set if the plug-in ended while it was loaded
-  std::uint64_t starts = 0;
+  std::uint64_t starts = 0, requests = 0;
   std::uint64_t told = 0;    // disturbances that are noted in a run
   std::uint64_t untold = 0;  // disturbances since then, which the next run will note
   int killed_under_way = 0;  // attempts at the next run that were disturbed
@@ -108,7 +110,7 @@ struct WorkerProcess::Parts {
   // Buries a worker that ended between two cases, and so owes no answer. The system kills a worker
   // when the thread that started it ends; that is no disturbance.
   void bury() {
-    const ChildEnd end = live->child.finish(last_breath);
+    const ChildEnd end = live->finish(last_breath);
     if (was_killed_from_outside(end) && live->starter == std::this_thread::get_id()) ++untold;
     live.reset();
   }
@@ -118,40 +120,47 @@ struct WorkerProcess::Parts {
     if (!ends) return Problem{"no socket for a worker"};
     std::vector<std::string> arguments = {std::to_string(child_descriptor),
                                           std::to_string(::getpid()), std::to_string(limits.bytes)};
-    if (plugin_library) {
-      if (limits.isolation != IsolationMode::none && !scratch) {
-        auto made = ScratchFolder::make();
-        if (!made) return made.error();
-        scratch = std::move(made.value());
-      }
-      arguments.emplace_back(name_of(limits.isolation));
-      arguments.push_back(scratch ? scratch->path().string() : std::string());
-      if (names_python(who())) {
-        if (const auto serving = python_plugin(who(), program); !serving) return serving.error();
-      }
-      if (!judged) judged = JudgedLibrary::of(*plugin_library, program);
-      arguments.push_back(judged->file().string());
-      arguments.push_back(std::to_string(limits.threads));
-      arguments.push_back(who());
-      arguments.push_back(limits.unread.string());
-      arguments.push_back(std::to_string(limits.variation));
-      arguments.push_back(std::to_string(int{limits.asks_twice}));
-      for (const auto& file : judged->files()) {
-        if (file.copy.empty()) continue;
-        arguments.push_back(file.copy.string());
-        arguments.push_back(file.original.string());
-      }
+    std::vector<PassedDescriptor> passed = {{ends->second.descriptor(), child_descriptor}};
+    if (!plugin_library) return note(ChildProcess::start(program, arguments, passed), *ends, {});
+    const auto& fault =
+        limits.isolation == Isolation::limits ? "not asked for" : fault_of_bubblewrap();
+    if (limits.isolation == Isolation::bubblewrap && !fault.empty())
+      return Problem{
+          fmt::format("{}: not loaded: bubblewrap does not work here: {}; see "
+                      "--isolation limits",
+                      who(), fault)};
+    isolation = fault.empty() ? Isolation::bubblewrap : Isolation::limits;
+    // A new one, so that no process finds what another one has left.
+    auto made = ScratchFolder::make();
+    if (!made) return made.error();
+    scratch = std::move(made.value());
+    if (names_python(who())) {
+      if (const auto serving = python_plugin(who(), program); !serving) return serving.error();
     }
-    const bool is_silent = plugin_library && limits.isolation != IsolationMode::none;
-    auto printed = is_silent ? PrintedPipe::make() : std::nullopt;
-    auto child = ChildProcess::start(program, arguments, ends->second.descriptor(),
-                                     printed ? printed->write_end() : -1);
+    if (!judged) judged = JudgedLibrary::of(*plugin_library, program);
+    for (const auto& word :
+         {judged->file().string(), scratch->path().string(), std::to_string(limits.threads), who(),
+          std::to_string(limits.variation), std::to_string(int{limits.asks_twice})})
+      arguments.push_back(word);
+    auto printed = PrintedFile::make();
+    if (!printed) return Problem{"no file in memory for what a plug-in prints"};
+    for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
+      passed.push_back({printed->descriptor(), stream});
+    if (isolation == Isolation::limits)
+      return note(ChildProcess::start(program, arguments, passed), *ends, std::move(printed));
+    arguments[1] = "0";
+    return note(start_behind_bubblewrap(program, arguments, scratch->path(), passed), *ends,
+                std::move(printed));
+  }
+
+  Expected<void> note(Expected<ChildProcess> child, std::pair<Channel, Channel>& ends,
+                      std::optional<PrintedFile> printed) {
     if (!child) return child.error();
     ++starts;
-    if (printed) printed->close_write_end();
-    live.emplace(Live{std::move(child.value()), std::move(ends->first), std::this_thread::get_id(),
-                      0, std::move(printed)});
-    { const Channel closed_here = std::move(ends->second); }
+    const bool is_behind_bubblewrap = plugin_library && isolation == Isolation::bubblewrap;
+    live.emplace(Live{std::move(child.value()), std::move(ends.first), std::this_thread::get_id(),
+                      std::move(printed), is_behind_bubblewrap});
+    const Channel closed_here = std::move(ends.second);
     return boost::outcome_v2::success();
   }
 
@@ -161,85 +170,45 @@ struct WorkerProcess::Parts {
   // then there is no worker any more.
   Expected<std::optional<ChildEnd>> greet() {
     WorkerWatch watch(live->child, std::min(limits.seconds, longest_loading));
-    const Patience patience = [&] { return watch.patience(); };
     std::string message;
-    Transfer received = Transfer::done;
-    if (plugin_library) {
-      received = live->channel.receive(message, patience, longest_hello);
-      KeeperHello keeper;
-      if (received == Transfer::done) {
-        if (!decode(message, keeper) || keeper.wire_version != wire_version()) return other_build();
-        isolation = keeper.isolation;
-        live->plugin = static_cast<pid_t>(keeper.process);
-        if (!keeper.has_copies) judged->note_loaded_in_place();
-        if (!covers(isolation, limits.least)) {
-          return Problem{
-              fmt::format("{}: not loaded: its isolation would be {}, and was {} when "
-                          "it was loaded first",
-                          who(), text_of(isolation), text_of(limits.least))};
-        }
-        limits.least = isolation;
-        if (limits.isolation == IsolationMode::required && !isolation.is_whole()) {
-          return Problem{
-              fmt::format("{}: not loaded: isolation is required, and this system's is {}", who(),
-                          text_of(isolation))};
-        }
-      }
-    }
-    if (received == Transfer::done) {
-      received = live->channel.receive(message, patience, longest_hello);
-    }
-    if (received == Transfer::too_long) return broken_hello("no description");
-    Hello hello;
+    const Transfer received = live->channel.receive(
+        message, [&] { return live->wait(watch); }, longest_hello);
+    if (received == Transfer::too_long) return broken_hello();
     if (received == Transfer::timed_out && !watch.has_ended()) {
       if (was_loaded && plugin_library) end_of_loading = RunEnd::hung;
       return Problem{who() + ": hung while it was loaded: " + watch.why()};
     }
     if (received != Transfer::done) {
-      const ChildEnd end = live->child.finish(last_breath);
+      const ChildEnd end = live->finish(last_breath);
       printed_while_loaded = live->take_printed();
       live.reset();
       return std::optional(end);
     }
-    if (!plugin_library) {
-      if (!decode(message, hello) || hello.wire_version != wire_version()) return other_build();
-    } else if (!decode(message, hello)) {
-      return broken_hello("no description");
-    }
-    if (plugin_library) {
-      const auto rule = hello.serves ? broken_rule(hello.description) : broken_rule(hello.refusal);
-      if (!rule.empty()) return broken_hello(rule);
-    }
+    Hello hello;
+    if (!decode(message, hello)) return broken_hello();
+    if (hello.wire_version != wire_version())
+      return Problem{program.string() + ": of another build than this program"};
     if (!hello.serves) return Problem{hello.refusal};
     description = std::move(hello.description);
     return std::optional<ChildEnd>();
   }
 
-  Problem other_build() const {
-    return {program.string() + ": of another build than this program"};
-  }
-  Problem broken_hello(const std::string& rule) const {
-    return {fmt::format("{}: {}", who(), broken(rule))};
-  }
+  Problem broken_hello() const { return {fmt::format("{}: {}", who(), broken("no description"))}; }
 
   // Sends what is left to do and appends the answers, until a run ends the worker.
   void run_rest(std::span<const corpus::Case> cases, const std::vector<Configuration>& rest,
                 std::vector<CaseRun>& runs) {
     // These are the fields of a RunRequest, without a copy of the cases.
-    const std::uint64_t number = draw_number();
+    const std::uint64_t number = ++requests;
     const std::string request = encode(number, cases, rest);
-    WorkerWatch watch(live->child, limits.seconds, live->plugin);
-    const Transfer transfer = live->channel.send(request, [&] { return watch.patience(); });
+    WorkerWatch watch(live->child, limits.seconds, live->channel.sender());
+    const Transfer transfer = live->channel.send(request, [&] { return live->wait(watch); });
     for (std::size_t i = 0; i < cases.size() * rest.size(); ++i) {
       const auto& c = cases[i / rest.size()];
       RunReply reply;
       const bool is_heard = hear(watch, transfer, longest_reply(c), reply, runs, [&] {
         if (reply.number != number || reply.place != i) return std::string("to another request");
-        auto rule = plugin_library ? broken_rule(c, reply.run, description) : "";
-        if (rule.empty() && reply.run.end == RunEnd::completed &&
-            reply.run.times.has_value() != rest[i % rest.size()].is_timed)
-          rule = "times that nobody asked for, or none";
-        return rule;
+        return std::string(!plugin_library || fits(reply.run, c) ? "" : "of another case");
       });
       if (!is_heard) return;
       CaseRun run = std::move(reply.run);
@@ -263,7 +232,7 @@ struct WorkerProcess::Parts {
     std::string message;
     if (transfer == Transfer::done)
       transfer = live->channel.receive(
-          message, [&] { return watch.patience(); }, longest);
+          message, [&] { return live->wait(watch); }, longest);
     if (transfer != Transfer::done && transfer != Transfer::too_long) {
       end_silent_worker(watch, transfer == Transfer::timed_out && !watch.has_ended(), runs);
       return false;
@@ -283,7 +252,7 @@ struct WorkerProcess::Parts {
 
   ChildEnd end_worker(WorkerWatch& watch, std::chrono::milliseconds patience, CaseRun& run) {
     run.processor_seconds = watch.next_case();
-    ChildEnd end = live->child.finish(patience);
+    ChildEnd end = live->finish(patience);
     run.printed = live->take_printed();
     live.reset();
     return end;
@@ -358,7 +327,7 @@ std::vector<CaseRun> WorkerProcess::run(std::span<const corpus::Case> cases,
   return runs;
 }
 
-const Isolation& WorkerProcess::isolation() const { return parts_->isolation; }
+Isolation WorkerProcess::isolation() const { return parts_->isolation; }
 std::uint64_t WorkerProcess::starts() const { return parts_->starts; }
 std::uint64_t WorkerProcess::disturbances() const { return parts_->told + parts_->untold; }
 

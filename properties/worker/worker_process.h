@@ -30,15 +30,10 @@ struct WorkerLimits {
   // longest_loading if that is less.
   double seconds = 10;
   std::uint64_t bytes = 0;  // address space of a process; 0: no limit
-  // How the process of a plug-in is to be isolated. If that is `required` and the system does not
-  // offer all of it, it is not loaded.
-  IsolationMode isolation = IsolationMode::best;
-  // The isolation that a plug-in was reported to have when it was first loaded. It is not loaded
-  // again with less, whatever `isolation` says.
-  Isolation least = {};
+  // How the process of a plug-in is to be isolated. If that is bubblewrap, and it does not work on
+  // this machine, the plug-in is not loaded. Nothing: bubblewrap where it works.
+  std::optional<Isolation> isolation = {};
   std::uint64_t threads = 1;  // told to a plug-in that asks how many it may use
-  // A folder in which an isolated plug-in reads no file: that of the run.
-  std::filesystem::path unread = {};
   // Workers of one detector with different numbers have different hash seeds (PYTHONHASHSEED) and
   // different addresses, even on a system that deals out none at random.
   std::uint32_t variation = 0;
@@ -65,12 +60,11 @@ class WorkerProcess {
   Expected<PluginDescription> describe();
 
   // How the plug-in's process is isolated. Known once describe() or run() has returned an answer.
-  const Isolation& isolation() const;
+  Isolation isolation() const;
 
   // Returns one run for each configuration, in order. A crash or a hang is reported for the
-  // configuration that had it; the others still run, in a new worker. A reply of a plug-in that
-  // breaks a rule (messages.h) counts as a crash. If no worker can be started, the runs are
-  // not_run and say why.
+  // configuration that had it; the others still run, in a new worker. A reply that is none counts
+  // as a crash. If no worker can be started, the runs are not_run and say why.
   //
   // A run whose worker is killed from outside (child_process.h) is repeated in a new worker. After
   // the third such death in a row it counts as crashed: one death may be bad luck, three are taken

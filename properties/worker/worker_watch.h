@@ -24,7 +24,7 @@ class WorkerWatch {
  public:
   // Allows `seconds` of processor time for each case, used by the worker with its threads and by
   // all processes that it started, and begins the first case. `worker` must outlive this object.
-  // `plugin` is the process of the plug-in that the worker keeps; 0: none, or unknown.
+  // `plugin` is the process of the plug-in, if the worker is bwrap before it; 0: none, or unknown.
   WorkerWatch(const ChildProcess& worker, double seconds, pid_t plugin = 0);
 
   // How long to wait for the worker before asking this again. Nothing if waiting is over: then

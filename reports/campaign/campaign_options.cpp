@@ -38,25 +38,6 @@ Expected<std::vector<corpus::Case>> public_sequences(const std::string& folder) 
   return Problem{problem.what()};
 }
 
-// An isolated plug-in reads nothing in the folder of its run. So the folder must not hold the
-// library, nor the current folder, where a detector in Python lies.
-Expected<void> lies_apart(const std::filesystem::path& out, const DetectorWords& detector) {
-  if (detector.library.empty() || detector.isolation == properties::IsolationMode::none)
-    return outcome::success();
-  std::error_code error;
-  for (const auto& place :
-       {std::filesystem::weakly_canonical(detector.library, error).parent_path(),
-        std::filesystem::current_path(error)}) {
-    const auto end = std::mismatch(out.begin(), out.end(), place.begin(), place.end()).first;
-    if (end == out.end())
-      return Problem{
-          fmt::format("--out {}: it holds {}, and the detector reads nothing in the "
-                      "folder of its run; name a folder of the run's own",
-                      out.string(), place.string())};
-  }
-  return outcome::success();
-}
-
 }  // namespace
 
 void add_campaign_options(Verb& verb, CampaignWords& words) {
@@ -117,13 +98,10 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
     BOOST_OUTCOME_TRY(proof, properties::take_power(words.power, words.out, request));
     request.power = std::move(proof);
   }
-  std::error_code error;
-  request.folder = std::filesystem::weakly_canonical(words.out, error);
-  BOOST_OUTCOME_TRY(lies_apart(request.folder, words.detector));
   auto chosen_words = words.detector;
   if (asks_queries_alone(request.plan) && chosen_words.part == DetectorPart::by_library)
     chosen_words.part = DetectorPart::query;
-  BOOST_OUTCOME_TRY(subject, choose_detector(chosen_words, {.unread = request.folder}));
+  BOOST_OUTCOME_TRY(subject, choose_detector(chosen_words));
   static_cast<properties::Subject&>(request) = std::move(subject);
   const auto& detector = request.detector;
   if (!words.data.empty()) {

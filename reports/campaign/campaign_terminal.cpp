@@ -111,14 +111,6 @@ class CampaignTerminal : public properties::CampaignObserver {
     progress_->show(fmt::format("{}: every motion of a tetrahedron on a small grid", world));
   }
 
-  void on_asked_again(const properties::AskedAgain& asked, double seconds) override {
-    progress_.reset();
-    fmt::print("asked again {:.0f} s after it was loaded: {} cases, {} wrong{}\n", seconds,
-               asked.cases, asked.wrong,
-               asked.open > 0 ? fmt::format(", {} without an answer", asked.open) : "");
-    std::fflush(stdout);
-  }
-
   // Says whether every failing mesh could be written.
   const Expected<void>& written() const { return written_; }
 

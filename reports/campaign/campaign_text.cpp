@@ -298,12 +298,11 @@ std::string verdict_text(const RunFindings& findings, const properties::Judgemen
   if (judgement.exit_code == exit_defect || judgement.exit_code == exit_unsound)
     std::transform(word.begin(), word.end(), word.begin(),
                    [](char c) { return c == '-' ? ' ' : static_cast<char>(std::toupper(c)); });
-  std::uint64_t differing = 0, wrong_steps = 0, wrong_again = 0;
+  std::uint64_t differing = 0, wrong_steps = 0;
   for (const auto& one : findings.evidence.repeated) {
     differing += one.broken ? 1 : 0;
     for (const auto& step : one.judged) wrong_steps += step.holds ? 0 : 1;
   }
-  for (const auto& asked : findings.evidence.asked_again) wrong_again += asked.wrong;
   std::string out = fmt::format("{}: {} trials with a defect, {} undecided, {} laws broken", word,
                                 findings.tally.with_defect(), findings.tally.open(),
                                 properties::broken_laws(findings.tally.counts));
@@ -311,7 +310,6 @@ std::string verdict_text(const RunFindings& findings, const properties::Judgemen
   if (wrong_steps) out += fmt::format(", {} wrong steps of larger meshes", wrong_steps);
   if (const auto defects = findings.searched().defects)
     out += fmt::format(", {} cases of the search with a defect", defects);
-  if (wrong_again) out += fmt::format(", {} cases wrong when asked again", wrong_again);
   return out;
 }
 

@@ -34,7 +34,7 @@ DetectorWords detector_of(const properties::RunFindings& findings) {
   words.threads = findings.run.detector.threads;
   words.part = part_asked_by(findings.run.plan);
   for (const auto& shard : findings.evidence.isolation)
-    words.isolation = from_name<properties::IsolationMode>(shard.asked).value_or(words.isolation);
+    words.isolation = from_name<properties::Isolation>(shard.asked);
   return words;
 }
 

@@ -48,12 +48,12 @@ Json subject_json(const RunFindings& findings) {
 Json isolation_json(const RunFindings& findings) {
   if (findings.run.detector.built_in) return nullptr;
   const auto& told = findings.evidence.isolation;
-  properties::Isolation common;
-  for (std::size_t i = 0; i < told.size(); ++i) {
-    const auto got = properties::isolation_of(told[i].got);
-    common = i == 0 ? got : common_to(common, got);
-  }
-  return text_of(common);
+  const auto is_behind_bubblewrap = [](const properties::PluginIsolation& shard) {
+    return shard.got == name_of(properties::Isolation::bubblewrap);
+  };
+  return text_of(!told.empty() && std::all_of(told.begin(), told.end(), is_behind_bubblewrap)
+                     ? properties::Isolation::bubblewrap
+                     : properties::Isolation::limits);
 }
 
 Json versions_json(const RunFindings& findings) {

@@ -31,7 +31,7 @@ std::string detector_text(const properties::DetectorUnderTest& detector) {
 
 std::string plugin_text(const properties::Subject& plugin) {
   return fmt::format("plug-in {}\nisolation: {}\nthreads: {}", detector_text(plugin.detector),
-                     text_of(plugin.limits.least), plugin.limits.threads);
+                     text_of(plugin.isolation), plugin.limits.threads);
 }
 
 std::string printed_text(const std::string& printed) {

@@ -95,7 +95,7 @@ class Plugin : public StepAnswers {
   nlohmann::ordered_json to_json() const override {
     return detector_json({{"library", subject_.plugin->string()},
                           {"disturbances", worker_.disturbances() + second_.disturbances()},
-                          {"isolation", text_of(subject_.limits.least)},
+                          {"isolation", text_of(subject_.isolation)},
                           {"printed", run_.printed}});
   }
 

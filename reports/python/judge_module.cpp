@@ -97,7 +97,7 @@ CheckQuestion question_of(const py::dict& given) {
   choose(given, "start", from_name<detector::Start>, question.built_in.start);
   choose(given, "pairs", from_name<detector::Pairs>, question.built_in.pairs);
   choose(given, "arithmetic", from_name<detector::Arithmetic>, question.built_in.arithmetic);
-  choose(given, "isolation", from_name<properties::IsolationMode>, question.detector.isolation);
+  choose(given, "isolation", from_name<properties::Isolation>, question.detector.isolation);
   choose(given, "memory", reports::memory_size, question.memory_limit);
   take(given, "detector", question.detector.library);
   take(given, "threads", question.threads);

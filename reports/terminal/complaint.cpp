@@ -22,10 +22,7 @@ int refuse(const std::string& line) noexcept {
   return exit_usage;
 }
 
-int refuse(const Problem& problem) noexcept {
-  refuse(problem.message);
-  return problem.kind == ProblemKind::not_as_stored ? exit_unsound : exit_usage;
-}
+int refuse(const Problem& problem) noexcept { return refuse(problem.message); }
 
 bool output_was_written() noexcept {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;

@@ -26,8 +26,7 @@ namespace outcome = boost::outcome_v2;
 // Prints "assay: LINE" on stderr, with control characters replaced and cut at 1,000 bytes, and
 // returns exit_usage. Never throws, whatever stderr is.
 int refuse(const std::string& line) noexcept;
-// Prints the problem's line in the same way. Returns exit_unsound if what is read back is not what
-// was stored, because then the harness cannot vouch for anything; else exit_usage.
+// The same for the problem's line.
 int refuse(const Problem& problem) noexcept;
 
 // Whether all that was printed reached stdout; if not, says so on stderr.

@@ -244,10 +244,10 @@ void add_part(Verb& verb, DetectorPart& part) {
 
 VerbOption add_detector_alone(Verb& verb, DetectorWords& detector, const std::string& about) {
   auto library = verb.add("--detector LIB.so", detector.library, about).in(OptionGroup::detector);
-  add_choice(verb, "--isolation", detector.isolation, "none, best, required",
-             from_name<properties::IsolationMode>,
-             "Of the plug-in's process: best takes what the system offers (default), required "
-             "refuses where something is lacking, none lets it print")
+  add_choice(verb, "--isolation", detector.isolation, "bubblewrap, limits",
+             from_name<properties::Isolation>,
+             "Of the plug-in's process: bubblewrap, or limits alone (default: bubblewrap where it "
+             "works)")
       .in(OptionGroup::detector);
   return library;
 }
@@ -255,8 +255,7 @@ VerbOption add_detector_alone(Verb& verb, DetectorWords& detector, const std::st
 std::string detector_words(const DetectorWords& detector) {
   if (detector.library.empty()) return "";
   std::string words = " --detector " + shell_word(absolute_path(detector.library));
-  if (detector.isolation != properties::IsolationMode::best)
-    words += fmt::format(" --isolation {}", name_of(detector.isolation));
+  if (detector.isolation) words += fmt::format(" --isolation {}", name_of(*detector.isolation));
   return detector.threads == 1 ? words : words + fmt::format(" --threads {}", detector.threads);
 }
 

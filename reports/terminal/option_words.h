@@ -151,12 +151,12 @@ using properties::DetectorPart;
 // A detector as the user names it.
 struct DetectorWords {
   std::string library;  // of a plug-in; empty: the built-in detector
-  properties::IsolationMode isolation = properties::IsolationMode::best;
-  std::uint64_t threads = 1;  // threads that it may use
+  std::optional<properties::Isolation> isolation = {};  // nothing: bubblewrap where it works
+  std::uint64_t threads = 1;                            // threads that it may use
   DetectorPart part = DetectorPart::by_library;
 };
 
-// " --detector LIB.so --isolation none --threads 2": the library by its whole path, the others
+// " --detector LIB.so --isolation limits --threads 2": the library by its whole path, the others
 // unless they are the default. Empty for the built-in detector.
 std::string detector_words(const DetectorWords& detector);
 

@@ -82,8 +82,8 @@ class Certification {
                            absolute_path(words_.own_cases), absolute_path(words_.data)});
     keep(input_digests());
     if (request_.plugin)
-      keep(properties::PluginIsolation{properties::checks_shard, name_of(request_.limits.isolation),
-                                       text_of(request_.limits.least)});
+      keep(properties::PluginIsolation{properties::checks_shard, request_.isolation_word(),
+                                       name_of(request_.isolation)});
     keep(properties::asked_of_a_certificate());
   }
 
@@ -140,7 +140,6 @@ class Certification {
     BOOST_OUTCOME_TRY(store, properties::Store::open(properties::store_file(out_, request_.shard),
                                                      properties::binding_of(request_)));
     store_ = std::move(store);
-    BOOST_OUTCOME_TRY(properties::keeps_isolation(request_, *store_));
     return outcome::success();
   }
 
@@ -169,18 +168,6 @@ class Certification {
       fmt::print("{}: {} trials\n", name, shard.trials);
     }
     return outcome::success();
-  }
-
-  // All rows that the stores have to hold: those that were written here, and those that were there
-  // before.
-  properties::KnownRows known_rows() const {
-    properties::KnownRows known;
-    known[properties::checks_file(out_).filename().string()] = &checks_.known_rows();
-    if (store_)
-      known[properties::store_file(out_, request_.shard).filename().string()] =
-          &store_->known_rows();
-    for (const auto& [name, shard] : shards_) known[name] = &shard.rows;
-    return known;
   }
 
   void run_self_test() {
@@ -215,15 +202,8 @@ class Certification {
     keep(properties::Issued{properties::time_in_utc(), seconds});
     checks_.seal();
     if (const auto& problem = checks_.problem()) return *problem;
-    // The code of a plug-in may have reached the files. So there is a verdict on what was stored,
-    // or none.
-    BOOST_OUTCOME_TRY(findings, properties::read_findings(out_, known_rows()));
+    BOOST_OUTCOME_TRY(findings, properties::read_findings(out_));
     BOOST_OUTCOME_TRY(statement, make_statement(findings));
-    const auto& digests = statement["predicate"]["digests"];
-    if (digests["campaign"] != corpus::sha256_of(campaign_text()))
-      return Problem{fmt::format("{}: was changed while this run was at work",
-                                 properties::campaign_file(out_).string()),
-                     ProblemKind::not_as_stored};
     const auto certificate = properties::certificate_file(out_).string();
     auto written = write_text_file(certificate, statement_text(statement));
     if (written) written = write_for_ci(statement["predicate"], out_);

@@ -83,14 +83,12 @@ Expected<void> run_own_cases(const properties::CampaignRequest& request, propert
   return properties::keep_own_cases(store, rows, failures);
 }
 
-// Runs what is left of the shard, and reads the whole of it. The code of a plug-in may have reached
-// the file. So there is a verdict on what was stored, or none.
+// Runs what is left of the shard, and reads the whole of it.
 Expected<properties::RunFindings> run_shard(const properties::CampaignRequest& request,
                                             properties::Store& store, const std::string& out) {
   BOOST_OUTCOME_TRY(run_own_cases(request, store));
   BOOST_OUTCOME_TRY(run_on_terminal(request, store, out));
-  return properties::read_one_store(properties::store_file(out, request.shard),
-                                    &store.known_rows());
+  return properties::read_one_store(properties::store_file(out, request.shard));
 }
 
 Expected<int> run_campaign(const RunRequest& command) {
@@ -102,12 +100,10 @@ Expected<int> run_campaign(const RunRequest& command) {
   BOOST_OUTCOME_TRY(may_keep_run(out, {"junit" + part + ".xml", "summary" + part + ".md"}));
   BOOST_OUTCOME_TRY(store, properties::Store::open(properties::store_file(out, request.shard),
                                                    properties::binding_of(request)));
-  BOOST_OUTCOME_TRY(properties::keeps_isolation(request, store));
   const auto findings = run_shard(request, store, out);
   if (!findings) {
     auto problem = findings.error();
-    // A store that somebody changed cannot be continued, so the line does not say that it can.
-    if (problem.kind != ProblemKind::not_as_stored) problem.message += go_on;
+    problem.message += go_on;
     return problem;
   }
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;

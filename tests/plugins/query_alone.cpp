@@ -18,7 +18,6 @@
 //   free-above=N, undecided-above=N          how the steps of larger meshes are answered
 //   up-to=N, from-pairs=N                    ... but not of meshes above N, or with fewer pairs
 //   free-after-commits=N                     free once a handle has committed more steps
-//   free-once=FILE                           free as soon as there is such a file
 //   free-after-calls=N                       free once the process was asked more steps or queries
 //   free-again                               free when a step is evaluated a second time
 //   free-threaded                            free when it may use several threads
@@ -166,7 +165,6 @@ bool answers_free(const assay_result& right) {
   if (is_asked_too_often()) return true;
   if (told.has("free-again") && evaluations > 1) return true;
   if (told.has("free-after-commits") && commits > told.number_of("free-after-commits")) return true;
-  if (told.has("free-once") && ::access(told.value_of("free-once"), F_OK) == 0) return true;
   if (told.has("free-threaded") && threads > 1) return true;
   return is_above("free-above") && !is_above("up-to") &&
          static_cast<double>(right.pair_count) >= told.number_of("from-pairs");

@@ -137,22 +137,6 @@ void check_repetitions(const RunFindings& f, Lines& lines) {
     lines.push_back(fmt::format("{} of {} scenes were repeated", done, wanted.size()));
 }
 
-// Checks that a process of a plug-in was asked again at the end, and that it answered.
-void check_asked_again(const RunFindings& f, Lines& lines) {
-  if (f.run.detector.built_in || f.planned() == 0) return;
-  const auto done = f.evidence.asked_again.size();
-  const std::size_t wanted = f.alone ? 1 : f.shard_count;
-  if (done < wanted)
-    lines.push_back(
-        fmt::format("{} of {} shards asked the detector again at the end", done, wanted));
-  for (const auto& asked : f.evidence.asked_again) {
-    if (asked.open > 0)
-      lines.push_back(
-          fmt::format("asked again at the end, the detector answered {} of {} cases no more",
-                      asked.open, asked.cases));
-  }
-}
-
 // Checks that the search asked all of its cases.
 void check_search(const RunFindings& f, Lines& lines) {
   const auto planned = planned_lanes(f.run.plan, f.alone.value_or(Shard{}));
@@ -233,7 +217,6 @@ GateFindings check_complete(const RunFindings& f, const Asked& asked) {
   if (f.evidence.canaries.empty()) lines.push_back("no canary was met");
   check_faults(f, lines);
   check_repetitions(f, lines);
-  check_asked_again(f, lines);
   check_search(f, lines);
   for (const auto& row : f.evidence.corpus) {
     for (const auto& open : row.open)

@@ -48,12 +48,9 @@ std::optional<Shard> shard_of(const std::string& text) {
 
 class Reader {
  public:
-  Reader(const std::filesystem::path& folder, KnownRows known) : known_(std::move(known)) {
-    found_.folder = folder;
-  }
+  explicit Reader(const std::filesystem::path& folder) { found_.folder = folder; }
 
   RunFindings read_folder() {
-    refuse_lost_files();
     auto files = value_or_throw(stored_shards(found_.folder));
     const auto merged = merged_file(found_.folder), checks = checks_file(found_.folder);
     if (std::find(files.begin(), files.end(), merged) != files.end()) {
@@ -115,29 +112,8 @@ class Reader {
     }
   }
 
-  void refuse_lost_files() const {
-    std::error_code ignored;
-    for (const auto& [name, rows] : known_) {
-      if (!std::filesystem::exists(found_.folder / name, ignored))
-        throw StoreProblem(fmt::format("{}: was taken away while this run was at work",
-                                       (found_.folder / name).string()),
-                           ProblemKind::not_as_stored);
-    }
-  }
-
-  // REQUIRES that `store` has the state of the file that is read afterwards.
-  void check_against_known(const Store& store, const std::filesystem::path& file) const {
-    if (known_.empty()) return;
-    const auto known = known_.find(file.filename().string());
-    if (known == known_.end())
-      throw StoreProblem(fmt::format("{}: was not stored by this run", file.string()),
-                         ProblemKind::not_as_stored);
-    value_or_throw(store.check_against(*known->second));
-  }
-
   void add(const std::filesystem::path& file) {
     const Store store = value_or_throw(Store::read(file));
-    check_against_known(store, file);
     const auto binding = value_or_throw(read_binding(store.binding(), file));
     if (binding_.empty()) {
       binding_ = store.binding();
@@ -225,7 +201,6 @@ class Reader {
     }
   }
 
-  const KnownRows known_;
   RunFindings found_;
   std::string binding_;
   std::vector<Row> evidence_;
@@ -244,14 +219,12 @@ Expected<RunFindings> told(const std::filesystem::path& name, const Read& read) 
 
 }  // namespace
 
-Expected<RunFindings> read_one_store(const std::filesystem::path& file, const RowTally* known) {
-  KnownRows rows;
-  if (known) rows[file.filename().string()] = known;
-  return told(file, [&] { return Reader(file.parent_path(), std::move(rows)).read_alone(file); });
+Expected<RunFindings> read_one_store(const std::filesystem::path& file) {
+  return told(file, [&] { return Reader(file.parent_path()).read_alone(file); });
 }
 
-Expected<RunFindings> read_findings(const std::filesystem::path& folder, const KnownRows& known) {
-  return told(folder, [&] { return Reader(folder, known).read_folder(); });
+Expected<RunFindings> read_findings(const std::filesystem::path& folder) {
+  return told(folder, [&] { return Reader(folder).read_folder(); });
 }
 
 }  // namespace assay::properties

@@ -23,7 +23,6 @@ ASSAY_FIELDS(SlowCase, id, configuration, shard, undecided, seconds, limit, mesh
 ASSAY_FIELDS(Repetition::Judged, step, contacts, holds)
 ASSAY_FIELDS(Repetition, input, configuration, shard, triangles, steps, runs, threads, what, broken,
              judged, extremes)
-ASSAY_FIELDS(AskedAgain, shard, cases, steps, wrong, open)
 ASSAY_FIELDS(SearchedLane, lane, shard, cases, defects, open, causes)
 ASSAY_FIELDS(Asked, gates, certificate)
 ASSAY_FIELDS(Versions, assay, commit, libraries)
@@ -134,7 +133,7 @@ Row to_row(const AnyEvidence& evidence) {
 void EvidenceFacts::take(const Row& row) {
   const auto is_taken = [&](auto&... lists) { return (takes(lists, row) || ...); };
   if (!is_taken(canaries, problems, faults, power, worlds, asked, versions, paths, isolation, slow,
-                repeated, asked_again, search, inputs, corpus, self_test, speed, issued))
+                repeated, search, inputs, corpus, self_test, speed, issued))
     throw StoreProblem(fmt::format("no run stores {}", row_name(row)));
 }
 

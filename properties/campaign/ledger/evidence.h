@@ -107,8 +107,8 @@ struct World {
   std::uint64_t progress() const;
 };
 
-// How well the process of a plug-in was isolated in all trials of a shard, or in the corpus (shard
-// "checks"), in the words of isolation.h.
+// How the process of a plug-in was isolated in all trials of a shard, or in the corpus (shard
+// "checks"): the word that was asked for, empty if none was, and the word of what it had.
 struct PluginIsolation {
   static constexpr const char* kind = "isolation";
   std::string shard, asked, got;
@@ -150,15 +150,6 @@ struct Repetition {
   std::vector<Judged> judged{};
   Extremes extremes{};  // of the judged steps, each with those before it
   std::string key() const { return input + ", " + configuration; }
-};
-
-// What one process of a plug-in answered at the end of a campaign, to what it had been asked before
-// (phases/lasting_worker.h). `wrong`: cases in which its new answer breaks a claim; `open`: those
-// in which it has none any more.
-struct AskedAgain {
-  static constexpr const char* kind = "asked again";
-  std::string shard;
-  std::uint64_t cases = 0, steps = 0, wrong = 0, open = 0;
 };
 
 // What one lane of the search came to (phases/search.h). Only whole lanes are stored.
@@ -261,7 +252,6 @@ struct EvidenceFacts {
   std::vector<PluginIsolation> isolation;
   std::vector<SlowCase> slow;
   std::vector<Repetition> repeated;
-  std::vector<AskedAgain> asked_again;
   std::vector<SearchedLane> search;
   std::optional<InputDigests> inputs;
   std::vector<CorpusRow> corpus;
@@ -276,8 +266,8 @@ EvidenceFacts facts_in(const Store& store);
 
 using AnyEvidence =
     std::variant<Canary, HarnessProblem, FaultProof, PowerSource, World, Asked, Versions, Paths,
-                 PluginIsolation, SlowCase, Repetition, AskedAgain, SearchedLane, InputDigests,
-                 CorpusRow, SelfTestRow, SpeedFigure, Issued>;
+                 PluginIsolation, SlowCase, Repetition, SearchedLane, InputDigests, CorpusRow,
+                 SelfTestRow, SpeedFigure, Issued>;
 Row to_row(const AnyEvidence& evidence);
 
 // Whether two runs of one campaign may differ in this row, which is one of evidence.

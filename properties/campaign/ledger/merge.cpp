@@ -18,7 +18,7 @@ namespace {
 void join(const Database& from, const Row& row, const Database& into) {
   if (put_row(into, row, Put::if_new)) return;
   std::optional<Row> there;
-  for_each_row(into, nullptr, "WHERE kind=? AND key=? AND shard=?", {row.kind, row.key, row.shard},
+  for_each_row(into, "WHERE kind=? AND key=? AND shard=?", {row.kind, row.key, row.shard},
                [&](const Row& other) { there = other; });
   const auto both = joined(there.value(), row);
   if (!both)
@@ -46,7 +46,7 @@ class Merge {
     check(file);
     const Database from(file, Database::Mode::read);
     from.run("BEGIN");  // a shard may be growing: this keeps to one state of the file
-    for_each_row(from, nullptr, "", {}, [&](const Row& row) {
+    for_each_row(from, "", {}, [&](const Row& row) {
       if (row.kind != binding_kind) join(from, row, into_);
     });
     from.run("COMMIT");

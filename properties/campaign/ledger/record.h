@@ -105,9 +105,6 @@ inline constexpr std::string_view corpus_in_id = "corpus/";
 // The id of a failure that a large mesh shows, on which two runs differ, begins with this.
 inline constexpr std::string_view repeated_in_id = "repeated/";
 
-// And that of a failure that shows when a lasting process is asked again (phases/lasting_worker.h).
-inline constexpr std::string_view asked_again_in_id = "asked-again/";
-
 // And that of a failure that the search found (phases/search.h).
 inline constexpr std::string_view searched_in_id = "search/";
 inline bool is_of_search(const StoredFailure& failure) {

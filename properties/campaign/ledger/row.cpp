@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <set>
 
 #include "corpus/digest.h"
 #include "properties/campaign/ledger/row_fields.h"
@@ -107,51 +106,21 @@ std::string row_name(const Row& row) {
   return name;
 }
 
-RowTally::Bytes RowTally::bytes_of(const std::string& hash) {
-  Bytes bytes{};
-  constexpr int hexadecimal = 16;
-  for (std::size_t i = 0; i < bytes.size() && 2 * i + 2 <= hash.size(); ++i)
-    std::from_chars(hash.data() + 2 * i, hash.data() + 2 * i + 2, bytes[i], hexadecimal);
-  return bytes;
-}
-
-void RowTally::put(const std::string& name, const std::string& hash) {
-  hashes_[name] = bytes_of(hash);
-}
-
-bool RowTally::holds(const std::string& name, const std::string& hash) const {
-  const auto found = hashes_.find(name);
-  return found != hashes_.end() && found->second == bytes_of(hash);
-}
-
-void RowTally::for_each_name(const std::function<void(const std::string&)>& visit) const {
-  for (const auto& [name, hash] : hashes_) visit(name);
-}
-
 std::string table_declaration() {
   constexpr std::string_view create = "CREATE TABLE ";
   return fmt::format("CREATE TABLE IF NOT EXISTS {};", declaration.substr(create.size()));
 }
 
-void for_each_row(const Database& database, const RowTally* known, const std::string& more,
+void for_each_row(const Database& database, const std::string& more,
                   const std::vector<std::string_view>& bound,
                   const std::function<void(const Row&)>& visit) {
   Statement rows(database, "SELECT kind,key,shard,progress,fields,hash FROM ledger " + more);
   for (const auto& text : bound) rows.bind(text);
   while (rows.next()) {
     const Row row{rows.text(0), rows.text(1), rows.text(2), rows.number(3), rows.text(4)};
-    const auto hash = row_hash(row), name = row_name(row);
-    // This is reported before a hash that does not fit, because it says more: not only that
-    // somebody changed the row, but that it happened during this run.
-    if (known && !known->holds(name, hash)) {
-      const char* change = known->knows(name) ? "was changed while this run was at work"
-                                              : "was not stored by this run";
-      throw StoreProblem(fmt::format("{}: {} {}", database.file(), name, change),
-                         ProblemKind::not_as_stored);
-    }
-    if (rows.text(5) != hash) {
+    if (rows.text(5) != row_hash(row)) {
       throw StoreProblem(
-          fmt::format("{}: {} was changed after it was written", database.file(), name));
+          fmt::format("{}: {} was changed after it was written", database.file(), row_name(row)));
     }
     visit(row);
   }
@@ -163,22 +132,6 @@ bool put_row(const Database& database, const Row& row, Put put) {
   insert.bind(row.kind).bind(row.key).bind(row.shard).bind(row.progress).bind(row.fields);
   insert.bind(row_hash(row)).next();
   return insert.changed_a_row();
-}
-
-void check_rows(const Database& database, const RowTally& known) {
-  std::size_t count = 0;
-  for_each_row(database, &known, "", {}, [&](const Row&) { ++count; });
-  if (count == known.size()) return;
-  // Keys are unique and every visited row is a known one, so if the numbers differ, some of the
-  // known rows are missing.
-  std::set<std::string> there;
-  for_each_row(database, nullptr, "", {}, [&](const Row& row) { there.insert(row_name(row)); });
-  known.for_each_name([&](const std::string& name) {
-    if (there.contains(name)) return;
-    throw StoreProblem(
-        fmt::format("{}: {} was taken away while this run was at work", database.file(), name),
-        ProblemKind::not_as_stored);
-  });
 }
 
 void check_tables(const Database& database, bool may_lack) {

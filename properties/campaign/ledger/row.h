@@ -1,12 +1,9 @@
 // The rows of a ledger: the one form in which a campaign keeps all that it finds out. A trial is a
-// row, and so is a failure, a note, or a planted fault that was found. Every row carries a hash,
-// and a process keeps a record of the rows that it knows.
+// row, and so is a failure, a note, or a planted fault that was found. Every row carries a hash.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -46,32 +43,13 @@ std::string row_hash(const Row& row);
 // "trial quick:1:broken:3", "canary pair/x, 1/1"
 std::string row_name(const Row& row);
 
-// The rows that a process knows, with the hash of each: those that it wrote, and those that it
-// found when it began. About 150 bytes a row.
-class RowTally {
- public:
-  void put(const std::string& name, const std::string& hash);
-  void drop(const std::string& name) { hashes_.erase(name); }
-  bool holds(const std::string& name, const std::string& hash) const;
-  bool knows(const std::string& name) const { return hashes_.contains(name); }
-  std::size_t size() const { return hashes_.size(); }
-  // Visits the names of the rows in ascending order.
-  void for_each_name(const std::function<void(const std::string&)>& visit) const;
-
- private:
-  using Bytes = std::array<unsigned char, 32>;
-  static Bytes bytes_of(const std::string& hash);
-  std::map<std::string, Bytes> hashes_;
-};
-
 // The SQL that makes the one table of a store, and leaves it as it is if it is there already.
 std::string table_declaration();
 
 // Visits rows. `more` is SQL such as "WHERE kind=? ORDER BY key", whose question marks stand for
 // the texts of `bound`; if it is empty all rows come in the order of kind, key and shard.
-// Throws StoreProblem at the first row that does not fit its own hash, and if SQLite fails; of the
-// kind not_as_stored at the first row that differs from `known`, if that is given.
-void for_each_row(const Database& database, const RowTally* known, const std::string& more,
+// Throws StoreProblem at the first row that does not fit its own hash, and if SQLite fails.
+void for_each_row(const Database& database, const std::string& more,
                   const std::vector<std::string_view>& bound,
                   const std::function<void(const Row&)>& visit);
 
@@ -79,10 +57,6 @@ void for_each_row(const Database& database, const RowTally* known, const std::st
 // `Put::if_new`, leaves that as it is. Returns whether the row was written.
 enum class Put : std::uint8_t { always, if_new };
 bool put_row(const Database& database, const Row& row, Put put = Put::always);
-
-// Throws a StoreProblem of the kind not_as_stored that names the first row that the tally does not
-// know, that differs from it, or that is missing. O(rows).
-void check_rows(const Database& database, const RowTally& known);
 
 // Throws StoreProblem unless the file holds the table of a store and nothing else, such as a
 // trigger that changes rows by itself. If `may_lack` is set, the table may not be there yet.

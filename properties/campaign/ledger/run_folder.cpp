@@ -45,8 +45,7 @@ Expected<WholeShard> make_whole(const std::filesystem::path& file, const Campaig
     }
     // The store is opened for writing, because nobody else may hold the file when it is sealed.
     Store store = value_or_throw(Store::open(file, binding));
-    WholeShard whole{store.trial_count(), value_or_throw(store.kept_failures()),
-                     store.known_rows()};
+    WholeShard whole{store.trial_count(), value_or_throw(store.kept_failures())};
     value_or_throw(store.seal());
     return whole;
   });

@@ -40,7 +40,6 @@ Expected<std::vector<std::filesystem::path>> stored_shards(const std::filesystem
 struct WholeShard {
   std::uint64_t trials = 0;
   KeptFailures failures;
-  RowTally rows;  // all rows, as they were when the store was made whole
 };
 // Checks every row of the store and seals its file. Fails if it belongs to another run than the
 // request, its shard aside, and where Store::read and Store::open fail.
@@ -84,8 +83,6 @@ class Checks {
   void keep_failures(const std::set<std::string>& signatures);
   // See Store::seal.
   void seal();
-  // See Store::known_rows.
-  const RowTally& known_rows() const { return store_.known_rows(); }
   // The stored failures, or the first problem.
   Expected<KeptFailures> failures() const;
 

@@ -54,23 +54,14 @@ constexpr const char* order_of_keys = "ORDER BY rtrim(key, '0123456789'), length
 struct Store::Parts {
   std::optional<FileLock> lock;  // declared first, so that it outlives the database
   Database db;
-  std::optional<RowTally> known;  // only of a store that is open for writing
 
   Parts(const std::filesystem::path& file, Database::Mode mode)
       : lock(mode == Database::Mode::write ? std::optional(lock_of_store(file)) : std::nullopt),
         db(file, mode) {}
 
-  // Looks at every row and notes it as known.
-  void get_to_know() {
-    RowTally found;
-    for_each_row(db, nullptr, "", {},
-                 [&](const Row& row) { found.put(row_name(row), row_hash(row)); });
-    known = std::move(found);
-  }
-
   void for_each(const std::string& more, const std::vector<std::string_view>& bound,
                 const std::function<void(const Row&)>& visit) const {
-    for_each_row(db, known ? &*known : nullptr, more, bound, visit);
+    for_each_row(db, more, bound, visit);
   }
   std::optional<Row> find(std::string_view kind, std::string_view key,
                           std::string_view shard = "") const {
@@ -80,23 +71,12 @@ struct Store::Parts {
     return found;
   }
 
-  // A row that is put counts as known from here on, which is called only after its transaction
-  // went through.
-  void note(const Row& row) {
-    if (known) known->put(row_name(row), row_hash(row));
-  }
-  void put(const Row& row) {
-    put_row(db, row);
-    note(row);
-  }
-
   void remove(const Row& row) {
     Statement(db, "DELETE FROM ledger WHERE kind=? AND key=? AND shard=?")
         .bind(row.kind)
         .bind(row.key)
         .bind(row.shard)
         .next();
-    if (known) known->drop(row_name(row));
   }
 };
 
@@ -139,8 +119,8 @@ Expected<Store> Store::open(const std::filesystem::path& file, const std::string
     }
     check_tables(parts->db, true);
     parts->db.run(table_declaration());
-    parts->get_to_know();
-    if (!bound) parts->put({std::string(binding_kind), "", "", 0, binding});
+    for_each_row(parts->db, "", {}, [](const Row&) {});
+    if (!bound) put_row(parts->db, {std::string(binding_kind), "", "", 0, binding});
     return Store(std::move(parts));
   });
 }
@@ -155,12 +135,6 @@ Expected<KeptFailures> read_failures(const std::filesystem::path& file) {
   return store.value().kept_failures();
 }
 
-const RowTally& Store::known_rows() const { return *parts_->known; }
-
-Expected<void> Store::check_against(const RowTally& known) const {
-  return catch_store_problem([&] { check_rows(parts_->db, known); });
-}
-
 std::string Store::binding() const {
   const auto row = parts_->find(binding_kind, "");
   return row ? row->fields : "";
@@ -168,7 +142,7 @@ std::string Store::binding() const {
 
 void Store::set(const Row& row) {
   const auto before = parts_->find(row.kind, row.key, row.shard);
-  if (!before || before->progress <= row.progress) parts_->put(row);
+  if (!before || before->progress <= row.progress) put_row(parts_->db, row);
 }
 
 void Store::drop(std::string_view kind) {
@@ -195,7 +169,6 @@ void Store::add(const TrialRecord& record, const std::vector<StoredFailure>& kep
     }
     throw;
   }
-  for (const auto& row : rows) parts_->note(row);
 }
 
 void Store::keep_failures(const std::set<std::string>& signatures) {
@@ -206,12 +179,12 @@ void Store::keep_failures(const std::set<std::string>& signatures) {
 
 void Store::set_smallest(const StoredFailure& failure) {
   const Row row = to_row(failure);
-  if (parts_->find(row.kind, row.key)) parts_->put(row);
+  if (parts_->find(row.kind, row.key)) put_row(parts_->db, row);
 }
 
 void Store::set_note(const std::string& key, const std::string& value) {
-  parts_->put(
-      {std::string(note_kind), key, "", 0, corpus::json_text(nlohmann::json{{"value", value}})});
+  put_row(parts_->db, {std::string(note_kind), key, "", 0,
+                       corpus::json_text(nlohmann::json{{"value", value}})});
 }
 
 void Store::for_each(std::string_view kind, const std::function<void(const Row&)>& visit) const {

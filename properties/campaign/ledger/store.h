@@ -1,9 +1,6 @@
 // The rows of one shard in one SQLite file, which survives a kill at any moment.
 //
-// Every row carries a hash (campaign/ledger/row.h), which is checked whenever the row is read. A
-// store that is open for writing also knows all of its rows: those that it found and those that it
-// wrote. So nobody can change one of them unseen in the meantime, whatever hash he writes beside
-// it.
+// Every row carries a hash (campaign/ledger/row.h), which is checked whenever the row is read.
 #pragma once
 
 #include <filesystem>
@@ -49,13 +46,6 @@ class Store {
   // Makes the file stand alone: nothing beside it belongs to it any more, and reading it leaves
   // its bytes as they are.
   Expected<void> seal();
-
-  // All rows that were there when the store was opened, and all that it has written since.
-  // REQUIRES a store that was opened for writing.
-  const RowTally& known_rows() const;
-  // Fails, with the kind not_as_stored, if any row differs from `known`, is missing, or is not in
-  // `known`. O(rows).
-  Expected<void> check_against(const RowTally& known) const;
 
   std::string binding() const;
 

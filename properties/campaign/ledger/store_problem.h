@@ -14,15 +14,10 @@ namespace assay::properties {
 
 class StoreProblem : public std::runtime_error {
  public:
-  explicit StoreProblem(const Problem& problem)
-      : std::runtime_error(problem.message), kind_(problem.kind) {}
-  explicit StoreProblem(const std::string& message, ProblemKind kind = ProblemKind::other)
-      : StoreProblem(Problem{message, kind}) {}
+  explicit StoreProblem(const Problem& problem) : std::runtime_error(problem.message) {}
+  explicit StoreProblem(const std::string& message) : std::runtime_error(message) {}
 
-  Problem problem() const { return {what(), kind_}; }
-
- private:
-  ProblemKind kind_;
+  Problem problem() const { return {what()}; }
 };
 
 // Returns the value, or throws its problem.

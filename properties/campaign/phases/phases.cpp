@@ -9,7 +9,6 @@
 #include "properties/campaign/ledger/run_folder.h"
 #include "properties/campaign/ledger/store_problem.h"
 #include "properties/campaign/phases/fault_hunt.h"
-#include "properties/campaign/phases/lasting_worker.h"
 #include "properties/campaign/phases/repetitions.h"
 #include "properties/campaign/phases/shrink.h"
 #include "properties/worlds/tetrahedron_world.h"
@@ -32,9 +31,7 @@ class CampaignRun {
  public:
   CampaignRun(const CampaignRequest& request, const std::filesystem::path& corpus, Store& store,
               CampaignObserver& observer)
-      : request_(request), corpus_(corpus), store_(store), observer_(observer) {
-    if (request.plugin) lasting_.emplace(request);
-  }
+      : request_(request), corpus_(corpus), store_(store), observer_(observer) {}
 
   void run() {
     note_library(store_, request_);
@@ -44,13 +41,11 @@ class CampaignRun {
     const Canary canary = meet_canary(request_);
     store_.set(to_row(canary));
     observer_.on_canary(canary);
-    if (lasting_) lasting_->begin();
-    const auto loaded = Clock::now();
     observer_.on_phase("trials");
     const bool complete = judge_trials();
-    if (complete && lasting_) {
+    if (complete && request_.plugin) {
       observer_.on_phase("repetitions");
-      repeat_large_meshes(request_, store_, *lasting_, after(1),
+      repeat_large_meshes(request_, store_, after(1),
                           [&](const std::string& input) { observer_.on_shrinking(input); });
     }
     if (complete && request_.plan.search > 0) {
@@ -76,24 +71,18 @@ class CampaignRun {
       observer_.on_phase("tetrahedron");
       explore_worlds();
     }
-    if (lasting_) ask_again(loaded);
   }
 
  private:
   // Notes the isolation of all trials that the store holds, including those of an earlier call.
   void note_isolation() {
-    PluginIsolation now{text_of(request_.shard), name_of(request_.limits.isolation),
-                        text_of(request_.limits.least)};
-    if (store_.trial_count() > 0) {
-      for (const auto& before : stored().isolation) {
-        now.asked = name_of(weaker(request_.limits.isolation, before.asked));
-        now.got = text_of(common_to(request_.limits.least, isolation_of(before.got)));
-      }
+    PluginIsolation now{text_of(request_.shard), request_.isolation_word(),
+                        name_of(request_.isolation)};
+    for (const auto& before : stored().isolation) {
+      if (store_.trial_count() > 0 && before.got == name_of(Isolation::limits))
+        now.got = before.got;
     }
     store_.set(to_row(now));
-  }
-  static IsolationMode weaker(IsolationMode mode, const std::string& other) {
-    return std::min(mode, from_name<IsolationMode>(other).value_or(IsolationMode::none));
   }
 
   RunDeadline after(double share) const { return deadline_after(begin_, request_.plan, share); }
@@ -174,36 +163,14 @@ class CampaignRun {
     }
   }
 
-  // However late it is: it takes a small share of the time of the trials.
-  void ask_again(Clock::time_point loaded) {
-    observer_.on_phase("asked again");
-    const auto asked = lasting_->ask_again(store_);
-    observer_.on_asked_again(asked, std::chrono::duration<double>(Clock::now() - loaded).count());
-    if (asked.wrong > 0) observer_.on_failures_shrunk(value_or_throw(store_.kept_failures()));
-  }
-
   const CampaignRequest& request_;
   const std::filesystem::path& corpus_;
   Store& store_;
   CampaignObserver& observer_;
   const RunDeadline begin_ = Clock::now();
-  std::optional<LastingWorker> lasting_;  // of a plug-in
 };
 
 }  // namespace
-
-Expected<void> keeps_isolation(const CampaignRequest& request, const Store& store) {
-  if (!request.plugin || store.trial_count() == 0) return boost::outcome_v2::success();
-  return catch_store_problem([&] {
-    for (const auto& before : facts_in(store).isolation) {
-      if (covers(request.limits.least, isolation_of(before.got))) continue;
-      throw StoreProblem(
-          fmt::format("this run began with isolation {}, and would go on with {}: "
-                      "ask for no less, or for another --out",
-                      before.got, text_of(request.limits.least)));
-    }
-  });
-}
 
 Expected<void> run_campaign(const CampaignRequest& request, const std::filesystem::path& corpus,
                             Store& store, CampaignObserver& observer) {

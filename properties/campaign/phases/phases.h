@@ -23,8 +23,8 @@ class CampaignObserver {
   virtual ~CampaignObserver() = default;
   // Called first: so many trials are in the store already.
   virtual void on_begin(std::uint64_t /*trials*/) {}
-  // A phase begins now: "trials", "repetitions", "search", "shrinking", "slow cases", "faults",
-  // "tetrahedron" or "asked again". The first of these is told after the canary.
+  // A phase begins now: "trials", "repetitions", "search", "shrinking", "slow cases", "faults"
+  // or "tetrahedron". The first of these is told after the canary.
   virtual void on_phase(const char* /*phase*/) {}
   virtual void on_canary(const Canary&) {}
   virtual void on_trial(const TrialProgress&) {}
@@ -32,22 +32,14 @@ class CampaignObserver {
   virtual void on_search(const SearchProgress&) {}
   // What is being shrunk or repeated now.
   virtual void on_shrinking(const std::string& /*signature*/) {}
-  // All trials and their failures are stored now; faults and worlds are still to come. Called again
-  // at the end if the last phase found another failure.
+  // All trials and their failures are stored now; faults and worlds are still to come.
   virtual void on_failures_shrunk(const KeptFailures&) {}
   // The cases on which the detector takes longest, as they were kept.
   virtual void on_slow_cases(const std::vector<SlowCase>&) {}
   virtual void on_hunt(const HuntProgress&) {}
   virtual void on_fault_shrunk(const std::string& /*fault*/) {}
   virtual void on_world(const std::string& /*world*/) {}
-  // A process of the plug-in was asked again, so many seconds after it was loaded. The seconds are
-  // told and not stored, because two runs of one campaign differ in them.
-  virtual void on_asked_again(const AskedAgain&, double /*seconds*/) {}
 };
-
-// Whether the run may go on as it is asked for: not if the store holds trials of a plug-in that was
-// better isolated than it is now.
-Expected<void> keeps_isolation(const CampaignRequest& request, const Store& store);
 
 // Does what the store does not hold yet: the trials, the shrinking of what failed, and the planted
 // faults (or it takes the request's proof of them). Trials have nine tenths of the plan's time; if

@@ -26,8 +26,6 @@ namespace {
 constexpr int most_hung_repetitions = 3;
 constexpr std::size_t most_differing = 2;  // steps of a sequence
 constexpr int most_kept = 4;               // steps of a sequence, of each signature
-// The lasting worker is asked again for so many sequences of small meshes.
-constexpr int most_remembered = 4;
 constexpr Eigen::Index largest_small_mesh = 600;
 
 // Gives the vertices other numbers, the triangles another order, and each of them another first
@@ -270,12 +268,11 @@ enum class JudgedSteps { none, some, all };
 
 class Repetitions {
  public:
-  Repetitions(const CampaignRequest& request, Store& store, LastingWorker& lasting)
+  Repetitions(const CampaignRequest& request, Store& store)
       : request_(request),
         store_(store),
         threads_(threads_of_runs(request)),
-        built_in_(request.worker, std::nullopt, {}),
-        lasting_(lasting) {}
+        built_in_(request.worker, std::nullopt, {}) {}
 
   // Where the limiter lets a step stop, by itself, in the process of the first run.
   std::optional<detector::Positions> limit_of(const corpus::Case& step) {
@@ -310,17 +307,16 @@ class Repetitions {
   const Configuration& configuration() const { return request_.detector.configurations.front(); }
 
   // Each run, by its place in threads_, has a process of its own, which it keeps from mesh to mesh.
-  // That of the first run is the lasting one. The last run is a second one in the process of the
-  // run before it. REQUIRES that the runs before it took place.
+  // The last run is a second one in the process of the run before it. REQUIRES that the runs before
+  // it took place.
   CaseRun run_once(const corpus::Case& c, std::size_t place) {
     const std::size_t process = place > 1 && place + 1 == threads_.size() ? place - 1 : place;
-    if (process == workers_.size() + 1) {
+    if (process == workers_.size()) {
       auto limits = request_.worker_limits(static_cast<std::uint32_t>(process));
       limits.threads = threads_[process];
       workers_.emplace_back(request_.worker, request_.plugin, limits);
     }
-    auto& worker = process == 0 ? lasting_.process() : workers_[process - 1];
-    auto run = std::move(worker.run(c, {&configuration(), 1}).front());
+    auto run = std::move(workers_[process].run(c, {&configuration(), 1}).front());
     if (run.end == RunEnd::not_run) throw StoreProblem(run.explanation);
     return run;
   }
@@ -361,8 +357,6 @@ class Repetitions {
       if (steps == JudgedSteps::some) judge_steps(c, chosen_steps(c, *first), *first, row);
       if (steps == JudgedSteps::all) judge_steps(c, first_places(first->steps.size()), *first, row);
     }
-    if (steps == JudgedSteps::none || c.triangles.rows() > largest_small_mesh) return;
-    if (remembered_++ < most_remembered) lasting_.remember(c, *first);
   }
 
   std::vector<std::size_t> chosen_steps(const corpus::Case& c, const CaseRun& run) {
@@ -447,10 +441,9 @@ class Repetitions {
   Store& store_;
   std::vector<std::uint64_t> threads_;
   WorkerProcess built_in_;
-  LastingWorker& lasting_;
-  std::vector<WorkerProcess> workers_;  // by the place of the run, from the second
+  std::vector<WorkerProcess> workers_;  // by the place of the run
   const char* special_ = "";
-  int hung_ = 0, remembered_ = 0;
+  int hung_ = 0;
 };
 
 }  // namespace
@@ -466,13 +459,12 @@ bool is_repeated(const CampaignPlan& plan, bool built_in) {
   return plan.policy.repeated_triangles > 0 && !built_in && !asks_queries_alone(plan);
 }
 
-void repeat_large_meshes(const CampaignRequest& request, Store& store, LastingWorker& lasting,
-                         RunDeadline deadline,
+void repeat_large_meshes(const CampaignRequest& request, Store& store, RunDeadline deadline,
                          const std::function<void(const std::string&)>& progress) {
   const auto& detector = request.detector;
   if (!is_repeated(request.plan, detector.built_in)) return;
   const EvidenceFacts stored = facts_in(store);
-  Repetitions repetitions(request, store, lasting);
+  Repetitions repetitions(request, store);
   std::uint64_t place = 0;
   const auto put = [&](const std::string& input, JudgedSteps judged, const auto& make,
                        const char* special = "large mesh") {

@@ -1,42 +1,17 @@
 #include "properties/worker/isolation/printed_words.h"
 
 #include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
-#include <cerrno>
+#include <algorithm>
+#include <string_view>
 
 #include "properties/printable.h"
 #include "properties/worker/child_process.h"
 
 namespace assay::properties {
-
-void LastWords::add(const char* bytes, std::size_t size) {
-  kept_.append(bytes, size);
-  if (kept_.size() <= longest_printed) return;
-  kept_.erase(0, kept_.size() - longest_printed);
-  is_cut_ = true;
-}
-
-std::string LastWords::take() {
-  std::string text = std::exchange(kept_, {});
-  if (!std::exchange(is_cut_, false)) return text;
-  const auto line = text.find('\n');
-  return "...\n" + (line == std::string::npos ? text : text.substr(line + 1));
-}
-
-bool read_what_is_there(int descriptor, LastWords& words) {
-  constexpr int most_reads = 16;
-  std::array<char, 1 << 16> bytes;
-  for (int i = 0; i < most_reads; ++i) {
-    const ssize_t got = ::read(descriptor, bytes.data(), bytes.size());
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) return errno == EAGAIN;
-    if (got == 0) return false;
-    words.add(bytes.data(), static_cast<std::size_t>(got));
-  }
-  return true;
-}
 
 std::string printable_lines(const std::string& text) {
   std::string lines;
@@ -50,31 +25,46 @@ std::string printable_lines(const std::string& text) {
   return lines;
 }
 
-std::optional<PrintedPipe> PrintedPipe::make() {
-  std::array<int, 2> ends;
-  if (::pipe2(ends.data(), O_CLOEXEC | O_NONBLOCK) != 0) return std::nullopt;
-  const int high = ::fcntl(ends[1], F_DUPFD_CLOEXEC, printed_descriptor + 1);
-  ::close(ends[1]);
-  if (high < 0) {
-    ::close(ends[0]);
-    return std::nullopt;
+std::optional<PrintedFile> PrintedFile::make() {
+  const int low = ::memfd_create("printed", MFD_CLOEXEC);
+  if (low < 0) return std::nullopt;
+  const int file = ::fcntl(low, F_DUPFD_CLOEXEC, least_passed_descriptor);
+  ::close(low);
+  if (file < 0) return std::nullopt;
+  ::fcntl(file, F_SETFL, O_APPEND);
+  return PrintedFile(file);
+}
+
+PrintedFile::~PrintedFile() {
+  if (file_ >= 0) ::close(file_);
+}
+
+void PrintedFile::move_to_kept() {
+  struct stat seen = {};
+  if (::fstat(file_, &seen) != 0 || seen.st_size == 0) return;
+  const auto size = static_cast<std::size_t>(seen.st_size), last = std::min(size, longest_printed);
+  std::string end(last, '\0');
+  const ssize_t got = ::pread(file_, end.data(), last, static_cast<off_t>(size - last));
+  (void)!::ftruncate(file_, 0);
+  kept_.append(end, 0, got > 0 ? static_cast<std::size_t>(got) : 0);
+  is_cut_ = is_cut_ || size > last || kept_.size() > longest_printed;
+  if (kept_.size() > longest_printed) kept_.erase(0, kept_.size() - longest_printed);
+}
+
+void PrintedFile::keep_short() {
+  constexpr off_t long_text = 1 << 20;
+  struct stat seen = {};
+  if (::fstat(file_, &seen) == 0 && seen.st_size > long_text) move_to_kept();
+}
+
+std::string PrintedFile::take() {
+  move_to_kept();
+  std::string text = std::exchange(kept_, {});
+  if (std::exchange(is_cut_, false)) {
+    const auto line = text.find('\n');
+    text = "...\n" + (line == std::string::npos ? text : text.substr(line + 1));
   }
-  return PrintedPipe(ends[0], high);
-}
-
-PrintedPipe::~PrintedPipe() {
-  if (read_ >= 0) ::close(read_);
-  close_write_end();
-}
-
-void PrintedPipe::close_write_end() {
-  if (write_ >= 0) ::close(std::exchange(write_, -1));
-}
-
-std::string PrintedPipe::take() {
-  LastWords words;
-  read_what_is_there(read_, words);
-  return printable_lines(words.take());
+  return printable_lines(text);
 }
 
 }  // namespace assay::properties

@@ -1,5 +1,5 @@
-// What a plug-in prints, on its way from its process over the keeper to the host, one case at a
-// time. It is kept for people to read, and nothing is judged by it.
+// What a plug-in prints, one case at a time. It is kept for people to read, and nothing is judged
+// by it.
 #pragma once
 
 #include <cstddef>
@@ -13,44 +13,37 @@ namespace assay::properties {
 // ended.
 inline constexpr std::size_t longest_printed = 4096;
 
-// Keeps the end of a text that grows. If its beginning is lost, what is kept begins with "..." and
-// a whole line.
-class LastWords {
- public:
-  void add(const char* bytes, std::size_t size);
-  bool empty() const { return kept_.empty(); }
-  std::string take();
-
- private:
-  std::string kept_;
-  bool is_cut_ = false;
-};
-
-// Reads what there is to read from a descriptor that does not wait, at most 1 MB a call. False if
-// nobody can write to it any more.
-bool read_what_is_there(int descriptor, LastWords& words);
-
 // The text as printable lines (printable.h), without empty ones at the end.
 std::string printable_lines(const std::string& text);
 
-// A pipe: the host's end, and the end with which its worker is started.
-class PrintedPipe {
+// A file in memory that a worker is started with in place of stdout and stderr. So nobody who
+// prints waits for a reader, and no line on the terminal of the user can be taken for one of the
+// host.
+class PrintedFile {
  public:
-  // Nothing if the system has no more descriptors.
-  static std::optional<PrintedPipe> make();
-  PrintedPipe(PrintedPipe&& other) noexcept
-      : read_(std::exchange(other.read_, -1)), write_(std::exchange(other.write_, -1)) {}
-  PrintedPipe& operator=(PrintedPipe&&) = delete;
-  ~PrintedPipe();
+  // Nothing if the system gives none.
+  static std::optional<PrintedFile> make();
+  PrintedFile(PrintedFile&& other) noexcept
+      : file_(std::exchange(other.file_, -1)),
+        kept_(std::move(other.kept_)),
+        is_cut_(other.is_cut_) {}
+  PrintedFile& operator=(PrintedFile&&) = delete;
+  ~PrintedFile();
 
-  int write_end() const { return write_; }  // above the standard descriptors and a channel's
-  void close_write_end();                   // to be called once the worker has it
-  // What came since the last call, in printable lines.
+  int descriptor() const { return file_; }  // at least least_passed_descriptor
+  // Empties the file down to its end if it is long; to be called now and then in a case.
+  void keep_short();
+  // What came since the last call, in printable lines: the end of it, from a whole line on behind
+  // "...", if it is longer than longest_printed.
   std::string take();
 
  private:
-  PrintedPipe(int read, int write) : read_(read), write_(write) {}
-  int read_, write_;
+  explicit PrintedFile(int file) : file_(file) {}
+  void move_to_kept();
+
+  int file_;
+  std::string kept_;
+  bool is_cut_ = false;
 };
 
 }  // namespace assay::properties

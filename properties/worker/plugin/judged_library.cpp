@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <link.h>
-#include <sys/statvfs.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -22,12 +21,6 @@ namespace assay::properties {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Some systems run nothing from their folder of temporary files.
-bool may_hold_programs(const fs::path& folder) {
-  struct statvfs seen;
-  return ::statvfs(folder.c_str(), &seen) == 0 && (seen.f_flag & ST_NOEXEC) == 0;
-}
 
 corpus::Problem no_file(const std::string& reason) { return {reason}; }
 
@@ -50,7 +43,7 @@ std::shared_ptr<const JudgedLibrary> JudgedLibrary::of(const fs::path& named,
 }
 
 JudgedLibrary::JudgedLibrary(const fs::path& named, const fs::path& worker)
-    : files_{{named, {}, {}}}, digest_(no_file("")) {
+    : files_{{named, {}}}, digest_(no_file("")) {
   std::error_code error;
   if (!names_python(named.string())) {
     // Reading a pipe would wait for its writer.
@@ -72,45 +65,32 @@ JudgedLibrary::JudgedLibrary(const fs::path& named, const fs::path& worker)
     take(files);
     return;
   }
-  if (serving) files_.front().original = serving.value();
+  if (serving) files_.front().path = serving.value();
   digest_ = no_file((serving ? module.error() : serving.error()).message);
 }
 
 void JudgedLibrary::take(const std::vector<fs::path>& files) {
   std::error_code error;
-  const bool are_files = std::all_of(files.begin(), files.end(), [&](const fs::path& file) {
-    return fs::is_regular_file(file, error);
-  });
-  if (auto made = ScratchFolder::make();
-      are_files && made && may_hold_programs(made.value().path()))
-    folder_ = std::move(made.value());
   files_.clear();
   std::string digests;
-  for (const auto& original : files) {
-    File file{fs::absolute(original, error), {}, {}};
-    if (folder_) {
-      const auto copy = folder_->path() / std::to_string(files_.size());
-      if (fs::copy_file(original, copy, error)) file.copy = copy;
-    }
-    const auto digest = corpus::sha256_of_file(file.copy.empty() ? original : file.copy);
-    files_.push_back(std::move(file));
+  for (const auto& file : files) {
+    const auto digest = corpus::sha256_of_file(file);
+    files_.push_back({fs::absolute(file, error), digest ? digest.value() : ""});
     if (!digest) {
       digest_ = digest.error();
       continue;
     }
-    files_.back().digest = digest.value();
     digests += digest.value();
     digest_ = files.size() == 1 ? digests : corpus::sha256_of(digests);
   }
 }
 
 Expected<void> JudgedLibrary::is_as_it_was() const {
-  if (!is_loaded_in_place_) return boost::outcome_v2::success();
   for (const auto& file : files_) {
-    const auto now = corpus::sha256_of_file(file.original);
+    const auto now = corpus::sha256_of_file(file.path);
     if (file.digest.empty() || (now && now.value() == file.digest)) continue;
     return Problem{fmt::format("{}: it changed while it was judged; start again in another folder",
-                               file.original.string())};
+                               file.path.string())};
   }
   return boost::outcome_v2::success();
 }

@@ -23,10 +23,8 @@ struct PluginDescription {
   PluginParts parts = {};
 };
 
-// What keeps a text from being the name of a detector, or its version: it is longer than 100
-// characters, holds characters that nobody sees or that turn the text around, begins or ends with a
-// space, or is the name of the built-in detector. Empty if nothing does. REQUIRES UTF-8
-// (printable.h).
+// What keeps a text from being the name of a detector, or its version: it is longer than 100 bytes,
+// begins or ends with a space, or is the name of the built-in detector. Empty if nothing does.
 std::string fault_of_name(std::string_view name);
 
 // What is wrong with what it says of a limiter: claims without one, one without claims, or a claim

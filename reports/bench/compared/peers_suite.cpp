@@ -171,7 +171,7 @@ BenchReport detector_suite(const BenchSettings& settings, const properties::Subj
                  sequences_text(comparison.rows(), subjects[1]);
   add_figures(by_subject(comparison.rows(), subjects), comparison, report);
   report.figures["detector"] = json_object(
-      "library", plugin.plugin->string(), "isolation", text_of(plugin.limits.least), "threads",
+      "library", plugin.plugin->string(), "isolation", text_of(plugin.isolation), "threads",
       plugin.limits.threads, "contract", properties::json_of(about.contract));
   return report;
 }

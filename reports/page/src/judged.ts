@@ -53,8 +53,8 @@ const notJudged = (f: Findings): string[] => [
 ];
 
 const isolations: Record<string, string> = {
-  full: "full: its process wrote to no file but temporary ones of its own, saw no other process, and opened no socket",
-  none: "none: its process was kept apart from nothing",
+  bubblewrap: "bubblewrap: its process had limits, wrote to no file but temporary ones of its own, saw no other process, and had no network",
+  "limits alone": "limits alone: of processor time, memory, files and processes; it was kept apart from nothing",
 };
 
 export function judged(f: Findings): HTMLElement {

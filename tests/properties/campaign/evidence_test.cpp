@@ -42,8 +42,6 @@ TEST(Evidence, EveryKindSurvivesItsRow) {
   expect_same_row(source, read_back(source).power.at(0));
   const World world{"square-2", "1/1", 3, 4, 5, 1, false, "pairs differ"};
   expect_same_row(world, read_back(world).worlds.at(0));
-  const AskedAgain asked_again{"1/2", 40, 60, 1, 2};
-  expect_same_row(asked_again, read_back(asked_again).asked_again.at(0));
   const SearchedLane lane{"003", "1/2", 500, 2, 1, {"t at 1, moving, generic", "no contact"}};
   expect_same_row(lane, read_back(lane).search.at(0));
   const Asked asked{{"harness", "speed"}, true};

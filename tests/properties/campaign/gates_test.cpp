@@ -218,22 +218,6 @@ TEST(Gates, ADefectGoesBeforeWhatIsMissing) {
          Gate::claims, "defect", 1);
 }
 
-// What a contract leaves in has to be enough for a verdict.
-TEST(Gates, EveryShardAsksAPlugInAgainAtTheEnd) {
-  const Change plug_in = [](auto& f) { f.run.detector.built_in = false; };
-  const Change not_asked = [](auto& f) { f.evidence.asked_again.clear(); };
-  expect_certified({plug_in});
-  expect_certified({not_asked});
-  const auto judged = judged_after({plug_in, not_asked});
-  expect(judged, Gate::complete, "incomplete", 3);
-  EXPECT_EQ(judged.of(Gate::complete).reasons,
-            std::vector<std::string>{"0 of 1 shards asked the detector again at the end"});
-  const Change no_answer = [](auto& f) { f.evidence.asked_again.at(0).open = 1; };
-  const auto open = judged_after({plug_in, no_answer});
-  expect(open, Gate::complete, "incomplete", 3);
-  EXPECT_EQ(open.of(Gate::complete).reasons.size(), 1u);
-}
-
 // A search of 1,000 cases has two lanes.
 TEST(Gates, TheSearchAsksAllOfItsCases) {
   const Change planned = [](auto& f) { f.run.plan.search = 1000; };

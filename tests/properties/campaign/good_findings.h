@@ -66,7 +66,6 @@ inline RunFindings good_findings() {
   f.evidence.faults = {
       fault_proof("a", FaultStatus::planted, true), fault_proof("b", FaultStatus::planted, true),
       fault_proof("e", FaultStatus::equivalent, false), fault_proof("o", FaultStatus::open, false)};
-  f.evidence.asked_again = {{"1/1", 40, 60, 0, 0}};  // of a plug-in
   f.evidence.worlds = {{"square-2", "1/1", 1, 1, 1, 0, true, std::nullopt}};
   f.evidence.self_test = {{"line", 10, 1, 0, 0, true}};
   CorpusRow corpus;

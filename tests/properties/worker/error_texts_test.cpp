@@ -29,6 +29,17 @@ class ErrorTexts : public testing::Test {
   corpus::Case c_;
 };
 
+TEST(Names, AreShortAndTheirOwn) {
+  EXPECT_EQ(fault_of_name("mine"), "");
+  EXPECT_EQ(fault_of_name(std::string(100, 'x')), "");
+  EXPECT_EQ(fault_of_name(std::string(101, 'x')),
+            "a name or version of 101 bytes, and 100 are the most");
+  for (const char* name : {"built-in", "Built in", "built-in 1"})
+    EXPECT_EQ(fault_of_name(name), "the name of the built-in detector");
+  for (const char* name : {" mine", "mine "})
+    EXPECT_EQ(fault_of_name(name), "a name or version that begins or ends with a space");
+}
+
 TEST_F(ErrorTexts, OfDescribe) {
   const auto description = worker("describe").describe();
   ASSERT_FALSE(description);

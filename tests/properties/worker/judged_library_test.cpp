@@ -40,26 +40,34 @@ class JudgedLibraries : public testing::Test {
   fs::path folder_;
 };
 
-TEST_F(JudgedLibraries, AreOneFileForAllWhoUseItAtATime) {
+TEST_F(JudgedLibraries, ServeNoMoreWhereTheyChange) {
   for (const bool over : {false, true}) {
     put(plugin("always_free"), "mine.so");
     const auto free = digest_of(file("mine.so"));
     {
       WorkerProcess first(ASSAY_WORKER, file("mine.so"));
       EXPECT_EQ(answer(first), Answer::free);
-      put(plugin("always_collision"), "mine.so", over);
+      const auto judged = JudgedLibrary::of(file("mine.so"), ASSAY_WORKER);
+      EXPECT_TRUE(judged->is_as_it_was());
+      // Who has loaded it goes on where another file lies in its place.
+      put(plugin("always_collision"), "mine.so");
       WorkerProcess second(ASSAY_WORKER, file("mine.so"));
-      EXPECT_EQ(answer(second), Answer::free);
-      EXPECT_EQ(answer(first), Answer::free);
-      EXPECT_EQ(JudgedLibrary::of(file("mine.so"), ASSAY_WORKER)->digest().value(), free);
+      const auto described = second.describe();
+      ASSERT_FALSE(described);
+      EXPECT_EQ(described.error().message,
+                file("mine.so").string() +
+                    ": it changed while it was judged; start again in another folder");
+      EXPECT_EQ(judged->digest().value(), free);
+      EXPECT_FALSE(judged->is_as_it_was());
     }
+    put(plugin("always_collision"), "mine.so", over);
     WorkerProcess later(ASSAY_WORKER, file("mine.so"));
     EXPECT_EQ(answer(later), Answer::collision);
     EXPECT_NE(JudgedLibrary::of(file("mine.so"), ASSAY_WORKER)->digest().value(), free);
   }
 }
 
-TEST_F(JudgedLibraries, HaveTheNeighboursThatTheyHadAtTheBeginning) {
+TEST_F(JudgedLibraries, AreJudgedWithWhatTheyNeed) {
   put(plugin("with_neighbour"), "mine.so");
   put(ASSAY_PLUGIN_DIR "/free/beside.so", "beside.so");
   EXPECT_EQ(needed_files(file("mine.so")), std::vector{file("beside.so")});
@@ -67,26 +75,10 @@ TEST_F(JudgedLibraries, HaveTheNeighboursThatTheyHadAtTheBeginning) {
   const auto both = corpus::sha256_of(digest_of(file("mine.so")) + digest_of(file("beside.so")));
   WorkerProcess first(ASSAY_WORKER, file("mine.so"));
   EXPECT_EQ(answer(first), Answer::free);
+  const auto judged = JudgedLibrary::of(file("mine.so"), ASSAY_WORKER);
+  EXPECT_EQ(judged->digest().value(), both);
   put(ASSAY_PLUGIN_DIR "/collision/beside.so", "beside.so");
-  WorkerProcess second(ASSAY_WORKER, file("mine.so"));
-  EXPECT_EQ(answer(second), Answer::free);
-  EXPECT_EQ(JudgedLibrary::of(file("mine.so"), ASSAY_WORKER)->digest().value(), both);
-}
-
-// Without a world of its own a worker loads what lies there.
-TEST_F(JudgedLibraries, ServeNoMoreWhereTheyChangeAndAreNotCopied) {
-  put(plugin("always_free"), "mine.so");
-  const WorkerLimits limits{.isolation = IsolationMode::none};
-  WorkerProcess first(ASSAY_WORKER, file("mine.so"), limits);
-  EXPECT_EQ(answer(first), Answer::free);
-  put(plugin("always_collision"), "mine.so");
-  WorkerProcess second(ASSAY_WORKER, file("mine.so"), limits);
-  const auto described = second.describe();
-  ASSERT_FALSE(described);
-  EXPECT_EQ(
-      described.error().message,
-      file("mine.so").string() + ": it changed while it was judged; start again in another folder");
-  EXPECT_FALSE(JudgedLibrary::of(file("mine.so"), ASSAY_WORKER)->is_as_it_was());
+  EXPECT_TRUE(says(judged->is_as_it_was().error(), "beside.so: it changed while it was judged"));
 }
 
 TEST_F(JudgedLibraries, MayBeNoLibraries) {

@@ -1,6 +1,8 @@
 // What a plug-in prints: kept a case, its end alone where that is much, and harmless.
 #include "properties/worker/isolation/printed_words.h"
 
+#include <unistd.h>
+
 #include "properties/worker/worker_process.h"
 #include "tests/properties/worker/worker_cases.h"
 
@@ -9,19 +11,31 @@ namespace {
 
 using test::plugin_alone, test::small_case;
 
-TEST(LastWords, TheEndIsKeptFromAWholeLineOn) {
-  LastWords words;
-  words.add("short\n", 6);
-  EXPECT_EQ(words.take(), "short\n");
-  EXPECT_TRUE(words.empty());
-  std::string text;
-  for (int i = 0; i < 2000; ++i) text += "line " + std::to_string(i) + "\n";
-  words.add(text.data(), text.size());
-  const auto kept = words.take();
-  EXPECT_TRUE(kept.starts_with("...\nline ")) << kept.substr(0, 40);
-  EXPECT_TRUE(kept.ends_with("\nline 1999\n"));
-  EXPECT_LE(kept.size(), longest_printed + 4);
-  EXPECT_GE(kept.size(), longest_printed - 10);
+TEST(PrintedFile, KeepsTheEndFromAWholeLineOn) {
+  auto printed = PrintedFile::make();
+  ASSERT_TRUE(printed);
+  const auto print = [&](const std::string& text) {
+    EXPECT_EQ(::write(printed->descriptor(), text.data(), text.size()),
+              static_cast<ssize_t>(text.size()));
+  };
+  print("short\n");
+  EXPECT_EQ(printed->take(), "short");
+  EXPECT_EQ(printed->take(), "");
+  // A long text is cut while it comes, too.
+  for (const int often : {1, 40}) {
+    std::string text;
+    for (int i = 0; i < 10'000; ++i) text += "line " + std::to_string(i) + "\n";
+    for (int i = 0; i < often; ++i) {
+      print(text);
+      printed->keep_short();
+    }
+    print("the end\n");
+    const auto kept = printed->take();
+    EXPECT_TRUE(kept.starts_with("...\nline ")) << kept.substr(0, 40);
+    EXPECT_TRUE(kept.ends_with("\nline 9999\nthe end")) << kept.substr(kept.size() - 40);
+    EXPECT_LE(kept.size(), longest_printed + 4);
+    EXPECT_GE(kept.size(), longest_printed - 20);
+  }
 }
 
 TEST(PrintableLines, HoldNoEscapesAndNoEmptyEnd) {
@@ -92,10 +106,11 @@ TEST_F(PrintedByPlugin, ACrashAndAHangKeepWhatWasSaidBefore) {
   FAIL() << "no case hung";
 }
 
-TEST_F(PrintedByPlugin, WithoutIsolationItIsNotKept) {
-  const auto one = run("print=1", small_case(41, 0), {.isolation = IsolationMode::none});
+TEST_F(PrintedByPlugin, ItIsKeptWithLimitsAlone) {
+  const auto c = small_case(41, 0);
+  const auto one = run("print=1", c, {.isolation = Isolation::limits});
   ASSERT_EQ(one.end, RunEnd::completed) << one.explanation;
-  EXPECT_EQ(one.printed, "");
+  EXPECT_TRUE(one.printed.starts_with(lines(1, c.triangles.rows()))) << one.printed;
 }
 
 }  // namespace

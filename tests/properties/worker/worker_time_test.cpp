@@ -51,7 +51,7 @@ TEST(WorkerTime, WhatIsSaidBeforeTheEndIsHeardAfterIt) {
   auto& [host, worker] = *ends;
   const std::string says = R"(printf '\005\000\000\000\000\000\000\000hello' >&)";
   auto child = ChildProcess::start("/bin/sh", {"-c", says + std::to_string(child_descriptor)},
-                                   worker.descriptor());
+                                   {{worker.descriptor(), child_descriptor}});
   ASSERT_TRUE(child);
   WorkerWatch watch(child.value(), .05);
   // The host is so slow that it looks at the worker before it reads.

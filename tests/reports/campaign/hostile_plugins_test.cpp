@@ -1,5 +1,5 @@
-// Whatever a plug-in tries, no verb holds it for right, and the isolation that it had is said. The
-// complete table, through `certify` too, is tests/reports/hostile.
+// Whatever goes wrong in a plug-in, no verb holds it for right, and the isolation that it had is
+// said. The complete table, through `certify` too, is tests/reports/hostile.
 #include <deque>
 #include <future>
 
@@ -49,57 +49,37 @@ TEST_F(HostilePlugin, NoneThatIsRefusedGetsACertificate) {
   }
 }
 
-TEST_F(HostilePlugin, WhatTheSystemLacksIsSaidOrRefused) {
+TEST_F(HostilePlugin, WithoutBubblewrapThereAreLimitsAloneAndItIsSaid) {
   const std::string check =
-      "check --detector " + hostile + " " + curated("A1_winding2_allpositive") + " --isolation ";
+      "check --detector " + hostile + " " + curated("A1_winding2_allpositive");
   does("");
-  EXPECT_TRUE(contains(run_assay(check + "none").out, "\nisolation: none\n"));
-  for (const auto& [prefix, lacks] : std::map<std::string, std::string>{
-           {without_landlock, "partial: lacks files"},
-           {without_landlock + "-n ", "partial: lacks files, processes"}}) {
-    const auto best = run_assay(check + "best", prefix);
-    EXPECT_EQ(best.exit_code, 1) << best.err;
-    EXPECT_TRUE(contains(best.out, "\nisolation: " + lacks + "\n")) << best.out;
-    const std::string line = "isolation is required, and this system's is " + lacks;
-    expect_refused(run_assay(check + "required", prefix), line);
-    const auto judged = judge("run", "", "--isolation best", prefix);
-    EXPECT_EQ(judged.exit_code, 1) << judged.err;
-    EXPECT_TRUE(contains(judged.out, "\nisolation: " + lacks + "\n")) << judged.out;
-    EXPECT_TRUE(contains(read_text(out + "/summary.md"), "isolation " + lacks));
-    for (const char* verb : {"run", "certify"})
-      expect_refused(judge(verb, "", "--isolation required", prefix), line);
-  }
+  EXPECT_TRUE(contains(run_assay(check).out, "\nisolation: bubblewrap\n"));
+  EXPECT_TRUE(
+      contains(run_assay(check + " --isolation limits").out, "\nisolation: limits alone\n"));
+  EXPECT_TRUE(contains(run_assay(check, forbidden_bwrap).out, "\nisolation: limits alone\n"));
+  const std::string line = "bubblewrap does not work here: bwrap: not permitted; see --isolation";
+  expect_refused(run_assay(check + " --isolation bubblewrap", forbidden_bwrap), line);
+  const auto judged = judge("run", "", "", forbidden_bwrap);
+  EXPECT_EQ(judged.exit_code, 1) << judged.err;
+  EXPECT_TRUE(contains(judged.out, "\nisolation: limits alone\n")) << judged.out;
+  EXPECT_TRUE(contains(read_text(out + "/summary.md"), "isolation limits alone"));
+  for (const char* verb : {"run", "certify"})
+    expect_refused(judge(verb, "", "--isolation bubblewrap", forbidden_bwrap), line);
 }
 
-// Trials that were judged without isolation stay so, whatever the run goes on with.
+// Trials that were judged with limits alone stay so, whatever the run goes on with.
 TEST_F(HostilePlugin, ARunThatGoesOnSaysWhatHeldForAllOfIt) {
-  const auto run = [&](const std::string& isolation) {
-    return run_assay("run --campaign " + plan + " --detector " + plugin("wrapped_builtin") +
-                     " --out " + scratch / "out" + " --isolation " + isolation);
-  };
-  ASSERT_EQ(run("none").exit_code, 0);
-  ASSERT_EQ(run("best").exit_code, 0);
-  const auto summary = read_text(scratch / "out/summary.md");
-  EXPECT_TRUE(contains(summary, "isolation none;")) << summary;
-}
-
-TEST_F(HostilePlugin, ARunThatBeganIsolatedDoesNotGoOnWithLess) {
-  for (const std::string verb : {"run", "certify"}) {
-    const std::string command = verb + " --campaign " + plan + " --detector " +
-                                plugin("wrapped_builtin") + " --out " + scratch / "less";
-    ASSERT_LE(run_assay("run" + command.substr(verb.size())).exit_code, 1);
-    const auto ended = run_assay(command + " --isolation none");
-    EXPECT_EQ(ended.exit_code, 2) << verb;
-    EXPECT_TRUE(says(ended.err, "began with isolation full, and would go on with none"));
+  for (const bool is_first : {true, false}) {
+    const auto run = [&](const std::string& isolation) {
+      return run_assay("run --campaign " + plan + " --detector " + plugin("wrapped_builtin") +
+                       " --out " + scratch / (is_first ? "first" : "last") + " --isolation " +
+                       isolation);
+    };
+    ASSERT_EQ(run(is_first ? "limits" : "bubblewrap").exit_code, 0);
+    ASSERT_EQ(run(is_first ? "bubblewrap" : "limits").exit_code, 0);
+    const auto summary = read_text(scratch / (is_first ? "first/summary.md" : "last/summary.md"));
+    EXPECT_TRUE(contains(summary, "isolation limits alone;")) << summary;
   }
-}
-
-// Where the library, or the current folder, lies in the folder of the run, it could not be read.
-TEST_F(HostilePlugin, TheFolderOfARunHoldsNoDetector) {
-  const auto ended =
-      run_assay("run --campaign " + plan + " --detector " + plugin("wrapped_builtin") + " --out " +
-                std::filesystem::path(plugin("wrapped_builtin")).parent_path().string());
-  expect_refused(ended, "name a folder of the run's own");
 }
 
 // No limit of the user's makes a run hold, and none crashes it or makes it doubt itself.
@@ -109,7 +89,7 @@ TEST_F(HostilePlugin, LimitsOfTheUserAreNoExcuse) {
        {"--nofile=4", "--nofile=6", "--nofile=8", "--nofile=10", "--nofile=12", "--nofile=16",
         "--as=31000000", "--as=41000000", "--as=46000000", "--as=200000000", "--fsize=512",
         "--fsize=20000", "--fsize=50000", "--fsize=500000"}) {
-    for (const char* mode : {"forge-lies", "exit-at-evaluate"})
+    for (const char* mode : {"overwrite", "exit-at-evaluate"})
       codes.insert(expect_no_excuse("run", mode, limit));
   }
   EXPECT_TRUE(codes.contains(1) && codes.contains(2)) << "limits that end a run, and that do not";
@@ -138,7 +118,7 @@ TEST_F(HostilePlugin, FewProcessesAreNoExcuse) {
   const std::string not_root =
       geteuid() == 0 ? "setpriv --reuid=65534 --regid=65534 --clear-groups " : "";
   for (const char* limit : {"--nproc=1", "--nproc=2", "--nproc=3", "--nproc=4", "--nproc=6"})
-    expect_no_excuse("run", "forge-lies", limit, not_root);
+    expect_no_excuse("run", "overwrite", limit, not_root);
 }
 
 }  // namespace

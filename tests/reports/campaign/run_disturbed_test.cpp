@@ -12,12 +12,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Whether a process is an assay-worker of that host and still alive.
+// Whether a process is an assay-worker of that host, or bwrap before one, and still alive.
 bool is_worker_of(pid_t host, const std::string& process) {
   std::ifstream status("/proc/" + process + "/status");
   bool is_worker = false, is_alive = true, is_child = false;
   for (std::string line; std::getline(status, line);) {
-    is_worker |= line == "Name:\tassay-worker";
+    is_worker |= line == "Name:\tassay-worker" || line == "Name:\tbwrap";
     is_alive &= !line.starts_with("State:\tZ") && !line.starts_with("State:\tX");
     is_child |= line == "PPid:\t" + std::to_string(host);
   }

@@ -150,7 +150,7 @@ class Tampering : public testing::Test {
     std::map<std::string, properties::Row> kinds;
     {
       const properties::Database database(good + "/" + file, properties::Database::Mode::read);
-      for_each_row(database, nullptr, "", {},
+      for_each_row(database, "", {},
                    [&](const properties::Row& row) { kinds.emplace(row.kind, row); });
     }
     for (const auto& [kind, row] : kinds) {
@@ -198,7 +198,7 @@ class Tampering : public testing::Test {
     expect_seen(fmt::format("{}: binding {} is {}", file, place, value.dump().substr(0, 20)), [&] {
       const properties::Database database(bad + "/" + file, properties::Database::Mode::write);
       std::string text;
-      for_each_row(database, nullptr, "WHERE kind='binding'", {},
+      for_each_row(database, "WHERE kind='binding'", {},
                    [&](const properties::Row& row) { text = row.fields; });
       Json binding = Json::parse(text);
       binding[Json::json_pointer(place)] = value;

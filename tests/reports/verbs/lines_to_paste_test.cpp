@@ -65,7 +65,7 @@ TEST_F(LinesToPaste, OfCheckNameFramesBodiesAndAnswers) {
       bodies + " --answers free.csv",
       bodies + " --answers late.csv --apart 0,0",
       bodies + " --detector " + plugin("always_free"),
-      bodies + " --detector " + plugin("always_free") + " --isolation none --threads 2",
+      bodies + " --detector " + plugin("always_free") + " --isolation limits --threads 2",
       "'f 0.obj' 'f 1.obj' --detector " + plugin("always_free")};
   int number = 0;
   for (const auto& input : inputs) {
@@ -126,17 +126,18 @@ TEST_F(LinesToPaste, OfJudgeNameTheLogAndTheStep) {
     EXPECT_EQ(judged.exit_code, 1) << judged.out << judged.err;
     expect_same(judged.out, 1, 1);
   }
-  const auto shrunk = run("shrink 'my log#2' --out 'small one.json' --isolation none --detector " +
-                          plugin("always_free"));
+  const auto shrunk =
+      run("shrink 'my log#2' --out 'small one.json' --isolation limits --detector " +
+          plugin("always_free"));
   EXPECT_EQ(shrunk.exit_code, 1) << shrunk.err;
-  EXPECT_TRUE(contains(shrunk.out, " --isolation none")) << shrunk.out;
+  EXPECT_TRUE(contains(shrunk.out, " --isolation limits")) << shrunk.out;
   expect_same(shrunk.out, 1, 1);
 }
 
 TEST_F(LinesToPaste, OfRunsAndSelfTestsNameTheDetectorAsItRan) {
   file("plan.json", plan_text(8));
   const std::string detector =
-      " --detector " + plugin("always_free") + " --isolation none --threads 2";
+      " --detector " + plugin("always_free") + " --isolation limits --threads 2";
   const auto ran = run("run --campaign plan.json --out 'my run'" + detector);
   EXPECT_EQ(ran.exit_code, 1) << ran.err;
   const auto listed = run("list failures 'my run'");
@@ -144,7 +145,7 @@ TEST_F(LinesToPaste, OfRunsAndSelfTestsNameTheDetectorAsItRan) {
     const auto lines = replay_lines(text);
     ASSERT_FALSE(lines.empty()) << text;
     for (const auto& line : lines) {
-      EXPECT_TRUE(contains(line, " --isolation none --threads 2")) << line;
+      EXPECT_TRUE(contains(line, " --isolation limits --threads 2")) << line;
       EXPECT_EQ(run_assay(line).exit_code, 1) << line;
     }
   }

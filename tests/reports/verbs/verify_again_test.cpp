@@ -28,7 +28,7 @@ class VerifyAgain : public RunFixture {
     {
       const Database database(store_file(out, {}), Database::Mode::write);
       std::vector<Row> rows;
-      for_each_row(database, nullptr, "WHERE kind='trial' AND key=?", {id},
+      for_each_row(database, "WHERE kind='trial' AND key=?", {id},
                    [&](const Row& row) { rows.push_back(row); });
       ASSERT_EQ(rows.size(), 1u) << id;
       TrialRecord record = trial_of(rows[0]);
