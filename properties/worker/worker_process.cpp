@@ -76,7 +76,8 @@ struct WorkerProcess::Parts {
 
   // Makes sure that there is a live worker, and starts a new one if need be.
   Expected<void> ensure() {
-    if (live && live->channel.is_closed()) bury();
+    // Behind bwrap, the worker outlives it by a moment.
+    if (live && (live->channel.is_closed() || live->child.has_ended())) bury();
     for (int killed = 0; !live; ++killed) {
       end_of_loading = RunEnd::not_run;
       if (auto started = start(); !started) return started;

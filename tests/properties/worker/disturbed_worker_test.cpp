@@ -262,7 +262,10 @@ TEST(DisturbedWorker, APlugInThatDiesWhenItIsLoadedAgainHasCrashed) {
   WorkerProcess worker(ASSAY_WORKER, plugin("crashes_when_loaded_again"));
   ASSERT_TRUE(worker.describe());
   std::ofstream(file) << "loaded";
-  ::kill(children().at(0), SIGKILL);
+  const auto child = static_cast<id_t>(children().at(0));
+  ::kill(static_cast<pid_t>(child), SIGKILL);
+  siginfo_t seen = {};
+  ::waitid(P_PID, child, &seen, WEXITED | WNOWAIT);
   const auto run = worker.run(small_case(31, 0), plugin_alone)[0];
   ::unsetenv("ASSAY_TEST_FILE");
   std::filesystem::remove(file);
