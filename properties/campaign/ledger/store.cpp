@@ -72,11 +72,9 @@ struct Store::Parts {
                 const std::function<void(const Row&)>& visit) const {
     for_each_row(db, known ? &*known : nullptr, more, bound, visit);
   }
-  std::optional<Row> find(std::string_view kind, std::string_view key,
-                          std::string_view shard = "") const {
+  std::optional<Row> find(std::string_view kind, std::string_view key) const {
     std::optional<Row> found;
-    for_each("WHERE kind=? AND key=? AND shard=?", {kind, key, shard},
-             [&](const Row& row) { found = row; });
+    for_each("WHERE kind=? AND key=?", {kind, key}, [&](const Row& row) { found = row; });
     return found;
   }
 
@@ -91,11 +89,7 @@ struct Store::Parts {
   }
 
   void remove(const Row& row) {
-    Statement(db, "DELETE FROM ledger WHERE kind=? AND key=? AND shard=?")
-        .bind(row.kind)
-        .bind(row.key)
-        .bind(row.shard)
-        .next();
+    Statement(db, "DELETE FROM ledger WHERE kind=? AND key=?").bind(row.kind).bind(row.key).next();
     if (known) known->drop(row_name(row));
   }
 };
@@ -140,7 +134,7 @@ Expected<Store> Store::open(const std::filesystem::path& file, const std::string
     check_tables(parts->db, true);
     parts->db.run(table_declaration());
     parts->get_to_know();
-    if (!bound) parts->put({std::string(binding_kind), "", "", 0, binding});
+    if (!bound) parts->put({std::string(binding_kind), "", 0, binding});
     return Store(std::move(parts));
   });
 }
@@ -149,10 +143,18 @@ Expected<KeptFailures> Store::kept_failures() const {
   return catch_store_problem([&] { return KeptFailures{failures(), signatures()}; });
 }
 
-Expected<KeptFailures> read_failures(const std::filesystem::path& file) {
-  const auto store = Store::read(file);
-  if (!store) return store.error();
-  return store.value().kept_failures();
+Expected<void> copy_store(const std::filesystem::path& from, const std::filesystem::path& to) {
+  return catch_store_problem([&] {
+    value_or_throw(Store::read(from));
+    const std::filesystem::path part = to.string() + ".part";
+    std::error_code error;
+    std::filesystem::remove(part, error);
+    // The bytes of a vacuumed file depend on its rows alone.
+    Statement(Database(from, Database::Mode::read), "VACUUM INTO ?").bind(part.string()).next();
+    std::filesystem::rename(part, to, error);
+    if (error)
+      throw StoreProblem(fmt::format("{}: cannot be written: {}", to.string(), error.message()));
+  });
 }
 
 const RowTally& Store::known_rows() const { return *parts_->known; }
@@ -167,7 +169,7 @@ std::string Store::binding() const {
 }
 
 void Store::set(const Row& row) {
-  const auto before = parts_->find(row.kind, row.key, row.shard);
+  const auto before = parts_->find(row.kind, row.key);
   if (!before || before->progress <= row.progress) parts_->put(row);
 }
 
@@ -198,9 +200,10 @@ void Store::add(const TrialRecord& record, const std::vector<StoredFailure>& kep
   for (const auto& row : rows) parts_->note(row);
 }
 
-void Store::keep_failures(const std::set<std::string>& signatures) {
+void Store::keep_corpus_failures(const std::set<std::string>& signatures) {
   for (const auto& failure : failures()) {
-    if (!signatures.contains(failure.signature)) parts_->remove(to_row(failure));
+    if (failure.id.starts_with(corpus_in_id) && !signatures.contains(failure.signature))
+      parts_->remove(to_row(failure));
   }
 }
 
@@ -211,7 +214,7 @@ void Store::set_smallest(const StoredFailure& failure) {
 
 void Store::set_note(const std::string& key, const std::string& value) {
   parts_->put(
-      {std::string(note_kind), key, "", 0, corpus::json_text(nlohmann::json{{"value", value}})});
+      {std::string(note_kind), key, 0, corpus::json_text(nlohmann::json{{"value", value}})});
 }
 
 void Store::for_each(std::string_view kind, const std::function<void(const Row&)>& visit) const {

@@ -54,11 +54,12 @@ void LastingWorker::begin() {
 bool LastingWorker::put_first_cases(const StratumPlan& stratum) {
   const auto* family = find_family(stratum.family);
   int colliding = 0, free = 0, looked_at = 0;
-  for (std::uint64_t i = 0; i < stratum.cases && looked_at < most_looked_at; ++i) {
+  const auto cases = share_of(stratum.cases, request_.shares);
+  for (std::uint64_t i = 0; i < cases && looked_at < most_looked_at; ++i) {
     if (colliding == colliding_of_a_family && free == free_of_a_family) break;
-    if (!request_.shard.holds(i)) continue;
     ++looked_at;
-    const auto id = trial_id(request_.plan, request_.seed, stratum.family, i);
+    const auto id = trial_id(request_.plan, request_.seed, stratum.family,
+                             trial_index(i, request_.seed, request_.shares));
     auto drawn = case_within(request_.detector.contract, *family, id);
     if (!drawn.seen) continue;
     auto first = run(*drawn.seen);
@@ -78,7 +79,6 @@ void LastingWorker::remember(const corpus::Case& c, CaseRun first) {
 
 AskedAgain LastingWorker::ask_again(Store& store) {
   AskedAgain row;
-  row.shard = text_of(request_.shard);
   for (; !remembered_.empty() && row.open < most_open; remembered_.pop_back()) {
     const auto& asked = remembered_.back();
     const auto again = run(asked.c);

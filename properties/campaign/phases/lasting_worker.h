@@ -18,7 +18,7 @@ class LastingWorker {
  public:
   explicit LastingWorker(const CampaignRequest& request);
 
-  // Starts the process and puts cases of trials to it: of each family the first that this shard
+  // Starts the process and puts cases of trials to it: of each family the first that this run
   // judges, up to two that it answers with a collision and one that it calls free. They are
   // remembered. The trials themselves judge these cases, in other processes. A case that has no end
   // by itself is not remembered, and after it no other case is put.

@@ -37,7 +37,7 @@ class ChangedStore : public RunFixture {
   };
   // Runs the words and rewrites the store once, in the middle.
   Ended run_and_rewrite(const std::vector<std::string>& words) const {
-    const std::string file = out + "/shard-1-of-1.sqlite", output = scratch / "output";
+    const std::string file = out + "/run.sqlite", output = scratch / "output";
     Started program(words, output);
     bool is_rewritten = false;
     while (!program.has_ended() && !is_rewritten) {
@@ -50,7 +50,7 @@ class ChangedStore : public RunFixture {
   }
   void expect_no_verdict(const Ended& ended) const {
     EXPECT_EQ(ended.code, 4) << ended.output;
-    const auto line = fmt::format("assay: {}/shard-1-of-1.sqlite: trial tiny:1:", out);
+    const auto line = fmt::format("assay: {}/run.sqlite: trial tiny:1:", out);
     const auto at = ended.output.find(line);
     ASSERT_NE(at, std::string::npos) << ended.output;
     const auto end = ended.output.find('\n', at);
