@@ -1,5 +1,5 @@
 // `assay verify` checks certificates against the files beside them, and against the detector
-// itself. Several nights are pooled.
+// itself. With --out it judges several runs together.
 #include <fmt/format.h>
 
 #include <algorithm>
