@@ -27,10 +27,10 @@ using namespace assay;
 
 // The verbs, in the order of `assay help`.
 constexpr reports::AddedVerb (*verbs[])(CLI::App&) = {
-    reports::add_check,   reports::add_judge,    reports::add_check_queries, reports::add_run,
-    reports::add_certify, reports::add_bench,    reports::add_list,          reports::add_replay,
-    reports::add_shrink,  reports::add_verify,   reports::add_report,        reports::add_merge,
-    reports::add_scene,   reports::add_self_test};
+    reports::add_check,    reports::add_judge,  reports::add_check_queries, reports::add_run,
+    reports::add_certify,  reports::add_bench,  reports::add_list,          reports::add_replay,
+    reports::add_shrink,   reports::add_verify, reports::add_report,        reports::add_scene,
+    reports::add_self_test};
 
 using Words = std::vector<std::string>;
 

@@ -6,8 +6,6 @@
 
 namespace assay::properties {
 
-std::string text_of(const Shard& shard) { return fmt::format("{}/{}", shard.index, shard.count); }
-
 RunDeadline deadline_in(RunDeadline begin, double seconds) {
   constexpr double longest = 1e8;
   if (seconds > longest) return RunDeadline::max();
@@ -19,41 +17,27 @@ RunDeadline deadline_after(RunDeadline begin, const CampaignPlan& plan, double s
   return plan.seconds == 0 ? RunDeadline::max() : deadline_in(begin, share * plan.seconds);
 }
 
-std::uint64_t planned_cases(const StratumPlan& stratum, const Shard& shard) {
-  return (stratum.cases + shard.count - shard.index) / shard.count;
-}
-
-std::uint64_t planned_trial_count(const CampaignPlan& plan, const Shard& shard) {
+std::uint64_t planned_trial_count(const CampaignPlan& plan, std::uint64_t shares) {
   std::uint64_t count = 0;
-  for (const auto& stratum : plan.strata) count += planned_cases(stratum, shard);
+  for (const auto& stratum : plan.strata) count += share_of(stratum.cases, shares);
   return count;
 }
 
 namespace {
 
 // So many cases that an archive fills, and not so many lanes that they cannot be told one by one.
-std::uint64_t size_of_lane(const CampaignPlan& plan) {
+std::uint64_t size_of_lane(std::uint64_t cases) {
   constexpr std::uint64_t least = 500, most_lanes = 256;
-  return std::max(least, (plan.search + most_lanes - 1) / most_lanes);
+  return std::max(least, share_of(cases, most_lanes));
 }
 
 }  // namespace
 
-std::uint64_t search_lanes(const CampaignPlan& plan) {
-  const auto size = size_of_lane(plan);
-  return (plan.search + size - 1) / size;
-}
+std::uint64_t search_lanes(std::uint64_t cases) { return share_of(cases, size_of_lane(cases)); }
 
-std::uint64_t cases_of_lane(const CampaignPlan& plan, std::uint64_t lane) {
-  const auto size = size_of_lane(plan);
-  return std::min(size, plan.search - lane * size);
-}
-
-std::uint64_t planned_lanes(const CampaignPlan& plan, const Shard& shard) {
-  std::uint64_t count = 0;
-  for (std::uint64_t lane = 0; lane < search_lanes(plan); ++lane)
-    count += shard.holds(lane) ? 1 : 0;
-  return count;
+std::uint64_t cases_of_lane(std::uint64_t cases, std::uint64_t lane) {
+  const auto size = size_of_lane(cases);
+  return std::min(size, cases - lane * size);
 }
 
 std::string trial_id(const CampaignPlan& plan, std::uint64_t seed, const std::string& family,

@@ -1,4 +1,4 @@
-// What is asked of a campaign: its plan, a seed, a shard of it, and the detector to be judged.
+// What is asked of a campaign: its plan, a seed, a share of it, and the detector to be judged.
 #pragma once
 
 #include <chrono>
@@ -15,14 +15,10 @@
 
 namespace assay::properties {
 
-// A part of a campaign that is run by itself. Together the shards hold each case once.
-struct Shard {
-  std::uint64_t index = 1, count = 1;  // 1-based
-  bool holds(std::uint64_t place) const { return place % count == index - 1; }
-};
-
-// "1/4"
-std::string text_of(const Shard& shard);
+// What one of so many equal shares has to do of n. It is rounded up, so that all of them reach n.
+constexpr std::uint64_t share_of(std::uint64_t n, std::uint64_t shares) {
+  return (n + shares - 1) / shares;
+}
 
 struct OwnCases {
   std::vector<corpus::Case> cases;
@@ -36,7 +32,9 @@ struct CampaignRequest : Subject {
   CampaignPlan plan;
   std::uint64_t seed = default_seed;
   int jobs = 1;
-  Shard shard;
+  // The run does one of so many equal shares: of the cases of each stratum and of each planted
+  // fault, and of the search. The others are runs under other seeds.
+  std::uint64_t shares = 1;
   // The proof of another run of this build that planted faults are found. If it is given, no fault
   // is planted in this run.
   std::optional<PowerProof> power;
@@ -80,14 +78,19 @@ RunDeadline deadline_in(RunDeadline begin, double seconds);
 // This share of the plan's seconds after `begin`, or never, if the plan has no limit.
 RunDeadline deadline_after(RunDeadline begin, const CampaignPlan& plan, double share);
 
-// How many cases the shard holds: of one family, and of all families.
-std::uint64_t planned_cases(const StratumPlan& stratum, const Shard& shard);
-std::uint64_t planned_trial_count(const CampaignPlan& plan, const Shard& shard);
+// How many cases of all families one of so many shares holds.
+std::uint64_t planned_trial_count(const CampaignPlan& plan, std::uint64_t shares);
 
-// The search is made of lanes of so many cases, the last one of what is left (search/search.h).
-std::uint64_t search_lanes(const CampaignPlan& plan);
-std::uint64_t cases_of_lane(const CampaignPlan& plan, std::uint64_t lane);
-std::uint64_t planned_lanes(const CampaignPlan& plan, const Shard& shard);
+// The index of the case at a place of a stratum, from 0, that a run judges. Shares under seeds that
+// follow one another judge different indices, because the shapes of some families take turns by
+// the index.
+constexpr std::uint64_t trial_index(std::uint64_t place, std::uint64_t seed, std::uint64_t shares) {
+  return place * shares + seed % shares;
+}
+
+// A search of so many cases is made of lanes, the last one of what is left (search/search.h).
+std::uint64_t search_lanes(std::uint64_t cases);
+std::uint64_t cases_of_lane(std::uint64_t cases, std::uint64_t lane);
 
 // "quick:1:closed-generic:12".
 std::string trial_id(const CampaignPlan& plan, std::uint64_t seed, const std::string& family,

@@ -82,6 +82,7 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
   if (words.memory) request.plan.case_bytes = *words.memory;
   request.seed = words.seed;
   request.jobs = words.jobs;
+  request.shares = words.shares;
   if (!words.own_cases.empty()) {
     BOOST_OUTCOME_TRY(own, read_own_cases(words.own_cases));
     if (own.cases.empty()) {
@@ -143,15 +144,6 @@ Expected<void> may_keep_run(const std::filesystem::path& out,
     }
   }
   return outcome::success();
-}
-
-std::optional<properties::Shard> shard_of(const std::string& word) {
-  const auto slash = word.find('/');
-  if (slash == std::string::npos) return std::nullopt;
-  const auto index = whole_number_of<std::uint64_t>(word.substr(0, slash));
-  const auto count = whole_number_of<std::uint64_t>(word.substr(slash + 1));
-  const bool is_shard = index && count && *index >= 1 && *index <= *count;
-  return is_shard ? std::optional(properties::Shard{*index, *count}) : std::nullopt;
 }
 
 }  // namespace assay::reports

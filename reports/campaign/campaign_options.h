@@ -24,22 +24,19 @@ struct CampaignWords {
   DetectorWords detector;
   std::string out;
   int jobs = 1;
+  std::uint64_t shares = 1;  // 8: an eighth of the campaign is done
 };
 
-// Adds an option for each member but --campaign and --out, which each verb describes in its own
-// way.
+// Adds an option for each member but --campaign, --out and --share, which each verb describes in
+// its own way.
 void add_campaign_options(Verb& verb, CampaignWords& words);
 
-// The request for a whole campaign, as one shard. From then on ctrl-C leaves with what is stored.
-// Fails if a name, a file or a library is wrong.
+// From this call on ctrl-C leaves with what is stored. Fails if a name, a file or a library is
+// wrong.
 Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& words);
 
 // Makes the folder of a run, and looks whether these files of it can be written, and its folders of
 // failing and slow cases.
 Expected<void> may_keep_run(const std::filesystem::path& out,
                             const std::vector<std::string>& files);
-
-// The shard in words such as "2/8"; nothing for other words.
-std::optional<properties::Shard> shard_of(const std::string& word);
-
 }  // namespace assay::reports

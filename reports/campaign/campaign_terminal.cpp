@@ -128,9 +128,11 @@ class CampaignTerminal : public properties::CampaignObserver {
 
   void announce(std::uint64_t stored) const {
     const auto& plan = request_.plan;
-    const auto planned = properties::planned_trial_count(plan, request_.shard);
-    fmt::print("campaign {}, seed {}, shard {}: {} trials of {} families{}, {} configurations",
-               plan.name, request_.seed, text_of(request_.shard), planned, plan.strata.size(),
+    const auto planned = properties::planned_trial_count(plan, request_.shares);
+    fmt::print("campaign {}, seed {}{}: {} trials of {} families{}, {} configurations", plan.name,
+               request_.seed,
+               request_.shares > 1 ? fmt::format(", share 1/{}", request_.shares) : "", planned,
+               plan.strata.size(),
                stored ? fmt::format(" ({} are stored, {} to do)", stored, planned - stored) : "",
                request_.detector.configurations.size() + request_.detector.of_questions.size());
     if (request_.power) {

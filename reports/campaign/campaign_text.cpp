@@ -222,7 +222,7 @@ std::string shrinking_text(const RunFindings& findings) {
 
 // What the search found; empty if none was asked for.
 std::string search_text(const RunFindings& findings) {
-  const auto [lanes, cases, defects, open, causes] = findings.searched();
+  const auto [lanes, planned, cases, defects, open, causes] = findings.searched();
   if (lanes == 0) return "";
   return fmt::format("search: {} cases, {} with a defect, {} causes in the archives\n", cases,
                      defects, causes);

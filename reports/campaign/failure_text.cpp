@@ -33,8 +33,8 @@ DetectorWords detector_of(const properties::RunFindings& findings) {
   words.library = findings.library;
   words.threads = findings.run.detector.threads;
   words.part = part_asked_by(findings.run.plan);
-  for (const auto& shard : findings.evidence.isolation)
-    words.isolation = from_name<properties::Isolation>(shard.asked);
+  for (const auto& run : findings.evidence.isolation)
+    words.isolation = from_name<properties::Isolation>(run.asked);
   return words;
 }
 

@@ -22,9 +22,9 @@ std::string replay_words(const std::filesystem::path& out, const std::filesystem
 DetectorWords detector_of(const properties::RunFindings& findings);
 
 // Writes OUT/failures/CASE-CONFIGURATION-original.json and -smallest.json for each stored failure,
-// under the same names in every run and shard, and a picture (.svg) of the smallest mesh of each
-// signature. `text` gets one paragraph for the signature that was met most often: claim, how often,
-// both sizes, triangles, feature, and the line that replays it. Nine others are a line each, the
+// under the same names in every run, and a picture (.svg) of the smallest mesh of each signature.
+// `text` gets one paragraph for the signature that was met most often: claim, how often, both
+// sizes, triangles, feature, and the line that replays it. Nine others are a line each, the
 // smallest meshes first, with every broken claim among them; the rest is one count. `detector` is
 // the one that failed.
 Expected<void> write_failures(const properties::KeptFailures& kept,

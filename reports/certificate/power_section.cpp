@@ -18,12 +18,11 @@ using Json = nlohmann::ordered_json;
 using properties::RunFindings;
 
 // What the row of a piece of evidence says of it, under the keys of
-// properties/campaign/ledger/evidence.cpp; but not its name and its shard.
+// properties/campaign/ledger/evidence.cpp; but not its name.
 template <class T>
 Json facts_of(const T& evidence) {
   Json facts = Json::parse(to_row(evidence).fields);
   facts.erase("name");
-  facts.erase("shard");
   return facts;
 }
 
@@ -41,9 +40,7 @@ Json number_or_null(const std::optional<std::uint64_t>& number) {
 Json canaries_json(const RunFindings& findings) {
   Json list = Json::array();
   for (const auto& canary : findings.evidence.canaries)
-    list.push_back({{"fault", canary.fault},
-                    {"shard", canary.shard},
-                    {"found_after", number_or_null(canary.found_after)}});
+    list.push_back({{"fault", canary.fault}, {"found_after", number_or_null(canary.found_after)}});
   return list;
 }
 
@@ -124,7 +121,7 @@ Json repeated_json(const RunFindings& findings) {
 Json search_json(const RunFindings& findings) {
   const auto planned = findings.run.plan.search;
   if (planned == 0) return nullptr;
-  const auto [lanes, cases, defects, open, causes] = findings.searched();
+  const auto [lanes, asked, cases, defects, open, causes] = findings.searched();
   std::set<std::string> words;
   for (const auto& lane : findings.evidence.search)
     words.insert(lane.causes.begin(), lane.causes.end());

@@ -44,12 +44,12 @@ Json subject_json(const RunFindings& findings) {
   return Json::array({{{"name", run.detector.name}, {"digest", std::move(digest)}}});
 }
 
-// The isolation that held for everything: in every shard, and where the corpus was run.
+// The isolation that held for everything, in every run.
 Json isolation_json(const RunFindings& findings) {
   if (findings.run.detector.built_in) return nullptr;
   const auto& told = findings.evidence.isolation;
-  const auto is_behind_bubblewrap = [](const properties::PluginIsolation& shard) {
-    return shard.got == name_of(properties::Isolation::bubblewrap);
+  const auto is_behind_bubblewrap = [](const properties::PluginIsolation& run) {
+    return run.got == name_of(properties::Isolation::bubblewrap);
   };
   return text_of(!told.empty() && std::all_of(told.begin(), told.end(), is_behind_bubblewrap)
                      ? properties::Isolation::bubblewrap
@@ -73,19 +73,20 @@ Json digests_json(const RunFindings& findings, const std::string& campaign) {
   return json;
 }
 
+std::string share_text(const properties::RunPart& part) { return fmt::format("1/{}", part.shares); }
+
 Json campaign_json(const RunFindings& findings, const properties::CampaignPlan& plan) {
-  const auto words = [](const std::vector<properties::Shard>& shards) {
-    Json list = Json::array();
-    for (const auto& shard : shards) list.push_back(text_of(shard));
-    return list;
-  };
+  Json parts = Json::array();
+  for (const auto& part : findings.parts)
+    parts.push_back({{"seed", part.seed}, {"share", share_text(part)}, {"rows", part.rows}});
   return {{"name", plan.name},
-          {"seed", findings.run.seed},
-          {"is_default_seed", findings.run.seed == properties::default_seed},
+          {"seed", findings.parts.front().seed},
+          {"is_default_seed",
+           std::any_of(findings.parts.begin(), findings.parts.end(),
+                       [](const auto& part) { return part.seed == properties::default_seed; })},
           {"plan", Json::parse(plan_text(plan))},
-          {"shards", words(findings.shards)},
-          {"missing_shards", words(findings.missing)},
-          {"one_shard_alone", findings.alone.has_value()},
+          {"parts", std::move(parts)},
+          {"is_whole", findings.is_whole()},
           {"planted_faults", findings.run.planted_faults}};
 }
 
@@ -97,10 +98,16 @@ Json replay_json(const RunFindings& findings) {
   auto words = detector_of(findings);
   words.library = paths->detector;
   if (!paths->data.empty()) folders += fmt::format(" --data {}", shell_word(paths->data));
-  return Json::array({fmt::format("assay certify --campaign {} --seed {}{}{} --out AGAIN",
-                                  properties::campaign_file("").string(), findings.run.seed,
-                                  detector_words(words), folders),
-                      fmt::format("assay verify {}", properties::certificate_file("").string())});
+  Json lines = Json::array();
+  for (const auto& part : findings.parts)
+    lines.push_back(fmt::format("assay {} --campaign {} --seed {}{}{} --out AGAIN{}",
+                                part.shares == 1 ? "certify" : "run --share " + share_text(part),
+                                properties::campaign_file("").string(), part.seed,
+                                detector_words(words), folders,
+                                findings.parts.size() == 1 ? "" : fmt::format("/{}", part.seed)));
+  if (findings.parts.size() > 1) lines.push_back("assay verify AGAIN/* --out AGAIN-ALL");
+  lines.push_back(fmt::format("assay verify {}", properties::certificate_file("").string()));
+  return lines;
 }
 
 // Replaces what is not UTF-8 in the statement, such as in the name of a folder. The result is what

@@ -163,12 +163,24 @@ std::string summary_text(const Json& p, const std::string& begun) {
 }
 
 Expected<void> write_for_ci(const Json& predicate, const std::filesystem::path& out,
-                            const std::string& part, const std::string& begun) {
-  auto written = write_text_file((out / ("junit" + part + ".xml")).string(), junit_text(predicate));
+                            const std::string& begun) {
+  auto written = write_text_file((out / "junit.xml").string(), junit_text(predicate));
   if (!written) return written;
-  return write_text_file((out / ("summary" + part + ".md")).string(),
-                         summary_text(predicate, begun));
+  return write_text_file((out / "summary.md").string(), summary_text(predicate, begun));
 }
+
+namespace {
+
+// "seed 3, share 1/8", "seeds 1, 2, 3".
+std::string seeds_text(const Json& parts) {
+  std::vector<std::string> seeds;
+  for (const auto& part : parts) seeds.push_back(cell(part["seed"].dump()));
+  const auto share = parts[0]["share"].get<std::string>();
+  return fmt::format("seed{} {}{}", seeds.size() == 1 ? "" : "s", joined(seeds, ", "),
+                     seeds.size() > 1 || share == "1/1" ? "" : ", share " + share);
+}
+
+}  // namespace
 
 std::string judged_text(const Json& p) {
   std::vector<properties::JudgedSize> judged_up_to;
@@ -183,12 +195,11 @@ std::string judged_text(const Json& p) {
   }
   const auto phrases = p["detector"]["contract"]["leaves_out"].get<std::vector<std::string>>();
   return fmt::format(
-      "{}{}; contract {}{}; campaign {}, seed {}{}{}", claims_text(p),
-      sizes.empty() ? "" : "; " + sizes,
+      "{}{}; contract {}{}; campaign {}, {}{}{}", claims_text(p), sizes.empty() ? "" : "; " + sizes,
       phrases.empty() ? "leaves nothing out" : joined(phrases, ", "),
       p["isolation"].is_null() ? ""
                                : fmt::format("; isolation {}", p["isolation"].get<std::string>()),
-      p["campaign"]["name"].get<std::string>(), p["campaign"]["seed"].get<std::uint64_t>(),
+      p["campaign"]["name"].get<std::string>(), seeds_text(p["campaign"]["parts"]),
       p["campaign"]["is_default_seed"].get<bool>() ? " (the default)" : "",
       case_limits_text(p["campaign"]["plan"]));
 }

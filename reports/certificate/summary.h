@@ -16,11 +16,9 @@ std::string summary_text(const nlohmann::ordered_json& predicate, const std::str
 // For one entry of `failures`: "met 3 times", or that no trial showed it.
 std::string met_text(const nlohmann::ordered_json& failure);
 
-// Writes OUT/junit.xml and OUT/summary.md for CI systems; `part` is appended to their names. Fails
-// if one cannot be written.
+// Writes OUT/junit.xml and OUT/summary.md for CI systems. Fails if one cannot be written.
 Expected<void> write_for_ci(const nlohmann::ordered_json& predicate,
-                            const std::filesystem::path& out, const std::string& part = "",
-                            const std::string& begun = "");
+                            const std::filesystem::path& out, const std::string& begun = "");
 
 // What a predicate is about, because a verdict says no more than what was claimed: "claims
 // free-sound, total; not judged: no-spurious (the contract has a margin), its elementary query;

@@ -12,7 +12,6 @@
 #include "corpus/file_bytes.h"
 #include "corpus/json_fields.h"
 #include "properties/campaign/gates/findings.h"
-#include "properties/campaign/gates/statistics.h"
 #include "properties/campaign/ledger/run_folder.h"
 #include "properties/worker/plugin/judged_library.h"
 #include "properties/worker/worker_process.h"
@@ -146,22 +145,6 @@ void compare(const std::filesystem::path& certificate, const properties::Expecte
   std::sort(result.others.begin(), result.others.end());
 }
 
-std::string difference_of(const Json& a, const Json& b) {
-  for (const char* digest : {"program", "worker", "plugin", "generator"}) {
-    if (a["digests"][digest] != b["digests"][digest])
-      return fmt::format("their digests of the {} differ", digest);
-  }
-  if (a["detector"] != b["detector"]) return "they are of different detectors";
-  if (a["confidence"]["bounds"] != b["confidence"]["bounds"])
-    return "they state different numbers of bounds";
-  const auto families = [](const Json& p) {
-    Json list = Json::array();
-    for (const auto& stratum : p["strata"]) list.push_back(stratum["family"]);
-    return list;
-  };
-  return families(a) == families(b) ? "" : "they have different strata";
-}
-
 }  // namespace
 
 std::filesystem::path certificate_in(const std::filesystem::path& file_or_folder) {
@@ -179,15 +162,12 @@ std::string sent_alone(const std::filesystem::path& certificate) {
         "{}: of schema {}, no certificate and no run; assay report shows folders of assay run and "
         "assay certify; of a check that fails, assay check --keep DIR writes DIR/page.html",
         certificate.string(), schema->dump());
-  std::error_code ignored;
-  const auto folder = folder_of(certificate);
-  const bool has_stores = properties::stored_shards(folder).has_value() ||
-                          std::filesystem::exists(properties::checks_file(folder), ignored);
-  return has_stores ? ""
-                    : fmt::format(
-                          "{}: the stores that it rests on (*.sqlite) are not beside it: ask "
-                          "its issuer for the whole folder",
-                          certificate.string());
+  return properties::stored_runs(folder_of(certificate)).has_value()
+             ? ""
+             : fmt::format(
+                   "{}: the stores that it rests on (*.sqlite) are not beside it: ask its issuer "
+                   "for the whole folder",
+                   certificate.string());
 }
 
 Verification verify_certificate(const std::filesystem::path& certificate,
@@ -197,44 +177,6 @@ Verification verify_certificate(const std::filesystem::path& certificate,
   Verification result{{}, std::move(read.value())};
   compare(certificate, computed ? *computed : make_statement(folder_of(certificate)), result);
   return result;
-}
-
-properties::Expected<Json> pool(const std::vector<Json>& predicates) {
-  using properties::Problem;
-  std::set<std::pair<std::string, std::uint64_t>> nights;
-  for (const auto& p : predicates) {
-    const auto difference = difference_of(predicates[0], p);
-    const auto& campaign = p["campaign"];
-    if (!difference.empty()) {
-      return Problem{fmt::format("these nights cannot be pooled: {}", difference)};
-    }
-    if (!nights.emplace(campaign["name"], campaign["seed"]).second) {
-      return Problem{
-          fmt::format("these nights cannot be pooled: campaign {} with seed {} is there "
-                      "twice",
-                      campaign["name"].get<std::string>(), campaign["seed"].get<std::uint64_t>())};
-    }
-  }
-  Json list = Json::array();
-  if (predicates.empty()) return list;
-  for (std::size_t s = 0; s < predicates[0]["strata"].size(); ++s) {
-    const auto& first = predicates[0]["strata"][s];
-    const double risk = first["risk"].get<double>();
-    for (std::size_t c = 0; c < first["bounds"].size(); ++c) {
-      std::uint64_t n = 0, holds = 0;
-      for (const auto& p : predicates) {
-        const auto& bound = p["strata"][s]["bounds"][c];
-        n += bound["n"].get<std::uint64_t>();
-        holds += bound["holds"].get<std::uint64_t>();
-      }
-      list.push_back({{"family", first["family"]},
-                      {"configuration", first["bounds"][c]["configuration"]},
-                      {"n", n},
-                      {"holds", holds},
-                      {"bound", properties::upper_bound(n - holds, n, risk)}});
-    }
-  }
-  return list;
 }
 
 namespace {
@@ -287,7 +229,6 @@ Expected<properties::TrialsAgain> run_certified_again(
   BOOST_OUTCOME_TRY(library, certified_library(findings, asked.detector.library, judged));
   properties::CampaignRequest request;
   request.plan = run.plan;
-  request.seed = run.seed;
   request.jobs = asked.jobs;
   const DetectorWords words{library, asked.detector.isolation, run.detector.threads,
                             part_asked_by(run.plan)};

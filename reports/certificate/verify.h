@@ -1,5 +1,5 @@
-// Verifies certificates: whether each is what follows from the files beside it, and what several
-// say together; and makes and judges a share of their trials once more.
+// Verifies certificates: whether each is what follows from the files beside it. Makes and judges a
+// share of their trials once more.
 #pragma once
 
 #include <cstdint>
@@ -40,20 +40,6 @@ std::filesystem::path certificate_in(const std::filesystem::path& file_or_folder
 // A line for who was sent a certificate alone, without any of the stores that it rests on: nothing
 // can be said of it. Empty if there are some, or if it is no certificate of this schema.
 std::string sent_alone(const std::filesystem::path& certificate);
-
-// Adds up what several certificates of one detector say, such as those of several nights.
-//
-// Takes the member "predicate" of each certificate and adds up their strata. The result is a list
-// of {family, configuration, n, holds, bound}: of n trials so many hold, and `bound` is the upper
-// bound of the rate of failures at the confidence of the campaigns.
-//
-// Fails unless all certificates speak of one detector, generator and judge: the digests of program,
-// worker, plug-in and generator must be equal, and so must detector, families and the number of
-// bounds. A program in which a bug was fixed is another program, so its sums start at 0. It fails
-// too if a trial would count twice: no two certificates may have the same campaign and the same
-// seed.
-properties::Expected<nlohmann::ordered_json> pool(
-    const std::vector<nlohmann::ordered_json>& predicates);
 
 // What is asked of `assay verify --again`.
 struct AgainRequest {

@@ -21,6 +21,7 @@
 #include "reports/campaign/campaign_text.h"
 #include "reports/campaign/failure_text.h"
 #include "reports/campaign/own_cases.h"
+#include "reports/certificate/issue.h"
 #include "reports/certificate/own_checks.h"
 #include "reports/certificate/statement.h"
 #include "reports/certificate/summary.h"
@@ -34,37 +35,25 @@ namespace assay::reports {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using properties::stored_shards;
-
-// Whether the folder holds shards of several, or a merged store. Then no trial is run here.
-bool holds_shards(const std::filesystem::path& out) {
-  const auto files = stored_shards(out);
-  return files && std::any_of(files.value().begin(), files.value().end(), [&](const auto& file) {
-           return file != properties::store_file(out, {});
-         });
-}
 
 class Certification {
  public:
   Certification(const CampaignWords& words, const properties::CampaignRequest& request,
-                std::filesystem::path corpus, properties::Checks checks)
+                std::filesystem::path corpus, properties::Store store)
       : words_(words),
         request_(request),
         out_(words.out),
         corpus_(std::move(corpus)),
-        checks_(std::move(checks)),
+        store_(std::move(store)),
         begin_(Clock::now()) {}
 
   // Returns the exit code of the verdict, or of what kept it from being reached.
   Expected<int> run() {
     BOOST_OUTCOME_TRY(write_text_file(properties::campaign_file(out_).string(), campaign_text()));
-    // The stores are opened before the cases of the corpus run, because from then on every row is
-    // known.
-    BOOST_OUTCOME_TRY(holds_shards(out_) ? take_shards() : open_store());
     store_subject();
     BOOST_OUTCOME_TRY(run_corpus());
     BOOST_OUTCOME_TRY(forget_corpus_failures());
-    BOOST_OUTCOME_TRY(store_ ? run_trials() : show_shards());
+    BOOST_OUTCOME_TRY(run_trials());
     BOOST_OUTCOME_TRY(show_corpus_failures());
     run_self_test();
     if (request_.detector.built_in) run_speed();
@@ -81,9 +70,6 @@ class Certification {
     keep(properties::Paths{absolute_path(words_.out), absolute_path(words_.detector.library),
                            absolute_path(words_.own_cases), absolute_path(words_.data)});
     keep(input_digests());
-    if (request_.plugin)
-      keep(properties::PluginIsolation{properties::checks_shard, request_.isolation_word(),
-                                       name_of(request_.isolation)});
     keep(properties::asked_of_a_certificate());
   }
 
@@ -117,7 +103,7 @@ class Certification {
   Expected<void> forget_corpus_failures() {
     std::set<std::string> signatures;
     for (const auto& failure : corpus_failures_) signatures.insert(failure.signature);
-    checks_.keep_failures(signatures);
+    checks_.keep_corpus_failures(signatures);
     if (const auto& problem = checks_.problem()) return *problem;
     return outcome::success();
   }
@@ -126,48 +112,19 @@ class Certification {
     if (corpus_failures_.empty()) return outcome::success();
     {
       PlainProgress progress("shrinking");
-      properties::keep_corpus_failures(request_, corpus_failures_, out_, checks_,
+      properties::keep_corpus_failures(request_, corpus_failures_, checks_,
                                        [&](const std::string& text) { progress.show(text); });
     }
-    BOOST_OUTCOME_TRY(kept, checks_.failures());
+    BOOST_OUTCOME_TRY(kept, checks_.corpus_failures());
     std::string text;
     const auto written = write_failures(kept, out_, words_.detector, text);
     fmt::print("{}", text);
     return written;
   }
 
-  Expected<void> open_store() {
-    BOOST_OUTCOME_TRY(store, properties::Store::open(properties::store_file(out_, request_.shard),
-                                                     properties::binding_of(request_)));
-    store_ = std::move(store);
-    return outcome::success();
-  }
-
   Expected<void> run_trials() {
     fmt::print("\n");
-    auto done = run_on_terminal(request_, *store_, words_.out);
-    const auto sealed = store_->seal();
-    if (done && !sealed) return sealed.error();
-    return done;
-  }
-
-  // Takes the stores that `run` or `merge` wrote, and makes whole files of them.
-  Expected<void> take_shards() {
-    BOOST_OUTCOME_TRY(files, stored_shards(out_));
-    for (const auto& file : files) {
-      BOOST_OUTCOME_TRY(whole, properties::make_whole(file, request_));
-      shards_[file.filename().string()] = std::move(whole);
-    }
-    return outcome::success();
-  }
-
-  Expected<void> show_shards() const {
-    for (const auto& [name, shard] : shards_) {
-      std::string unused;
-      BOOST_OUTCOME_TRY(write_failures(shard.failures, out_, words_.detector, unused));
-      fmt::print("{}: {} trials\n", name, shard.trials);
-    }
-    return outcome::success();
+    return run_on_terminal(request_, store_, words_.out);
   }
 
   void run_self_test() {
@@ -200,49 +157,39 @@ class Certification {
   Expected<int> issue() {
     const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
     keep(properties::Issued{properties::time_in_utc(), seconds});
-    checks_.seal();
     if (const auto& problem = checks_.problem()) return *problem;
+    BOOST_OUTCOME_TRY(store_.seal());
     BOOST_OUTCOME_TRY(findings, properties::read_findings(out_));
-    BOOST_OUTCOME_TRY(statement, make_statement(findings));
-    const auto certificate = properties::certificate_file(out_).string();
-    auto written = write_text_file(certificate, statement_text(statement));
-    if (written) written = write_for_ci(statement["predicate"], out_);
-    if (!written) return written.error();
-    const auto judgement = judge(findings);
-    fmt::print("{}\n{}\nverdict: {} in {:.0f} s; {}\nit speaks of {}\nnext: {}\n",
-               findings_text(findings), gates_text(judgement), judgement.verdict, seconds,
-               certificate, judged_text(statement["predicate"]),
-               line_to_paste("verify " + shell_word(certificate), PastedIn::this_folder));
-    return judgement.exit_code;
+    return issue_certificate(findings, campaign_text(), fmt::format(" in {:.0f} s", seconds));
   }
 
   const CampaignWords& words_;
   const properties::CampaignRequest& request_;
   const std::filesystem::path out_;
   const std::filesystem::path corpus_;
-  properties::Checks checks_;
-  std::optional<properties::Store> store_;  // the store of the trials that are run here
-  std::map<std::string, properties::WholeShard>
-      shards_;  // those that were run before, by file name
+  properties::Store store_;
+  properties::Checks checks_{store_};
   std::vector<properties::StoredFailure> corpus_failures_;
   const Clock::time_point begin_;
 };
 
-Expected<int> run_certify(const CampaignWords& words) {
+}  // namespace
+
+Expected<int> certify(const CampaignWords& words) {
   BOOST_OUTCOME_TRY(corpus, shipped_corpus());
   BOOST_OUTCOME_TRY(request, ask_for_campaign(words));
-  if (request.power && holds_shards(words.out))
-    return Problem{
-        fmt::format("{}: its shards are judged by their own planted faults: give --power "
-                    "to the run of each",
-                    words.out)};
   BOOST_OUTCOME_TRY(
       may_keep_run(words.out, {"campaign.json", "certificate.json", "junit.xml", "summary.md"}));
-  BOOST_OUTCOME_TRY(checks, properties::Checks::open(words.out, request));
+  // The store is opened before the cases of the corpus run, because from then on every row is
+  // known.
+  BOOST_OUTCOME_TRY(store, properties::Store::open(properties::store_file(words.out),
+                                                   properties::binding_of(request)));
   fmt::print("the shipped corpus, campaign {}, self-test and speed; writes {}\n", request.plan.name,
              words.out);
-  return Certification(words, request, corpus, std::move(checks)).run();
+  return Certification(words, request, corpus, std::move(store)).run();
 }
+
+namespace {
 
 void add_options(Verb& verb, CampaignWords& words) {
   words.campaign = "smoke";
@@ -250,9 +197,7 @@ void add_options(Verb& verb, CampaignWords& words) {
            "smoke, quick, nightly, release, or a campaign file (.json)")
       .shows_default();
   add_campaign_options(verb, words);
-  verb.add("--out DIR", words.out, "Folder for the certificate; shards that it holds are taken")
-      .required()
-      .in(OptionGroup::output);
+  verb.add("--out DIR", words.out, "Folder for the certificate").required().in(OptionGroup::output);
 }
 
 }  // namespace
@@ -260,7 +205,7 @@ void add_options(Verb& verb, CampaignWords& words) {
 AddedVerb add_certify(CLI::App& app) {
   return make_verb(app, "certify",
                    "Corpus, campaign, planted faults, self-test, speed: a certificate, or a defect",
-                   add_options, run_certify);
+                   add_options, certify);
 }
 
 }  // namespace assay::reports

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "reports/campaign/campaign_options.h"
 #include "reports/judge/log_check.h"
 #include "reports/terminal/text_file.h"
 #include "reports/terminal/words.h"
@@ -89,6 +88,16 @@ Expected<int> run_judge(const JudgeRequest& request) {
     BOOST_OUTCOME_TRY(write_text_file(request.junit_file, junit_text(suites)));
   }
   return code;
+}
+
+// The shard in words such as "2/8"; nothing for other words.
+std::optional<Shard> shard_of(const std::string& word) {
+  const auto slash = word.find('/');
+  if (slash == std::string::npos) return std::nullopt;
+  const auto index = whole_number_of<std::uint64_t>(word.substr(0, slash));
+  const auto count = whole_number_of<std::uint64_t>(word.substr(slash + 1));
+  const bool is_shard = index && count && *index >= 1 && *index <= *count;
+  return is_shard ? std::optional(Shard{*index, *count}) : std::nullopt;
 }
 
 void add_options(Verb& verb, JudgeRequest& request) {

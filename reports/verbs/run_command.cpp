@@ -1,4 +1,4 @@
-// `assay run` runs one shard of a campaign, and tells what it comes to.
+// `assay run` runs a campaign, or a share of one, and tells what it comes to.
 #include <fmt/format.h>
 
 #include "corpus/meant_word.h"
@@ -20,23 +20,16 @@ namespace {
 
 struct RunRequest {
   CampaignWords words;
-  properties::Shard shard;
 };
 
 constexpr const char* go_on = "; what is stored stays: run the same again to go on";
-
-// What stands behind the names of a shard's files: a shard of several writes
-// junit-shard-I-of-N.xml and so on.
-std::string part_of(const properties::Shard& shard) {
-  return shard.count == 1 ? "" : fmt::format("-shard-{}-of-{}", shard.index, shard.count);
-}
 
 // Writes junit.xml and summary.md.
 Expected<void> write_files(const properties::CampaignRequest& request,
                            const properties::RunFindings& findings,
                            const properties::Judgement& judgement) {
   return write_for_ci(make_predicate(findings, judgement, request.plan, ""), findings.folder,
-                      part_of(request.shard), findings.begun);
+                      findings.begun);
 }
 
 Expected<int> conclude(const properties::CampaignRequest& request,
@@ -57,16 +50,13 @@ Expected<int> conclude(const properties::CampaignRequest& request,
                line_to_paste(fmt::format("report {} --out {}", shell_word(out), shell_word(page)),
                              PastedIn::this_folder));
   }
-  // This line is for whoever waits for all shards, because the exit code may also be that of a
-  // defect.
-  fmt::print("shard {}: {}\n", text_of(request.shard), is_complete ? "complete" : "not complete");
   BOOST_OUTCOME_TRY(write_files(request, findings, judgement));
   return judgement.exit_code;
 }
 
-// Runs the cases of the owner, which go with the first shard.
+// Runs the cases of the owner.
 Expected<void> run_own_cases(const properties::CampaignRequest& request, properties::Store& store) {
-  if (!request.own_cases || request.shard.index != 1) return outcome::success();
+  if (!request.own_cases) return outcome::success();
   std::vector<properties::CorpusRow> rows;
   std::vector<properties::StoredFailure> failures;
   fmt::print("{}", corpus_heading());
@@ -83,24 +73,25 @@ Expected<void> run_own_cases(const properties::CampaignRequest& request, propert
   return properties::keep_own_cases(store, rows, failures);
 }
 
-// Runs what is left of the shard, and reads the whole of it.
-Expected<properties::RunFindings> run_shard(const properties::CampaignRequest& request,
-                                            properties::Store& store, const std::string& out) {
+// Runs what is left, and reads the whole of it.
+Expected<properties::RunFindings> run_rest(const properties::CampaignRequest& request,
+                                           properties::Store& store, const std::string& out) {
   BOOST_OUTCOME_TRY(run_own_cases(request, store));
   BOOST_OUTCOME_TRY(run_on_terminal(request, store, out));
-  return properties::read_one_store(properties::store_file(out, request.shard));
+  return properties::read_findings(out);
 }
 
 Expected<int> run_campaign(const RunRequest& command) {
+  const auto& words = command.words;
+  // A share is judged together with others (verify), so it has a certificate.
+  if (words.shares > 1) return certify(words);
   const auto begin = std::chrono::steady_clock::now();
-  const auto& out = command.words.out;
-  BOOST_OUTCOME_TRY(request, ask_for_campaign(command.words));
-  request.shard = command.shard;
-  const auto part = part_of(request.shard);
-  BOOST_OUTCOME_TRY(may_keep_run(out, {"junit" + part + ".xml", "summary" + part + ".md"}));
-  BOOST_OUTCOME_TRY(store, properties::Store::open(properties::store_file(out, request.shard),
-                                                   properties::binding_of(request)));
-  const auto findings = run_shard(request, store, out);
+  const auto& out = words.out;
+  BOOST_OUTCOME_TRY(request, ask_for_campaign(words));
+  BOOST_OUTCOME_TRY(may_keep_run(out, {"junit.xml", "summary.md"}));
+  BOOST_OUTCOME_TRY(
+      store, properties::Store::open(properties::store_file(out), properties::binding_of(request)));
+  const auto findings = run_rest(request, store, out);
   if (!findings) {
     auto problem = findings.error();
     problem.message += go_on;
@@ -110,15 +101,25 @@ Expected<int> run_campaign(const RunRequest& command) {
   return conclude(request, findings.value(), out, took.count());
 }
 
+// The 8 of "1/8"; nothing for other words.
+std::optional<std::uint64_t> shares_of(const std::string& word) {
+  constexpr std::uint64_t most = 1'000'000;
+  if (!word.starts_with("1/")) return std::nullopt;
+  const auto shares = whole_number_of<std::uint64_t>(word.substr(2));
+  return shares && *shares >= 1 && *shares <= most ? shares : std::nullopt;
+}
+
 void add_options(Verb& verb, RunRequest& request) {
-  request.words.campaign = "quick";
-  verb.add("--campaign NAME|FILE", request.words.campaign,
+  auto& words = request.words;
+  words.campaign = "quick";
+  verb.add("--campaign NAME|FILE", words.campaign,
            "smoke, quick, nightly, release, faults, or a campaign file (.json)")
       .shows_default();
-  add_campaign_options(verb, request.words);
-  add_choice(verb, "--shard I/N", request.shard, "I/N with 1 <= I <= N", shard_of,
-             "I/N: the part of the cases that this run makes (default 1/1)");
-  verb.add("--out DIR", request.words.out, "Folder for the store and the failing meshes")
+  add_campaign_options(verb, words);
+  add_choice(verb, "--share 1/N", words.shares, "1/N, with N from 1 to 1000000", shares_of,
+             "1/N: do this share of the campaign under a seed of its own, with the checks and the "
+             "certificate of `certify`; `verify DIR... --out DIR` judges the shares together");
+  verb.add("--out DIR", words.out, "Folder for the store and the failing meshes")
       .required()
       .in(OptionGroup::output);
 }

@@ -4,6 +4,7 @@
 // options and what it does, so that a new option is a change of one file.
 #pragma once
 
+#include "reports/campaign/campaign_options.h"
 #include "reports/terminal/option_words.h"
 
 namespace assay::reports {
@@ -15,7 +16,6 @@ AddedVerb add_check(CLI::App& app);
 AddedVerb add_check_queries(CLI::App& app);
 AddedVerb add_judge(CLI::App& app);
 AddedVerb add_list(CLI::App& app);
-AddedVerb add_merge(CLI::App& app);
 AddedVerb add_replay(CLI::App& app);
 AddedVerb add_report(CLI::App& app);
 AddedVerb add_run(CLI::App& app);
@@ -23,5 +23,8 @@ AddedVerb add_scene(CLI::App& app);
 AddedVerb add_self_test(CLI::App& app);
 AddedVerb add_shrink(CLI::App& app);
 AddedVerb add_verify(CLI::App& app);
+
+// What `certify` does, and `run` where it is to do a share of a campaign.
+Expected<int> certify(const CampaignWords& words);
 
 }  // namespace assay::reports

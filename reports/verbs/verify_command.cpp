@@ -1,5 +1,5 @@
 // `assay verify` checks certificates against the files beside them, and against the detector
-// itself. Several nights are pooled.
+// itself. With --out it judges several runs together.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include <optional>
 #include <random>
 
+#include "reports/certificate/issue.h"
 #include "reports/certificate/summary.h"
 #include "reports/certificate/verify.h"
 #include "reports/terminal/progress.h"
@@ -16,14 +17,13 @@ namespace assay::reports {
 namespace {
 
 struct VerifyRequest {
-  std::vector<std::string> certificates;  // if there are several, they are nights that are pooled
-  std::optional<double> again;            // the share of the trials that is run once more
-  std::optional<std::uint64_t> seed;      // the seed of their choice; by default a fresh one
+  std::vector<std::string> certificates;
+  std::string out;                    // the folder where they are judged together; empty: not
+  std::optional<double> again;        // the share of the trials that is run once more
+  std::optional<std::uint64_t> seed;  // the seed of their choice; by default a fresh one
   DetectorWords detector;
   int jobs = 1;
 };
-
-using Json = nlohmann::ordered_json;
 
 // A line about the files that were not looked at; empty if there are none.
 std::string others_text(const std::vector<std::string>& files) {
@@ -34,19 +34,6 @@ std::string others_text(const std::vector<std::string>& files) {
       "not looked at, for nothing of it rests on them: {}{}\n",
       fmt::join(files.begin(), files.begin() + static_cast<std::ptrdiff_t>(named), ", "),
       files.size() > named ? fmt::format(" and {} more", files.size() - named) : "");
-}
-
-Expected<int> print_pooled(const std::vector<Json>& predicates) {
-  BOOST_OUTCOME_TRY(pooled, pool(predicates));
-  fmt::print("{} nights together, all bounds at {} %:\n{:24} {:18} {:>9} {:>9} {:>9}\n",
-             predicates.size(), 100 * predicates[0]["confidence"]["family"].get<double>(),
-             "stratum", "configuration", "n", "holds", "bound");
-  for (const auto& row : pooled) {
-    fmt::print("{:24} {:18} {:>9} {:>9} {:>9.2e}\n", row["family"].get<std::string>(),
-               row["configuration"].get<std::string>(), row["n"].get<std::uint64_t>(),
-               row["holds"].get<std::uint64_t>(), row["bound"].get<double>());
-  }
-  return exit_holds;
 }
 
 std::uint64_t fresh_seed() {
@@ -90,7 +77,7 @@ Expected<int> run_verify(const VerifyRequest& request) {
       return Problem{fmt::format("{}: no such file", file)};
     if (const auto line = sent_alone(file); !line.empty()) return Problem{line};
   }
-  std::vector<Json> predicates;
+  std::vector<std::string> folders;
   int code = exit_holds;
   for (const auto& file : certificates) {
     const auto result = verify_certificate(file);
@@ -100,8 +87,9 @@ Expected<int> run_verify(const VerifyRequest& request) {
                  result.differences.size());
       return exit_defect;
     }
-    predicates.push_back(result.statement["predicate"]);
-    const auto& predicate = predicates.back();
+    const std::filesystem::path path = file;
+    folders.push_back(path.has_parent_path() ? path.parent_path() : ".");
+    const auto& predicate = result.statement["predicate"];
     fmt::print("verified: {} of {}, verdict {}\n", predicate["campaign"]["name"].get<std::string>(),
                predicate["detector"]["name"].get<std::string>(),
                predicate["verdict"].get<std::string>());
@@ -112,14 +100,15 @@ Expected<int> run_verify(const VerifyRequest& request) {
     }
     if (code == exit_holds) code = predicate["exit_code"].get<int>();
   }
-  if (code == exit_holds && predicates.size() > 1) return print_pooled(predicates);
-  return code;
+  return request.out.empty() ? code : judge_together(folders, request.out);
 }
 
 void add_options(Verb& verb, VerifyRequest& request) {
-  verb.add("CERTIFICATE", request.certificates,
-           "OUT/certificate.json, or OUT; several nights of one detector are pooled")
-      .required();
+  verb.add("CERTIFICATE", request.certificates, "OUT/certificate.json, or OUT").required();
+  verb.add("--out DIR", request.out,
+           "Folder for a certificate of all of them together: shares of one campaign, or whole "
+           "ones, each under a seed of its own")
+      .in(OptionGroup::output);
   verb.add("--again SHARE", request.again,
            "SHARE of the trials, above 0, at most 1: they are run once more and have to come to "
            "what is stored")

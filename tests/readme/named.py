@@ -8,7 +8,7 @@ PLACEHOLDER = re.compile(r"\[-|[a-z]\|[a-z]|(?<!\w)[A-Z]{2,}(?![\w=])")
 
 
 def is_synopsis(command):
-    """`assay merge DIR... --out DIR`: it has places to fill in."""
+    """`assay report DIR... --out FILE`: it has places to fill in."""
     return PLACEHOLDER.search(command) is not None
 
 

@@ -113,7 +113,6 @@ SLOW = {
         "assay run --campaign smoke --detector ./libmine.so --power build/smoke --out build/mine",
         "assay run --campaign smoke --out proof",
         "assay run --campaign smoke --detector ./libmine.so --power proof --out mine",
-        "reports/nightly --out build/night --campaign quick --shards 4",
     ],
     "reports/certificate/README.md": [
         "assay certify --campaign quick --out build/quick",
@@ -189,11 +188,8 @@ NOT_RUN = {
         "python3 corpus/vectors/vectors.py score build/exact.json --out build/matrix.html": SET_TESTS,
     },
     "reports/campaign/README.md": {
-        "reports/nightly --out build/night": NIGHT,
-        "reports/nightly --out build/night --by parallel --hosts hosts.txt":
-            NIGHT + ", on hosts that ssh has to reach",
-        "reports/nightly --out /shared/night --by slurm --shards 32 --at-once 32 --sbatch '--partition=night'":
-            NIGHT + ", and a cluster",
+        "assay certify --campaign nightly --jobs 2 --out build/night": NIGHT,
+        "assay verify night/* --out all": NIGHT + "; tests/nightly runs it",
     },
     "detector/plugin/README.md": {
         "assay check-queries --detector ./libmine.so corpus/queries/example_vf.csv": NO_QUERY,
@@ -244,6 +240,7 @@ NO_COMMAND = {
     },
     "reports/campaign/README.md": {
         "canary pair/zero-zero-dropped": "what `assay run` prints",
+        "parallel --jobs 2": "lines of GNU parallel and Slurm; tests/nightly runs them",
     },
     "reports/bench/README.md": {
         "twist ": "the table of sequences.py",

@@ -63,7 +63,7 @@ class HostilePlugin : public testing::Test {
     if (bystander_ == 0) {
       for (;;) pause();
     }
-    setenv("ASSAY_VICTIM", (*other_ / "out/shard-1-of-1.sqlite").c_str(), 1);
+    setenv("ASSAY_VICTIM", (*other_ / "out/run.sqlite").c_str(), 1);
     setenv("ASSAY_BYSTANDER", std::to_string(bystander_).c_str(), 1);
   }
   ~HostilePlugin() override {

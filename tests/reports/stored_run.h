@@ -52,8 +52,8 @@ struct RunToStore {
       record.family = family;
       const auto before = std::count_if(trials.begin(), trials.end(),
                                         [&](const auto& other) { return other.family == family; });
-      const auto& shard = request.shard;
-      record.index = shard.index - 1 + static_cast<std::uint64_t>(before) * shard.count;
+      record.index =
+          properties::trial_index(static_cast<std::uint64_t>(before), request.seed, request.shares);
       record.id = properties::trial_id(request.plan, request.seed, family, record.index);
       record.outcomes = std::string(request.detector.configurations.size(), letter);
       record.triangles = 12;
@@ -82,13 +82,13 @@ struct RunToStore {
     return *this;
   }
   RunToStore& meet_canary(std::optional<std::uint64_t> found_after) {
-    evidence.push_back(
-        to_row(properties::Canary{"pair/zero-zero-dropped", text_of(request.shard), found_after}));
+    evidence.push_back(to_row(properties::Canary{"pair/zero-zero-dropped", found_after}));
     return *this;
   }
-  std::string store(const std::string& folder) const {
+  // With a name, beside the stores of other runs.
+  std::string store(const std::string& folder, const std::string& name = "run") const {
     std::filesystem::create_directories(folder);
-    auto opened = properties::Store::open(properties::store_file(folder, request.shard),
+    auto opened = properties::Store::open(std::filesystem::path(folder) / (name + ".sqlite"),
                                           properties::binding_of(request));
     EXPECT_TRUE(opened) << opened.error().message;
     if (!opened) return folder;

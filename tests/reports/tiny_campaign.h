@@ -43,7 +43,7 @@ inline void expect_refused(const Outcome& outcome, const std::string& word) {
 
 // Each trial of the run in a line, without its times.
 inline std::vector<std::string> trials_of(const std::string& out,
-                                          const std::string& store_name = "shard-1-of-1") {
+                                          const std::string& store_name = "run") {
   const auto store = properties::Store::read(out + "/" + store_name + ".sqlite");
   EXPECT_TRUE(store) << store.error().message;
   std::vector<std::string> lines;
@@ -58,7 +58,7 @@ inline std::vector<std::string> trials_of(const std::string& out,
 }
 
 inline properties::Counts signatures_of(const std::string& out,
-                                        const std::string& store_name = "shard-1-of-1") {
+                                        const std::string& store_name = "run") {
   const auto store = properties::Store::read(out + "/" + store_name + ".sqlite");
   EXPECT_TRUE(store) << store.error().message;
   return store ? store.value().signatures() : properties::Counts{};

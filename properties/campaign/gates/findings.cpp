@@ -22,12 +22,27 @@ std::uint64_t count_planted(const std::vector<FaultProof>& faults, const IsCount
 
 }  // namespace
 
+std::uint64_t RunFindings::shares_of(std::uint64_t n) const {
+  std::uint64_t sum = 0;
+  for (const auto& part : parts) sum += share_of(n, part.shares);
+  return sum;
+}
+
+bool RunFindings::is_whole() const {
+  const auto is_reached = [&](std::uint64_t n) { return shares_of(n) >= n; };
+  return is_reached(run.plan.search) && is_reached(run.plan.fault_cases) &&
+         std::all_of(run.plan.strata.begin(), run.plan.strata.end(),
+                     [&](const auto& stratum) { return is_reached(stratum.cases); });
+}
+
 std::uint64_t RunFindings::planned(const StratumPlan& stratum) const {
-  return planned_cases(stratum, alone.value_or(Shard{}));
+  return shares_of(stratum.cases);
 }
 
 std::uint64_t RunFindings::planned() const {
-  return planned_trial_count(run.plan, alone.value_or(Shard{}));
+  std::uint64_t sum = 0;
+  for (const auto& stratum : run.plan.strata) sum += planned(stratum);
+  return sum;
 }
 
 bool RunFindings::is_left_out(const StratumPlan& stratum) const {
@@ -79,16 +94,15 @@ StratumTally::Outcomes RunFindings::outcomes_of(const StratumPlan& stratum,
 }
 
 bool RunFindings::laws_are_judged() const {
-  return run.detector.built_in && run.plan.laws_every > 0 && !alone && planned() > 0 &&
+  return run.detector.built_in && run.plan.laws_every > 0 && is_whole() && planned() > 0 &&
          tally.trials() == planned();
 }
 
 bool RunFindings::has_more_to_do() const {
   const auto& faults = evidence.faults;
-  return tally.trials() < planned() ||
-         searched().lanes < planned_lanes(run.plan, alone.value_or(Shard{})) ||
+  return tally.trials() < planned() || searched().planned < shares_of(run.plan.search) ||
          std::any_of(faults.begin(), faults.end(),
-                     [&](const auto& proof) { return !proof.is_whole(run.plan); });
+                     [&](const auto& proof) { return proof.time_over; });
 }
 
 std::uint64_t RunFindings::planted() const {
@@ -107,6 +121,7 @@ RunFindings::SearchCount RunFindings::searched() const {
   std::set<std::string> causes;
   for (const auto& lane : evidence.search) {
     ++count.lanes;
+    count.planned += lane.planned;
     count.cases += lane.cases;
     count.defects += lane.defects;
     count.open += lane.open;
@@ -158,7 +173,7 @@ bool is_met(const RunFindings& findings, const StratumPlan& stratum, std::size_t
   if (findings.is_left_out(stratum)) return true;
   const auto outcomes = findings.outcomes_of(stratum, configuration);
   if (stratum.wanted_bound <= 0) return outcomes.open() == 0 || is_size_family(stratum.family);
-  return findings.alone || bound_of(outcomes, stratum, findings.run) <= stratum.wanted_bound;
+  return !findings.is_whole() || bound_of(outcomes, stratum, findings.run) <= stratum.wanted_bound;
 }
 
 bool configurations_agree(const RunFindings& findings, const StratumPlan& stratum) {

@@ -21,15 +21,17 @@ struct StoreFile {
   std::string sha256;  // of its bytes
 };
 
+// One run of those that are judged together.
+struct RunPart {
+  std::uint64_t seed = 1, shares = 1;  // as of CampaignRequest
+  std::string rows;                    // its digest (RunFindings::rows)
+};
+
 struct RunFindings {
   std::filesystem::path folder;
-  BoundRun run;                  // its `shard` means nothing if several were read
+  BoundRun run;                  // the first one, if several are judged together
   std::vector<StoreFile> files;  // by name
-  std::uint64_t shard_count = 1;
-  std::vector<Shard> shards, missing;
-  // If one shard of several is looked at by itself: that shard. It is not asked for what is wanted
-  // of all shards together.
-  std::optional<Shard> alone;
+  std::vector<RunPart> parts;    // by seed; one of a run that is judged by itself
   Tally tally;
   Counts times_met;  // how often each signature of a failure was met
   // Ordered by signature; within one signature the shrunk ones first, then the shorter, then by
@@ -39,11 +41,15 @@ struct RunFindings {
   std::string library;  // the plug-in's library as the run was told; empty: not known
   std::string begun;    // when, in UTC; of several stores the earliest; empty: not known
   // SHA-256 over all rows but times and paths. It is the same for the same campaign, however long
-  // that took and wherever it was kept.
+  // that took and wherever it was kept. Of several runs: over their digests.
   std::string rows;
 
-  // The number of cases that were planned, for one family and for all, in the one shard that is
-  // looked at (`alone`) or in all of them.
+  // Whether the runs together reach what the plan asks of a whole campaign. What is wanted of the
+  // whole alone, such as a bound, is not asked of less.
+  bool is_whole() const;
+  // What the runs have to do together of n.
+  std::uint64_t shares_of(std::uint64_t n) const;
+  // The number of cases that the runs have to judge together, of one family and of all.
   std::uint64_t planned(const StratumPlan& stratum) const;
   std::uint64_t planned() const;
   // Whether the contract left out every case of a family, once all of them were drawn, or the
@@ -60,7 +66,7 @@ struct RunFindings {
   // The outcomes of one configuration in one stratum.
   StratumTally::Outcomes outcomes_of(const StratumPlan& stratum, std::size_t configuration) const;
   // Whether it can be judged if the laws were met often enough. That is so for the built-in
-  // detector once all trials of all shards took place.
+  // detector once all trials of a whole campaign took place.
   bool laws_are_judged() const;
   // Whether the same command would add something, because the run was killed or ended by its time.
   bool has_more_to_do() const;
@@ -69,22 +75,19 @@ struct RunFindings {
   std::uint64_t planted() const, found() const, found_at_random() const;
   // How many cases the search asked, with a defect, without a verdict, and how many causes its
   // archives hold together.
+  // `planned`: how many cases its lanes were to ask.
   struct SearchCount {
-    std::uint64_t lanes = 0, cases = 0, defects = 0, open = 0, causes = 0;
+    std::uint64_t lanes = 0, planned = 0, cases = 0, defects = 0, open = 0, causes = 0;
   };
   SearchCount searched() const;
 };
 
 // Reads the stores of a folder into findings. This is done here and nowhere else.
 
-// Reads one store alone. Fails as Store::read does.
-Expected<RunFindings> read_one_store(const std::filesystem::path& file);
-
-// Reads merged.sqlite if there is one, else every shard-*.sqlite, and checks.sqlite. O(trials).
+// Reads all stores of the folder, which are judged together. O(trials).
 //
-// Refuses, besides what Store::read refuses: a folder without a run; two files that do not belong
-// together; a shard that is there twice, or of another number of shards; a merged store beside
-// which a shard holds more; a trial that its shard does not plan.
+// Refuses, besides what Store::read refuses: a folder without a run; two runs of different plans,
+// builds or detectors; a seed that is there twice; a trial that its run does not plan.
 Expected<RunFindings> read_findings(const std::filesystem::path& folder);
 
 // The bounds that the trials of a campaign support, all of them together.
@@ -114,7 +117,7 @@ double bound_of(const StratumTally::Outcomes& outcomes, const StratumPlan& strat
 // Whether the gate bounds has nothing to say against a configuration in a stratum: its bound is not
 // above the one that is wanted, or, if none is wanted, every trial has a verdict. Nothing is asked
 // of a family of which the contract takes no case, nor of one of large sizes without a wanted
-// bound; no bound is asked of one shard by itself.
+// bound; no bound is asked of less than a whole campaign.
 bool is_met(const RunFindings& findings, const StratumPlan& stratum, std::size_t configuration);
 
 // Whether all configurations came to the same outcomes in a stratum, so that one row tells them.

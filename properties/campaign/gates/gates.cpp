@@ -34,11 +34,12 @@ using Lines = std::vector<std::string>;
 void check_power(const RunFindings& f, Lines& lines) {
   for (const auto& canary : f.evidence.canaries) {
     if (!canary.found_after)
-      lines.push_back(fmt::format("shard {} did not find its canary", canary.shard));
+      lines.push_back(fmt::format("the canary {} was not found", canary.fault));
   }
   Lines hidden;
   for (const auto& proof : f.evidence.faults) {
-    if (proof.status == FaultStatus::planted && !proof.found() && !proof.time_over)
+    const bool was_tried = f.is_whole() && !proof.time_over;
+    if (proof.status == FaultStatus::planted && !proof.found() && was_tried)
       hidden.push_back(fmt::format("planted fault {} was not found", proof.fault));
     if (proof.status == FaultStatus::equivalent && proof.found())
       lines.push_back(fmt::format("{}, registered as equivalent, was found", proof.fault));
@@ -69,18 +70,18 @@ void check_faults(const RunFindings& f, Lines& lines) {
         source.generator != build.generator)
       lines.push_back("the planted faults were proved by another build");
   }
-  if (!f.alone && f.planted() != f.run.planted_faults)
+  if (f.planted() != f.run.planted_faults)
     lines.push_back(
         fmt::format("{} of {} planted faults were tried", f.planted(), f.run.planted_faults));
   for (const auto& proof : f.evidence.faults) {
-    if (!proof.is_whole(plan))
+    if (f.is_whole() ? !proof.is_whole(plan) : proof.time_over)
       lines.push_back(fmt::format("the time was over before {} had all of its cases", proof.fault));
   }
 }
 
-// Checks that enough contacts were judged. A shard alone may have too few.
+// Checks that enough contacts were judged. A share of a campaign may have too few.
 void check_contacts(const RunFindings& f, const Asked& asked, Lines& lines) {
-  if (f.alone) return;
+  if (!f.is_whole()) return;
   for (auto& line : lacks_of_contacts(f, asked.certificate)) lines.push_back(std::move(line));
 }
 
@@ -103,10 +104,10 @@ void check_trials(const RunFindings& f, const Asked& asked, Lines& lines) {
       judged_claims(f).empty())
     lines.push_back("no claim of the detector was judged");
   check_contacts(f, asked, lines);
-  // Asked of all shards together: a single one may have run on a machine short of memory.
+  // Asked of a whole campaign: one share of it may have run on a machine short of memory.
   constexpr std::uint64_t most_disturbed = 100;  // at most one trial in this many
   const auto disturbed = f.tally.disturbed(), trials = f.tally.trials();
-  if (!f.alone && most_disturbed * disturbed > trials)
+  if (f.is_whole() && most_disturbed * disturbed > trials)
     lines.push_back(
         fmt::format("{} of {} trials were disturbed from outside, 1 % may be", disturbed, trials));
 }
@@ -121,7 +122,7 @@ bool speaks_of_limits(const std::vector<std::string>& claims) {
 // Checks that a plug-in was given every scene at the plan's size, the long sequence, and the walks
 // of a limiter.
 void check_repetitions(const RunFindings& f, Lines& lines) {
-  if (f.alone || !is_repeated(f.run.plan, f.run.detector.built_in)) return;
+  if (!is_repeated(f.run.plan, f.run.detector.built_in)) return;
   std::vector<std::string> wanted;
   for (const auto& scene : corpus::scenes()) wanted.emplace_back(scene.name);
   wanted.emplace_back(name_of_long_sequence);
@@ -139,10 +140,10 @@ void check_repetitions(const RunFindings& f, Lines& lines) {
 
 // Checks that the search asked all of its cases.
 void check_search(const RunFindings& f, Lines& lines) {
-  const auto planned = planned_lanes(f.run.plan, f.alone.value_or(Shard{}));
-  const auto [done, cases, defects, open, causes] = f.searched();
+  const auto planned = f.shares_of(f.run.plan.search);
+  const auto [lanes, done, cases, defects, open, causes] = f.searched();
   if (done < planned)
-    lines.push_back(fmt::format("{} of {} lanes of the search, {} cases", done, planned, cases));
+    lines.push_back(fmt::format("the search came to lanes of {} of {} cases", done, planned));
   if (planned > 0 && done == planned && cases == 0)
     lines.push_back("the contract takes no case of the search");
   if (open > 0) lines.push_back(fmt::format("{} cases of the search have no verdict", open));
@@ -209,9 +210,12 @@ GateFindings check_claims(const RunFindings& f, const Asked&) {
 GateFindings check_complete(const RunFindings& f, const Asked& asked) {
   GateFindings found;
   auto& lines = found.against;
-  if (!f.alone) {
-    for (const auto& shard : f.missing)
-      lines.push_back(fmt::format("shard {} is absent", text_of(shard)));
+  if (!f.is_whole()) {
+    std::vector<std::string> shares;
+    for (const auto& part : f.parts)
+      shares.push_back(fmt::format("1/{} under seed {}", part.shares, part.seed));
+    lines.push_back(fmt::format("a whole campaign is more than the shares that are there: {}",
+                                fmt::join(shares, ", ")));
   }
   check_trials(f, asked, lines);
   if (f.evidence.canaries.empty()) lines.push_back("no canary was met");
@@ -237,7 +241,7 @@ GateFindings check_bounds(const RunFindings& f, const Asked&) {
   bool judged = false;
   for (const auto& stratum : f.run.plan.strata) {
     const bool is_wanted = stratum.wanted_bound > 0;
-    if ((is_wanted && f.alone) || f.is_left_out(stratum)) continue;
+    if ((is_wanted && !f.is_whole()) || f.is_left_out(stratum)) continue;
     judged = true;
     const auto configurations = configurations_in(f.run.detector, stratum.family);
     for (std::size_t c = 0; c < configurations.size(); ++c) {
@@ -252,12 +256,12 @@ GateFindings check_bounds(const RunFindings& f, const Asked&) {
   }
   if (!judged)
     found.not_judged =
-        f.alone ? "bounds are wanted of all shards together" : "the campaign has no trials";
+        f.is_whole() ? "the campaign has no trials" : "bounds are wanted of a whole campaign";
   return found;
 }
 
 // The lines leave out the figures themselves, which stand among the times, so that the lines are
-// the same from run to run.
+// the same from run to run. Of several runs the median counts.
 GateFindings check_speed(const RunFindings& f, const Asked&) {
   GateFindings found;
   const auto& limits = f.run.plan.policy.speed_limits;
@@ -267,13 +271,14 @@ GateFindings check_speed(const RunFindings& f, const Asked&) {
     found.not_judged = "the campaign sets no limit";
   } else {
     for (const auto& [figure, limit] : limits) {
-      const auto& measured = f.evidence.speed;
-      const auto one =
-          std::find_if(measured.begin(), measured.end(),
-                       [&name = figure](const SpeedFigure& m) { return m.name == name; });
-      if (one == measured.end()) {
+      std::vector<double> medians;
+      for (const auto& measured : f.evidence.speed) {
+        if (measured.name == figure) medians.push_back(measured.median);
+      }
+      std::sort(medians.begin(), medians.end());
+      if (medians.empty()) {
         found.against.push_back(fmt::format("{} was not measured", figure));
-      } else if (one->median > limit) {
+      } else if (medians[medians.size() / 2] > limit) {
         found.against.push_back(fmt::format("{} is above its limit of {}", figure, limit));
       }
     }

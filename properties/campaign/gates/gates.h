@@ -35,7 +35,7 @@ struct GateRule {
 // - corpus: the shipped cases, scenes and the owner's cases hold.
 // - claims: no claim and no law is broken in any trial or in any case that the search asked, and no
 //   world has a counterexample.
-// - complete: all that was planned is there: shards, trials, the search, and planted faults with
+// - complete: all that was planned is there: shares, trials, the search, and planted faults with
 //   all of their cases. For a certificate the corpus is there too, with an answer in every case,
 //   and so is the self-test. At most 1 % of the trials were disturbed from outside. Enough
 //   contacts were judged (not_judged.h).

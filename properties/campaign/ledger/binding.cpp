@@ -22,7 +22,7 @@ ASSAY_FIELDS(BoundDigests, program, worker, plugin, generator)
 
 template <class Archive>
 void fields(Archive& archive, BoundRun& run) {
-  archive("seed", run.seed, "planted_faults", run.planted_faults, "shard", run.shard, "detector",
+  archive("seed", run.seed, "shares", run.shares, "planted_faults", run.planted_faults, "detector",
           run.detector, "digests", run.digests);
 }
 
@@ -92,8 +92,8 @@ std::string binding_of(const CampaignRequest& request) {
   plan.seconds = plan.shrink_share = plan.tetrahedron_seconds = 0;
   const BoundRun run{{},
                      request.seed,
+                     request.shares,
                      planted_count(),
-                     text_of(request.shard),
                      bound(request.detector, request.limits.threads),
                      {digest_of("/proc/self/exe"), digest_of(request.worker),
                       plugin_digest(request), generator_digest()}};
@@ -126,6 +126,9 @@ Expected<BoundRun> read_binding(const std::string& text, const std::filesystem::
   BoundRun run;
   run.plan = std::move(plan.value());
   read_fields(json, run);
+  constexpr std::uint64_t most_shares = 1'000'000;
+  if (run.shares < 1 || run.shares > most_shares)
+    return Problem{fmt::format("{}: no run does one of {} shares", file.string(), run.shares)};
   return run;
 } catch (const Json::exception& wrong) {
   return Problem{fmt::format("{}: not the store of a run: {}", file.string(), wrong.what())};
@@ -149,21 +152,17 @@ std::string generator_digest() {
   return corpus::sha256_of(digests);
 }
 
-std::optional<std::string> with_shard(const std::string& binding, const std::string& shard) {
-  auto read = corpus::parse_sorted_json(binding, "binding");
-  if (!read || !read.value().is_object() || !read.value().contains("shard")) return std::nullopt;
-  read.value()["shard"] = shard;
-  return corpus::json_text(read.value());
-}
-
-std::string difference_of(const std::string& a, const std::string& b) {
+std::string difference_of(const std::string& a, const std::string& b, Runs runs) {
   const auto left = corpus::parse_sorted_json(a, "binding"),
              right = corpus::parse_sorted_json(b, "binding");
   const bool are_objects = left && right && left.value().is_object() && right.value().is_object();
   if (!are_objects) return "one of them says not of what it is";
   std::vector<std::string> differences;
-  const auto parts_of = [](Json binding) {
-    binding.erase("shard");
+  const auto parts_of = [&](Json binding) {
+    if (runs == Runs::judged_together) {
+      binding.erase("seed");
+      binding.erase("shares");
+    }
     // What comes of a build is not told beside it.
     Json& digests = binding["digests"];
     const bool is_build = digests.is_object() && digests.contains("program");

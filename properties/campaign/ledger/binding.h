@@ -17,7 +17,7 @@ namespace assay::properties {
 nlohmann::json json_of(const Contract& contract);
 
 // Schema `assay-store/8`. The object holds `campaign` (the plan, with its times set to nothing,
-// because a run that ran out of time may go on), `seed`, `shard`, `detector` (name, built_in,
+// because a run that ran out of time may go on), `seed`, `shares`, `detector` (name, built_in,
 // contract, threads, configurations with their claims, query_claims, unjudged_parts),
 // `planted_faults` (how many this build has), `digests` (SHA-256 of program, worker and plug-in,
 // null for the built-in detector, and of the generator's first cases), and `own_cases` (SHA-256) if
@@ -46,8 +46,7 @@ struct BoundDigests {
 };
 struct BoundRun {
   CampaignPlan plan;
-  std::uint64_t seed = 0, planted_faults = 0;
-  std::string shard;  // "1/4", merged_shard or checks_shard
+  std::uint64_t seed = 0, shares = 1, planted_faults = 0;
   BoundDetector detector;
   BoundDigests digests;
 };
@@ -58,12 +57,10 @@ nlohmann::json json_of(const BoundDigests& digests);
 // Reads a binding. Fails if the text is no binding of this schema; the problem names `file`.
 Expected<BoundRun> read_binding(const std::string& text, const std::filesystem::path& file);
 
-// The same binding for another shard; nothing if the text is no binding.
-std::optional<std::string> with_shard(const std::string& binding, const std::string& shard);
-
-// How two bindings differ, leaving their shards aside: "seed 1 and 2, another build of assay".
-// Empty if they do not.
-std::string difference_of(const std::string& a, const std::string& b);
+// How two bindings differ: "seed 1 and 2, another build of assay". Empty if they do not. Of runs
+// that are judged together, seeds and shares may differ.
+enum class Runs : std::uint8_t { the_same, judged_together };
+std::string difference_of(const std::string& a, const std::string& b, Runs runs = Runs::the_same);
 
 // SHA-256 over the first cases of every family, which changes if the generator makes other cases.
 // About 10 ms.

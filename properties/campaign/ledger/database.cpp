@@ -79,8 +79,6 @@ std::uint64_t Statement::number(int column) const {
   return static_cast<std::uint64_t>(sqlite3_column_int64(statement_, column));
 }
 
-bool Statement::changed_a_row() const { return sqlite3_changes(database_.handle()) > 0; }
-
 void Statement::check(int code) const {
   if (code == SQLITE_OK) return;
   throw StoreProblem(fmt::format("{}: {}", database_.file(), sqlite3_errmsg(database_.handle())));

@@ -51,8 +51,6 @@ class Statement {
   bool next();
   std::string text(int column) const;
   std::uint64_t number(int column) const;
-  // Whether the statement that ran last changed a row.
-  bool changed_a_row() const;
 
  private:
   void check(int code) const;

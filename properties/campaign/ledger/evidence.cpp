@@ -10,20 +10,20 @@
 namespace assay::properties {
 
 // The fields of a row are the members of its struct. A line of text is called `what` in all rows.
-ASSAY_FIELDS(Canary, fault, shard, found_after)
-ASSAY_FIELDS(HarnessProblem, shard, what, trials)
+ASSAY_FIELDS(Canary, fault, found_after)
+ASSAY_FIELDS(HarnessProblem, what, trials)
 ASSAY_FIELDS(MeshCounts, triangles, vertices, steps)
 ASSAY_FIELDS(ShrunkFault, before, after, calls)
-ASSAY_FIELDS(FaultProof, fault, shard, law, status, curated, needed, cases, time_over,
-             known_vertices, shrunk)
+ASSAY_FIELDS(FaultProof, fault, law, status, curated, needed, cases, time_over, known_vertices,
+             shrunk)
 ASSAY_FIELDS(PowerSource, campaign, detector, seed, program, worker, generator, rows)
-ASSAY_FIELDS(World, world, shard, classes, motions, all, collisions, complete, counterexample)
-ASSAY_FIELDS(PluginIsolation, shard, asked, got)
-ASSAY_FIELDS(SlowCase, id, configuration, shard, undecided, seconds, limit, mesh, smallest)
+ASSAY_FIELDS(World, world, classes, motions, all, collisions, complete, counterexample)
+ASSAY_FIELDS(PluginIsolation, asked, got)
+ASSAY_FIELDS(SlowCase, id, configuration, undecided, seconds, limit, mesh, smallest)
 ASSAY_FIELDS(Repetition::Judged, step, contacts, holds)
-ASSAY_FIELDS(Repetition, input, configuration, shard, triangles, steps, runs, threads, what, broken,
+ASSAY_FIELDS(Repetition, input, configuration, triangles, steps, runs, threads, what, broken,
              judged, extremes)
-ASSAY_FIELDS(SearchedLane, lane, shard, cases, defects, open, causes)
+ASSAY_FIELDS(SearchedLane, lane, planned, cases, defects, open, causes)
 ASSAY_FIELDS(Asked, gates, certificate)
 ASSAY_FIELDS(Versions, assay, commit, libraries)
 ASSAY_FIELDS(Paths, out, detector, own_cases, data)
@@ -37,24 +37,12 @@ ASSAY_FIELDS(Issued, at, seconds)
 
 namespace {
 
-// The shard stands in the row alone.
-template <class T>
-constexpr bool has_shard = requires(T& x, const Row& row) {
-  x.shard = row.shard;
-};
-
-// Throws StoreProblem if the row is not what to_row makes of what it says: then its key, its shard
-// or its progress are of something else.
+// Throws StoreProblem if the row is not what to_row makes of what it says: then its key or its
+// progress are of something else.
 template <class T>
 T told(const Row& row) {
   T x;
-  auto fields = fields_of(row);
-  if constexpr (has_shard<T>) fields.emplace("shard", row.shard);
-  try {
-    read_fields(fields, x);
-  } catch (const nlohmann::json::exception& wrong) {
-    throw_not_stored(row, wrong);
-  }
+  read_fields_of(row, x);
   if (to_row(x) != row)
     throw StoreProblem(fmt::format("{} is not as a run writes it", row_name(row)));
   return x;
@@ -100,6 +88,17 @@ std::optional<std::uint64_t> FaultProof::median() const {
   return sorted[(sorted.size() - 1) / 2];
 }
 
+void FaultProof::add(const FaultProof& other) {
+  needed.resize(std::max(needed.size(), other.needed.size()));
+  for (std::size_t seed = 0; seed < other.needed.size(); ++seed) {
+    if (!needed[seed] && other.needed[seed]) needed[seed] = cases + *other.needed[seed];
+  }
+  cases += other.cases;
+  curated |= other.curated;
+  time_over |= other.time_over;
+  if (!shrunk) shrunk = other.shrunk;
+}
+
 std::uint64_t FaultProof::progress() const {
   const auto found =
       std::count_if(needed.begin(), needed.end(), [](const auto& n) { return n.has_value(); });
@@ -119,11 +118,8 @@ std::uint64_t SlowCase::progress() const {
 Row to_row(const AnyEvidence& evidence) {
   return std::visit(
       []<class T>(const T& x) {
-        auto fields = json_of_fields<nlohmann::json>(x);
-        if constexpr (has_shard<T>) fields.erase("shard");
-        Row row{T::kind, "", checks_shard, 1, corpus::json_text(fields)};
+        Row row{T::kind, "", 1, corpus::json_text(json_of_fields<nlohmann::json>(x))};
         if constexpr (requires { x.key(); }) row.key = x.key();
-        if constexpr (requires { x.shard; }) row.shard = x.shard;
         if constexpr (requires { x.progress(); }) row.progress = x.progress();
         return row;
       },
@@ -135,6 +131,86 @@ void EvidenceFacts::take(const Row& row) {
   if (!is_taken(canaries, problems, faults, power, worlds, asked, versions, paths, isolation, slow,
                 repeated, search, inputs, corpus, self_test, speed, issued))
     throw StoreProblem(fmt::format("no run stores {}", row_name(row)));
+}
+
+namespace {
+
+template <class T>
+void append(std::vector<T>& list, const std::vector<T>& more) {
+  list.insert(list.end(), more.begin(), more.end());
+}
+
+template <class T>
+void append_new(std::vector<T>& list, const std::vector<T>& more) {
+  for (const auto& x : more) {
+    const Row row = to_row(x);
+    if (std::none_of(list.begin(), list.end(), [&](const T& y) { return to_row(y) == row; }))
+      list.push_back(x);
+  }
+}
+
+// What all runs of one campaign have to say alike.
+template <class T>
+void join(std::optional<T>& only, const std::optional<T>& other) {
+  if (only && other && to_row(*only) != to_row(*other))
+    throw StoreProblem(fmt::format("two runs differ in what they say of {}", T::kind));
+  if (!only) only = other;
+}
+
+void join_faults(std::vector<FaultProof>& list, const std::vector<FaultProof>& more,
+                 bool are_taken_over) {
+  for (const auto& proof : more) {
+    const auto known = std::find_if(list.begin(), list.end(),
+                                    [&](const auto& other) { return other.fault == proof.fault; });
+    if (known == list.end()) {
+      list.push_back(proof);
+    } else if (!are_taken_over) {
+      known->add(proof);
+    } else if (to_row(*known) != to_row(proof)) {
+      throw StoreProblem(fmt::format("two runs took over different proofs of {}", proof.fault));
+    }
+  }
+}
+
+// A world is the same in every run: the one that came farthest counts.
+void join_worlds(std::vector<World>& list, const std::vector<World>& more) {
+  for (const auto& world : more) {
+    const auto known = std::find_if(list.begin(), list.end(),
+                                    [&](const auto& other) { return other.world == world.world; });
+    if (known == list.end()) {
+      list.push_back(world);
+    } else if (known->progress() < world.progress()) {
+      *known = world;
+    }
+  }
+}
+
+}  // namespace
+
+void EvidenceFacts::add(EvidenceFacts other) {
+  join_faults(faults, other.faults, !power.empty() && !other.power.empty());
+  append_new(power, other.power);
+  if (power.size() > 1)
+    throw StoreProblem("two runs took over proofs of planted faults from different runs");
+  join_worlds(worlds, other.worlds);
+  append_new(corpus, other.corpus);
+  append_new(self_test, other.self_test);
+  append(canaries, other.canaries);
+  append(problems, other.problems);
+  append(isolation, other.isolation);
+  append(slow, other.slow);
+  append(repeated, other.repeated);
+  append(search, other.search);
+  append(speed, other.speed);
+  join(asked, other.asked);
+  join(versions, other.versions);
+  join(inputs, other.inputs);
+  if (!paths) paths = other.paths;
+  if (!issued) {
+    issued = other.issued;
+  } else if (other.issued) {
+    issued = {std::max(issued->at, other.issued->at), issued->seconds + other.issued->seconds};
+  }
 }
 
 EvidenceFacts facts_in(const Store& store) {

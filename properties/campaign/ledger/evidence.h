@@ -1,6 +1,6 @@
 // What a run finds out besides its trials: one struct for each kind of evidence, and the functions
 // that turn it into a row of the ledger and back. Each struct states its kind; what it has of
-// key(), `shard` and progress() goes into the row (without a shard: checks_shard).
+// key() and progress() goes into the row.
 //
 // Two runs of one campaign have equal rows, unless the kind `may_differ`: times (SpeedFigure,
 // Issued), Paths, a World, which its limit of time may end early, and a SlowCase.
@@ -17,17 +17,11 @@
 
 namespace assay::properties {
 
-// Words that stand where the name of a shard ("1/4") is expected: for a file that holds several
-// shards, for what belongs to no shard, and for proofs that were taken over from another run.
-inline constexpr const char* merged_shard = "merged";
-inline constexpr const char* checks_shard = "checks";
-inline constexpr const char* power_shard = "power";
-
 // A planted fault that every run must find. It is tried through a worker process, in the same way
 // as the detector under test.
 struct Canary {
   static constexpr const char* kind = "canary";
-  std::string fault, shard;
+  std::string fault;
   std::optional<std::uint64_t> found_after;  // how many cases that took; nothing: it was not found
   const std::string& key() const { return fault; }
 };
@@ -36,7 +30,7 @@ struct Canary {
 // is empty when nothing did.
 struct HarnessProblem {
   static constexpr const char* kind = "problem";
-  std::string shard, what;
+  std::string what;
   std::uint64_t trials = 0;
   // A later row replaces an earlier one. If both stand at the same number of trials, the one that
   // tells of a problem counts as later, because a problem is over when a further trial is stored
@@ -55,13 +49,13 @@ struct ShrunkFault {
 // What it took to find a planted fault.
 struct FaultProof {
   static constexpr const char* kind = "fault";
-  std::string fault, shard, law;
+  std::string fault, law;
   FaultStatus status = FaultStatus::planted;
   bool curated = false;  // the curated case of the fault shows it
   // For each seed the number of random cases until the fault showed; nothing if it did not show
   // within `cases` of them.
   std::vector<std::optional<std::uint64_t>> needed;
-  std::uint64_t cases = 0;
+  std::uint64_t cases = 0;           // tried under each seed, unless the fault showed before
   bool time_over = false;            // the hunt was ended by a limit of time
   std::uint64_t known_vertices = 0;  // of the smallest known mesh that shows it; 0: unknown
   std::optional<ShrunkFault> shrunk;
@@ -73,6 +67,8 @@ struct FaultProof {
   // The median of `needed`. A seed under which the fault did not show counts as more than any
   // number; the result is nothing when the median is such a seed.
   std::optional<std::uint64_t> median() const;
+  // Goes on with the cases of another hunt for the same fault, in a run under another seed.
+  void add(const FaultProof& other);
 
   const std::string& key() const { return fault; }
   // A hunt that was not ended by the time counts as farther than any that was.
@@ -86,7 +82,6 @@ struct PowerSource {
   std::uint64_t seed = 0;
   std::string program, worker, generator;  // SHA-256
   std::string rows;                        // digest of that run's rows
-  static constexpr const char* shard = power_shard;
   const std::string& key() const { return campaign; }
 };
 struct PowerProof {
@@ -98,7 +93,7 @@ struct PowerProof {
 struct World {
   static constexpr const char* kind = "world";
   static constexpr bool may_differ = true;
-  std::string world, shard;
+  std::string world;
   std::uint64_t classes = 0, motions = 0, all = 0, collisions = 0;
   bool complete = false;
   std::optional<std::string> counterexample;  // what does not hold
@@ -107,18 +102,18 @@ struct World {
   std::uint64_t progress() const;
 };
 
-// How the process of a plug-in was isolated in all trials of a shard, or in the corpus (shard
-// "checks"): the word that was asked for, empty if none was, and the word of what it had.
+// How the process of a plug-in was isolated in all of a run: the word that was asked for, empty if
+// none was, and the word of what it had.
 struct PluginIsolation {
   static constexpr const char* kind = "isolation";
-  std::string shard, asked, got;
+  std::string asked, got;
 };
 
 // A trial that reached the limit of a case, or came near it.
 struct SlowCase {
   static constexpr const char* kind = "slow";
   static constexpr bool may_differ = true;
-  std::string id, configuration, shard;
+  std::string id, configuration;
   bool undecided = false;  // it reached the limit of a case
   double seconds = 0;      // processor time that it took, unless it is undecided
   double limit = 0;        // the limit of a case, in seconds
@@ -141,7 +136,7 @@ struct Repetition {
     std::uint64_t step = 0, contacts = 0;  // the step's place, from 1
     bool holds = false;
   };
-  std::string input, configuration, shard;
+  std::string input, configuration;
   std::uint64_t triangles = 0, steps = 0;
   std::uint64_t runs = 0;              // runs that ended by themselves
   std::vector<std::uint64_t> threads;  // how many it might use, run by run
@@ -155,7 +150,8 @@ struct Repetition {
 // What one lane of the search came to (phases/search.h). Only whole lanes are stored.
 struct SearchedLane {
   static constexpr const char* kind = "search";
-  std::string lane, shard;  // its number, from 1, with leading zeros
+  std::string lane;           // its number, from 1, with leading zeros
+  std::uint64_t planned = 0;  // how many cases it was to ask
   // Cases that were asked, those with a defect, and those without a verdict.
   std::uint64_t cases = 0, defects = 0, open = 0;
   std::vector<std::string> causes;  // of the hardest cases that its archive holds (cause.h)
@@ -238,8 +234,8 @@ struct Issued {
   double seconds = 0;
 };
 
-// All that the evidence rows of some stores say. Each list is in the order of names, then of
-// shards.
+// All that the evidence rows of some stores say. Each list is in the order of stores, then of
+// names.
 struct EvidenceFacts {
   std::vector<Canary> canaries;
   std::vector<HarnessProblem> problems;
@@ -261,6 +257,10 @@ struct EvidenceFacts {
 
   // Throws StoreProblem on a row that no run stores.
   void take(const Row& row);
+  // Adds what a run of the same campaign under another seed found out. What every run does in the
+  // same way (the corpus, the self-test) counts once; the cases of a planted fault add up. Throws
+  // StoreProblem if the two judged other inputs, or took over different proofs.
+  void add(EvidenceFacts other);
 };
 EvidenceFacts facts_in(const Store& store);
 

@@ -91,7 +91,7 @@ std::string shown_explanation(const StoredFailure& failure) {
 
 Row to_row(const TrialRecord& record) {
   const auto fields = json_of_fields<Json, Zeros::left_out>(record);
-  return {std::string(trial_kind), record.id, "", 0, corpus::json_text(fields)};
+  return {std::string(trial_kind), record.id, 0, corpus::json_text(fields)};
 }
 
 TrialRecord trial_of(const Row& row) {
@@ -106,7 +106,7 @@ TrialRecord trial_of(const Row& row) {
 }
 
 Row to_row(const StoredFailure& failure) {
-  return {std::string(failure_kind), failure.id + ", " + failure.configuration, "", 0,
+  return {std::string(failure_kind), failure.id + ", " + failure.configuration, 0,
           corpus::json_text(json_of_fields<Json>(failure))};
 }
 
@@ -117,7 +117,7 @@ StoredFailure failure_of(const Row& row) {
 }
 
 Row to_row(const std::string& trial_id, const MetFailure& failure) {
-  return {std::string(met_kind), trial_id + ", " + failure.configuration, "", 0,
+  return {std::string(met_kind), trial_id + ", " + failure.configuration, 0,
           corpus::json_text(Json{{"signature", failure.signature}})};
 }
 

@@ -7,7 +7,6 @@
 #include <cctype>
 #include <ctime>
 
-#include "properties/campaign/ledger/binding.h"
 #include "properties/worker/plugin/python_word.h"
 
 namespace assay::properties {
@@ -18,37 +17,22 @@ constexpr const char *library_note = "library", *begin_note = "begun";
 
 }  // namespace
 
-std::filesystem::path store_file(const std::filesystem::path& out, const Shard& shard) {
-  return out / fmt::format("shard-{}-of-{}.sqlite", shard.index, shard.count);
+std::filesystem::path copied_store_file(const std::filesystem::path& out, std::uint64_t seed) {
+  return out / fmt::format("seed-{}.sqlite", seed);
 }
 
-Expected<std::vector<std::filesystem::path>> stored_shards(const std::filesystem::path& folder) {
+Expected<std::vector<std::filesystem::path>> stored_runs(const std::filesystem::path& folder) {
   std::error_code error;
   std::vector<std::filesystem::path> stores;
   for (const auto& file : std::filesystem::directory_iterator(folder, error)) {
     const std::string name = file.path().filename().string();
-    const bool is_shard = name.starts_with("shard-") && name.ends_with(".sqlite");
-    if (is_shard || name == merged_file("").filename()) stores.push_back(file.path());
+    const bool is_copy = name.starts_with("seed-") && name.ends_with(".sqlite");
+    if (is_copy || name == store_file("")) stores.push_back(file.path());
   }
   if (error) return Problem{fmt::format("{}: {}", folder.string(), error.message())};
   if (stores.empty()) return Problem{fmt::format("{}: no run is stored here", folder.string())};
   std::sort(stores.begin(), stores.end());
   return stores;
-}
-
-Expected<WholeShard> make_whole(const std::filesystem::path& file, const CampaignRequest& request) {
-  return catch_store_problem([&] {
-    const std::string binding = value_or_throw(Store::read(file)).binding();
-    const auto difference = difference_of(binding, binding_of(request));
-    if (!difference.empty()) {
-      throw StoreProblem(fmt::format("{}: of another run: {}", file.string(), difference));
-    }
-    // The store is opened for writing, because nobody else may hold the file when it is sealed.
-    Store store = value_or_throw(Store::open(file, binding));
-    WholeShard whole{store.trial_count(), value_or_throw(store.kept_failures())};
-    value_or_throw(store.seal());
-    return whole;
-  });
 }
 
 void note_library(Store& store, const CampaignRequest& request) {
@@ -82,27 +66,21 @@ std::filesystem::path failure_file(const StoredFailure& failure, bool smallest) 
          (stem + (smallest ? "-smallest.json" : "-original.json"));
 }
 
-Expected<Checks> Checks::open(const std::filesystem::path& out, const CampaignRequest& request) {
-  auto store = Store::open(checks_file(out), with_shard(binding_of(request), checks_shard).value());
-  if (!store) return store.error();
-  return Checks(std::move(store.value()));
-}
-
 void Checks::drop(std::string_view kind) {
   update([&](Store& store) { store.drop(kind); });
 }
 
-void Checks::keep_failures(const std::set<std::string>& signatures) {
-  update([&](Store& store) { store.keep_failures(signatures); });
+void Checks::keep_corpus_failures(const std::set<std::string>& signatures) {
+  update([&](Store& store) { store.keep_corpus_failures(signatures); });
 }
 
-void Checks::seal() {
-  update([](Store& store) { value_or_throw(store.seal()); });
-}
-
-Expected<KeptFailures> Checks::failures() const {
+Expected<KeptFailures> Checks::corpus_failures() const {
   if (problem_) return *problem_;
-  return store_.kept_failures();
+  auto kept = store_.kept_failures();
+  if (kept)
+    std::erase_if(kept.value().list,
+                  [](const auto& failure) { return !failure.id.starts_with(corpus_in_id); });
+  return kept;
 }
 
 void Checks::update(const std::function<void(Store&)>& work) {

@@ -63,20 +63,14 @@ struct Store::Parts {
                 const std::function<void(const Row&)>& visit) const {
     for_each_row(db, more, bound, visit);
   }
-  std::optional<Row> find(std::string_view kind, std::string_view key,
-                          std::string_view shard = "") const {
+  std::optional<Row> find(std::string_view kind, std::string_view key) const {
     std::optional<Row> found;
-    for_each("WHERE kind=? AND key=? AND shard=?", {kind, key, shard},
-             [&](const Row& row) { found = row; });
+    for_each("WHERE kind=? AND key=?", {kind, key}, [&](const Row& row) { found = row; });
     return found;
   }
 
   void remove(const Row& row) {
-    Statement(db, "DELETE FROM ledger WHERE kind=? AND key=? AND shard=?")
-        .bind(row.kind)
-        .bind(row.key)
-        .bind(row.shard)
-        .next();
+    Statement(db, "DELETE FROM ledger WHERE kind=? AND key=?").bind(row.kind).bind(row.key).next();
   }
 };
 
@@ -120,7 +114,7 @@ Expected<Store> Store::open(const std::filesystem::path& file, const std::string
     check_tables(parts->db, true);
     parts->db.run(table_declaration());
     for_each_row(parts->db, "", {}, [](const Row&) {});
-    if (!bound) put_row(parts->db, {std::string(binding_kind), "", "", 0, binding});
+    if (!bound) put_row(parts->db, {std::string(binding_kind), "", 0, binding});
     return Store(std::move(parts));
   });
 }
@@ -129,10 +123,18 @@ Expected<KeptFailures> Store::kept_failures() const {
   return catch_store_problem([&] { return KeptFailures{failures(), signatures()}; });
 }
 
-Expected<KeptFailures> read_failures(const std::filesystem::path& file) {
-  const auto store = Store::read(file);
-  if (!store) return store.error();
-  return store.value().kept_failures();
+Expected<void> copy_store(const std::filesystem::path& from, const std::filesystem::path& to) {
+  return catch_store_problem([&] {
+    value_or_throw(Store::read(from));
+    const std::filesystem::path part = to.string() + ".part";
+    std::error_code error;
+    std::filesystem::remove(part, error);
+    // The bytes of a vacuumed file depend on its rows alone.
+    Statement(Database(from, Database::Mode::read), "VACUUM INTO ?").bind(part.string()).next();
+    std::filesystem::rename(part, to, error);
+    if (error)
+      throw StoreProblem(fmt::format("{}: cannot be written: {}", to.string(), error.message()));
+  });
 }
 
 std::string Store::binding() const {
@@ -141,7 +143,7 @@ std::string Store::binding() const {
 }
 
 void Store::set(const Row& row) {
-  const auto before = parts_->find(row.kind, row.key, row.shard);
+  const auto before = parts_->find(row.kind, row.key);
   if (!before || before->progress <= row.progress) put_row(parts_->db, row);
 }
 
@@ -171,9 +173,10 @@ void Store::add(const TrialRecord& record, const std::vector<StoredFailure>& kep
   }
 }
 
-void Store::keep_failures(const std::set<std::string>& signatures) {
+void Store::keep_corpus_failures(const std::set<std::string>& signatures) {
   for (const auto& failure : failures()) {
-    if (!signatures.contains(failure.signature)) parts_->remove(to_row(failure));
+    if (failure.id.starts_with(corpus_in_id) && !signatures.contains(failure.signature))
+      parts_->remove(to_row(failure));
   }
 }
 
@@ -183,8 +186,9 @@ void Store::set_smallest(const StoredFailure& failure) {
 }
 
 void Store::set_note(const std::string& key, const std::string& value) {
-  put_row(parts_->db, {std::string(note_kind), key, "", 0,
-                       corpus::json_text(nlohmann::json{{"value", value}})});
+  put_row(
+      parts_->db,
+      {std::string(note_kind), key, 0, corpus::json_text(nlohmann::json{{"value", value}})});
 }
 
 void Store::for_each(std::string_view kind, const std::function<void(const Row&)>& visit) const {

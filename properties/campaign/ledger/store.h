@@ -1,4 +1,4 @@
-// The rows of one shard in one SQLite file, which survives a kill at any moment.
+// The rows of one run in one SQLite file, which survives a kill at any moment.
 //
 // Every row carries a hash (campaign/ledger/row.h), which is checked whenever the row is read.
 #pragma once
@@ -30,7 +30,7 @@ struct KeptFailures {
 class Store {
  public:
   // Opens the file for writing, or makes it. `binding` says what the trials are of (plan, seed,
-  // shard, detector). Costs O(rows), about 2 us each, because every row is checked. Fails if
+  // share, detector). Costs O(rows), about 2 us each, because every row is checked. Fails if
   // the file was made for another binding, if another process has it open for writing, if it is no
   // store of this schema, if it is damaged or a row was changed, and if it cannot be written.
   static Expected<Store> open(const std::filesystem::path& file, const std::string& binding);
@@ -52,7 +52,7 @@ class Store {
   // What each function below writes survives a kill of the process once the function has returned.
   // Not for several threads at once.
 
-  // Replaces the row of the same kind, key and shard, unless that has more progress.
+  // Replaces the row of the same kind and key, unless that has more progress.
   void set(const Row& row);
   // Removes all rows of a kind.
   void drop(std::string_view kind);
@@ -61,8 +61,8 @@ class Store {
   void add(const TrialRecord& record, const std::vector<StoredFailure>& kept = {},
            const std::vector<MetFailure>& met = {});
   void add(const StoredFailure& failure) { set(to_row(failure)); }
-  // Removes the stored failures whose signature is not in the set.
-  void keep_failures(const std::set<std::string>& signatures);
+  // Removes the stored failures of the corpus whose signature is not in the set.
+  void keep_corpus_failures(const std::set<std::string>& signatures);
   // Replaces the stored failure of this id and configuration; does nothing if there is none.
   void set_smallest(const StoredFailure& failure);
   void set_note(const std::string& key, const std::string& value);
@@ -77,7 +77,7 @@ class Store {
   // How many failures of each signature were met, whether their mesh was kept or not.
   Counts signatures() const;
   std::optional<std::string> note(const std::string& key) const;
-  std::vector<Row> evidence() const;  // all other rows, by kind, key, shard
+  std::vector<Row> evidence() const;  // all other rows, by kind and key
 
  private:
   struct Parts;
@@ -85,7 +85,8 @@ class Store {
   std::unique_ptr<Parts> parts_;
 };
 
-// The failures of an existing store; the problems are those of Store::read.
-Expected<KeptFailures> read_failures(const std::filesystem::path& file);
+// Writes an existing store anew as another file, whose bytes depend on its rows alone. The other
+// file is whole or as it was. Fails as Store::read does, and if it cannot be written.
+Expected<void> copy_store(const std::filesystem::path& from, const std::filesystem::path& to);
 
 }  // namespace assay::properties

@@ -16,15 +16,6 @@
 namespace assay::properties {
 namespace {
 
-// The stores that the certificate is computed from: the merged one if there is one, else the
-// shards.
-std::vector<std::filesystem::path> counted_stores(const std::filesystem::path& folder) {
-  auto files = value_or_throw(stored_shards(folder));
-  const auto merged = merged_file(folder);
-  if (std::find(files.begin(), files.end(), merged) != files.end()) files = {merged};
-  return files;
-}
-
 // Chooses `chosen` of the numbers below `all`, each equally likely. This is Floyd's algorithm,
 // which needs only as many random numbers as it chooses.
 std::set<std::uint64_t> choose(std::uint64_t chosen, std::uint64_t all, std::uint64_t seed) {
@@ -37,16 +28,14 @@ std::set<std::uint64_t> choose(std::uint64_t chosen, std::uint64_t all, std::uin
   return numbers;
 }
 
-// Draws the trials store by store, in the order of their families and places.
-std::vector<TrialRecord> draw(const std::vector<std::filesystem::path>& files,
-                              const std::set<std::uint64_t>& numbers) {
+// Draws trials of a store, in the order of their families and places. `number` counts the trials of
+// all stores.
+std::vector<TrialRecord> draw(const Store& store, const std::set<std::uint64_t>& numbers,
+                              std::uint64_t& number) {
   std::vector<TrialRecord> drawn;
-  std::uint64_t number = 0;
-  for (const auto& file : files) {
-    value_or_throw(Store::read(file)).for_each_trial([&](const TrialRecord& record) {
-      if (numbers.contains(number++)) drawn.push_back(record);
-    });
-  }
+  store.for_each_trial([&](const TrialRecord& record) {
+    if (numbers.contains(number++)) drawn.push_back(record);
+  });
   return drawn;
 }
 
@@ -75,38 +64,56 @@ std::string difference_of_trials(const TrialRecord& stored, const TrialRecord& n
   return "";
 }
 
+// Runs the trials of one store once more. Names the first that comes to something else; empty if
+// none does.
+std::string difference_of_store(const CampaignRequest& request,
+                                const std::vector<TrialRecord>& drawn,
+                                const std::function<void(const TrialProgress&)>& progress) {
+  std::set<std::string> ids;
+  for (const auto& record : drawn) ids.insert(record.id);
+  const ScratchFolder scratch = value_or_throw(ScratchFolder::make());
+  Store store = value_or_throw(Store::open(scratch.path() / "again", binding_of(request)));
+  const auto end = run_trials(request, store, RunDeadline::max(), progress, &ids);
+  if (end.problem) throw StoreProblem(*end.problem);
+  if (!end.harness_problem.empty()) throw StoreProblem(end.harness_problem);
+  std::map<std::string, TrialRecord> now;
+  store.for_each_trial([&](const TrialRecord& record) { now[record.id] = record; });
+  for (const auto& record : drawn) {
+    const auto found = now.find(record.id);
+    const auto difference = found == now.end()
+                                ? std::string("the campaign has no such trial")
+                                : difference_of_trials(record, found->second,
+                                                       request.detector.in_stratum(record.family));
+    if (!difference.empty()) return fmt::format("trial {}: {}", record.id, difference);
+  }
+  return "";
+}
+
 }  // namespace
 
-Expected<TrialsAgain> run_again(const CampaignRequest& request, const std::filesystem::path& folder,
+Expected<TrialsAgain> run_again(CampaignRequest request, const std::filesystem::path& folder,
                                 double share, std::uint64_t seed,
                                 const std::function<void(const TrialProgress&)>& progress) {
   return catch_store_problem([&] {
-    const auto files = counted_stores(folder);
+    const auto files = value_or_throw(stored_runs(folder));
     TrialsAgain again;
     for (const auto& file : files) again.stored += value_or_throw(Store::read(file)).trial_count();
     if (again.stored == 0)
       throw StoreProblem(fmt::format("{}: no trial is stored here", folder.string()));
     const auto wanted = std::ceil(share * static_cast<double>(again.stored));
     again.trials = std::clamp<std::uint64_t>(static_cast<std::uint64_t>(wanted), 1, again.stored);
-    const auto drawn = draw(files, choose(again.trials, again.stored, seed));
-    std::set<std::string> ids;
-    for (const auto& record : drawn) ids.insert(record.id);
-
-    const ScratchFolder scratch = value_or_throw(ScratchFolder::make());
-    Store store = value_or_throw(Store::open(scratch.path() / "again", binding_of(request)));
-    const auto end = run_trials(request, store, RunDeadline::max(), progress, &ids);
-    if (end.problem) throw StoreProblem(*end.problem);
-    if (!end.harness_problem.empty()) throw StoreProblem(end.harness_problem);
-    std::map<std::string, TrialRecord> now;
-    store.for_each_trial([&](const TrialRecord& record) { now[record.id] = record; });
-    for (const auto& record : drawn) {
-      const auto found = now.find(record.id);
-      const auto difference =
-          found == now.end() ? std::string("the campaign has no such trial")
-                             : difference_of_trials(record, found->second,
-                                                    request.detector.in_stratum(record.family));
+    const auto numbers = choose(again.trials, again.stored, seed);
+    std::uint64_t number = 0;
+    for (const auto& file : files) {
+      const Store store = value_or_throw(Store::read(file));
+      const auto drawn = draw(store, numbers, number);
+      if (drawn.empty()) continue;
+      const auto run = value_or_throw(read_binding(store.binding(), file));
+      request.seed = run.seed;
+      request.shares = run.shares;
+      const auto difference = difference_of_store(request, drawn, progress);
       if (difference.empty()) continue;
-      again.difference = fmt::format("trial {}: {}", record.id, difference);
+      again.difference = difference;
       break;
     }
     return again;

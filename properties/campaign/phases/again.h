@@ -26,10 +26,10 @@ struct TrialsAgain {
 // configuration, triangles, steps, collisions, pairs, counts and mesh. Times may differ, so a
 // trial that ended at its limit of time may come to something else on a slower machine.
 //
-// REQUIRES a request with the plan, seed and detector of the stores, as one shard. Fails if a
-// store cannot be read, if the detector cannot be run, and if no trial is stored. O(trials stored)
-// to draw them, then the time that the trials took when they were first run.
-Expected<TrialsAgain> run_again(const CampaignRequest& request, const std::filesystem::path& folder,
+// REQUIRES a request with the plan and the detector of the stores; each states its own seed and
+// share. Fails if a store cannot be read, if the detector cannot be run, and if no trial is stored.
+// O(trials stored) to draw them, then the time that the trials took when they were first run.
+Expected<TrialsAgain> run_again(CampaignRequest request, const std::filesystem::path& folder,
                                 double share, std::uint64_t seed,
                                 const std::function<void(const TrialProgress&)>& progress);
 

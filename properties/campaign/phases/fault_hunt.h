@@ -26,7 +26,6 @@ struct FaultHunt {
   std::uint64_t cases = 0;  // for each seed at most, from all families in turn
   int jobs = 1;
   std::filesystem::path curated;  // folder of the curated cases; empty: not tried
-  Shard shard;                    // its share of the registered faults, by their place in the list
 };
 
 // How far a hunt is. Under seed number `seed` of `seeds`, `cases` of at most `most_cases` were
@@ -38,7 +37,7 @@ struct HuntProgress {
 };
 using OnHunt = std::function<void(const HuntProgress&)>;
 
-// Hunts for all faults of the shard. One judgement of a case by the oracle serves all faults. A
+// Hunts for all registered faults. One judgement of a case by the oracle serves all faults. A
 // fault that is found under a seed leaves the round of that seed; equivalent and open faults stay
 // to its end. The result does not depend on the number of jobs, unless the deadline ends it. About
 // 0.2 ms for each case and each fault that is left.

@@ -50,7 +50,7 @@ class CampaignRun {
     }
     if (complete && request_.plan.search > 0) {
       observer_.on_phase("search");
-      search_shard(request_, corpus_, store_, after(faults_share),
+      search_share(request_, corpus_, store_, after(faults_share),
                    [&](const SearchProgress& state) { observer_.on_search(state); });
     }
     observer_.on_phase("shrinking");
@@ -76,8 +76,7 @@ class CampaignRun {
  private:
   // Notes the isolation of all trials that the store holds, including those of an earlier call.
   void note_isolation() {
-    PluginIsolation now{text_of(request_.shard), request_.isolation_word(),
-                        name_of(request_.isolation)};
+    PluginIsolation now{request_.isolation_word(), name_of(request_.isolation)};
     for (const auto& before : stored().isolation) {
       if (store_.trial_count() > 0 && before.got == name_of(Isolation::limits))
         now.got = before.got;
@@ -96,8 +95,7 @@ class CampaignRun {
     const auto end = run_trials(request_, store_, after(trials_share),
                                 [&](const TrialProgress& state) { observer_.on_trial(state); });
     if (end.problem) throw StoreProblem(*end.problem);
-    store_.set(
-        to_row(HarnessProblem{text_of(request_.shard), end.harness_problem, store_.trial_count()}));
+    store_.set(to_row(HarnessProblem{end.harness_problem, store_.trial_count()}));
     observer_.on_trials(end);
     return end.complete;
   }
@@ -133,12 +131,13 @@ class CampaignRun {
     if (!before.power.empty()) {
       drop_proofs();
     } else if (!before.faults.empty() &&
-               std::all_of(before.faults.begin(), before.faults.end(),
-                           [&](const FaultProof& proof) { return proof.is_whole(plan); })) {
+               std::none_of(before.faults.begin(), before.faults.end(),
+                            [](const FaultProof& proof) { return proof.time_over; })) {
       return;
     }
-    const FaultHunt hunt{plan.name,     request_.seed, plan.fault_seeds, plan.fault_cases,
-                         request_.jobs, corpus_,       request_.shard};
+    const FaultHunt hunt{plan.name,        request_.seed,
+                         plan.fault_seeds, share_of(plan.fault_cases, request_.shares),
+                         request_.jobs,    corpus_};
     auto results =
         hunt_faults(hunt, after(faults_share), [&](const auto& p) { observer_.on_hunt(p); });
     if (plan.shrink_faults)
@@ -149,16 +148,14 @@ class CampaignRun {
 
   void explore_worlds() {
     const auto end = earlier(after(1), request_.plan.tetrahedron_seconds);
-    std::uint64_t place = 0;
     for (const auto& world : tetrahedron_worlds()) {
-      if (!request_.shard.holds(place++)) continue;
       const double left = std::chrono::duration<double>(end - Clock::now()).count();
       if (left <= 0) break;
       observer_.on_world(world.name);
       const auto result = prove(world, {request_.jobs, left, {}});
       store_.set(
-          to_row(World{world.name, text_of(request_.shard), result.classes, result.motions,
-                       result.all, result.collisions, result.complete,
+          to_row(World{world.name, result.classes, result.motions, result.all, result.collisions,
+                       result.complete,
                        result.counterexample ? std::optional(result.explanation) : std::nullopt}));
     }
   }
@@ -187,23 +184,10 @@ double shrinking_seconds(const CampaignPlan& plan) {
 
 namespace {
 
-// The signatures of the failures in the shards of a folder and in its merged store.
-std::set<std::string> signatures_of_trials(const std::filesystem::path& out) {
-  std::set<std::string> signatures;
-  const auto files = stored_shards(out);
-  if (!files) return signatures;
-  for (const auto& file : files.value()) {
-    const auto failures = read_failures(file);
-    if (!failures) continue;  // it is reported when the stores are read for the certificate
-    for (const auto& failure : failures.value().list) signatures.insert(failure.signature);
-  }
-  return signatures;
-}
-
-// Stores, for each signature that is neither in `told` nor in the store, the failure with the
-// smallest mesh, by the length of its text.
-void add_smallest(const std::vector<StoredFailure>& failures, std::set<std::string> told,
-                  Store& store) {
+// Stores, for each signature that is not in the store, the failure with the smallest mesh, by the
+// length of its text.
+void add_smallest(const std::vector<StoredFailure>& failures, Store& store) {
+  std::set<std::string> told;
   for (const auto& stored : store.failures()) told.insert(stored.signature);
   std::map<std::string, const StoredFailure*> smallest;
   for (const auto& failure : failures) {
@@ -217,11 +201,10 @@ void add_smallest(const std::vector<StoredFailure>& failures, std::set<std::stri
 }  // namespace
 
 void keep_corpus_failures(const CampaignRequest& request,
-                          const std::vector<StoredFailure>& failures,
-                          const std::filesystem::path& out, Checks& checks,
+                          const std::vector<StoredFailure>& failures, Checks& checks,
                           const std::function<void(const std::string&)>& progress) {
   checks.update([&](Store& store) {
-    add_smallest(failures, signatures_of_trials(out), store);
+    add_smallest(failures, store);
     shrink_failures(request, store, shrinking_of_one,
                     deadline_in(std::chrono::steady_clock::now(), shrinking_seconds(request.plan)),
                     progress);
@@ -232,7 +215,7 @@ Expected<void> keep_own_cases(Store& store, const std::vector<CorpusRow>& rows,
                               const std::vector<StoredFailure>& failures) {
   return catch_store_problem([&] {
     for (const auto& row : rows) store.set(to_row(row));
-    add_smallest(failures, {}, store);
+    add_smallest(failures, store);
   });
 }
 

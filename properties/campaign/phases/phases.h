@@ -45,8 +45,8 @@ class CampaignObserver {
 // faults (or it takes the request's proof of them). Trials have nine tenths of the plan's time; if
 // some are missing then, failures are shrunk in the last tenth and nothing else is begun. The
 // canary and the worlds of tetrahedra are done again; of two results for a world the one that came
-// farther stays. Faults and worlds are shared out among the shards by their place in the list.
-// `corpus` is the folder of the curated cases.
+// farther stays. Of a share, worlds and large meshes are done as of a whole campaign, because they
+// take little time. `corpus` is the folder of the curated cases.
 //
 // What is stored stays, whatever happens. Fails if the store cannot be read or written any more.
 Expected<void> run_campaign(const CampaignRequest& request, const std::filesystem::path& corpus,
@@ -59,14 +59,13 @@ double shrinking_seconds(const CampaignPlan& plan);
 // Keeps what curated cases and scenes show wrong: each with a small mesh that shows it, as for the
 // trials that fail.
 
-// Takes the failures whose signature no trial in the stores of `out` has, and stores in `checks`
-// the smallest mesh of each such signature. Then it shrinks these meshes. That takes at most a
-// minute for each, and for all together the share of the plan's time that is kept for shrinking.
-// REQUIRES failures in the order of the corpus. What an earlier call stored stays. `progress` is
-// called with the signature that is being shrunk.
+// Takes the failures whose signature nothing in the store has, and stores the smallest mesh of each
+// such signature. Then it shrinks these meshes. That takes at most a minute for each, and for all
+// together the share of the plan's time that is kept for shrinking. REQUIRES failures in the order
+// of the corpus. What an earlier call stored stays. `progress` is called with the signature that is
+// being shrunk.
 void keep_corpus_failures(const CampaignRequest& request,
-                          const std::vector<StoredFailure>& failures,
-                          const std::filesystem::path& out, Checks& checks,
+                          const std::vector<StoredFailure>& failures, Checks& checks,
                           const std::function<void(const std::string&)>& progress);
 
 // Stores what the user's own cases (`--corpus DIR`) showed in a run: the rows, and the smallest

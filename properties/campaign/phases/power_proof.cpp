@@ -62,11 +62,9 @@ Expected<PowerProof> take_power(const std::filesystem::path& folder,
   const auto lack = lack_of(findings, build.value(), request.plan);
   if (!lack.empty()) return Problem{fmt::format("{}: the run {}", folder.string(), lack)};
   const auto& run = findings.run;
-  PowerProof proof{{run.plan.name, run.detector.name, run.seed, run.digests.program.value_or(""),
-                    run.digests.worker.value_or(""), run.digests.generator, findings.rows},
-                   findings.evidence.faults};
-  for (auto& fault : proof.faults) fault.shard = power_shard;
-  return proof;
+  return PowerProof{{run.plan.name, run.detector.name, run.seed, run.digests.program.value_or(""),
+                     run.digests.worker.value_or(""), run.digests.generator, findings.rows},
+                    findings.evidence.faults};
 }
 
 }  // namespace assay::properties

@@ -288,7 +288,6 @@ class Repetitions {
     Repetition row;
     row.input = c.id;
     row.configuration = configuration().name;
-    row.shard = text_of(request_.shard);
     row.triangles = static_cast<std::uint64_t>(c.triangles.rows());
     const auto seen = contracted(c, contract());
     if (!seen) {
@@ -465,14 +464,12 @@ void repeat_large_meshes(const CampaignRequest& request, Store& store, RunDeadli
   if (!is_repeated(request.plan, detector.built_in)) return;
   const EvidenceFacts stored = facts_in(store);
   Repetitions repetitions(request, store);
-  std::uint64_t place = 0;
   const auto put = [&](const std::string& input, JudgedSteps judged, const auto& make,
                        const char* special = "large mesh") {
     const bool is_stored =
         std::any_of(stored.repeated.begin(), stored.repeated.end(),
                     [&](const Repetition& known) { return known.input == input; });
-    if (!request.shard.holds(place++) || is_stored) return;
-    if (std::chrono::steady_clock::now() >= deadline) return;
+    if (is_stored || std::chrono::steady_clock::now() >= deadline) return;
     if (progress) progress(input);
     repetitions.put(make(), judged, special);
   };

@@ -22,9 +22,9 @@ SourcesAsked sources_asked(const CampaignRequest& request, const std::filesystem
   return {!detector.of_queries, detector.of_queries || detector.query_claims != Claims(), corpus};
 }
 
-class ShardSearch {
+class ShareSearch {
  public:
-  ShardSearch(const CampaignRequest& request, const std::filesystem::path& corpus, Store& store,
+  ShareSearch(const CampaignRequest& request, const std::filesystem::path& corpus, Store& store,
               RunDeadline deadline, const std::function<void(const SearchProgress&)>& progress)
       : request_(request),
         store_(store),
@@ -40,7 +40,7 @@ class ShardSearch {
       stored_.insert(lane.lane);
       count(lane);
     }
-    state_.planned = planned_lanes(request.plan, request.shard);
+    state_.planned = search_lanes(cases_);
   }
 
   void run() {
@@ -57,7 +57,7 @@ class ShardSearch {
       while (const auto lane = next_lane()) {
         const SearchLane searched{fmt::format("{}{}:{}:{}", searched_in_id, request_.plan.name,
                                               request_.seed, name_of_lane(*lane)),
-                                  cases_of_lane(request_.plan, *lane)};
+                                  cases_of_lane(cases_, *lane)};
         const auto result = search(searched, space_, judge, [this] { return is_over(); });
         keep(*lane, result, worker);
       }
@@ -83,8 +83,8 @@ class ShardSearch {
   std::optional<std::uint64_t> next_lane() {
     if (is_over()) return std::nullopt;
     const std::lock_guard lock(mutex_);
-    for (; next_ < search_lanes(request_.plan); ++next_) {
-      if (request_.shard.holds(next_) && !stored_.contains(name_of_lane(next_))) return next_++;
+    for (; next_ < search_lanes(cases_); ++next_) {
+      if (!stored_.contains(name_of_lane(next_))) return next_++;
     }
     return std::nullopt;
   }
@@ -114,7 +114,7 @@ class ShardSearch {
   void keep(std::uint64_t number, const LaneResult& result, WorkerProcess& worker) {
     std::vector<StoredFailure> failures;
     for (const auto& found : result.found) failures.push_back(stored_of(found, worker));
-    const SearchedLane lane{name_of_lane(number), text_of(request_.shard),
+    const SearchedLane lane{name_of_lane(number), cases_of_lane(cases_, number),
                             result.cases,         result.defects,
                             result.open,          {result.causes.begin(), result.causes.end()}};
     const std::lock_guard lock(mutex_);
@@ -126,6 +126,7 @@ class ShardSearch {
   }
 
   const CampaignRequest& request_;
+  const std::uint64_t cases_ = share_of(request_.plan.search, request_.shares);
   Store& store_;
   const RunDeadline deadline_;
   const std::function<void(const SearchProgress&)>& progress_;
@@ -158,10 +159,10 @@ JudgeCases judge_in(WorkerProcess& worker, const DetectorUnderTest& detector) {
   };
 }
 
-void search_shard(const CampaignRequest& request, const std::filesystem::path& corpus, Store& store,
+void search_share(const CampaignRequest& request, const std::filesystem::path& corpus, Store& store,
                   RunDeadline deadline,
                   const std::function<void(const SearchProgress&)>& progress) {
-  ShardSearch(request, corpus, store, deadline, progress).run();
+  ShareSearch(request, corpus, store, deadline, progress).run();
 }
 
 }  // namespace assay::properties

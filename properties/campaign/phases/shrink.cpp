@@ -295,7 +295,6 @@ class SlowCases {
     SlowCase slow;
     slow.id = trial.id;
     slow.configuration = configuration.name;
-    slow.shard = text_of(request_.shard);
     slow.undecided = trial.is_undecided;
     slow.seconds = trial.seconds;
     slow.limit = request_.plan.case_seconds;

@@ -73,15 +73,15 @@ struct PlannedTrial {
 std::vector<PlannedTrial> planned_trials(const CampaignRequest& request,
                                          const std::set<std::string>* only) {
   const auto& plan = request.plan;
-  const auto& shard = request.shard;
   std::vector<PlannedTrial> list;
   std::uint64_t most = 0;
   for (const auto& stratum : plan.strata) most = std::max(most, stratum.cases);
-  for (std::uint64_t i = 0; i < most; ++i) {
+  for (std::uint64_t place = 0; place < share_of(most, request.shares); ++place) {
+    const auto index = trial_index(place, request.seed, request.shares);
     for (const auto& stratum : plan.strata) {
-      if (i >= stratum.cases || !shard.holds(i)) continue;
-      if (only && !only->contains(trial_id(plan, request.seed, stratum.family, i))) continue;
-      list.push_back({find_family(stratum.family), i});
+      if (place >= share_of(stratum.cases, request.shares)) continue;
+      if (only && !only->contains(trial_id(plan, request.seed, stratum.family, index))) continue;
+      list.push_back({find_family(stratum.family), index});
     }
   }
   return list;

@@ -10,7 +10,7 @@
 
 namespace assay::properties {
 
-// Numbers of trials of the shard. `stored` counts those that an earlier call stored; `done`
+// Numbers of trials of the run. `stored` counts those that an earlier call stored; `done`
 // includes them, the numbers of the second line do not.
 struct TrialProgress {
   std::uint64_t done = 0, planned = 0, stored = 0;
@@ -18,7 +18,7 @@ struct TrialProgress {
 };
 
 struct TrialsEnd {
-  bool complete = false;        // every planned trial of the shard is in the store
+  bool complete = false;        // every planned trial of the run is in the store
   double seconds = 0;           // the time of this call
   std::uint64_t trials = 0;     // judged in this call
   std::string harness_problem;  // what kept the harness itself from going on; empty: nothing
@@ -32,7 +32,7 @@ struct TrialsEnd {
 // are done or the deadline is over. Every record is stored as soon as it is known, so that a
 // killed run loses only the cases that are being judged. The records do not depend on the number
 // of jobs. `progress` is called from one thread at a time. `only` gives the ids of the trials that
-// count as planned; without it all trials of the shard do.
+// count as planned; without it all trials of the run do.
 //
 // Throws StoreProblem if the store cannot even be read at the beginning; so it is for campaign/
 // alone.

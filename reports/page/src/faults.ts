@@ -13,7 +13,7 @@ function verdict(f: Fault): string {
   return f.found ? "FOUND, but equivalent" : "survives, rightly";
 }
 
-// The worst of all shards: one that was not found is worse than any number of cases.
+// The worst of all runs: one that was not found is worse than any number of cases.
 function canaryText(canaries: Power["canaries"]): string {
   const cases = (c: { found_after: number | null }): number => c.found_after ?? Infinity;
   const worst = [...canaries].sort((a, b) => cases(b) - cases(a))[0];

@@ -1,7 +1,7 @@
 // Several runs side by side, in the order in which they were given.
 import { addressIn } from "./address";
 import { folded, html, section, table } from "./dom";
-import { kindOf, named, verdictWord } from "./overview";
+import { kindOf, named, seedsText, verdictWord } from "./overview";
 import { logPlot } from "./plots";
 import type { Run } from "./report";
 import { open } from "./strata";
@@ -14,7 +14,7 @@ const withDefect = ({ findings: { strata } }: Run): number => sum(strata.map((s)
 // Of each family the configuration that has most of them.
 const undecided = ({ findings: { strata } }: Run): number => sum(strata.map((s) => Math.max(0, ...s.bounds.map(open))));
 
-const nameOf = ({ findings: { campaign } }: Run): string => `${campaign.name}, seed ${campaign.seed}`;
+const nameOf = ({ findings: { campaign } }: Run): string => `${campaign.name}, ${seedsText(campaign)}`;
 
 // Which kinds of failure were met in which run: what is new, and what is gone.
 function kinds(runs: Run[]): HTMLElement | null {

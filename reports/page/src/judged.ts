@@ -2,6 +2,7 @@
 // apart, the campaign; and what a plug-in does whatever it claims.
 import type { Rate, TimesOff } from "../made/certificate";
 import { facts, html, section, table } from "./dom";
+import { seedsText } from "./overview";
 import type { Findings, Stratum } from "./report";
 import { count, counted } from "./words";
 
@@ -69,7 +70,7 @@ export function judged(f: Findings): HTMLElement {
     ["Isolation", f.isolation === null ? null : [isolations[f.isolation] ?? f.isolation]],
     ["Larger meshes", f.repeated === null ? null : repeated(f.repeated)],
     ["Search", f.search === null ? null : [searched(f.search)]],
-    ["Campaign", [`${f.campaign.name}, seed ${f.campaign.seed}${f.campaign.is_default_seed ? ", the default one, whose cases everybody knows" : ""}`]],
+    ["Campaign", [`${f.campaign.name}, ${seedsText(f.campaign)}${f.campaign.is_default_seed ? ", the default one, whose cases everybody knows" : ""}`]],
   ];
   return section(
     "judged",

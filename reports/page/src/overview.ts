@@ -39,8 +39,14 @@ export function named({ detector, versions }: Findings): { name: string; version
 export function titleOf({ verdict, findings }: Run): string {
   const { name, version } = named(findings);
   const { campaign } = findings;
-  return `${verdictWord(verdict)}: ${name}${version ? ` ${version}` : ""} \u2013 ${campaign.name}, seed ${campaign.seed} \u2013 Assay report`;
+  return `${verdictWord(verdict)}: ${name}${version ? ` ${version}` : ""} \u2013 ${campaign.name}, ${seedsText(campaign)} \u2013 Assay report`;
 }
+
+// "seed 3, share 1/8", "seeds 1, 2, 3".
+export const seedsText = ({ parts }: Findings["campaign"]): string =>
+  parts.length > 1
+    ? `seeds ${parts.map((part) => part.seed).join(", ")}`
+    : parts.map(({ seed, share }) => `seed ${seed}${share === "1/1" ? "" : `, share ${share}`}`)[0]!;
 
 const dirty = "-dirty";
 const commitText = (commit: string): string =>
@@ -52,8 +58,6 @@ const dayText = (issued: string): string => issued.replace(/T(\d\d:\d\d):\d\dZ$/
 function about(run: Run): HTMLElement {
   const { campaign, detector, digests, strata, times, versions } = run.findings;
   const { name, version } = named(run.findings);
-  // "2/8" is the second of eight.
-  const shards = Number(campaign.shards[0]?.split("/")[1] ?? 1);
   const digest = detector.built_in ? digests.worker : digests.plugin;
   const { length } = detector.configurations;
   return facts([
@@ -71,8 +75,7 @@ function about(run: Run): HTMLElement {
     [detector.built_in ? "Its program, SHA-256" : "Its library, SHA-256", digest === null ? null : [html("code", {}, digest)]],
     [
       "Campaign",
-      `${campaign.name}, seed ${campaign.seed}${shards === 1 ? "" : `, ${campaign.shards.length} of ${shards} shards`}; ` +
-        `${count(sum(strata.map((s) => s.trials)))} of ${count(sum(strata.map((s) => s.planned)))} trials`,
+      `${campaign.name}, ${seedsText(campaign)}; ${count(sum(strata.map((s) => s.trials)))} of ${count(sum(strata.map((s) => s.planned)))} trials`,
     ],
   ]);
 }

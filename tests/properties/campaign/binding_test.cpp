@@ -20,7 +20,7 @@ TEST(Binding, ChangesWithWhatTheTrialsAreOf) {
   other.seed = 4;
   EXPECT_NE(binding_of(other), text);
   other = request;
-  other.shard = {1, 2};
+  other.shares = 2;
   EXPECT_NE(binding_of(other), text);
   other = request;
   other.plan.strata[0].cases = 11;
@@ -47,6 +47,25 @@ TEST(Binding, ChangesWithWhatTheTrialsAreOf) {
   other.plan.seconds = 7;  // a run that ran out of time may go on
   other.jobs = 5;
   EXPECT_EQ(binding_of(other), text);
+}
+
+TEST(Binding, OfRunsThatAreJudgedTogetherMayDifferInSeedAndShare) {
+  const auto request = request_of(10);
+  auto other = request;
+  other.seed = 4;
+  other.shares = 8;
+  const auto one = binding_of(request), two = binding_of(other);
+  EXPECT_EQ(difference_of(one, two), "seed 3 and 4, shares 1 and 8");
+  EXPECT_EQ(difference_of(one, two, Runs::judged_together), "");
+  other.plan.strata[0].cases = 11;
+  EXPECT_EQ(difference_of(one, binding_of(other), Runs::judged_together),
+            "campaign/strata/0/cases 10 and 11");
+  // No run does none of a campaign, nor less than its smallest share.
+  for (const char* shares : {"0", "1000001", "-1"}) {
+    auto wrong = two;
+    wrong.replace(wrong.find("\"shares\":"), 10, std::string("\"shares\":") + shares + "");
+    EXPECT_FALSE(read_binding(wrong, "file")) << wrong;
+  }
 }
 
 TEST(Canary, IsRegisteredAndFound) {

@@ -8,7 +8,7 @@
 namespace assay::properties::test {
 
 // Two strata, the second of half as many cases.
-inline CampaignRequest request_of(std::uint64_t cases, int jobs = 1, Shard shard = {}) {
+inline CampaignRequest request_of(std::uint64_t cases, int jobs = 1, std::uint64_t shares = 1) {
   CampaignRequest request;
   request.plan.name = "test";
   request.plan.strata = {{"closed-generic", cases, 0}, {"broken", cases / 2, 0}};
@@ -16,7 +16,7 @@ inline CampaignRequest request_of(std::uint64_t cases, int jobs = 1, Shard shard
   request.plan.laws_every = 2;
   request.seed = 3;
   request.jobs = jobs;
-  request.shard = shard;
+  request.shares = shares;
   request.detector = built_in_detector();
   request.worker = ASSAY_WORKER;
   return request;

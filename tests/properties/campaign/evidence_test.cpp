@@ -22,16 +22,15 @@ void expect_same_row(const T& evidence, const T& back) {
   const auto one = to_row(evidence), other = to_row(back);
   EXPECT_EQ(one.kind, other.kind);
   EXPECT_EQ(one.key, other.key);
-  EXPECT_EQ(one.shard, other.shard);
   EXPECT_EQ(one.progress, other.progress);
   EXPECT_EQ(one.fields, other.fields);
 }
 
 TEST(Evidence, EveryKindSurvivesItsRow) {
-  const Canary canary{"pair/x", "1/2", 7}, blind{"pair/x", "2/2", std::nullopt};
+  const Canary canary{"pair/x", 7}, blind{"pair/x", std::nullopt};
   expect_same_row(canary, read_back(canary).canaries.at(0));
   expect_same_row(blind, read_back(blind).canaries.at(0));
-  const HarnessProblem problem{"1/2", "no worker", 7};
+  const HarnessProblem problem{"no worker", 7};
   expect_same_row(problem, read_back(problem).problems.at(0));
   auto proof = fault_proof("a/b", FaultStatus::open, true, {3, std::nullopt});
   proof.shrunk = ShrunkFault{{9, 8, 7}, {3, 2, 1}, 55};
@@ -40,9 +39,9 @@ TEST(Evidence, EveryKindSurvivesItsRow) {
   EXPECT_EQ(read_back(proof).faults.at(0).status, FaultStatus::open);
   const PowerSource source{"smoke", "built-in", 3, "p", "w", "g", "r"};
   expect_same_row(source, read_back(source).power.at(0));
-  const World world{"square-2", "1/1", 3, 4, 5, 1, false, "pairs differ"};
+  const World world{"square-2", 3, 4, 5, 1, false, "pairs differ"};
   expect_same_row(world, read_back(world).worlds.at(0));
-  const SearchedLane lane{"003", "1/2", 500, 2, 1, {"t at 1, moving, generic", "no contact"}};
+  const SearchedLane lane{"003", 500, 480, 2, 1, {"t at 1, moving, generic", "no contact"}};
   expect_same_row(lane, read_back(lane).search.at(0));
   const Asked asked{{"harness", "speed"}, true};
   expect_same_row(asked, *read_back(asked).asked);
@@ -66,8 +65,8 @@ TEST(Evidence, EveryKindSurvivesItsRow) {
 
 TEST(Evidence, WhatNoRunStoresIsRefused) {
   EvidenceFacts facts;
-  EXPECT_THROW(facts.take({"tea", "green", "1/1", 1, "{}"}), StoreProblem);
-  auto row = to_row(Canary{"x", "1/1", 3});
+  EXPECT_THROW(facts.take({"tea", "green", 1, "{}"}), StoreProblem);
+  auto row = to_row(Canary{"x", 3});
   for (const char* wrong : {"", "{", "[]", "{}", R"({"found_after": "soon"})"}) {
     row.fields = wrong;
     EXPECT_THROW(facts.take(row), StoreProblem) << wrong;
@@ -102,15 +101,68 @@ TEST(Evidence, TheFartherOfTwoCountsMore) {
   cut.time_over = true;
   const auto whole = fault_proof("x", FaultStatus::planted, false, {5, std::nullopt});
   EXPECT_GT(to_row(whole).progress, to_row(cut).progress);
-  const World far{"w", "1/1", 1000, 1, 1, 0, false, std::nullopt},
-      wrong{"w", "1/1", 1, 1, 1, 0, false, "c"};
+  const World far{"w", 1000, 1, 1, 0, false, std::nullopt}, wrong{"w", 1, 1, 1, 0, false, "c"};
   EXPECT_GT(to_row(wrong).progress, to_row(far).progress);
   // A problem goes before the word of the same time that there is none, and is over after a trial.
   const auto problem = [](const char* explanation, std::uint64_t trials) {
-    return to_row(HarnessProblem{"1/1", explanation, trials}).progress;
+    return to_row(HarnessProblem{explanation, trials}).progress;
   };
   EXPECT_GT(problem("no worker", 7), problem("", 7));
   EXPECT_GT(problem("", 8), problem("no worker", 7));
+}
+
+TEST(Evidence, OfTwoRunsTheCasesOfAFaultAddUp) {
+  EvidenceFacts sum, other;
+  sum.faults = {fault_proof("a", FaultStatus::planted, false, {5, std::nullopt, std::nullopt})};
+  other.faults = {fault_proof("a", FaultStatus::planted, true, {2, 7, std::nullopt}),
+                  fault_proof("b", FaultStatus::planted, false, {3})};
+  sum.add(other);
+  ASSERT_EQ(sum.faults.size(), 2u);
+  const auto& a = sum.faults[0];
+  EXPECT_EQ(a.cases, 200u);
+  EXPECT_EQ(a.needed, (std::vector<std::optional<std::uint64_t>>{5, 107, std::nullopt}));
+  EXPECT_TRUE(a.curated);
+  EXPECT_FALSE(a.time_over);
+  other.faults[0].time_over = true;
+  sum.add(other);
+  EXPECT_TRUE(sum.faults[0].time_over);
+}
+
+TEST(Evidence, OfTwoRunsWhatBothDoAlikeCountsOnce) {
+  EvidenceFacts sum;
+  sum.self_test = {{"line-3", 10, 3, 0, 1, true}};
+  sum.worlds = {{"w", 5, 1, 1, 0, false, std::nullopt}};
+  sum.canaries = {{"c", 7}};
+  sum.versions = Versions{"1", std::nullopt, "l"};
+  EvidenceFacts other = sum;
+  other.worlds[0].classes = 9;
+  sum.add(other);
+  EXPECT_EQ(sum.self_test.size(), 1u);
+  EXPECT_EQ(sum.canaries.size(), 2u);
+  ASSERT_EQ(sum.worlds.size(), 1u);
+  EXPECT_EQ(sum.worlds[0].classes, 9u);
+  // What they do not come to alike is not lost.
+  other.self_test[0].contradictions = 1;
+  sum.add(other);
+  EXPECT_EQ(sum.self_test.size(), 2u);
+  other.versions->assay = "2";
+  EXPECT_THROW(sum.add(other), StoreProblem);
+}
+
+TEST(Evidence, OfTwoRunsThatTookOverProofsTheProofsAreTheSame) {
+  EvidenceFacts sum;
+  sum.power = {{"smoke", "built-in", 3, "p", "w", "g", "r"}};
+  sum.faults = {fault_proof("a", FaultStatus::planted, false, {5})};
+  const EvidenceFacts other = sum;
+  sum.add(other);
+  EXPECT_EQ(sum.power.size(), 1u);
+  EXPECT_EQ(sum.faults.at(0).cases, 100u);
+  auto changed = other;
+  changed.faults[0].needed = {6};
+  EXPECT_THROW(EvidenceFacts(sum).add(changed), StoreProblem);
+  changed = other;
+  changed.power[0].seed = 4;
+  EXPECT_THROW(EvidenceFacts(sum).add(changed), StoreProblem);
 }
 
 }  // namespace

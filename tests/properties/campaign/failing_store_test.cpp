@@ -56,13 +56,13 @@ TEST_F(FailingStore, EndsACampaignByAValue) {
 
 TEST_F(FailingStore, IsNotedOnceByWhoeverStoresChecks) {
   const auto request = test::request_of(4);
-  auto opened = Checks::open(scratch / "", request);
+  auto opened = Store::open(store_file(scratch / ""), binding_of(request));
   ASSERT_TRUE(opened) << opened.error().message;
-  Checks& checks = opened.value();
+  Checks checks(opened.value());
   checks.keep(Paths{"out", ""});
   ASSERT_FALSE(checks.problem());
-  ASSERT_TRUE(checks.failures());
-  drop_table(checks_file(scratch / ""));
+  ASSERT_TRUE(checks.corpus_failures());
+  drop_table(store_file(scratch / ""));
   checks.keep(Paths{"out", ""});
   ASSERT_TRUE(checks.problem());
   EXPECT_TRUE(says(*checks.problem(), "no such table: ledger"));
@@ -71,23 +71,9 @@ TEST_F(FailingStore, IsNotedOnceByWhoeverStoresChecks) {
   bool was_called = false;
   checks.update([&](Store&) { was_called = true; });
   EXPECT_FALSE(was_called);
-  checks.seal();
   EXPECT_EQ(checks.problem()->message, first);
-  ASSERT_FALSE(checks.failures());
-  EXPECT_EQ(checks.failures().error().message, first);
-}
-
-TEST_F(FailingStore, OfAnotherRunIsNotMadeWhole) {
-  const auto file = store_file(scratch / "", {});
-  auto request = test::request_of(4);
-  { ASSERT_TRUE(Store::open(file, binding_of(request))); }
-  const auto whole = make_whole(file, request);
-  ASSERT_TRUE(whole) << whole.error().message;
-  EXPECT_EQ(whole.value().trials, 0u);
-  request.seed = 4;
-  const auto other = make_whole(file, request);
-  ASSERT_FALSE(other);
-  EXPECT_TRUE(says(other.error(), ": of another run: seed 3 and 4"));
+  ASSERT_FALSE(checks.corpus_failures());
+  EXPECT_EQ(checks.corpus_failures().error().message, first);
 }
 
 }  // namespace

@@ -105,7 +105,7 @@ TEST(Gates, AnUnsoundHarnessCertifiesNothing) {
       [](auto& f) { f.evidence.faults[1].curated = false; },
       [](auto& f) { f.evidence.faults[2].needed = {3}; },
       [](auto& f) {
-        f.evidence.problems = {{"1/1", "no worker"}};
+        f.evidence.problems = {{"no worker", 0}};
       },
       [](auto& f) { f.evidence.self_test[0].contradictions = 1; },
       [](auto& f) { f.tally.counts.laws[std::string(laws()[0].name)].premise = 3; },
@@ -145,7 +145,7 @@ TEST(Gates, WhatIsAbsentIsIncomplete) {
   const std::vector<Change> absent = {
       [](auto& f) { f.tally.strata["broken"].trials = 19; },
       [](auto& f) {
-        f.missing = {{2, 2}};
+        f.parts = {{1, 2, "r"}};
       },
       [](auto& f) { f.evidence.faults.erase(f.evidence.faults.begin()); },
       [](auto& f) { f.evidence.corpus.clear(); }, [](auto& f) { f.evidence.self_test.clear(); },
@@ -209,11 +209,48 @@ TEST(Gates, ABrokenClaimIsADefect) {
          Gate::claims, "defect", 1);
 }
 
+// One of two shares of a campaign that is twice as large.
+void half_alone(RunFindings& f) {
+  for (auto& stratum : f.run.plan.strata) stratum.cases *= 2;
+  f.run.plan.fault_cases *= 2;
+  f.parts = {{3, 2, "r"}};
+}
+
+TEST(Gates, AShareAloneIsIncompleteAndTwoAreWhole) {
+  const auto alone = judged_after({half_alone});
+  expect(alone, Gate::complete, "incomplete", 3);
+  EXPECT_EQ(alone.of(Gate::complete).reasons,
+            std::vector<std::string>{"a whole campaign is more than the shares that are there: "
+                                     "1/2 under seed 3"});
+  const Change second = [](auto& f) {
+    f.parts.push_back({4, 2, "r"});
+    for (auto& [family, tally] : f.tally.strata) tally = good_tally(2 * tally.trials);
+    for (auto& proof : f.evidence.faults) proof.cases *= 2;
+  };
+  expect_certified({half_alone, second});
+  // A fault that nobody found counts once all of its cases were tried.
+  const Change hidden = [](auto& f) { f.evidence.faults[0].curated = false; };
+  expect(judged_after({half_alone, hidden}), Gate::complete, "incomplete", 3);
+  expect(judged_after({half_alone, second, hidden}), Gate::harness, "unsound-harness", 4);
+  // A defect of a share is a defect.
+  expect(judged_after({half_alone, [](auto& f) { add_defect(f); }}), Gate::claims, "defect", 1);
+}
+
+TEST(Gates, OfSeveralRunsTheMedianOfATimeCounts) {
+  const auto measured = [](double median) {
+    return [median](auto& f) {
+      f.evidence.speed.push_back({"exact-over-double", median, 0, 9, {}});
+    };
+  };
+  expect_certified({measured(9), measured(1.1)});
+  expect(judged_after({measured(9), measured(9)}), Gate::speed, "undecided", 3);
+}
+
 TEST(Gates, ADefectGoesBeforeWhatIsMissing) {
   expect(judged_after({[](auto& f) {
            add_defect(f);
            f.tally.strata["broken"].trials = 19;
-           f.missing = {{2, 2}};
+           f.parts = {{1, 2, "r"}};
          }}),
          Gate::claims, "defect", 1);
 }
@@ -222,13 +259,13 @@ TEST(Gates, ADefectGoesBeforeWhatIsMissing) {
 TEST(Gates, TheSearchAsksAllOfItsCases) {
   const Change planned = [](auto& f) { f.run.plan.search = 1000; };
   const auto lane = [](const char* name) {
-    return [name](auto& f) { f.evidence.search.push_back({name, "1/1", 500, 0, 0, {"generic"}}); };
+    return [name](auto& f) { f.evidence.search.push_back({name, 500, 500, 0, 0, {"generic"}}); };
   };
   expect_certified({planned, lane("001"), lane("002")});
   const auto cut = judged_after({planned, lane("001")});
   expect(cut, Gate::complete, "incomplete", 3);
   EXPECT_EQ(cut.of(Gate::complete).reasons,
-            std::vector<std::string>{"1 of 2 lanes of the search, 500 cases"});
+            std::vector<std::string>{"the search came to lanes of 500 of 1000 cases"});
   const Change no_verdict = [](auto& f) { f.evidence.search.at(0).open = 3; };
   EXPECT_EQ(
       judged_after({planned, lane("001"), lane("002"), no_verdict}).of(Gate::complete).reasons,
@@ -348,15 +385,8 @@ TEST(Gates, WithoutContactsInsideTheContractNothingIsCertified) {
   expect(unjudged, Gate::complete, "incomplete", 3);
   EXPECT_EQ(unjudged.of(Gate::complete).reasons,
             std::vector<std::string>{"no claim of the detector was judged"});
-  // A shard by itself may have too few.
-  EXPECT_EQ(judged_after({contacts(0, 0),
-                          [](auto& f) {
-                            for (auto& stratum : f.run.plan.strata) stratum.cases *= 2;
-                            f.alone = Shard{1, 2};
-                          }},
-                         asked_of_a_run())
-                .verdict,
-            "holds");
+  // A share by itself may have too few, and is incomplete for that alone.
+  EXPECT_EQ(judged_after({contacts(0, 0), half_alone}).of(Gate::complete).reasons.size(), 1u);
 }
 
 // The steps and the query of a library are judged apart from each other.
@@ -394,15 +424,11 @@ TEST(Gates, BoundsAndSpeed) {
   expect_certified({undecided});
   expect(judged_after({undecided, [](auto& f) { f.run.plan.strata[0].wanted_bound = 0; }}),
          Gate::bounds, "undecided", 3);
-  // Wanted of all shards together.
-  const auto alone = judged_after({[](auto& f) {
-                                    for (auto& stratum : f.run.plan.strata) stratum.cases *= 2;
-                                    f.run.plan.strata[0].wanted_bound = 0.01;
-                                    f.alone = Shard{1, 2};
-                                  }},
-                                  asked_of_a_run());
+  // Wanted of a whole campaign.
+  const auto alone =
+      judged_after({half_alone, [](auto& f) { f.run.plan.strata[0].wanted_bound = 0.01; }});
   EXPECT_EQ(alone.of(Gate::bounds).state, GateState::not_judged);
-  EXPECT_EQ(alone.verdict, "holds");
+  expect(alone, Gate::complete, "incomplete", 3);
   expect(judged_after({[](auto& f) { f.evidence.speed[0].median = 1.31; }}), Gate::speed,
          "undecided", 3);
   expect(judged_after({[](auto& f) { f.evidence.speed.clear(); }}), Gate::speed, "undecided", 3);
@@ -463,15 +489,13 @@ TEST(Gates, TheFirstThatFailsNamesTheVerdict) {
   // Each gate broken in turn, from the last to the first.
   const std::vector<Change> changes = {[](auto& f) { f.evidence.speed[0].median = 2; },
                                        [](auto& f) { f.run.plan.strata[0].wanted_bound = 0.01; },
-                                       [](auto& f) {
-                                         f.missing = {{1, 2}};
-                                       },
+                                       [](auto& f) { f.tally.strata["broken"].trials = 19; },
                                        [](auto& f) { f.evidence.worlds[0].counterexample = "c"; },
                                        [](auto& f) {
                                          f.evidence.corpus[0].failed = {{"A", "s", "w"}};
                                        },
                                        [](auto& f) {
-                                         f.evidence.problems = {{"1/1", "p"}};
+                                         f.evidence.problems = {{"p", 0}};
                                        }};
   std::vector<Change> so_far;
   for (std::size_t i = 0; i < changes.size(); ++i) {

@@ -12,7 +12,6 @@ inline FaultProof fault_proof(const std::string& name, FaultStatus status, bool 
                               std::vector<std::optional<std::uint64_t>> needed = {std::nullopt}) {
   FaultProof proof;
   proof.fault = name;
-  proof.shard = "1/1";
   proof.law = "L3";
   proof.status = status;
   proof.curated = curated;
@@ -52,7 +51,7 @@ inline RunFindings good_findings() {
   f.run.detector.name = "built-in";
   f.run.planted_faults = 2;
   f.run.detector.configurations = {{"bvh", {"free-sound"}}};
-  f.shards = {{1, 1}};
+  f.parts = {{1, 1, "r"}};
   for (const auto& stratum : f.run.plan.strata)
     f.tally.strata[stratum.family] = good_tally(stratum.cases);
   LawTally law_tally;
@@ -62,11 +61,11 @@ inline RunFindings good_findings() {
     for (const char* culling : {"auto", "view-auto", "view-point", "view-line"})
       add_law(f.tally.counts, law, law_tally, culling);
   }
-  f.evidence.canaries = {{"c", "1/1", 7}};
+  f.evidence.canaries = {{"c", 7}};
   f.evidence.faults = {
       fault_proof("a", FaultStatus::planted, true), fault_proof("b", FaultStatus::planted, true),
       fault_proof("e", FaultStatus::equivalent, false), fault_proof("o", FaultStatus::open, false)};
-  f.evidence.worlds = {{"square-2", "1/1", 1, 1, 1, 0, true, std::nullopt}};
+  f.evidence.worlds = {{"square-2", 1, 1, 1, 0, true, std::nullopt}};
   f.evidence.self_test = {{"line", 10, 1, 0, 0, true}};
   CorpusRow corpus;
   corpus.input = "curated cases";

@@ -23,7 +23,7 @@ class PowerProofs : public testing::Test {
   std::string proof_without(std::size_t left_out, const std::string& binding) const {
     const std::string folder = scratch / "proof" + std::to_string(left_out);
     std::filesystem::create_directories(folder);
-    auto opened = Store::open(store_file(folder, {}), binding);
+    auto opened = Store::open(store_file(folder), binding);
     EXPECT_TRUE(opened) << opened.error().message;
     for (const auto& fault : faults()) {
       if (fault.status != FaultStatus::planted) continue;

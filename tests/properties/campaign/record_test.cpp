@@ -1,4 +1,4 @@
-// Records of trials, their counts and sums, and the shards that trials are parted into.
+// Records of trials, their counts and sums, and the shares of a campaign.
 #include "properties/campaign/ledger/tally.h"
 #include "properties/campaign/phases/fault_hunt.h"
 #include "properties/campaign/trials/case_tally.h"
@@ -50,10 +50,10 @@ TEST(Records, SurviveTheirRows) {
 
 TEST(Records, ThatNoRunStoresAreRefused) {
   for (const std::string fields : {"", "{", "[]", "1", "null", R"({"steps":"many"})"})
-    EXPECT_THROW(trial_of({"trial", "q:1:broken:0", "", 0, fields}), StoreProblem) << fields;
+    EXPECT_THROW(trial_of({"trial", "q:1:broken:0", 0, fields}), StoreProblem) << fields;
   for (const std::string key : {"", "q", "q:1:broken:x", "q:1:broken:"})
-    EXPECT_THROW(trial_of({"trial", key, "", 0, "{}"}), StoreProblem) << key;
-  EXPECT_THROW(failure_of({"failure", "k", "", 0, "{}"}), StoreProblem);
+    EXPECT_THROW(trial_of({"trial", key, 0, "{}"}), StoreProblem) << key;
+  EXPECT_THROW(failure_of({"failure", "k", 0, "{}"}), StoreProblem);
 }
 
 TEST(Counts, TallyOfAStratum) {
@@ -90,22 +90,23 @@ TEST(Counts, LettersOfOutcomes) {
   EXPECT_EQ(letter_of(Outcome::error), 'E');
 }
 
-TEST(Shards, PartitionTheTrials) {
+TEST(Shares, ReachTheWholeTogether) {
   CampaignPlan plan;
   plan.strata = {{"broken", 25, 0}, {"closed-generic", 2, 0}, {"closed-degenerate", 0, 0}};
-  for (const std::uint64_t count : {1u, 2u, 3u, 7u, 40u}) {
-    std::uint64_t planned = 0;
-    std::vector<int> holders(25);
-    for (std::uint64_t i = 1; i <= count; ++i) {
-      const Shard shard{i, count};
-      planned += planned_trial_count(plan, shard);
-      for (std::uint64_t place = 0; place < 25; ++place) holders[place] += shard.holds(place);
+  EXPECT_EQ(planned_trial_count(plan, 1), 27u);
+  EXPECT_EQ(planned_trial_count(plan, 3), 10u);
+  for (const std::uint64_t shares : {1u, 2u, 3u, 7u, 40u}) {
+    EXPECT_GE(shares * share_of(25, shares), 25u);
+    EXPECT_LT(shares * (share_of(25, shares) - 1), 25u);
+    EXPECT_EQ(share_of(0, shares), 0u);
+    // Seeds that follow one another judge every index once.
+    std::set<std::uint64_t> indices;
+    for (std::uint64_t seed = 5; seed < 5 + shares; ++seed) {
+      for (std::uint64_t place = 0; place < share_of(25, shares); ++place)
+        EXPECT_TRUE(indices.insert(trial_index(place, seed, shares)).second);
     }
-    EXPECT_EQ(planned, 27u) << count;
-    EXPECT_EQ(holders, std::vector<int>(25, 1)) << count;
+    EXPECT_EQ(*indices.rbegin() + 1, indices.size());
   }
-  EXPECT_EQ(planned_trial_count(plan, {1, 1}), 27u);
-  EXPECT_EQ(planned_trial_count(plan, {3, 3}), 8u);
 }
 
 }  // namespace

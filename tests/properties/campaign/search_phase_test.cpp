@@ -1,5 +1,5 @@
 // The search as a phase: what it stores does not depend on the number of jobs, a run that is killed
-// goes on, shards have the lanes between them, and what is found is shrunk and can be judged again.
+// goes on, a share has its part of the lanes, and what is found is shrunk and can be judged again.
 #include "properties/campaign/ledger/binding.h"
 #include "properties/campaign/phases/phases.h"
 #include "properties/campaign/phases/search.h"
@@ -12,12 +12,12 @@ namespace {
 constexpr const char* curated_cases = ASSAY_SOURCE_DIR "/corpus/curated";
 
 // Two lanes of 500 cases and one of 100, on a fault that many cases show.
-CampaignRequest searching(int jobs, Shard shard = {}) {
+CampaignRequest searching(int jobs, std::uint64_t shares = 1) {
   auto request = test::faulty("pair/zero-zero-dropped", 8);
   request.detector.configurations.pop_back();
   request.plan.search = 1100;
   request.jobs = jobs;
-  request.shard = shard;
+  request.shares = shares;
   return request;
 }
 
@@ -30,7 +30,7 @@ class SearchPhase : public testing::Test {
   }
   static void run(const CampaignRequest& request, Store& store,
                   RunDeadline deadline = test::in_ten_minutes()) {
-    search_shard(request, curated_cases, store, deadline, {});
+    search_share(request, curated_cases, store, deadline, {});
   }
   // Everything that was stored of the search, with its hashes.
   static std::vector<std::string> rows_of(const Store& store) {
@@ -66,20 +66,14 @@ TEST_F(SearchPhase, JobsAndInterruptionsDoNotChangeWhatIsFound) {
   EXPECT_EQ(rows_of(shared), rows_of(whole));
 }
 
-TEST_F(SearchPhase, ShardsHaveTheLanesBetweenThem) {
-  std::vector<std::string> lanes;
-  for (const std::uint64_t i : {1u, 2u}) {
-    const auto request = searching(1, {i, 2});
-    EXPECT_EQ(planned_lanes(request.plan, request.shard), i == 1 ? 2u : 1u);
-    auto store = open(request, "shard" + std::to_string(i));
-    run(request, store);
-    for (const auto& lane : facts_in(store).search) {
-      lanes.push_back(lane.lane);
-      EXPECT_EQ(lane.shard, text_of(request.shard));
-    }
-  }
-  std::sort(lanes.begin(), lanes.end());
-  EXPECT_EQ(lanes, (std::vector<std::string>{"001", "002", "003"}));
+TEST_F(SearchPhase, AShareAsksItsPartOfTheCases) {
+  const auto request = searching(1, 2);
+  auto store = open(request, "share");
+  run(request, store);
+  const auto lanes = facts_in(store).search;
+  ASSERT_EQ(lanes.size(), 2u);
+  EXPECT_EQ(lanes[0].planned, 500u);
+  EXPECT_EQ(lanes[1].planned, 50u);
 }
 
 class NotedSearch : public CampaignObserver {

@@ -1,4 +1,4 @@
-// The trials of a campaign: the same for any jobs and shards, resumed, made again by their id;
+// The trials of a campaign: the same for any jobs, resumed, made again by their id;
 // their failures are kept, replayed and shrunk.
 #include "properties/campaign/trials/trials.h"
 
@@ -47,21 +47,20 @@ class Trials : public testing::Test {
   Scratch scratch;
 };
 
-TEST_F(Trials, DoNotDependOnJobsOrShards) {
+TEST_F(Trials, DoNotDependOnJobs) {
   const auto alone = run("one", request_of(20));
   ASSERT_EQ(alone.size(), 30u);
   EXPECT_NE(alone[0].find("test:3:broken:0"), std::string::npos);
   EXPECT_EQ(run("three", request_of(20, 3)), alone);
-  std::vector<std::string> together;
-  for (std::uint64_t i = 1; i <= 3; ++i) {
-    const auto part = run("shard" + std::to_string(i), request_of(20, 2, {i, 3}));
-    EXPECT_EQ(part.size(), planned_trial_count(request_of(20).plan, {i, 3}));
-    together.insert(together.end(), part.begin(), part.end());
-  }
-  auto sorted = alone;
-  std::sort(sorted.begin(), sorted.end());
-  std::sort(together.begin(), together.end());
-  EXPECT_EQ(together, sorted);
+}
+
+// Those of seed 3: of eight shares the places 3, 11, ... of each family.
+TEST_F(Trials, OfAShareAreThoseOfItsSeed) {
+  const auto some = run("share", request_of(20, 2, 8));
+  ASSERT_EQ(some.size(), 5u);
+  EXPECT_TRUE(some[0].starts_with("test:3:broken:3 "));
+  EXPECT_TRUE(some[1].starts_with("test:3:broken:11 "));
+  EXPECT_TRUE(some[4].starts_with("test:3:closed-generic:19 "));
 }
 
 TEST_F(Trials, GoOnWhereARunEnded) {

@@ -13,8 +13,8 @@ namespace {
 // Counts over many cases how often the premise of each law held, how often its values came
 // close, and how often the law was broken.
 //
-// The order in which cases are added and tables are merged does not matter, so shards and threads
-// may have one each.
+// The order in which cases are added and tables are merged does not matter, so threads may have
+// one each.
 class LawTable {
  public:
   LawTable();

@@ -101,12 +101,6 @@ TEST_F(OwnCases, ThatFailAreInTheCertificate) {
   EXPECT_EQ(failed[0]["id"], "own/known-to-fail");
 }
 
-TEST_F(OwnCases, GoWithTheFirstShard) {
-  add(colliding);
-  EXPECT_TRUE(contains(judge("wrapped_builtin", "--shard 1/2").out, "\nown cases "));
-  EXPECT_FALSE(contains(judge("wrapped_builtin", "--shard 2/2").out, "\nown cases "));
-}
-
 TEST_F(OwnCases, ThatCannotBeReadAreRefused) {
   scratch.write("cases/torn.json", "{");
   expect_refused(judge("wrapped_builtin"), "torn.json");

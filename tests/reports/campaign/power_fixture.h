@@ -64,11 +64,11 @@ class PowerFixture : public testing::Test {
   }
   // Another binding of a folder's only store.
   static void rebind(const std::string& folder, const std::string& digest) {
-    auto store = open(folder + "/shard-1-of-1.sqlite");
+    auto store = open(folder + "/run.sqlite");
     ASSERT_TRUE(store);
     auto binding = Json::parse(store->binding());
     binding["digests"][digest] = std::string(64, '0');
-    store->set({"binding", "", "", 0, binding.dump()});
+    store->set({"binding", "", 0, binding.dump()});
     EXPECT_TRUE(store->seal());
   }
   // Makes of the first planted fault that a run took over one that was not found: its name.
@@ -76,7 +76,7 @@ class PowerFixture : public testing::Test {
     auto store = open(file);
     if (!store) return "";
     for (auto& row : store->evidence()) {
-      if (row.kind != "fault" || row.shard != "power") continue;
+      if (row.kind != "fault") continue;
       auto facts = Json::parse(row.fields);
       if (facts["status"] != "planted") continue;
       facts["curated"] = false;

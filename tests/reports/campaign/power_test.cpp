@@ -1,5 +1,5 @@
 // `--power DIR`: the proof that planted faults are found, taken from another run of this build.
-#include "properties/campaign/gates/findings.h"
+#include "properties/campaign/gates/gates.h"
 #include "tests/reports/campaign/power_fixture.h"
 
 namespace assay::tests {
@@ -8,7 +8,7 @@ namespace {
 class Power : public PowerFixture {
  protected:
   const std::string plan = scratch.write("plan.json", faults_text("mine", 20, 1));
-  const std::string out = scratch / "out", store = out + "/shard-1-of-1.sqlite";
+  const std::string out = scratch / "out", store = out + "/run.sqlite";
   Outcome run(const std::string& folder, const std::string& more) const {
     return run_assay("run --campaign " + plan + " --out " + folder + library + " " + more);
   }
@@ -20,7 +20,7 @@ TEST_F(Power, OfAnotherRunIsCopiedToldAndJudged) {
   EXPECT_TRUE(says(made.out,
                    "; planted faults as campaign proof, seed 7, of this build found "
                    "them; "));
-  const auto proved = rows_of(proof_folder() + "/shard-1-of-1.sqlite", "fault");
+  const auto proved = rows_of(proof_folder() + "/run.sqlite", "fault");
   EXPECT_TRUE(
       contains(made.out, " by their curated case alone; campaign proof, seed 7, of this build\n"))
       << made.out;
@@ -34,7 +34,6 @@ TEST_F(Power, OfAnotherRunIsCopiedToldAndJudged) {
   ASSERT_GT(taken.size(), 100u);
   ASSERT_EQ(taken.size(), proved.size());
   for (std::size_t i = 0; i < taken.size(); ++i) {
-    EXPECT_EQ(taken[i].shard, "power");
     EXPECT_EQ(taken[i].key, proved[i].key);
     EXPECT_EQ(taken[i].fields, proved[i].fields);
   }
@@ -44,12 +43,11 @@ TEST_F(Power, OfAnotherRunIsCopiedToldAndJudged) {
   ASSERT_TRUE(findings) << findings.error().message;
   EXPECT_EQ(Json::parse(sources[0].fields)["rows"], findings.value().rows);
 
-  // The gates look at these rows: merge prints them as run does.
+  // The gates look at these rows.
   const auto hidden = hide_a_fault(store);
-  const auto judged = run_assay("merge " + out + " --out " + scratch / "merged");
-  EXPECT_TRUE(
-      contains(judged.out, "\nharness    FAILS\n  planted fault " + hidden + " was not found\n"))
-      << judged.out;
+  const auto judged = judge(properties::read_findings(out).value());
+  EXPECT_EQ(judged.of(properties::Gate::harness).reasons,
+            std::vector<std::string>{"planted fault " + hidden + " was not found"});
   // And the same command copies them again.
   EXPECT_EQ(run(out, with_proof).exit_code, 0);
   const auto again = rows_of(store, "fault");
@@ -160,56 +158,35 @@ TEST_F(Power, IsRefusedInTheFolderOfTheRun) {
   EXPECT_EQ(run(out, "--power " + beside).exit_code, 0);
 }
 
-TEST_F(Power, ShardsTakeItOverAndAreCertifiedTogether) {
-  for (const std::string shard : {"1/2", "2/2"}) {
-    const auto part = run(out, with_proof + " --shard " + shard);
-    ASSERT_EQ(part.exit_code, 0) << part.out << part.err;
+// Of two that say different things neither is believed.
+TEST_F(Power, SharesTakeItOverAndAreCertifiedTogether) {
+  std::string folders;
+  for (const std::string seed : {"1", "2"}) {
+    const auto folder = scratch / ("share" + seed);
+    const auto part = run(folder, with_proof + " --share 1/2 --seed " + seed);
+    ASSERT_EQ(part.exit_code, 3) << part.out << part.err;
+    folders += folder + " ";
   }
-  const std::string merged = scratch / "merged";
-  const auto joined = run_assay("merge " + out + " --out " + merged);
-  EXPECT_EQ(joined.exit_code, 0) << joined.out << joined.err;
-  EXPECT_TRUE(contains(joined.out, "\nharness    holds\n")) << joined.out;
-  EXPECT_TRUE(contains(joined.out, "\ncomplete   holds\n")) << joined.out;
-  const auto words = "certify --campaign " + plan + library;
-  // What is certified holds its proof already: --power is not needed for shards.
-  const auto made = run_assay(words + " --out " + merged);
+  const auto both = [&](const std::string& name) {
+    return run_assay("verify " + folders + "--out " + scratch / name);
+  };
+  const auto made = both("both");
   EXPECT_EQ(made.exit_code, 0) << made.out << made.err;
-  EXPECT_EQ(run_assay("verify " + merged + "/certificate.json").exit_code, 0);
-  const auto predicate = Json::parse(read_text(merged + "/certificate.json"))["predicate"];
+  const auto predicate = Json::parse(read_text(scratch / "both/certificate.json"))["predicate"];
   EXPECT_EQ(predicate["verdict"], "certified");
   EXPECT_EQ(predicate["power"]["taken_from"]["campaign"], "proof");
-}
-
-// Of two that say different things neither is believed, in one folder as in a merged store.
-TEST_F(Power, ShardsDoNotTakeOverDifferentOnes) {
-  for (const std::string shard : {"1/2", "2/2"})
-    ASSERT_EQ(run(out, with_proof + " --shard " + shard).exit_code, 0);
-  const auto hidden = hide_a_fault(out + "/shard-2-of-2.sqlite");
-  expect_refused(run_assay("merge " + out + " --out " + scratch / "merged"),
-                 "fault " + hidden + ", power differs from that of another store");
-  expect_refused(run_assay("report " + out + " --out " + scratch / "page.html"),
-                 "fault " + hidden + " differs from that of another store");
-  // Another source by its name alone.
-  ASSERT_EQ(run(out, with_proof + " --shard 2/2").exit_code, 0);
-  EXPECT_EQ(run_assay("report " + out + " --out " + scratch / "page.html").exit_code, 0);
-  rename_source(out + "/shard-2-of-2.sqlite", "other", "other");
-  expect_refused(run_assay("report " + out + " --out " + scratch / "page.html"),
-                 "took their proofs of planted faults from different runs");
+  EXPECT_EQ(predicate["power"]["planted"], predicate["power"]["found"]);
+  const auto hidden = hide_a_fault(scratch / "both/seed-2.sqlite");
+  expect_refused(run_assay("report " + (scratch / "both") + " --out " + scratch / "page.html"),
+                 "seed-2.sqlite: two runs took over different proofs of " + hidden);
+  ASSERT_EQ(both("other").exit_code, 0);
+  rename_source(scratch / "other/seed-2.sqlite", "other", "other");
+  expect_refused(run_assay("report " + (scratch / "other") + " --out " + scratch / "page.html"),
+                 "took over proofs of planted faults from different runs");
   // The key of a row says another name than the row itself.
-  rename_source(out + "/shard-2-of-2.sqlite", "third", "other");
-  expect_refused(run_assay("report " + out + " --out " + scratch / "page.html"),
-                 out + ": power third, power is not as a run writes it");
-}
-
-// Its own share of the faults beside a proof of them all: one is planted twice, and that is told.
-TEST_F(Power, OfOneShardAloneDoesNotHold) {
-  ASSERT_EQ(run(out, with_proof + " --shard 1/2").exit_code, 0);
-  ASSERT_EQ(run(out, "--jobs 2 --shard 2/2").exit_code, 0);
-  const auto joined = run_assay("merge " + out + " --out " + scratch / "merged");
-  EXPECT_EQ(joined.exit_code, 0) << joined.out << joined.err;
-  EXPECT_TRUE(contains(joined.out, "\ncomplete   FAILS\n")) << joined.out;
-  EXPECT_TRUE(contains(joined.out, " planted faults were tried\n")) << joined.out;
-  EXPECT_TRUE(contains(joined.out, "\nincomplete: ")) << joined.out;
+  rename_source(scratch / "other/seed-2.sqlite", "third", "other");
+  expect_refused(run_assay("report " + (scratch / "other") + " --out " + scratch / "page.html"),
+                 "power third is not as a run writes it");
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ struct Disturbed {
 };
 
 Disturbed disturbed_in(const std::string& out) {
-  const auto store = properties::Store::read(out + "/shard-1-of-1.sqlite");
+  const auto store = properties::Store::read(out + "/run.sqlite");
   EXPECT_TRUE(store) << store.error().message;
   Disturbed sum;
   if (!store) return sum;
@@ -73,7 +73,7 @@ Disturbed disturbed_in(const std::string& out) {
 
 // None while there is no store yet.
 std::uint64_t stored_trials(const std::string& out) {
-  const auto store = properties::Store::read(out + "/shard-1-of-1.sqlite");
+  const auto store = properties::Store::read(out + "/run.sqlite");
   return store ? store.value().trial_count() : 0;
 }
 

@@ -24,14 +24,14 @@ class Interrupted : public testing::Test {
   void wait_for_trials(const std::string& out_folder, std::size_t least) const {
     for (int i = 0; i < 3000; ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
-      const auto store = properties::Store::read(out_folder + "/shard-1-of-1.sqlite");
+      const auto store = properties::Store::read(out_folder + "/run.sqlite");
       if (store && store.value().trial_count() >= least) return;
     }
     FAIL() << "nothing was stored";
   }
   // How many meshes of each signature are kept: which ones depends on which threads were first.
   static properties::Counts failures_of(const std::string& out_folder) {
-    const auto store = properties::Store::read(out_folder + "/shard-1-of-1.sqlite");
+    const auto store = properties::Store::read(out_folder + "/run.sqlite");
     EXPECT_TRUE(store) << store.error().message;
     properties::Counts kept;
     if (!store) return kept;
@@ -103,8 +103,8 @@ TEST_F(Interrupted, KilledAtRandomMomentsNothingReportedIsLost) {
     }
     ++killed;
     // A run killed before its store was bound has reported nothing.
-    if (!std::filesystem::exists(out + "/shard-1-of-1.sqlite")) continue;
-    if (!properties::Store::read(out + "/shard-1-of-1.sqlite")) continue;
+    if (!std::filesystem::exists(out + "/run.sqlite")) continue;
+    if (!properties::Store::read(out + "/run.sqlite")) continue;
     const auto now = trials_of(out);
     between += !now.empty() && now.size() < expected.size() ? 1 : 0;
     after_trials += now.size() == expected.size() ? 1 : 0;

@@ -36,7 +36,7 @@ TEST_F(RunSelfKill, AlwaysOnOneKindOfCaseIsADefectOfTotal) {
     EXPECT_TRUE(contains(read_text(out + "/summary.md"), "## Assay: defect\n"));
 
     // On that kind of case, on each of them, and on no other.
-    const auto store = properties::Store::read(out + "/shard-1-of-1.sqlite");
+    const auto store = properties::Store::read(out + "/run.sqlite");
     ASSERT_TRUE(store) << store.error().message;
     std::uint64_t fatal = 0;
     store.value().for_each_trial([&](const properties::TrialRecord& trial) {

@@ -41,19 +41,6 @@ TEST_F(Sizes, TheBuiltInHoldsAndTheSizeIsSaid) {
   }
   EXPECT_GE(largest_tried(findings()).triangles, 900u);
   EXPECT_TRUE(contains(outcome.out, "\nlargest tried: ")) << outcome.out;
-  // Shards, and the same trials made again, are as of every stratum.
-  const auto whole = trials_of(out);
-  std::vector<std::string> both;
-  for (const auto* shard : {"1", "2"}) {
-    const auto folder = out + shard;
-    const auto part = run_assay("run --campaign " + campaign(stratum("size-1e3", 4), 0) +
-                                " --out " + folder + " --shard " + shard + "/2");
-    EXPECT_EQ(part.exit_code, 0) << part.out;
-    for (auto& line : trials_of(folder, std::string("shard-") + shard + "-of-2"))
-      both.push_back(std::move(line));
-  }
-  std::sort(both.begin(), both.end());
-  EXPECT_EQ(both, whole);
 }
 
 TEST_F(Sizes, FreeAbove5000IsFoundAt10000AndTheNumberIsTold) {

@@ -66,7 +66,7 @@ class GeneratedFolder {
 
   // A trial less is incomplete; a world with a counterexample breaks a claim.
   void store_trials(const States& states) {
-    auto store = open(store_file(folder_, {}), binding());
+    auto store = open(store_file(folder_), binding());
     const std::uint64_t trials = fails(states, Gate::complete) ? 1 : 2;
     for (const auto& stratum : request_.plan.strata) {
       for (std::uint64_t i = 0; i < std::min(stratum.cases, trials); ++i) {
@@ -79,20 +79,20 @@ class GeneratedFolder {
         store.add(record);
       }
     }
-    store.set(to_row(Canary{"c", "1/1", 3}));
+    store.set(to_row(Canary{"c", 3}));
     for (const auto& fault : faults()) {
       if (fault.status != FaultStatus::planted) continue;
       store.set(to_row(test::fault_proof(std::string(fault.name), fault.status, true)));
     }
-    if (fails(states, Gate::harness)) store.set(to_row(HarnessProblem{"1/1", "no <worker>"}));
-    World world{"square-2", "1/1", 1, 1, 1, 0, true, std::nullopt};
+    if (fails(states, Gate::harness)) store.set(to_row(HarnessProblem{"no <worker>", 0}));
+    World world{"square-2", 1, 1, 1, 0, true, std::nullopt};
     if (fails(states, Gate::claims)) world.counterexample = "pairs differ";
     store.set(to_row(world));
     EXPECT_TRUE(store.seal());
   }
 
   void store_checks(const States& states) {
-    auto checks = open(checks_file(folder_), *with_shard(binding(), checks_shard));
+    auto checks = open(store_file(folder_), binding());
     checks.set(to_row(SelfTestRow{"line", 10, 1, 0, 0, true}));
     CorpusRow row{"curated cases", "bvh", 1, 0, 1, 0, 0, 0, {}, {}};
     if (fails(states, Gate::corpus)) row.failed = {{"A1", "s", "a & b"}};
@@ -153,10 +153,10 @@ void expect_gate(const Json& gate, const GateResult& result, const std::string& 
   EXPECT_EQ(gate["reasons"], Json(result.reasons)) << where;
 }
 
-// `run` looks at its own store, and asks for four of the gates.
+// `run` asks for four of the gates.
 void expect_agreement_of_run(const std::string& folder, const States& states,
                              const Judgement& judgement) {
-  const auto findings = read_one_store(store_file(folder, {}));
+  const auto findings = read_findings(folder);
   ASSERT_TRUE(findings) << findings.error().message;
   const auto run = judge(findings.value(), asked_of_a_run());
   bool asks_the_same = true;

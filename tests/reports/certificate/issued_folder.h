@@ -24,18 +24,12 @@ inline void issue(const std::string& folder) {
 inline void store_and_issue(const RunToStore& run, const std::string& folder,
                             const properties::Paths& paths) {
   run.store(folder);
-  const auto binding = properties::binding_of(run.request);
-  for (const auto& [file, shard] :
-       {std::pair(properties::store_file(folder, run.request.shard), text_of(run.request.shard)),
-        std::pair(properties::checks_file(folder), std::string(properties::checks_shard))}) {
-    auto store = properties::Store::open(file, *properties::with_shard(binding, shard));
-    ASSERT_TRUE(store) << store.error().message;
-    if (shard == properties::checks_shard) {
-      store.value().set(to_row(paths));
-      store.value().set(to_row(properties::asked_of_a_run()));
-    }
-    ASSERT_TRUE(store.value().seal());
-  }
+  auto store =
+      properties::Store::open(properties::store_file(folder), properties::binding_of(run.request));
+  ASSERT_TRUE(store) << store.error().message;
+  store.value().set(to_row(paths));
+  store.value().set(to_row(properties::asked_of_a_run()));
+  ASSERT_TRUE(store.value().seal());
   write_bytes(properties::campaign_file(folder), properties::plan_text(run.request.plan) + "\n");
   issue(folder);
 }

@@ -49,13 +49,14 @@ TEST(Junit, WhatWasNotJudgedIsSkipped) {
   EXPECT_TRUE(contains(text, "name=\"speed\">\n      <skipped message=\"not judged: "));
 }
 
-TEST(Junit, OfOneShardByItselfNoBoundIsWanted) {
+TEST(Junit, OfAShareByItselfNoBoundIsWanted) {
   auto findings = good_findings();
   for (auto& stratum : findings.run.plan.strata) stratum.cases *= 2;
   findings.run.plan.strata[0].wanted_bound = 0.001;
-  findings.alone = properties::Shard{1, 2};
-  EXPECT_FALSE(contains(junit_text(judged(findings, properties::asked_of_a_run())), "<failure"));
-  findings.alone.reset();
+  findings.parts = {{3, 2, "r"}};
+  EXPECT_FALSE(contains(junit_text(judged(findings, properties::asked_of_a_run())),
+                        "name=\"broken, bvh\">\n      <failure"));
+  findings.parts = {{3, 1, "r"}};
   for (auto& stratum : findings.run.plan.strata) stratum.cases /= 2;
   EXPECT_TRUE(contains(junit_text(judged(findings, properties::asked_of_a_run())),
                        "name=\"broken, bvh\">\n      <failure"));

@@ -162,8 +162,8 @@ class Tampering : public testing::Test {
                     [&] { put_instead(bad + "/" + file, row, forged); });
       };
       using Column = std::string properties::Row::*;
-      for (const Column column : {&properties::Row::kind, &properties::Row::key,
-                                  &properties::Row::shard, &properties::Row::fields}) {
+      for (const Column column :
+           {&properties::Row::kind, &properties::Row::key, &properties::Row::fields}) {
         for (int i = 0; i < 4; ++i)
           forge("a column", a_word(),
                 [&](properties::Row& to, const std::string& word) { to.*column = word; });
@@ -187,10 +187,9 @@ class Tampering : public testing::Test {
   static void put_instead(const std::string& file, const properties::Row& row,
                           const properties::Row& forged) {
     const properties::Database database(file, properties::Database::Mode::write);
-    properties::Statement(database, "DELETE FROM ledger WHERE kind=? AND key=? AND shard=?")
+    properties::Statement(database, "DELETE FROM ledger WHERE kind=? AND key=?")
         .bind(row.kind)
         .bind(row.key)
-        .bind(row.shard)
         .next();
     put_row(database, forged);
   }
@@ -202,7 +201,7 @@ class Tampering : public testing::Test {
                    [&](const properties::Row& row) { text = row.fields; });
       Json binding = Json::parse(text);
       binding[Json::json_pointer(place)] = value;
-      put_row(database, {"binding", "", "", 0, binding.dump()});
+      put_row(database, {"binding", "", 0, binding.dump()});
     });
   }
 };
@@ -219,19 +218,16 @@ TEST_F(Tampering, OfTheCampaignIsSeen) {
   std::printf("%d changes, none passed\n", tried);
 }
 
-TEST_F(Tampering, OfTheStoresIsSeen) {
-  for (const std::string file : {"shard-1-of-1.sqlite", "checks.sqlite"}) {
-    damage(file);
-    forge_rows(file);
-    for (const std::string shard : {"1/0", "0/0", "2/1", "1/1000000000000", "-1/1", "x/y", "/", ""})
-      bind_to(file, "/shard", shard);
-    for (const auto& value : {Json(nullptr), Json(-1), Json(1e300), Json("x"), Json::array()}) {
-      bind_to(file, "/seed", value);
-      bind_to(file, "/detector/configurations", value);
-      bind_to(file, "/campaign/strata", value);
-      bind_to(file, "/digests", value);
-    }
+TEST_F(Tampering, OfTheStoreIsSeen) {
+  const std::string file = "run.sqlite";
+  damage(file);
+  forge_rows(file);
+  for (const auto& value : {Json(nullptr), Json(-1), Json(1e300), Json("x"), Json::array()}) {
+    for (const char* place :
+         {"/seed", "/shares", "/detector/configurations", "/campaign/strata", "/digests"})
+      bind_to(file, place, value);
   }
+  for (const std::uint64_t shares : {0, 2, 1'000'001}) bind_to(file, "/shares", shares);
   std::printf("%d changes, none passed\n", tried);
 }
 

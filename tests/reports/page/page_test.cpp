@@ -1,6 +1,5 @@
 // The data of the page, assay-report/3, and the file that it is put into.
 #include "properties/campaign/gates/findings.h"
-#include "properties/campaign/ledger/merge.h"
 #include "properties/faults/fault.h"
 #include "properties/laws/law.h"
 #include "reports/page/data/run_json.h"
@@ -67,61 +66,49 @@ TEST_F(Runs, WhatIsNoRunIsRefusedByName) {
   std::filesystem::create_directory(scratch / "empty");
   expect_refused(scratch / "empty", "no run is stored here");
   std::filesystem::create_directory(scratch / "text");
-  scratch.write("text/shard-1-of-1.sqlite", "this is no store");
-  expect_refused(scratch / "text", "shard-1-of-1.sqlite: file is not a database");
+  scratch.write("text/run.sqlite", "this is no store");
+  expect_refused(scratch / "text", "run.sqlite: file is not a database");
 }
 
-TEST_F(Runs, ShardsOfDifferentRunsAreRefused) {
+TEST_F(Runs, OfDifferentPlansAreRefused) {
   RunToStore run;
-  run.request.shard = {1, 2};
   run.store(scratch / "mixed");
-  run.request.shard = {2, 2};
   run.request.seed = 7;
-  run.store(scratch / "mixed");
-  expect_refused(scratch / "mixed", "different runs");
+  run.request.plan.strata[0].cases = 11;
+  run.store(scratch / "mixed", "seed-7");
+  expect_refused(scratch / "mixed",
+                 "runs that cannot be judged together: campaign/strata/0/cases 10 and 11");
 }
 
-TEST_F(Runs, AShardThatIsThereTwiceIsRefused) {
+TEST_F(Runs, ASeedThatIsThereTwiceIsRefused) {
   RunToStore run;
-  run.request.shard = {1, 2};
+  run.request.shares = 2;
   run.judge("closed-generic", 4, 'H').store(scratch / "twice");
-  std::filesystem::copy_file(scratch / "twice/shard-1-of-2.sqlite",
-                             scratch / "twice/shard-2-of-2.sqlite");
-  expect_refused(scratch / "twice", "does not stand beside the others");
-  // Nor do shards of other numbers of shards.
-  run.store(scratch / "mixed");
-  run.request.shard = {2, 3};
-  run.trials.clear();
-  run.store(scratch / "mixed");
-  expect_refused(scratch / "mixed", "does not stand beside the others");
+  std::filesystem::copy_file(scratch / "twice/run.sqlite", scratch / "twice/seed-2.sqlite");
+  expect_refused(scratch / "twice", "seed-2.sqlite: a run with seed 1 is there already");
 }
 
-TEST_F(Runs, AShardThatAMergedStoreDoesNotHoldIsNotPassedOver) {
+TEST_F(Runs, SharesAreSummed) {
   RunToStore run;
-  run.request.shard = {1, 2};
-  run.judge("closed-generic", 4, 'H').store(scratch / "grown");
-  const std::vector<std::filesystem::path> first = {scratch / "grown/shard-1-of-2.sqlite"};
-  ASSERT_TRUE(properties::merge_stores(first, properties::merged_file(scratch / "grown")));
-  EXPECT_EQ(read_run(scratch / "grown").tally.trials(), 4u);
+  run.request.shares = 2;
+  const auto alone = run.judge("closed-generic", 4, 'H').store(scratch / "one");
+  EXPECT_EQ(read_run(alone).planned(), 10u);
+  EXPECT_FALSE(read_run(alone).is_whole());
+  run.store(scratch / "two");
   RunToStore other;
-  other.request.shard = {2, 2};
-  other.judge("broken", 1, 'D').store(scratch / "grown");
-  expect_refused(scratch / "grown", "which merged.sqlite does not: merge again");
-}
-
-TEST_F(Runs, ShardsAreSummed) {
-  RunToStore run;
-  run.request.shard = {1, 2};
-  run.judge("closed-generic", 4, 'H').store(scratch / "two");
-  RunToStore other;
-  other.request.shard = {2, 2};
-  other.judge("closed-generic", 5, 'H').judge("broken", 1, 'D').store(scratch / "two");
+  other.request.shares = 2;
+  other.request.seed = 2;
+  other.judge("closed-generic", 5, 'H').judge("broken", 1, 'D').store(scratch / "two", "seed-2");
   const auto findings = read_run(scratch / "two");
   EXPECT_EQ(findings.tally.trials(), 10u);
   EXPECT_EQ(findings.planned(), 20u);
+  EXPECT_TRUE(findings.is_whole());
   const auto page = reports::run_json(findings, judge(findings));
   EXPECT_EQ(page["findings"]["strata"][1]["with_defect"], 1u);
-  EXPECT_EQ(page["findings"]["campaign"]["shards"], Json::array({"1/2", "2/2"}));
+  const auto& parts = page["findings"]["campaign"]["parts"];
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_EQ(parts[1]["share"], "1/2");
+  EXPECT_EQ(parts[0]["rows"], read_run(alone).rows);
 }
 
 // Which gate says what is gates_test's; here is that the page says it.
@@ -221,15 +208,16 @@ TEST_F(Runs, AFailingBuiltInDetectorIsShownWithItsViews) {
   EXPECT_TRUE(has_ghosts);
 }
 
-// Shards begin one after another. What began before that was stored says nothing.
-TEST_F(Runs, TheDayOnWhichTheFirstShardBeganIsTold) {
+// Shares begin one after another. What began before that was stored says nothing.
+TEST_F(Runs, TheDayOnWhichTheFirstShareBeganIsTold) {
   RunToStore run;
   run.request.plan.strata = {{"closed-generic", 10, 0}};
-  const std::string folder = scratch / "shards";
-  for (const std::uint64_t shard : {1, 2}) {
-    run.request.shard = {shard, 2};
-    run.begun = shard == 1 ? "2026-02-01T00:10:00Z" : "2026-01-31T23:50:00Z";
-    run.store(folder);
+  const std::string folder = scratch / "shares";
+  run.request.shares = 2;
+  for (const std::uint64_t seed : {1, 2}) {
+    run.request.seed = seed;
+    run.begun = seed == 1 ? "2026-02-01T00:10:00Z" : "2026-01-31T23:50:00Z";
+    run.store(folder, "seed-" + std::to_string(seed));
   }
   const auto findings = read_run(folder);
   const auto page = reports::run_json(findings, judge(findings));
@@ -270,11 +258,6 @@ TEST_F(Runs, WhatAPlugInPrintedStandsWithItsFailure) {
   const auto told = read_run(run.store(scratch / "told"));
   EXPECT_EQ(reports::failure_scenes(told)[0]["printed"], "first\n</script> second");
   EXPECT_EQ(told.rows, silent.rows) << "two runs may differ in it";
-  const std::vector<std::filesystem::path> both = {scratch / "silent/shard-1-of-1.sqlite",
-                                                   scratch / "told/shard-1-of-1.sqlite"};
-  std::filesystem::create_directory(scratch / "merged");
-  ASSERT_TRUE(properties::merge_stores(both, properties::merged_file(scratch / "merged")));
-  EXPECT_EQ(read_run(scratch / "merged").failures[0].printed, run.failures[0].printed);
 }
 
 TEST_F(Runs, BoundsAreThoseOfTheTerminal) {

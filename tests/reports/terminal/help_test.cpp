@@ -30,7 +30,7 @@ TEST(Help, IsOneTextHoweverItIsAsked) {
   EXPECT_EQ(all.exit_code, 0);
   EXPECT_EQ(run_assay("--help").out, all.out);
   EXPECT_EQ(run_assay("-h").out, all.out);
-  EXPECT_EQ(verbs().size(), 14u);
+  EXPECT_EQ(verbs().size(), 13u);
   const auto run = run_assay("help run");
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_EQ(run_assay("run --help").out, run.out);

@@ -168,8 +168,8 @@ TEST_F(Certify, ACertificateVerifiesAndNoFieldOrFileCanBeChanged) {
   write(certificate, whole);
 
   // Every file in turn.
-  for (const std::string file : {"/certificate.json", "/campaign.json", "/shard-1-of-1.sqlite",
-                                 "/checks.sqlite", "/junit.xml", "/summary.md"}) {
+  for (const std::string file :
+       {"/certificate.json", "/campaign.json", "/run.sqlite", "/junit.xml", "/summary.md"}) {
     expect_tampering_is_seen(out + file, certificate);
   }
   EXPECT_EQ(run_assay("verify " + certificate).exit_code, 0);
@@ -279,24 +279,6 @@ TEST_F(Certify, WhatTheCorpusAloneShowsHasItsMeshToo) {
   // Once more: what is shrunk already stays as it is.
   ASSERT_EQ(certify("--detector " + plugin("fault_view-line_one-corner")).exit_code, 1);
   EXPECT_EQ(read()["predicate"]["failures"], p["failures"]);
-}
-
-TEST_F(Certify, NoCertificateWhileAShardIsAbsent) {
-  const auto run = [&](const std::string& shard) {
-    return run_assay("run --campaign " + plan + " --shard " + shard + " --out " + out).exit_code;
-  };
-  ASSERT_EQ(run("1/2"), 0);
-  const auto half = certify();
-  EXPECT_EQ(half.exit_code, 3) << half.out << half.err;
-  EXPECT_TRUE(contains(half.out, "shard 2/2 is absent")) << half.out;
-  EXPECT_TRUE(contains(half.out, "verdict: incomplete")) << half.out;
-  ASSERT_EQ(run("2/2"), 0);
-  const auto whole = certify();
-  EXPECT_EQ(whole.exit_code, 0) << whole.out << whole.err;
-  EXPECT_EQ(read()["predicate"]["campaign"]["shards"], Json::array({"1/2", "2/2"}));
-  EXPECT_EQ(run_assay("verify " + certificate).exit_code, 0);
-  // Of another seed.
-  expect_refused(certify("--seed 2"), "holds another run");
 }
 
 TEST_F(Certify, ACertificateOfAnOlderSchemaIsRefusedByName) {

@@ -42,7 +42,6 @@ TEST_F(Outputs, ThatCannotBeWrittenAreRefusedBeforeTheWork) {
                                  judge + " " + (scratch / "steps.log") + " --out ",
                                  "run --campaign " + plan + " --out ",
                                  "certify --campaign " + plan + " --out ",
-                                 "merge " + run + " --out ",
                                  "replay " + curated("A1_winding2_allpositive") + " --export ",
                                  "replay '" + log() + "#1' --export ",
                                  "scene bend --size 100 --out "};

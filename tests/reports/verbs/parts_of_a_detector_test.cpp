@@ -133,11 +133,6 @@ TEST_F(Parts, AQueryIsJudgedBesideTheSteps) {
   ASSERT_FALSE(lines.empty());
   EXPECT_EQ(run_assay(lines[0]).exit_code, 1) << lines[0];
   EXPECT_EQ(run_assay("verify " + out("wrong") + "/certificate.json").exit_code, 1);
-  // Two shards make the same trials, and merge into the same run.
-  for (const std::string shard : {"1/2", "2/2"})
-    EXPECT_EQ(run_assay(campaign("run", "shards") + both + " --shard " + shard).exit_code, 1);
-  EXPECT_EQ(run_assay("merge " + out("shards") + " --out " + out("merged")).exit_code, 0);
-  EXPECT_EQ(trials_of(out("merged"), "merged"), trials_of(out("wrong")));
   // The steps by themselves hold, and the query is named as not judged; so is what is not asked.
   const auto steps = run_assay(campaign("run", "steps") + both + " --part steps");
   EXPECT_EQ(steps.exit_code, 0) << steps.out << steps.err;

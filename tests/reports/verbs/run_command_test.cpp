@@ -30,7 +30,7 @@ TEST_F(Run, SaysWhatItWillDoAndHowItEnded) {
   EXPECT_EQ(first.exit_code, 0) << first.out << first.err;
   EXPECT_EQ(first.err, "");
   for (const std::string word :
-       {"campaign tiny, seed 5, shard 1/1: 32 trials of 3 families, 12 configurations; 2 jobs; "
+       {"campaign tiny, seed 5: 32 trials of 3 families, 12 configurations; 2 jobs; "
         "until",
         "writes ", "canary pair/zero-zero-dropped: found after", "32 trials in", "stratum",
         "closed-generic           each of 10              16      16       0         0",
@@ -228,7 +228,6 @@ TEST_F(Run, ABoundThatIsOutOfReachIsUndecided) {
   const auto outcome = run();
   EXPECT_EQ(outcome.exit_code, 3) << outcome.out << outcome.err;
   EXPECT_TRUE(contains(outcome.out, "is wanted\n")) << outcome.out;
-  EXPECT_TRUE(contains(outcome.out, "\nshard 1/1: complete\n")) << outcome.out;
   EXPECT_TRUE(contains(outcome.out, "next: ")) << outcome.out;
 }
 
@@ -243,7 +242,6 @@ TEST_F(Run, TimeThatEndsEarlyIsIncompleteAndGoesOn) {
   EXPECT_TRUE(contains(outcome.out, "\nincomplete: ")) << outcome.out;
   EXPECT_TRUE(contains(outcome.out, "planted faults")) << outcome.out;
   EXPECT_TRUE(contains(outcome.out, "next: run the same again")) << outcome.out;
-  EXPECT_TRUE(contains(outcome.out, "\nshard 1/1: not complete\n")) << outcome.out;
   const auto before = trials_of(out).size();
   EXPECT_LT(before, 6000u);
   const auto again = run("--time 1.5");
@@ -315,8 +313,8 @@ TEST_F(Run, BadInputIsOneLine) {
   expect_refused(run_assay("run --campaign nowhere --out " + out), "nowhere");
   expect_refused(run_assay("run --campaign " + scratch.write("bad.json", "{}") + " --out " + out),
                  "schema is missing");
-  for (const std::string shard : {"0/3", "4/3", "1/0", "a/b", "1", "1/2/3", "-1/3", "''"}) {
-    expect_refused(run("--shard=" + shard), "--shard");
+  for (const std::string share : {"2/3", "1/0", "a/b", "1", "1/2/3", "-1/3", "1/1000001", "''"}) {
+    expect_refused(run("--share=" + share), "--share");
   }
   for (const std::string seed : {"-1", "x", "1.5", "99999999999999999999"}) {
     expect_refused(run("--seed=" + seed), "--seed");
@@ -349,10 +347,10 @@ TEST_F(Run, AFolderWithoutPermission) {
 
 TEST_F(Run, ADamagedStore) {
   ASSERT_EQ(run().exit_code, 0);
-  const std::string file = out + "/shard-1-of-1.sqlite";
+  const std::string file = out + "/run.sqlite";
   const std::string whole = read_text(file);
   std::ofstream(file, std::ios::binary) << whole.substr(0, whole.size() / 2);
-  expect_refused(run(), "shard-1-of-1.sqlite: ");
+  expect_refused(run(), "run.sqlite: ");
   std::ofstream(file, std::ios::binary) << "this is no database, and long enough to tell";
   expect_refused(run(), "not a database");
   expect_refused(run_assay("list failures " + out), "not a database");
@@ -364,7 +362,7 @@ TEST_F(Run, AFullDiskKeepsWhatIsStored) {
   const auto full = run("--jobs 1", "trap '' XFSZ; ulimit -f 200; ");
   EXPECT_EQ(full.exit_code, 2) << full.out << full.err;
   EXPECT_EQ(std::count(full.err.begin(), full.err.end(), '\n'), 1) << full.err;
-  EXPECT_TRUE(contains(full.err, "shard-1-of-1.sqlite: ")) << full.err;
+  EXPECT_TRUE(contains(full.err, "run.sqlite: ")) << full.err;
   EXPECT_TRUE(contains(full.err, "run the same again to go on")) << full.err;
   const auto stored = trials_of(out);
   EXPECT_GT(stored.size(), 0u);

@@ -106,7 +106,7 @@ TEST(List, FailuresNeedARun) {
   expect_refused(run_assay("list failures " + (scratch / "")), "no run is stored here");
   expect_refused(run_assay("list laws " + (scratch / "")), "takes no folder");
   expect_refused(run_assay("list errors"), "errors");
-  scratch.write("shard-1-of-1.sqlite", "");
+  scratch.write("run.sqlite", "");
   expect_refused(run_assay("list failures " + (scratch / "")), "not the store of a run");
 }
 

@@ -26,7 +26,7 @@ class VerifyAgain : public RunFixture {
   // Changes the trial, mends its hash, and issues the certificate anew.
   void forge(const std::string& id, const std::function<void(TrialRecord&)>& change) {
     {
-      const Database database(store_file(out, {}), Database::Mode::write);
+      const Database database(store_file(out), Database::Mode::write);
       std::vector<Row> rows;
       for_each_row(database, "WHERE kind='trial' AND key=?", {id},
                    [&](const Row& row) { rows.push_back(row); });
@@ -83,7 +83,7 @@ TEST_F(VerifyAgain, NamesAForgedVerdictOnAPlugIn) {
   // A defect becomes a success.
   std::string id;
   {
-    const auto store = Store::read(store_file(out, {}));
+    const auto store = Store::read(store_file(out));
     ASSERT_TRUE(store);
     store.value().for_each_trial([&](const TrialRecord& r) {
       if (r.outcomes == "D" && id.empty()) id = r.id;

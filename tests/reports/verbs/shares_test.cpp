@@ -1,0 +1,158 @@
+// `assay verify DIR... --out DIR`: shares of a campaign, each with a certificate that says
+// incomplete, come to the verdict on the whole.
+#include "tests/reports/certificate/issued_folder.h"
+#include "tests/reports/tiny_campaign.h"
+
+namespace assay::tests {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+class Shares : public testing::Test {
+ protected:
+  // An eighth of a campaign of 16 cases in each of two families, as a run of it leaves it.
+  static RunToStore eighth(std::uint64_t seed) {
+    RunToStore run;
+    run.request.plan.strata = {{"closed-generic", 16, 0.9}, {"broken", 16, 0}};
+    run.request.seed = seed;
+    run.request.shares = 8;
+    return run.meet_canary(3);
+  }
+  std::string store(const RunToStore& run, const std::string& name) const {
+    const std::filesystem::path folder = scratch / name;
+    store_and_issue(run, folder, {folder.string(), ""});
+    for (const auto& failure : run.failures) {
+      const auto file = folder / properties::failure_file(failure, true);
+      std::filesystem::create_directory(file.parent_path());
+      write_bytes(file, failure.smallest);
+    }
+    return folder.string() + " ";
+  }
+  std::string good(std::uint64_t seed) const {
+    return store(eighth(seed).judge("closed-generic", 2, 'H').judge("broken", 2, 'H'),
+                 "share" + std::to_string(seed));
+  }
+  std::string good(std::uint64_t first, std::uint64_t last) const {
+    std::string folders;
+    for (auto seed = first; seed <= last; ++seed) folders += good(seed);
+    return folders;
+  }
+  Outcome judge(const std::string& folders) const {
+    return run_assay("verify " + folders + "--out " + out);
+  }
+  Json predicate(const std::string& folder) const {
+    return Json::parse(read_text(folder + "/certificate.json"))["predicate"];
+  }
+  bool has_a_store() const { return properties::stored_runs(out).has_value(); }
+  const Scratch scratch;
+  const std::string out = scratch / "all";
+};
+
+TEST_F(Shares, OfEightSeedsComeToTheWhole) {
+  const auto folders = good(1, 8);
+  const auto alone = run_assay("verify " + scratch / "share3");
+  EXPECT_EQ(alone.exit_code, 3) << alone.out << alone.err;
+  EXPECT_EQ(predicate(scratch / "share3")["verdict"], "incomplete");
+  const auto all = judge(folders);
+  EXPECT_EQ(all.exit_code, 0) << all.out << all.err;
+  EXPECT_TRUE(contains(all.out, "verdict: holds; " + out + "/certificate.json\n")) << all.out;
+  EXPECT_TRUE(contains(all.out, "seeds 1, 2, 3, 4, 5, 6, 7, 8")) << all.out;
+  const auto stated = predicate(out);
+  EXPECT_EQ(stated["campaign"]["is_whole"], true);
+  EXPECT_EQ(stated["strata"][1]["trials"], 16);
+  EXPECT_EQ(stated["strata"][1]["bounds"][0]["holds"], 16);
+  // Each part by the digest that its own certificate states.
+  ASSERT_EQ(stated["campaign"]["parts"].size(), 8u);
+  for (const auto& part : stated["campaign"]["parts"]) {
+    const auto seed = std::to_string(part["seed"].get<int>());
+    EXPECT_EQ(part["share"], "1/8");
+    EXPECT_EQ(part["rows"], predicate(scratch / ("share" + seed))["digests"]["rows"]) << seed;
+  }
+  EXPECT_EQ(run_assay("verify " + out).exit_code, 0);
+  // It depends on the runs alone, and what it was computed from is part of a larger sum.
+  const auto certificate = read_text(out + "/certificate.json");
+  EXPECT_EQ(judge(folders).exit_code, 0);
+  EXPECT_EQ(read_text(out + "/certificate.json"), certificate);
+  const auto more = run_assay("verify " + out + " " + good(9) + "--out " + scratch / "more");
+  EXPECT_EQ(more.exit_code, 0) << more.out << more.err;
+  EXPECT_EQ(predicate(scratch / "more")["strata"][1]["trials"], 18);
+}
+
+TEST_F(Shares, OfWhichOneIsMissingAreIncomplete) {
+  const auto some = judge(good(1, 7));
+  EXPECT_EQ(some.exit_code, 3) << some.out << some.err;
+  EXPECT_TRUE(contains(some.out,
+                       "complete   FAILS\n  a whole campaign is more than the shares "
+                       "that are there: 1/8 under seed 1, "))
+      << some.out;
+  EXPECT_EQ(predicate(out)["verdict"], "incomplete");
+  // A share that was not judged to its end.
+  const auto half =
+      store(eighth(8).judge("closed-generic", 2, 'H').judge("broken", 1, 'H'), "half");
+  const auto all = judge(good(1, 7) + half);
+  EXPECT_EQ(all.exit_code, 3) << all.out << all.err;
+  EXPECT_TRUE(contains(all.out, "\n  broken: 15 of 16 trials\n")) << all.out;
+}
+
+TEST_F(Shares, OfOneSeedDoNotCountTwice) {
+  std::filesystem::copy(scratch / "share2", scratch / "copy",
+                        (good(1, 2), std::filesystem::copy_options::recursive));
+  const auto twice =
+      judge(scratch / "share1" + (" " + scratch / "share2") + " " + (scratch / "copy") + " ");
+  EXPECT_EQ(twice.exit_code, 2) << twice.out;
+  EXPECT_TRUE(contains(twice.err, "share2/run.sqlite and ")) << twice.err;
+  EXPECT_TRUE(contains(twice.err, "copy/run.sqlite: both are of seed 2, ")) << twice.err;
+  EXPECT_FALSE(has_a_store());
+}
+
+TEST_F(Shares, OfWhichOneHasADefectAreADefect) {
+  auto run = eighth(8).judge("closed-generic", 2, 'H').judge("broken", 1, 'H');
+  run.judge("broken", 1, 'D').fail("B1_one_vertex_own_nearest", "all-pairs: missing pair", "lost");
+  const auto all = judge(good(1, 7) + store(run, "share8"));
+  EXPECT_EQ(all.exit_code, 1) << all.out << all.err;
+  EXPECT_TRUE(contains(all.out, "verdict: defect; ")) << all.out;
+  const auto stated = predicate(out);
+  ASSERT_EQ(stated["failures"].size(), 1u);
+  EXPECT_TRUE(
+      std::filesystem::exists(out + "/" + stated["failures"][0]["file"].get<std::string>()));
+  EXPECT_EQ(run_assay("verify " + out).exit_code, 1);
+  EXPECT_TRUE(contains(run_assay("list failures " + out).out, "DEFECT all-pairs: missing pair"));
+}
+
+TEST_F(Shares, ThatDoNotBelongTogetherAreRefused) {
+  const auto first = good(1);
+  auto other = eighth(2);
+  other.request.plan.case_seconds = 7;
+  const auto plans = judge(first + store(other, "plan"));
+  EXPECT_EQ(plans.exit_code, 2) << plans.out;
+  EXPECT_TRUE(contains(plans.err, "cannot be judged together: campaign/case_seconds "))
+      << plans.err;
+  EXPECT_FALSE(has_a_store());
+  other = eighth(2);
+  other.request.detector.configurations.pop_back();
+  EXPECT_EQ(judge(first + store(other, "detector")).exit_code, 2);
+  other = eighth(2);
+  other.request.worker = "/bin/true";
+  const auto builds = judge(first + store(other, "build"));
+  EXPECT_TRUE(contains(builds.err, "another build of assay")) << builds.err;
+  EXPECT_FALSE(has_a_store());
+  // A folder with another sum in it.
+  ASSERT_EQ(judge(first).exit_code, 3);
+  const auto second = judge(good(2));
+  EXPECT_EQ(second.exit_code, 2) << second.out;
+  EXPECT_TRUE(contains(second.err, "seed-1.sqlite: is none of these runs")) << second.err;
+}
+
+// A share whose trials were changed does not verify, and nothing is made of it.
+TEST_F(Shares, ThatDoNotVerifyAreNotCounted) {
+  const auto folders = good(1, 2);
+  properties::Database(scratch / "share2/run.sqlite", properties::Database::Mode::write)
+      .run("DELETE FROM ledger WHERE key='tiny:2:broken:2'");
+  const auto judged = judge(folders);
+  EXPECT_EQ(judged.exit_code, 1) << judged.out;
+  EXPECT_TRUE(contains(judged.out, "NOT VERIFIED: ")) << judged.out;
+  EXPECT_FALSE(has_a_store());
+}
+
+}  // namespace
+}  // namespace assay::tests
