@@ -24,8 +24,7 @@ Expected<int> issue_certificate(const properties::RunFindings& findings,
   const auto& predicate = statement["predicate"];
   if (predicate["digests"]["campaign"] != corpus::sha256_of(campaign_text))
     return Problem{fmt::format("{}: was changed while this run was at work",
-                               properties::campaign_file(findings.folder).string()),
-                   ProblemKind::not_as_stored};
+                               properties::campaign_file(findings.folder).string())};
   const auto certificate = properties::certificate_file(findings.folder).string();
   BOOST_OUTCOME_TRY(write_text_file(certificate, statement_text(statement)));
   BOOST_OUTCOME_TRY(write_for_ci(predicate, findings.folder));

@@ -22,8 +22,8 @@ std::size_t lines_of(const std::string& path) {
 // that is asked for is allowed. Detectors of others count apart; `scripts` are those of all rooms.
 TEST(Budget, NoRoomGrows) {
   const std::map<std::string, std::size_t> budgets = {
-      {"detector", 15873},   {"oracle", 6474},   {"corpus", 5560}, {"corpus/peers", 889},
-      {"properties", 29258}, {"reports", 14959}, {"tests", 48170}, {"scripts", 10466}};
+      {"detector", 15873},   {"oracle", 6474},   {"corpus", 5559}, {"corpus/peers", 889},
+      {"properties", 27994}, {"reports", 14830}, {"tests", 47178}, {"scripts", 10466}};
   std::map<std::string, std::size_t> lines;
   for (const auto* room : rooms) {
     for (const auto& file : files_below(room)) {

@@ -186,9 +186,8 @@ void Store::set_smallest(const StoredFailure& failure) {
 }
 
 void Store::set_note(const std::string& key, const std::string& value) {
-  put_row(
-      parts_->db,
-      {std::string(note_kind), key, 0, corpus::json_text(nlohmann::json{{"value", value}})});
+  put_row(parts_->db,
+          {std::string(note_kind), key, 0, corpus::json_text(nlohmann::json{{"value", value}})});
 }
 
 void Store::for_each(std::string_view kind, const std::function<void(const Row&)>& visit) const {
