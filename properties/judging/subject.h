@@ -56,7 +56,7 @@ struct Subject {
   DetectorUnderTest detector;
   std::filesystem::path worker;                 // the program assay-worker
   std::optional<std::filesystem::path> plugin;  // nothing: the built-in detector
-  std::shared_ptr<const JudgedLibrary> judged;  // its file, kept for all of its processes
+  std::shared_ptr<const JudgedLibrary> judged;  // its files and their digests
   PluginDescription description;                // what the plug-in says of itself
   WorkerLimits limits;                          // of its processes
   Isolation isolation = Isolation::limits;      // that the first of a plug-in's processes had

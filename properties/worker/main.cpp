@@ -131,9 +131,8 @@ int main(int argc, char** argv) {
         if (const auto word = python_word_of(plugin.called))
           ::setenv(python_detector_variable, word->text().c_str(), 1);
         ::close_range(static_cast<unsigned>(*channel) + 1, ~0U, 0);  // what the host left open
-        const bool is_alone = *host == 0;
-        if (is_alone) ::setsid();  // bwrap's is out of its sight
-        if (!limit_plugin(*bytes, is_alone)) return exit_usage;
+        if (*host == 0) ::setsid();                                  // bwrap's is out of its sight
+        if (!limit_plugin(*bytes)) return exit_usage;
         // An exception that nobody catches ends the process as it would end any other.
         std::exit(serve(std::move(to_host), &plugin));
       }

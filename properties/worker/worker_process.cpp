@@ -123,8 +123,8 @@ struct WorkerProcess::Parts {
                                           std::to_string(::getpid()), std::to_string(limits.bytes)};
     std::vector<PassedDescriptor> passed = {{ends->second.descriptor(), child_descriptor}};
     if (!plugin_library) return note(ChildProcess::start(program, arguments, passed), *ends, {});
-    const auto& fault =
-        limits.isolation == Isolation::limits ? "not asked for" : fault_of_bubblewrap();
+    if (!judged) judged = JudgedLibrary::of(*plugin_library, program);
+    const std::string fault = fault_of_isolation();
     if (limits.isolation == Isolation::bubblewrap && !fault.empty())
       return Problem{
           fmt::format("{}: not loaded: bubblewrap does not work here: {}; see "
@@ -138,7 +138,6 @@ struct WorkerProcess::Parts {
     if (names_python(who())) {
       if (const auto serving = python_plugin(who(), program); !serving) return serving.error();
     }
-    if (!judged) judged = JudgedLibrary::of(*plugin_library, program);
     for (const auto& word :
          {judged->file().string(), scratch->path().string(), std::to_string(limits.threads), who(),
           std::to_string(limits.variation), std::to_string(int{limits.asks_twice})})
@@ -152,6 +151,19 @@ struct WorkerProcess::Parts {
     arguments[1] = "0";
     return note(start_behind_bubblewrap(program, arguments, scratch->path(), passed), *ends,
                 std::move(printed));
+  }
+
+  // Why the worker is not started behind bubblewrap; empty if it is.
+  std::string fault_of_isolation() const {
+    if (limits.isolation == Isolation::limits) return "not asked for";
+    std::error_code ignored;
+    for (const auto& path :
+         {program, judged->file(), std::filesystem::temp_directory_path(ignored)}) {
+      const auto real = std::filesystem::weakly_canonical(path, ignored);
+      if (real.native().starts_with("/dev/"))
+        return real.string() + " is hidden behind it, as all of /dev";
+    }
+    return fault_of_bubblewrap();
   }
 
   Expected<void> note(Expected<ChildProcess> child, std::pair<Channel, Channel>& ends,

@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
+#include <utility>
 
 #include "corpus/digest.h"
 #include "corpus/file_bytes.h"
@@ -42,13 +44,21 @@ namespace {
 // By the copy of each store in `out`, the store.
 using Copies = std::map<std::filesystem::path, std::filesystem::path>;
 
+// Refuses, before anything is written, runs that cannot be judged together.
 Expected<Copies> copies_of(const std::vector<std::string>& folders, const std::string& out) {
   Copies copies;
+  std::string binding;
   for (const auto& folder : folders) {
     BOOST_OUTCOME_TRY(stores, properties::stored_runs(folder));
     for (const auto& file : stores) {
       BOOST_OUTCOME_TRY(store, properties::Store::read(file));
       BOOST_OUTCOME_TRY(run, properties::read_binding(store.binding(), file));
+      if (binding.empty()) binding = store.binding();
+      const auto difference =
+          properties::difference_of(binding, store.binding(), properties::Runs::judged_together);
+      if (!difference.empty())
+        return Problem{fmt::format("{}: this run and those before cannot be judged together: {}",
+                                   file.string(), difference)};
       const auto [copy, is_new] =
           copies.emplace(properties::copied_store_file(out, run.seed), file);
       if (!is_new)
@@ -74,24 +84,30 @@ Expected<int> judge_together(const std::vector<std::string>& folders, const std:
   BOOST_OUTCOME_TRY(campaign, corpus::read_bytes(properties::campaign_file(folders.front())));
   BOOST_OUTCOME_TRY(
       may_keep_run(out, {"campaign.json", "certificate.json", "junit.xml", "summary.md"}));
-  if (const auto there = properties::stored_runs(out)) {
-    for (const auto& file : there.value()) {
-      if (!copies.contains(file))
-        return Problem{
-            fmt::format("{}: is none of these runs; name a new folder: --out NEW", file.string())};
-    }
+  std::set<std::filesystem::path> expected, added;
+  for (const auto& [copy, store] : copies) {
+    std::error_code ignored;
+    expected.insert(copy);
+    if (!std::filesystem::exists(copy, ignored)) added.insert(copy);
   }
+  BOOST_OUTCOME_TRY(properties::expect_no_other_store(out, expected));
   auto findings = copied(copies, out);
   if (!findings) {
     std::error_code ignored;
-    for (const auto& [copy, store] : copies) std::filesystem::remove(copy, ignored);
+    for (const auto& copy : added) std::filesystem::remove(copy, ignored);
     return findings.error();
   }
   BOOST_OUTCOME_TRY(write_text_file(properties::campaign_file(out).string(), campaign));
   const auto& found = findings.value();
+  // A failure of the corpus is the same in all runs, and so is the name of its file. The first has
+  // the smallest mesh.
+  std::vector<properties::StoredFailure> failures;
+  std::set<std::pair<std::string, std::string>> names;
+  for (const auto& failure : found.failures) {
+    if (names.emplace(failure.id, failure.configuration).second) failures.push_back(failure);
+  }
   std::string text;
-  BOOST_OUTCOME_TRY(
-      write_failures({found.failures, found.times_met}, out, detector_of(found), text));
+  BOOST_OUTCOME_TRY(write_failures({failures, found.times_met}, out, detector_of(found), text));
   fmt::print("\n{} runs of campaign {}\n{}", copies.size(), found.run.plan.name, text);
   return issue_certificate(found, campaign, "");
 }

@@ -119,7 +119,7 @@ Json repeated_json(const RunFindings& findings) {
 }
 
 Json search_json(const RunFindings& findings) {
-  const auto planned = findings.run.plan.search;
+  const auto planned = findings.shares_of(findings.run.plan.search);
   if (planned == 0) return nullptr;
   const auto [lanes, asked, cases, defects, open, causes] = findings.searched();
   std::set<std::string> words;

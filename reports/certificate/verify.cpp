@@ -184,7 +184,7 @@ namespace {
 using properties::BoundRun;
 
 // Finds the library of the plug-in and checks that it is the certified one, before any of its code
-// runs. `judged` keeps it as it is.
+// runs.
 Expected<std::string> certified_library(const properties::RunFindings& findings,
                                         const std::string& named,
                                         std::shared_ptr<const properties::JudgedLibrary>& judged) {

@@ -1,13 +1,10 @@
 // `assay certify` runs the corpus, the campaign, the planted faults, the self-test and the
 // measures of speed. Then it writes the certificate.
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
-#include <ctime>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <set>
 
@@ -180,8 +177,8 @@ Expected<int> certify(const CampaignWords& words) {
   BOOST_OUTCOME_TRY(request, ask_for_campaign(words));
   BOOST_OUTCOME_TRY(
       may_keep_run(words.out, {"campaign.json", "certificate.json", "junit.xml", "summary.md"}));
-  // The store is opened before the cases of the corpus run, because from then on every row is
-  // known.
+  BOOST_OUTCOME_TRY(
+      properties::expect_no_other_store(words.out, {properties::store_file(words.out)}));
   BOOST_OUTCOME_TRY(store, properties::Store::open(properties::store_file(words.out),
                                                    properties::binding_of(request)));
   fmt::print("the shipped corpus, campaign {}, self-test and speed; writes {}\n", request.plan.name,

@@ -89,6 +89,7 @@ Expected<int> run_campaign(const RunRequest& command) {
   const auto& out = words.out;
   BOOST_OUTCOME_TRY(request, ask_for_campaign(words));
   BOOST_OUTCOME_TRY(may_keep_run(out, {"junit.xml", "summary.md"}));
+  BOOST_OUTCOME_TRY(properties::expect_no_other_store(out, {properties::store_file(out)}));
   BOOST_OUTCOME_TRY(
       store, properties::Store::open(properties::store_file(out), properties::binding_of(request)));
   const auto findings = run_rest(request, store, out);

@@ -1,4 +1,4 @@
-# Sourced by nightly_slurm_test: a Slurm of one machine (controller, two node daemons, munge with its
+# Sourced by shares_test.sh: a Slurm of one machine (controller, two node daemons, munge with its
 # own socket) that lives in one folder. Needs slurm-wlm and munge, and root: slurmd starts jobs as
 # their user.
 # shellcheck shell=bash

@@ -109,8 +109,8 @@ const std::map<std::string, std::function<void()>>& deeds() {
   };
   // Whether the system lets it.
   all["more-processes-than-allowed"] = [] {
-    constexpr int allowed = 512;
-    for (int i = 0; i < allowed; ++i)
+    constexpr int more = 512 + 32768;  // as many as a machine may have besides
+    for (int i = 0; i < more; ++i)
       if (start_a_sleeper() < 0) tell(false);
     tell(true);
   };

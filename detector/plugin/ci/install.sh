@@ -7,4 +7,4 @@ sources=$(cd "$(dirname "$0")/../../.." && pwd)
 ls .package/assay_*.deb >/dev/null 2>&1 || "$sources/reports/package/pack" --yes --out .package
 apt-get update -qq
 case ${DETECTOR-} in python:*) needs=python3-numpy ;; *) needs=g++ ;; esac
-apt-get install -y -qq --no-install-recommends "$needs" ./.package/assay_*.deb
+apt-get install -y -qq --no-install-recommends bubblewrap "$needs" ./.package/assay_*.deb

@@ -1,6 +1,7 @@
 #include "properties/campaign/gates/findings.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "properties/campaign/gates/statistics.h"
@@ -29,10 +30,10 @@ std::uint64_t RunFindings::shares_of(std::uint64_t n) const {
 }
 
 bool RunFindings::is_whole() const {
-  const auto is_reached = [&](std::uint64_t n) { return shares_of(n) >= n; };
-  return is_reached(run.plan.search) && is_reached(run.plan.fault_cases) &&
-         std::all_of(run.plan.strata.begin(), run.plan.strata.end(),
-                     [&](const auto& stratum) { return is_reached(stratum.cases); });
+  std::map<std::uint64_t, std::set<std::uint64_t>> places;  // by the number of shares
+  for (const auto& part : parts) places[part.shares].insert(part.seed % part.shares);
+  return std::any_of(places.begin(), places.end(),
+                     [](const auto& found) { return found.second.size() == found.first; });
 }
 
 std::uint64_t RunFindings::planned(const StratumPlan& stratum) const {

@@ -44,8 +44,11 @@ struct RunFindings {
   // that took and wherever it was kept. Of several runs: over their digests.
   std::string rows;
 
-  // Whether the runs together reach what the plan asks of a whole campaign. What is wanted of the
-  // whole alone, such as a bound, is not asked of less.
+  // Whether the runs together reach what the plan asks of a whole campaign: one of them does it
+  // all, or N shares 1/N have seeds that leave each remainder of division by N. Under other seeds
+  // they would judge the same indices (trial_index), and what is asked of every 16th index, say,
+  // might be asked of none. What is wanted of the whole alone, such as a bound, is not asked of
+  // less.
   bool is_whole() const;
   // What the runs have to do together of n.
   std::uint64_t shares_of(std::uint64_t n) const;

@@ -38,7 +38,7 @@ void check_power(const RunFindings& f, Lines& lines) {
   }
   Lines hidden;
   for (const auto& proof : f.evidence.faults) {
-    const bool was_tried = f.is_whole() && !proof.time_over;
+    const bool was_tried = proof.is_whole(f.run.plan);
     if (proof.status == FaultStatus::planted && !proof.found() && was_tried)
       hidden.push_back(fmt::format("planted fault {} was not found", proof.fault));
     if (proof.status == FaultStatus::equivalent && proof.found())
@@ -214,8 +214,10 @@ GateFindings check_complete(const RunFindings& f, const Asked& asked) {
     std::vector<std::string> shares;
     for (const auto& part : f.parts)
       shares.push_back(fmt::format("1/{} under seed {}", part.shares, part.seed));
-    lines.push_back(fmt::format("a whole campaign is more than the shares that are there: {}",
-                                fmt::join(shares, ", ")));
+    lines.push_back(fmt::format(
+        "a whole campaign is more than the shares that are there: {}; shares 1/N need N "
+        "seeds that follow one another",
+        fmt::join(shares, ", ")));
   }
   check_trials(f, asked, lines);
   if (f.evidence.canaries.empty()) lines.push_back("no canary was met");

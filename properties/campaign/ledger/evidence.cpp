@@ -188,8 +188,19 @@ void join_worlds(std::vector<World>& list, const std::vector<World>& more) {
 }  // namespace
 
 void EvidenceFacts::add(EvidenceFacts other) {
-  join_faults(faults, other.faults, !power.empty() && !other.power.empty());
-  append_new(power, other.power);
+  // A run that planted the faults by itself goes before those that took over a proof: that may be
+  // its own, whose cases would count twice.
+  const auto planted = [](const auto& facts) {
+    return facts.power.empty() && !facts.faults.empty();
+  };
+  if (planted(other) && !power.empty()) {
+    faults.clear();
+    power.clear();
+  }
+  if (!planted(*this) || other.power.empty()) {
+    join_faults(faults, other.faults, !power.empty() && !other.power.empty());
+    append_new(power, other.power);
+  }
   if (power.size() > 1)
     throw StoreProblem("two runs took over proofs of planted faults from different runs");
   join_worlds(worlds, other.worlds);

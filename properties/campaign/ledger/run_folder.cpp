@@ -35,6 +35,18 @@ Expected<std::vector<std::filesystem::path>> stored_runs(const std::filesystem::
   return stores;
 }
 
+Expected<void> expect_no_other_store(const std::filesystem::path& folder,
+                                     const std::set<std::filesystem::path>& expected) {
+  const auto there = stored_runs(folder);
+  if (!there) return boost::outcome_v2::success();
+  for (const auto& file : there.value()) {
+    if (!expected.contains(file))
+      return Problem{
+          fmt::format("{}: is of another run; name a new folder: --out NEW", file.string())};
+  }
+  return boost::outcome_v2::success();
+}
+
 void note_library(Store& store, const CampaignRequest& request) {
   if (!request.plugin) return;
   const auto named = request.plugin->string();

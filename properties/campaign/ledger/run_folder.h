@@ -32,6 +32,10 @@ inline std::filesystem::path certificate_file(const std::filesystem::path& out) 
 // cannot be listed.
 Expected<std::vector<std::filesystem::path>> stored_runs(const std::filesystem::path& folder);
 
+// Fails if the folder holds another store than these: all stores of a folder are judged together.
+Expected<void> expect_no_other_store(const std::filesystem::path& folder,
+                                     const std::set<std::filesystem::path>& expected);
+
 // Stores the path of a plug-in's library, as it was named to the run, and finds it again (nothing
 // if none was stored). Both throw StoreProblem, and are for campaign/ alone.
 void note_library(Store& store, const CampaignRequest& request);

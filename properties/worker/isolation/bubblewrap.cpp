@@ -8,7 +8,6 @@
 
 #include <cerrno>
 #include <chrono>
-#include <optional>
 
 #include "properties/worker/isolation/printed_words.h"
 

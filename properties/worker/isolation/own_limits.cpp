@@ -37,10 +37,10 @@ void stop_being_root() {
 
 bool limit_memory(std::uint64_t bytes) { return bytes == 0 || limit(RLIMIT_AS, bytes); }
 
-bool limit_plugin(std::uint64_t bytes, bool is_alone) {
+bool limit_plugin(std::uint64_t bytes) {
   constexpr rlim_t most_processes = 512;
   struct sysinfo seen = {};
-  if (!is_alone) ::sysinfo(&seen);
+  ::sysinfo(&seen);
   stop_being_root();
   ::signal(SIGXFSZ, SIG_IGN);
   return limit(RLIMIT_NPROC, most_processes + seen.procs) &&

@@ -55,7 +55,7 @@ describe("the page", () => {
     assert.match(text, /free-sound, not-late, /);
     assert.match(text, /Contract\s*leaves nothing out/);
     assert.match(text, /[1-9]\d* steps? between two starts, [1-9]\d* triangles? at a vertex, .* \d+ pairs? in a step, .*; relations: 0 cases/);
-    assert.match(text, /(full|partial): /);
+    assert.match(text, /(bubblewrap|limits alone): /);
     assert.match(text, /tiny, seed 2/);
   });
 

@@ -26,6 +26,25 @@ void expect_same_row(const T& evidence, const T& back) {
   EXPECT_EQ(one.fields, other.fields);
 }
 
+// Who took over a proof may have it from the very run that stands beside it.
+TEST(Evidence, CasesOfAProofThatWasTakenOverDoNotCountTwice) {
+  EvidenceFacts own, taken;
+  own.faults = taken.faults = {fault_proof("a/b", FaultStatus::planted, true, {3})};
+  taken.power = {{"smoke", "built-in", 3, "p", "w", "g", "r"}};
+  const auto cases = own.faults[0].cases;
+  for (const bool is_first : {true, false}) {
+    EvidenceFacts sum = is_first ? own : taken;
+    sum.add(is_first ? taken : own);
+    sum.add(taken);
+    EXPECT_EQ(sum.faults.at(0).cases, cases);
+    EXPECT_TRUE(sum.power.empty());
+  }
+  taken.add(taken);
+  EXPECT_EQ(taken.power.size(), 1u);
+  own.add(own);
+  EXPECT_EQ(own.faults.at(0).cases, 2 * cases);
+}
+
 TEST(Evidence, EveryKindSurvivesItsRow) {
   const Canary canary{"pair/x", 7}, blind{"pair/x", std::nullopt};
   expect_same_row(canary, read_back(canary).canaries.at(0));

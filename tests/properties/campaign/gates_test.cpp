@@ -221,13 +221,17 @@ TEST(Gates, AShareAloneIsIncompleteAndTwoAreWhole) {
   expect(alone, Gate::complete, "incomplete", 3);
   EXPECT_EQ(alone.of(Gate::complete).reasons,
             std::vector<std::string>{"a whole campaign is more than the shares that are there: "
-                                     "1/2 under seed 3"});
+                                     "1/2 under seed 3; shares 1/N need N seeds that follow one "
+                                     "another"});
   const Change second = [](auto& f) {
     f.parts.push_back({4, 2, "r"});
     for (auto& [family, tally] : f.tally.strata) tally = good_tally(2 * tally.trials);
     for (auto& proof : f.evidence.faults) proof.cases *= 2;
   };
   expect_certified({half_alone, second});
+  // Both judge odd indices.
+  const Change other_seed = [](auto& f) { f.parts.back().seed = 5; };
+  expect(judged_after({half_alone, second, other_seed}), Gate::complete, "incomplete", 3);
   // A fault that nobody found counts once all of its cases were tried.
   const Change hidden = [](auto& f) { f.evidence.faults[0].curated = false; };
   expect(judged_after({half_alone, hidden}), Gate::complete, "incomplete", 3);

@@ -1,4 +1,4 @@
-// What is judged is one file, whatever is built in its place meanwhile.
+// A library that is built anew while it is judged ends the run.
 #include "properties/worker/plugin/judged_library.h"
 
 #include "corpus/digest.h"

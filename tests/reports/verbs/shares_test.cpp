@@ -94,6 +94,15 @@ TEST_F(Shares, OfWhichOneIsMissingAreIncomplete) {
   EXPECT_TRUE(contains(all.out, "\n  broken: 15 of 16 trials\n")) << all.out;
 }
 
+// Their indices leave the same remainder, and none is one of those that are run twice.
+TEST_F(Shares, OfSeedsWithOneRemainderAreIncomplete) {
+  std::string folders;
+  for (std::uint64_t seed = 1; seed <= 57; seed += 8) folders += good(seed);
+  const auto all = judge(folders);
+  EXPECT_EQ(all.exit_code, 3) << all.out << all.err;
+  EXPECT_TRUE(contains(all.out, "; shares 1/N need N seeds that follow one another\n")) << all.out;
+}
+
 TEST_F(Shares, OfOneSeedDoNotCountTwice) {
   std::filesystem::copy(scratch / "share2", scratch / "copy",
                         (good(1, 2), std::filesystem::copy_options::recursive));
@@ -136,11 +145,17 @@ TEST_F(Shares, ThatDoNotBelongTogetherAreRefused) {
   const auto builds = judge(first + store(other, "build"));
   EXPECT_TRUE(contains(builds.err, "another build of assay")) << builds.err;
   EXPECT_FALSE(has_a_store());
+  // What is refused leaves the sum that it was to join.
+  ASSERT_EQ(judge(first + good(3)).exit_code, 3);
+  EXPECT_EQ(judge(out + " " + (scratch / "build") + " ").exit_code, 2);
+  EXPECT_EQ(properties::stored_runs(out).value().size(), 2u);
+  EXPECT_EQ(run_assay("verify " + out).exit_code, 3);
+  std::filesystem::remove_all(out);
   // A folder with another sum in it.
   ASSERT_EQ(judge(first).exit_code, 3);
   const auto second = judge(good(2));
   EXPECT_EQ(second.exit_code, 2) << second.out;
-  EXPECT_TRUE(contains(second.err, "seed-1.sqlite: is none of these runs")) << second.err;
+  EXPECT_TRUE(contains(second.err, "seed-1.sqlite: is of another run")) << second.err;
 }
 
 // A share whose trials were changed does not verify, and nothing is made of it.
