@@ -21,7 +21,8 @@ std::vector<NestedBodies> nested_bodies(const detector::PositionsView& x,
                                         const std::vector<std::int32_t>& body,
                                         const std::vector<detector::PairContact>& pairs);
 
-// Of these those that no third lies between: shells within shells have one each.
+// Returns the pairs that no third body lies between. Of shells within shells each inner one has one
+// pair, with the shell next around it.
 std::vector<NestedBodies> innermost(const std::vector<NestedBodies>& nested);
 
 }  // namespace assay::reports

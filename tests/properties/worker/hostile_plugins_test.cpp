@@ -139,6 +139,23 @@ TEST_F(Hostile, FoldersOfKilledRunsAreCleared) {
   setenv("TMPDIR", before.c_str(), 1);
 }
 
+// Behind bwrap /dev is another one.
+TEST_F(Hostile, AScratchFolderBelowDevLeavesLimitsAlone) {
+  if (!std::filesystem::is_directory("/dev/shm")) GTEST_SKIP() << "no /dev/shm";
+  const auto before = std::getenv("TMPDIR") ? std::string(std::getenv("TMPDIR")) : "/tmp";
+  setenv("TMPDIR", "/dev/shm", 1);
+  unsetenv("ASSAY_HOSTILE");
+  WorkerProcess worker(ASSAY_WORKER, plugin("hostile"));
+  EXPECT_TRUE(worker.describe());
+  EXPECT_EQ(worker.isolation(), Isolation::limits);
+  WorkerProcess asked(ASSAY_WORKER, plugin("hostile"), {.isolation = Isolation::bubblewrap});
+  const auto refused = asked.describe();
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("/dev/shm is hidden behind it"), std::string::npos)
+      << refused.error().message;
+  setenv("TMPDIR", before.c_str(), 1);
+}
+
 TEST_F(Hostile, WhatItWritesCountsAsMemory) {
   if (!fault_of_bubblewrap().empty()) GTEST_SKIP() << fault_of_bubblewrap();
   constexpr std::uint64_t bytes = std::uint64_t{1} << 29;

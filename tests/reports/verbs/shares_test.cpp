@@ -128,6 +128,22 @@ TEST_F(Shares, OfWhichOneHasADefectAreADefect) {
   EXPECT_TRUE(contains(run_assay("list failures " + out).out, "DEFECT all-pairs: missing pair"));
 }
 
+// A failure of the corpus has one id in all shares, and perhaps another smallest mesh in each.
+TEST_F(Shares, WhoseFailuresHaveOneNameKeepTheSmallestMesh) {
+  std::string folders;
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+    auto run = eighth(seed).judge("closed-generic", 2, 'H').judge("broken", 2, 'D');
+    run.fail(seed == 1 ? "A1_winding2_allpositive" : "B1_one_vertex_own_nearest",
+             "all-pairs: missing pair", "lost");
+    run.failures[0].id = "corpus/one";
+    folders += store(run, "share" + std::to_string(seed));
+  }
+  const auto all = judge(folders);
+  EXPECT_EQ(all.exit_code, 1) << all.out << all.err;
+  EXPECT_EQ(run_assay("verify " + out).exit_code, 1);
+  EXPECT_FALSE(contains(run_assay("verify " + out).out, "NOT VERIFIED"));
+}
+
 TEST_F(Shares, ThatDoNotBelongTogetherAreRefused) {
   const auto first = good(1);
   auto other = eighth(2);
@@ -150,6 +166,12 @@ TEST_F(Shares, ThatDoNotBelongTogetherAreRefused) {
   EXPECT_EQ(judge(out + " " + (scratch / "build") + " ").exit_code, 2);
   EXPECT_EQ(properties::stored_runs(out).value().size(), 2u);
   EXPECT_EQ(run_assay("verify " + out).exit_code, 3);
+  // No run goes on there, which would be judged with them.
+  for (const std::string verb : {"run", "certify"}) {
+    const auto mixed = run_assay(verb + " --campaign smoke --out " + out);
+    EXPECT_EQ(mixed.exit_code, 2) << mixed.out;
+    EXPECT_TRUE(contains(mixed.err, "seed-1.sqlite: is of another run")) << mixed.err;
+  }
   std::filesystem::remove_all(out);
   // A folder with another sum in it.
   ASSERT_EQ(judge(first).exit_code, 3);
