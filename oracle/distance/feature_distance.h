@@ -19,8 +19,8 @@ struct FirstNear {
   bool near = false;
   // The first time within d; set only when near is true and a time was wanted.
   detector::TimeEnclosure first;
-  // The rung that decided: axis and interval (approach.h), or integers (regions.h, region_times.h),
-  // which count as quadratic. The time of what interval found near is then computed in integers.
+  // The rung that decided: axis, interval, or integers (regions.h), which count as quadratic. The
+  // time of what interval found near is then computed in integers.
   Rung rung = Rung::axis;
 };
 

@@ -4,11 +4,9 @@
 #include <atomic>
 #include <cassert>
 #include <cmath>
-#include <optional>
 
 #include "oracle/mesh/feature_pairs.h"
 #include "oracle/mesh/pair_relation.h"
-#include "oracle/mesh/pair_store.h"
 #include "oracle/parallel_chunks.h"
 #include "oracle/processor_state.h"
 #include "oracle/query/contact.h"
@@ -132,7 +130,7 @@ class CountedFeatures {
 
   // Relations take time, so they are asked about what is near, and not about every candidate. One
   // of features tells of the two features, and one of triangles of each two that hold them, which
-  // is asked once for each pair, at the end (keep_counted).
+  // is asked once for each pair, at the end (judgement_of).
   bool counts(const Candidate& c) const { return passes(counted_, c); }
   bool is_tested(const Candidate& c) const {
     return asks(c.points.first_group == 1 ? AskedFeatures::vertex_face
@@ -166,10 +164,8 @@ class CountedFeatures {
     return some;
   }
 
-  void keep_those_of_relations(StepJudgement& found) const {
-    keep_counted(counted_, found.pairs);
-    keep_counted(counted_, found.asked_pairs);
-    keep_counted(tested_, found.asked_pairs);
+  StepJudgement judgement(std::vector<FoundPairs>& found, bool complete) const {
+    return judgement_of(found, counted_, tested_, complete);
   }
 
  private:
@@ -211,16 +207,9 @@ class CountedFeatures {
   Relation counted_, tested_;
 };
 
-// What one thread has found.
-struct Found {
-  PairStore pairs, asked_pairs;
-  RungCounts rungs;
-  std::uint64_t candidates = 0;
-};
-
 StepJudgement judge(const CountedFeatures& features, const SteppedMesh& motion, const Separation& d,
                     const DistanceOptions& options, StopGate& gate) {
-  std::vector<Found> found(std::max(options.jobs, 1));
+  std::vector<FoundPairs> found(std::max(options.jobs, 1));
   const Workers workers{static_cast<int>(found.size()), &gate};
   const auto separation = [&](const Feature& f, int first_group) -> Separation {
     if (options.offsets.empty()) return d;
@@ -229,7 +218,7 @@ StepJudgement judge(const CountedFeatures& features, const SteppedMesh& motion, 
   };
   features.for_each(grown_boxes(motion, half_of(d), options.offsets), workers,
                     [&](const Candidate& c, int worker) {
-                      Found& mine = found[worker];
+                      FoundPairs& mine = found[worker];
                       const FirstNear answer =
                           first_time_within(c.points, separation(c.feature, c.points.first_group));
                       ++mine.candidates;
@@ -248,27 +237,7 @@ StepJudgement judge(const CountedFeatures& features, const SteppedMesh& motion, 
         if (features.is_piercing_tested(s, t)) found[worker].asked_pairs.add(s, t, {0, 0}, feature);
       });
 
-  StepJudgement result;
-  for (Found& one : found) {
-    if (&one != found.data()) {
-      found[0].pairs.merge(one.pairs);
-      found[0].asked_pairs.merge(one.asked_pairs);
-    }
-    result.rungs += one.rungs;
-    result.feature_candidates += one.candidates;
-  }
-  result.pairs = found[0].pairs.take();
-  result.asked_pairs = found[0].asked_pairs.take();
-  features.keep_those_of_relations(result);
-  if (gate.was_stopped()) return result;
-  result.complete = true;
-  result.answer = result.pairs.empty() ? detector::Answer::free : detector::Answer::collision;
-  if (result.pairs.empty()) return result;
-  result.first =
-      std::min_element(result.pairs.begin(), result.pairs.end(), [](const auto& x, const auto& y) {
-        return x.time < y.time;
-      })->time;
-  return result;
+  return features.judgement(found, !gate.was_stopped());
 }
 
 void require_sound(const SteppedMesh& motion, const TrianglesView& triangles) {

@@ -14,9 +14,9 @@
 #include <limits>
 #include <span>
 
-#include "oracle/instant/instant_contacts.h"
+#include "oracle/instant/instant.h"
+#include "oracle/mesh/feature_distance.h"
 #include "oracle/mesh/mesh_features.h"
-#include "oracle/mesh/rational_places.h"
 
 namespace assay::oracle {
 

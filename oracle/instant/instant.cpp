@@ -1,10 +1,12 @@
 #include "oracle/instant/instant.h"
 
+#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <limits>
 
-#include "oracle/query/integer_polynomial.h"
+#include "oracle/mesh/feature_distance.h"
+#include "oracle/query/contact.h"
 
 namespace assay::oracle {
 
@@ -78,5 +80,205 @@ mpq_class Instant::in_units(const mpq_class& coordinate) const {
 }
 
 mpq_class Instant::in_units(double coordinate) const { return in_units(mpq_class(coordinate)); }
+
+namespace {
+
+using detector::TrianglePair;
+
+FeatureTests tests_at(const Instant& instant) {
+  const StaticPoints x = instant.points();
+  return {[x](std::int32_t v, const Face& f) { return vertex_meets_face(x, v, f); },
+          [x](const Edge& a, const Edge& b) { return edges_meet(x, a, b); },
+          [x](const Edge& e, const Face& f) { return edge_pierces_face(x, e, f); }};
+}
+
+BoxOfVertices boxes_at(const Instant& instant) {
+  return [&](std::span<const std::int32_t> vertices) { return instant.box_of(vertices); };
+}
+
+}  // namespace
+
+std::vector<TrianglePair> contacts_at(const Instant& instant,
+                                      const detector::TrianglesView& triangles, int jobs) {
+  const MeshFeatures features = mesh_features(triangles);
+  const FeatureIndex mesh(features, boxes_at(instant));
+  std::vector<std::vector<TrianglePair>> found(std::max(jobs, 1));
+  for_each_contact(mesh, mesh, tests_at(instant), {jobs},
+                   {[](std::int32_t s, std::int32_t t) { return s != t; },
+                    [&](std::int32_t s, std::int32_t t, int worker) {
+                      found[worker].push_back({std::min(s, t), std::max(s, t)});
+                    }});
+  std::vector<TrianglePair> all;
+  for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+bool any_contact_at(const Instant& instant, const detector::TrianglesView& triangles, int jobs) {
+  const MeshFeatures features = mesh_features(triangles);
+  const FeatureIndex mesh(features, boxes_at(instant));
+  std::atomic<bool> found = false;
+  StopGate gate([&] { return found.load(); });
+  for_each_contact(mesh, mesh, tests_at(instant), {jobs, &gate},
+                   {[&](std::int32_t s, std::int32_t t) { return s != t && !found; },
+                    [&](std::int32_t, std::int32_t, int) { found = true; }});
+  return found;
+}
+
+std::vector<std::uint8_t> touched_at(const Instant& instant,
+                                     const detector::TrianglesView& triangles,
+                                     const detector::TrianglesView& ghosts,
+                                     const std::vector<std::int32_t>& component, int jobs) {
+  const auto count = static_cast<std::size_t>(triangles.rows());
+  const MeshFeatures mesh_parts = mesh_features(triangles), fan_parts = mesh_features(ghosts);
+  const FeatureIndex mesh(mesh_parts, boxes_at(instant)), fans(fan_parts, boxes_at(instant));
+  const FeatureTests tests = tests_at(instant);
+  // Elements are only ever set to 1, so the order of threads does not matter.
+  std::vector<std::atomic<std::uint8_t>> touched(count);
+  for_each_contact(mesh, mesh, tests, {jobs},
+                   {[&](std::int32_t s, std::int32_t t) {
+                      return s != t && component[s] == component[t] && !(touched[s] && touched[t]);
+                    },
+                    [&](std::int32_t s, std::int32_t t, int) { touched[s] = touched[t] = 1; }});
+  for_each_contact(mesh, fans, tests, {jobs},
+                   {[&](std::int32_t t, std::int32_t g) {
+                      return !touched[t] && component[t] == component[count + g];
+                    },
+                    [&](std::int32_t t, std::int32_t, int) { touched[t] = 1; }});
+  return {touched.begin(), touched.end()};
+}
+
+namespace {
+
+// The four points of a query at one time, with the notation and the rule of contact_events.h.
+struct Rest {
+  std::array<const IntegerPoint*, 4> x;
+  int first_group;
+};
+
+int sign_for(const Rest& q, int i, const Integer& lam) {
+  return i < q.first_group ? sgn(lam) : -sgn(lam);
+}
+
+// Whether the groups meet if all points lie on one line. They miss each other when they are
+// strictly ordered along an axis along which the points differ.
+bool meet_on_a_line(const Rest& q) {
+  for (int k = 0; k < 3; ++k) {
+    bool differ = false, before = true, after = true;
+    for (int i = 0; i < q.first_group; ++i) {
+      for (int j = q.first_group; j < 4; ++j) {
+        const int order = cmp((*q.x[i])[k], (*q.x[j])[k]);
+        differ |= order != 0;
+        before &= order < 0;
+        after &= order > 0;
+      }
+    }
+    if (differ) return !before && !after;
+  }
+  return true;  // all four coincide
+}
+
+bool meet(const Rest& q) {
+  const IntegerPoint u1 = *q.x[1] - *q.x[0], u2 = *q.x[2] - *q.x[0], u3 = *q.x[3] - *q.x[0];
+  const IntegerPoint lam1 = cross(u2, u3);
+  if (dot(u1, lam1) != 0) return false;
+  const IntegerPoint lam2 = cross(u3, u1), lam3 = cross(u1, u2);
+  for (int k = 0; k < 3; ++k) {
+    const Integer lam0 = -(lam1[k] + lam2[k] + lam3[k]);
+    const std::array<int, 4> signs = {sign_for(q, 0, lam0), sign_for(q, 1, lam1[k]),
+                                      sign_for(q, 2, lam2[k]), sign_for(q, 3, lam3[k])};
+    bool some_above = false, some_below = false;
+    for (const int s : signs) {
+      some_above |= s > 0;
+      some_below |= s < 0;
+    }
+    if (some_above || some_below) return !(some_above && some_below);
+  }
+  return meet_on_a_line(q);
+}
+
+int orientation(StaticPoints x, std::int32_t o, std::int32_t a, std::int32_t b, std::int32_t c) {
+  return sgn(dot(x[a] - x[o], cross(x[b] - x[o], x[c] - x[o])));
+}
+
+}  // namespace
+
+IntegerPoint operator-(const IntegerPoint& a, const IntegerPoint& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+IntegerPoint cross(const IntegerPoint& a, const IntegerPoint& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+Integer dot(const IntegerPoint& a, const IntegerPoint& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+bool vertex_meets_face(StaticPoints x, std::int32_t vertex, const StaticFace& face) {
+  return meet({{&x[vertex], &x[face[0]], &x[face[1]], &x[face[2]]}, 1});
+}
+
+bool edges_meet(StaticPoints x, const StaticEdge& a, const StaticEdge& b) {
+  return meet({{&x[a[0]], &x[a[1]], &x[b[0]], &x[b[1]]}, 2});
+}
+
+bool edge_pierces_face(StaticPoints x, const StaticEdge& e, const StaticFace& f) {
+  if (orientation(x, f[0], f[1], f[2], e[0]) * orientation(x, f[0], f[1], f[2], e[1]) >= 0) {
+    return false;
+  }
+  const int s = orientation(x, e[0], e[1], f[0], f[1]);
+  return s != 0 && s == orientation(x, e[0], e[1], f[1], f[2]) &&
+         s == orientation(x, e[0], e[1], f[2], f[0]);
+}
+
+namespace {
+
+// The box, widened by the distance, so that the boxes of two features that are nearer meet.
+Box widened(Box box, double distance) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3; ++k) {
+    box.min[k] = std::nextafter(box.min[k] - distance, -infinity);
+    box.max[k] = std::nextafter(box.max[k] + distance, infinity);
+  }
+  return box;
+}
+
+}  // namespace
+
+std::optional<detector::TrianglePair> any_nearer_than(const detector::PositionsView& x,
+                                                      const detector::TrianglesView& triangles,
+                                                      double distance, const WantedPair& counts) {
+  const Instant instant(x);
+  const StaticPoints points = instant.points();
+  std::vector<detector::Point> places;
+  for (std::int32_t v = 0; v < x.rows(); ++v) places.push_back(detector::point_of(x, v));
+  const FeatureTests tests = {
+      [&](std::int32_t v, const Face& f) {
+        return vertex_meets_face(points, v, f) ||
+               (distance > 0 && vertex_nearer_than(places, v, f, distance));
+      },
+      [&](const Edge& a, const Edge& b) {
+        return edges_meet(points, a, b) ||
+               (distance > 0 && edges_nearer_than(places, a, b, distance));
+      },
+      [&](const Edge& e, const Face& f) { return edge_pierces_face(points, e, f); }};
+  const MeshFeatures features = mesh_features(triangles);
+  const FeatureIndex mesh(features, [&](std::span<const std::int32_t> vertices) {
+    const Box box = instant.box_of(vertices);
+    return distance > 0 ? widened(box, distance) : box;
+  });
+  std::optional<detector::TrianglePair> found;
+  StopGate gate([&] { return found.has_value(); });
+  for_each_contact(mesh, mesh, tests, {1, &gate},
+                   {[&](std::int32_t s, std::int32_t t) {
+                      return !found && s != t && counts(std::min(s, t), std::max(s, t));
+                    },
+                    [&](std::int32_t s, std::int32_t t, int) {
+                      if (!found) found = {std::min(s, t), std::max(s, t)};
+                    }});
+  return found;
+}
 
 }  // namespace assay::oracle

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "oracle/mesh/rational_places.h"
 #include "oracle/query/contact.h"
 
 namespace assay::oracle {

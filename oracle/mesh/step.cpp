@@ -2,15 +2,10 @@
 
 #include <algorithm>
 #include <cassert>
-#include <optional>
 #include <tuple>
 #include <utility>
-#include <vector>
 
-#include "detector/mesh/step_types.h"
 #include "oracle/mesh/feature_pairs.h"
-#include "oracle/mesh/pair_relation.h"
-#include "oracle/mesh/pair_store.h"
 #include "oracle/parallel_chunks.h"
 #include "oracle/processor_state.h"
 
@@ -20,13 +15,6 @@ namespace {
 
 using detector::Feature;
 using detector::FeatureKind;
-
-// What one thread has found. Candidates are judged as they are met and never stored.
-struct Worker {
-  PairStore pairs, asked_pairs;
-  RungCounts rungs;
-  std::uint64_t candidates = 0;
-};
 
 class StepJudge {
  public:
@@ -48,7 +36,7 @@ class StepJudge {
     judge_vertices_and_faces();
     judge_edges();
     judge_piercing();
-    return collect();
+    return judgement_of(workers_, counted_, tested_, !gate_.was_stopped());
   }
 
  private:
@@ -94,7 +82,7 @@ class StepJudge {
 
   detector::MovingPoint path(std::int32_t vertex) const { return motion_.path(vertex); }
 
-  void judge_vertex_face(std::size_t item, std::size_t face, Worker& worker) {
+  void judge_vertex_face(std::size_t item, std::size_t face, FoundPairs& worker) {
     const std::int32_t v = features_.vertices[item];
     const Face& f = features_.faces[face];
     if (!bodies_meet(v, f[0])) return;
@@ -113,7 +101,7 @@ class StepJudge {
     }
   }
 
-  void judge_edge_edge(std::size_t item, std::size_t other, Worker& worker) {
+  void judge_edge_edge(std::size_t item, std::size_t other, FoundPairs& worker) {
     const Edge &a = features_.edges[item], &b = features_.edges[other];
     if (!bodies_meet(a[0], b[0])) return;
     ++worker.candidates;
@@ -132,7 +120,7 @@ class StepJudge {
     }
   }
 
-  void judge_edge_face_at_start(std::size_t item, std::size_t face, Worker& worker) {
+  void judge_edge_face_at_start(std::size_t item, std::size_t face, FoundPairs& worker) {
     const Edge& e = features_.edges[item];
     const Face& f = features_.faces[face];
     if (!bodies_meet(e[0], f[0])) return;
@@ -151,7 +139,7 @@ class StepJudge {
     return tells_apart_ && (asked_ == kind || asked_ == AskedFeatures::all);
   }
   // A relation of features is asked before a contact is kept. A relation of triangles is asked once
-  // for each pair in contact, at the end (keep_counted).
+  // for each pair in contact, at the end (judgement_of).
   using Relation = std::optional<PairRelation>;  // nothing: every pair passes
   template <class Counts>
   static bool passes(const Relation& relation, const Counts& counts) {
@@ -159,37 +147,13 @@ class StepJudge {
   }
 
   // Such a contact is of no kind of features: it is asked for where all kinds are.
-  void add_at_start(std::int32_t a, std::int32_t b, const Feature& feature, Worker& worker) const {
+  void add_at_start(std::int32_t a, std::int32_t b, const Feature& feature,
+                    FoundPairs& worker) const {
     const auto counts = [&](const PairRelation& in) { return in.counts_faces(a, b); };
     if (!passes(counted_, counts)) return;
     worker.pairs.add(a, b, {0, 0}, feature);
     if (tells_apart_ && asked_ == AskedFeatures::all && passes(tested_, counts))
       worker.asked_pairs.add(a, b, {0, 0}, feature);
-  }
-
-  StepJudgement collect() {
-    StepJudgement result;
-    for (std::size_t i = 0; i < workers_.size(); ++i) {
-      if (i > 0) {
-        workers_[0].pairs.merge(workers_[i].pairs);
-        workers_[0].asked_pairs.merge(workers_[i].asked_pairs);
-      }
-      result.rungs += workers_[i].rungs;
-      result.feature_candidates += workers_[i].candidates;
-    }
-    result.pairs = workers_[0].pairs.take();
-    result.asked_pairs = workers_[0].asked_pairs.take();
-    keep_counted(counted_, result.pairs);
-    keep_counted(counted_, result.asked_pairs);
-    keep_counted(tested_, result.asked_pairs);
-    if (gate_.was_stopped()) return result;
-    result.complete = true;
-    result.answer = result.pairs.empty() ? detector::Answer::free : detector::Answer::collision;
-    if (result.pairs.empty()) return result;
-    result.first = std::min_element(result.pairs.begin(), result.pairs.end(),
-                                    [](const auto& x, const auto& y) { return x.time < y.time; })
-                       ->time;
-    return result;
   }
 
   const detector::SteppedMesh& motion_;
@@ -198,7 +162,7 @@ class StepJudge {
   const AskedFeatures asked_;
   Relation counted_, tested_;
   bool tells_apart_ = false;  // whether asked_pairs is asked for
-  std::vector<Worker> workers_;
+  std::vector<FoundPairs> workers_;
 };
 
 }  // namespace
@@ -210,6 +174,67 @@ StepJudgement judge_step(const detector::SteppedMesh& motion,
   assert(triangles.size() == 0 ||
          (triangles.minCoeff() >= 0 && triangles.maxCoeff() < motion.size()));
   return StepJudge(motion, triangles, options).run();
+}
+
+namespace {
+
+auto key(const detector::PairContact& c) {
+  return std::tie(c.pair.a, c.pair.b, c.time.lo, c.time.hi, c.feature.kind, c.feature.vertices);
+}
+
+}  // namespace
+
+void PairStore::add(std::int32_t a, std::int32_t b, const detector::TimeEnclosure& time,
+                    const detector::Feature& feature) {
+  contacts_.push_back({{std::min(a, b), std::max(a, b)}, time, feature});
+  if (contacts_.size() >= tidy_at_) keep_least();
+}
+
+void PairStore::merge(PairStore& other) {
+  contacts_.insert(contacts_.end(), other.contacts_.begin(), other.contacts_.end());
+  other.contacts_ = {};
+}
+
+std::vector<detector::PairContact> PairStore::take() {
+  keep_least();
+  return std::exchange(contacts_, {});
+}
+
+void PairStore::keep_least() {
+  std::sort(contacts_.begin(), contacts_.end(),
+            [](const auto& x, const auto& y) { return key(x) < key(y); });
+  contacts_.erase(std::unique(contacts_.begin(), contacts_.end(),
+                              [](const auto& x, const auto& y) { return x.pair == y.pair; }),
+                  contacts_.end());
+  tidy_at_ = std::max(tidy_at_, 2 * contacts_.size());
+}
+
+StepJudgement judgement_of(std::vector<FoundPairs>& found,
+                           const std::optional<PairRelation>& counted,
+                           const std::optional<PairRelation>& tested, bool complete) {
+  StepJudgement result;
+  for (FoundPairs& one : found) {
+    if (&one != found.data()) {
+      found[0].pairs.merge(one.pairs);
+      found[0].asked_pairs.merge(one.asked_pairs);
+    }
+    result.rungs += one.rungs;
+    result.feature_candidates += one.candidates;
+  }
+  result.pairs = found[0].pairs.take();
+  result.asked_pairs = found[0].asked_pairs.take();
+  keep_counted(counted, result.pairs);
+  keep_counted(counted, result.asked_pairs);
+  keep_counted(tested, result.asked_pairs);
+  if (!complete) return result;
+  result.complete = true;
+  result.answer = result.pairs.empty() ? detector::Answer::free : detector::Answer::collision;
+  if (result.pairs.empty()) return result;
+  result.first =
+      std::min_element(result.pairs.begin(), result.pairs.end(), [](const auto& x, const auto& y) {
+        return x.time < y.time;
+      })->time;
+  return result;
 }
 
 }  // namespace assay::oracle

@@ -12,6 +12,7 @@
 
 #include "detector/mesh/counted_pairs.h"
 #include "detector/mesh/step_types.h"
+#include "oracle/mesh/pair_relation.h"
 #include "oracle/query/contact.h"
 
 namespace assay::oracle {
@@ -54,5 +55,39 @@ struct StepJudgement {
 // vertices are in contact at t=0 by convention.
 StepJudgement judge_step(const detector::SteppedMesh& motion,
                          const detector::TrianglesView& triangles, const JudgeOptions& options);
+
+// Pairs of triangles, each with the first of its times that were found.
+//
+// Keeps one contact for each pair of triangles: the least by time, then feature kind, then feature
+// vertices. That is a total order, so what is kept does not depend on the order of add().
+class PairStore {
+ public:
+  // REQUIRES a != b. Their order does not matter.
+  void add(std::int32_t a, std::int32_t b, const detector::TimeEnclosure& time,
+           const detector::Feature& feature);
+  // Moves all contacts of another store into this one.
+  void merge(PairStore& other);
+  // The kept contacts, ascending by pair; the store is empty afterwards.
+  std::vector<detector::PairContact> take();
+
+ private:
+  void keep_least();
+
+  std::vector<detector::PairContact> contacts_;
+  std::size_t tidy_at_ = 1 << 16;  // when so many are held, only the least of each pair stay
+};
+
+// What one thread has found. Candidates are judged as they are met and never stored.
+struct FoundPairs {
+  PairStore pairs, asked_pairs;
+  RungCounts rungs;
+  std::uint64_t candidates = 0;
+};
+
+// Puts together what all threads have found. REQUIRES one thread or more. Relations of triangles
+// are asked here, once for each pair.
+StepJudgement judgement_of(std::vector<FoundPairs>& found,
+                           const std::optional<PairRelation>& counted,
+                           const std::optional<PairRelation>& tested, bool complete);
 
 }  // namespace assay::oracle

@@ -1,8 +1,11 @@
 #include "oracle/query/contact.h"
 
+#include <CGAL/Interval_nt.h>
+
 #include "oracle/processor_state.h"
+#include "oracle/query/contact_events.h"
+#include "oracle/query/interval_sign.h"
 #include "oracle/query/rungs.h"
-#include "oracle/query/times/time_enclosure.h"
 
 namespace assay::oracle {
 
@@ -33,17 +36,7 @@ std::optional<detector::TimeEnclosure> first_time_by_kernel(const FourPoints& q)
 }
 
 void RungCounts::add(Rung rung) {
-  switch (rung) {
-    case Rung::axis:
-      ++axis;
-      return;
-    case Rung::interval:
-      ++interval;
-      return;
-    case Rung::quadratic:
-      ++quadratic;
-      return;
-  }
+  ++(rung == Rung::axis ? axis : rung == Rung::interval ? interval : quadratic);
 }
 
 RungCounts& RungCounts::operator+=(const RungCounts& other) {
@@ -59,6 +52,147 @@ ContactAnswer vertex_face_contact(const detector::VertexFace& query, detector::W
 
 ContactAnswer edge_edge_contact(const detector::EdgeEdge& query, detector::Want want) {
   return contact_of(four_points(query), want);
+}
+
+// segment_pierces_triangle: signs of 3x3 determinants, by intervals and then by integers.
+namespace {
+
+using detector::MovingPoint;
+using detector::Point;
+using Interval = CGAL::Interval_nt<false>;
+
+// The five points of the question, all at rest: e0, e1, f0, f1, f2.
+using Configuration = std::array<MovingPoint, 5>;
+
+template <class Number>
+Number determinant(const Vector3<Number>& a, const Vector3<Number>& b, const Vector3<Number>& c) {
+  const Number x = b[1] * c[2] - b[2] * c[1];
+  const Number y = b[2] * c[0] - b[0] * c[2];
+  const Number z = b[0] * c[1] - b[1] * c[0];
+  return a[0] * x + a[1] * y + a[2] * z;
+}
+
+// Calls sign(a, b, c, d), the orientation of four of the points, until the answer is known: 1 yes,
+// 0 no, -1 when an orientation of the given precision is not certain. A sign is 2 when uncertain.
+template <class Orientation>
+int pierces(const Orientation& sign) {
+  constexpr int uncertain = 2;
+  constexpr int e0 = 0, e1 = 1, f0 = 2, f1 = 3, f2 = 4;
+  const int side_0 = sign(f0, f1, f2, e0), side_1 = sign(f0, f1, f2, e1);
+  if (side_0 == uncertain || side_1 == uncertain) return -1;
+  if (side_0 * side_1 >= 0) return 0;
+  const int s01 = sign(e0, e1, f0, f1), s12 = sign(e0, e1, f1, f2);
+  if (s01 == uncertain || s12 == uncertain) return -1;
+  if (s01 == 0 || s01 != s12) return 0;
+  const int s20 = sign(e0, e1, f2, f0);
+  if (s20 == uncertain) return -1;
+  return s20 == s01 ? 1 : 0;
+}
+
+// Not inlined, because it rounds upward while it runs.
+[[gnu::noinline]] int pierces_by_intervals(const Configuration& c) {
+  const Interval::Protector round_upward;
+  return pierces([&](int o, int a, int b, int d) {
+    auto edge = [&](int i) {
+      Vector3<Interval> v;
+      for (int k = 0; k < 3; ++k) v[k] = Interval(c[i].t0[k]) - Interval(c[o].t0[k]);
+      return v;
+    };
+    const Interval value = determinant(edge(a), edge(b), edge(d));
+    const int s = sure_sign(value);
+    if (s != 0) return s;
+    return value.inf() == 0 && value.sup() == 0 ? 0 : 2;
+  });
+}
+
+int pierces_by_integers(const Configuration& c) {
+  const IntegerScale scale(c);
+  return pierces([&](int o, int a, int b, int d) {
+    auto edge = [&](int i) {
+      Vector3<Integer> v;
+      for (int k = 0; k < 3; ++k) v[k] = scale(c[i].t0[k]) - scale(c[o].t0[k]);
+      return v;
+    };
+    return sgn(determinant<Integer>(edge(a), edge(b), edge(d)));
+  });
+}
+
+}  // namespace
+
+bool segment_pierces_triangle(const Point& e0, const Point& e1, const std::array<Point, 3>& face) {
+  require_exact_processor_state();
+  const Configuration c = {
+      {{e0, e0}, {e1, e1}, {face[0], face[0]}, {face[1], face[1]}, {face[2], face[2]}}};
+  constexpr double safe_from_overflow = 0x1p300;  // products of three differences stay below 2^910
+  const int quick = all_coordinates_below(c, safe_from_overflow) ? pierces_by_intervals(c) : -1;
+  return (quick >= 0 ? quick : pierces_by_integers(c)) == 1;
+}
+
+namespace {
+
+using detector::TimeEnclosure;
+
+// Zero exactly when the polynomial, of degree at most 3, has a root of multiplicity 2 or more.
+Integer discriminant(const IntegerPolynomial& f) {
+  if (f.degree() < 2) return 1;
+  const Integer &d = f.c[0], &c = f.c[1], &b = f.c[2];
+  if (f.degree() == 2) return c * c - 4 * b * d;
+  const Integer& a = f.c[3];
+  return b * b * c * c - 4 * a * c * c * c - 4 * b * b * b * d - 27 * a * a * d * d +
+         18 * a * b * c * d;
+}
+
+// True when F has a root of multiplicity 2 or more and its derivative a zero in the enclosure.
+// Such a root is a rational number, because F is a cubic with rational coefficients.
+bool has_double_root_at(const IntegerPolynomial& f, const TimeEnclosure& first) {
+  if (discriminant(f) != 0) return false;
+  const IntegerPolynomial slope = derivative(f);
+  return sign_at(slope, first.lo) * sign_at(slope, first.hi) <= 0;
+}
+
+bool meets_edge_at(const MovingPoint& p, const MovingPoint& a, const MovingPoint& b,
+                   const TimeEnclosure& first) {
+  const auto answer = vertex_face_contact({p, {a, b, b}}, detector::Want::first_time);
+  return answer.contact && answer.first == first;
+}
+
+// The shape of a contact whose edges are not parallel. at_end() says whether the contact is at the
+// end of a feature.
+template <class AtEnd>
+ContactShape shape_by(const FourPoints& points, const TimeEnclosure& first, const AtEnd& at_end) {
+  ContactPolynomials polynomials(points);
+  const IntegerPolynomial& f = polynomials.coplanarity();
+  if (f.is_zero()) return ContactShape::coplanar_throughout;
+  if (has_double_root_at(f, first)) return ContactShape::double_root;
+  return at_end() ? ContactShape::at_end_of_feature : ContactShape::generic;
+}
+
+bool are_parallel(const detector::EdgeEdge& q) {
+  const std::array<MovingPoint, 4> points = {q.a[0], q.a[1], q.b[0], q.b[1]};
+  const IntegerScale scale(points);
+  const auto normal =
+      cross(moving_difference(scale, q.a[0], q.a[1]), moving_difference(scale, q.b[0], q.b[1]));
+  return normal[0].is_zero() && normal[1].is_zero() && normal[2].is_zero();
+}
+
+}  // namespace
+
+ContactShape shape_of(const detector::VertexFace& q, const TimeEnclosure& first) {
+  return shape_by(four_points(q), first, [&] {
+    return meets_edge_at(q.vertex, q.face[0], q.face[1], first) ||
+           meets_edge_at(q.vertex, q.face[1], q.face[2], first) ||
+           meets_edge_at(q.vertex, q.face[2], q.face[0], first);
+  });
+}
+
+ContactShape shape_of(const detector::EdgeEdge& q, const TimeEnclosure& first) {
+  if (are_parallel(q)) return ContactShape::parallel_edges;
+  return shape_by(four_points(q), first, [&] {
+    return meets_edge_at(q.a[0], q.b[0], q.b[1], first) ||
+           meets_edge_at(q.a[1], q.b[0], q.b[1], first) ||
+           meets_edge_at(q.b[0], q.a[0], q.a[1], first) ||
+           meets_edge_at(q.b[1], q.a[0], q.a[1], first);
+  });
 }
 
 }  // namespace assay::oracle

@@ -1,4 +1,5 @@
-// Polynomials in time with integer coefficients of any size, and how a query's doubles become such.
+// Polynomials in time with integer coefficients of any size, their divisors, and how a query's
+// doubles become such.
 #pragma once
 
 #include <gmpxx.h>
@@ -44,6 +45,19 @@ int sign_changes(const std::vector<Integer>& sequence);
 
 // True: p has no zero in [0,1], by Descartes' rule in Bernstein form. False: nothing is known.
 bool surely_no_zero_in_unit(const IntegerPolynomial& p);
+
+// The greatest common divisor, with coefficients without a common divisor; 1 if the two have no
+// zero in common. REQUIRES neither to be zero. A few us if it is 1; else 10 us to 10 ms for
+// coefficients of 300 to 12,000 bits.
+IntegerPolynomial common_divisor(const IntegerPolynomial& p, const IntegerPolynomial& q);
+
+// p divided by a divisor of it, such as a greatest one above. REQUIRES that the coefficients of the
+// divisor have no common divisor.
+IntegerPolynomial quotient(const IntegerPolynomial& p, const IntegerPolynomial& divisor);
+
+// p(lo + (hi - lo) x) as a polynomial of x, up to a positive factor. REQUIRES lo and hi in [0,1];
+// hi may be the lesser.
+IntegerPolynomial on_piece(const IntegerPolynomial& p, double lo, double hi);
 
 // Turns the doubles of a query into integers: it multiplies by the least power of two that makes
 // every coordinate of the points an integer. The sign of any homogeneous polynomial of the

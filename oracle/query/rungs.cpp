@@ -1,11 +1,13 @@
 #include "oracle/query/rungs.h"
 
+#include <CGAL/Interval_nt.h>
+
 #include <algorithm>
 #include <vector>
 
+#include "oracle/query/interval_sign.h"
 #include "oracle/query/times/algebraic_times.h"
-#include "oracle/query/times/cubic_times.h"
-#include "oracle/query/times/quadratic_time.h"
+#include "oracle/query/times/closed_times.h"
 
 namespace assay::oracle {
 
@@ -36,6 +38,142 @@ bool separated_by_axis(const FourPoints& q) {
     if (at_t0 != 0 && at_t0 == strict_order(q, &detector::MovingPoint::t1, axis)) return true;
   }
   return false;
+}
+
+namespace {
+
+using Interval = CGAL::Interval_nt<false>;
+using Linear = LinearVector<Interval>;
+
+// Differences stay below 2^301 and F, the largest expression, below 2^910: no overflow.
+constexpr double largest_coordinate = 0x1p300;
+// Pieces are split beside the middle, because contacts at 1/2, 1/4, ... are frequent in made-up
+// input and a zero of F at the end of a piece can never be settled. Each split adds 5 bits to the
+// ends, so at the greatest depth they and 1 minus them are still exact doubles.
+constexpr double split_at = 15.0 / 32.0;
+constexpr int most_depth = 9;
+// If a query needs more pieces, the rung "quadratic" is the cheaper one.
+constexpr int most_pieces = 40;
+
+struct Piece {
+  double s, e;
+  int depth;
+};
+
+// u_1, u_2, u_3 at the ends of the step, enclosed.
+struct Differences {
+  explicit Differences(const FourPoints& q) {
+    for (int j = 0; j < 3; ++j) {
+      for (int k = 0; k < 3; ++k) {
+        t0[j][k] = Interval(q.points[j + 1].t0[k]) - Interval(q.points[0].t0[k]);
+        t1[j][k] = Interval(q.points[j + 1].t1[k]) - Interval(q.points[0].t1[k]);
+      }
+    }
+  }
+  Vector3<Interval> at(int j, double t) const {
+    if (t == 0) return t0[j];
+    if (t == 1) return t1[j];
+    Vector3<Interval> u;
+    for (int k = 0; k < 3; ++k) u[k] = Interval(1 - t) * t0[j][k] + Interval(t) * t1[j][k];
+    return u;
+  }
+  std::array<Vector3<Interval>, 3> t0, t1;
+};
+
+// The rung "axis" again, on a piece. The four points are taken as 0, u_1, u_2, u_3.
+bool separated_on_piece(const std::array<Linear, 3>& u, int first_group) {
+  for (int k = 0; k < 3; ++k) {
+    auto order = [&](const auto& end) {
+      int sign = 0;
+      for (int i = 0; i < first_group; ++i) {
+        for (int j = first_group; j < 4; ++j) {
+          const Interval gap =
+              i == 0 ? (u[j - 1].*end)[k] : (u[j - 1].*end)[k] - (u[i - 1].*end)[k];
+          const int s = sure_sign(gap);
+          if (s == 0 || (sign != 0 && s != sign)) return 0;
+          sign = s;
+        }
+      }
+      return sign;
+    };
+    const int at_s = order(&Linear::s);
+    if (at_s != 0 && at_s == order(&Linear::e)) return true;
+  }
+  return false;
+}
+
+struct PieceDecision {
+  detector::Decision decision = detector::Decision::open;
+  bool one_zero = false;  // F is strictly monotone on the piece
+};
+
+PieceDecision judge_piece(const std::array<Linear, 3>& u, int first_group) {
+  if (separated_on_piece(u, first_group)) return {detector::Decision::no};
+
+  const QuadraticVector<Interval> w1 = cross(u[1], u[2]);
+  const Bernstein<Interval, 3> f = dot(u[0], w1);
+  if (sure_sign(f) != 0) return {detector::Decision::no};
+
+  const QuadraticVector<Interval> w2 = cross(u[2], u[0]);
+  const QuadraticVector<Interval> w3 = cross(u[0], u[1]);
+  const bool f_changes = sure_sign(f[0]) * sure_sign(f[3]) < 0;
+  bool all_agree = false;
+  for (int k = 0; k < 3; ++k) {
+    const Bernstein<Interval, 2> lam_0 = sum(sum(w1[k], w2[k]), w3[k]);  // negated
+    const int second = first_group == 2 ? 1 : -1;
+    const std::array<int, 4> signs = {-sure_sign(lam_0), second * sure_sign(w1[k]),
+                                      -sure_sign(w2[k]), -sure_sign(w3[k])};
+    int positive = 0, negative = 0;
+    for (int s : signs) {
+      positive += s > 0;
+      negative += s < 0;
+    }
+    if (positive > 0 && negative > 0) return {detector::Decision::no};
+    all_agree = all_agree || positive == 4 || negative == 4;
+  }
+  if (!f_changes || !all_agree) return {};
+  // F' has the scaled coefficients f1 - 3 f0, 2 (f2 - f1), 3 f3 - f2; the factor is no matter.
+  const Interval three(3.0);
+  const Bernstein<Interval, 2> slope = {f[1] - three * f[0], f[2] - f[1], three * f[3] - f[2]};
+  return {detector::Decision::yes, sure_sign(slope) != 0};
+}
+
+// Not inlined, because nothing of it may move out of the region that rounds upward.
+[[gnu::noinline]] IntervalAnswer judge_pieces(const FourPoints& q, detector::Want want) {
+  const Differences differences(q);
+  std::array<Piece, most_depth + 2> stack;  // later pieces below earlier ones
+  int size = 0, judged = 0;
+  stack[size++] = {0, 1, 0};
+  bool all_free = true;
+  while (size > 0) {
+    const Piece piece = stack[--size];
+    if (++judged > most_pieces) return {};
+    std::array<Linear, 3> u;
+    for (int j = 0; j < 3; ++j) u[j] = {differences.at(j, piece.s), differences.at(j, piece.e)};
+    const PieceDecision inside = judge_piece(u, q.first_group);
+    if (inside.decision == detector::Decision::no) continue;
+    if (inside.decision == detector::Decision::yes) {
+      if (want == detector::Want::yes_no) return {detector::Decision::yes};
+      if (inside.one_zero) return {detector::Decision::yes, piece.s, piece.e};
+    }
+    if (piece.depth == most_depth) {
+      if (want == detector::Want::first_time) return {};
+      all_free = false;
+      continue;
+    }
+    const double middle = piece.s + (piece.e - piece.s) * split_at;
+    stack[size++] = {middle, piece.e, piece.depth + 1};
+    stack[size++] = {piece.s, middle, piece.depth + 1};
+  }
+  return {all_free ? detector::Decision::no : detector::Decision::open};
+}
+
+}  // namespace
+
+IntervalAnswer interval_answer(const FourPoints& q, detector::Want want) {
+  if (!all_coordinates_below(q.points, largest_coordinate)) return {};
+  const Interval::Protector round_upward;
+  return judge_pieces(q, want);
 }
 
 ExactAnswer quadratic_answer(ContactPolynomials& polynomials, detector::Want want) {

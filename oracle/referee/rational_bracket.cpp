@@ -7,8 +7,6 @@
 #include <optional>
 #include <vector>
 
-#include "detector/mesh/step_types.h"
-
 namespace assay::oracle {
 namespace {
 

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <cassert>
 
-#include "oracle/instant/instant_contacts.h"
+#include "oracle/instant/instant.h"
 #include "oracle/mesh/feature_pairs.h"
 #include "oracle/processor_state.h"
 #include "oracle/query/contact.h"

@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "oracle/distance/closest_places.h"
-#include "oracle/instant/instant_contacts.h"
-#include "oracle/instant/nearness.h"
-#include "oracle/mesh/contact_shape.h"
+#include "oracle/instant/instant.h"
+#include "oracle/query/contact.h"
 #include "properties/judging/contracted_case.h"
 #include "properties/words.h"
 

@@ -21,7 +21,7 @@ enum class CauseSharing : std::uint8_t { nothing, vertex, edge };
 
 // What is special about the contact: the first of these that holds, for features at rest without
 // `coplanar_throughout`. `without_area`: a triangle of the pair has no area at t = 0, at t = 1, or
-// at a contact whose time is a double. The others are those of oracle/mesh/contact_shape.h.
+// at a contact whose time is a double. The others are those of oracle/query/contact.h.
 enum class CauseShape : std::uint8_t {
   generic,
   double_root,

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "oracle/distance/feature_distance.h"
-#include "oracle/instant/nearness.h"
+#include "oracle/instant/instant.h"
 #include "oracle/mesh/pair_relation.h"
 #include "properties/worker/plugin/query_case.h"
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "oracle/instant/nearness.h"
+#include "oracle/instant/instant.h"
 #include "oracle/mesh/pair_relation.h"
 #include "properties/judging/agreement.h"
 #include "properties/judging/cause.h"

@@ -10,8 +10,7 @@
 #include <vector>
 
 #include "detector/detector.h"
-#include "oracle/instant/winding.h"
-#include "oracle/view/candidates.h"
+#include "oracle/instant/layers.h"
 #include "oracle/view/view_sign.h"
 #include "properties/judging/agreement.h"
 

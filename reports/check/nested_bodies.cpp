@@ -6,7 +6,7 @@
 #include <optional>
 #include <set>
 
-#include "oracle/instant/winding.h"
+#include "oracle/instant/layers.h"
 #include "properties/numbering.h"
 
 namespace assay::reports {

@@ -3,7 +3,6 @@
 
 #include "detector/mesh/step_types.h"
 #include "oracle/instant/instant.h"
-#include "oracle/instant/instant_contacts.h"
 #include "oracle/mesh/mesh_features.h"
 #include "oracle/query/contact.h"
 

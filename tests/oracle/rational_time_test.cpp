@@ -1,7 +1,7 @@
 // One type of time for all questions about an instant: a time means the same to each of them.
 #include "oracle/rational_time.h"
 
-#include "oracle/instant/instant_contacts.h"
+#include "oracle/instant/instant.h"
 #include "oracle/referee/static_check.h"
 #include "tests/oracle/random_points.h"
 #include "tests/oracle/small_meshes.h"

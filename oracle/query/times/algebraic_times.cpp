@@ -19,8 +19,6 @@
 #include <utility>
 #include <vector>
 
-#include "oracle/query/times/time_enclosure.h"
-
 namespace assay::oracle {
 
 namespace {

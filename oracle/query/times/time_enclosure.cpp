@@ -1,6 +1,5 @@
 #include "oracle/query/times/time_enclosure.h"
 
-#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <cassert>
 
 #include "detector/boundary/boundary_handler.h"
-#include "oracle/instant/winding.h"
+#include "oracle/instant/layers.h"
 #include "oracle/view/touched_by_ghosts.h"
 #include "oracle/view/view_sign.h"
 

@@ -13,7 +13,7 @@
 #include "detector/step/stages.h"
 #include "oracle/instant/layers.h"
 #include "oracle/mesh/step.h"
-#include "oracle/view/candidates.h"
+#include "oracle/view/view_sign.h"
 #include "properties/laws/facts/certified_patches.h"
 #include "properties/laws/facts/view_values.h"
 #include "properties/numbering.h"

@@ -1,10 +1,9 @@
 // The widening of 2^-52 |r| and the least double: exact results lie inside, for ordinary numbers
 // and for denormals.
-#include "oracle/distance/enclosure.h"
-
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
+#include "oracle/query/interval_sign.h"
 #include "tests/oracle/random_points.h"
 
 namespace assay::oracle {

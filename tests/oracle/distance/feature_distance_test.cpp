@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "oracle/distance/region_times.h"
+#include "oracle/distance/regions.h"
 
 namespace assay::oracle {
 namespace {
@@ -21,16 +21,18 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 MovingPoint rest(const Point& p) { return {p, p}; }
 
-using Face = std::array<MovingPoint, 3>;
-const Face floor_face = {rest({0, 0, 0}), rest({4, 0, 0}), rest({0, 4, 0})};
+using MovingFace = std::array<MovingPoint, 3>;
+const MovingFace floor_face = {rest({0, 0, 0}), rest({4, 0, 0}), rest({0, 4, 0})};
 
-FourPoints vertex_face(const MovingPoint& p, const Face& f) { return {{p, f[0], f[1], f[2]}, 1}; }
+FourPoints vertex_face(const MovingPoint& p, const MovingFace& f) {
+  return {{p, f[0], f[1], f[2]}, 1};
+}
 
 // Asked with the vertices of the face in every order.
-void expect_first(const MovingPoint& p, const Face& f, double d, const TimeEnclosure& first) {
+void expect_first(const MovingPoint& p, const MovingFace& f, double d, const TimeEnclosure& first) {
   for (int i = 0; i < 3; ++i) {
     for (const int turn : {1, 2}) {
-      const Face turned = {f[i], f[(i + turn) % 3], f[(i + 2 * turn) % 3]};
+      const MovingFace turned = {f[i], f[(i + turn) % 3], f[(i + 2 * turn) % 3]};
       const FirstNear answer = first_time_within(vertex_face(p, turned), {d, 0});
       EXPECT_TRUE(answer.near) << d;
       EXPECT_EQ(answer.first, first) << d << " " << answer.first.lo;
@@ -43,10 +45,11 @@ void expect_apart(const FourPoints& q, const Separation& d) {
   EXPECT_FALSE(first_time_within(q, d, detector::Want::yes_no).near);
 }
 
-using Edge = std::array<MovingPoint, 2>;
+using MovingEdge = std::array<MovingPoint, 2>;
 
 // Asked with the ends and the edges in every order.
-void expect_first(const Edge& a, const Edge& b, const Separation& d, const TimeEnclosure& first) {
+void expect_first(const MovingEdge& a, const MovingEdge& b, const Separation& d,
+                  const TimeEnclosure& first) {
   for (const int i : {0, 1}) {
     for (const int j : {0, 1}) {
       for (const FourPoints& q : {FourPoints{{a[i], a[1 - i], b[j], b[1 - j]}, 2},
@@ -87,29 +90,32 @@ TEST(FeatureDistance, PointBesideAVertexOfAFace) {
 }
 
 TEST(FeatureDistance, EdgesThatCross) {
-  const Edge along_x = {rest({-2, 0, 0}), rest({2, 0, 0})};
-  const Edge along_y = {MovingPoint{{0, -2, 3}, {0, -2, -1}}, MovingPoint{{0, 2, 3}, {0, 2, -1}}};
+  const MovingEdge along_x = {rest({-2, 0, 0}), rest({2, 0, 0})};
+  const MovingEdge along_y = {MovingPoint{{0, -2, 3}, {0, -2, -1}},
+                              MovingPoint{{0, 2, 3}, {0, 2, -1}}};
   expect_first(along_x, along_y, {1, 0}, half);
   expect_first(along_x, along_y, {0.75, 0.25}, half);
   expect_first(along_x, along_y, {0, 0}, {0.75, 0.75});
 }
 
 TEST(FeatureDistance, EndOfAnEdgeBesideAnother) {
-  const Edge along_x = {rest({-2, 0, 0}), rest({2, 0, 0})};
-  const Edge above = {MovingPoint{{1, 5, 0}, {1, 1, 0}}, MovingPoint{{1, 9, 0}, {1, 5, 0}}};
+  const MovingEdge along_x = {rest({-2, 0, 0}), rest({2, 0, 0})};
+  const MovingEdge above = {MovingPoint{{1, 5, 0}, {1, 1, 0}}, MovingPoint{{1, 9, 0}, {1, 5, 0}}};
   expect_first(along_x, above, {3, 0}, half);
 }
 
 TEST(FeatureDistance, EndsOfTwoEdges) {
-  const Edge along_x = {rest({0, 0, 0}), rest({2, 0, 0})};
+  const MovingEdge along_x = {rest({0, 0, 0}), rest({2, 0, 0})};
   // The end is 9 (1 - t) from the origin; the lines are nearer.
-  const Edge coming = {MovingPoint{{-6, -3, -6}, {0, 0, 0}}, MovingPoint{{-7, -3, -6}, {-1, 0, 0}}};
+  const MovingEdge coming = {MovingPoint{{-6, -3, -6}, {0, 0, 0}},
+                             MovingPoint{{-7, -3, -6}, {-1, 0, 0}}};
   expect_first(along_x, coming, {4.5, 0}, half);
 }
 
 TEST(FeatureDistance, EdgesThatStayParallel) {
-  const Edge along_x = {rest({-2, 0, 0}), rest({2, 0, 0})};
-  const Edge above = {MovingPoint{{-1, 0, 3}, {-1, 0, -1}}, MovingPoint{{5, 0, 3}, {5, 0, -1}}};
+  const MovingEdge along_x = {rest({-2, 0, 0}), rest({2, 0, 0})};
+  const MovingEdge above = {MovingPoint{{-1, 0, 3}, {-1, 0, -1}},
+                            MovingPoint{{5, 0, 3}, {5, 0, -1}}};
   expect_first(along_x, above, {1, 0}, half);
 }
 
@@ -142,7 +148,7 @@ TEST(FeatureDistance, NearOnlyInBetween) {
 
 // A passing point is at d at one time only: a zero of even order.
 TEST(FeatureDistance, TouchAtExactlyD) {
-  const Face below = {rest({0, 0, 0}), rest({1, -5, 0}), rest({-1, -5, 0})};
+  const MovingFace below = {rest({0, 0, 0}), rest({1, -5, 0}), rest({-1, -5, 0})};
   const MovingPoint passing = {{-1, 3, 0}, {1, 3, 0}};
   expect_first(passing, below, 3, half);
   expect_apart(vertex_face(passing, below), {std::nextafter(3.0, 0), 0});
@@ -152,22 +158,24 @@ TEST(FeatureDistance, TouchAtExactlyD) {
   EXPECT_EQ(third.first, (TimeEnclosure{1.0 / 3, std::nextafter(1.0 / 3, 1)}));
   // Past the edge below z = 0 and past another edge.
   expect_first({{2, -3, -1}, {2, -3, 1}}, floor_face, 3, half);
-  const Edge along_x = {rest({-2, 0, 0}), rest({2, 0, 0})};
-  const Edge beside = {MovingPoint{{0, 3, -1}, {0, 3, 1}}, MovingPoint{{0, 7, -1}, {0, 7, 1}}};
+  const MovingEdge along_x = {rest({-2, 0, 0}), rest({2, 0, 0})};
+  const MovingEdge beside = {MovingPoint{{0, 3, -1}, {0, 3, 1}},
+                             MovingPoint{{0, 7, -1}, {0, 7, 1}}};
   expect_first(along_x, beside, {3, 0}, half);
 }
 
 // f of the face is zero at all times: the conditions begin to hold where the edge is met.
 TEST(FeatureDistance, SlidesInAtHeightD) {
   expect_first({{-4, 1, 1}, {4, 1, 1}}, floor_face, 1, half);
-  const Edge along_x = {rest({0, 0, 0}), rest({4, 0, 0})};
-  const Edge sliding = {MovingPoint{{-4, -2, 1}, {4, -2, 1}}, MovingPoint{{-4, 2, 1}, {4, 2, 1}}};
+  const MovingEdge along_x = {rest({0, 0, 0}), rest({4, 0, 0})};
+  const MovingEdge sliding = {MovingPoint{{-4, -2, 1}, {4, -2, 1}},
+                              MovingPoint{{-4, 2, 1}, {4, 2, 1}}};
   expect_first(along_x, sliding, {1, 0}, half);
 }
 
 TEST(FeatureDistance, SquareOfDIsExact) {
   const double d = 1 + 0x1p-52;
-  const Face below = {rest({0, 0, 0}), rest({1, 0, -5}), rest({0, 1, -5})};
+  const MovingFace below = {rest({0, 0, 0}), rest({1, 0, -5}), rest({0, 1, -5})};
   const auto at = [&](double x, double y) { return vertex_face(rest({0, -y, x}), below); };
   EXPECT_TRUE(first_time_within(at(d, 0), {d, 0}).near);
   expect_apart(at(d, 0x1p-60), {d, 0});
@@ -183,12 +191,12 @@ TEST(FeatureDistance, SquareOfDIsExact) {
 
 TEST(FeatureDistance, CollapsedFeatures) {
   const MovingPoint coming = {{-3, 4, 12}, {3, 4, 12}};  // 13 from the origin at both ends
-  const Face point = {rest({0, 0, 0}), rest({0, 0, 0}), rest({0, 0, 0})};
+  const MovingFace point = {rest({0, 0, 0}), rest({0, 0, 0}), rest({0, 0, 0})};
   expect_first(coming, point, 13, {0, 0});
   const FirstNear in_between =
       first_time_within(vertex_face({{-9, 4, 3}, {3, 4, 3}}, point), {5, 0});
   EXPECT_EQ(in_between.first, (TimeEnclosure{0.75, 0.75}));
-  const Face segment = {rest({-9, 0, 0}), rest({9, 0, 0}), rest({0, 0, 0})};
+  const MovingFace segment = {rest({-9, 0, 0}), rest({9, 0, 0}), rest({0, 0, 0})};
   expect_first({{0, 0, 8}, {0, 0, 0}}, segment, 4, half);
   EXPECT_EQ(
       first_time_within(
@@ -207,7 +215,7 @@ TEST(FeatureDistance, LeastDistanceByHand) {
   EXPECT_EQ(least_distance(vertex_face(rest({-1, -1, 1}), floor_face)),
             std::nextafter(std::sqrt(3.0), 2));
   // Closest at 2/3, in between all doubles: p = (3t - 2, ...) passes the vertex 0 at 5.
-  const Face below = {rest({0, 0, 0}), rest({1, -5, 0}), rest({-1, -5, 0})};
+  const MovingFace below = {rest({0, 0, 0}), rest({1, -5, 0}), rest({-1, -5, 0})};
   EXPECT_EQ(least_distance(vertex_face({{-2, 3, 4}, {1, 3, 4}}, below)), 5);
 }
 

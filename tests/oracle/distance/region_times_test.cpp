@@ -1,12 +1,11 @@
 // Zeros of regions with the conditions at them: for polynomials whose zeros are known, and against
 // CGAL's algebraic kernel.
-#include "oracle/distance/region_times.h"
-
 #include <gtest/gtest.h>
 
 #include <optional>
 
-#include "oracle/distance/common_divisor.h"
+#include "oracle/distance/regions.h"
+#include "oracle/query/integer_polynomial.h"
 #include "oracle/query/times/algebraic_times.h"
 #include "tests/oracle/query/query_kinds.h"
 

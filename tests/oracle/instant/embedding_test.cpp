@@ -1,7 +1,7 @@
 // Whether a surface is embedded, and how near its triangles are.
 #include "tests/oracle/embedding.h"
 
-#include "oracle/instant/nearness.h"
+#include "oracle/instant/instant.h"
 #include "tests/oracle/small_meshes.h"
 
 namespace assay::oracle {

@@ -1,6 +1,6 @@
 #include "oracle/instant/layers.h"
 
-#include "oracle/instant/instant_contacts.h"
+#include "oracle/instant/instant.h"
 #include "oracle/mesh/loops.h"
 #include "tests/oracle/random_points.h"
 #include "tests/oracle/small_meshes.h"

@@ -1,4 +1,4 @@
-#include "oracle/instant/instant_contacts.h"
+#include "oracle/instant/instant.h"
 #include "oracle/mesh/step.h"
 #include "oracle/query/contact.h"
 #include "tests/oracle/random_points.h"

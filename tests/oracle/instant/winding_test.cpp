@@ -1,5 +1,4 @@
-#include "oracle/instant/winding.h"
-
+#include "oracle/instant/layers.h"
 #include "oracle/mesh/loops.h"
 #include "tests/oracle/random_points.h"
 #include "tests/oracle/small_meshes.h"

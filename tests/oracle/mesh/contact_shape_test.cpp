@@ -1,4 +1,3 @@
-#include "oracle/mesh/contact_shape.h"
 
 #include "oracle/query/contact.h"
 #include "tests/test.h"

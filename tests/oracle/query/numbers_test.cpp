@@ -1,5 +1,5 @@
 // The parts that queries are made of: enclosures, integer polynomials, algebraic times, box cull.
-#include "oracle/mesh/box_tree.h"
+#include "oracle/mesh/feature_pairs.h"
 #include "oracle/query/integer_polynomial.h"
 #include "oracle/query/times/algebraic_times.h"
 #include "oracle/query/times/time_enclosure.h"

@@ -5,9 +5,9 @@ namespace assay::oracle {
 namespace {
 
 using detector::Point;
-using Face = std::array<Point, 3>;
+using Triangle = std::array<Point, 3>;
 
-constexpr Face pierced_face = {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
+constexpr Triangle pierced_face = {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
 
 TEST(Piercing, ThroughTheInside) {
   EXPECT_TRUE(segment_pierces_triangle({1, 1, -1}, {1, 1, 1}, pierced_face));
@@ -34,7 +34,7 @@ TEST(Piercing, DegenerateIsNotPiercing) {
 
 TEST(Piercing, OneUlpDecides) {
   const double below = std::nextafter(0.1, 0), above = std::nextafter(0.1, 1);
-  const Face at_height = {{{0, 0, 0.1}, {4, 0, 0.1}, {0, 4, 0.1}}};
+  const Triangle at_height = {{{0, 0, 0.1}, {4, 0, 0.1}, {0, 4, 0.1}}};
   EXPECT_TRUE(segment_pierces_triangle({1, 1, below}, {1, 1, above}, at_height));
   EXPECT_FALSE(segment_pierces_triangle({1, 1, 0.1}, {1, 1, above}, at_height));
 }

@@ -1,5 +1,4 @@
-#include "oracle/view/candidates.h"
-
+#include "oracle/view/view_sign.h"
 #include "tests/test.h"
 
 namespace assay::oracle {

@@ -7,7 +7,6 @@
 #include "oracle/mesh/mesh_features.h"
 #include "oracle/mesh/step.h"
 #include "oracle/query/contact.h"
-#include "oracle/view/candidates.h"
 #include "oracle/view/touched_by_ghosts.h"
 #include "oracle/view/view_sign.h"
 #include "tests/test.h"

@@ -7,8 +7,8 @@
 #include "oracle/instant/layers.h"
 #include "oracle/mesh/loops.h"
 #include "oracle/mesh/step.h"
-#include "oracle/view/candidates.h"
 #include "oracle/view/touched_by_ghosts.h"
+#include "oracle/view/view_sign.h"
 #include "tests/properties/reducer/toy_step.h"
 
 namespace assay::properties::toys {

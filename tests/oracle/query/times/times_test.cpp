@@ -1,7 +1,6 @@
 // Zeros as exact numbers.
 #include "oracle/query/times/algebraic_times.h"
-#include "oracle/query/times/cubic_times.h"
-#include "oracle/query/times/quadratic_time.h"
+#include "oracle/query/times/closed_times.h"
 #include "tests/oracle/random_points.h"
 
 namespace assay::oracle {

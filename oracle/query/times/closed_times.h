@@ -1,4 +1,5 @@
-// A zero of a polynomial of degree 1 or 2, as an exact number whose signs are closed formulas.
+// Times whose signs are closed formulas: a zero of a polynomial of degree 1 or 2, as an exact
+// number, and the zeros of one cubic in the closed step, between those of its derivative.
 #pragma once
 
 #include <span>
@@ -40,21 +41,49 @@ class QuadraticTime {
 };
 
 // The zeros in the closed step of polynomials of degree 1 and 2, in order.
-
 class QuadraticTimes final : public ExactTimes {
  public:
   // Finds the distinct zeros in [0,1] of all the polynomials together, ascending. A constant has
   // none. REQUIRES that no polynomial is identically zero, and degrees <= 2.
   explicit QuadraticTimes(std::span<const IntegerPolynomial> polynomials);
 
-  int size() const override;
-  int sign(const IntegerPolynomial& q, int i) const override;
-  detector::TimeEnclosure enclosure(int i) const override;
+  int size() const override { return static_cast<int>(times_.size()); }
+  int sign(const IntegerPolynomial& q, int i) const override { return times_[i].sign(q); }
+  detector::TimeEnclosure enclosure(int i) const override { return times_[i].enclosure(); }
   // Gives the times away.
   std::vector<QuadraticTime> take() { return std::move(times_); }
 
  private:
   std::vector<QuadraticTime> times_;
+};
+
+// On the pieces of the step between the zeros of its derivative a cubic f is strictly monotone. So
+// its zeros are some of the bounds of these pieces, and one inside of each piece at whose bounds f
+// has opposite signs. A zero is held by its piece. All questions come down to signs of f at zeros
+// of quadratics, which are closed formulas; nothing is isolated or refined.
+class CubicTimes final : public ExactTimes {
+ public:
+  // REQUIRES degree 2 or 3.
+  explicit CubicTimes(IntegerPolynomial f);
+
+  int size() const override { return static_cast<int>(zeros_.size()); }
+  // REQUIRES degree <= 2.
+  int sign(const IntegerPolynomial& q, int i) const override;
+  detector::TimeEnclosure enclosure(int i) const override;
+
+ private:
+  struct Zero {
+    std::size_t bound;    // where it is, or where its piece begins
+    bool inside = false;  // of the piece
+  };
+  // The exact sign of the zero minus another time or a double in [0,1].
+  template <class Time>
+  int compare(const Zero& zero, const Time& other) const;
+
+  IntegerPolynomial f_;
+  std::vector<QuadraticTime> bounds_;  // from 0 to 1
+  std::vector<int> signs_;             // of f at the bounds
+  std::vector<Zero> zeros_;
 };
 
 }  // namespace assay::oracle
