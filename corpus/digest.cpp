@@ -9,7 +9,7 @@
 #include <cstring>
 #include <memory>
 
-#include "corpus/file_bytes.h"
+#include "corpus/files.h"
 
 namespace assay::corpus {
 namespace {

@@ -1,8 +1,5 @@
 #include "corpus/json_fields.h"
 
-#include <fmt/format.h>
-
-#include <boost/outcome/try.hpp>
 #include <cmath>
 #include <set>
 

@@ -14,7 +14,7 @@
 #include <system_error>
 #include <vector>
 
-#include "corpus/meant_word.h"
+#include "corpus/problem.h"
 #include "oracle/libraries.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/manual.h"

@@ -8,10 +8,8 @@
 #include <cctype>
 #include <map>
 #include <new>
-#include <string>
 
-#include "corpus/file_bytes.h"
-#include "corpus/formats/ply_header.h"
+#include "corpus/files.h"
 #include "corpus/formats/text_lines.h"
 
 namespace assay::corpus {

@@ -67,6 +67,7 @@ bool looks_like_off(std::string_view text);
 // too, with a remark; 4-dimensional and binary files are refused.
 Expected<Mesh> read_off(std::string_view text, const std::filesystem::path& file);
 
+bool looks_like_ply(std::string_view bytes);
 // PLY, ascii, binary little-endian and big-endian: x, y, z of any type from element `vertex`, and
 // from element `face` a list vertex_indices or vertex_index of an integer type. All other elements
 // (with a remark) and properties are skipped.

@@ -8,7 +8,7 @@
 #include <new>
 #include <string>
 
-#include "corpus/atomic_file.h"
+#include "corpus/files.h"
 
 namespace assay::corpus {
 namespace {

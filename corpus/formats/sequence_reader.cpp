@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <bit>
 #include <boost/outcome/try.hpp>
-#include <utility>
+#include <cstdint>
 
 #include "corpus/frame_order.h"
 
 namespace assay::corpus {
+
 namespace {
 
 std::string shown(const detector::Triangles& triangles, Eigen::Index t) {
@@ -63,6 +66,150 @@ Expected<Sequence> read_sequence(std::span<const std::filesystem::path> paths) {
   }
   for (const auto& line : reader.remarks()) ordered.remarks.push_back(line);
   return Sequence{reader.triangles(), std::move(frames), std::move(ordered.remarks)};
+}
+
+BodiesReader::BodiesReader(std::vector<std::vector<std::filesystem::path>> bodies) {
+  for (auto& files : bodies) {
+    first_files_.push_back(files.front());
+    readers_.emplace_back(std::move(files));
+  }
+  now_.resize(readers_.size());
+}
+
+std::size_t BodiesReader::frames() const {
+  std::size_t most = 0;
+  for (const auto& reader : readers_) most = std::max(most, reader.frames());
+  return most;
+}
+
+Expected<void> BodiesReader::fit() const {
+  for (std::size_t b = 0; b < readers_.size(); ++b) {
+    const std::size_t count = readers_[b].frames();
+    if (count == 1 || count == frames()) continue;
+    return problem_in(first_files_[b],
+                      fmt::format("{} frames of body {}, but another body has {} (a body of one "
+                                  "frame stands still)",
+                                  count, b, frames()));
+  }
+  return boost::outcome_v2::success();
+}
+
+Expected<detector::Positions> BodiesReader::next() {
+  Eigen::Index vertices = 0;
+  for (std::size_t b = 0; b < readers_.size(); ++b) {
+    if (!readers_[b].at_end()) {
+      BOOST_OUTCOME_TRY(x, readers_[b].next());
+      now_[b] = std::move(x);
+    }
+    vertices += now_[b].rows();
+  }
+  if (read_++ == 0) join_triangles();
+  if (now_.size() == 1) return std::move(now_[0]);
+  detector::Positions all(vertices, 3);
+  Eigen::Index first = 0;
+  for (const auto& x : now_) {
+    all.middleRows(first, x.rows()) = x;
+    first += x.rows();
+  }
+  return all;
+}
+
+void BodiesReader::join_triangles() {
+  Eigen::Index count = 0;
+  for (const auto& reader : readers_) count += reader.triangles().rows();
+  triangles_.resize(count, 3);
+  Eigen::Index first = 0;
+  std::int32_t vertices = 0;
+  for (std::size_t b = 0; b < readers_.size(); ++b) {
+    const auto& own = readers_[b].triangles();
+    triangles_.middleRows(first, own.rows()) = own.array() + vertices;
+    first += own.rows();
+    vertices += static_cast<std::int32_t>(now_[b].rows());
+  }
+}
+
+Expected<void> BodiesReader::look_ahead() const {
+  for (const auto& reader : readers_) {
+    BOOST_OUTCOME_TRYV(reader.look_ahead());
+  }
+  return boost::outcome_v2::success();
+}
+
+std::vector<std::int32_t> BodiesReader::bodies() const {
+  std::vector<std::int32_t> list;
+  for (std::size_t b = 0; b < readers_.size(); ++b)
+    list.insert(list.end(), readers_[b].vertices(), static_cast<std::int32_t>(b));
+  return list;
+}
+
+std::vector<std::string> BodiesReader::remarks() const {
+  std::vector<std::string> lines;
+  for (std::size_t b = 0; b < readers_.size(); ++b) {
+    const auto file = readers_.size() > 1 ? first_files_[b] : std::filesystem::path();
+    for (const auto& line : readers_[b].remarks()) lines.push_back(problem_in(file, line).message);
+  }
+  return lines;
+}
+
+DoubledCorners::DoubledCorners(const detector::Triangles& triangles,
+                               const std::vector<std::int32_t>& body)
+    : first_(body.size(), -1) {
+  for (Eigen::Index i = 0; i < triangles.size(); ++i) {
+    const auto v = static_cast<std::size_t>(triangles.data()[i]);
+    first_[v] = body[v];
+  }
+}
+
+void DoubledCorners::add(const detector::Positions& x) {
+  // A table of places, open addressing, at most half full.
+  const std::size_t size = std::bit_ceil(2 * first_.size() + 1);
+  std::vector<std::int32_t> table(size, -1), next(first_.size(), -1);
+  for (std::size_t v = 0; v < first_.size(); ++v) {
+    if (first_[v] < 0) continue;
+    const auto place = x.row(static_cast<Eigen::Index>(v));
+    auto hash = static_cast<std::uint64_t>(first_[v]);
+    for (const double c : {place[0], place[1], place[2]}) {
+      hash = (hash ^ std::bit_cast<std::uint64_t>(c + 0.0)) * 0x9E3779B97F4A7C15;  // -0 becomes 0
+      hash ^= hash >> 32;
+    }
+    for (std::size_t slot = hash & (size - 1);; slot = (slot + 1) & (size - 1)) {
+      auto& u = table[slot];
+      if (u < 0) u = static_cast<std::int32_t>(v);
+      if (first_[static_cast<std::size_t>(u)] != first_[v] || x.row(u) != place) continue;
+      next[v] = u;
+      break;
+    }
+  }
+  first_ = std::move(next);
+}
+
+std::string DoubledCorners::remark(bool is_welded) const {
+  std::vector<std::uint8_t> is_shared(first_.size(), 0);
+  std::size_t vertices = 0;
+  for (std::size_t v = 0; v < first_.size(); ++v) {
+    if (first_[v] < 0 || first_[v] == static_cast<std::int32_t>(v)) continue;
+    is_shared[static_cast<std::size_t>(first_[v])] = 1;
+    ++vertices;
+  }
+  const auto places = static_cast<std::size_t>(std::ranges::count(is_shared, 1));
+  if (places == 0) return "";
+  const auto counts = fmt::format("{} vertices stand at {} place{}", vertices + places, places,
+                                  places == 1 ? "" : "s");
+  return is_welded ? fmt::format(
+                         "welded: {} and count as {}; where sheets rest on each other, their "
+                         "vertices are welded, too",
+                         counts, places)
+                   : counts +
+                         ": neighbours do not share their corners, so they touch; --weld "
+                         "counts the vertices of a place as one";
+}
+
+detector::Triangles DoubledCorners::welded(detector::Triangles triangles) const {
+  for (Eigen::Index i = 0; i < triangles.size(); ++i) {
+    auto& v = triangles.data()[i];
+    v = first_[static_cast<std::size_t>(v)];
+  }
+  return triangles;
 }
 
 }  // namespace assay::corpus

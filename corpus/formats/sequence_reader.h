@@ -1,4 +1,5 @@
-// Reads the frames of one mesh that deforms, one file a frame.
+// Reads the frames of one mesh that deforms, one file a frame, and those of several bodies in step
+// as one mesh; and finds vertices that stand at one place in every frame.
 #pragma once
 
 #include <cstddef>
@@ -59,5 +60,60 @@ class SequenceReader {
 
 // Reads all frames, in the order of frame_order.h. Fails when `paths` is empty.
 Expected<Sequence> read_sequence(std::span<const std::filesystem::path> paths);
+
+// Reads the frames of several bodies in step, and makes one mesh of them.
+//
+// Vertices and triangles of the bodies follow each other in the order of the bodies. A body of one
+// frame stands still.
+class BodiesReader {
+ public:
+  // The files of each body, a frame each. REQUIRES a body, and a file of each.
+  explicit BodiesReader(std::vector<std::vector<std::filesystem::path>> bodies);
+
+  // Nothing if each body has as many frames as the others, or one; else the problem names both.
+  Expected<void> fit() const;
+  std::size_t frames() const;
+  bool at_end() const { return read_ == frames(); }
+  // The next frame of all bodies. Problems: those of SequenceReader::next(). REQUIRES fit() and
+  // !at_end().
+  Expected<detector::Positions> next();
+  Expected<void> look_ahead() const;
+
+  // Both REQUIRE that a frame was read. By vertex, the number of its body.
+  const detector::Triangles& triangles() const { return triangles_; }
+  std::vector<std::int32_t> bodies() const;
+  // Those on the first file of each body, with its name if there are several.
+  std::vector<std::string> remarks() const;
+
+ private:
+  void join_triangles();
+
+  std::vector<std::filesystem::path> first_files_;  // by body
+  std::vector<SequenceReader> readers_;
+  std::vector<detector::Positions> now_;  // by body, in the frame that was read last
+  std::size_t read_ = 0;
+  detector::Triangles triangles_;
+};
+
+// Finds vertices that stand at one place in every frame: where a format or an exporter doubles the
+// corners of neighbours (STL, seams of textures), these share no vertex, so they touch.
+class DoubledCorners {
+ public:
+  // `body`: the number of each vertex's body; vertices of two bodies are never counted together.
+  // Vertices of no triangle do not count.
+  DoubledCorners(const detector::Triangles& triangles, const std::vector<std::int32_t>& body);
+
+  // Parts what stands apart in this frame. Two places are equal if all coordinates are (0 = -0).
+  void add(const detector::Positions& x);
+
+  // What is to be said of the frames that were added; empty if no two vertices stand together.
+  std::string remark(bool is_welded) const;
+
+  // The triangles with the first vertex of each place for all that stand there.
+  detector::Triangles welded(detector::Triangles triangles) const;
+
+ private:
+  std::vector<std::int32_t> first_;  // by vertex, the first one of its place; -1: of no triangle
+};
 
 }  // namespace assay::corpus

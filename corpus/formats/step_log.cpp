@@ -12,9 +12,7 @@
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <utility>
-#include <vector>
 
 #include "detector/mesh/mesh_checks.h"
 

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "corpus/file_bytes.h"
+#include "corpus/files.h"
 #include "corpus/problem.h"
 #include "detector/mesh/counted_pairs.h"
 #include "detector/plugin/assay_detector.h"

@@ -7,9 +7,8 @@
 #include <iterator>
 #include <utility>
 
-#include "corpus/file_bytes.h"
-#include "corpus/formats/bodies_reader.h"
-#include "corpus/formats/doubled_corners.h"
+#include "corpus/files.h"
+#include "corpus/formats/sequence_reader.h"
 #include "corpus/formats/step_log.h"
 #include "corpus/frame_order.h"
 #include "detector/mesh/mesh_checks.h"

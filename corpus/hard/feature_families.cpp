@@ -1,9 +1,9 @@
-// Features that are nearly in one plane, nearly parallel, nearly without area, or pass each other
-// by a hair. Grazing gaps go from 2^40 ulp down to one, both sides.
-#include "corpus/hard/grid_mesh.h"
 #include "corpus/hard/hard_families.h"
 
 namespace assay::corpus {
+
+// Features that are nearly in one plane, nearly parallel, nearly without area, or pass each other
+// by a hair. Grazing gaps go from 2^40 ulp down to one, both sides.
 namespace {
 
 constexpr std::int64_t drop = usual_size / 4;
@@ -114,6 +114,113 @@ std::vector<HardFamily> feature_families() {
            "width of a triangle 2^45 ulp long", "ulp", 44, -1, 44, 2, 2, slivers},
           {"grazing", "vertex past an edge, edge past an end: just missing, just meeting", "gap",
            "ulp", 40, -1, 40, 4, 2, grazing}};
+}
+
+// Many things at once: contacts at one time, copies of vertices and triangles, sheets in one
+// plane.
+namespace {
+
+// Spikes side by side over one face. By kind, all go through it at half time, all stop well above
+// it, or all touch it at the end.
+Case simultaneous(Variation& vary, int exponent, int kind) {
+  const int spikes = 1 << exponent;
+  constexpr int columns = 8;
+  constexpr std::int64_t cell = usual_size / 64, drop = usual_size / 16;
+  GridMesh mesh;
+  add_block(mesh, vary, usual_size, usual_size);
+  const std::int64_t end[] = {-drop, drop / 4, 0};
+  for (int i = 0; i < spikes; ++i) {
+    const GridPoint place{cell * (i % columns - columns / 2), cell * (i / columns - columns / 2),
+                          0};
+    add_spike(mesh, vary, falling(place, drop, end[kind]), cell / 4, usual_size / 8,
+              Side::all_around);
+  }
+  constexpr double first[] = {0.5, 0, 1};
+  return sheared_case(mesh, vary, kind == 1 ? known_free() : known_collision(first[kind]));
+}
+
+// A triangle that tilts, and a copy of it with vertices of its own, at a height above it that goes
+// from z_t0 to z_t1. While the height is not 0 the two do not meet, because neither ever stands
+// upright.
+Case copies(Variation& vary, std::int64_t z_t0, std::int64_t z_t1, KnownFacts known) {
+  GridMesh mesh;
+  std::array<GridVertex, 3> corners, copy;
+  const auto face = wide_face(vary, usual_size);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::int64_t start = vary.between(-usual_size / 2, usual_size / 2);
+    corners[i] = falling(face[i], start, vary.between(-usual_size / 2, usual_size / 2));
+    copy[i] = {corners[i].t0 + GridPoint{0, 0, z_t0}, corners[i].t1 + GridPoint{0, 0, z_t1}};
+  }
+  mesh.add_triangle(corners);
+  mesh.add_triangle(copy);
+  return sheared_case(mesh, vary, std::move(known));
+}
+
+Case duplicates(Variation& vary, int exponent, int kind) {
+  const std::int64_t gap = two_to(exponent);
+  const std::int64_t start[] = {gap, gap, 0, gap}, end[] = {gap, -gap, 0, 0};
+  constexpr double first[] = {0, 0.5, 0, 1};
+  if (kind < 4) {
+    return copies(vary, start[kind], end[kind],
+                  kind == 0 ? known_free() : known_collision(first[kind]));
+  }
+  // A spike whose four triangles have vertices of their own: neighbours meet along open seams.
+  GridMesh closed, mesh;
+  add_spike(closed, vary, falling(under_the_face(vary, usual_size, 0), gap, 0), usual_size / 2, gap,
+            Side::all_around);
+  const auto corner = [&](std::int32_t v) { return closed.vertices[static_cast<std::size_t>(v)]; };
+  for (const auto& t : closed.triangles) {
+    mesh.add_triangle({corner(t[0]), corner(t[1]), corner(t[2])});
+  }
+  return sheared_case(mesh, vary, known_collision(0));
+}
+
+// A sheet in one plane, its vertices up to an eighth of a cell off a grid. In kind 0 it moves
+// within the plane, all in one direction. In kind 1 one vertex goes to where its second neighbour
+// is, over the first one, which it reaches at half time; here the vertices around are not moved
+// off the grid. Until then it is inside the hexagon of its neighbours, which stays convex, so
+// nothing overlaps.
+Case coplanar_sheet(Variation& vary, int exponent, int kind) {
+  const int rows = 1 << ((exponent - 1) / 2), columns = 1 << (exponent - 1 - (exponent - 1) / 2);
+  const std::int64_t cell = usual_size / columns;
+  const int i_moved = columns / 2 - 1, j_moved = rows / 2;
+  const GridPoint moved{kind == 0 ? vary.between(-usual_size, usual_size) : 0,
+                        kind == 0 ? vary.between(-usual_size, usual_size) : 0, 0};
+  GridMesh mesh;
+  for (int j = 0; j <= rows; ++j) {
+    for (int i = 0; i <= columns; ++i) {
+      const bool beside = std::abs(i - i_moved) <= 2 && std::abs(j - j_moved) <= 1;
+      const auto off = [&] { return kind == 1 && beside ? 0 : vary.between(-cell / 8, cell / 8); };
+      const std::int64_t x = cell * i - usual_size / 2 + off();
+      const GridPoint p{x, cell * j - usual_size / 2 + off(), 0};
+      GridVertex vertex{p, p + moved};
+      if (kind == 1 && i == i_moved && j == j_moved) vertex.t1.x += 2 * cell;
+      mesh.add(vertex);
+    }
+  }
+  const auto index = [&](int i, int j) { return static_cast<std::int32_t>(j * (columns + 1) + i); };
+  for (int j = 0; j < rows; ++j) {
+    for (int i = 0; i < columns; ++i) {
+      mesh.triangles.push_back({index(i, j), index(i + 1, j), index(i + 1, j + 1)});
+      mesh.triangles.push_back({index(i, j), index(i + 1, j + 1), index(i, j + 1)});
+    }
+  }
+  Case c = sheared_case(mesh, vary, kind == 0 ? known_free() : known_collision(0.5));
+  // view-auto, because from a chosen primitive every ghost of a flat sheet is swept against every
+  // triangle: n^1.5.
+  c.options["culling"] = "view-auto";
+  return c;
+}
+
+}  // namespace
+
+std::vector<HardFamily> crowd_families() {
+  return {{"simultaneous", "spikes that come to one face together: through, or not to it",
+           "contacts at one time", "", 0, 1, 6, 2, 1, simultaneous},
+          {"duplicates", "a triangle and its copy: apart, through each other",
+           "distance of the copies", "ulp", 40, -1, 40, 2, 3, duplicates},
+          {"coplanar", "a sheet that stays in its plane, or one vertex of it that folds over",
+           "triangles", "", 5, 1, 7, 2, 0, coplanar_sheet}};
 }
 
 }  // namespace assay::corpus

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "corpus/cases/case_file.h"
-#include "corpus/hard/variation.h"
+#include "corpus/hard/grid_mesh.h"
 
 namespace assay::corpus {
 

@@ -2,7 +2,6 @@
 // planes through the ends of a view-line. The sign of each triangle is an expected fact too.
 #include <cmath>
 
-#include "corpus/hard/grid_mesh.h"
 #include "corpus/hard/hard_families.h"
 
 namespace assay::corpus {

@@ -11,10 +11,9 @@
 #include <limits>
 #include <new>
 #include <string>
-#include <string_view>
 #include <utility>
 
-#include "corpus/file_bytes.h"
+#include "corpus/files.h"
 #include "corpus/formats/text_lines.h"
 #include "corpus/json_fields.h"
 

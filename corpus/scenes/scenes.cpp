@@ -7,10 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "corpus/meant_word.h"
-#include "corpus/scenes/box_with_arm.h"
 #include "corpus/scenes/deformations.h"
-#include "corpus/scenes/many_contacts.h"
+#include "corpus/scenes/moving_meshes.h"
 #include "corpus/scenes/shapes.h"
 #include "corpus/scenes/trigonometry.h"
 

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <boost/outcome/try.hpp>
 
-#include "corpus/file_bytes.h"
-#include "corpus/json_reader.h"
-#include "corpus/meant_word.h"
+#include "corpus/files.h"
+#include "corpus/json_fields.h"
+#include "corpus/problem.h"
 #include "detector/mesh/problem.h"
 #include "properties/campaign/plan.h"
 #include "properties/queries/query_families.h"

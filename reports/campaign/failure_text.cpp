@@ -7,7 +7,7 @@
 #include <set>
 #include <span>
 
-#include "corpus/atomic_file.h"
+#include "corpus/files.h"
 #include "properties/campaign/ledger/run_folder.h"
 #include "properties/judging/cause.h"
 #include "properties/queries/query_families.h"

@@ -5,7 +5,7 @@
 #include <boost/outcome/try.hpp>
 
 #include "corpus/digest.h"
-#include "corpus/file_bytes.h"
+#include "corpus/files.h"
 
 namespace assay::reports {
 

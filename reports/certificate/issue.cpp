@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "corpus/digest.h"
-#include "corpus/file_bytes.h"
+#include "corpus/files.h"
 #include "properties/campaign/ledger/run_folder.h"
 #include "reports/campaign/campaign_options.h"
 #include "reports/campaign/campaign_text.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "corpus/digest.h"
-#include "corpus/file_bytes.h"
+#include "corpus/files.h"
 #include "corpus/json_fields.h"
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/ledger/run_folder.h"

@@ -7,7 +7,7 @@
 #include <boost/outcome/try.hpp>
 #include <map>
 
-#include "corpus/file_bytes.h"
+#include "corpus/files.h"
 #include "corpus/formats/text_lines.h"
 #include "reports/check/detector_choice.h"
 #include "reports/check/given_answers.h"

@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "corpus/cases/case_file.h"
-#include "corpus/formats/doubled_corners.h"
 #include "corpus/formats/sequence_reader.h"
 #include "corpus/frame_order.h"
 #include "detector/mesh/mesh_checks.h"

@@ -7,7 +7,7 @@
 #include <limits>
 #include <map>
 
-#include "corpus/atomic_file.h"
+#include "corpus/files.h"
 #include "properties/judging/case_options.h"
 #include "properties/judging/step_truth.h"
 #include "properties/worker/case_player.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <thread>
 
-#include "corpus/meant_word.h"
+#include "corpus/problem.h"
 #include "reports/terminal/manual.h"
 #include "reports/terminal/words.h"
 

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "corpus/atomic_file.h"
+#include "corpus/files.h"
 
 namespace assay::reports {
 

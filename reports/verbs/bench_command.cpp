@@ -5,7 +5,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "corpus/meant_word.h"
+#include "corpus/problem.h"
 #include "reports/bench/suites.h"
 #include "reports/check/detector_choice.h"
 #include "reports/terminal/progress.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "corpus/meant_word.h"
+#include "corpus/problem.h"
 #include "corpus/scenes/scenes.h"
 #include "properties/campaign/gates/findings.h"
 #include "properties/faults/fault.h"

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "corpus/meant_word.h"
+#include "corpus/problem.h"
 #include "detector/step_result.h"
 #include "properties/campaign/request.h"
 #include "properties/campaign/trials/case_tally.h"

@@ -1,7 +1,7 @@
 // `assay run` runs a campaign, or a share of one, and tells what it comes to.
 #include <fmt/format.h>
 
-#include "corpus/meant_word.h"
+#include "corpus/problem.h"
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/ledger/binding.h"
 #include "properties/campaign/ledger/run_folder.h"

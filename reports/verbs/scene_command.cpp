@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "corpus/formats/mesh_writer.h"
-#include "corpus/meant_word.h"
+#include "corpus/problem.h"
 #include "corpus/scenes/scenes.h"
 #include "reports/terminal/text_file.h"
 #include "reports/terminal/words.h"

@@ -1,10 +1,10 @@
 // Files: their digests, how they are written, and what may be wrong with them before they are read.
+#include "corpus/files.h"
+
 #include <signal.h>
 #include <sys/wait.h>
 
-#include "corpus/atomic_file.h"
 #include "corpus/digest.h"
-#include "corpus/file_bytes.h"
 #include "tests/corpus/scratch.h"
 #include "tests/problem_words.h"
 

@@ -1,6 +1,5 @@
 // A misspelt word means the nearest one that there is.
-#include "corpus/meant_word.h"
-
+#include "corpus/problem.h"
 #include "tests/test.h"
 
 namespace assay::tests {

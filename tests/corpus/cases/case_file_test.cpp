@@ -1,6 +1,6 @@
 #include "corpus/cases/case_file.h"
 
-#include "corpus/file_bytes.h"
+#include "corpus/files.h"
 #include "tests/corpus/scratch.h"
 
 namespace assay::corpus {

@@ -1,7 +1,7 @@
 // The curated cases are well-formed and consistent. Whether their facts are true is judged where
 // the oracle is at hand.
 #include "corpus/cases/case_file.h"
-#include "corpus/file_bytes.h"
+#include "corpus/files.h"
 #include "tests/corpus/scratch.h"
 
 namespace assay::corpus {

@@ -1,6 +1,5 @@
 // Several meshes as bodies of one: frames in step, vertices and triangles behind each other.
-#include "corpus/formats/bodies_reader.h"
-
+#include "corpus/formats/sequence_reader.h"
 #include "corpus/formats/step_source.h"
 #include "tests/corpus/scratch.h"
 

@@ -1,6 +1,6 @@
 #include "corpus/scenes/scenes.h"
 
-#include "corpus/scenes/box_with_arm.h"
+#include "corpus/scenes/moving_meshes.h"
 #include "corpus/scenes/shapes.h"
 #include "corpus/scenes/trigonometry.h"
 #include "tests/problem_words.h"

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "corpus/digest.h"
-#include "corpus/file_bytes.h"
+#include "corpus/files.h"
 #include "corpus/json_fields.h"
 #include "detector/detector.h"
 #include "oracle/distance/feature_distance.h"

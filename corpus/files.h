@@ -1,4 +1,5 @@
-// The bytes of a file, decompressed when they are a gzip stream.
+// Files, read and written whole: the bytes of one, decompressed when they are a gzip stream, and
+// one that is written whole or not at all.
 #pragma once
 
 #include <cstddef>
@@ -6,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "corpus/problem.h"
 
@@ -30,5 +32,11 @@ Expected<std::string> read_bytes(const std::filesystem::path& path,
 // file of any size. Refuses what read_bytes refuses, as far as the start of the file shows it.
 // Nothing is read of a gzip stream whose first 256 KiB hold fewer bytes and that goes on.
 Expected<std::string> read_start(const std::filesystem::path& path, std::size_t count);
+
+// Writes PATH.part beside `path` and then renames it, so a reader sees the old file or the whole
+// new one, and several writers may write the same file at the same time. If any of this fails, the
+// problem states the system's reason, and nothing is left behind. What a killed writer leaves
+// beside `path`, the next writer takes up. REQUIRES a file system that locks files (flock).
+Expected<void> write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace assay::corpus
