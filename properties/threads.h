@@ -1,7 +1,12 @@
 // Work that several threads share.
 #pragma once
 
+#include <exception>
 #include <functional>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <vector>
 
 namespace assay::properties {
 
@@ -9,6 +14,27 @@ namespace assay::properties {
 // of these calls have returned. Each call has to take work until nothing is left: if the system
 // gives fewer threads, those that there are do it all. If calls throw, throws what the first of
 // them threw.
-void in_threads(int jobs, const std::function<void()>& work);
+inline void in_threads(int jobs, const std::function<void()>& work) {
+  std::mutex mutex;
+  std::exception_ptr first;
+  const auto guarded = [&] {
+    try {
+      work();
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!first) first = std::current_exception();
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    try {
+      for (int j = 1; j < jobs; ++j) others.emplace_back(guarded);
+    } catch (const std::system_error&) {
+      // The system gives no more threads than these, so the work is done by them.
+    }
+    guarded();
+  }
+  if (first) std::rethrow_exception(first);
+}
 
 }  // namespace assay::properties

@@ -1,5 +1,5 @@
-// The words of an enum, as a table in the order of its values, which count from 0; and those of a
-// count.
+// The words of an enum, as a table in the order of its values, which count from 0; those of a
+// count; and words from outside, such as a plug-in's name, made safe to print anywhere.
 #pragma once
 
 #include <cstddef>
@@ -24,5 +24,10 @@ constexpr const char* word_of(const char* const (&words)[n], Enum value) {
 inline std::string times_text(std::uint64_t count) {
   return count == 1 ? "once" : std::to_string(count) + " times";
 }
+
+// The text as UTF-8 without control characters: each of these becomes '?', and each byte that is
+// no part of a character becomes U+FFFD. A terminal can then show it, and writers of JSON and XML,
+// which escape quotes and brackets themselves, accept it.
+std::string printable(std::string_view text);
 
 }  // namespace assay::properties

@@ -55,7 +55,7 @@ struct CampaignPlan {
   int fault_seeds = 0;             // seeds over which the median is taken
   bool shrink_faults = false;      // also shrink what each planted fault shows
   double tetrahedron_seconds = 0;  // seconds for the exhaustive worlds
-  std::uint64_t search = 0;        // cases that the search asks (phases/search.h); 0: none
+  std::uint64_t search = 0;        // cases that the search asks (phases/phases.h); 0: none
   double shrink_share = 0.2;       // most that shrinking takes of `seconds`
   Policy policy;
 };

@@ -4,11 +4,8 @@
 #include <bit>
 #include <cmath>
 #include <set>
-#include <vector>
 
 #include "detector/detector.h"
-#include "detector/mesh/step_types.h"
-#include "properties/judging/step_truth.h"
 
 namespace assay::properties {
 

@@ -5,8 +5,7 @@
 #include <algorithm>
 
 #include "oracle/view/view_sign.h"
-#include "properties/judging/step_truth.h"
-#include "properties/worker/case_player.h"
+#include "properties/worker/case_run.h"
 
 namespace assay::properties {
 

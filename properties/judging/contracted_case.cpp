@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <map>
-#include <vector>
 
 #include "oracle/distance/feature_distance.h"
 #include "oracle/instant/instant.h"

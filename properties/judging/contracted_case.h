@@ -9,7 +9,7 @@
 #include "corpus/cases/case_file.h"
 #include "detector/mesh/step_types.h"
 #include "oracle/mesh/step.h"
-#include "properties/claims/contract.h"
+#include "properties/claims/claims.h"
 
 namespace assay::properties {
 

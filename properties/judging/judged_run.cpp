@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "properties/judging/agreement.h"
-#include "properties/judging/contracted_case.h"
 #include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {

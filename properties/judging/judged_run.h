@@ -8,7 +8,6 @@
 
 #include "properties/judging/agreement.h"
 #include "properties/judging/contracted_case.h"
-#include "properties/judging/step_truth.h"
 #include "properties/worker/case_run.h"
 
 namespace assay::properties {

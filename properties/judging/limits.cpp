@@ -8,7 +8,6 @@
 #include "oracle/mesh/pair_relation.h"
 #include "properties/judging/agreement.h"
 #include "properties/judging/cause.h"
-#include "properties/judging/step_truth.h"
 #include "properties/worker/plugin/plugin_reading.h"
 
 namespace assay::properties {

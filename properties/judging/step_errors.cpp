@@ -6,23 +6,14 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
-#include "properties/json_fields.h"
+#include "properties/fields.h"
 
 namespace assay::properties {
 
-template <class Archive>
-void fields(Archive& archive, TimesOff& times) {
-  auto& [steps, worst_share, worst_ulps, shares] = times;
-  archive("steps", steps, "worst_share", worst_share, "worst_ulps", worst_ulps, "shares", shares);
-}
-
-template <class Archive>
-void fields(Archive& archive, LimitUse& use) {
-  auto& [free, cut, contact, unused, excused, stalls] = use;
-  archive("free", free, "cut", cut, "contact", contact, "unused", unused, "excused", excused,
-          "stalls", stalls);
-}
+ASSAY_FIELDS(TimesOff, steps, worst_share, worst_ulps, shares)
+ASSAY_FIELDS(LimitUse, free, cut, contact, unused, excused, stalls)
 
 template <class Archive>
 void fields(Archive& archive, StepErrors& errors) {

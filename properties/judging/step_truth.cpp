@@ -1,5 +1,3 @@
-#include "properties/judging/step_truth.h"
-
 #include <algorithm>
 #include <iterator>
 #include <map>

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "properties/printable.h"
+#include "properties/words.h"
 #include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {

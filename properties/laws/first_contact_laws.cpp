@@ -7,7 +7,6 @@
 #include <set>
 
 #include "properties/judging/agreement.h"
-#include "properties/judging/step_truth.h"
 #include "properties/laws/step_law.h"
 
 namespace assay::properties {

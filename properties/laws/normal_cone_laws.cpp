@@ -5,7 +5,7 @@
 #include <set>
 
 #include "properties/laws/step_law.h"
-#include "properties/worker/case_player.h"
+#include "properties/worker/case_run.h"
 
 namespace assay::properties {
 namespace {

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <utility>
 
-#include "properties/grid_symmetries.h"
+#include "properties/numbering.h"
 
 namespace assay::properties {
 namespace {

@@ -2,16 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 #include <map>
 #include <set>
-#include <vector>
 
-#include "corpus/cases/case_file.h"
 #include "detector/mesh/mesh_checks.h"
 #include "oracle/mesh/loops.h"
-#include "properties/numbering.h"
-#include "properties/reducer/relation_edits.h"
 
 namespace assay::properties {
 

@@ -3,7 +3,7 @@
 // renumbered in their old order, and the expected facts are cleared, because they were those of
 // the old case.
 //
-// A relation goes on with the vertices and triangles that are left (relation_edits.h).
+// A relation goes on with the vertices and triangles that are left (carried_over).
 //
 // If a case has ghosts, they are made anew from the unmatched edges of the new mesh. Each fan
 // takes the apex of an old fan with which it shares a vertex, or else the mean of its loop.
@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "corpus/cases/case_file.h"
+#include "detector/mesh/counted_pairs.h"
+#include "detector/mesh/types.h"
 #include "properties/numbering.h"
 
 namespace assay::properties {
@@ -49,5 +51,22 @@ corpus::Case seen_from_its_middle(const corpus::Case& c);
 // The case with these steps only. The script is left out if it says no more than that consecutive
 // frames are the steps.
 corpus::Case with_steps(const corpus::Case& c, const std::vector<corpus::CaseStep>& steps);
+
+// relation_edits.cpp: the relation of a case, which says which pairs count
+// (detector/mesh/counted_pairs.h), for a mesh that has changed.
+
+// What has become of the vertices. Several old vertices may be one new one; it has the body and the
+// place at rest of the old one that it was.
+struct NewVertices {
+  std::vector<std::int32_t> number;  // by old vertex: its new number, or -1 if it is gone
+  std::vector<std::int32_t> was;     // by new vertex: an old number of it
+};
+
+// The relation for the triangles `after`, over new vertices, that were `before`, over old ones. A
+// triangle stays the same if its three vertices do. Pairs in lists of which a part is gone are left
+// out, and so are bodies without vertices; the others are numbered anew in their old order.
+detector::CountedPairs carried_over(const detector::CountedPairs& pairs,
+                                    const detector::Triangles& before,
+                                    const detector::Triangles& after, const NewVertices& vertices);
 
 }  // namespace assay::properties

@@ -1,10 +1,56 @@
 #include "properties/reducer/reducer.h"
 
+#include <span>
+
 #include "properties/reducer/passes/passes.h"
 #include "properties/reducer/search.h"
 
 namespace assay::properties {
 namespace {
+
+struct Pass {
+  const char* name;
+  void (*run)(ReductionSearch& search);
+};
+
+// The lists of passes, in the order in which they run: those that make the mesh and the sequence
+// shorter, those that make the whole case simpler, those that make single numbers simpler, and the
+// last resort. Passes that reduce much at little cost come first.
+constexpr Pass shortening_passes[] = {
+    {"drop later steps", drop_later_steps},
+    {"drop steps", drop_steps},
+    {"merge steps", merge_steps},
+    {"drop unused vertices", drop_unused_vertices},
+    {"drop ghosts", drop_ghosts},
+    {"drop components", drop_components},
+    {"spheres of the pair", try_spheres_of_pair},
+    {"keep rings", keep_rings},
+    {"cone outside", cone_outside},
+    {"cut and close", cut_and_close},
+    {"merge balls", merge_balls},
+    {"collapse to parents", collapse_to_parents},
+    {"drop faces", drop_faces},
+    {"collapse edges", collapse_edges},
+    {"remove and close", remove_and_close},
+    {"merge twice", merge_twice},
+    {"small spheres", try_small_spheres},
+};
+
+constexpr Pass simplifying_passes[] = {
+    {"freeze vertices", freeze_vertices},
+    {"view", simplify_view},
+    {"relation", simplify_relation},
+    {"round all", round_all},
+    {"translate", translate},
+};
+
+constexpr Pass number_passes[] = {
+    {"round vertices", round_vertices},
+    {"simplify numbers", simplify_numbers},
+    {"simplify together", simplify_together},
+};
+
+constexpr Pass escaping_passes[] = {{"escape", escape}};
 
 // Runs each pass of a list once. Returns whether anything became smaller.
 bool run(std::span<const Pass> passes, ReductionSearch& search) {
@@ -36,11 +82,11 @@ bool has_few_numbers(const ReductionSearch& search) {
 void run_all(ReductionSearch& search) {
   bool smaller = true;
   while (smaller) {
-    run_to_fixed_point(shortening_passes(), search);
-    smaller = run(simplifying_passes(), search);
-    if (!smaller && has_few_numbers(search)) smaller = run(number_passes(), search);
-    if (!smaller) smaller = run(escaping_passes(), search);
-    if (!smaller && !has_few_numbers(search)) smaller = run(number_passes(), search);
+    run_to_fixed_point(shortening_passes, search);
+    smaller = run(simplifying_passes, search);
+    if (!smaller && has_few_numbers(search)) smaller = run(number_passes, search);
+    if (!smaller) smaller = run(escaping_passes, search);
+    if (!smaller && !has_few_numbers(search)) smaller = run(number_passes, search);
   }
 }
 

@@ -1,5 +1,3 @@
-#include "properties/reducer/relation_edits.h"
-
 #include <algorithm>
 #include <array>
 #include <map>
@@ -7,6 +5,7 @@
 #include <set>
 
 #include "properties/numbering.h"
+#include "properties/reducer/case_edits.h"
 
 namespace assay::properties {
 namespace {

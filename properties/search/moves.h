@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "corpus/cases/case_file.h"
-#include "properties/claims/contract.h"
+#include "properties/claims/claims.h"
 #include "properties/random.h"
 #include "properties/search/focus.h"
 

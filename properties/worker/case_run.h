@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "corpus/cases/case_file.h"
+#include "detector/detector.h"
 #include "detector/options.h"
+#include "detector/step/stages.h"
 #include "detector/step_result.h"
 #include "properties/words.h"
 
@@ -95,10 +97,10 @@ struct CaseRun {
   // repeated), or before it began.
   std::uint64_t disturbances = 0;
   // The processor time of the last attempt: that of the worker with its threads, and that of the
-  // processes that it started if the run was long enough to look at them (processor_time.h).
+  // processes that it started if the run was long enough to look at them (worker_watch.h).
   double processor_seconds = 0;
   // The last lines that a plug-in printed since the run before this one was heard
-  // (isolation/printed_words.h). Of cases that were sent together they may be of a later one.
+  // (isolation.h). Of cases that were sent together they may be of a later one.
   // Nothing with isolation none.
   std::string printed = {};
 };
@@ -141,6 +143,57 @@ class RunClock {
   bool is_on_;
   double last_ = 0;
   RunTimes times_;
+};
+
+// Plays a case through the built-in detector, which carries its state from step to step.
+
+// The primitive that the case states for the step (corpus::view_of_step), as the detector takes
+// it; none if the case states none, or if the culling uses no views. It is inline because
+// tests/mutation links the detector alone.
+inline std::vector<detector::ViewPrimitive> given_view(
+    std::optional<detector::ViewPrimitive> stated, detector::Culling culling) {
+  if (!stated || !uses_views(culling)) return {};
+  // A segment serves as a point by its first end.
+  if (culling == detector::Culling::view_point) stated->q1 = stated->q0;
+  return {*stated};
+}
+
+class CasePlayer {
+ public:
+  // Makes a new detector from the first frame, with these stages or the standard ones. What counts
+  // is the case's to say, not the options'. The case must outlive the player. Errors and cost are
+  // those of Detector::create.
+  static detector::Expected<CasePlayer> make(const corpus::Case& c,
+                                             const detector::Options& options,
+                                             std::optional<detector::Stages> stages = {},
+                                             const detector::StopFunction& stop = {});
+
+  // The number of steps of the case. All functions below REQUIRE s < steps().
+  std::size_t steps() const { return script_.size(); }
+  const corpus::CaseStep& step(std::size_t s) const { return script_[s]; }
+  const detector::Positions& x_t0(std::size_t s) const { return start_of(*case_, script_[s]); }
+  const detector::Positions& x_t1(std::size_t s) const { return end_of(*case_, script_[s]); }
+
+  // Plays step s as the script says: the state advances if the script commits the step and it has
+  // an answer. Steps may be played in any order; a step that does not continue the detector's
+  // state is a new start for it.
+  detector::StepResult play(std::size_t s, const detector::StopFunction& stop = {});
+  // Returns the same result, but the state stays as it is; detector().commit() can still advance
+  // it.
+  detector::StepResult look(std::size_t s, const detector::StopFunction& stop = {});
+
+  detector::Detector& detector() { return detector_; }
+  const detector::Detector& detector() const { return detector_; }
+
+ private:
+  CasePlayer(const corpus::Case& c, const detector::Options& options, detector::Detector detector);
+
+  const corpus::Case* case_;
+  std::vector<corpus::CaseStep> script_;
+  // The view primitives given, by step. They are computed beforehand, so that whoever times a step
+  // times the detector alone.
+  std::vector<std::vector<detector::ViewPrimitive>> given_;
+  detector::Detector detector_;
 };
 
 }  // namespace assay::properties

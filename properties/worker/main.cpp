@@ -1,11 +1,17 @@
 // assay-worker runs detectors on the cases that its host sends, until the host closes the channel.
 // It holds the built-in detector and, if a library is named, a plug-in. It never holds the oracle.
+#include <fcntl.h>
+#include <linux/capability.h>
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
+#include <sys/sysinfo.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
@@ -17,7 +23,6 @@
 #include <vector>
 
 #include "properties/worker/channel.h"
-#include "properties/worker/isolation/own_limits.h"
 #include "properties/worker/messages.h"
 #include "properties/worker/plugin/plugin_host.h"
 #include "properties/worker/plugin/python_word.h"
@@ -33,6 +38,60 @@ std::optional<std::uint64_t> number(std::string_view word) {
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
   return value;
+}
+
+// The limits that this process sets for itself before it loads a plug-in.
+
+// A lower limit stays.
+bool limit(__rlimit_resource resource, rlim_t most) {
+  rlimit now = {};
+  if (::getrlimit(resource, &now) != 0) return false;
+  now = {std::min(now.rlim_cur, most), std::min(now.rlim_max, most)};
+  return ::setrlimit(resource, &now) == 0;
+}
+
+void stop_being_root() {
+  if (::getuid() != 0) return;
+  constexpr uid_t nobody = 65534;  // by convention
+  constexpr auto as_it_is = static_cast<uid_t>(-1);
+  (void)!::setresuid(nobody, as_it_is, as_it_is);
+  __user_cap_header_struct header = {_LINUX_CAPABILITY_VERSION_3, 0};
+  std::array<__user_cap_data_struct, _LINUX_CAPABILITY_U32S_3> none = {};
+  ::syscall(SYS_capset, &header, none.data());
+}
+
+// Limits the bytes of address space of this process and of each process that it starts; 0: no
+// limit. A lower limit that the user has set stays. False if the system refuses.
+bool limit_memory(std::uint64_t bytes) { return bytes == 0 || limit(RLIMIT_AS, bytes); }
+
+// Limits, besides, the bytes of each file that it writes, to the same number. A file that would
+// grow beyond is an error of the call, and not the end of the process. Limits the processes and
+// threads that it may start, to 512 more than there are now: as root the workers of all runs are of
+// one user.
+//
+// The system exempts root from the limit on processes, by the real user of a process and by its
+// rights. So if this is root, it becomes another real user and gives up its rights; as whom files
+// are opened stays as it is. REQUIRES that this process has one thread.
+bool limit_plugin(std::uint64_t bytes) {
+  constexpr rlim_t most_processes = 512;
+  struct sysinfo seen = {};
+  ::sysinfo(&seen);
+  stop_being_root();
+  ::signal(SIGXFSZ, SIG_IGN);
+  return limit(RLIMIT_NPROC, most_processes + seen.procs) &&
+         (bytes == 0 || limit(RLIMIT_FSIZE, bytes)) && limit_memory(bytes);
+}
+
+// If the machine itself runs out of memory, the system ends this process, and what it starts,
+// before any other. Many processes together may take more than the machine has, although each
+// keeps its limit. If the system has no such file, or keeps it closed, it chooses by itself which
+// process to end.
+void end_first_without_memory() {
+  constexpr std::string_view first_of_all = "1000";
+  const int file = ::open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
+  if (file < 0) return;
+  [[maybe_unused]] const auto written = ::write(file, first_of_all.data(), first_of_all.size());
+  ::close(file);
 }
 
 // Settles how this process lives and dies. It dies with its host (behind bwrap, which ends it,

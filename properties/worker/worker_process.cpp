@@ -8,9 +8,6 @@
 
 #include "properties/worker/channel.h"
 #include "properties/worker/child_process.h"
-#include "properties/worker/isolation/bubblewrap.h"
-#include "properties/worker/isolation/printed_words.h"
-#include "properties/worker/isolation/scratch_folder.h"
 #include "properties/worker/messages.h"
 #include "properties/worker/plugin/judged_library.h"
 #include "properties/worker/plugin/python_word.h"

@@ -13,10 +13,10 @@
 #include <span>
 #include <vector>
 
+#include "properties/claims/claims.h"
 #include "properties/problem.h"
 #include "properties/worker/case_run.h"
-#include "properties/worker/isolation/isolation.h"
-#include "properties/worker/plugin/plugin_description.h"
+#include "properties/worker/isolation.h"
 
 namespace assay::properties {
 

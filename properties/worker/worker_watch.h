@@ -7,14 +7,72 @@
 // a second, and more often towards the end.
 #pragma once
 
+#include <sys/types.h>
+
 #include <chrono>
+#include <ctime>
 #include <optional>
 #include <string>
 
 #include "properties/worker/child_process.h"
-#include "properties/worker/processor_time.h"
 
 namespace assay::properties {
+
+// The processor time that a process uses, with all its threads and all processes that it starts.
+// It is measured from outside, so that what runs in the process has no influence on it.
+
+// A process and what it started, as /proc shows them from outside.
+struct ProcessTree {
+  // Processor time in seconds of the processes that the root started, that those started, and so
+  // on: of those that live, and of those that ended and that their parents have waited for. The
+  // threads of the root itself and of `apart` do not count. Each process counts up to 0.01 s too
+  // little, because /proc counts in ticks. What a process used is lost if it ends and its parent
+  // does not wait for it.
+  double descendant_seconds = 0;
+  // Every thread of each of them waits for something other than a processor, or was stopped by a
+  // signal: a process may do both to itself. One that a debugger holds is not asleep.
+  bool is_asleep = false;
+};
+
+// Looks at the processes of `root`. A member of its process group counts as started by root even
+// if its own parent has ended; a process that left the group and lost its parents is not found.
+// Reads one file for each process of the machine: about 5 us each. REQUIRES that root leads its
+// process group.
+ProcessTree look_at(pid_t root, pid_t apart = 0);
+
+// Seconds of processor time since a beginning, which is the construction or the last lap().
+//
+// The threads of the process, ended ones included, are measured to the nanosecond; that takes 0.2
+// us. If another process does the work for it (a worker behind bwrap), that one is measured
+// in this way, and the process itself is not counted.
+//
+// The processes that it started are measured only when look() is called. What they used before the
+// first look() since the beginning is not counted, because it may be of work done before. So the
+// time is too short by what they use until then, and further by what ProcessTree says. It is
+// never too long.
+class ProcessorTime {
+ public:
+  // Begins to measure `process`. `worker` is the one that does the work, a descendant of
+  // `process`; 0: `process` itself. REQUIRES that `process` is a child of this process that leads
+  // its process group and was not waited for; one that has ended can still be read.
+  explicit ProcessorTime(pid_t process, pid_t worker = 0);
+
+  // The seconds since the beginning. Other processes count as they were when last looked at.
+  double seconds() const;
+  // Returns the same, and begins anew at that point.
+  double lap();
+  // Also measures the processes that were started. About 5 us for each process of the machine.
+  ProcessTree look();
+
+ private:
+  double own_seconds() const;
+
+  pid_t process_, worker_;
+  std::optional<clockid_t> clock_;
+  double begin_ = 0;                        // of own_seconds()
+  std::optional<double> of_others_before_;  // what they had used at the first look
+  double of_others_ = 0;                    // what they have used since then
+};
 
 // The wider limits, as multiples of the limit of processor time.
 inline constexpr double asleep_limit = 10;  // wall clock in which the worker only slept

@@ -5,7 +5,6 @@
 #include <span>
 #include <utility>
 
-#include "properties/grid_symmetries.h"
 #include "properties/numbering.h"
 
 namespace assay::properties {

@@ -8,7 +8,7 @@
 
 #include "detector/assembly.h"
 #include "detector/detector.h"
-#include "properties/worker/case_player.h"
+#include "properties/worker/case_run.h"
 #include "reports/bench/interleave.h"
 #include "reports/bench/suites.h"
 

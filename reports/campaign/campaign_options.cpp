@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "properties/campaign/phases/power_proof.h"
+#include "properties/campaign/phases/fault_hunt.h"
 #include "properties/campaign/plan.h"
 #include "properties/worker/worker_process.h"
 #include "reports/bench/cases.h"

@@ -9,7 +9,7 @@
 #include "corpus/scenes/scenes.h"
 #include "properties/campaign/ledger/step_measures.h"
 #include "properties/campaign/plan.h"
-#include "properties/campaign/trials/extremes.h"
+#include "properties/campaign/trials/case_tally.h"
 #include "properties/judging/case_check.h"
 #include "properties/queries/rung_cases.h"
 #include "properties/queries/self_check.h"

@@ -1,10 +1,11 @@
+#include <nlohmann/json.hpp>
+
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/gates/not_judged.h"
-#include "properties/campaign/gates/statistics.h"
 #include "properties/campaign/ledger/step_measures.h"
 #include "properties/campaign/ledger/tally.h"
 #include "properties/campaign/plan.h"
-#include "properties/json_fields.h"
+#include "properties/fields.h"
 #include "reports/certificate/sections.h"
 
 namespace assay::reports {

@@ -8,7 +8,7 @@
 
 #include "properties/campaign/ledger/record.h"
 #include "properties/campaign/plan.h"
-#include "properties/json_fields.h"
+#include "properties/fields.h"
 #include "properties/words.h"
 #include "reports/steps/measures_text.h"
 #include "reports/terminal/option_words.h"

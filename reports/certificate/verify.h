@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "properties/campaign/phases/again.h"
+#include "properties/campaign/phases/phases.h"
 #include "properties/problem.h"
 #include "reports/certificate/statement.h"
 #include "reports/terminal/complaint.h"

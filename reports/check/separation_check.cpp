@@ -9,7 +9,6 @@
 #include "detector/mesh/mesh_checks.h"
 #include "detector/mesh/topology.h"
 #include "oracle/distance/step_distance.h"
-#include "properties/judging/body_names.h"
 #include "properties/judging/trial.h"
 #include "properties/numbering.h"
 #include "reports/steps/step_json.h"

@@ -8,7 +8,7 @@
 #include "detector/search/stopwatch.h"
 #include "properties/campaign/ledger/binding.h"
 #include "properties/judging/case_options.h"
-#include "properties/worker/case_player.h"
+#include "properties/worker/case_run.h"
 #include "reports/check/detector_choice.h"
 
 namespace assay::reports {

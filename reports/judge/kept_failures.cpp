@@ -6,7 +6,6 @@
 #include <array>
 
 #include "properties/campaign/phases/shrink.h"
-#include "properties/judging/body_names.h"
 #include "properties/judging/contracted_case.h"
 #include "properties/judging/judged_run.h"
 #include "properties/judging/trial.h"

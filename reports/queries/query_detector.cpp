@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "properties/campaign/ledger/step_measures.h"
-#include "properties/printable.h"
 #include "properties/words.h"
 #include "properties/worker/plugin/query_case.h"
 #include "reports/certificate/sections.h"

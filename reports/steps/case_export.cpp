@@ -8,9 +8,9 @@
 #include <map>
 
 #include "corpus/files.h"
+#include "properties/judging/agreement.h"
 #include "properties/judging/case_options.h"
-#include "properties/judging/step_truth.h"
-#include "properties/worker/case_player.h"
+#include "properties/worker/case_run.h"
 #include "properties/worker/plugin/query_case.h"
 #include "reports/steps/exported_case.h"
 #include "reports/steps/exported_plugin.h"

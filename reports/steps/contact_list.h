@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "detector/mesh/step_types.h"
-#include "properties/judging/body_names.h"
+#include "properties/judging/trial.h"
 
 namespace assay::reports {
 

@@ -12,9 +12,9 @@
 #include "oracle/view/touched_by_ghosts.h"
 #include "oracle/view/view_sign.h"
 #include "properties/judging/agreement.h"
-#include "properties/judging/body_names.h"
+#include "properties/judging/trial.h"
 #include "properties/numbering.h"
-#include "properties/worker/case_player.h"
+#include "properties/worker/case_run.h"
 #include "reports/steps/step_text.h"
 
 namespace assay::reports {

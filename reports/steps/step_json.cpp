@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "detector/step_result.h"
-#include "properties/json_fields.h"
+#include "properties/fields.h"
 
 namespace assay::detector {
 

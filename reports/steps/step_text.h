@@ -8,8 +8,7 @@
 #include "detector/step_result.h"
 #include "oracle/referee/second_opinion.h"
 #include "properties/judging/agreement.h"
-#include "properties/judging/body_names.h"
-#include "properties/judging/step_truth.h"
+#include "properties/judging/trial.h"
 
 namespace assay::reports {
 

@@ -83,13 +83,13 @@ TEST(House, DetectorNeedsOnlyEigenAndBoost) {
 TEST(House, TheWorkerKnowsNoOracle) {
   const std::regex may_use(
       "^(detector/|corpus/(problem|cases/case_file).h|properties/(claims/|worker/|faults/)|"
-      "properties/(problem|printable|words|fields|numbering|random).h)");
+      "properties/(problem|words|fields|numbering|random).h)");
   // The host copies and hashes what is judged before a worker sees it.
   const std::regex host_may_use("^corpus/digest.h");
   // What they may use beside their own folders is held to the same.
   std::vector<fs::path> files;
-  for (const auto* name : {"problem.h", "printable.h", "printable.cpp", "words.h", "fields.h",
-                           "numbering.h", "random.h"}) {
+  for (const auto* name :
+       {"problem.h", "words.h", "words.cpp", "fields.h", "numbering.h", "random.h"}) {
     files.push_back(root / "properties" / name);
   }
   for (const auto* folder : {"properties/claims", "properties/worker", "properties/faults"}) {

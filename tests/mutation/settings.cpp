@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "properties/worker/case_player.h"
+#include "properties/worker/case_run.h"
 
 namespace assay::mutation {
 namespace {

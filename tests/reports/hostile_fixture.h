@@ -5,7 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "properties/worker/isolation/bubblewrap.h"
+#include "properties/worker/isolation.h"
 #include "tests/reports/tiny_campaign.h"
 
 namespace assay::tests {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "properties/campaign/ledger/binding.h"
+#include "properties/campaign/ledger/database.h"
 #include "properties/campaign/ledger/evidence.h"
-#include "properties/campaign/ledger/row.h"
 #include "properties/campaign/ledger/store.h"
 #include "properties/campaign/ledger/tally.h"
 

@@ -3,15 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <string>
-#include <vector>
 
 #include "corpus/scenes/scenes.h"
-#include "properties/campaign/gates/findings.h"
 #include "properties/campaign/gates/not_judged.h"
 #include "properties/campaign/ledger/tally.h"
 #include "properties/campaign/phases/repetitions.h"
-#include "properties/campaign/phases/walks.h"
 #include "properties/judging/cause.h"
 #include "properties/words.h"
 

@@ -8,7 +8,7 @@
 #include "properties/campaign/ledger/row_fields.h"
 #include "properties/campaign/ledger/store.h"
 #include "properties/faults/fault.h"
-#include "properties/json_fields.h"
+#include "properties/fields.h"
 #include "properties/queries/query_families.h"
 
 namespace assay::properties {

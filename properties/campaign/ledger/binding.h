@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "properties/campaign/request.h"
-#include "properties/claims/contract.h"
+#include "properties/claims/claims.h"
 #include "properties/problem.h"
 
 namespace assay::properties {

@@ -1,18 +1,60 @@
-// The little of SQLite that a store needs: a database, and one statement at a time; and a lock on a
-// file or a folder that only one process at a time works on.
+// The little of SQLite that a store needs: a database, and one statement at a time; a lock on a
+// file or a folder that only one process at a time works on; the rows that it keeps; and how it
+// reports a problem.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
-#include "properties/campaign/ledger/store_problem.h"
+#include "properties/problem.h"
 
 struct sqlite3;
 struct sqlite3_stmt;
 
 namespace assay::properties {
+
+// How a store reports a problem: by an exception inside of campaign/, by a value outside of it.
+//
+// A store may fail in the middle of a row, deep inside of a phase and in any of its threads, and
+// there an exception is the short way out. Whatever other rooms call turns it into a Problem.
+
+class StoreProblem : public std::runtime_error {
+ public:
+  explicit StoreProblem(const Problem& problem) : std::runtime_error(problem.message) {}
+  explicit StoreProblem(const std::string& message) : std::runtime_error(message) {}
+
+  Problem problem() const { return {what()}; }
+};
+
+// Returns the value, or throws its problem.
+template <class T>
+T value_or_throw(Expected<T>&& expected) {
+  if (!expected) throw StoreProblem(expected.error());
+  if constexpr (!std::is_void_v<T>) return std::move(expected.value());
+}
+
+// Returns what `work` returns, or the StoreProblem that it throws as a value.
+template <class Work>
+Expected<std::invoke_result_t<Work>> catch_store_problem(const Work& work) {
+  try {
+    if constexpr (std::is_void_v<std::invoke_result_t<Work>>) {
+      work();
+      return boost::outcome_v2::success();
+    } else {
+      return work();
+    }
+  } catch (const StoreProblem& failure) {
+    return failure.problem();
+  }
+}
 
 // Everything here throws StoreProblem if the disk is full, the file is damaged or not one of
 // SQLite, or it cannot be read or written any more. The message is SQLite's own and names the
@@ -76,5 +118,49 @@ class FileLock {
  private:
   int lock_ = -1;
 };
+
+// The rows of a ledger: the one form in which a campaign keeps all that it finds out. A trial is a
+// row, and so is a failure, a note, or a planted fault that was found. Every row carries a hash.
+
+struct Row {
+  std::string kind;            // "trial", "canary", ...
+  std::string key;             // names it among the rows of its kind
+  std::uint64_t progress = 0;  // how far it came; of two rows the one that came farther stays
+  std::string fields;          // a JSON object
+  friend bool operator==(const Row&, const Row&) = default;
+};
+
+// The kinds that every store has. Those of the other rows are in evidence.h.
+inline constexpr std::string_view binding_kind = "binding", note_kind = "note",
+                                  trial_kind = "trial", failure_kind = "failure", met_kind = "met";
+
+// The row without the fields that may differ between two runs of one campaign: times, what was
+// disturbed from outside, and how far a case could be shrunk in its time.
+Row lasting(Row row);
+
+// SHA-256 over all of the row, each column behind its length, so that no two different rows give
+// the same bytes. It shows that a row was changed by a disk, or by somebody who does not mend the
+// hash. It is no signature: whoever may write the file can write a hash that fits.
+std::string row_hash(const Row& row);
+
+// "trial quick:1:broken:3", "canary pair/x"
+std::string row_name(const Row& row);
+
+// The SQL that makes the one table of a store, and leaves it as it is if it is there already.
+std::string table_declaration();
+
+// Visits rows. `more` is SQL such as "WHERE kind=? ORDER BY key", whose question marks stand for
+// the texts of `bound`; if it is empty all rows come in the order of kind and key.
+// Throws StoreProblem at the first row that does not fit its own hash, and if SQLite fails.
+void for_each_row(const Database& database, const std::string& more,
+                  const std::vector<std::string_view>& bound,
+                  const std::function<void(const Row&)>& visit);
+
+// Writes the row with its hash, in place of a row of the same kind and key.
+void put_row(const Database& database, const Row& row);
+
+// Throws StoreProblem unless the file holds the table of a store and nothing else, such as a
+// trigger that changes rows by itself. If `may_lack` is set, the table may not be there yet.
+void check_tables(const Database& database, bool may_lack);
 
 }  // namespace assay::properties

@@ -147,7 +147,7 @@ struct Repetition {
   std::string key() const { return input + ", " + configuration; }
 };
 
-// What one lane of the search came to (phases/search.h). Only whole lanes are stored.
+// What one lane of the search came to (phases/phases.h). Only whole lanes are stored.
 struct SearchedLane {
   static constexpr const char* kind = "search";
   std::string lane;           // its number, from 1, with leading zeros

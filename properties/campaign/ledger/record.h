@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "properties/campaign/ledger/row.h"
+#include "properties/campaign/ledger/database.h"
 #include "properties/campaign/ledger/step_measures.h"
 #include "properties/fields.h"
 #include "properties/judging/agreement.h"
@@ -105,7 +105,7 @@ inline constexpr std::string_view corpus_in_id = "corpus/";
 // The id of a failure that a large mesh shows, on which two runs differ, begins with this.
 inline constexpr std::string_view repeated_in_id = "repeated/";
 
-// And that of a failure that the search found (phases/search.h).
+// And that of a failure that the search found (phases/phases.h).
 inline constexpr std::string_view searched_in_id = "search/";
 inline bool is_of_search(const StoredFailure& failure) {
   return failure.id.starts_with(searched_in_id);

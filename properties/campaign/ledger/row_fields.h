@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "corpus/json_fields.h"
-#include "properties/campaign/ledger/row.h"
-#include "properties/json_fields.h"
+#include "properties/campaign/ledger/database.h"
+#include "properties/fields.h"
 
 namespace assay::properties {
 
@@ -25,7 +25,7 @@ inline nlohmann::json fields_of(const Row& row) {
   return std::move(read.value());
 }
 
-// Sets what the fields name (json_fields.h); the rest of x stays.
+// Sets what the fields name (fields.h); the rest of x stays.
 template <Zeros zeros = Zeros::stay, class T>
 void read_fields_of(const Row& row, T& x) try {
   read_fields<nlohmann::json, zeros>(fields_of(row), x);

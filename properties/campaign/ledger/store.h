@@ -1,6 +1,6 @@
 // The rows of one run in one SQLite file, which survives a kill at any moment.
 //
-// Every row carries a hash (campaign/ledger/row.h), which is checked whenever the row is read.
+// Every row carries a hash (campaign/ledger/database.h), which is checked whenever the row is read.
 #pragma once
 
 #include <filesystem>
@@ -26,7 +26,7 @@ struct KeptFailures {
 };
 
 // Functions that return Expected are for all rooms. The others throw StoreProblem and are for
-// campaign/ alone (campaign/ledger/store_problem.h).
+// campaign/ alone (campaign/ledger/database.h).
 class Store {
  public:
   // Opens the file for writing, or makes it. `binding` says what the trials are of (plan, seed,

@@ -3,18 +3,45 @@
 // (findings.h) and judged (gates.h).
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "properties/campaign/ledger/evidence.h"
 #include "properties/campaign/ledger/run_folder.h"
+#include "properties/campaign/ledger/store.h"
 #include "properties/campaign/phases/fault_hunt.h"
-#include "properties/campaign/phases/search.h"
 #include "properties/campaign/request.h"
 #include "properties/campaign/trials/trials.h"
+#include "properties/problem.h"
+#include "properties/search/search.h"
+#include "properties/worker/worker_process.h"
 
 namespace assay::properties {
+
+// The search of a campaign (search/search.h): after the trials, in lanes that share nothing, each
+// in a thread with a worker process of its own (search.cpp).
+
+// Of this run; the lanes that an earlier call stored are among them.
+struct SearchProgress {
+  std::uint64_t lanes = 0, planned = 0, cases = 0, defects = 0;
+};
+
+// Judges cases in the worker, by the oracle and by what the detector claims. The arguments must
+// outlive it. Throws StoreProblem if there is no worker.
+JudgeCases judge_in(WorkerProcess& worker, const DetectorUnderTest& detector);
+
+// Searches in the lanes of this run that are not stored yet, and stores what each comes to: its
+// defects with their meshes, then the lane itself. So a run that is killed does again what was cut,
+// and finds the same. What is found depends on plan, seed and share alone, not on the number of
+// jobs; a lane that the deadline ends is not stored. `corpus` is the folder of the curated cases.
+// `progress` is called from one thread at a time. Throws StoreProblem; so it is for campaign/
+// alone.
+void search_share(const CampaignRequest& request, const std::filesystem::path& corpus, Store& store,
+                  RunDeadline deadline, const std::function<void(const SearchProgress&)>& progress);
 
 // Is told what a campaign does, in the order of its phases. Each function may be called from
 // another thread than the caller's, but by one thread at a time.
@@ -73,5 +100,27 @@ void keep_corpus_failures(const CampaignRequest& request,
 // set of cases, so a second call finds its rows there and changes nothing.
 Expected<void> keep_own_cases(Store& store, const std::vector<CorpusRow>& rows,
                               const std::vector<StoredFailure>& failures);
+
+// Makes and judges stored trials once more, and compares the results with what is stored.
+
+struct TrialsAgain {
+  std::uint64_t trials = 0;  // trials that were run once more
+  std::uint64_t stored = 0;  // trials that are stored
+  // The first trial, by family and index, that came to something else: "trial ID: bvh is D now, H
+  // is stored".
+  std::optional<std::string> difference;
+};
+
+// Draws a share (above 0, at most 1) of the trials that the stores of a folder hold, at least one,
+// by the seed. Makes and judges them as the request says, and compares the outcomes in every
+// configuration, triangles, steps, collisions, pairs, counts and mesh. Times may differ, so a
+// trial that ended at its limit of time may come to something else on a slower machine.
+//
+// REQUIRES a request with the plan and the detector of the stores; each states its own seed and
+// share. Fails if a store cannot be read, if the detector cannot be run, and if no trial is stored.
+// O(trials stored) to draw them, then the time that the trials took when they were first run.
+Expected<TrialsAgain> run_again(CampaignRequest request, const std::filesystem::path& folder,
+                                double share, std::uint64_t seed,
+                                const std::function<void(const TrialProgress&)>& progress);
 
 }  // namespace assay::properties

@@ -6,15 +6,13 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
-#include <optional>
 #include <utility>
 
 #include "oracle/mesh/pair_relation.h"
+#include "properties/campaign/ledger/database.h"
 #include "properties/campaign/ledger/evidence.h"
-#include "properties/campaign/ledger/store_problem.h"
-#include "properties/campaign/phases/walks.h"
 #include "properties/campaign/plan.h"
-#include "properties/campaign/trials/extremes.h"
+#include "properties/campaign/trials/case_tally.h"
 #include "properties/campaign/trials/trials.h"
 #include "properties/judging/judged_run.h"
 #include "properties/numbering.h"

@@ -1,12 +1,11 @@
-#include "properties/campaign/phases/search.h"
-
 #include <fmt/format.h>
 
 #include <mutex>
 #include <optional>
 
+#include "properties/campaign/ledger/database.h"
 #include "properties/campaign/ledger/evidence.h"
-#include "properties/campaign/ledger/store_problem.h"
+#include "properties/campaign/phases/phases.h"
 #include "properties/campaign/trials/planned_case.h"
 #include "properties/campaign/trials/trials.h"
 #include "properties/search/sources.h"

@@ -7,11 +7,10 @@
 #include <stdexcept>
 
 #include "detector/detector.h"
-#include "properties/campaign/ledger/store_problem.h"
+#include "properties/campaign/ledger/database.h"
 #include "properties/campaign/trials/case_tally.h"
 #include "properties/campaign/trials/planned_case.h"
 #include "properties/worker/child_process.h"
-#include "properties/worker/worker_process.h"
 
 namespace assay::properties {
 

@@ -1,9 +1,8 @@
-#include "properties/campaign/phases/walks.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "properties/campaign/phases/repetitions.h"
 #include "properties/judging/contracted_case.h"
 #include "properties/random.h"
 

@@ -2,20 +2,57 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 
+#include "detector/mesh/topology.h"
+#include "properties/campaign/ledger/database.h"
 #include "properties/campaign/ledger/store.h"
 #include "properties/campaign/ledger/tally.h"
+#include "properties/campaign/trials/trials.h"
 #include "properties/generators/pair_blocks.h"
 #include "properties/judging/case_options.h"
-#include "properties/judging/trial.h"
+#include "properties/judging/contracted_case.h"
 #include "properties/laws/facts/case_facts.h"
-#include "properties/laws/law.h"
 #include "properties/worker/child_process.h"
+#include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
+
+Extremes extremes_of(const corpus::Case& c, std::span<const oracle::StepJudgement> truth) {
+  Extremes most;
+  auto starts = new_starts(c);
+  starts.push_back(corpus::steps_of(c).size());
+  for (std::size_t i = 1; i < starts.size(); ++i)
+    most.steps_in_a_row = std::max<std::uint64_t>(most.steps_in_a_row, starts[i] - starts[i - 1]);
+  const auto vertices = c.frames.front().rows();
+  const auto mesh = detector::make_topology(c.triangles, vertices);
+  for (std::int32_t v = 0; v < vertices; ++v)
+    most.valence = std::max<std::uint64_t>(most.valence, mesh.vertex_triangles.row(v).size());
+  if (c.counted && !c.counted->pairs.count_all() && !c.counted->pairs.body.empty()) {
+    const auto& body = c.counted->pairs.body;
+    most.bodies = 1 + static_cast<std::uint64_t>(*std::max_element(body.begin(), body.end()));
+  }
+  most.components = mesh.components.size();
+  for (const auto& step : truth)
+    most.pairs = std::max<std::uint64_t>(most.pairs, step.pairs.size());
+  most.triangles = mesh.triangles.size();
+  return most;
+}
+
+std::vector<std::size_t> new_starts(const corpus::Case& c) {
+  std::vector<std::size_t> starts;
+  const corpus::CaseStep* committed = nullptr;
+  const auto script = corpus::steps_of(c);
+  for (std::size_t s = 0; s < script.size(); ++s) {
+    const bool goes_on = committed && start_of(c, script[s]) == end_of(c, *committed);
+    if (!goes_on) starts.push_back(s);
+    if (script[s].commit) committed = &script[s];
+  }
+  return starts;
+}
 
 namespace {
 
@@ -146,15 +183,13 @@ std::string line_of(const LawTally& tally) {
   return line.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-LawTally tally_of(const std::string& line) {
-  const auto fields = nlohmann::json::parse(line);
-  return {fields[0], fields[1], fields[2], fields[3]};
-}
-
 // The lines that are whole: a copy that is killed may leave a part of one.
 void add_tallies(const std::string& said, std::vector<LawTally>& tallies) {
   std::istringstream lines(said.substr(0, said.rfind('\n') + 1));
-  for (std::string line; std::getline(lines, line);) tallies.push_back(tally_of(line));
+  for (std::string line; std::getline(lines, line);) {
+    const auto fields = nlohmann::json::parse(line);
+    tallies.push_back({fields[0], fields[1], fields[2], fields[3]});
+  }
 }
 
 }  // namespace
@@ -181,6 +216,81 @@ std::vector<LawTally> check_in_copies(std::size_t count,
     tallies.push_back({1, 0, 1, fmt::format("{}: the check ended: {}", case_id, run.end.text)});
   }
   return tallies;
+}
+
+bool has_forms(const DetectorUnderTest& detector, const corpus::Case& c) {
+  return !detector.built_in && !detector.of_queries && !c.counted && !says_query(c);
+}
+
+namespace {
+
+// How many steps of the form have another answer than those of the case, and how the first differs.
+struct Differences {
+  std::uint64_t steps = 0;
+  std::string first;
+};
+
+Differences differences(const Form& form, const CaseRun& run, const CaseRun& in_form) {
+  Differences found;
+  if (!run.has_answers || run.end != RunEnd::completed || in_form.end != RunEnd::completed)
+    return found;
+  for (std::size_t s = 0; s < form.step.size(); ++s) {
+    const auto differs = difference_in_form(run.steps[s], form, in_form.steps[form.step[s]]);
+    if (differs.empty()) continue;
+    if (found.steps++ == 0) found.first = fmt::format("step {}: {}", s + 1, differs);
+  }
+  return found;
+}
+
+StoredFailure stored(const FormLaw& law, const corpus::Case& c, const corpus::Case& form,
+                     const CaseRun& run, const DetectorUnderTest& detector,
+                     const Failure& failure) {
+  const auto& configuration = detector.configurations.front();
+  const bool is_flaky = failure.claim == Claim::deterministic;
+  return {c.id,
+          fmt::format("{}{}{}", configuration.name, law_in_configuration, law.law),
+          fmt::format("{}{}, {}", law_in_signature, law.law, failure.signature()),
+          failure.explanation,
+          corpus::case_text(failing_case(form, configuration, detector, failure)),
+          "",
+          is_flaky,
+          run.printed};
+}
+
+}  // namespace
+
+FormCheck check_in_form(const FormLaw& law, const corpus::Case& c, const CaseRun& run,
+                        const DetectorUnderTest& detector, WorkerProcess& worker) {
+  FormCheck check;
+  auto form = law.make(c);
+  const auto told = form ? contracted(form->c, detector.contract) : std::nullopt;
+  if (!told || corpus::steps_of(*told).size() != corpus::steps_of(form->c).size()) return check;
+  // Answers can be set side by side if the contract has not rounded the form. Of lengths that the
+  // contract states a form in another scale knows nothing.
+  const auto& contract = detector.contract;
+  const bool states_lengths =
+      contract.margin > 0 || contract.separation > 0 || contract.rest_distance > 0;
+  if (told->frames != form->c.frames || (states_lengths && !law.keeps_lengths)) form->step.clear();
+  const auto& configuration = detector.configurations.front();
+  const auto in_form = std::move(worker.run(*told, {&configuration, 1}).front());
+  if (in_form.end == RunEnd::not_run) throw StoreProblem(in_form.explanation);
+  check.disturbances = in_form.disturbances;
+  auto judged = judge_trial(*told, judge_case(*told, contract), in_form, configuration, detector);
+  if (judged.outcome != Outcome::holds && judged.outcome != Outcome::defect) return check;
+  const auto differing = differences(*form, run, in_form);
+  check.count.premise = corpus::steps_of(c).size();
+  check.count.differs = differing.steps;
+  if (!judged.failure && differing.steps > 0 && law.same_calls &&
+      detector.claims_on(c, configuration).has(Claim::deterministic)) {
+    auto& failure = judged.failure.emplace();
+    failure.claim = Claim::deterministic;
+    failure.kind = "two runs differ";
+    failure.explanation = differing.first;
+  }
+  if (!judged.failure) return check;
+  check.count.broken = 1;
+  check.failure = stored(law, c, *told, in_form, detector, *judged.failure);
+  return check;
 }
 
 }  // namespace assay::properties

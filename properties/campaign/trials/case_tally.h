@@ -1,18 +1,35 @@
-// What a campaign counts of a case besides its outcome: tags, set pairs of contacts, laws.
+// What a campaign counts of a case besides its outcome: how far it goes, tags, set pairs of
+// contacts, and laws, of the built-in detector and of a plug-in.
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "corpus/cases/case_file.h"
+#include "oracle/mesh/step.h"
 #include "properties/campaign/ledger/record.h"
 #include "properties/generators/draft.h"
+#include "properties/judging/trial.h"
 #include "properties/laws/law.h"
+#include "properties/laws/metamorphic/forms.h"
 #include "properties/reducer/reducer.h"
 #include "properties/worker/case_run.h"
+#include "properties/worker/worker_process.h"
 
 namespace assay::properties {
+
+// How far the cases go on which a detector is tried. Beyond that nothing is known of it.
+
+// The extremes of a case whose steps the oracle judged so. Costs O(N + M), and compares each frame
+// with one other. REQUIRES triangles of which a detector can be made.
+Extremes extremes_of(const corpus::Case& c, std::span<const oracle::StepJudgement> truth);
+
+// The places in steps_of(c) of the steps that do not go on from a committed one.
+std::vector<std::size_t> new_starts(const corpus::Case& c);
 
 // A law that a case breaks.
 struct BrokenLaw {
@@ -54,5 +71,29 @@ Judge judge_of_law(const Law& law, const Configuration& configuration);
 std::vector<LawTally> check_in_copies(std::size_t count,
                                       const std::function<std::string(std::size_t)>& case_of,
                                       const std::function<LawTally(std::size_t)>& check);
+
+// Puts a case to a plug-in in other forms (laws/metamorphic/forms.h), and judges what it answers.
+//
+// A law of a plug-in is broken if a claim holds in the case and not in its form: the form is judged
+// by the oracle like any case. A detector that claims to be deterministic breaks it also by other
+// answers to the same calls. Other answers that its claims allow are counted alone: an interval of
+// time may be wider in one form, and a collision may be a false alarm in one form.
+
+struct FormCheck {
+  // Premise and differs are steps, and broken is 0 or 1; nothing if the form did not apply.
+  LawCount count;
+  std::optional<StoredFailure> failure;  // of the form, if the law is broken
+  std::uint64_t disturbances = 0;
+};
+
+// Runs the form of a case in the worker. Nothing is judged if it does not apply, if the contract
+// leaves some of its steps out, or if it runs out of time or memory. `run` is the run of the case.
+// Throws StoreProblem if there is no worker. REQUIRES a contracted case of meshes in which all
+// pairs count, and whose run holds.
+FormCheck check_in_form(const FormLaw& law, const corpus::Case& c, const CaseRun& run,
+                        const DetectorUnderTest& detector, WorkerProcess& worker);
+
+// Whether cases of this detector are put to it in other forms, and this is such a case.
+bool has_forms(const DetectorUnderTest& detector, const corpus::Case& c);
 
 }  // namespace assay::properties

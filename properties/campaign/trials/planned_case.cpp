@@ -11,7 +11,7 @@
 #include "detector/detector.h"
 #include "oracle/instant/layers.h"
 #include "oracle/mesh/loops.h"
-#include "properties/campaign/trials/extremes.h"
+#include "properties/campaign/trials/case_tally.h"
 #include "properties/generators/approaches.h"
 #include "properties/judging/contracted_case.h"
 #include "properties/judging/judged_run.h"

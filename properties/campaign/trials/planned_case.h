@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "corpus/cases/case_file.h"
-#include "properties/claims/contract.h"
+#include "properties/claims/claims.h"
 #include "properties/generators/families.h"
 #include "properties/judging/trial.h"
 

@@ -7,12 +7,10 @@
 #include <mutex>
 #include <system_error>
 
+#include "properties/campaign/ledger/database.h"
 #include "properties/campaign/ledger/step_measures.h"
-#include "properties/campaign/ledger/store_problem.h"
 #include "properties/campaign/ledger/tally.h"
 #include "properties/campaign/trials/case_tally.h"
-#include "properties/campaign/trials/extremes.h"
-#include "properties/campaign/trials/form_check.h"
 #include "properties/campaign/trials/planned_case.h"
 #include "properties/judging/case_check.h"
 #include "properties/queries/query_families.h"

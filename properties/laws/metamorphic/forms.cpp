@@ -8,7 +8,7 @@
 #include "properties/laws/metamorphic/halves.h"
 #include "properties/laws/step_law.h"
 #include "properties/random.h"
-#include "properties/worker/case_player.h"
+#include "properties/worker/case_run.h"
 
 namespace assay::properties {
 namespace {

@@ -9,15 +9,15 @@
 #include "detector/assembly.h"
 #include "oracle/mesh/pair_relation.h"
 #include "properties/generators/approaches.h"
+#include "properties/judging/agreement.h"
 #include "properties/judging/contracted_case.h"
-#include "properties/judging/step_truth.h"
 #include "properties/judging/trial.h"
 #include "properties/laws/metamorphic/forms.h"
 #include "properties/laws/options/drawn_options.h"
 #include "properties/laws/options/far_body.h"
 #include "properties/laws/step_law.h"
 #include "properties/random.h"
-#include "properties/worker/case_player.h"
+#include "properties/worker/case_run.h"
 
 namespace assay::properties {
 namespace {

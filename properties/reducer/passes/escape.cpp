@@ -9,9 +9,8 @@
 
 #include "properties/random.h"
 #include "properties/reducer/case_edits.h"
-#include "properties/reducer/numbers.h"
+#include "properties/reducer/mesh_size.h"
 #include "properties/reducer/passes/passes.h"
-#include "properties/reducer/sphere_meshes.h"
 
 namespace assay::properties {
 namespace {

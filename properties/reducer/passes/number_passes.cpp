@@ -8,9 +8,8 @@
 #include "properties/numbering.h"
 #include "properties/random.h"
 #include "properties/reducer/case_edits.h"
-#include "properties/reducer/numbers.h"
+#include "properties/reducer/mesh_size.h"
 #include "properties/reducer/passes/passes.h"
-#include "properties/reducer/relation_edits.h"
 
 namespace assay::properties {
 

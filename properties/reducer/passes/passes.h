@@ -1,17 +1,19 @@
 // The passes of the reducer, in the order in which they run. Each pass proposes cases to the
 // search, which keeps the best one. Whether a pass made progress shows in the size of that case.
 //
-// To add one: a function here, a row in passes.cpp, a test in
+// To add one: a function here, a row in reducer/reducer.cpp, a test in
 // tests/properties/reducer/reducer_passes_test.
 #pragma once
 
-#include <span>
+#include <array>
+#include <cstdint>
+#include <vector>
 
 #include "properties/reducer/search.h"
 
 namespace assay::properties {
 
-// large_meshes.cpp: a mesh of more than 1,000 triangles is cut before any pass begins, which would
+// mesh_passes.cpp: a mesh of more than 1,000 triangles is cut before any pass begins, which would
 // take too long: to the least number of triangles around the reported pair that still fails, found
 // by doubling and then halving, and by halves and quarters that are left out. A failure of the same
 // claim and kind counts as the same, because another contact may now come first. If more than 1,000
@@ -45,6 +47,23 @@ void remove_and_close(ReductionSearch& search);     // a face or a vertex star, 
 void try_spheres_of_pair(ReductionSearch& search);  // over vertices of the pair: few proposals
 void try_small_spheres(ReductionSearch& search);    // also over vertices around it: thousands
 
+// There too: all triangulated spheres with few vertices.
+
+using SphereMesh = std::vector<std::array<std::int32_t, 3>>;  // oriented alike; a cycle
+
+// Every triangulation of the sphere with the vertices 0 .. n-1, for 4 <= n <= 7: there are 1, 10,
+// 195 and 5712 (vertices labelled, no two triangles with the same corners, mirror images not
+// listed apart). They are found by edge flips, under which they are connected (Wagner 1936), and
+// are made once.
+const std::vector<SphereMesh>& sphere_meshes(int vertices);
+
+SphereMesh mirrored(SphereMesh mesh);
+
+// The mesh with the edge of corners i and i+1 of triangle t flipped, so that it joins the two
+// opposite vertices. Empty if that edge is not shared by exactly two triangles, or if the new edge
+// exists already.
+SphereMesh flipped(const SphereMesh& mesh, std::size_t t, std::size_t i);
+
 // step_passes.cpp: vertices that moved are put to rest.
 void freeze_vertices(ReductionSearch& search);  // halves, then one by one, at either end's place
 
@@ -69,18 +88,5 @@ void escape(ReductionSearch& search);
 // number_passes.cpp: numbers vertices and triangles in the order of their first use. The size
 // stays.
 void canonical_order(ReductionSearch& search);
-
-struct Pass {
-  const char* name;
-  void (*run)(ReductionSearch& search);
-};
-
-// The lists of passes, in the order in which they run: those that make the mesh and the sequence
-// shorter, those that make the whole case simpler, those that make single numbers simpler, and the
-// last resort.
-std::span<const Pass> shortening_passes();
-std::span<const Pass> simplifying_passes();
-std::span<const Pass> number_passes();
-std::span<const Pass> escaping_passes();
 
 }  // namespace assay::properties

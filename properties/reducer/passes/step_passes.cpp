@@ -3,7 +3,7 @@
 
 #include "properties/reducer/case_edits.h"
 #include "properties/reducer/passes/passes.h"
-#include "properties/reducer/rings.h"
+#include "properties/reducer/search.h"
 
 namespace assay::properties {
 

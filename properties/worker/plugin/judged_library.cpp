@@ -11,7 +11,6 @@
 #include <map>
 #include <mutex>
 #include <optional>
-#include <string>
 
 #include "corpus/digest.h"
 #include "properties/worker/plugin/python_word.h"

@@ -8,8 +8,7 @@
 #include <new>
 
 #include "detector/step_result.h"
-#include "properties/printable.h"
-#include "properties/worker/case_run.h"
+#include "properties/words.h"
 #include "properties/worker/plugin/plugin_reading.h"
 #include "properties/worker/plugin/query_case.h"
 

@@ -5,9 +5,9 @@
 #include <filesystem>
 
 #include "detector/plugin/assay_detector.h"
+#include "properties/claims/claims.h"
 #include "properties/problem.h"
 #include "properties/worker/case_run.h"
-#include "properties/worker/plugin/plugin_description.h"
 
 namespace assay::properties {
 

@@ -6,9 +6,7 @@
 #include <iterator>
 
 #include "detector/mesh/step_types.h"
-#include "detector/step_result.h"
-#include "properties/claims/contract.h"
-#include "properties/printable.h"
+#include "properties/words.h"
 
 namespace assay::properties {
 

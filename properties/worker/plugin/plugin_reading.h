@@ -7,9 +7,9 @@
 #include "detector/options.h"
 #include "detector/plugin/assay_detector.h"
 #include "detector/step_result.h"
+#include "properties/claims/claims.h"
 #include "properties/problem.h"
 #include "properties/worker/case_run.h"
-#include "properties/worker/plugin/plugin_description.h"
 
 namespace assay::properties {
 

@@ -4,7 +4,6 @@
 #include <cctype>
 #include <cstdlib>
 #include <fstream>
-#include <vector>
 
 namespace assay::properties {
 namespace {

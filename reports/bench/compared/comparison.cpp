@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "properties/campaign/gates/statistics.h"
+#include "properties/campaign/ledger/step_measures.h"
 #include "properties/judging/contracted_case.h"
 #include "properties/judging/judged_run.h"
 #include "reports/bench/compared/confirmation.h"

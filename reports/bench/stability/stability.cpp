@@ -4,7 +4,7 @@
 
 #include "oracle/view/view_sign.h"
 #include "properties/judging/case_options.h"
-#include "properties/worker/case_player.h"
+#include "properties/worker/case_run.h"
 #include "reports/bench/stability/stability_changes.h"
 #include "reports/bench/sweep.h"
 

@@ -1,6 +1,5 @@
 // How far a case goes, told of cases that are known by heart.
-#include "properties/campaign/trials/extremes.h"
-
+#include "properties/campaign/trials/case_tally.h"
 #include "tests/meshes.h"
 #include "tests/test.h"
 

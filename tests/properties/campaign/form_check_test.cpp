@@ -1,10 +1,9 @@
 // The laws of a plug-in: what is wrong in another form of a case alone breaks them, and what its
 // claims allow does not.
-#include "properties/campaign/trials/form_check.h"
-
 #include <set>
 
 #include "properties/campaign/ledger/tally.h"
+#include "properties/campaign/trials/case_tally.h"
 #include "properties/worker/worker_process.h"
 #include "tests/properties/campaign/campaign_request.h"
 #include "tests/properties/small_case.h"

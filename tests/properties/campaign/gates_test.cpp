@@ -3,7 +3,6 @@
 
 #include "corpus/scenes/scenes.h"
 #include "properties/campaign/phases/repetitions.h"
-#include "properties/campaign/phases/walks.h"
 #include "tests/properties/campaign/good_findings.h"
 #include "tests/test.h"
 

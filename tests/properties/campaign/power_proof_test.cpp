@@ -1,9 +1,8 @@
 // What a folder lacks to be the proof of planted faults, by name: a caller may then tell a wrong
 // folder from a run that has to be repeated.
-#include "properties/campaign/phases/power_proof.h"
-
 #include "properties/campaign/ledger/binding.h"
 #include "properties/campaign/ledger/run_folder.h"
+#include "properties/campaign/phases/fault_hunt.h"
 #include "tests/problem_words.h"
 #include "tests/properties/campaign/campaign_request.h"
 #include "tests/properties/campaign/good_findings.h"

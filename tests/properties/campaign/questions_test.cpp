@@ -6,7 +6,7 @@
 #include "properties/campaign/trials/planned_case.h"
 #include "properties/judging/case_options.h"
 #include "properties/queries/query_families.h"
-#include "properties/worker/case_player.h"
+#include "properties/worker/case_run.h"
 #include "tests/properties/campaign/campaign_request.h"
 #include "tests/reports/program.h"
 

@@ -1,7 +1,7 @@
 // The hash that every row of a store carries: no change of a row goes unseen.
 #include <fmt/format.h>
 
-#include "properties/campaign/ledger/row.h"
+#include "properties/campaign/ledger/database.h"
 #include "properties/campaign/ledger/store.h"
 #include "properties/random.h"
 #include "tests/problem_words.h"

@@ -2,7 +2,6 @@
 // goes on, a share has its part of the lanes, and what is found is shrunk and can be judged again.
 #include "properties/campaign/ledger/binding.h"
 #include "properties/campaign/phases/phases.h"
-#include "properties/campaign/phases/search.h"
 #include "tests/properties/campaign/campaign_request.h"
 #include "tests/reports/program.h"
 

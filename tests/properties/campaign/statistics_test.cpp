@@ -1,7 +1,6 @@
 // The bound of Clopper and Pearson against sums of the binomial distribution, closed forms, and
 // values in print.
-#include "properties/campaign/gates/statistics.h"
-
+#include "properties/campaign/ledger/step_measures.h"
 #include "tests/test.h"
 
 namespace assay::properties {

@@ -1,6 +1,4 @@
 // The thesis as printed misses, each deviation on its case; and how often, over random cases.
-#include "properties/as_printed.h"
-
 #include "properties/judging/fault_run.h"
 #include "tests/curated_cases.h"
 #include "tests/test.h"

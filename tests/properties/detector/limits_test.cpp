@@ -1,10 +1,9 @@
 // L17: where the built-in detector lets a step stop, judged by the oracle: on random small steps,
 // and on walks, in which each step starts where the last one was let stop. ASSAY_CASES=1000000 runs
 // more steps, ASSAY_WALKS=100 more walks, of 1,000 steps each; ASSAY_SEED draws others.
-#include "properties/campaign/phases/walks.h"
+#include "properties/campaign/phases/repetitions.h"
 #include "properties/judging/agreement.h"
 #include "properties/judging/step_errors.h"
-#include "properties/judging/step_truth.h"
 #include "tests/asked.h"
 #include "tests/properties/small_case.h"
 

@@ -1,8 +1,8 @@
 // A relation of a case under a contract, and what a contract leaves out by itself.
-#include "properties/judging/body_names.h"
 #include "properties/judging/case_check.h"
 #include "properties/judging/contracted_case.h"
 #include "properties/judging/judged_run.h"
+#include "properties/judging/trial.h"
 #include "tests/curated_cases.h"
 #include "tests/test.h"
 

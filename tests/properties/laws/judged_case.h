@@ -10,7 +10,7 @@
 #include "properties/generators/families.h"
 #include "properties/laws/facts/case_facts.h"
 #include "properties/laws/law.h"
-#include "properties/worker/case_player.h"
+#include "properties/worker/case_run.h"
 
 namespace assay::properties::test {
 

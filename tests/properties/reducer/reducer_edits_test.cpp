@@ -1,7 +1,7 @@
 // Size, edits and sphere meshes of the reducer.
 #include "properties/reducer/case_edits.h"
 #include "properties/reducer/mesh_size.h"
-#include "properties/reducer/sphere_meshes.h"
+#include "properties/reducer/passes/passes.h"
 #include "tests/properties/reducer/resting_cases.h"
 #include "tests/test.h"
 

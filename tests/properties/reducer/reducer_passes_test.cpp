@@ -3,7 +3,7 @@
 
 #include "corpus/scenes/shapes.h"
 #include "properties/reducer/case_edits.h"
-#include "properties/reducer/numbers.h"
+#include "properties/reducer/mesh_size.h"
 #include "properties/reducer/passes/passes.h"
 #include "tests/properties/reducer/resting_cases.h"
 #include "tests/test.h"

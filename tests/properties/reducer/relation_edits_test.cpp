@@ -1,6 +1,4 @@
 // A relation goes on with what is left of the mesh, and becomes smaller itself.
-#include "properties/reducer/relation_edits.h"
-
 #include "properties/reducer/case_edits.h"
 #include "properties/reducer/passes/passes.h"
 #include "tests/properties/reducer/resting_cases.h"

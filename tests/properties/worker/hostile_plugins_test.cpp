@@ -4,8 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "properties/worker/isolation/bubblewrap.h"
-#include "properties/worker/isolation/scratch_folder.h"
+#include "properties/worker/isolation.h"
 #include "properties/worker/worker_process.h"
 #include "tests/problem_words.h"
 #include "tests/properties/worker/worker_cases.h"

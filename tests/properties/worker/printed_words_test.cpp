@@ -1,8 +1,7 @@
 // What a plug-in prints: kept a case, its end alone where that is much, and harmless.
-#include "properties/worker/isolation/printed_words.h"
-
 #include <unistd.h>
 
+#include "properties/worker/isolation.h"
 #include "properties/worker/worker_process.h"
 #include "tests/properties/worker/worker_cases.h"
 

@@ -1,11 +1,10 @@
 // Processor time of a process seen from outside: where it may be used, and how sleep is told.
-#include "properties/worker/processor_time.h"
-
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "properties/worker/worker_watch.h"
 #include "tests/test.h"
 
 namespace assay::properties {

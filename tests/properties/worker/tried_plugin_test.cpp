@@ -1,7 +1,7 @@
 // Plug-ins of steps, of a query and of candidates with faults that are excused or found.
 #include "properties/campaign/ledger/step_measures.h"
 #include "properties/campaign/trials/planned_case.h"
-#include "properties/claims/contract.h"
+#include "properties/claims/claims.h"
 #include "properties/judging/trial.h"
 #include "properties/queries/query_families.h"
 #include "properties/worker/plugin/query_case.h"

@@ -1,5 +1,5 @@
 // Names that are no text, or markup: of a plug-in, of a folder.
-#include "properties/printable.h"
+#include "properties/words.h"
 #include "reports/certificate/verify.h"
 #include "tests/reports/certificate/issued_folder.h"
 

@@ -3,7 +3,7 @@
 // digests of the others and is itself compared byte by byte; so none of the changes may pass.
 #include <fmt/format.h>
 
-#include "properties/campaign/ledger/row.h"
+#include "properties/campaign/ledger/database.h"
 #include "properties/random.h"
 #include "tests/reports/certificate/issued_folder.h"
 

@@ -1,6 +1,4 @@
-#include "properties/printable.h"
-
-#include <cstdint>
+#include "properties/words.h"
 
 namespace assay::properties {
 namespace {
