@@ -12,10 +12,9 @@
 #include "properties/judging/body_names.h"
 #include "properties/judging/trial.h"
 #include "properties/numbering.h"
-#include "reports/steps/step_json.h"
-#include "reports/terminal/limits.h"
-#include "reports/terminal/progress.h"
+#include "reports/steps/step_report.h"
 #include "reports/terminal/words.h"
+#include "reports/terminal/work.h"
 
 namespace assay::reports {
 namespace {
