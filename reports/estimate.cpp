@@ -39,28 +39,6 @@ std::vector<double> ratios(std::span<const double> a, std::span<const double> b)
   return out;
 }
 
-}  // namespace
-
-Estimate ratio_of(std::span<const double> a, std::span<const double> b) {
-  return median_of(ratios(a, b));
-}
-
-Estimate scaled(Estimate estimate, double factor) {
-  for (double* x : {&estimate.value, &estimate.lo, &estimate.hi}) *x *= factor;
-  for (double& x : estimate.samples) x *= factor;
-  return estimate;
-}
-
-double quantile(std::vector<double> samples, double share) {
-  const auto n = static_cast<double>(samples.size());
-  const auto rank = static_cast<std::size_t>(std::clamp(std::ceil(share * n), 1.0, n));
-  const auto at = samples.begin() + static_cast<std::ptrdiff_t>(rank - 1);
-  std::nth_element(samples.begin(), at, samples.end());
-  return *at;
-}
-
-namespace {
-
 // Computes the median, and reorders its argument for that.
 double median_in_place(std::vector<double>& values) {
   const std::size_t half = values.size() / 2;
@@ -87,6 +65,24 @@ Estimate over_draws(std::size_t items, const FigureOf& figure_of) {
 }
 
 }  // namespace
+
+Estimate ratio_of(std::span<const double> a, std::span<const double> b) {
+  return median_of(ratios(a, b));
+}
+
+Estimate scaled(Estimate estimate, double factor) {
+  for (double* x : {&estimate.value, &estimate.lo, &estimate.hi}) *x *= factor;
+  for (double& x : estimate.samples) x *= factor;
+  return estimate;
+}
+
+double quantile(std::vector<double> samples, double share) {
+  const auto n = static_cast<double>(samples.size());
+  const auto rank = static_cast<std::size_t>(std::clamp(std::ceil(share * n), 1.0, n));
+  const auto at = samples.begin() + static_cast<std::ptrdiff_t>(rank - 1);
+  std::nth_element(samples.begin(), at, samples.end());
+  return *at;
+}
 
 Estimate bootstrap_median(std::vector<double> samples) {
   std::vector<double> values = samples;

@@ -16,9 +16,9 @@
 
 #include "corpus/problem.h"
 #include "oracle/libraries.h"
-#include "reports/terminal/complaint.h"
 #include "reports/terminal/manual.h"
 #include "reports/terminal/words.h"
+#include "reports/terminal/work.h"
 #include "reports/verbs/verbs.h"
 
 namespace {
@@ -85,15 +85,11 @@ class Formatter : public CLI::Formatter {
   }
 };
 
-Words verb_names(const CLI::App& app) {
+int refuse_verb(const CLI::App& app, const std::string& word) {
   Words names;
   for (const auto* verb : app.get_subcommands({})) names.push_back(verb->get_name());
-  return names;
-}
-
-int refuse_verb(const CLI::App& app, const std::string& word) {
   return reports::refuse(fmt::format("unknown verb '{}'{} (assay help lists verbs)", word,
-                                     corpus::did_you_mean(verb_names(app), word)));
+                                     corpus::did_you_mean(names, word)));
 }
 
 int print_help(const CLI::App& app) {

@@ -9,7 +9,7 @@
 #include "properties/campaign/ledger/tally.h"
 #include "properties/queries/query_families.h"
 #include "reports/steps/measures_text.h"
-#include "reports/terminal/complaint.h"
+#include "reports/terminal/work.h"
 
 namespace assay::reports {
 namespace {

@@ -13,8 +13,8 @@
 #include "properties/queries/query_families.h"
 #include "properties/reducer/mesh_size.h"
 #include "properties/words.h"
-#include "reports/check/detector_choice.h"
 #include "reports/pictures/case_scene.h"
+#include "reports/terminal/option_words.h"
 #include "reports/terminal/words.h"
 
 namespace assay::reports {

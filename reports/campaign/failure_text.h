@@ -7,8 +7,8 @@
 
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/ledger/store.h"
-#include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
+#include "reports/terminal/work.h"
 
 namespace assay::reports {
 

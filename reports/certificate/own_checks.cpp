@@ -18,7 +18,7 @@
 #include "reports/bench/cases.h"
 #include "reports/bench/interleave.h"
 #include "reports/bench/sweep.h"
-#include "reports/campaign/own_cases.h"
+#include "reports/campaign/case_folders.h"
 
 namespace assay::reports {
 
@@ -156,11 +156,6 @@ class JudgedRows {
   std::vector<CorpusRow> rows_;
 };
 
-corpus::Expected<std::vector<corpus::Case>> curated(const std::filesystem::path& folder) {
-  BOOST_OUTCOME_TRY(files, corpus::case_files(folder));
-  return read_cases(files);
-}
-
 // Makes a scene small enough to be judged in a few seconds, in as many frames as the scene needs.
 corpus::Expected<corpus::Case> case_of_scene(const corpus::SceneInfo& scene) {
   corpus::SceneOptions options;
@@ -221,16 +216,16 @@ Expected<void> check_corpus(const properties::CampaignRequest& request,
                             const std::filesystem::path& corpus, const OnCorpusRow& on_row,
                             const OnCorpusFailure& on_failure) {
   if (request.detector.of_queries) return check_queries(request, corpus, on_row, on_failure);
-  const auto cases = curated(corpus);
-  if (!cases) return cases.error();
+  BOOST_OUTCOME_TRY(files, corpus::case_files(corpus));
+  BOOST_OUTCOME_TRY(cases, read_cases(files));
   int hung = 0;
   if (request.detector.built_in) {
     for (const auto culling : all_values<Culling>) {
-      if (culling != Culling::none) on_row(check_facts(cases.value(), culling, request.jobs));
+      if (culling != Culling::none) on_row(check_facts(cases, culling, request.jobs));
     }
   } else {
     JudgedRows judged(request, "curated cases", on_failure, hung);
-    for (const auto& c : cases.value()) {
+    for (const auto& c : cases) {
       // Input that has to be refused is not valid, so the detector claims nothing of it.
       if (c.expected.answer != detector::Answer::error) judged.add(c);
     }

@@ -6,7 +6,7 @@
 
 #include "properties/campaign/ledger/evidence.h"
 #include "properties/campaign/request.h"
-#include "reports/terminal/complaint.h"
+#include "reports/terminal/work.h"
 
 namespace assay::reports {
 

@@ -42,10 +42,6 @@ nlohmann::ordered_json judged_up_to_json(const properties::RunFindings& findings
 // of queries alone.
 nlohmann::ordered_json tried_json(const properties::RunFindings& findings);
 
-// What the steps of a plug-in came to, whatever it claims: those of one stratum, or of all strata
-// (strata_section.cpp).
-nlohmann::ordered_json measures_json(const properties::StepMeasures& measures);
-
 // One object for each large mesh that was put to a plug-in again and again; null if none was.
 nlohmann::ordered_json repeated_json(const properties::RunFindings& findings);
 

@@ -2,16 +2,29 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
+
 #include "corpus/digest.h"
+#include "corpus/files.h"
 #include "corpus/json_fields.h"
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/gates/not_judged.h"
 #include "properties/campaign/ledger/run_folder.h"
+#include "reports/campaign/campaign_terminal.h"
+#include "reports/campaign/campaign_text.h"
+#include "reports/campaign/failure_text.h"
 #include "reports/certificate/sections.h"
-#include "reports/certificate/told_paths.h"
+#include "reports/certificate/summary.h"
+#include "reports/terminal/text_file.h"
 #include "reports/terminal/words.h"
 
 namespace assay::reports {
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -110,13 +123,52 @@ Json replay_json(const RunFindings& findings) {
   return lines;
 }
 
-// Replaces what is not UTF-8 in the statement, such as in the name of a folder. The result is what
-// will be read back from the file.
-Json in_utf8(const Json& json) { return Json::parse(corpus::json_text(json)); }
-
+// Tells paths for readers of other machines, and replaces what is not UTF-8, such as in the name of
+// a folder. The result is what will be read back from the file.
 Json for_any_reader(const RunFindings& findings, Json predicate) {
   ToldPaths(findings).tell_in(predicate);
-  return in_utf8(predicate);
+  return Json::parse(corpus::json_text(predicate));
+}
+
+void replace_all(std::string& text, const std::string& what, const std::string& by) {
+  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
+    text.replace(at, what.size(), by);
+}
+
+// By the copy of each store in `out`, the store.
+using Copies = std::map<std::filesystem::path, std::filesystem::path>;
+
+// Refuses, before anything is written, runs that cannot be judged together.
+Expected<Copies> copies_of(const std::vector<std::string>& folders, const std::string& out) {
+  Copies copies;
+  std::string binding;
+  for (const auto& folder : folders) {
+    BOOST_OUTCOME_TRY(stores, properties::stored_runs(folder));
+    for (const auto& file : stores) {
+      BOOST_OUTCOME_TRY(store, properties::Store::read(file));
+      BOOST_OUTCOME_TRY(run, properties::read_binding(store.binding(), file));
+      if (binding.empty()) binding = store.binding();
+      const auto difference =
+          properties::difference_of(binding, store.binding(), properties::Runs::judged_together);
+      if (!difference.empty())
+        return Problem{fmt::format("{}: this run and those before cannot be judged together: {}",
+                                   file.string(), difference)};
+      const auto [copy, is_new] =
+          copies.emplace(properties::copied_store_file(out, run.seed), file);
+      if (!is_new)
+        return Problem{
+            fmt::format("{} and {}: both are of seed {}, and its trials would count twice",
+                        copy->second.string(), file.string(), run.seed)};
+    }
+  }
+  return copies;
+}
+
+Expected<properties::RunFindings> copied(const Copies& copies, const std::filesystem::path& out) {
+  for (const auto& [copy, store] : copies) {
+    BOOST_OUTCOME_TRY(properties::copy_store(store, copy));
+  }
+  return properties::read_findings(out);
 }
 
 }  // namespace
@@ -182,5 +234,94 @@ properties::Expected<Json> make_statement(const RunFindings& findings) {
 }
 
 std::string statement_text(const Json& statement) { return corpus::json_text(statement, 1) + "\n"; }
+
+ToldPaths::ToldPaths(const properties::RunFindings& findings) {
+  const auto& stored = findings.evidence.paths;
+  const auto folder = stored ? stored->out : findings.folder.string();
+  const std::filesystem::path whole = absolute_path(std::filesystem::path(folder) / "");
+  if (!folder.empty() && whole != whole.root_path()) folder_ = whole.string();
+  for (const auto& path : {findings.library, stored ? stored->detector : "",
+                           stored ? stored->own_cases : "", stored ? stored->data : ""}) {
+    if (std::filesystem::path(path).is_absolute()) others_.insert({path, absolute_path(path)});
+  }
+}
+
+std::string ToldPaths::told(const std::string& path) const {
+  const std::filesystem::path whole = absolute_path(path);
+  if (whole.is_relative() || folder_.empty()) return path;
+  const auto from = std::filesystem::path(folder_).parent_path();
+  const auto common = std::mismatch(whole.begin(), whole.end(), from.begin(), from.end()).first;
+  constexpr std::ptrdiff_t root_alone = 1;
+  return std::distance(whole.begin(), common) > root_alone ? whole.lexically_relative(from).string()
+                                                           : whole.filename().string();
+}
+
+void ToldPaths::tell_in(nlohmann::ordered_json& json) const {
+  if (json.is_structured()) {
+    for (auto& part : json) tell_in(part);
+  } else if (json.is_string()) {
+    tell_in(json.get_ref<std::string&>());
+  }
+}
+
+void ToldPaths::tell_in(std::string& text) const {
+  for (const auto& path : others_) {
+    replace_all(text, shell_word(path), shell_word(told(path)));
+    replace_all(text, path, told(path));
+  }
+  if (!folder_.empty()) replace_all(text, folder_, "");
+}
+
+Expected<int> issue_certificate(const properties::RunFindings& findings,
+                                const std::string& campaign_text, const std::string& took) {
+  BOOST_OUTCOME_TRY(statement, make_statement(findings));
+  const auto& predicate = statement["predicate"];
+  if (predicate["digests"]["campaign"] != corpus::sha256_of(campaign_text))
+    return Problem{fmt::format("{}: was changed while this run was at work",
+                               properties::campaign_file(findings.folder).string())};
+  const auto certificate = properties::certificate_file(findings.folder).string();
+  BOOST_OUTCOME_TRY(write_text_file(certificate, statement_text(statement)));
+  BOOST_OUTCOME_TRY(write_for_ci(predicate, findings.folder));
+  const auto judgement = judge(findings);
+  fmt::print(
+      "{}\n{}\nverdict: {}{}; {}\nit speaks of {}\n{}next: {}\n", findings_text(findings),
+      gates_text(judgement), judgement.verdict, took, certificate, judged_text(predicate),
+      findings.is_whole() ? "" : "verify DIR... --out DIR judges it together with other shares\n",
+      line_to_paste("verify " + shell_word(certificate), PastedIn::this_folder));
+  return judgement.exit_code;
+}
+
+Expected<int> judge_together(const std::vector<std::string>& folders, const std::string& out) {
+  BOOST_OUTCOME_TRY(copies, copies_of(folders, out));
+  BOOST_OUTCOME_TRY(campaign, corpus::read_bytes(properties::campaign_file(folders.front())));
+  BOOST_OUTCOME_TRY(
+      may_keep_run(out, {"campaign.json", "certificate.json", "junit.xml", "summary.md"}));
+  std::set<std::filesystem::path> expected, added;
+  for (const auto& [copy, store] : copies) {
+    std::error_code ignored;
+    expected.insert(copy);
+    if (!std::filesystem::exists(copy, ignored)) added.insert(copy);
+  }
+  BOOST_OUTCOME_TRY(properties::expect_no_other_store(out, expected));
+  auto findings = copied(copies, out);
+  if (!findings) {
+    std::error_code ignored;
+    for (const auto& copy : added) std::filesystem::remove(copy, ignored);
+    return findings.error();
+  }
+  BOOST_OUTCOME_TRY(write_text_file(properties::campaign_file(out).string(), campaign));
+  const auto& found = findings.value();
+  // A failure of the corpus is the same in all runs, and so is the name of its file. The first has
+  // the smallest mesh.
+  std::vector<properties::StoredFailure> failures;
+  std::set<std::pair<std::string, std::string>> names;
+  for (const auto& failure : found.failures) {
+    if (names.emplace(failure.id, failure.configuration).second) failures.push_back(failure);
+  }
+  std::string text;
+  BOOST_OUTCOME_TRY(write_failures({failures, found.times_met}, out, detector_of(found), text));
+  fmt::print("\n{} runs of campaign {}\n{}", copies.size(), found.run.plan.name, text);
+  return issue_certificate(found, campaign, "");
+}
 
 }  // namespace assay::reports

@@ -122,55 +122,6 @@ std::string claims_text(const Json& p) {
                      others.empty() ? "" : "; not judged: " + joined(others, ", "));
 }
 
-}  // namespace
-
-std::string met_text(const Json& failure) {
-  const auto trials = count(failure["met"]);
-  const auto id = failure["case"].get<std::string>();
-  return trials > 0                                   ? "met " + properties::times_text(trials)
-         : id.starts_with(properties::searched_in_id) ? "found by the search alone"
-                                                      : "met in the corpus alone";
-}
-
-std::string summary_text(const Json& p, const std::string& begun) {
-  const auto& power = p["power"];
-  std::string out = fmt::format("## Assay: {}\n\n", cell(p["verdict"]));
-  out += fmt::format("{}: {}.", cell(p["detector"]["name"]), cell(judged_text(p)));
-  const auto& issued = p["times"]["issued"];
-  if (!issued.is_null()) {
-    out += fmt::format(" Issued {}.", cell(issued));
-  } else if (!begun.empty()) {
-    out += fmt::format(" Begun {}.", cell(begun));
-  }
-  if (count(power["planted"]) > 0)
-    out += fmt::format(
-        " {} of {} planted faults found: {}.", count(power["found"]), count(power["planted"]),
-        found_text(count(power["found_at_random"]), count(power["found_by_curated_case_alone"])));
-  if (!power["taken_from"].is_null())
-    out += fmt::format(" Their proof is taken from campaign {}, seed {}, of the same build.",
-                       cell(power["taken_from"]["campaign"]), count(power["taken_from"]["seed"]));
-  if (!p["search"].is_null())
-    out += fmt::format(" The search asked {} cases: {} with a defect, {} causes in its archives.",
-                       count(p["search"]["cases"]), count(p["search"]["defects"]),
-                       p["search"]["causes"].size());
-  out += "\n\n" + gates_text(p) + strata_text(p) + failures_text(p);
-  if (!p["strata"].empty())
-    out +=
-        fmt::format("\nAll {} bounds together hold with confidence {} %. They speak of {}.\n",
-                    count(p["confidence"]["bounds"]), 100 * p["confidence"]["family"].get<double>(),
-                    cell(p["confidence"]["speaks_of"]));
-  return out;
-}
-
-Expected<void> write_for_ci(const Json& predicate, const std::filesystem::path& out,
-                            const std::string& begun) {
-  auto written = write_text_file((out / "junit.xml").string(), junit_text(predicate));
-  if (!written) return written;
-  return write_text_file((out / "summary.md").string(), summary_text(predicate, begun));
-}
-
-namespace {
-
 // "seed 3, share 1/8", "seeds 1, 2, 3".
 std::string seeds_text(const Json& parts) {
   std::vector<std::string> seeds;
@@ -179,34 +130,6 @@ std::string seeds_text(const Json& parts) {
   return fmt::format("seed{} {}{}", seeds.size() == 1 ? "" : "s", joined(seeds, ", "),
                      seeds.size() > 1 || share == "1/1" ? "" : ", share " + share);
 }
-
-}  // namespace
-
-std::string judged_text(const Json& p) {
-  std::vector<properties::JudgedSize> judged_up_to;
-  for (const auto& one : p["judged_up_to"])
-    judged_up_to.push_back(
-        {one["claim"].get<std::string>(), one["triangles"].get<std::uint64_t>()});
-  auto sizes = sizes_text(judged_up_to);
-  if (const auto& tried = p["tried"]; !sizes.empty()) {
-    properties::Extremes largest;
-    properties::read_fields(tried["largest"], largest);
-    sizes += "; " + extremes_text(largest, count(tried["relations"]));
-  }
-  const auto phrases = p["detector"]["contract"]["leaves_out"].get<std::vector<std::string>>();
-  return fmt::format(
-      "{}{}; contract {}{}; campaign {}, {}{}{}", claims_text(p), sizes.empty() ? "" : "; " + sizes,
-      phrases.empty() ? "leaves nothing out" : joined(phrases, ", "),
-      p["isolation"].is_null() ? ""
-                               : fmt::format("; isolation {}", p["isolation"].get<std::string>()),
-      p["campaign"]["name"].get<std::string>(), seeds_text(p["campaign"]["parts"]),
-      p["campaign"]["is_default_seed"].get<bool>() ? " (the default)" : "",
-      case_limits_text(p["campaign"]["plan"]));
-}
-
-namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::string text(const Json& word) { return word.get<std::string>(); }
 
@@ -352,6 +275,73 @@ std::string xml_of(const Suite& suite) {
 }
 
 }  // namespace
+
+std::string met_text(const Json& failure) {
+  const auto trials = count(failure["met"]);
+  const auto id = failure["case"].get<std::string>();
+  return trials > 0                                   ? "met " + properties::times_text(trials)
+         : id.starts_with(properties::searched_in_id) ? "found by the search alone"
+                                                      : "met in the corpus alone";
+}
+
+std::string summary_text(const Json& p, const std::string& begun) {
+  const auto& power = p["power"];
+  std::string out = fmt::format("## Assay: {}\n\n", cell(p["verdict"]));
+  out += fmt::format("{}: {}.", cell(p["detector"]["name"]), cell(judged_text(p)));
+  const auto& issued = p["times"]["issued"];
+  if (!issued.is_null()) {
+    out += fmt::format(" Issued {}.", cell(issued));
+  } else if (!begun.empty()) {
+    out += fmt::format(" Begun {}.", cell(begun));
+  }
+  if (count(power["planted"]) > 0)
+    out += fmt::format(
+        " {} of {} planted faults found: {}.", count(power["found"]), count(power["planted"]),
+        found_text(count(power["found_at_random"]), count(power["found_by_curated_case_alone"])));
+  if (!power["taken_from"].is_null())
+    out += fmt::format(" Their proof is taken from campaign {}, seed {}, of the same build.",
+                       cell(power["taken_from"]["campaign"]), count(power["taken_from"]["seed"]));
+  if (!p["search"].is_null())
+    out += fmt::format(" The search asked {} cases: {} with a defect, {} causes in its archives.",
+                       count(p["search"]["cases"]), count(p["search"]["defects"]),
+                       p["search"]["causes"].size());
+  out += "\n\n" + gates_text(p) + strata_text(p) + failures_text(p);
+  if (!p["strata"].empty())
+    out +=
+        fmt::format("\nAll {} bounds together hold with confidence {} %. They speak of {}.\n",
+                    count(p["confidence"]["bounds"]), 100 * p["confidence"]["family"].get<double>(),
+                    cell(p["confidence"]["speaks_of"]));
+  return out;
+}
+
+Expected<void> write_for_ci(const Json& predicate, const std::filesystem::path& out,
+                            const std::string& begun) {
+  auto written = write_text_file((out / "junit.xml").string(), junit_text(predicate));
+  if (!written) return written;
+  return write_text_file((out / "summary.md").string(), summary_text(predicate, begun));
+}
+
+std::string judged_text(const Json& p) {
+  std::vector<properties::JudgedSize> judged_up_to;
+  for (const auto& one : p["judged_up_to"])
+    judged_up_to.push_back(
+        {one["claim"].get<std::string>(), one["triangles"].get<std::uint64_t>()});
+  auto sizes = sizes_text(judged_up_to);
+  if (const auto& tried = p["tried"]; !sizes.empty()) {
+    properties::Extremes largest;
+    properties::read_fields(tried["largest"], largest);
+    sizes += "; " + extremes_text(largest, count(tried["relations"]));
+  }
+  const auto phrases = p["detector"]["contract"]["leaves_out"].get<std::vector<std::string>>();
+  return fmt::format(
+      "{}{}; contract {}{}; campaign {}, {}{}{}", claims_text(p), sizes.empty() ? "" : "; " + sizes,
+      phrases.empty() ? "leaves nothing out" : joined(phrases, ", "),
+      p["isolation"].is_null() ? ""
+                               : fmt::format("; isolation {}", p["isolation"].get<std::string>()),
+      p["campaign"]["name"].get<std::string>(), seeds_text(p["campaign"]["parts"]),
+      p["campaign"]["is_default_seed"].get<bool>() ? " (the default)" : "",
+      case_limits_text(p["campaign"]["plan"]));
+}
 
 std::string xml_escaped(const std::string& text) {
   static const std::map<char, std::string_view> written = [] {

@@ -17,7 +17,7 @@
 #include "properties/worker/worker_process.h"
 #include "reports/certificate/statement.h"
 #include "reports/certificate/summary.h"
-#include "reports/check/detector_choice.h"
+#include "reports/terminal/option_words.h"
 
 namespace assay::reports {
 namespace {
@@ -29,13 +29,6 @@ using Lines = std::vector<std::string>;
 // An empty object or list is a leaf, as a number is.
 bool is_leaf(const Json& json) { return !json.is_structured() || json.empty(); }
 
-void compare_leaves(const Json* stated, const Json* computed, const std::string& place,
-                    Lines& lines) {
-  lines.push_back(
-      fmt::format("{}: {}, {}", place, stated ? json_text(*stated) + " is stated" : "is not stated",
-                  computed ? json_text(*computed) + " is computed" : "nothing of it is stored"));
-}
-
 // Reports each leaf that only one side has, or that differs. A side that has nothing at this place
 // is null. Equal parts are passed over as a whole, so that no place is named in vain.
 void compare_fields(const Json* stated, const Json* computed, const Json::json_pointer& place,
@@ -43,7 +36,10 @@ void compare_fields(const Json* stated, const Json* computed, const Json::json_p
   const bool has_both = stated != nullptr && computed != nullptr;
   if (has_both && *stated == *computed) return;
   if ((stated == nullptr || is_leaf(*stated)) && (computed == nullptr || is_leaf(*computed)))
-    return compare_leaves(stated, computed, place.to_string(), lines);
+    return lines.push_back(
+        fmt::format("{}: {}, {}", place.to_string(),
+                    stated ? json_text(*stated) + " is stated" : "is not stated",
+                    computed ? json_text(*computed) + " is computed" : "nothing of it is stored"));
   if (has_both && stated->type() != computed->type()) {
     compare_fields(stated, nullptr, place, lines);
     compare_fields(nullptr, computed, place, lines);
@@ -145,42 +141,6 @@ void compare(const std::filesystem::path& certificate, const properties::Expecte
   std::sort(result.others.begin(), result.others.end());
 }
 
-}  // namespace
-
-std::filesystem::path certificate_in(const std::filesystem::path& file_or_folder) {
-  std::error_code ignored;
-  return std::filesystem::is_directory(file_or_folder, ignored)
-             ? properties::certificate_file(file_or_folder)
-             : file_or_folder;
-}
-
-std::string sent_alone(const std::filesystem::path& certificate) {
-  const auto read = read_certificate(certificate);
-  if (!read) return "";
-  if (const auto schema = read.value().find("schema"); schema != read.value().end())
-    return fmt::format(
-        "{}: of schema {}, no certificate and no run; assay report shows folders of assay run and "
-        "assay certify; of a check that fails, assay check --keep DIR writes DIR/page.html",
-        certificate.string(), schema->dump());
-  return properties::stored_runs(folder_of(certificate)).has_value()
-             ? ""
-             : fmt::format(
-                   "{}: the stores that it rests on (*.sqlite) are not beside it: ask its issuer "
-                   "for the whole folder",
-                   certificate.string());
-}
-
-Verification verify_certificate(const std::filesystem::path& certificate,
-                                const properties::Expected<Json>* computed) {
-  auto read = read_certificate(certificate);
-  if (!read) return {{read.error().message}, nullptr};
-  Verification result{{}, std::move(read.value())};
-  compare(certificate, computed ? *computed : make_statement(folder_of(certificate)), result);
-  return result;
-}
-
-namespace {
-
 using properties::BoundRun;
 
 // Finds the library of the plug-in and checks that it is the certified one, before any of its code
@@ -219,6 +179,38 @@ std::string difference_of_builds(const BoundRun& certified, const BoundRun& ours
 }
 
 }  // namespace
+
+std::filesystem::path certificate_in(const std::filesystem::path& file_or_folder) {
+  std::error_code ignored;
+  return std::filesystem::is_directory(file_or_folder, ignored)
+             ? properties::certificate_file(file_or_folder)
+             : file_or_folder;
+}
+
+std::string sent_alone(const std::filesystem::path& certificate) {
+  const auto read = read_certificate(certificate);
+  if (!read) return "";
+  if (const auto schema = read.value().find("schema"); schema != read.value().end())
+    return fmt::format(
+        "{}: of schema {}, no certificate and no run; assay report shows folders of assay run and "
+        "assay certify; of a check that fails, assay check --keep DIR writes DIR/page.html",
+        certificate.string(), schema->dump());
+  return properties::stored_runs(folder_of(certificate)).has_value()
+             ? ""
+             : fmt::format(
+                   "{}: the stores that it rests on (*.sqlite) are not beside it: ask its issuer "
+                   "for the whole folder",
+                   certificate.string());
+}
+
+Verification verify_certificate(const std::filesystem::path& certificate,
+                                const properties::Expected<Json>* computed) {
+  auto read = read_certificate(certificate);
+  if (!read) return {{read.error().message}, nullptr};
+  Verification result{{}, std::move(read.value())};
+  compare(certificate, computed ? *computed : make_statement(folder_of(certificate)), result);
+  return result;
+}
 
 Expected<properties::TrialsAgain> run_certified_again(
     const std::filesystem::path& folder, const AgainRequest& asked,

@@ -12,8 +12,8 @@
 #include "properties/campaign/phases/phases.h"
 #include "properties/problem.h"
 #include "reports/certificate/statement.h"
-#include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
+#include "reports/terminal/work.h"
 
 namespace assay::reports {
 

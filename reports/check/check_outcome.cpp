@@ -7,10 +7,9 @@
 
 #include "properties/judging/agreement.h"
 #include "reports/steps/measures_text.h"
-#include "reports/steps/step_text.h"
-#include "reports/terminal/complaint.h"
-#include "reports/terminal/limits.h"
+#include "reports/steps/step_report.h"
 #include "reports/terminal/words.h"
+#include "reports/terminal/work.h"
 
 namespace assay::reports {
 

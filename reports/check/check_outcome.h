@@ -68,7 +68,7 @@ struct CheckOutcome {
 };
 
 // The report of `check`, schema assay-check/1 (documented in reports/check/README.md). `steps`: an
-// entry for each step that was judged (steps/step_json.h).
+// entry for each step that was judged (steps/step_report.h).
 nlohmann::ordered_json check_report(const std::vector<std::string>& files,
                                     const detector::Topology& mesh, const StepAnswers& answers,
                                     const CheckOutcome& outcome, nlohmann::ordered_json steps);

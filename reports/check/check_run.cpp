@@ -16,15 +16,12 @@
 #include "properties/judging/case_options.h"
 #include "properties/judging/trial.h"
 #include "properties/numbering.h"
-#include "reports/check/answer_table.h"
 #include "reports/check/check_outcome.h"
-#include "reports/check/detector_choice.h"
-#include "reports/check/nested_bodies.h"
-#include "reports/steps/contact_list.h"
-#include "reports/steps/step_json.h"
-#include "reports/steps/step_text.h"
-#include "reports/terminal/limits.h"
-#include "reports/terminal/progress.h"
+#include "reports/check/given_answers.h"
+#include "reports/steps/step_pairs.h"
+#include "reports/steps/step_report.h"
+#include "reports/terminal/option_words.h"
+#include "reports/terminal/work.h"
 
 namespace assay::reports {
 

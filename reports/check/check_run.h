@@ -31,7 +31,7 @@ struct CheckQuestion {
   BuiltInChoice built_in;
   DetectorWords detector;     // its `threads` is not used; the one below is
   std::uint64_t threads = 0;  // 0: all cores; a plug-in is told 1
-  std::string answers;  // a table of answers (answer_table.h), in place of a detector; or empty
+  std::string answers;  // a table of answers (given_answers.h), in place of a detector; or empty
   properties::Adjacency adjacency = properties::Adjacency::all;  // of these
   bool no_oracle = false;
   // The share in (0,1] of the oracle's questions that get a second opinion. REQUIRES the oracle.

@@ -1,6 +1,8 @@
-// Answers that are not asked for here, but were given before: by a log, or by a table.
+// Answers that are not asked for here, but were given before: by a log, or by a table beside the
+// frames of `check`.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -30,5 +32,14 @@ class GivenAnswers : public StepAnswers {
 
   const detector::Triangles& triangles_;
 };
+
+// Answers to the steps of `input` from a table FILE.csv with the columns step, answer and time: the
+// step counted from 1, free, collision, undecided or error, and a time of contact, which may be
+// empty. Claimed is that no step with a contact is called free, and, where a time is given, that no
+// contact begins before it. Rows are in any order; steps without a row are left out. Fails if the
+// file is no such table, or names a step twice.
+Expected<std::unique_ptr<StepAnswers>> answers_of_table(const std::string& file,
+                                                        const CheckInput& input,
+                                                        properties::Adjacency adjacency);
 
 }  // namespace assay::reports

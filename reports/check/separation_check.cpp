@@ -11,10 +11,9 @@
 #include "oracle/distance/step_distance.h"
 #include "properties/judging/trial.h"
 #include "properties/numbering.h"
-#include "reports/steps/step_json.h"
-#include "reports/terminal/limits.h"
-#include "reports/terminal/progress.h"
+#include "reports/steps/step_report.h"
 #include "reports/terminal/words.h"
+#include "reports/terminal/work.h"
 
 namespace assay::reports {
 namespace {

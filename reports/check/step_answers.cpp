@@ -9,7 +9,7 @@
 #include "properties/campaign/ledger/binding.h"
 #include "properties/judging/case_options.h"
 #include "properties/worker/case_run.h"
-#include "reports/check/detector_choice.h"
+#include "reports/terminal/option_words.h"
 
 namespace assay::reports {
 namespace {

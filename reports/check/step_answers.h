@@ -11,8 +11,7 @@
 #include "properties/campaign/gates/not_judged.h"
 #include "properties/judging/judged_run.h"
 #include "properties/judging/subject.h"
-#include "reports/terminal/complaint.h"
-#include "reports/terminal/limits.h"
+#include "reports/terminal/work.h"
 
 namespace assay::reports {
 
@@ -26,7 +25,7 @@ struct CheckInput {
 
 // The detector that `check` has before it, and its answers to the steps: those of the built-in one
 // are made in this process, one by one, those of a plug-in in a worker, all at once, and those of a
-// log are read (recorded_answers.h).
+// log are read (given_answers.h).
 class StepAnswers {
  public:
   virtual ~StepAnswers() = default;

@@ -3,16 +3,271 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
+#include "properties/judging/contracted_case.h"
+#include "properties/worker/plugin/plugin_reading.h"
 #include "reports/certificate/summary.h"
-#include "reports/check/detector_choice.h"
+#include "reports/check/given_answers.h"
 #include "reports/judge/kept_failures.h"
-#include "reports/terminal/limits.h"
+#include "reports/terminal/option_words.h"
 #include "reports/terminal/text_file.h"
 #include "reports/terminal/words.h"
+#include "reports/terminal/work.h"
 
 namespace assay::reports {
+
+namespace {
+
+using properties::Claim;
+using properties::Contract;
+
+// The detector that the log is of, and what of its claims a log cannot show, each with the reason.
+struct RecordedDetector {
+  properties::Subject subject;
+  std::vector<properties::NotJudged> not_judged;
+};
+
+struct RecordedInput {
+  CheckInput input;
+  std::unique_ptr<StepAnswers> answers;
+};
+
+// The steps of a log, each as the contract takes it.
+class RecordedSteps : public corpus::StepSource {
+ public:
+  RecordedSteps(corpus::StepLog& log, const properties::PluginDescription& detector,
+                LogSelection selection)
+      : log_(log),
+        contract_(detector.contract),
+        asks_answers_(detector.parts.steps),
+        asks_limits_(detector.parts.limit),
+        selection_(selection) {}
+
+  std::size_t count() const override { return log_.count(); }
+  std::size_t frames() const override { return log_.count() + 1; }
+  const detector::Triangles& triangles() const override { return log_.head().triangles; }
+  const detector::Positions& first_frame() const override { return log_.head().positions; }
+  const detector::CountedPairs* counted() const override {
+    return log_.head().counted ? &*log_.head().counted : nullptr;
+  }
+
+  corpus::Expected<bool> has(std::size_t s) override {
+    constexpr std::chrono::milliseconds pause(200);
+    const auto is_there = [&] {
+      return s < log_.count() || (selection_.step && log_.count() > 0 &&
+                                  log_.number_of(log_.count() - 1) >= *selection_.step);
+    };
+    const auto is_damaged = [&] { return log_.damage() && !log_.damage()->is_cut; };
+    while (selection_.follow && !is_there() && !log_.is_ended() && !is_damaged()) {
+      std::this_thread::sleep_for(pause);
+      BOOST_OUTCOME_TRYV(log_.go_on());
+    }
+    return s < log_.count();
+  }
+
+  std::uint64_t number_of(std::size_t s) const override { return log_.number_of(s); }
+
+  std::vector<std::string> notes() const override {
+    std::vector<std::string> lines;
+    const auto [begin, end] = log_.notes().equal_range(now_.number);
+    for (auto note = begin; is_chosen_ && note != end; ++note)
+      lines.push_back(properties::line_of(note->second.c_str()));
+    return lines;
+  }
+
+  std::vector<std::string> lost() const override {
+    std::vector<std::string> lines;
+    if (const auto damage = log_.damage(); damage && !damage->is_cut)
+      lines.push_back(fmt::format(
+          "bytes {} to {}, from the first damage to the end of the log ({}); steps read before it: "
+          "{}",
+          damage->from, damage->to, damage->what, log_.count()));
+    lines.insert(lines.end(), unknown_.begin(), unknown_.end());
+    return lines;
+  }
+
+  std::vector<std::string> last_remarks() const override {
+    std::vector<std::string> lines;
+    if (unanswered_ > 0)
+      lines.push_back(
+          fmt::format("{} step{} without an answer", unanswered_, unanswered_ == 1 ? "" : "s"));
+    const auto damage = log_.damage();
+    if (damage && damage->is_cut)
+      lines.push_back(
+          fmt::format("bytes {} to {}, the last of the log, are {}: it was cut, or is "
+                      "being written",
+                      damage->from, damage->to, damage->what));
+    if (!damage && !log_.is_ended()) lines.emplace_back("the recorder was not told to end the log");
+    return lines;
+  }
+
+  corpus::Expected<corpus::SourceStep> step(std::size_t s) override {
+    is_chosen_ = chooses(log_.number_of(s));
+    why_left_out_.clear();
+    is_beyond_contract_ = false;
+    if (!is_chosen_) return corpus::SourceStep{now_.x_t0, now_.x_t1};
+    BOOST_OUTCOME_TRY(read, log_.step(s));
+    now_ = std::move(read);
+    if (!now_.why_unknown.empty()) {
+      unknown_.push_back(fmt::format("step {}: {}", now_.number + 1, now_.why_unknown));
+      why_left_out_ = now_.why_unknown;
+      return corpus::SourceStep{now_.x_t0, now_.x_t1};
+    }
+    if (!(asks_answers_ && now_.answer) && !(asks_limits_ && now_.limit)) {
+      ++unanswered_;
+      why_left_out_ = "nothing was recorded that its claims are about";
+      return corpus::SourceStep{now_.x_t0, now_.x_t1};
+    }
+    const auto* rest = contract_.rest_distance > 0 ? &first_frame() : nullptr;
+    const auto c = corpus::case_of_step(triangles(), counted(), rest, now_.x_t0, now_.x_t1);
+    if (auto seen = properties::contracted(c, contract_)) {
+      const auto script = corpus::steps_of(*seen);
+      now_.x_t0 = start_of(*seen, script.front());
+      now_.x_t1 = end_of(*seen, script.front());
+    } else {
+      why_left_out_ = properties::why_left_out(c, contract_);
+      is_beyond_contract_ = true;
+    }
+    return corpus::SourceStep{now_.x_t0, now_.x_t1};
+  }
+
+  corpus::Expected<std::unique_ptr<StepSource>> read_whole() override {
+    return corpus::problem_in({}, "a log is judged as it is read");
+  }
+
+  // Of the step that was read last.
+  const corpus::LogStep& now() const { return now_; }
+  bool is_chosen() const { return is_chosen_; }
+  const std::string& why_left_out() const { return why_left_out_; }
+  bool is_beyond_contract() const { return is_beyond_contract_; }
+
+ private:
+  // Spreads the numbers evenly, and goes by them alone, so that every run chooses the same steps.
+  bool chooses(std::uint64_t number) const {
+    if (selection_.step) return number == *selection_.step;
+    if (number < selection_.from || !selection_.shard.holds(number)) return false;
+    constexpr std::uint64_t golden = 0x9E3779B97F4A7C15;
+    return static_cast<double>((number * golden) >> 11) * 0x1p-53 < selection_.share;
+  }
+
+  corpus::StepLog& log_;
+  const Contract contract_;
+  const bool asks_answers_, asks_limits_;
+  const LogSelection selection_;
+  corpus::LogStep now_;
+  bool is_chosen_ = true;
+  std::string why_left_out_;
+  bool is_beyond_contract_ = false;
+  std::vector<std::string> unknown_;
+  std::size_t unanswered_ = 0;
+};
+
+class Recorded : public GivenAnswers {
+ public:
+  Recorded(RecordedDetector detector, RecordedSteps& steps)
+      : GivenAnswers(std::move(detector.subject), steps),
+        beyond_a_log_(std::move(detector.not_judged)),
+        steps_(steps) {}
+
+  std::string title() const override { return "recorded of " + detector_text(subject_.detector); }
+
+  std::optional<std::string> left_out() override {
+    if (!steps_.is_chosen()) return "";
+    if (steps_.why_left_out().empty()) return std::nullopt;
+    steps_left_out_ += steps_.is_beyond_contract() ? 1 : 0;
+    return steps_.why_left_out();
+  }
+
+  std::vector<properties::NotJudged> beyond_reach() const override { return beyond_a_log_; }
+
+  detector::StepResult answer(std::size_t s, const corpus::SourceStep& step,
+                              const detector::StopFunction&) override {
+    const auto& now = steps_.now();
+    begin_run(s);
+    take(now.answer);
+    if (subject_.description.parts.limit) {
+      run_.limits.emplace_back();
+      if (now.limit) {
+        auto limit = limit_of(*now.limit, step);
+        if (limit) {
+          run_.limits.back() = std::move(limit.value());
+        } else {
+          take_error(limit.error().message);
+        }
+      }
+    }
+    return run_.steps.front();
+  }
+
+ private:
+  Expected<properties::LimitAnswer> limit_of(const corpus::LoggedLimit& logged,
+                                             const corpus::SourceStep& step) const {
+    const assay_limit raw = {logged.share, logged.positions ? logged.positions->data() : nullptr};
+    const auto& contract = under_test().contract;
+    const auto way = contract.motion == properties::MotionGiven::displacement
+                         ? properties::displacement(step.x_t0, step.x_t1)
+                         : detector::Positions();
+    return properties::limit_answer(raw, under_test().claims, contract, step.x_t0, step.x_t1, way);
+  }
+
+  const std::vector<properties::NotJudged> beyond_a_log_;
+  RecordedSteps& steps_;
+};
+
+Expected<RecordedDetector> recorded_detector(const corpus::StepLog& log, const std::string& file) {
+  const auto& head = log.head();
+  assay_description raw = head.description;
+  raw.name = head.name.c_str();
+  raw.version = head.version.c_str();
+  const auto claims = properties::Claims::of_bits(raw.claims);
+  properties::PluginParts parts;
+  parts.candidates = claims.has(Claim::candidates);
+  parts.limit = claims.has_any(properties::claims_on_limits);
+  auto read = properties::described(raw, parts);
+  if (!read) return Problem{fmt::format("{}: the detector: {}", file, read.error().message)};
+  properties::PluginDescription& description = read.value();
+  RecordedDetector recorded;
+  const auto without = [&](Claim claim, const char* reason) {
+    if (!description.claims.has(claim)) return;
+    description.claims.set(claim, false);
+    recorded.not_judged.push_back({name_of(claim), reason});
+  };
+  without(Claim::deterministic, "a log holds each step once");
+  without(Claim::candidates, "a log holds no candidates");
+  description.parts.candidates = false;
+  const auto on_answers = description.claims.without(properties::claims_on_limits);
+  description.parts.steps = !parts.limit || !on_answers.without({Claim::total}).empty();
+  auto& subject = recorded.subject;
+  subject.description = description;
+  subject.detector = {fmt::format("{} {}", description.name, description.version),
+                      false,
+                      claims_on_steps(description),
+                      description.contract,
+                      {{description.name, {}}}};
+  return recorded;
+}
+
+// The log must outlive what is returned. Fails if a log of this detector leaves nothing to be
+// judged, or does not hold the step that is asked for.
+Expected<RecordedInput> recorded_input(corpus::StepLog& log, const std::string& file,
+                                       const LogSelection& selection) {
+  BOOST_OUTCOME_TRY(recorded, recorded_detector(log, file));
+  const auto& detector = recorded.subject.detector;
+  if (judged_claims(detector.claims, detector.contract).empty())
+    return Problem{fmt::format(
+        "{}: its detector claims nothing that its contract leaves to be judged by a log", file)};
+  if (selection.step && !selection.follow && !log.place_of(*selection.step))
+    return Problem{
+        fmt::format("{}: there is no whole record of step {}", file, *selection.step + 1)};
+  auto steps = std::make_unique<RecordedSteps>(log, recorded.subject.description, selection);
+  auto answers = std::make_unique<Recorded>(std::move(recorded), *steps);
+  return RecordedInput{{file, std::move(steps)}, std::move(answers)};
+}
+
+}  // namespace
 
 LogName log_name(const std::string& word) {
   std::error_code ignored;

@@ -1,12 +1,28 @@
-// `judge`: the recorded answers of logs, judged as those of a plug-in are.
+// `judge`: a log of steps (corpus/formats/step_log.h), whose steps are taken as the contract of the
+// detector takes them, and whose recorded answers are judged as those of a plug-in are.
 #pragma once
 
 #include <string>
 
+#include "corpus/formats/step_log.h"
 #include "reports/check/check_run.h"
-#include "reports/check/recorded_answers.h"
 
 namespace assay::reports {
+
+// The steps that one of `count` processes judges, by their numbers.
+struct Shard {
+  std::uint64_t index = 1, count = 1;  // 1-based
+  bool holds(std::uint64_t number) const { return number % count == index - 1; }
+};
+
+// Which steps of a log are judged.
+struct LogSelection {
+  double share = 1;  // in (0, 1]; which steps these are goes by their numbers alone
+  Shard shard = {};
+  std::uint64_t from = 0;             // steps before this one are not judged
+  std::optional<std::uint64_t> step;  // this one alone
+  bool follow = false;                // waits for steps until the recorder ends the log
+};
 
 struct LogQuestion {
   LogSelection selection;

@@ -13,7 +13,6 @@
 #include "detector/distance/nearness.h"
 #include "detector/parallel/processor_state.h"
 #include "properties/judging/case_options.h"
-#include "reports/python/arrays.h"
 #include "reports/python/calls.h"
 
 namespace assay::python {

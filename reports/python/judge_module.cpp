@@ -15,8 +15,7 @@
 #include "properties/campaign/gates/findings.h"
 #include "properties/judging/case_options.h"
 #include "reports/check/separation_check.h"
-#include "reports/page/data/run_json.h"
-#include "reports/python/arrays.h"
+#include "reports/page/run_json.h"
 #include "reports/python/calls.h"
 
 namespace assay::python {
@@ -101,8 +100,7 @@ CheckQuestion question_of(const py::dict& given) {
   take(given, "detector", question.detector.library);
   take(given, "threads", question.threads);
   take(given, "jobs", question.jobs);
-  if (given.contains("time") && !given["time"].is_none())
-    question.time_limit = given["time"].cast<double>();
+  take(given, "time", question.time_limit);
   take(given, "files", question.files);
   question.wants_report = true;
   return question;

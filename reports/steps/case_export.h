@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "properties/judging/trial.h"
-#include "reports/terminal/complaint.h"
+#include "reports/terminal/work.h"
 
 namespace assay::reports {
 

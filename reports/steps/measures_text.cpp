@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "properties/campaign/ledger/step_measures.h"
@@ -11,6 +12,8 @@
 
 namespace assay::reports {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
@@ -83,6 +86,30 @@ std::string limits_text(const properties::LimitUse& use) {
   for (const auto& [cause, count] : use.stalls)
     text += fmt::format("  stalled {} time{}: {}\n", count, count == 1 ? "" : "s", cause);
   return text;
+}
+
+Json rate_json(const properties::Rate& rate) {
+  return {{"of", rate.of},
+          {"in", rate.in},
+          {"share", rate.share()},
+          {"interval", {rate.interval.lo, rate.interval.hi}}};
+}
+
+Json times_off_json(const properties::TimesOff& off) {
+  return {{"steps", off.steps},
+          {"median", off.quantile(0.5)},
+          {"p99", off.quantile(0.99)},
+          {"worst", off.quantile(1)}};
+}
+
+Json limits_json(const properties::LimitUse& use) {
+  Json stalls = Json::array(), used = nullptr;
+  for (const auto& [cause, steps] : use.stalls)
+    stalls.push_back({{"cause", cause}, {"steps", steps}});
+  if (use.contact > 0)
+    used = {{"median", use.used(0.5)}, {"p1", use.used(0.01)}, {"worst", use.used(0)}};
+  return {{"free", use.free},       {"cut", use.cut}, {"contact", use.contact},
+          {"excused", use.excused}, {"used", used},   {"stalls", stalls}};
 }
 
 }  // namespace
@@ -197,6 +224,30 @@ std::string measures_text(const properties::RunFindings& findings) {
   for (const auto& [claim, reason] : properties::not_judged(findings))
     out += fmt::format("not judged: {}, for {}\n", claim, reason);
   return out;
+}
+
+Json measures_json(const properties::StepMeasures& m) {
+  return {{"steps", m.errors.answered()},
+          {"false_alarms", rate_json(false_alarm_rate(m))},
+          {"answered_free", rate_json(miss_rate(m))},
+          {"spurious_pairs", m.errors.spurious},
+          {"spurious_pairs_a_step", spurious_pairs_a_step(m)},
+          {"collisions", m.errors.collisions()},
+          {"without_time", m.without_time},
+          {"late", times_off_json(m.errors.late)},
+          {"early", times_off_json(m.errors.early)},
+          {"candidates",
+           {{"steps", m.candidate_steps},
+            {"given", m.candidates},
+            {"least", m.least_candidates},
+            {"over_least", candidates_over_least(m)}}},
+          {"limits", limits_json(m.errors.limits)},
+          {"near_at_start", m.starts_near},
+          {"left_out",
+           {{"cases_redrawn", m.redrawn},
+            {"steps", m.steps_left_out},
+            {"refused", m.refused},
+            {"would_be_misses", m.left_out_misses}}}};
 }
 
 }  // namespace assay::reports

@@ -1,7 +1,8 @@
-// What was measured of a run, in words: what a plug-in does whatever it claims, up to which size
-// its claims were tried, how planted faults were found.
+// What was measured of a run, in words and as JSON: what a plug-in does whatever it claims, up to
+// which size its claims were tried, how planted faults were found.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -30,5 +31,8 @@ std::string found_text(std::uint64_t at_random, std::uint64_t by_curated_case_al
 // The columns of one row, without its name: of steps, or of queries, which have no pairs.
 std::string measures_row(const properties::StepMeasures& measures, bool of_queries);
 std::string measures_head(bool of_queries);
+
+// What the steps of a plug-in came to, as JSON (`measures` of a certificate's stratum).
+nlohmann::ordered_json measures_json(const properties::StepMeasures& measures);
 
 }  // namespace assay::reports

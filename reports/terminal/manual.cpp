@@ -5,7 +5,7 @@
 #include <array>
 #include <sstream>
 
-#include "reports/terminal/complaint.h"
+#include "reports/terminal/work.h"
 
 namespace assay::reports {
 

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "corpus/problem.h"
+#include "properties/campaign/plan.h"
 #include "reports/terminal/manual.h"
 #include "reports/terminal/words.h"
 
@@ -25,6 +26,33 @@ std::vector<std::string> words_of(const std::string& list) {
     begin = end + between.size();
   }
   return words;
+}
+
+// Says what stands behind an option, "DIR" of "--out DIR", and its first title.
+VerbOption named(CLI::Option* option, const std::string& name) {
+  const auto blank = name.find(' ');
+  option->type_name(blank == std::string::npos ? "" : name.substr(blank + 1));
+  option->group(OptionGroup::question);
+  return VerbOption(option);
+}
+
+// Reads a decimal number with nothing before or behind it.
+std::optional<double> number_of(const std::string& word) {
+  char* end = nullptr;
+  const double number = std::strtod(word.c_str(), &end);
+  const bool is_number = !word.empty() && end == word.c_str() + word.size();
+  return is_number ? std::optional(number) : std::nullopt;
+}
+
+// Numbers for which `is_right` holds, which are `what`.
+template <class IsRight>
+Check number(IsRight is_right, const char* what) {
+  return [=](const std::string& word) {
+    const auto number = number_of(word);
+    return number && std::isfinite(*number) && is_right(*number)
+               ? ""
+               : fmt::format("'{}' is not {}", word, what);
+  };
 }
 
 }  // namespace
@@ -82,18 +110,6 @@ Verb::Verb(CLI::App& app, const std::string& name, const std::string& about)
   app_->footer(manual->text());
 }
 
-namespace {
-
-// Says what stands behind an option, "DIR" of "--out DIR", and its first title.
-VerbOption named(CLI::Option* option, const std::string& name) {
-  const auto blank = name.find(' ');
-  option->type_name(blank == std::string::npos ? "" : name.substr(blank + 1));
-  option->group(OptionGroup::question);
-  return VerbOption(option);
-}
-
-}  // namespace
-
 template <class Target>
 VerbOption Verb::add(const std::string& name, Target& target, const std::string& about) {
   return named(app_->add_option(name.substr(0, name.find(' ')), target, about), name);
@@ -123,18 +139,6 @@ std::string wrong_word(const std::string& word, const std::string& wanted) {
   const auto meant = corpus::did_you_mean(words_of(wanted), word);
   return fmt::format("'{}' is wrong{}{} wanted: {}", word, meant, meant.empty() ? "," : "", wanted);
 }
-
-namespace {
-
-// Reads a decimal number with nothing before or behind it.
-std::optional<double> number_of(const std::string& word) {
-  char* end = nullptr;
-  const double number = std::strtod(word.c_str(), &end);
-  const bool is_number = !word.empty() && end == word.c_str() + word.size();
-  return is_number ? std::optional(number) : std::nullopt;
-}
-
-}  // namespace
 
 std::optional<std::array<std::int32_t, 2>> two_numbers(const std::string& word) {
   const auto comma = word.find(',');
@@ -167,21 +171,6 @@ std::string memory_word(std::uint64_t bytes) {
   for (; unit + 1 < units.size() && bytes > 0 && bytes % step == 0; ++unit) bytes /= step;
   return fmt::format("{}{}", bytes, units[unit]);
 }
-
-namespace {
-
-// Numbers for which `is_right` holds, which are `what`.
-template <class IsRight>
-Check number(IsRight is_right, const char* what) {
-  return [=](const std::string& word) {
-    const auto number = number_of(word);
-    return number && std::isfinite(*number) && is_right(*number)
-               ? ""
-               : fmt::format("'{}' is not {}", word, what);
-  };
-}
-
-}  // namespace
 
 Check positive() {
   return number([](double x) { return x > 0; }, "a number above 0");
@@ -252,13 +241,6 @@ VerbOption add_detector_alone(Verb& verb, DetectorWords& detector, const std::st
   return library;
 }
 
-std::string detector_words(const DetectorWords& detector) {
-  if (detector.library.empty()) return "";
-  std::string words = " --detector " + shell_word(absolute_path(detector.library));
-  if (detector.isolation) words += fmt::format(" --isolation {}", name_of(*detector.isolation));
-  return detector.threads == 1 ? words : words + fmt::format(" --threads {}", detector.threads);
-}
-
 VerbOption add_detector(Verb& verb, DetectorWords& detector, const std::string& about) {
   auto library = add_detector_alone(verb, detector, about);
   verb.add("--threads N", detector.threads,
@@ -275,6 +257,45 @@ void add_threads(Verb& verb, std::uint64_t& threads) {
       .in_range(0, most_threads)
       .shows_default()
       .in(OptionGroup::detector);
+}
+
+DetectorPart part_asked_by(const properties::CampaignPlan& plan) {
+  if (properties::asks_queries_alone(plan)) return DetectorPart::query;
+  return properties::asks_queries(plan) ? DetectorPart::by_library : DetectorPart::steps;
+}
+
+Expected<properties::Subject> choose_detector(const DetectorWords& words,
+                                              properties::WorkerLimits limits,
+                                              const std::filesystem::path& worker) {
+  limits.isolation = words.isolation;
+  limits.threads = words.threads;
+  return properties::Subject::open(worker, words.library, words.part, limits);
+}
+
+std::string detector_text(const properties::DetectorUnderTest& detector) {
+  std::vector<const char*> claims;
+  for (const auto claim : list_of(detector.claims)) claims.push_back(name_of(claim));
+  const std::string left_out = joined(phrases_of(detector.contract), ", ");
+  return fmt::format("{}\nclaims: {}\ncontract: {}", detector.name,
+                     claims.empty() ? "nothing" : joined(claims, ", "),
+                     left_out.empty() ? "leaves nothing out" : left_out);
+}
+
+std::string plugin_text(const properties::Subject& plugin) {
+  return fmt::format("plug-in {}\nisolation: {}\nthreads: {}", detector_text(plugin.detector),
+                     text_of(plugin.isolation), plugin.limits.threads);
+}
+
+std::string printed_text(const std::string& printed) {
+  if (printed.empty()) return "";
+  return fmt::format("  it printed:\n    {}\n", replaced(printed, {{'\n', "\n    "}}));
+}
+
+std::string detector_words(const DetectorWords& detector) {
+  if (detector.library.empty()) return "";
+  std::string words = " --detector " + shell_word(absolute_path(detector.library));
+  if (detector.isolation) words += fmt::format(" --isolation {}", name_of(*detector.isolation));
+  return detector.threads == 1 ? words : words + fmt::format(" --threads {}", detector.threads);
 }
 
 }  // namespace assay::reports

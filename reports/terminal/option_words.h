@@ -1,5 +1,6 @@
 // A verb and its options, as the verb's own file states them; checks of the words after an option,
-// and the options that several verbs have.
+// and the options that several verbs have. The detector that they name: the built-in one, or a
+// plug-in; and what a plug-in says of itself, for people.
 //
 // CLI11 parses the command line behind this header, and formats help. It takes six seconds to
 // compile, so only option_words.cpp and main.cpp include it.
@@ -10,6 +11,7 @@
 #include <array>
 #include <charconv>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -17,8 +19,9 @@
 #include <system_error>
 #include <vector>
 
+#include "properties/campaign/request.h"
 #include "properties/judging/subject.h"
-#include "reports/terminal/complaint.h"
+#include "reports/terminal/work.h"
 
 namespace CLI {
 class App;
@@ -160,9 +163,28 @@ struct DetectorWords {
 // unless they are the default. Empty for the built-in detector.
 std::string detector_words(const DetectorWords& detector);
 
+// The parts of a plug-in that a plan is about: steps, queries, or both.
+DetectorPart part_asked_by(const properties::CampaignPlan& plan);
+
+// The detector that the words name. `limits` are those of its processes, but for the isolation and
+// the threads of the words; `worker` is the program assay-worker. Fails as Subject::open does.
+Expected<properties::Subject> choose_detector(
+    const DetectorWords& words, properties::WorkerLimits limits = {},
+    const std::filesystem::path& worker = properties::worker_program());
+
+// Its name, its claims and its contract: one line each, without a newline at the end.
+std::string detector_text(const properties::DetectorUnderTest& detector);
+// "plug-in NAME VERSION", its claims, its contract, its isolation, and the threads that it may
+// use: one line each, without a newline at the end.
+std::string plugin_text(const properties::Subject& plugin);
+
+// "  it printed:" and the lines that it printed in a case, each behind four blanks; empty if it
+// printed nothing.
+std::string printed_text(const std::string& printed);
+
 // The options --jobs (all cores, unless told otherwise) and --seed.
 void add_jobs(Verb& verb, int& jobs);
-// The options --time and --memory of a verb that does its work in this process (limits.h).
+// The options --time and --memory of a verb that does its work in this process (work.h).
 void add_limits(Verb& verb, std::optional<double>& seconds, std::optional<std::uint64_t>& bytes);
 void add_seed(Verb& verb, std::uint64_t& seed, const std::string& about);
 // The option --part: which part of a plug-in a campaign is about.

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/terminal/complaint.h"
+#include "reports/terminal/work.h"
 
 namespace assay::reports {
 

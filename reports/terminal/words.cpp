@@ -21,15 +21,7 @@ std::string shell_word(const std::string& word) {
   constexpr const char* plain =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./:,+=@%";
   if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
-  std::string quoted = "'";
-  for (const char c : word) {
-    if (c == '\'') {
-      quoted += "'\\''";
-    } else {
-      quoted += c;
-    }
-  }
-  return quoted + "'";
+  return "'" + replaced(word, {{'\'', "'\\''"}}) + "'";
 }
 
 namespace {
@@ -98,11 +90,7 @@ std::string replaced(std::string_view text, const std::map<char, std::string_vie
   out.reserve(text.size());
   for (const char c : text) {
     const auto found = characters.find(c);
-    if (found == characters.end()) {
-      out += c;
-    } else {
-      out += found->second;
-    }
+    found == characters.end() ? out += c : out += found->second;
   }
   return out;
 }

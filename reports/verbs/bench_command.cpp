@@ -7,10 +7,10 @@
 
 #include "corpus/problem.h"
 #include "reports/bench/suites.h"
-#include "reports/check/detector_choice.h"
-#include "reports/terminal/progress.h"
+#include "reports/terminal/option_words.h"
 #include "reports/terminal/text_file.h"
 #include "reports/terminal/words.h"
+#include "reports/terminal/work.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {

@@ -13,19 +13,16 @@
 #include "properties/campaign/ledger/binding.h"
 #include "properties/campaign/ledger/run_folder.h"
 #include "properties/campaign/phases/phases.h"
-#include "reports/campaign/campaign_options.h"
 #include "reports/campaign/campaign_terminal.h"
 #include "reports/campaign/campaign_text.h"
+#include "reports/campaign/case_folders.h"
 #include "reports/campaign/failure_text.h"
-#include "reports/campaign/own_cases.h"
-#include "reports/certificate/issue.h"
 #include "reports/certificate/own_checks.h"
 #include "reports/certificate/statement.h"
 #include "reports/certificate/summary.h"
-#include "reports/terminal/progress.h"
-#include "reports/terminal/shipped.h"
 #include "reports/terminal/text_file.h"
 #include "reports/terminal/words.h"
+#include "reports/terminal/work.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {
@@ -50,7 +47,8 @@ class Certification {
     store_subject();
     BOOST_OUTCOME_TRY(run_corpus());
     BOOST_OUTCOME_TRY(forget_corpus_failures());
-    BOOST_OUTCOME_TRY(run_trials());
+    fmt::print("\n");
+    BOOST_OUTCOME_TRY(run_on_terminal(request_, store_, words_.out));
     BOOST_OUTCOME_TRY(show_corpus_failures());
     run_self_test();
     if (request_.detector.built_in) run_speed();
@@ -119,11 +117,6 @@ class Certification {
     return written;
   }
 
-  Expected<void> run_trials() {
-    fmt::print("\n");
-    return run_on_terminal(request_, store_, words_.out);
-  }
-
   void run_self_test() {
     checks_.drop(properties::SelfTestRow::kind);
     const auto queries = request_.plan.policy.self_test_queries;
@@ -170,6 +163,15 @@ class Certification {
   const Clock::time_point begin_;
 };
 
+void add_options(Verb& verb, CampaignWords& words) {
+  words.campaign = "smoke";
+  verb.add("--campaign NAME|FILE", words.campaign,
+           "smoke, quick, nightly, release, or a campaign file (.json)")
+      .shows_default();
+  add_campaign_options(verb, words);
+  verb.add("--out DIR", words.out, "Folder for the certificate").required().in(OptionGroup::output);
+}
+
 }  // namespace
 
 Expected<int> certify(const CampaignWords& words) {
@@ -185,19 +187,6 @@ Expected<int> certify(const CampaignWords& words) {
              words.out);
   return Certification(words, request, corpus, std::move(store)).run();
 }
-
-namespace {
-
-void add_options(Verb& verb, CampaignWords& words) {
-  words.campaign = "smoke";
-  verb.add("--campaign NAME|FILE", words.campaign,
-           "smoke, quick, nightly, release, or a campaign file (.json)")
-      .shows_default();
-  add_campaign_options(verb, words);
-  verb.add("--out DIR", words.out, "Folder for the certificate").required().in(OptionGroup::output);
-}
-
-}  // namespace
 
 AddedVerb add_certify(CLI::App& app) {
   return make_verb(app, "certify",

@@ -8,9 +8,9 @@
 
 #include "properties/judging/case_options.h"
 #include "properties/worker/worker_process.h"
-#include "reports/check/detector_choice.h"
 #include "reports/check/separation_check.h"
 #include "reports/judge/kept_failures.h"
+#include "reports/terminal/option_words.h"
 #include "reports/terminal/text_file.h"
 #include "reports/terminal/words.h"
 #include "reports/verbs/verbs.h"

@@ -61,15 +61,10 @@ Expected<int> list_campaigns(const std::string&) {
   return exit_holds;
 }
 
-Expected<int> list_failures(const std::string& folder) {
+template <auto text>
+Expected<int> list_of_run(const std::string& folder) {
   BOOST_OUTCOME_TRY(findings, properties::read_findings(folder));
-  fmt::print("{}", failures_text(findings));
-  return exit_holds;
-}
-
-Expected<int> list_slow(const std::string& folder) {
-  BOOST_OUTCOME_TRY(findings, properties::read_findings(folder));
-  fmt::print("{}", slow_trials_text(findings));
+  fmt::print("{}", text(findings));
   return exit_holds;
 }
 
@@ -84,8 +79,9 @@ constexpr List lists[] = {
     {"laws", "the theorems that are tested, each in a sentence", false, list_laws},
     {"faults", "the planted faults that a campaign has to find", false, list_faults},
     {"campaigns", "campaigns, for `assay run` and `assay certify`", false, list_campaigns},
-    {"failures", "what failed in the run in DIR, each with its replay line", true, list_failures},
-    {"slow", "the slowest cases of the run in DIR", true, list_slow}};
+    {"failures", "what failed in the run in DIR, each with its replay line", true,
+     list_of_run<failures_text>},
+    {"slow", "the slowest cases of the run in DIR", true, list_of_run<slow_trials_text>}};
 
 void print_lists() {
   for (const auto& list : lists)

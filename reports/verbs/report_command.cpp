@@ -4,10 +4,10 @@
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/ledger/run_folder.h"
 #include "reports/certificate/verify.h"
-#include "reports/page/data/run_json.h"
-#include "reports/terminal/progress.h"
+#include "reports/page/run_json.h"
 #include "reports/terminal/text_file.h"
 #include "reports/terminal/words.h"
+#include "reports/terminal/work.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {

@@ -6,7 +6,6 @@
 #include "properties/campaign/ledger/binding.h"
 #include "properties/campaign/ledger/run_folder.h"
 #include "properties/campaign/phases/phases.h"
-#include "reports/campaign/campaign_options.h"
 #include "reports/campaign/campaign_terminal.h"
 #include "reports/campaign/campaign_text.h"
 #include "reports/certificate/own_checks.h"
@@ -18,19 +17,7 @@
 namespace assay::reports {
 namespace {
 
-struct RunRequest {
-  CampaignWords words;
-};
-
 constexpr const char* go_on = "; what is stored stays: run the same again to go on";
-
-// Writes junit.xml and summary.md.
-Expected<void> write_files(const properties::CampaignRequest& request,
-                           const properties::RunFindings& findings,
-                           const properties::Judgement& judgement) {
-  return write_for_ci(make_predicate(findings, judgement, request.plan, ""), findings.folder,
-                      findings.begun);
-}
 
 Expected<int> conclude(const properties::CampaignRequest& request,
                        const properties::RunFindings& findings, const std::string& out,
@@ -50,7 +37,8 @@ Expected<int> conclude(const properties::CampaignRequest& request,
                line_to_paste(fmt::format("report {} --out {}", shell_word(out), shell_word(page)),
                              PastedIn::this_folder));
   }
-  BOOST_OUTCOME_TRY(write_files(request, findings, judgement));
+  BOOST_OUTCOME_TRY(write_for_ci(make_predicate(findings, judgement, request.plan, ""),
+                                 findings.folder, findings.begun));
   return judgement.exit_code;
 }
 
@@ -81,8 +69,7 @@ Expected<properties::RunFindings> run_rest(const properties::CampaignRequest& re
   return properties::read_findings(out);
 }
 
-Expected<int> run_campaign(const RunRequest& command) {
-  const auto& words = command.words;
+Expected<int> run_campaign(const CampaignWords& words) {
   // A share is judged together with others (verify), so it has a certificate.
   if (words.shares > 1) return certify(words);
   const auto begin = std::chrono::steady_clock::now();
@@ -110,8 +97,7 @@ std::optional<std::uint64_t> shares_of(const std::string& word) {
   return shares && *shares >= 1 && *shares <= most ? shares : std::nullopt;
 }
 
-void add_options(Verb& verb, RunRequest& request) {
-  auto& words = request.words;
+void add_run_options(Verb& verb, CampaignWords& words) {
   words.campaign = "quick";
   verb.add("--campaign NAME|FILE", words.campaign,
            "smoke, quick, nightly, release, faults, or a campaign file (.json)")
@@ -130,7 +116,7 @@ void add_options(Verb& verb, RunRequest& request) {
 AddedVerb add_run(CLI::App& app) {
   return make_verb(app, "run",
                    "A campaign of random cases: detector against oracle, laws, planted faults",
-                   add_options, run_campaign);
+                   add_run_options, run_campaign);
 }
 
 }  // namespace assay::reports

@@ -6,12 +6,12 @@
 #include "properties/judging/case_check.h"
 #include "properties/reducer/mesh_size.h"
 #include "properties/worker/plugin/query_case.h"
-#include "reports/check/detector_choice.h"
 #include "reports/judge/log_check.h"
 #include "reports/pictures/case_scene.h"
-#include "reports/terminal/progress.h"
+#include "reports/terminal/option_words.h"
 #include "reports/terminal/text_file.h"
 #include "reports/terminal/words.h"
+#include "reports/terminal/work.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {

@@ -4,7 +4,7 @@
 // options and what it does, so that a new option is a change of one file.
 #pragma once
 
-#include "reports/campaign/campaign_options.h"
+#include "reports/campaign/campaign_terminal.h"
 #include "reports/terminal/option_words.h"
 
 namespace assay::reports {

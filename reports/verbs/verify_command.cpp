@@ -7,10 +7,10 @@
 #include <optional>
 #include <random>
 
-#include "reports/certificate/issue.h"
+#include "reports/certificate/statement.h"
 #include "reports/certificate/summary.h"
 #include "reports/certificate/verify.h"
-#include "reports/terminal/progress.h"
+#include "reports/terminal/work.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {

@@ -76,7 +76,7 @@ const std::vector<Capability>& capabilities() {
       {"certificates and pages", "reviewers", {"reports/certificate", "reports/page"}},
       {"check, judge, queries",
        "owners of a simulator, of a mesh",
-       {"reports/check", "reports/judge", "reports/queries", "reports/steps", "reports/pictures"}},
+       {"reports/check", "reports/judge", "reports/steps", "reports/pictures"}},
       {"benches", "who compares speed and error", {"reports/bench"}},
       {"the Python module", "researchers", {"reports/python"}},
       {"the command line", "everybody", {"reports/terminal", "reports/verbs"}}};

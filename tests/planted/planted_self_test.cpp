@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "properties/queries/self_check.h"
-#include "reports/terminal/complaint.h"
+#include "reports/terminal/work.h"
 
 int main(int argc, char** argv) {
   using namespace assay;

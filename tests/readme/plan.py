@@ -66,7 +66,7 @@ QUICK = {
         "assay check build/bend/frame_0011.ply",
         "assay check --body build/bend/frame_0000.ply --body build/bend/frame_0011.ply",
     ],
-    "reports/queries/README.md": [
+    "reports/check/QUERIES.md": [
         "assay check-queries corpus/queries/example_vf.csv --method detector-exact",
     ],
     "reports/campaign/README.md": [
@@ -92,7 +92,7 @@ SLOW = {
     "README.md": [
         "assay run --campaign smoke --detector build/release/peers/cubic_double.so --power build/certify --out build/cubic",
     ],
-    "reports/queries/README.md": [
+    "reports/check/QUERIES.md": [
         "assay self-test --jobs 2",
     ],
     "tests/bench/README.md": [
@@ -256,7 +256,7 @@ NO_COMMAND = {
         "step 111: free; DIFFER": "what `assay judge` prints",
         "500 of 500 steps judged": "what `assay judge` prints",
     },
-    "reports/queries/README.md": {
+    "reports/check/QUERIES.md": {
         "oracle: 5 queries (5 within": "what `assay check-queries --separation` prints",
     },
     "corpus/README.md": {

@@ -6,7 +6,7 @@
 
 #include "properties/campaign/ledger/binding.h"
 #include "reports/bench/compared/tables.h"
-#include "reports/check/detector_choice.h"
+#include "reports/terminal/option_words.h"
 
 namespace assay::reports {
 namespace {

@@ -6,7 +6,7 @@
 #include "reports/certificate/statement.h"
 #include "reports/certificate/summary.h"
 #include "reports/certificate/verify.h"
-#include "reports/page/data/run_json.h"
+#include "reports/page/run_json.h"
 #include "tests/properties/campaign/good_findings.h"
 #include "tests/reports/program.h"
 

@@ -1,6 +1,6 @@
 // `check` on long sequences of files: the memory of a few frames, and what is told of a sequence
 // with a bad frame in it.
-#include "reports/terminal/limits.h"
+#include "reports/terminal/work.h"
 #include "tests/reports/program.h"
 
 namespace assay::tests {

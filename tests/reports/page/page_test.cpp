@@ -2,7 +2,7 @@
 #include "properties/campaign/gates/findings.h"
 #include "properties/faults/fault.h"
 #include "properties/laws/law.h"
-#include "reports/page/data/run_json.h"
+#include "reports/page/run_json.h"
 #include "tests/problem_words.h"
 #include "tests/reports/program.h"
 #include "tests/reports/stored_run.h"

@@ -1,5 +1,5 @@
 // The second opinion and the referee as a user asks for them.
-#include "reports/steps/step_text.h"
+#include "reports/steps/step_report.h"
 #include "tests/reports/program.h"
 
 namespace assay::tests {

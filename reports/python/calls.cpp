@@ -1,4 +1,4 @@
-#include "reports/python/arrays.h"
+#include "reports/python/calls.h"
 
 #include "detector/parallel/processor_state.h"
 

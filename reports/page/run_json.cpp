@@ -1,4 +1,4 @@
-#include "reports/page/data/run_json.h"
+#include "reports/page/run_json.h"
 
 #include <fmt/format.h>
 
@@ -13,10 +13,9 @@
 #include "properties/laws/law.h"
 #include "reports/campaign/failure_text.h"
 #include "reports/certificate/statement.h"
-#include "reports/certificate/told_paths.h"
 #include "reports/pictures/case_scene.h"
 #include "reports/pictures/mesh_svg.h"
-#include "reports/steps/step_json.h"
+#include "reports/steps/step_report.h"
 #include "reports/terminal/words.h"
 
 namespace assay::reports {
@@ -161,13 +160,6 @@ Json scene_json(const CaseScene& scene, const corpus::Case& stored) {
            {{"step", scene.shown_step()}, {"pair", pair ? Json({pair->a, pair->b}) : Json()}}}};
 }
 
-// The detector in the form that SceneMaker takes. Nothing if the library of a plug-in is not
-// known.
-std::optional<DetectorWords> detector_at_hand(const properties::RunFindings& findings) {
-  if (!findings.run.detector.built_in && findings.library.empty()) return std::nullopt;
-  return detector_of(findings);
-}
-
 Json other_json(const properties::RunFindings& run, const properties::StoredFailure& failure) {
   const auto file = properties::failure_file(failure, !failure.smallest.empty());
   return {{"id", failure.id},
@@ -242,7 +234,8 @@ Json run_json(const properties::RunFindings& findings, const properties::Judgeme
 }
 
 Json failure_scenes(const properties::RunFindings& findings) {
-  SceneMaker scenes(detector_at_hand(findings));
+  const bool is_at_hand = findings.run.detector.built_in || !findings.library.empty();
+  SceneMaker scenes(is_at_hand ? std::optional(detector_of(findings)) : std::nullopt);
   Json list = Json::array();
   for (const auto* kind : findings.kinds()) {
     Json json = {{"stage", nullptr}, {"now", nullptr},       {"scene", nullptr},

@@ -13,8 +13,8 @@
 #include "detector/mesh/step_types.h"
 #include "properties/campaign/ledger/step_measures.h"
 #include "properties/judging/trial.h"
-#include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
+#include "reports/terminal/work.h"
 
 namespace assay::reports {
 

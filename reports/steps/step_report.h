@@ -1,9 +1,11 @@
-// What `check` prints of a step.
+// A step, told: what `check` prints of it, and of a second opinion; and its JSON, schema
+// assay-check/1 (documented in reports/check/README.md).
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "detector/step_result.h"
 #include "oracle/referee/second_opinion.h"
@@ -58,5 +60,16 @@ std::string second_opinion_text(const oracle::SecondOpinion& opinion, double mil
 // `second_opinion` of a step in assay-check/1.
 nlohmann::ordered_json second_opinion_json(const oracle::SecondOpinion& opinion, double share,
                                            double milliseconds);
+
+nlohmann::ordered_json to_json(const detector::TimeEnclosure& time);
+// With names of the bodies its triangles are named by them, too.
+nlohmann::ordered_json to_json(const detector::PairContact& contact,
+                               const properties::BodyNames& bodies = {});
+nlohmann::ordered_json to_json(const properties::StepDiff& diff,
+                               const properties::BodyNames& bodies = {});
+
+// One entry of `steps`, without a second opinion. `oracle` is null if it was not asked.
+nlohmann::ordered_json step_json(const detector::StepResult& result, const JudgedByOracle* oracle,
+                                 const properties::BodyNames& bodies);
 
 }  // namespace assay::reports

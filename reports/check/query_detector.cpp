@@ -1,4 +1,4 @@
-#include "reports/queries/query_detector.h"
+#include "reports/check/query_detector.h"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,8 @@
 #include "properties/campaign/ledger/step_measures.h"
 #include "properties/words.h"
 #include "properties/worker/plugin/query_case.h"
-#include "reports/certificate/sections.h"
-#include "reports/check/detector_choice.h"
 #include "reports/steps/measures_text.h"
+#include "reports/terminal/option_words.h"
 
 namespace assay::reports {
 

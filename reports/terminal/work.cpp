@@ -1,0 +1,153 @@
+#include "reports/terminal/work.h"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <ctime>
+#include <fstream>
+#include <thread>
+#include <utility>
+
+namespace assay::reports {
+
+int refuse(const std::string& line) noexcept {
+  constexpr std::size_t longest = 1000;
+  std::fputs("assay: ", stderr);
+  for (std::size_t i = 0; i < line.size() && i < longest; ++i) {
+    const auto c = static_cast<unsigned char>(line[i]);
+    constexpr unsigned char first_printable = 0x20, del = 0x7f;
+    std::fputc(c < first_printable || c == del ? '?' : c, stderr);
+  }
+  if (line.size() > longest) std::fputs(" ...", stderr);
+  std::fputc('\n', stderr);
+  return exit_usage;
+}
+
+int refuse(const Problem& problem) noexcept { return refuse(problem.message); }
+
+bool output_was_written() noexcept {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
+  refuse("standard output cannot be written");
+  return false;
+}
+
+void end_when_interrupted(const std::string& line, int code) {
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (const int signal : {SIGINT, SIGTERM}) {
+    struct sigaction now {};
+    sigaction(signal, nullptr, &now);
+    if (now.sa_handler != SIG_IGN) sigaddset(&signals, signal);
+  }
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::thread([signals, line, code] {
+    int signal = 0;
+    while (sigwait(&signals, &signal) != 0) {
+    }
+    fmt::print("\n{}\n", line);
+    std::fflush(stdout);
+    // The program ends at once, whatever the other threads are doing, because a store is whole at
+    // any moment.
+    _exit(code);
+  }).detach();
+}
+
+namespace {
+
+// The processor time of all threads of this process, including those that ended.
+double processor_seconds() {
+  timespec now = {};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  constexpr double nanosecond = 1e-9;
+  return static_cast<double>(now.tv_sec) + nanosecond * static_cast<double>(now.tv_nsec);
+}
+
+}  // namespace
+
+Limits::Limits(std::optional<double> seconds, std::optional<std::uint64_t> bytes)
+    : seconds_(seconds), bytes_(bytes), begin_(processor_seconds()) {}
+
+bool Limits::exceeded() {
+  if (!reached_.empty()) return true;
+  if (seconds_ && processor_seconds() - begin_ >= *seconds_) {
+    reached_ = fmt::format("time limit of {} s", *seconds_);
+  }
+  if (reached_.empty() && bytes_ && resident_bytes() >= *bytes_) {
+    constexpr std::uint64_t mebibyte = 1 << 20;
+    reached_ = fmt::format("memory limit of {} MiB", *bytes_ / mebibyte);
+    is_out_of_memory_ = true;
+  }
+  return !reached_.empty();
+}
+
+void Limits::memory_failed() {
+  if (!reached_.empty()) return;
+  reached_ = "memory of this machine";
+  is_out_of_memory_ = true;
+}
+
+detector::StopFunction Limits::stop_function() {
+  return [this] { return exceeded(); };
+}
+
+Limits::Pause::Pause(Limits& limits) : limits_(limits), begin_(processor_seconds()) {}
+
+Limits::Pause::~Pause() { limits_.begin_ += processor_seconds() - begin_; }
+
+std::uint64_t resident_bytes() {
+  std::ifstream statm("/proc/self/statm");
+  std::uint64_t total_pages = 0, resident_pages = 0;
+  statm >> total_pages >> resident_pages;
+  return resident_pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+std::uint64_t peak_resident_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  constexpr std::uint64_t kibibyte = 1024;
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * kibibyte;
+}
+
+using Clock = std::chrono::steady_clock;
+
+PlainProgress::PlainProgress(std::string title, std::FILE* out, std::chrono::seconds between_lines)
+    : out_(out),
+      on_terminal_(isatty(fileno(out)) == 1),
+      between_(on_terminal_ ? Clock::duration(std::chrono::milliseconds(200)) : between_lines),
+      title_(std::move(title)),
+      last_(Clock::now()) {}
+
+bool PlainProgress::is_due() const { return Clock::now() - last_ >= between_; }
+
+void PlainProgress::show(const std::string& text) {
+  if (!is_due()) return;
+  last_ = Clock::now();
+  drawn_ = on_terminal_;
+  fmt::print(out_, "{}{}: {}{}", on_terminal_ ? "\r\033[K" : "", title_, text,
+             on_terminal_ ? "" : "\n");
+  std::fflush(out_);
+}
+
+void PlainProgress::finish() {
+  if (drawn_) fmt::print(out_, "\r\033[K");
+  drawn_ = false;
+}
+
+Progress::Progress(std::string title, std::chrono::seconds between_lines)
+    : line_(std::move(title), stderr, between_lines), begin_(Clock::now()) {}
+
+void Progress::phase(std::string name) {
+  phase_ = std::move(name);
+  tick();
+}
+
+void Progress::tick() {
+  if (!line_.is_due()) return;
+  const std::chrono::duration<double> elapsed = Clock::now() - begin_;
+  line_.show(fmt::format("{} {:.0f} s", phase_, elapsed.count()));
+}
+
+}  // namespace assay::reports

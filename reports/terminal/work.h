@@ -1,0 +1,159 @@
+// The work of a verb: how it ends, with an exit code, and where it cannot go on with one line on
+// stderr that says why; the limits of time and memory that a user sets; and lines that show how far
+// long work has come.
+#pragma once
+
+#include <boost/outcome/try.hpp>
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <new>
+#include <optional>
+#include <string>
+
+#include "corpus/problem.h"
+#include "detector/mesh/step_types.h"
+
+namespace assay::reports {
+
+// The exit codes of every verb. If several apply, the first of 2, 4, 1, 3, 5, 0 is used.
+enum ExitCode : int {
+  exit_holds = 0,      // all claims hold
+  exit_defect = 1,     // detector and oracle (or truth, or expected facts) differ
+  exit_usage = 2,      // usage or input error: one line on stderr, nothing else
+  exit_undecided = 3,  // a step ended at a limit
+  exit_unsound = 4,    // the harness failed a check of itself
+  exit_collision = 5,  // with --fail-on-collision: agreement, and a collision
+};
+
+using corpus::Expected;
+using corpus::Problem;
+using corpus::ProblemKind;
+namespace outcome = boost::outcome_v2;
+
+// Prints "assay: LINE" on stderr, with control characters replaced and cut at 1,000 bytes, and
+// returns exit_usage. Never throws, whatever stderr is.
+int refuse(const std::string& line) noexcept;
+// The same for the problem's line.
+int refuse(const Problem& problem) noexcept;
+
+// Whether all that was printed reached stdout; if not, says so on stderr.
+bool output_was_written() noexcept;
+
+// For work that keeps what it has and can go on later: from now on SIGINT and SIGTERM end the
+// program with `code`, once `line` is printed. REQUIRES that no thread has started yet; threads
+// started later leave the two signals to the program. Workers are not affected: a ctrl-C in a
+// terminal does not reach them, and they block nothing (properties/worker/child_process.h). A
+// signal that is ignored stays ignored.
+void end_when_interrupted(const std::string& line, int code);
+
+// Work that reaches a limit ends as `undecided`. Time is processor time, so that what is decided
+// does not depend on what else the machine does.
+class Limits {
+ public:
+  // Limits the processor time from now on, of all threads of this process together (two working
+  // threads use it up in half the time on the wall), and the resident memory of this process.
+  Limits(std::optional<double> seconds, std::optional<std::uint64_t> bytes);
+
+  // Whether a limit is reached. Asks the clock and the system, in less than 1 us if only time is
+  // limited, and remembers the first limit reached.
+  bool exceeded();
+  // "time limit of 10 s" or "memory limit of 512 MiB"; empty before a limit was reached.
+  const std::string& reached() const { return reached_; }
+  // Whether what was reached is a limit of memory, the user's or the machine's.
+  bool is_out_of_memory() const { return is_out_of_memory_; }
+  // Notes that an allocation failed.
+  void memory_failed();
+
+  detector::StopFunction stop_function();
+
+  // What this process does while there is one of these takes none of the time.
+  class Pause {
+   public:
+    explicit Pause(Limits& limits);
+    ~Pause();
+    Pause(const Pause&) = delete;
+    Pause& operator=(const Pause&) = delete;
+
+   private:
+    Limits& limits_;
+    double begin_;
+  };
+
+ private:
+  std::optional<double> seconds_;
+  std::optional<std::uint64_t> bytes_;
+  double begin_;  // processor seconds of this process
+  std::string reached_;
+  bool is_out_of_memory_ = false;
+};
+
+template <class Answer>
+struct Timed {
+  Answer answer;
+  double milliseconds = 0;  // wall clock
+};
+
+// Returns what `ask` answers, or an empty answer if memory fails.
+template <class Ask>
+auto timed(Limits& limits, const Ask& ask) {
+  const auto begin = std::chrono::steady_clock::now();
+  Timed<decltype(ask())> timed;
+  try {
+    timed.answer = ask();
+  } catch (const std::bad_alloc&) {
+    limits.memory_failed();
+  }
+  timed.milliseconds =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  return timed;
+}
+
+// Resident memory of this process, and the most that it ever was.
+std::uint64_t resident_bytes();
+std::uint64_t peak_resident_bytes();
+
+// A line of text on `out`. On a terminal it is rewritten in place; elsewhere, such as in a log, a
+// line is added now and then, with `between_lines` between two.
+class PlainProgress {
+ public:
+  explicit PlainProgress(std::string title, std::FILE* out = stdout,
+                         std::chrono::seconds between_lines = std::chrono::seconds(20));
+  ~PlainProgress() { finish(); }
+  PlainProgress(const PlainProgress&) = delete;
+  PlainProgress& operator=(const PlainProgress&) = delete;
+
+  // Whether the last text was shown long enough ago for another: 0.2 s on a terminal.
+  bool is_due() const;
+  // Shows the text if one is due.
+  void show(const std::string& text);
+  // Removes the line from a terminal. It may be called again; the destructor calls it too.
+  void finish();
+
+ private:
+  std::FILE* const out_;
+  const bool on_terminal_;
+  const std::chrono::steady_clock::duration between_;
+  bool drawn_ = false;
+  std::string title_;
+  std::chrono::steady_clock::time_point last_;
+};
+
+// On stderr, the phase of the work and the seconds that all of it has taken so far.
+class Progress {
+ public:
+  explicit Progress(std::string title,
+                    std::chrono::seconds between_lines = std::chrono::seconds(60));
+
+  void phase(std::string name);
+  // Is cheap unless a line is due.
+  void tick();
+  void finish() { line_.finish(); }
+
+ private:
+  PlainProgress line_;
+  std::string phase_;
+  std::chrono::steady_clock::time_point begin_;
+};
+
+}  // namespace assay::reports
