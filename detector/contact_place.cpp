@@ -14,7 +14,7 @@
 #include <cmath>
 #include <limits>
 
-#include "detector/parallel/processor_state.h"
+#include "detector/parallel/workers.h"
 
 namespace assay::detector {
 

@@ -7,12 +7,11 @@
 #include <string>
 
 #include "detector/assembly.h"
-#include "detector/boxes/shortened_step.h"
+#include "detector/boxes/moving_box.h"
 #include "detector/mesh/mesh_checks.h"
 #include "detector/mesh/paced_stop.h"
-#include "detector/parallel/processor_state.h"
 #include "detector/parallel/workers.h"
-#include "detector/state/state_bytes.h"
+#include "detector/state/step_state.h"
 #include "detector/step/step.h"
 
 namespace assay::detector {
@@ -285,7 +284,7 @@ SavedState Detector::state() const {
   const ProcessorState processor;
   StepContext& context = parts_->context;
   PacedStop pace(never_stops, context.workers);
-  make_first_views(context, pace);
+  context.views.make(context, pace);
   return SavedState(StateFields{digest_of(context), context.options.culling, parts_->committed,
                                 context.views.apex_rules(), context.views.anchors()});
 }

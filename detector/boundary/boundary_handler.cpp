@@ -2,11 +2,41 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <limits>
+#include <numeric>
 
 #include "detector/parallel/workers.h"
 
 namespace assay::detector {
 namespace {
+
+struct LoopBox {
+  Point lo, hi;
+};
+
+LoopBox box_of(const Loop& loop, const PositionsView& x) {
+  LoopBox box{point_of(x, loop[0]), point_of(x, loop[0])};
+  for (const auto v : loop) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      box.lo[k] = std::min(box.lo[k], x(v, static_cast<Eigen::Index>(k)));
+      box.hi[k] = std::max(box.hi[k], x(v, static_cast<Eigen::Index>(k)));
+    }
+  }
+  return box;
+}
+
+Point centroid(const Loop& loop, const PositionsView& x, const LoopBox& box) {
+  // Each term is scaled before it is added, and the result clamped to the loop's box, so that
+  // rounding cannot make it overflow.
+  const double weight = 1.0 / static_cast<double>(loop.size());
+  Point c = {0, 0, 0};
+  for (const auto v : loop) {
+    for (std::size_t k = 0; k < 3; ++k) c[k] += weight * x(v, static_cast<Eigen::Index>(k));
+  }
+  for (std::size_t k = 0; k < 3; ++k) c[k] = std::clamp(c[k], box.lo[k], box.hi[k]);
+  return c;
+}
 
 // The nodes below which the triangles of a component are swept, each part by one worker. How many
 // they are depends on the mesh alone, so the counts of a sweep do not depend on the workers. A part
@@ -27,6 +57,172 @@ std::vector<std::int32_t> parts_of(const BoundingVolumeTree& tree, std::int32_t 
 }
 
 }  // namespace
+
+Point place_apex(const ApexRule& rule, const Loop& loop, const PositionsView& x) {
+  const LoopBox box = box_of(loop, x);
+  const Point c = centroid(loop, x, box);
+  if (rule.height == 0) return c;
+  // The normal is twice the area vector of the fan from the centroid. Its unit is the longest side
+  // of the loop's box, so that products neither overflow nor vanish.
+  double side = 0;
+  for (std::size_t k = 0; k < 3; ++k) side = std::max(side, box.hi[k] - box.lo[k]);
+  if (!(side > 0) || !std::isfinite(side)) return c;
+  Point normal = {0, 0, 0};
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Point p = point_of(x, loop[i]), q = point_of(x, loop[(i + 1) % loop.size()]);
+    Point a, b;
+    for (std::size_t k = 0; k < 3; ++k) {
+      a[k] = (p[k] - c[k]) / side;
+      b[k] = (q[k] - c[k]) / side;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t m = (k + 1) % 3, n = (k + 2) % 3;
+      normal[k] += a[m] * b[n] - a[n] * b[m];
+    }
+  }
+  double length2 = 0, diagonal2 = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double extent = (box.hi[k] - box.lo[k]) / side;
+    length2 += normal[k] * normal[k];
+    diagonal2 += extent * extent;
+  }
+  if (!(length2 > 0)) return c;
+  const double reach = rule.height * side * std::sqrt(diagonal2) / std::sqrt(length2);
+  Point apex;
+  for (std::size_t k = 0; k < 3; ++k) {
+    apex[k] = c[k] + reach * normal[k];
+    if (!std::isfinite(apex[k])) return c;
+  }
+  return apex;
+}
+
+Positions with_apexes(const PositionsView& x, const std::vector<MovingPoint>& apexes, bool at_end) {
+  Positions all(x.rows() + static_cast<Eigen::Index>(apexes.size()), 3);
+  all.topRows(x.rows()) = x;
+  for (std::size_t l = 0; l < apexes.size(); ++l) {
+    const Point& p = at_end ? apexes[l].t1 : apexes[l].t0;
+    all.row(x.rows() + static_cast<Eigen::Index>(l)) << p[0], p[1], p[2];
+  }
+  return all;
+}
+
+namespace {
+
+// The work to place an apex and make the tree of its fan, in box tests for each ghost.
+constexpr std::uint64_t work_to_place = 20;
+
+// Every loop gets at least so much, which is 20 us, enough for a loop of a few edges.
+constexpr std::uint64_t least_share = 4'000;
+
+constexpr std::size_t growth_of_most = 8;
+
+// In meshes of at least so many triangles, what only grazes a ghost's plane is taken for
+// untouched. On a flat sheet these are all triangles along a side, for each ghost over that side.
+constexpr std::size_t large_mesh = 256;
+
+// A sweep asks whether to go on after as much work as a few pairs take.
+constexpr std::uint64_t work_between_looks = 512;
+
+}  // namespace
+
+ApexChoice::ApexChoice(const Surface& surface, const BoundingVolumeTree& tree,
+                       const PositionsView& x, const ElementaryTest& elementary,
+                       const StopFunction& stop)
+    : surface_(surface),
+      all_(with_apexes(x, std::vector<MovingPoint>(surface.loops.size()), false)),
+      x_(x),
+      view_of_all_(all_),
+      stop_(stop),
+      sweep_{surface, tree, {view_of_all_, view_of_all_}, elementary, true},
+      ghosts_(surface.ghost_count()),
+      touched_(surface.mesh.triangles.size(), 0) {
+  sweep_.found = &found_;
+  sweep_.by_planes = touched_.size() < large_mesh ? ByPlanes::strict : ByPlanes::grazing;
+  sweep_.work_between_stops = work_between_looks;
+  std::iota(ghosts_.begin(), ghosts_.end(),
+            static_cast<std::int32_t>(surface.mesh.triangles.size()));
+  std::size_t ghost = 0;
+  for (const auto& loop : surface.loops) {
+    first_ghost_.push_back(ghost);
+    ghost += loop.size();
+  }
+}
+
+ApexChoice::Result ApexChoice::run() {
+  result_.rules.assign(surface_.loops.size(), apex_rules[0]);
+  std::vector<std::size_t> order(surface_.loops.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return surface_.loops[a].size() < surface_.loops[b].size();
+  });
+  const std::uint64_t budget = base_work + work_per_triangle * surface_.all().triangles.size();
+  std::size_t ghosts_left = ghosts_.size();
+  for (const auto l : order) {
+    if (stop_.stopped()) break;
+    const std::uint64_t left = budget - std::min(budget, work());
+    const double part =
+        static_cast<double>(surface_.loops[l].size()) / static_cast<double>(ghosts_left);
+    result_.rules[l] = choose(l, static_cast<std::uint64_t>(part * static_cast<double>(left)));
+    ghosts_left -= surface_.loops[l].size();
+  }
+  return std::move(result_);
+}
+
+ApexRule ApexChoice::choose(std::size_t loop, std::uint64_t share) {
+  const std::uint64_t end = work() + std::max(share, least_share);
+  ApexRule chosen = apex_rules[0];
+  std::size_t fewest = std::numeric_limits<std::size_t>::max();
+  std::array<bool, apex_rules.size()> was_cut{};
+  // A rule that touches many triangles is not followed to its end while another one may touch
+  // fewer: in each round rules are given up at `most` triangles, and `most` grows from round to
+  // round.
+  const std::size_t all = surface_.mesh.triangles.size();
+  for (std::size_t most = 1; most / growth_of_most <= all; most *= growth_of_most) {
+    for (std::size_t r = 0; r < apex_rules.size() && fewest > 0; ++r) {
+      if (was_cut[r]) continue;
+      const std::uint64_t left = end - std::min(end, work());
+      const std::size_t cut_before = result_.cut_short;
+      const auto touched =
+          touched_by(loop, apex_rules[r], std::min(fewest, most), left / (apex_rules.size() - r));
+      was_cut[r] = result_.cut_short > cut_before;
+      if (!touched) continue;
+      fewest = *touched;
+      chosen = apex_rules[r];
+    }
+    if (fewest < most || stop_.stopped()) break;
+  }
+  return chosen;
+}
+
+std::optional<std::size_t> ApexChoice::touched_by(std::size_t loop, const ApexRule& rule,
+                                                  std::size_t fewest, std::uint64_t most_work) {
+  const Loop& vertices = surface_.loops[loop];
+  const std::uint64_t to_place = work_to_place * vertices.size();
+  if (to_place > most_work) {
+    ++result_.cut_short;
+    return std::nullopt;
+  }
+  const std::uint64_t end = work() + most_work;
+  std::uint64_t seen = work();
+  placing_ += to_place;
+  const Point apex = place_apex(rule, vertices, x_);
+  all_.row(surface_.first_apex + static_cast<Eigen::Index>(loop)) << apex[0], apex[1], apex[2];
+  const auto ghosts = std::span(ghosts_).subspan(first_ghost_[loop], vertices.size());
+  const HoleTree hole(surface_.all(), ghosts, sweep_.tree.grid(), sweep_.motion);
+  const auto has_to_end = [&] {
+    const bool asks_for_end = stop_.after(work() - seen);
+    seen = work();
+    return asks_for_end || found_.size() >= fewest || work() >= end;
+  };
+  const bool went_through = sweep_hole(sweep_, hole, has_to_end, touched_, result_.counts);
+  const std::size_t count = found_.size();
+  stop_.after(work() - seen);
+  for (const auto t : found_) touched_[at(t)] = 0;
+  found_.clear();
+  if (!went_through && count < fewest) ++result_.cut_short;
+  if (!went_through || count >= fewest) return std::nullopt;
+  return count;
+}
 
 Surface BoundaryHandler::close_up(const TrianglesView& triangles, Eigen::Index vertex_count,
                                   PacedStop& pace) const {

@@ -2,10 +2,93 @@
 // what they touch.
 #pragma once
 
-#include "detector/boundary/apex.h"
+#include <array>
+#include <optional>
+
 #include "detector/boundary/ghost_sweep.h"
+#include "detector/mesh/surface.h"
 
 namespace assay::detector {
+
+// Where the apex of a ghost fan stands: a deterministic function of one frame's positions.
+//
+// During a step the apex moves linearly between its places at the two frames, so it is also
+// continuous from step to step. An apex that stays behind, or jumps, misses contacts (cases D7,
+// D9).
+
+// Puts the apex at the loop's centroid, moved along the loop's mean normal by `height` times the
+// diagonal of the loop's box. The centroid itself (height 0) would ruin culling on sheets, because
+// ghosts through it cut the sheet.
+struct ApexRule {
+  double height = 0;
+};
+
+// The rules to choose from. Of several that are equally good the first is taken.
+inline constexpr std::array<ApexRule, 5> apex_rules = {{{0.0}, {0.25}, {-0.25}, {1.0}, {-1.0}}};
+
+// The place of the apex in one frame. It is computed in doubles, summed in the order of the loop,
+// so it has the same bytes on every machine. If the mean normal vanishes or overflows it is the
+// centroid. It is finite for finite positions.
+Point place_apex(const ApexRule& rule, const Loop& loop, const PositionsView& x);
+
+// The rows of x and, below them, the apexes at t=0 or, with at_end, at t=1.
+Positions with_apexes(const PositionsView& x, const std::vector<MovingPoint>& apexes, bool at_end);
+
+// Chooses for each loop the rule that places its apex: the one whose ghosts touch fewest triangles
+// at rest.
+//
+// A bad apex costs dirty triangles but never makes an answer wrong, because L11 asks only for
+// ghosts that close the loops, wherever they stand. So the choice may take no more work than a
+// step of culling bvh. It counts its work and looks at no clock. Loops are handled from the
+// shortest to the longest. Each gets a share of the work that is left, in proportion to its
+// length, and its rules divide the share evenly. A rule that does not finish within its part is
+// passed over. If no rule finishes, the loop keeps the first one, its centroid.
+//
+// An example where none finishes is the loop around a fan of n triangles at one hub. The boxes of
+// its ghosts and triangles all hold a place near the hub, so n^2 pairs come up. A step of this
+// mesh under bvh is quadratic for the same reason (34 s at n = 20,000), because candidates are
+// found by boxes of triangles. With boxes of edges and vertices the n vertices would be apart from
+// the n faces, because an edge at the rim is as short as its triangle is narrow, but the edges at
+// the hub would still meet in one place.
+class ApexChoice {
+ public:
+  struct Result {
+    std::vector<ApexRule> rules;  // by loop
+    GhostCounts counts;
+    std::size_t cut_short = 0;  // sweeps that were ended because they took too much work
+  };
+
+  // The work that the choice may take, in the units of GhostCounts::work (box tests): so much for
+  // each triangle and ghost, and a base of 1 ms. A step of bvh takes 0.8 to 1.4 us a triangle, as
+  // 160 to 280 box tests do.
+  static constexpr std::uint64_t work_per_triangle = 200, base_work = 200'000;
+
+  // REQUIRES the tree of the mesh, refitted to x. The references must outlive this object.
+  ApexChoice(const Surface& surface, const BoundingVolumeTree& tree, const PositionsView& x,
+             const ElementaryTest& elementary, const StopFunction& stop);
+
+  // O(1) for each triangle and ghost. If `stop` asked for an end, the result must not be used.
+  Result run();
+
+ private:
+  ApexRule choose(std::size_t loop, std::uint64_t share);
+  // How many triangles the ghosts of the loop touch under this rule. Nothing if these are not
+  // fewer than `fewest`, or if it takes more than `most_work` to find out.
+  std::optional<std::size_t> touched_by(std::size_t loop, const ApexRule& rule, std::size_t fewest,
+                                        std::uint64_t most_work);
+  std::uint64_t work() const { return result_.counts.work() + placing_; }
+
+  const Surface& surface_;
+  Positions all_;  // of the mesh, and below it the apexes that are tried
+  PositionsView x_, view_of_all_;
+  PacedStop stop_;
+  GhostSweep sweep_;
+  std::vector<std::int32_t> ghosts_, found_;
+  std::vector<std::size_t> first_ghost_;  // by loop
+  std::vector<std::uint8_t> touched_;     // all 0 between two sweeps
+  std::uint64_t placing_ = 0;             // work beside the sweeps
+  Result result_;
+};
 
 class BoundaryHandler {
  public:
@@ -16,7 +99,7 @@ class BoundaryHandler {
                            PacedStop& pace) const;
 
   // The rule that places the apex of each loop for the life of a detector: one whose ghosts touch
-  // few triangles at x (apex.h). If `stop` asked for an end, it must not be used.
+  // few triangles at x (ApexChoice). If `stop` asked for an end, it must not be used.
   virtual std::vector<ApexRule> choose_apexes(const Surface& surface, BoundingVolumeTree& tree,
                                               const PositionsView& x,
                                               const ElementaryTest& elementary,

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detector/contact/contact_filter.h"
+#include "detector/contact/contact_doubles.h"
 
 namespace assay::detector {
 namespace {

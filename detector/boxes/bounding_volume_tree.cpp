@@ -6,8 +6,6 @@
 #include <numeric>
 #include <span>
 
-#include "detector/mesh/sort_by_key.h"
-
 namespace assay::detector {
 
 namespace {
@@ -190,7 +188,7 @@ struct BoundingVolumeTree::Builder {
     (range.size() <= worth_sharing ? small : large).push_back(range);
   }
 
-  // Half of the triangles, as a whole number of wide nodes (wide_tree.h) where there are enough.
+  // Half of the triangles, as a whole number of wide nodes (WideTree) where there are enough.
   static std::size_t half_of(std::size_t count) {
     constexpr std::size_t wide = box_lanes::width;
     return count <= 2 * wide ? count / 2 : (count / 2 + wide / 2) / wide * wide;

@@ -11,8 +11,8 @@ namespace box_lanes {
 inline constexpr std::size_t width = 8, rows = 12;
 }  // namespace box_lanes
 
-// Up to eight boxes as twelve rows of `count` floats (wide_tree.h). Eight floats may be read from
-// each row, whatever the count is.
+// Up to eight boxes as twelve rows of `count` floats (bounding_volume_tree.h). Eight floats may be
+// read from each row, whatever the count is.
 struct BoxRows {
   const float* first;
   std::size_t count;

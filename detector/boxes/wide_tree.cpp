@@ -1,4 +1,3 @@
-#include "detector/boxes/wide_tree.h"
 
 #include <algorithm>
 #include <array>

@@ -6,7 +6,6 @@
 // points at rest are no special cases.
 #include "detector/contact/contact_exact.h"
 
-#include "detector/contact/contact_fixed.h"
 #include "detector/exact/real_root.h"
 
 namespace assay::detector {

@@ -1,11 +1,12 @@
-// The integer rungs of the elementary test: integers of fixed width (contact_fixed.h), and integers
-// without bound for what these leave open. Together they decide every query. They treat every
-// degenerate case by the same few rules (contact_exact.cpp).
+// The integer rungs of the elementary test: integers of fixed width, and integers without bound for
+// what these leave open. Together they decide every query. They treat every degenerate case by the
+// same few rules (contact_exact.cpp).
 #pragma once
 
 #include <optional>
 
 #include "detector/contact/elementary.h"
+#include "detector/mesh/step_types.h"
 
 namespace assay::detector {
 
@@ -28,5 +29,23 @@ TimeEnclosure general_bracketed_time(const FourPoints& query, double lo, double 
 // Whether the four points are coplanar at all times, which means that the coplanarity cubic
 // vanishes identically.
 bool coplanar_throughout(const FourPoints& query);
+
+// The rung `fixed`: exact integers of fixed width. The query's coordinates choose the smallest of a
+// few widths that suffices. This rung never decides wrongly. Its decision is `open` if signs over a
+// few pieces of the step do not tell, or if the exponents of the coordinates spread too far. It
+// allocates nothing.
+
+struct FixedResult {
+  Decision decision = Decision::open;
+  TimeEnclosure time;  // set only if the decision is yes and a time is wanted
+};
+
+// 0.2 to 1 us for coordinates of similar magnitude.
+FixedResult fixed_contact(const FourPoints& query, Want want);
+
+// The only root of the coplanarity cubic in (lo, hi), with the preconditions of
+// exact_bracketed_time; nothing if exponents spread too far. 0.4 us.
+std::optional<TimeEnclosure> fixed_bracketed_time(const FourPoints& query, double lo, double hi,
+                                                  double guess);
 
 }  // namespace assay::detector

@@ -1,7 +1,6 @@
-#include "detector/contact/contact_fixed.h"
-
 #include <cassert>
 
+#include "detector/contact/contact_exact.h"
 #include "detector/contact/fixed_products.h"
 #include "detector/contact/fixed_root.h"
 

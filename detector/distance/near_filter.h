@@ -63,4 +63,16 @@ NearResult filter_near(const FourPoints& query, double d);
 // Most of the pieces. Where so many do not come to an end, the features touch at about d.
 inline constexpr int max_advances = 24;
 
+// Where two features are nearest to each other at one instant, in plain doubles.
+//
+// This is a good guess, and no decision rests on it: the filter proves what it takes from here.
+
+// The four points of a query at one instant, as they are seen from the first point.
+using SeenPoints = std::array<Vector, 3>;  // of points 1, 2, 3
+
+// Of the two features the vector from a place of the second one to a place of the first one, which
+// are about nearest to each other. Each place is in its feature, up to place_error, also if the
+// feature is only a segment or a point. 20 ns.
+Vector between_nearest(const SeenPoints& x, int first_group);
+
 }  // namespace assay::detector

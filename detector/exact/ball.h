@@ -20,7 +20,7 @@
 #include <optional>
 
 #include "detector/exact/fixed_integer.h"
-#include "detector/exact/integer.h"
+#include "detector/exact/polynomial.h"
 
 namespace assay::detector {
 

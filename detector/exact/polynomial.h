@@ -1,13 +1,36 @@
-// Polynomials in the step's time with exact integer coefficients. Those of contacts and views have
-// degree 5 at most (the middle piece of a view-line), those of distances 6; this class does not
-// limit the degree.
+// Integers without bound, and polynomials in the step's time that have them as coefficients. Those
+// of contacts and views have degree 5 at most (the middle piece of a view-line), those of distances
+// 6; the class does not limit the degree.
 #pragma once
 
 #include <boost/container/small_vector.hpp>
-
-#include "detector/exact/integer.h"
+#include <boost/multiprecision/cpp_int.hpp>
+#include <span>
 
 namespace assay::detector {
+
+// The exact integers of the last rung. Most values of a query fit into the inline storage, so that
+// no memory is allocated. Larger ones allocate memory and stay exact.
+
+inline constexpr unsigned inline_integer_bits = 512;
+
+using Integer = boost::multiprecision::number<
+    boost::multiprecision::cpp_int_backend<
+        inline_integer_bits, 0, boost::multiprecision::signed_magnitude,
+        boost::multiprecision::unchecked, std::allocator<boost::multiprecision::limb_type>>,
+    boost::multiprecision::et_off>;
+
+// A finite double as mantissa * 2^exponent, exactly. The mantissa is odd; 0 is 0 * 2^0.
+struct Binary {
+  std::int64_t mantissa = 0;
+  int exponent = 0;
+};
+Binary binary_of(double value);
+
+// Sets out[i] to the integer values[i] * 2^-e, with one e for all: the least exponent of their
+// binary forms. Scaling all coordinates of a query by one positive number changes no sign and no
+// root.
+void to_common_integers(std::span<const double> values, std::span<Integer> out);
 
 // The exact time mantissa * 2^exponent.
 struct Dyadic {

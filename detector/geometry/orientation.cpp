@@ -1,6 +1,6 @@
 #include "detector/geometry/orientation.h"
 
-#include "detector/exact/integer.h"
+#include "detector/exact/polynomial.h"
 
 namespace assay::detector {
 namespace {

@@ -7,7 +7,6 @@
 
 #include "detector/exact/bernstein.h"
 #include "detector/mesh/step_types.h"
-#include "detector/mesh/types.h"
 
 namespace assay::detector {
 

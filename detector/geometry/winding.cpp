@@ -20,7 +20,7 @@
 #include <limits>
 
 #include "detector/exact/bernstein.h"
-#include "detector/exact/integer.h"
+#include "detector/exact/polynomial.h"
 
 namespace assay::detector {
 namespace {

@@ -13,7 +13,6 @@
 #include "detector/mesh/paced_stop.h"
 #include "detector/mesh/step_types.h"
 #include "detector/mesh/topology.h"
-#include "detector/mesh/types.h"
 
 namespace assay::detector {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "detector/mesh/sort_by_key.h"
+#include "detector/mesh/for_all.h"
 
 namespace assay::detector {
 namespace {
@@ -45,7 +45,7 @@ std::optional<Problem> find_same_vertices(const TrianglesView& triangles, std::s
   if (!for_all_paced(sorted.size(), work_to_copy, pace, copy)) return stopped_at_checks();
   for (const std::size_t k : {2, 1, 0}) {
     const auto vertex = [k](const SortedTriangle& entry) { return entry.vertices[k]; };
-    if (!sort_by_key(sorted, room, vertex_count, vertex, pace)) return stopped_at_checks();
+    if (!sort_by_key(sorted, room, vertex_count, vertex, &pace)) return stopped_at_checks();
   }
   for (std::size_t i = 1; i < sorted.size(); ++i) {
     const auto &a = sorted[i].vertices, &b = sorted[i - 1].vertices;

@@ -117,7 +117,7 @@ struct ReleaseCounts {
 
 struct StepCounts {
   SearchCounts search;
-  MarkingCounts marking;  // depends on earlier steps too, see search/marking.h
+  MarkingCounts marking;  // depends on earlier steps too, see search/pair_rule.h
   NarrowCounts narrow;
   ViewCounts view;
   GhostCounts ghosts;

@@ -3,7 +3,7 @@
 #include <cassert>
 #include <utility>
 
-#include "detector/mesh/sort_by_key.h"
+#include "detector/mesh/for_all.h"
 
 namespace assay::detector {
 
@@ -63,8 +63,8 @@ std::vector<LoopEdge> unmatched_edges(const Topology& mesh, PacedStop& pace) {
   const std::size_t vertices = mesh.vertex_triangles.starts.size();
   const auto to = [](const LoopEdge& edge) { return edge.to; };
   const auto from = [](const LoopEdge& edge) { return edge.from; };
-  if (!sort_by_key(unmatched, room, vertices, to, pace) ||
-      !sort_by_key(unmatched, room, vertices, from, pace)) {
+  if (!sort_by_key(unmatched, room, vertices, to, &pace) ||
+      !sort_by_key(unmatched, room, vertices, from, &pace)) {
     return {};
   }
   return unmatched;

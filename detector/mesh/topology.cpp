@@ -4,7 +4,7 @@
 #include <numeric>
 #include <utility>
 
-#include "detector/mesh/sort_by_key.h"
+#include "detector/mesh/for_all.h"
 
 namespace assay::detector {
 namespace {
@@ -37,7 +37,7 @@ bool find_triangles_of_vertices(Topology& mesh, std::size_t vertex_count, PacedS
   std::vector<std::int32_t> room;
   const auto number = [&](std::size_t i) { items[i] = static_cast<std::int32_t>(i); };
   return for_all_paced(items.size(), 1, pace, number) &&
-         sort_by_key(items, room, vertex_count, vertex, pace) &&
+         sort_by_key(items, room, vertex_count, vertex, &pace) &&
          set_starts(
              vertex_count, items.size(), [&](std::size_t i) { return at(vertex(items[i])); },
              starts, pace) &&
@@ -64,7 +64,7 @@ bool make_edges(Topology& mesh, std::size_t vertex_count, PacedStop& pace) {
   if (!for_all_paced(mesh.triangles.size(), work_of_triangle, pace, use)) return false;
   for (const std::size_t end : {1, 0}) {
     const auto vertex = [end](const EdgeUse& of) { return of.edge[end]; };
-    if (!sort_by_key(uses, room, vertex_count, vertex, pace)) return false;
+    if (!sort_by_key(uses, room, vertex_count, vertex, &pace)) return false;
   }
   room = {};
   const auto is_new = [&](std::size_t i) {

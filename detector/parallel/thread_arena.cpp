@@ -1,4 +1,4 @@
-#include "detector/parallel/thread_arena.h"
+#include "detector/parallel/workers.h"
 
 #ifdef ASSAY_HAS_TBB
 #include <oneapi/tbb/global_control.h>

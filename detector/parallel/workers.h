@@ -1,5 +1,5 @@
-// The threads of one detector. They work on the pieces of a loop at the same time; everything else
-// is done by the calling thread.
+// The threads of one detector, and the state of the processor in which they compute. They work on
+// the pieces of a loop at the same time; everything else is done by the calling thread.
 //
 // A piece writes only to places of its own or of its lane, and what lanes have gathered is put
 // together in a way that does not depend on their order. So a result does not depend on how many
@@ -14,9 +14,29 @@
 #include <memory>
 #include <thread>
 
-#include "detector/parallel/thread_arena.h"
+#if !defined(__SSE2__)
+#include <cfenv>
+#endif
 
 namespace assay::detector {
+
+// The threads themselves. They are those of oneTBB, which thread_arena.cpp alone names.
+class ThreadArena {
+ public:
+  // Null if the library was built without oneTBB.
+  static std::unique_ptr<ThreadArena> make(std::size_t threads);
+  virtual ~ThreadArena() = default;
+  class Work {
+   public:
+    virtual ~Work() = default;
+    virtual void run(std::size_t i, std::size_t lane) const = 0;
+  };
+  // Calls work.run(i, lane) for i = 0 .. count - 1, with lane < threads, and returns when all
+  // calls have. No two calls run in one lane at the same time. The calling thread works too, and
+  // is one of the threads. If calls throw, the exception of one of them is thrown again, and what
+  // had not begun then may be left out.
+  virtual void run(std::size_t count, const Work& work) = 0;
+};
 
 // A piece of a loop: the items begin, ..., end - 1. Lanes are numbered from 0, and no two threads
 // work in one lane at the same time, so what is kept by lane needs no lock.
@@ -72,6 +92,34 @@ class SharedStop {
   const std::function<bool()>& stop_;
   const std::thread::id caller_;
   std::atomic<bool> is_stopped_ = false;
+};
+
+// The state of the processor that every bound and sign of this room rests on: doubles round to
+// nearest, no denormal number is flushed or read as zero, and nothing traps.
+//
+// A library that was built for speed changes this state for the thread that loads it and for all
+// threads that this one starts. So each call of the detector that computes begins with one of
+// these objects, and so does each piece of work in another thread.
+class ProcessorState {
+ public:
+#if defined(__SSE2__)
+  using State = unsigned;  // MXCSR; double arithmetic does not use the x87
+#else
+  using State = std::fenv_t;
+#endif
+  // Takes a few ns where the state is right already.
+  ProcessorState();
+  // Puts back the state that the caller had.
+  ~ProcessorState();
+  ProcessorState(const ProcessorState&) = delete;
+  ProcessorState& operator=(const ProcessorState&) = delete;
+
+  // A function that calls `function` in the state of the caller; empty if `function` is. Both this
+  // object and `function` must outlive it. Whatever `function` does to the state is undone.
+  std::function<bool()> in_callers_state(const std::function<bool()>& function) const;
+
+ private:
+  const State callers_;
 };
 
 }  // namespace assay::detector

@@ -1,13 +1,15 @@
 #include "detector/plugin/assay_builtin_detector.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstring>
 #include <limits>
+#include <new>
 
 #include "detector/contact_place.h"
 #include "detector/plugin/builtin_handle.h"
-#include "detector/state/state_bytes.h"
+#include "detector/state/step_state.h"
 
 namespace assay::detector {
 namespace {
@@ -36,12 +38,21 @@ std::int32_t refuse(assay_builtin_error* error, const Problem& problem) {
   return refuse(error, static_cast<std::int32_t>(problem.error), problem.message.c_str());
 }
 
+// Calls function(), and says so if memory runs out. The built-in detector throws nothing but
+// std::bad_alloc, so no exception crosses the border to C.
 template <class Function>
 std::int32_t guarded(assay_builtin_error* error, const Function& function) {
-  return detector::guarded(function, [&] {
+  try {
+    return function();
+  } catch (const std::bad_alloc&) {
     tell(error, ASSAY_BUILTIN_NO_MEMORY, "not enough memory");
     return ASSAY_OUT_OF_MEMORY;
-  });
+  }
+}
+
+StopFunction stop_function(std::int32_t (*stop)(void* stop_data), void* stop_data) {
+  if (!stop) return {};
+  return [=] { return stop(stop_data) != 0; };
 }
 
 // Sets `choice` to the value with this number. False, and nothing is set, if there is none.
@@ -67,10 +78,133 @@ const char* read_options(const assay_builtin_options& given, Options& options) {
   return nullptr;
 }
 
+// The functions of the table.
+
+const assay_description* describe() {
+  static const assay_description description = [] {
+    assay_description d = {};
+    d.name = "built-in as a plug-in";
+    d.version = "1";
+    d.claims = ASSAY_CLAIM_FREE_SOUND | ASSAY_CLAIM_NOT_LATE | ASSAY_CLAIM_FIRST_TIME |
+               ASSAY_CLAIM_FIRST_PAIRS | ASSAY_CLAIM_ALL_PAIRS | ASSAY_CLAIM_NO_SPURIOUS |
+               ASSAY_CLAIM_DETERMINISTIC | ASSAY_CLAIM_TOTAL | ASSAY_CLAIM_COMMIT_FREE |
+               ASSAY_CLAIM_PATH_FREE | ASSAY_CLAIM_PROGRESS | ASSAY_CLAIM_WHOLE;
+    d.progress = 0.9;
+    return d;
+  }();
+  return &description;
+}
+
+// use_threads of the table sets it for all handles made later.
+std::atomic<std::uint32_t> threads_to_use = 1;
+
+void use_threads(std::uint32_t count) { threads_to_use = count; }
+
+std::int32_t create(const std::int32_t* triangles, std::uint64_t triangle_count,
+                    const double* positions, std::uint64_t vertex_count, assay_handle** handle,
+                    const char** message) {
+  return guarded(nullptr, [&]() -> std::int32_t {
+    assay_builtin_error error;
+    assay_builtin_options options = ASSAY_BUILTIN_DEFAULTS;
+    options.threads = threads_to_use;
+    const auto code = assay_builtin_create(triangles, triangle_count, positions, vertex_count,
+                                           &options, handle, &error);
+    if (code == ASSAY_REFUSED) *message = assay_builtin_error_name(error.code);
+    return code;
+  });
+}
+
+std::int32_t evaluate(assay_handle* h, const double* x_t0, const double* x_t1) {
+  return guarded(nullptr, [&]() -> std::int32_t {
+    h->evaluate(x_t0, x_t1);
+    return ASSAY_OK;
+  });
+}
+
+std::int32_t commit(assay_handle* h) {
+  return guarded(nullptr,
+                 [&]() -> std::int32_t { return h->detector.commit() ? ASSAY_FAILED : ASSAY_OK; });
+}
+
+std::int32_t result(assay_handle* h, assay_result* out) {
+  switch (h->result.answer) {
+    case Answer::free:
+      out->answer = ASSAY_FREE;
+      break;
+    case Answer::collision:
+      out->answer = ASSAY_COLLISION;
+      break;
+    case Answer::undecided:
+      out->answer = ASSAY_UNDECIDED;
+      break;
+    case Answer::error:
+      out->answer = ASSAY_ERROR;
+      out->message = h->result.problem->message.c_str();
+      break;
+  }
+  out->first_lo = h->result.first.lo;
+  out->first_hi = h->result.first.hi;
+  out->pair_count = h->result.pairs.size();
+  out->pairs = h->pairs.data();
+  out->pair_times = h->times.data();
+  return ASSAY_OK;
+}
+
+std::int32_t limit(assay_handle* h, const double* x_t0, const double* x_t1, assay_limit* out) {
+  return assay_builtin_limit(h, x_t0, x_t1, out, nullptr, nullptr, nullptr);
+}
+
+void destroy(assay_handle* h) { delete h; }
+
 }  // namespace
+
 }  // namespace assay::detector
 
 using namespace assay::detector;
+
+void assay_handle::evaluate(const double* x_t0, const double* x_t1,
+                            std::span<const ViewPrimitive> primitives, const StopFunction& stop) {
+  keep(detector.evaluate(PositionsMap(x_t0, vertex_count, 3), PositionsMap(x_t1, vertex_count, 3),
+                         primitives, stop));
+}
+
+void assay_handle::first_contact(const double* x_t0, const double* x_t1, double until,
+                                 const StopFunction& stop) {
+  keep(detector.first_contact(PositionsMap(x_t0, vertex_count, 3),
+                              PositionsMap(x_t1, vertex_count, 3), until, stop));
+}
+
+void assay_handle::keep(StepResult next) {
+  std::vector<std::int32_t> next_pairs;
+  std::vector<double> next_times;
+  next_pairs.reserve(2 * next.pairs.size());
+  next_times.reserve(2 * next.pairs.size());
+  for (const auto& contact : next.pairs) {
+    next_pairs.insert(next_pairs.end(), {contact.pair.a, contact.pair.b});
+    next_times.insert(next_times.end(), {contact.time.lo, contact.time.hi});
+  }
+  result = std::move(next);
+  pairs.swap(next_pairs);
+  times.swap(next_times);
+}
+
+// The table of assay_detector.h for the built-in detector.
+const assay_detector_api* assay_builtin_detector() {
+  static const assay_detector_api api = [] {
+    assay_detector_api table = {};
+    table.abi_version = ASSAY_DETECTOR_ABI_VERSION;
+    table.describe = describe;
+    table.create = create;
+    table.evaluate = evaluate;
+    table.commit = commit;
+    table.result = result;
+    table.destroy = destroy;
+    table.use_threads = use_threads;
+    table.limit = limit;
+    return table;
+  }();
+  return &api;
+}
 
 const char* assay_builtin_error_name(std::int32_t code) {
   switch (code) {
@@ -122,9 +256,7 @@ std::int32_t assay_builtin_evaluate(assay_handle* handle, const double* x_t0, co
                     "more view primitives than components");
     std::vector<ViewPrimitive> given(static_cast<std::size_t>(primitive_count));
     if (!given.empty()) std::memcpy(given.data(), primitives, given.size() * sizeof given[0]);
-    StopFunction stops;
-    if (stop) stops = [=] { return stop(stop_data) != 0; };
-    handle->evaluate(x_t0, x_t1, given, stops);
+    handle->evaluate(x_t0, x_t1, given, stop_function(stop, stop_data));
     return handle->result.problem ? refuse(error, *handle->result.problem) : done(error);
   });
 }
@@ -134,9 +266,7 @@ std::int32_t assay_builtin_first_contact(assay_handle* handle, const double* x_t
                                          std::int32_t (*stop)(void* stop_data), void* stop_data,
                                          assay_builtin_error* error) {
   return guarded(error, [&]() -> std::int32_t {
-    StopFunction stops;
-    if (stop) stops = [=] { return stop(stop_data) != 0; };
-    handle->first_contact(x_t0, x_t1, until, stops);
+    handle->first_contact(x_t0, x_t1, until, stop_function(stop, stop_data));
     return handle->result.problem ? refuse(error, *handle->result.problem) : done(error);
   });
 }
@@ -145,11 +275,9 @@ std::int32_t assay_builtin_limit(assay_handle* handle, const double* x_t0, const
                                  assay_limit* limit, std::int32_t (*stop)(void* stop_data),
                                  void* stop_data, assay_builtin_error* error) {
   return guarded(error, [&]() -> std::int32_t {
-    StopFunction stops;
-    if (stop) stops = [=] { return stop(stop_data) != 0; };
     const Eigen::Index n = handle->vertex_count;
-    handle->limit =
-        handle->detector.limit(PositionsMap(x_t0, n, 3), PositionsMap(x_t1, n, 3), stops);
+    handle->limit = handle->detector.limit(PositionsMap(x_t0, n, 3), PositionsMap(x_t1, n, 3),
+                                           stop_function(stop, stop_data));
     if (handle->limit.problem) return refuse(error, *handle->limit.problem);
     *limit = {handle->limit.share, handle->limit.positions.data()};
     return done(error);

@@ -1,7 +1,6 @@
 // What the C interface keeps for a mesh: the detector, and the last result as C arrays.
 #pragma once
 
-#include <new>
 #include <span>
 #include <vector>
 
@@ -32,16 +31,5 @@ namespace assay::detector {
 
 using PositionsMap = Eigen::Map<const Positions>;
 using TrianglesMap = Eigen::Map<const Triangles>;
-
-// Calls function(), and out_of_memory() in its place if memory runs out. The built-in detector
-// throws nothing but std::bad_alloc, so no exception crosses the border to C.
-template <class Function, class OutOfMemory>
-std::int32_t guarded(const Function& function, const OutOfMemory& out_of_memory) {
-  try {
-    return function();
-  } catch (const std::bad_alloc&) {
-    return out_of_memory();
-  }
-}
 
 }  // namespace assay::detector

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "detector/boxes/shortened_step.h"
+#include "detector/boxes/moving_box.h"
 #include "detector/parallel/workers.h"
 
 namespace assay::detector {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "detector/geometry/rest_distance.h"
+#include "detector/geometry/near_regions.h"
 
 namespace assay::detector {
 namespace {

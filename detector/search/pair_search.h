@@ -10,8 +10,8 @@
 
 #include "detector/mesh/paced_stop.h"
 #include "detector/mesh/step_counts.h"
-#include "detector/search/marking.h"
 #include "detector/search/pair_relation.h"
+#include "detector/search/pair_rule.h"
 
 namespace assay::detector {
 
@@ -187,5 +187,20 @@ class ExhaustiveSearch : public PairSearch {
 // stopped it by returning false.
 bool search_box(const BoundingVolumeTree& tree, const MovingBox& box, SearchCounts& counts,
                 const std::function<bool(std::int32_t)>& sink);
+
+// The broad phase on wide nodes (WideTree): the same candidates as TreeSearch, in less time.
+//
+// Descends the wide tree against itself. The flags of two nodes say which pairs of their children
+// may hold a pair that is asked for; of these, vector instructions compare the boxes of one child
+// with up to eight others at once. No single-child node is passed over: a comparison costs less
+// than to find out.
+//
+// If the pace has workers, the descent is cut into pairs of nodes near the root, and each worker
+// takes one of these after the other (TreeSearch). Candidates and counts are the same for any
+// number of workers and any instruction set.
+class WideSearch : public PairSearch {
+ public:
+  bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override;
+};
 
 }  // namespace assay::detector

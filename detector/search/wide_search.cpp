@@ -1,8 +1,7 @@
-#include "detector/search/wide_search.h"
-
 #include <bit>
 #include <utility>
 
+#include "detector/search/pair_search.h"
 #include "detector/search/search_lanes.h"
 
 namespace assay::detector {

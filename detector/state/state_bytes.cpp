@@ -1,5 +1,3 @@
-#include "detector/state/state_bytes.h"
-
 #include <algorithm>
 #include <bit>
 #include <cstdint>
@@ -7,6 +5,7 @@
 #include <vector>
 
 #include "detector/mesh/enum_names.h"
+#include "detector/state/step_state.h"
 
 namespace assay::detector {
 namespace {

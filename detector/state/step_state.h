@@ -3,10 +3,12 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
-#include "detector/boundary/apex.h"
+#include "detector/boundary/boundary_handler.h"
 #include "detector/mesh/paced_stop.h"
+#include "detector/mesh/problem.h"
 #include "detector/mesh/step_types.h"
 #include "detector/mesh/surface.h"
 #include "detector/mesh/topology.h"
@@ -15,8 +17,8 @@
 
 namespace assay::detector {
 
-// What the cost model (step/cost_model.h) keeps from step to step: where components are seen from,
-// and whether using views has paid.
+// What the cost model (step/culling_policy.h) keeps from step to step: where components are seen
+// from, and whether using views has paid.
 struct PolicyState {
   // One anchor for each component. Null: those of the detector's preprocessing.
   std::shared_ptr<const std::vector<ViewAnchor>> anchors;
@@ -77,5 +79,27 @@ std::uint64_t digest_of(const Topology& mesh, std::int32_t vertex_count);
 // anchors of its own. REQUIRES as many apex rules as that detector has. What the state says of its
 // triangles is not checked. O(M).
 bool fits(const StateFields& state, const Surface& surface, std::size_t anchors);
+
+// A saved state as bytes, to be kept in a file or handed to another program.
+//
+// The form, version 2, is the same on every machine: 8 bytes "assaySAV", a version, the number of
+// all bytes, the fields of StateFields in the order of state_bytes.cpp, and a checksum of all
+// before it (FNV-1a of 64 bits, byte by byte). Numbers are little-endian, of 64 bits. Doubles are
+// written as their bits, flags and kinds as single bytes, a list as its length and then its
+// members. The checksum shows damage, but does not protect against forgery.
+
+inline constexpr std::uint64_t state_version = 2;
+
+// How many bytes the state takes: 24 for each vertex, 1 for each triangle, 16 for each pair in
+// contact, and some for its components and holes. O(M).
+std::size_t state_size(const StateFields& state);
+
+// Writes these bytes. REQUIRES that `bytes` has state_size(state) bytes. Allocates nothing. O(M).
+void write_state(const StateFields& state, std::span<std::uint8_t> bytes);
+
+// The state that was written. Errors: damaged_state, other_state_version. Whether the state is of
+// the right mesh is checked by Detector::restore. Reading takes no more memory than a few times
+// the bytes that are there, whatever lengths they claim. O(M).
+Expected<StateFields> read_state(std::span<const std::uint8_t> bytes);
 
 }  // namespace assay::detector

@@ -6,6 +6,7 @@
 // in the order of the functions below. After the first no it does without views.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "detector/options.h"
@@ -17,33 +18,9 @@
 
 namespace assay::detector {
 
-// Which triangles are clean at the start of a step, and which at its end.
-//
-// Sets marks.clean of all triangles at t=0, one component after the other. A component that is
-// free over the step is clean (L5). Otherwise the state of the last commit decides if it holds at
-// t=0 (L8), and some of its dirty triangles may be released (L9). If there is no such state,
-// `start` decides; a verified start looks at the component from its view primitive (L5), then at
-// its layers (L9). False if stopped.
-//
-// Layers take about as long as a step of culling bvh. With StartBy::view_alone a verified start
-// leaves them out. The components that L5 does not show to be clean are then dirty, and the pairs
-// of this step tell the next one what is clean (L15).
+// How a verified start finds out what is clean: by view (L5) and then by layers (L9), or by view
+// alone.
 enum class StartBy : std::uint8_t { view_and_layers, view_alone };
-bool find_clean_at_start(const GivenStep& step, StepMarks& marks, StepCost& cost,
-                         const ReleaseRule& release, Start start,
-                         StartBy by = StartBy::view_and_layers);
-
-// Does the same for a step without views. It takes what is known already and looks at nothing.
-// Without a committed state or the caller's word (Start::clean) all triangles are dirty. Nothing
-// is lost by that: the step tests every pair anyway, and from its pairs the next step releases
-// what is clean (L15).
-void take_clean_at_start(const GivenStep& step, StepMarks& marks, Start start);
-
-// The state for the next step. `complete` says that `pairs` are all pairs in contact in the step
-// (L8). If all components are free it costs little more than a copy of the positions.
-StepState state_at_end(const GivenStep& step, const StepMarks& marks, const PacedStop& pace,
-                       const ReleaseRule& release, const std::vector<PairContact>& pairs,
-                       bool complete, const PositionsView& mesh_x_t1);
 
 class CullingPolicy {
  public:
@@ -105,6 +82,94 @@ class FixedPolicy : public CullingPolicy {
  private:
   bool has_views_;
   PolicyState state_;
+};
+
+// The number of pairs of triangles that share a vertex. Culling bvh has them as candidates in every
+// step, because their boxes touch. O(M).
+std::uint64_t adjacent_pairs(const Topology& mesh);
+
+// The policy of the cullings automatic and view_auto: a cost model of views and of proofs.
+//
+// It weighs what views are expected to save against what they are expected to cost. All of it is
+// computed from the numbers of triangles and pairs of this step and of the steps committed
+// before, never from a clock: the same input gives the same bytes. A step may be seen from
+// anywhere (L3), so each step may have primitives of its own.
+//
+// The unit of cost is one candidate pair of culling bvh with all that belongs to it (box tests,
+// axis order, elementary tests, its share of the refit): 0.15 to 0.2 us.
+//
+// From step to step the model is in one of two states, and the first step finds views due:
+//
+//   state          event               next state
+//   views are due  views pay           views are due; next_pause is halved, to 1 at least
+//   views are due  views do not pay    a pause of next_pause steps; that doubles, to 32 at most
+//   pause          its last step ends  views are due
+//
+// When views are due, anchors are chosen again first if they have worn: they had served for
+// least_anchor_age steps, and views did not pay or saved an eighth of the pairs less than at best.
+//
+// A step after one in which most triangles were in contact does not try to release them: they will
+// likely be in contact again. Then views do not pay either.
+//
+// Example: on a sheet seen along itself views do not pay in steps 1, 3, 6, 11, 20; the pauses
+// between these are of 1, 2, 4 and 8 steps.
+class CostModel : public CullingPolicy {
+ public:
+  // adjacent: adjacent_pairs of the mesh. The surface must outlive this object.
+  CostModel(const Surface& surface, std::uint64_t adjacent, PolicyState before)
+      : surface_(surface), adjacent_(adjacent), state_(std::move(before)) {}
+
+  bool may_use_views() const override { return true; }
+  // Not while a pause lasts.
+  bool is_due() const override { return state_.pause == 0; }
+  // Chooses anchors again when they are due, from the positions at the start of the step.
+  const std::vector<ViewAnchor>& anchors(const std::vector<ViewAnchor>& first,
+                                         const PositionsView& vertices_t0,
+                                         PacedStop& pace) override;
+
+  // Classifies a few triangles of each large component, in doubles alone. No where doubles can tell
+  // few of their signs, as on a sheet that is seen along itself: integers would have to decide the
+  // others, and the view test would cost more than the rest of the step.
+  bool worth_classifying(const GivenStep& step, const StepMarks& marks) override;
+  // Whether the signs would save enough if all triangles were clean, and few enough triangles are
+  // near ghosts. Refits the tree of an unclosed mesh.
+  bool worth_sweeping(const GivenStep& step, const StepMarks& marks, PacedStop& pace) override;
+  // Leaves out layers, which cost about a step of culling bvh.
+  StartBy start_by() const override { return StartBy::view_alone; }
+  // Whether the signs save enough among the triangles that are clean. If nothing was known of the
+  // start, a no begins no pause.
+  bool worth_using(const GivenStep& step, const StepMarks& marks,
+                   const StepCounts& counts) override;
+
+  bool worth_proving(const StepMarks& marks, CandidateSearch& candidates) override;
+  // Whether normal cones and contours are expected to save more than they cost (L14).
+  // asked_share: of the pairs of neighbours, the share that K asks for.
+  bool worth_proving(const ProvableShares& provable, double asked_share, std::size_t triangles);
+
+  // Views have paid if release, ghost sweep and closure cost less than the pairs they left out.
+  void record_cost(const StepCounts& counts, std::uint64_t candidates_of_k) override;
+
+  ViewUse use() const override { return is_due() ? use_ : ViewUse::resting; }
+  PolicyState next(const StepCounts& counts, bool has_own_primitives) const override;
+
+ private:
+  // Notes that views would not pay in this step, and why. Returns false.
+  bool does_without(ViewUse because);
+  std::uint64_t expected_candidates() const;
+  // What release and ghost sweep have cost, in candidates.
+  double cost_beside_search(const StepCounts& counts) const;
+  void update_anchors(PolicyState& next) const;
+
+  const Surface& surface_;
+  std::uint64_t adjacent_;
+  PolicyState state_;
+  bool chose_anchors_ = false;
+  double share_of_signs_ = 1;  // the share of pairs that the signs save if all triangles are clean
+  double share_ = 1;           // the same with the triangles that are clean; a free step saves all
+  bool paid_ = true;
+  bool proves_ = false;
+  ViewUse use_ = ViewUse::used;
+  std::optional<double> overhead_;  // of this step, where views were used or found not worth using
 };
 
 }  // namespace assay::detector

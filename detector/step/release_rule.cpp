@@ -7,7 +7,6 @@
 #include "detector/geometry/winding.h"
 #include "detector/mesh/for_all.h"
 #include "detector/search/feature_contacts.h"
-#include "detector/search/wide_search.h"
 #include "detector/state/layers.h"
 #include "detector/view/view_signs.h"
 

@@ -1,7 +1,6 @@
 #include "detector/step/stages.h"
 
 #include "detector/distance/nearness.h"
-#include "detector/search/wide_search.h"
 #include "detector/traditional/traditional.h"
 
 namespace assay::detector {

@@ -33,7 +33,6 @@
 //     +   closure: (U,H) until H is stable                       close_pairs, PairRule (L7)
 //         free: Vv is released
 //     +     Vv is what is not known to be clean                  finish, ReleaseRule (L8)
-
 #include "detector/step/step.h"
 
 #include <algorithm>
@@ -43,17 +42,40 @@
 
 #include "detector/mesh/for_all.h"
 #include "detector/mesh/mesh_checks.h"
-#include "detector/mesh/paced_stop.h"
-#include "detector/mesh/problem.h"
-#include "detector/mesh/step_types.h"
-#include "detector/mesh/surface.h"
-#include "detector/options.h"
 #include "detector/search/stopwatch.h"
-#include "detector/step/cost_model.h"
+#include "detector/step/culling_policy.h"
 #include "detector/step/step_run.h"
 
 namespace assay::detector {
 namespace {
+
+// One anchor for each component: where it is seen from best, with its ghosts, at these positions.
+// Where views are used only if they pay, their search has to be cheap beside a step.
+std::vector<ViewAnchor> place_anchors(const Surface& surface,
+                                      const std::vector<ApexRule>& apex_rules, Culling culling,
+                                      const PositionsView& positions, PacedStop& pace) {
+  std::vector<MovingPoint> apexes;
+  for (std::size_t l = 0; l < surface.loops.size(); ++l) {
+    const Point apex = place_apex(apex_rules[l], surface.loops[l], positions);
+    apexes.push_back({apex, apex});
+  }
+  const Positions x = with_apexes(positions, apexes, false);
+  std::vector<ViewAnchor> anchors;
+  for (const auto& component : surface.all().components) {
+    const Effort effort = effort_for(component, surface.mesh,
+                                     chooses_views(culling) ? Effort::brief : Effort::thorough);
+    if (pace.after(effort == Effort::least ? 400 : 20'000)) break;
+    if (chooses_views(culling)) {
+      anchors.push_back(
+          choose_view_anchor(surface.all(), component, surface.first_apex, x, effort, &pace));
+    } else {
+      const ViewKind kind = culling == Culling::view_line ? ViewKind::line : ViewKind::point;
+      anchors.push_back(
+          make_view_anchor(kind, surface.all(), component, surface.first_apex, x, effort, &pace));
+    }
+  }
+  return anchors;
+}
 
 // Whether check_positions would find nothing. The workers share the rows, because no row has to be
 // named here.
@@ -96,10 +118,10 @@ std::optional<Problem> check_step_input(const Surface& surface, const SteppedMes
   return std::nullopt;
 }
 
-// The result of a step that is refused: Answer::error with this problem.
-StepResult refused(Problem problem) {
+// The result of a step that is stopped, or refused with this problem.
+StepResult no_answer(std::optional<Problem> problem = std::nullopt) {
   StepResult result;
-  result.answer = Answer::error;
+  result.answer = problem ? Answer::error : Answer::undecided;
   result.problem = std::move(problem);
   return result;
 }
@@ -156,13 +178,30 @@ bool move_ghosts(const StepContext& context, const SteppedMesh& mesh, PacedStop&
   return true;
 }
 
-StepResult undecided() {
-  StepResult result;
-  result.answer = Answer::undecided;
-  return result;
+}  // namespace
+
+bool FirstViews::make(StepContext& context, PacedStop& pace) {
+  if (!x_) return true;
+  const Surface& surface = context.surface;
+  // Once the stop function has asked for an end it is not asked again.
+  const StopFunction paced = [&] { return pace.now(); };
+  std::vector<ApexRule> rules;
+  if (!surface.is_closed())
+    rules = context.stages.boundary->choose_apexes(surface, context.tree, *x_,
+                                                   *context.stages.elementary, paced);
+  context.tree.forget_fit();
+  if (pace.stopped()) return false;
+  auto anchors = place_anchors(surface, rules, context.options.culling, *x_, pace);
+  if (pace.stopped()) return false;
+  replace(std::move(anchors), std::move(rules));
+  return true;
 }
 
-}  // namespace
+void FirstViews::replace(std::vector<ViewAnchor> anchors, std::vector<ApexRule> rules) {
+  anchors_ = std::move(anchors);
+  apex_rules_ = std::move(rules);
+  x_.reset();
+}
 
 StepResult evaluate_step(StepContext& context, const std::optional<StepState>& known,
                          const SteppedMesh& mesh, const StepQuestion& question,
@@ -172,7 +211,7 @@ StepResult evaluate_step(StepContext& context, const std::optional<StepState>& k
   const StopFunction stop = shared.function();
   PacedStop pace(stop, context.workers);
   if (auto problem = check_step_input(context.surface, mesh, primitives, pace))
-    return refused(std::move(*problem));
+    return no_answer(std::move(problem));
   const bool goes_on = known && context.stages.release->still_holds(*known, mesh.vertices_t0, pace);
   PolicyOfStep policy_of_step(context, known);
   CullingPolicy& policy = policy_of_step.policy();
@@ -183,9 +222,9 @@ StepResult evaluate_step(StepContext& context, const std::optional<StepState>& k
     MovedGhosts ghosts;
     const bool asks_for_views =
         policy.is_due() && (primitives.empty() || !context.surface.is_closed());
-    if (asks_for_views && !make_first_views(context, pace)) return undecided();
+    if (asks_for_views && !context.views.make(context, pace)) return no_answer();
     const bool moves_ghosts = !context.surface.is_closed() && policy.is_due();
-    if (moves_ghosts && !move_ghosts(context, mesh, pace, ghosts)) return undecided();
+    if (moves_ghosts && !move_ghosts(context, mesh, pace, ghosts)) return no_answer();
     const SteppedMesh motion = moves_ghosts ? SteppedMesh{ghosts.all_t0, ghosts.all_t1} : mesh;
     StepRun step(context, goes_on ? &*known : nullptr, motion, question, policy, stop);
     const bool completed = run_stages(step, mesh, primitives);

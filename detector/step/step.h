@@ -1,11 +1,45 @@
 // One step through the stages of the detector.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "detector/parallel/workers.h"
-#include "detector/step/first_views.h"
+#include "detector/step/stages.h"
 #include "detector/step_result.h"
+#include "detector/view/view_anchor.h"
 
 namespace assay::detector {
+
+struct StepContext;
+
+// What only steps with views need: where each component is seen from, and the rules that place
+// apexes. They are made when views are first due and not when the detector is created, because
+// they take longer than everything else there.
+//
+// They rest on the positions that the detector was created with, which are kept until then. So it
+// does not show when they were made: an evaluation leaves the state as it was.
+class FirstViews {
+ public:
+  // Of a culling without views: there is nothing to make.
+  FirstViews() = default;
+  explicit FirstViews(const PositionsView& x) : x_(x) {}
+
+  // Makes them, unless that was done before. It leaves the boxes of the tree fitted to other
+  // positions. False if it was stopped; then nothing is kept.
+  bool make(StepContext& context, PacedStop& pace);
+  // Others in their place, from a saved state.
+  void replace(std::vector<ViewAnchor> anchors, std::vector<ApexRule> rules);
+
+  // By component and by loop. Empty before they are made, and with a culling without views.
+  const std::vector<ViewAnchor>& anchors() const { return anchors_; }
+  const std::vector<ApexRule>& apex_rules() const { return apex_rules_; }
+
+ private:
+  std::optional<Positions> x_;  // nothing once they are made
+  std::vector<ViewAnchor> anchors_;
+  std::vector<ApexRule> apex_rules_;
+};
 
 // What a detector keeps of its mesh: what preprocessing made, and what steps work in.
 struct StepContext {
@@ -16,16 +50,10 @@ struct StepContext {
   SearchMemory search;                      // with the marks of that tree
   std::unique_ptr<MeshSearch> pair_search;  // from the stage of that name
   FirstViews views;
-  std::optional<std::uint64_t> adjacent_pairs;  // once the cost model has asked (cost_model.h)
+  std::optional<std::uint64_t> adjacent_pairs;  // once the cost model has asked (culling_policy.h)
   Workers workers;
   PairRelation relation;
 };
-
-// False if it was stopped.
-inline bool make_first_views(StepContext& context, PacedStop& pace) {
-  return context.views.make(context.surface, context.tree, context.stages, context.options.culling,
-                            pace);
-}
 
 // What a step is asked for.
 struct StepQuestion {

@@ -4,10 +4,7 @@
 #include <span>
 
 #include "detector/mesh/for_all.h"
-#include "detector/search/pair_rule.h"
 #include "detector/search/stopwatch.h"
-#include "detector/step/step_work.h"
-#include "detector/step_result.h"
 
 namespace assay::detector {
 namespace {
@@ -69,6 +66,70 @@ TimeEnclosure least_time(std::span<const PairContact> pairs) {
     least.hi = std::min(least.hi, contact.time.hi);
   }
   return least;
+}
+
+// Sets marks.clean of all triangles at t=0, one component after the other. A component that is
+// free over the step is clean (L5). Otherwise the state of the last commit decides if it holds at
+// t=0 (L8), and some of its dirty triangles may be released (L9). If there is no such state,
+// `start` decides; a verified start looks at the component from its view primitive (L5), then at
+// its layers (L9). False if stopped.
+//
+// Layers take about as long as a step of culling bvh. With StartBy::view_alone a verified start
+// leaves them out. The components that L5 does not show to be clean are then dirty, and the pairs
+// of this step tell the next one what is clean (L15).
+bool find_clean_at_start(const GivenStep& step, StepMarks& marks, StepCost& cost,
+                         const ReleaseRule& release, Start start, StartBy by) {
+  if (marks.all_free()) {
+    std::fill(marks.clean.begin(), marks.clean.end(), 1);
+    return true;
+  }
+  // What L5 takes for the smallest component, in box tests.
+  constexpr std::uint64_t work_of_asking = 200;
+  std::vector<std::int32_t> to_release, to_verify;
+  for (std::size_t c = 0; c < marks.free.size(); ++c) {
+    bool all_clean = marks.free[c] != 0;
+    if (!all_clean && step.known) {
+      all_clean = true;
+      for (const auto t : step.own_triangles(c)) {
+        marks.clean[at(t)] = step.known->clean[at(t)];
+        all_clean &= marks.clean[at(t)] != 0;
+      }
+      if (!all_clean) to_release.push_back(static_cast<std::int32_t>(c));
+    } else if (!all_clean && start == Start::clean) {
+      all_clean = true;
+    } else if (!all_clean && start != Start::unknown) {
+      all_clean = release.released_at_start(step, marks, cost, c);
+      if (cost.pace.after(work_of_asking)) return false;
+      if (!all_clean && by == StartBy::view_and_layers)
+        to_verify.push_back(static_cast<std::int32_t>(c));
+    }
+    if (all_clean) {
+      for (const auto t : step.own_triangles(c)) marks.clean[at(t)] = 1;
+    }
+  }
+  return (to_release.empty() || release.release(step, marks, cost, to_release)) &&
+         (to_verify.empty() || release.verify_start(step, marks, cost, to_verify));
+}
+
+// The state for the next step. `complete` says that `pairs` are all pairs in contact in the step
+// (L8). If all components are free it costs little more than a copy of the positions.
+StepState state_at_end(const GivenStep& step, const StepMarks& marks, const PacedStop& pace,
+                       const ReleaseRule& release, const std::vector<PairContact>& pairs,
+                       bool complete, const PositionsView& mesh_x_t1) {
+  StepState state;
+  state.keep(mesh_x_t1, pace);
+  state.inside.resize(step.surface.mesh.components.size());
+  for (std::size_t c = 0; c < state.inside.size(); ++c) {
+    if (marks.free[c] && step.looks_within(c))
+      state.inside[c] = {marks.primitives[c].q0.t1, marks.primitives[c].q1.t1};
+  }
+  release.settle(step, marks, pairs, complete, state);
+  if (marks.has_views()) return state;
+  for (std::size_t c = 0; c < state.inside.size(); ++c) {
+    if (release.knows_clean(step, pairs, c)) continue;
+    for (const auto t : step.own_triangles(c)) state.clean[at(t)] = 0;
+  }
+  return state;
 }
 
 }  // namespace
@@ -145,7 +206,15 @@ bool StepRun::pays_to_use() {
 }
 
 void StepRun::drop_views() {
-  take_clean_at_start(given_, marks_, context_.options.start);
+  // What is known already is taken, and nothing is looked at. Without a committed state or the
+  // caller's word (Start::clean) all triangles are dirty. Nothing is lost by that: the step tests
+  // every pair anyway, and from its pairs the next step releases what is clean (L15).
+  const Start start = context_.options.start;
+  if (given_.known) {
+    marks_.clean = given_.known->clean;
+  } else {
+    std::fill(marks_.clean.begin(), marks_.clean.end(), start == Start::clean ? 1 : 0);
+  }
   marks_.signs.clear();
   marks_.primitives.clear();
   std::fill(marks_.free.begin(), marks_.free.end(), 0);

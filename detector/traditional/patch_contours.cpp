@@ -1,6 +1,6 @@
-#include "detector/traditional/patch_contours.h"
-
 #include <algorithm>
+
+#include "detector/traditional/moving_contour.h"
 
 namespace assay::detector {
 namespace {

@@ -42,8 +42,6 @@
 #include <optional>
 
 #include "detector/parallel/workers.h"
-#include "detector/search/wide_search.h"
-#include "detector/traditional/patch_contours.h"
 
 namespace assay::detector {
 namespace {

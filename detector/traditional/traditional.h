@@ -32,7 +32,7 @@ class NormalConeSearch : public TreeSearch {
   // alone, so all searches of a result must be given the same ones. A search takes 0.1 us a
   // triangle for the cones, beside the descent, unless the input says that proofs are not used.
   // For provable_shares 1 to 8 patches of 96 triangles are tried, 7 us each, and if some of them
-  // are not free, up to 16 of 36 triangles and 32 of 12 (patch_contours.h), 3 us and 1 us each.
+  // are not free, up to 16 of 36 triangles and 32 of 12 (moving_contour.h), 3 us and 1 us each.
   std::unique_ptr<MeshSearch> prepare(const Topology& mesh, const BoundingVolumeTree& tree,
                                       PacedStop& pace) const override;
 

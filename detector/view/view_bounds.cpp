@@ -39,13 +39,12 @@
 //
 // At t=0 and t=1 the value is taken at a computed s. It is off by value_error, and by the error of
 // s times |h1 - h0| <= 4 T: end_error = value_error + 5 T axial_error.
-#include "detector/view/view_bounds.h"
-
 #include <cmath>
 
 #include "detector/exact/bernstein.h"
 #include "detector/mesh/for_all.h"
 #include "detector/mesh/topology.h"
+#include "detector/view/view_signs.h"
 
 namespace assay::detector {
 namespace {

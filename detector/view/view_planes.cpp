@@ -1,7 +1,7 @@
-#include "detector/view/view_planes.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "detector/view/view_search.h"
 
 namespace assay::detector {
 namespace {

@@ -7,7 +7,6 @@
 #include "detector/exact/real_root.h"
 #include "detector/exact/root_isolation.h"
 #include "detector/mesh/for_all.h"
-#include "detector/view/view_bounds.h"
 
 namespace assay::detector {
 namespace {

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "detector/boundary/apex.h"
+#include "detector/boundary/boundary_handler.h"
 #include "oracle/mesh/loops.h"
 #include "properties/search/moves.h"
 

@@ -1,6 +1,6 @@
 #include "reports/python/calls.h"
 
-#include "detector/parallel/processor_state.h"
+#include "detector/parallel/workers.h"
 
 namespace assay::python {
 

@@ -11,7 +11,7 @@
 #include "detector/contact_place.h"
 #include "detector/detector.h"
 #include "detector/distance/nearness.h"
-#include "detector/parallel/processor_state.h"
+#include "detector/parallel/workers.h"
 #include "properties/judging/case_options.h"
 #include "reports/python/calls.h"
 

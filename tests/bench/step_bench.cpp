@@ -3,7 +3,6 @@
 #include <numeric>
 
 #include "detector/assembly.h"
-#include "detector/search/marking.h"
 #include "detector/search/pair_rule.h"
 #include "oracle/mesh/step.h"
 #include "properties/generators/families.h"

@@ -11,7 +11,7 @@
 
 #include "detector/contact/lanes/query_lanes.h"
 #include "detector/search/feature_pairs.h"
-#include "detector/search/wide_search.h"
+#include "detector/search/pair_search.h"
 #include "reports/bench/cases.h"
 
 namespace assay::tests {

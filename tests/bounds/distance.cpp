@@ -1,6 +1,5 @@
 // The filter of a distance: gaps along a vector, and places of the features.
 #include "detector/distance/near_filter.cpp"
-#include "detector/distance/nearest_places.cpp"
 #include "tests/bounds/claims.h"
 
 namespace assay::bounds {
@@ -74,7 +73,7 @@ void claim_gaps(Claims& claims) {
 
 // A place of a feature is off by less than place_error times M, if its shares are not.
 void claim_places(Claims& claims) {
-  // So that each case of detector/distance/nearest_places.cpp is met.
+  // So that each case of detector/distance/near_filter.cpp is met.
   struct Query {
     int first_group;
     Place b, c, e;

@@ -37,7 +37,7 @@ FLOAT_RULES = [
 ]
 # Lines that stand once in a file, and what stands there in the copy.
 LINES = {
-    "distance/nearest_places.cpp": [
+    "distance/near_filter.cpp": [
         ("double share(double part, double whole) {",
          "double share(double part, double whole) {\n  if (bounds::cut(part)) return part;"),
     ],

@@ -1,5 +1,5 @@
 // Detector::limit: how far a step may be gone (L17).
-#include "detector/boxes/shortened_step.h"
+#include "detector/boxes/moving_box.h"
 #include "detector/detector.h"
 #include "tests/close_passes.h"
 #include "tests/test.h"

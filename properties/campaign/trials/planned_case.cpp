@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <limits>
 
-#include "detector/boundary/apex.h"
+#include "detector/boundary/boundary_handler.h"
 #include "detector/detector.h"
 #include "oracle/instant/layers.h"
 #include "oracle/mesh/loops.h"

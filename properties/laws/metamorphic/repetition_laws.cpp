@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "detector/assembly.h"
-#include "detector/parallel/thread_arena.h"
+#include "detector/parallel/workers.h"
 #include "detector/state/step_state.h"
 #include "properties/laws/metamorphic/halves.h"
 #include "properties/laws/metamorphic/pinned_run.h"

@@ -1,5 +1,5 @@
 // What choosing apexes costs, counted in operations: linear in the triangles, whatever their loops.
-#include "detector/boundary/apex.h"
+#include "detector/boundary/boundary_handler.h"
 #include "detector/detector.h"
 #include "tests/detector/points.h"
 

@@ -1,4 +1,3 @@
-#include "detector/boundary/apex.h"
 #include "detector/boundary/boundary_handler.h"
 #include "detector/boundary/ghost_sweep.h"
 #include "detector/detector.h"

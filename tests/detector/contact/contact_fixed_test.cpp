@@ -1,6 +1,5 @@
 // Integers of fixed width against the general path: verdicts, times in every bit, how much they
 // leave open; the widths at their bounds; signs at roots against Tarski queries.
-#include "detector/contact/contact_fixed.h"
 
 #include "detector/contact/contact_exact.h"
 #include "detector/contact/fixed_products.h"

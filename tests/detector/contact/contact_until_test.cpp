@@ -1,5 +1,4 @@
 // Whether a contact is surely later than a bound, against the exact first time.
-#include "detector/contact/contact_until.h"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 #include "detector/contact/elementary.h"
 
+#include "detector/contact/contact_doubles.h"
 #include "detector/contact/contact_exact.h"
-#include "detector/contact/contact_filter.h"
 #include "tests/detector/contact/query_draw.h"
 #include "tests/detector/points.h"
 #include "tests/detector/small_stack.h"

@@ -1,7 +1,6 @@
 // The bounds of near_filter.h hold: what it computes in doubles, against the same in exact binary
 // fractions. Prints the largest error beside what is allowed.
 #include "detector/distance/near_filter.h"
-#include "detector/distance/nearest_places.h"
 #include "tests/detector/distance/rational_distance.h"
 #include "tests/detector/exact/exact_numbers.h"
 #include "tests/test.h"

@@ -2,7 +2,6 @@
 // against distances in rational numbers.
 #include "detector/distance/nearness.h"
 
-#include "detector/distance/near_exact.h"
 #include "tests/detector/distance/rational_distance.h"
 #include "tests/detector/points.h"
 

@@ -1,7 +1,7 @@
 // Steps of a detector with a separation: which pairs of triangles come within it, and when.
 #include "detector/boxes/bounding_volume_tree.h"
 #include "detector/detector.h"
-#include "detector/distance/near_exact.h"
+#include "detector/distance/nearness.h"
 #include "detector/search/feature_pairs.h"
 #include "tests/detector/contact/same_contacts.h"
 #include "tests/detector/distance/rational_distance.h"

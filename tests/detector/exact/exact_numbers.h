@@ -5,7 +5,7 @@
 #include <random>
 
 #include "detector/exact/bernstein.h"
-#include "detector/exact/integer.h"
+#include "detector/exact/polynomial.h"
 
 namespace assay::detector {
 

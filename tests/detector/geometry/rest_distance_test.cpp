@@ -1,10 +1,10 @@
 // Distances of features at rest: known ones, at the limit and one step of doubles beside it.
-#include "detector/geometry/rest_distance.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+
+#include "detector/geometry/near_regions.h"
 
 namespace assay::detector {
 namespace {

@@ -1,10 +1,9 @@
 // What is made of a mesh, in preprocessing or at the start of a step, asks the stop function after
 // every so much work, and ends where that says so. Counted is the work, not the time.
+#include "detector/mesh/for_all.h"
 #include "detector/mesh/mesh_checks.h"
-#include "detector/mesh/sort_by_key.h"
 #include "detector/mesh/surface.h"
 #include "detector/search/feature_pairs.h"
-#include "detector/search/representatives.h"
 #include "detector/traditional/traditional.h"
 #include "tests/detector/search/search_meshes.h"
 
@@ -68,11 +67,11 @@ TEST(PacedSort, IsStableAndCanBeEnded) {
   const auto key = [](const Item& item) { return item.key; };
   auto sorted = items;
   PacedStop never(never_stops);
-  ASSERT_TRUE(sort_by_key(sorted, room, 300, key, never));
+  ASSERT_TRUE(sort_by_key(sorted, room, 300, key, &never));
   EXPECT_EQ(sorted, expected);
   expect_paced(3 * items.size(), [&](PacedStop& pace) {
     auto some = items;
-    const bool is_done = sort_by_key(some, room, 300, key, pace);
+    const bool is_done = sort_by_key(some, room, 300, key, &pace);
     EXPECT_EQ(is_done, !pace.stopped());
   });
 }
@@ -92,7 +91,7 @@ TEST(PacedSort, DoesNotDependOnTheWorkers) {
       PacedStop pace(never_stops, workers);
       auto sorted = items;
       const auto key = [](const Item& item) { return item.first; };
-      ASSERT_TRUE(sort_by_key(sorted, room, ~std::uint64_t{0}, key, pace));
+      ASSERT_TRUE(sort_by_key(sorted, room, ~std::uint64_t{0}, key, &pace));
       EXPECT_EQ(sorted, expected);
     }
   }

@@ -1,12 +1,11 @@
 // Whatever state of the processor a caller has, each call of the detector answers as in the usual
 // one, in every bit, and leaves the caller's state as it was.
-#include "detector/parallel/processor_state.h"
-
 #include <bit>
 #include <cfenv>
 
 #include "detector/assembly.h"
 #include "detector/contact_place.h"
+#include "detector/parallel/workers.h"
 #include "tests/detector/plugin/builtin_fixture.h"
 #include "tests/meshes.h"
 

@@ -2,7 +2,7 @@
 #include "detector/search/feature_pairs.h"
 
 #include "detector/search/candidate_search.h"
-#include "detector/search/wide_search.h"
+#include "detector/search/pair_search.h"
 #include "tests/detector/search/search_meshes.h"
 
 namespace assay::tests {

@@ -1,9 +1,8 @@
 // Flags of the partial trees after any sequence, what marking costs, and what skipping leaves
 // alone.
-#include "detector/search/marking.h"
-
+#include "detector/search/feature_pairs.h"
+#include "detector/search/pair_rule.h"
 #include "detector/search/pair_search.h"
-#include "detector/search/representatives.h"
 #include "tests/detector/search/search_meshes.h"
 
 namespace assay::tests {

@@ -1,9 +1,8 @@
 // The places at a time, against exact arithmetic: they are off by less than the slack allows.
-#include "detector/boxes/shortened_step.h"
-
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 
+#include "detector/boxes/moving_box.h"
 #include "detector/search/feature_pairs.h"
 #include "detector/search/search_lanes.h"
 #include "tests/detector/search/compared_features.h"

@@ -1,6 +1,6 @@
 // Searches of the tree: by one box, and what they cost.
 #include "detector/boxes/bounding_volume_tree.h"
-#include "detector/search/marking.h"
+#include "detector/search/pair_rule.h"
 #include "detector/search/pair_search.h"
 #include "tests/detector/search/search_meshes.h"
 

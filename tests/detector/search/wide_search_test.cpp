@@ -1,7 +1,6 @@
 // The wide descent against the binary one, and its instruction sets against each other.
-#include "detector/search/wide_search.h"
-
 #include "detector/parallel/workers.h"
+#include "detector/search/pair_search.h"
 #include "tests/detector/search/search_meshes.h"
 
 namespace assay::tests {

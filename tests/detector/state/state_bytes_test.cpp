@@ -1,10 +1,9 @@
 // A saved state as bytes: the same state again, and whatever is not one is refused by name.
-#include "detector/state/state_bytes.h"
-
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include "detector/detector.h"
+#include "detector/state/step_state.h"
 #include "tests/detector/points.h"
 
 namespace assay::detector {
@@ -18,7 +17,7 @@ Bytes bytes_of(const StateFields& state) {
   return bytes;
 }
 
-// The form is stated in state_bytes.h; a test may make its own bytes by that.
+// The form is stated in step_state.h; a test may make its own bytes by that.
 void set_number(Bytes& bytes, std::size_t at, std::uint64_t value) {
   for (std::size_t i = 0; i < 8; ++i) bytes[at + i] = static_cast<std::uint8_t>(value >> (8 * i));
 }

@@ -1,8 +1,7 @@
 // view-auto: what it looks from, when it does without views, and that this is a matter of cost
 // alone.
-#include "detector/step/cost_model.h"
-
 #include "detector/detector.h"
+#include "detector/step/culling_policy.h"
 #include "tests/detector/contact/same_contacts.h"
 #include "tests/detector/points.h"
 #include "tests/detector/view/revolved.h"

@@ -1,6 +1,6 @@
 // When the cost model has a look at views at all: the sample of a large component, what is hoped
 // for, and how long a rest is.
-#include "detector/step/cost_model.h"
+#include "detector/step/culling_policy.h"
 #include "tests/detector/points.h"
 
 namespace assay::detector {

@@ -1,6 +1,6 @@
 // Culling auto proves patches apart (L14) where counts say that it pays, and nowhere else.
 #include "detector/detector.h"
-#include "detector/step/cost_model.h"
+#include "detector/step/culling_policy.h"
 #include "detector/traditional/traditional.h"
 #include "tests/detector/contact/same_contacts.h"
 #include "tests/detector/points.h"

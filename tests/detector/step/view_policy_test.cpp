@@ -1,5 +1,5 @@
 // The decisions of view-auto, one by one, from the counts that they rest on.
-#include "detector/step/cost_model.h"
+#include "detector/step/culling_policy.h"
 #include "tests/detector/points.h"
 
 namespace assay::detector {

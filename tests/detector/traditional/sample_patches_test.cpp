@@ -1,4 +1,4 @@
-#include "detector/traditional/patch_contours.h"
+#include "detector/traditional/moving_contour.h"
 #include "tests/detector/view/revolved.h"
 #include "tests/test.h"
 

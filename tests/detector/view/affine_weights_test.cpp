@@ -1,5 +1,4 @@
-#include "detector/view/affine_weights.h"
-
+#include "detector/view/view_anchor.h"
 #include "tests/detector/points.h"
 
 namespace assay::detector {

@@ -1,9 +1,8 @@
 // The bounds of the lanes hold: what a lane computes against the same in exact numbers, in units of
 // the scales of the component's box. Prints the largest error beside what is allowed.
-#include "detector/view/view_bounds.h"
-
 #include <numbers>
 
+#include "detector/view/view_signs.h"
 #include "tests/detector/exact/exact_numbers.h"
 #include "tests/detector/view/triangle_batches.h"
 

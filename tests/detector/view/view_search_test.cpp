@@ -103,9 +103,9 @@ TEST(ViewAnchorKind, IsALineWhereThatAloneSeesAll) {
   EXPECT_EQ(positive_from(chosen), all);
 }
 
-// A step of culling bvh is worth 160 box tests a triangle and more (apex.h), and a detector
-// may take three to be created, of which adjacency and tree are one. On all planes lines alone
-// would take three.
+// A step of culling bvh is worth 160 box tests a triangle and more (boundary_handler.h), and a
+// detector may take three to be created, of which adjacency and tree are one. On all planes lines
+// alone would take three.
 TEST(ViewAnchorWork, IsLessThanTwoStepsOfBvh) {
   std::vector<tests::Ring> rings;
   constexpr int count = 500;

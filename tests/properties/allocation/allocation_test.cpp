@@ -10,8 +10,7 @@
 
 #include "corpus/scenes/scenes.h"
 #include "detector/contact/contact_doubles.h"
-#include "detector/contact/contact_filter.h"
-#include "detector/contact/contact_fixed.h"
+#include "detector/contact/contact_exact.h"
 #include "detector/detector.h"
 #include "detector/distance/nearness.h"
 #include "detector/view/view_anchor.h"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "detector/contact/contact_filter.h"
+#include "detector/contact/contact_doubles.h"
 #include "detector/contact/contact_pieces.h"
 #include "detector/geometry/orientation.h"
 #include "tests/detector/contact/query_draw.h"

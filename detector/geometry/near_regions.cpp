@@ -1,10 +1,10 @@
-#include "detector/geometry/rest_distance.h"
+
+#include "detector/geometry/near_regions.h"
 
 #include <algorithm>
 #include <span>
 
-#include "detector/exact/integer.h"
-#include "detector/geometry/near_regions.h"
+#include "detector/exact/polynomial.h"
 #include "detector/geometry/orientation.h"
 
 namespace assay::detector {
