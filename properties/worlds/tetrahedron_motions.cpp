@@ -1,5 +1,3 @@
-#include "properties/worlds/tetrahedron_motions.h"
-
 #include <algorithm>
 #include <cassert>
 #include <span>
@@ -7,6 +5,7 @@
 
 #include "properties/grid_symmetries.h"
 #include "properties/numbering.h"
+#include "properties/worlds/tetrahedron_world.h"
 
 namespace assay::properties {
 namespace {
