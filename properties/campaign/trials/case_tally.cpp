@@ -8,7 +8,6 @@
 
 #include "properties/campaign/ledger/store.h"
 #include "properties/campaign/ledger/tally.h"
-#include "properties/generators/pair_blocks.h"
 #include "properties/judging/case_options.h"
 #include "properties/judging/trial.h"
 #include "properties/laws/facts/case_facts.h"
