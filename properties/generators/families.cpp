@@ -1,17 +1,18 @@
 #include "properties/generators/families.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <string>
+#include <utility>
 
+#include "oracle/mesh/step.h"
 #include "properties/generators/aims.h"
 #include "properties/generators/draft.h"
 #include "properties/generators/everyday.h"
 #include "properties/generators/menus.h"
 #include "properties/generators/motions.h"
-#include "properties/generators/primitives.h"
 #include "properties/generators/relations.h"
-#include "properties/generators/response.h"
 #include "properties/generators/shapes/shapes.h"
 
 namespace assay::properties {
@@ -28,90 +29,6 @@ struct Recipe {
   // contact.
   int positive = 0, aimed = 0;
 };
-
-GeneratedCase make_by(const Recipe& recipe, Random& random, std::string id);
-
-namespace {
-
-template <const Recipe& recipe>
-GeneratedCase make(Random& random, std::string id) {
-  return make_by(recipe, random, std::move(id));
-}
-
-constexpr Recipe closed_generic = {.positive = 20, .aimed = 35};
-constexpr Recipe closed_near = {.nearly_degenerate = true, .positive = 20, .aimed = 35};
-constexpr Recipe closed_exact = {.exact = true, .positive = 30, .aimed = 40};
-constexpr Recipe closed_far = {.far = true, .positive = 30, .aimed = 20};
-constexpr Recipe unclosed_generic = {.closed = false, .positive = 20, .aimed = 40};
-constexpr Recipe unclosed_exact = {.closed = false, .exact = true, .positive = 25, .aimed = 40};
-constexpr Recipe unclosed_near = {
-    .closed = false, .nearly_degenerate = true, .positive = 30, .aimed = 30};
-constexpr Recipe closed_everyday = {.everyday = true, .positive = 12, .aimed = 78};
-constexpr Recipe unclosed_everyday = {
-    .closed = false, .everyday = true, .positive = 12, .aimed = 78};
-constexpr Recipe broken = {.closed = false, .broken = true, .aimed = 30};
-
-constexpr Recipe counted_generic = {.positive = 10, .aimed = 50};
-constexpr Recipe counted_exact = {.closed = false, .exact = true, .positive = 10, .aimed = 50};
-
-GeneratedCase make_counted(Random& random, std::string id) {
-  const Recipe& recipe = random.one_in(2) ? counted_generic : counted_exact;
-  GeneratedCase made = make_by(recipe, random, std::move(id));
-  add_relation(random, made);
-  return made;
-}
-
-constexpr Family counted_table[] = {
-    {"counted", "bodies, rings and distances at rest; closed and generic, or with holes and exact",
-     false, true, make_counted}};
-
-GeneratedCase make_any(Random& random, std::string id) {
-  const auto known = families();
-  return any_of(random, known).make(random, std::move(id));
-}
-
-constexpr Family question_table[] = {
-    {"limits", "of any family; the built-in detector is asked how far each step may be gone", false,
-     true, make_any},
-    {"within", "of any family; it is asked what comes within 2^-6, and how far to keep that", false,
-     true, make_any}};
-
-constexpr Family family_table[] = {
-    {"closed-generic", "closed meshes, smooth and local motions, doubles of many bits", true, false,
-     make<closed_generic>},
-    {"closed-near-degenerate", "slivers, near coincidences, contacts missed or met by an ulp", true,
-     false, make<closed_near>},
-    {"closed-degenerate", "small integers and dyadics, exact contacts, coplanar and collapsed",
-     true, true, make<closed_exact>},
-    {"closed-far-large-step", "far from the origin, mixed scales, denormals, large steps", true,
-     false, make<closed_far>},
-    {"unclosed-generic", "1 to 4 holes, sheets, open tubes, spirals, rings that close", false,
-     false, make<unclosed_generic>},
-    {"unclosed-degenerate", "as closed-degenerate, with holes", false, true, make<unclosed_exact>},
-    {"unclosed-near-degenerate", "as closed-near-degenerate, with holes", false, false,
-     make<unclosed_near>},
-    {"closed-everyday", "sizes, decimals, floats and turns of every day; a piece lands on another",
-     true, false, make<closed_everyday>},
-    {"unclosed-everyday", "as closed-everyday, with holes and single triangles", false, false,
-     make<unclosed_everyday>},
-    {"broken", "no cycles, flipped, zero-area, open seams, 3 to 6 triangles at an edge", false,
-     true, make<broken>},
-};
-
-}  // namespace
-
-std::span<const Family> families() { return family_table; }
-std::span<const Family> counted_families() { return counted_table; }
-std::span<const Family> question_families() { return question_table; }
-
-bool is_question_family(std::string_view name) {
-  return std::ranges::find(question_table, name, &Family::name) != std::end(question_table);
-}
-
-GeneratedCase make_case(const Family& family, std::string_view id) {
-  Random random(id);
-  return family.make(random, std::string(id));
-}
 
 namespace {
 
@@ -225,8 +142,6 @@ void use_far_menus(Random& random, Draft& draft) {
   }
 }
 
-}  // namespace
-
 GeneratedCase make_by(const Recipe& recipe, Random& random, std::string id) {
   const int mode = random.below(100);
   const bool positive = mode < recipe.positive;
@@ -267,6 +182,182 @@ GeneratedCase make_by(const Recipe& recipe, Random& random, std::string id) {
   GeneratedCase made = finished(std::move(draft), std::move(id));
   if (responds) made.c = with_response(made.c);
   return made;
+}
+
+template <const Recipe& recipe>
+GeneratedCase make(Random& random, std::string id) {
+  return make_by(recipe, random, std::move(id));
+}
+
+constexpr Recipe closed_generic = {.positive = 20, .aimed = 35};
+constexpr Recipe closed_near = {.nearly_degenerate = true, .positive = 20, .aimed = 35};
+constexpr Recipe closed_exact = {.exact = true, .positive = 30, .aimed = 40};
+constexpr Recipe closed_far = {.far = true, .positive = 30, .aimed = 20};
+constexpr Recipe unclosed_generic = {.closed = false, .positive = 20, .aimed = 40};
+constexpr Recipe unclosed_exact = {.closed = false, .exact = true, .positive = 25, .aimed = 40};
+constexpr Recipe unclosed_near = {
+    .closed = false, .nearly_degenerate = true, .positive = 30, .aimed = 30};
+constexpr Recipe closed_everyday = {.everyday = true, .positive = 12, .aimed = 78};
+constexpr Recipe unclosed_everyday = {
+    .closed = false, .everyday = true, .positive = 12, .aimed = 78};
+constexpr Recipe broken = {.closed = false, .broken = true, .aimed = 30};
+
+constexpr Recipe counted_generic = {.positive = 10, .aimed = 50};
+constexpr Recipe counted_exact = {.closed = false, .exact = true, .positive = 10, .aimed = 50};
+
+GeneratedCase make_counted(Random& random, std::string id) {
+  const Recipe& recipe = random.one_in(2) ? counted_generic : counted_exact;
+  GeneratedCase made = make_by(recipe, random, std::move(id));
+  add_relation(random, made);
+  return made;
+}
+
+constexpr Family counted_table[] = {
+    {"counted", "bodies, rings and distances at rest; closed and generic, or with holes and exact",
+     false, true, make_counted}};
+
+GeneratedCase make_any(Random& random, std::string id) {
+  const auto known = families();
+  return any_of(random, known).make(random, std::move(id));
+}
+
+constexpr Family question_table[] = {
+    {"limits", "of any family; the built-in detector is asked how far each step may be gone", false,
+     true, make_any},
+    {"within", "of any family; it is asked what comes within 2^-6, and how far to keep that", false,
+     true, make_any}};
+
+constexpr Family family_table[] = {
+    {"closed-generic", "closed meshes, smooth and local motions, doubles of many bits", true, false,
+     make<closed_generic>},
+    {"closed-near-degenerate", "slivers, near coincidences, contacts missed or met by an ulp", true,
+     false, make<closed_near>},
+    {"closed-degenerate", "small integers and dyadics, exact contacts, coplanar and collapsed",
+     true, true, make<closed_exact>},
+    {"closed-far-large-step", "far from the origin, mixed scales, denormals, large steps", true,
+     false, make<closed_far>},
+    {"unclosed-generic", "1 to 4 holes, sheets, open tubes, spirals, rings that close", false,
+     false, make<unclosed_generic>},
+    {"unclosed-degenerate", "as closed-degenerate, with holes", false, true, make<unclosed_exact>},
+    {"unclosed-near-degenerate", "as closed-near-degenerate, with holes", false, false,
+     make<unclosed_near>},
+    {"closed-everyday", "sizes, decimals, floats and turns of every day; a piece lands on another",
+     true, false, make<closed_everyday>},
+    {"unclosed-everyday", "as closed-everyday, with holes and single triangles", false, false,
+     make<unclosed_everyday>},
+    {"broken", "no cycles, flipped, zero-area, open seams, 3 to 6 triangles at an edge", false,
+     true, make<broken>},
+};
+
+}  // namespace
+
+std::span<const Family> families() { return family_table; }
+std::span<const Family> counted_families() { return counted_table; }
+std::span<const Family> question_families() { return question_table; }
+
+bool is_question_family(std::string_view name) {
+  return std::ranges::find(question_table, name, &Family::name) != std::end(question_table);
+}
+
+GeneratedCase make_case(const Family& family, std::string_view id) {
+  Random random(id);
+  return family.make(random, std::string(id));
+}
+
+namespace {
+
+using detector::Positions;
+
+bool is_free(const Positions& x_t0, const Positions& x_t1, const corpus::Case& c) {
+  return oracle::judge_step({x_t0, x_t1}, c.triangles, {1, {}}).answer == detector::Answer::free;
+}
+
+Point shortened(const Point& a, const Point& b, double s) {
+  Point p;
+  for (std::size_t k = 0; k < 3; ++k) p[k] = a[k] + s * (b[k] - a[k]);
+  return p;
+}
+
+class Responder {
+ public:
+  explicit Responder(const corpus::Case& c) : given_(c), made_(c) {
+    made_.frames.assign(1, c.frames.front());
+    made_.expected = {};
+    made_.ghosts.reset();
+    if (made_.view) {
+      for (auto* end : {&made_.view->q0, &made_.view->q1}) {
+        if (!end->empty()) end->erase(end->begin() + 1, end->end());
+      }
+    }
+  }
+
+  corpus::Case run() {
+    for (std::size_t k = 0; k + 1 < given_.frames.size(); ++k) step(k);
+    return std::move(made_);
+  }
+
+ private:
+  // Adds the frame that comes after `now_`: the displacement of step k, times s, is applied.
+  std::int32_t add_frame(std::size_t k, double s) {
+    const Positions& x = made_.frames[static_cast<std::size_t>(now_)];
+    Positions next = x + s * (given_.frames[k + 1] - given_.frames[k]);
+    // A step that starts where the given one does, and is not shortened, also has to end there
+    // exactly.
+    if (s == 1 && x == given_.frames[k]) next = given_.frames[k + 1];
+    made_.frames.push_back(std::move(next));
+    if (made_.view) {
+      add_place(given_.view->q0, made_.view->q0, k, s);
+      if (!given_.view->q1.empty()) add_place(given_.view->q1, made_.view->q1, k, s);
+    }
+    return static_cast<std::int32_t>(made_.frames.size()) - 1;
+  }
+
+  // The view primitive of a step that is not shortened ends where the given one does, because it
+  // need not go with the mesh.
+  void add_place(const std::vector<Point>& given, std::vector<Point>& made, std::size_t k,
+                 double s) {
+    const Point from = made[static_cast<std::size_t>(now_)];
+    const Point to = s == 1 ? given[k + 1] : shortened(from, given[k + 1], s);
+    made.push_back(to);
+  }
+
+  void step(std::size_t k) {
+    const std::int32_t whole = add_frame(k, 1);
+    const auto judgement =
+        oracle::judge_step({frame(now_), frame(whole)}, made_.triangles, {1, {}});
+    if (judgement.answer == detector::Answer::free) {
+      made_.script.push_back({now_, whole, true});
+      now_ = whole;
+      return;
+    }
+    made_.script.push_back({now_, whole, false});
+    constexpr double shares[] = {1, 0.75, 0.25};
+    const double s = below_half(judgement.first.lo) * shares[k % 3];
+    // If the mesh is in contact from the start, no part of the step is free, and the step is
+    // reverted.
+    if (s == 0) return;
+    const std::int32_t part = add_frame(k, s);
+    // This is judged again, because rounded positions can touch although the exact ones do not.
+    const bool free = is_free(frame(now_), frame(part), made_);
+    made_.script.push_back({now_, part, free});
+    if (free) now_ = part;
+  }
+
+  // The greatest power of two that is at most t / 2. It is 0 if t is 0.
+  static double below_half(double t) { return t == 0 ? 0 : std::ldexp(1, std::ilogb(t) - 1); }
+
+  const Positions& frame(std::int32_t f) const { return made_.frames[static_cast<std::size_t>(f)]; }
+
+  const corpus::Case& given_;
+  corpus::Case made_;
+  std::int32_t now_ = 0;  // the frame that the mesh is in
+};
+
+}  // namespace
+
+corpus::Case with_response(const corpus::Case& c) {
+  assert(c.script.empty());
+  return Responder(c).run();
 }
 
 }  // namespace assay::properties

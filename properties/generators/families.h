@@ -31,7 +31,7 @@ struct Family {
 
 // The strata's families in a fixed order.
 std::span<const Family> families();
-// Families of cases with a relation (relations.h).
+// Families of cases with a relation (add_relation).
 std::span<const Family> counted_families();
 
 // Families of cases for what the built-in detector is asked besides contacts, each in the
@@ -40,14 +40,27 @@ std::span<const Family> counted_families();
 std::span<const Family> question_families();
 bool is_question_family(std::string_view name);
 
-// Families of large cases of one size each, "size-1e3" to "size-1e6" (sizes/). Their strata state
-// a bound each and want none: their cases are few and dear.
+// Families of large cases of one size each, "size-1e3" to "size-1e6". Their strata state a bound
+// each and want none: their cases are few and dear.
 std::span<const Family> size_families();
 bool is_size_family(std::string_view name);
 
 // Makes the case of an id "campaign:seed:stratum:index". The id's hash is the only source of
 // randomness, so any case can be made alone, with the same bytes on every machine. Takes 10 us. A
-// tenth of the cases has a response (response.h), which costs some judgements of the oracle more.
+// tenth of the cases has a response (below), which costs some judgements of the oracle more.
 GeneratedCase make_case(const Family& family, std::string_view id);
+
+// Makes a caller's answer to a collision part of a case: try, shorten, try again, commit.
+//
+// Each step of `c` that collides becomes an evaluation that is not committed, and then a step that
+// is shortened to a share s of its displacement. The shortened step is committed if it is free,
+// and reverted if it is not (also if the contact is at t = 0). s is 1, 3/4 or 1/4, by the step's
+// number, of the greatest power of two that is at most half of the first contact time. Later steps
+// keep their own displacements, from where the mesh then is.
+//
+// Frames and script are explicit, so the case replays without the oracle. A view primitive goes
+// with the frames. Expected facts and ghosts are dropped. Costs the oracle's judgement of each
+// step and of each shortened one. REQUIRES that `c` has no script of its own.
+corpus::Case with_response(const corpus::Case& c);
 
 }  // namespace assay::properties

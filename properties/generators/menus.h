@@ -24,11 +24,9 @@ void mix_scales(Random& random, Draft& draft);
 // Makes all coordinates integers times 2^-1074, or replaces a few coordinates by such numbers.
 void make_denormal(Random& random, Draft& draft);
 
-// Makes meshes that are nearly degenerate: ulp neighbours, slivers, vertices that all but meet.
-
-// Does one or two of these: neighbouring doubles; a vertex within 2^-20 to 2^-45 of another
-// vertex, or of an edge or a face that does not hold it, in one frame or in all. Tagged
-// "menu:...".
+// Makes meshes that are nearly degenerate, by one or two of these: neighbouring doubles; a vertex
+// within 2^-20 to 2^-45 of another vertex, or of an edge or a face that does not hold it, in one
+// frame or in all. Tagged "menu:...".
 void miss_nearly(Random& random, Draft& draft);
 
 }  // namespace assay::properties

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "corpus/scenes/trigonometry.h"
-#include "properties/generators/primitives.h"
+#include "properties/generators/aims.h"
 
 namespace assay::properties {
 

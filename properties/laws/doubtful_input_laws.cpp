@@ -13,7 +13,6 @@
 #include "properties/laws/facts/view_values.h"
 #include "properties/laws/law.h"
 #include "properties/laws/metamorphic/pinned_run.h"
-#include "properties/laws/metamorphic/result_equality.h"
 #include "properties/laws/step_law.h"
 #include "properties/random.h"
 

@@ -3,8 +3,8 @@
 // A law that is never met proves nothing, so each one counts the steps in which its premise held,
 // and of these the close ones, in which the law was near to being broken or to not applying: the
 // smallest of the values that it rests on is at most 1 % of the largest. These are |view values|
-// over the step (case_facts.h); for L13 they say how far the triangles of a certified patch face
-// its direction (certified_patches.h).
+// over the step; for L13 they say how far the triangles of a certified patch face its direction
+// (case_facts.h).
 #pragma once
 
 #include <cstdint>

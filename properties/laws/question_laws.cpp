@@ -9,7 +9,6 @@
 #include "properties/judging/agreement.h"
 #include "properties/judging/contracted_case.h"
 #include "properties/judging/trial.h"
-#include "properties/laws/metamorphic/result_equality.h"
 #include "properties/laws/step_law.h"
 #include "properties/random.h"
 #include "properties/worker/case_run.h"

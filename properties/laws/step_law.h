@@ -11,7 +11,7 @@
 
 namespace assay::properties {
 
-// One function for each file in which laws are written. A file holds a few laws about one thing.
+// What files of laws hold, each a few laws about one thing; law.cpp joins them.
 
 std::span<const Law> view_value_laws();      // L1
 std::span<const Law> view_set_laws();        // L2, sets
@@ -30,15 +30,6 @@ std::span<const Law> question_laws();        // L16, L17, stops
 std::span<const Law> refinement_laws();      // L18
 std::span<const Law> form_of_steps_laws();   // metamorphic: the steps in another form
 std::span<const Law> option_laws();          // options, states and sizes in pairs
-
-// In the order of laws().
-inline std::vector<std::span<const Law>> law_groups() {
-  return {view_value_laws(),   view_set_laws(),       first_contact_laws(), one_sign_laws(),
-          all_positive_laws(), pair_set_laws(),       state_laws(),         component_laws(),
-          boundary_laws(),     doubtful_input_laws(), normal_cone_laws(),   question_laws(),
-          refinement_laws(),   change_laws(),         repetition_laws(),    form_of_steps_laws(),
-          option_laws()};
-}
 
 // What a law observes: nothing if its premise does not hold; else what is wrong, as a text that is
 // empty if the law holds.
@@ -64,5 +55,9 @@ template <Observation (*look)(CaseFacts&, std::size_t), IsClose is_close = is_cl
 void each_step(CaseFacts& facts, LawTally& tally) {
   for (std::size_t s = 0; s < facts.steps(); ++s) note(facts, s, look(facts, s), tally, is_close);
 }
+
+// How two results of a step differ, to the last bit: the first field that does; empty if none does.
+// Wall-clock times are not looked at.
+std::string difference(const detector::StepResult& a, const detector::StepResult& b);
 
 }  // namespace assay::properties

@@ -1,11 +1,10 @@
-#include "properties/queries/distance_checks.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <exception>
 
 #include "oracle/referee/static_check.h"
+#include "properties/queries/distance_queries.h"
 
 namespace assay::properties {
 

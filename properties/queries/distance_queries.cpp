@@ -7,7 +7,6 @@
 #include <cmath>
 #include <string_view>
 
-#include "properties/queries/extreme_queries.h"
 #include "properties/queries/query_checks.h"
 #include "properties/queries/query_families.h"
 #include "properties/random.h"
@@ -17,7 +16,6 @@ namespace assay::properties {
 namespace {
 
 using detector::MovingPoint;
-using detector::Point;
 using detector::Separation;
 
 // The query of another generator of elementary queries.
@@ -43,10 +41,6 @@ Point integer_vector(Random& random, int reach) {
   return p;
 }
 
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Point sum(const Point& a, const Point& b, double share = 1) {
   return {a[0] + share * b[0], a[1] + share * b[1], a[2] + share * b[2]};
 }

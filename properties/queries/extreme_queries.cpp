@@ -1,9 +1,8 @@
-#include "properties/queries/extreme_queries.h"
-
 #include <cmath>
 #include <limits>
 #include <span>
 
+#include "properties/queries/query_families.h"
 #include "properties/random.h"
 
 namespace assay::properties {

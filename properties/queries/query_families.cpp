@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "properties/generators/everyday.h"
-#include "properties/queries/extreme_queries.h"
 #include "properties/random.h"
 #include "properties/worker/plugin/query_case.h"
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <string_view>
 
+#include "detector/view/view_filter.h"
 #include "properties/generators/families.h"
 #include "properties/queries/query_methods.h"
 
@@ -44,5 +45,23 @@ bool is_query_family(std::string_view name);
 // these families "query-extreme" alone is a stratum of named campaigns: it has denormals and all
 // exponents, as the others have.
 bool is_dear_query_family(std::string_view name);
+
+// Random queries with exponents over all doubles, for the elementary test and the view test: the
+// slowest that are known. The family is fixed: query `index` of `seed` is the same for ever, so
+// that the times of two versions can be compared.
+//
+// Most are degenerate, because doubles settle the others: few mantissas, many zeros, points that
+// coincide or stay, everything in one plane or on one line, roots next to 1 that many bits tell
+// apart (see roots_next_to_one), denormals beside ordinary numbers, neighbouring doubles.
+
+// A vertex-face query for even indices, an edge-edge query for odd ones.
+detector::FourPoints extreme_contact(std::uint64_t seed, std::uint64_t index);
+
+struct ViewQuery {
+  detector::MovingTriangle triangle;
+  detector::ViewPrimitive primitive;
+};
+// Seen from a point for even indices, from a line for odd ones.
+ViewQuery extreme_view(std::uint64_t seed, std::uint64_t index);
 
 }  // namespace assay::properties

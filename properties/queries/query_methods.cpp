@@ -5,7 +5,7 @@
 #include "detector/distance/nearness.h"
 #include "oracle/distance/feature_distance.h"
 #include "oracle/referee/referee.h"
-#include "properties/queries/distance_checks.h"
+#include "properties/queries/distance_queries.h"
 
 namespace assay::properties {
 namespace {

@@ -18,9 +18,8 @@
 #include "oracle/distance/feature_distance.h"
 #include "oracle/mesh/step.h"
 #include "properties/judging/agreement.h"
-#include "properties/queries/distance_checks.h"
-#include "properties/queries/rung_cases.h"
-#include "properties/queries/small_worlds.h"
+#include "properties/queries/distance_queries.h"
+#include "properties/queries/listed_queries.h"
 #include "properties/random.h"
 #include "properties/worlds/small_steps.h"
 

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "properties/generators/draft.h"
 #include "properties/search/degeneracy.h"
-#include "properties/search/gap.h"
 #include "properties/search/moves.h"
 
 namespace assay::properties {
@@ -14,7 +14,6 @@ namespace {
 
 using detector::FourPoints;
 using detector::MovingPoint;
-using detector::Point;
 
 // Times at which things are made to happen: the ends, powers of two, and next to the ends.
 double menu_time(Random& random, const FourPoints& q) {
@@ -68,12 +67,7 @@ void newton(Random& random, Candidate& made, const MoveContext&) {
   if (const auto moved = moved_onto(q, goals, moving)) set_query(made.c, *made.focus, *moved);
 }
 
-Point mixed(const Point& a, const Point& b, double t) {
-  Point p;
-  for (std::size_t k = 0; k < 3; ++k) p[k] = a[k] + t * (b[k] - a[k]);
-  return p;
-}
-Point place_of(const MovingPoint& p, double t) { return mixed(p.t0, p.t1, t); }
+Point place_of(const MovingPoint& p, double t) { return between(p.t0, p.t1, t); }
 
 // Moves one end of the path so that the point is at this place at time t.
 void send(MovingPoint& p, const Point& place, double t, bool by_its_start) {
@@ -197,18 +191,10 @@ void near_a_plane(Random& random, Candidate& made, const MoveContext&) {
     }
     if (!overlaps) continue;
     auto at = [&](std::size_t i) { return q.points[i].*end; };
-    q.points[0].*end = q.first_group == 1 ? mixed(mixed(at(1), at(2), s), at(3), u)
-                                          : mixed(at(1), mixed(at(2), at(3), s), 1 + u);
+    q.points[0].*end = q.first_group == 1 ? between(between(at(1), at(2), s), at(3), u)
+                                          : between(at(1), between(at(2), at(3), s), 1 + u);
   }
   set_query(made.c, *made.focus, q);
-}
-
-Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Point plus(const Point& a, double s, const Point& b) {
-  return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]};
-}
-Point cross_of(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
 // The points with few bits, so that the sums and products below are exact.
@@ -235,11 +221,11 @@ void graze(Random& random, Candidate& made, const MoveContext&) {
   const double s = random.one_in(2) ? 0.5 : 0.25, share = random.between(1, 4) / 4.0;
   a.t1 = a.t0;
   b.t1 = b.t0;
-  const Point middle = mixed(a.t0, b.t0, 0.5), e = minus(c.t0, middle);
-  const Point w = cross_of(minus(b.t0, a.t0), e);
-  c.t1 = plus(c.t0, share, w);
-  vertex.t0 = plus(plus(middle, 2 * s, e), s * s * share, w);
-  vertex.t1 = plus(plus(middle, 2 * s - 1, e), s * s * share, w);
+  const Point middle = between(a.t0, b.t0, 0.5), e = c.t0 - middle;
+  const Point w = cross(b.t0 - a.t0, e);
+  c.t1 = c.t0 + share * w;
+  vertex.t0 = middle + 2 * s * e + s * s * share * w;
+  vertex.t1 = middle + (2 * s - 1) * e + s * s * share * w;
   set_query(made.c, *made.focus, q);
 }
 
@@ -253,11 +239,11 @@ void align(Random& random, Candidate& made, const MoveContext&) {
   const int ends = random.below(3);
   for (auto end : {&MovingPoint::t0, &MovingPoint::t1}) {
     if ((ends == 1 && end == &MovingPoint::t0) || (ends == 2 && end == &MovingPoint::t1)) continue;
-    p3.*end = q.first_group == 2 ? plus(p2.*end, share, minus(p1.*end, p0.*end))
-                                 : plus(p2.*end, share, minus(p1.*end, p2.*end));
+    p3.*end = q.first_group == 2 ? p2.*end + share * (p1.*end - p0.*end)
+                                 : p2.*end + share * (p1.*end - p2.*end);
   }
   if (q.first_group == 2 && random.one_in(2)) {  // one edge goes through the other on its way
-    const Point by = minus(p2.t0, p0.t0);
+    const Point by = p2.t0 - p0.t0;
     for (auto* p : {&p0, &p1}) {
       for (std::size_t k = 0; k < 3; ++k) p->t1[k] = p->t0[k] + 2 * by[k];
     }
@@ -377,9 +363,9 @@ FourPoints brought_together(Random& random, FourPoints q) {
   auto at = [&](std::size_t i) { return place_of(q.points[i], t); };
   const bool by_its_start = random.one_in(4);
   if (q.first_group == 1) {
-    send(q.points[0], mixed(mixed(at(1), at(2), s), at(3), u), t, by_its_start);
+    send(q.points[0], between(between(at(1), at(2), s), at(3), u), t, by_its_start);
   } else {
-    const Point where = mixed(at(2), at(3), u), other = at(1);
+    const Point where = between(at(2), at(3), u), other = at(1);
     Point place;
     for (std::size_t k = 0; k < 3; ++k) place[k] = other[k] + (where[k] - other[k]) / (1 - s);
     send(q.points[0], place, t, by_its_start);

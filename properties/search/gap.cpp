@@ -1,10 +1,9 @@
-#include "properties/search/gap.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "oracle/distance/closest_places.h"
 #include "oracle/query/contact_events.h"
+#include "properties/search/degeneracy.h"
 
 namespace assay::properties {
 namespace {

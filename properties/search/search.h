@@ -2,8 +2,8 @@
 //
 // It keeps the best case of each cause in an archive, and makes new cases of these by moves
 // (moves.h), or draws fresh ones. A case is the better the nearer the oracle's polynomials are to a
-// degeneracy (gap.h), and the farther off the detector's own answers are. Cases are small, because
-// there the oracle takes microseconds.
+// degeneracy (degeneracy.h), and the farther off the detector's own answers are. Cases are small,
+// because there the oracle takes microseconds.
 //
 // What it finds are defects. Its cases are no trials: they were chosen, so no bound rests on them.
 #pragma once
@@ -16,6 +16,7 @@
 
 #include "properties/judging/trial.h"
 #include "properties/random.h"
+#include "properties/search/moves.h"
 
 namespace assay::properties {
 
@@ -47,7 +48,7 @@ struct SearchSpace {
 };
 
 // A part of a search that depends on nothing but its name: it begins with an empty archive. For
-// some cases at a time it has a theme (swarm.h), with meshes of a size of their own, because what
+// some cases at a time it has a theme (Swarm), with meshes of a size of their own, because what
 // helps to find one fault keeps others away. Some themes are fresh cases alone. Others move small
 // meshes onto degeneracies, or, for a detector that is given views, seek what is found by no view:
 // contacts within a sheet or between nested shells that are seen from one side, and other pasts of
@@ -78,5 +79,38 @@ struct LaneResult {
 // The same lane gives the same result wherever it runs.
 LaneResult search(const SearchLane& lane, const SearchSpace& space, const JudgeCases& judge,
                   const std::function<bool()>& stop);
+
+// What a lane of the search does for a while: which moves it makes, where its cases come from, how
+// large they are. What helps to find one fault keeps others away, so each swarm has a theme, and
+// within it about half of the sources are switched off, as its name draws; in themes of many moves
+// about half of these, too.
+
+enum class Theme : std::uint8_t {
+  everything,    // a lane begins so: fresh cases and all moves
+  fresh,         // no moves: finds what is frequent
+  degeneracies,  // moves of small meshes: finds what is rare
+  pasts,         // other pasts of steps in which what meets is of one sign: state (L8, L9)
+  views,         // other views of what meets within a component (L1, L2, L10)
+  sheets,        // meshes in which what meets is of one sign: ghosts and layers (L5, L11)
+};
+constexpr bool is_of_culling(Theme theme) { return theme >= Theme::pasts; }
+
+// Which cases of the archive are moved: any; those in which what meets first meets within a
+// component; those of them in which it is of one sign (seen_alike).
+enum class Parents : std::uint8_t { any, within_a_component, alike };
+
+struct Swarm {
+  Theme theme = Theme::everything;
+  Parents parents = Parents::any;
+  std::vector<const Move*> moves;          // each as often as its weight
+  std::vector<const CaseSource*> sources;  // the same
+  Eigen::Index most_triangles = 0;
+  std::size_t most_frames = 0;
+  int fresh_one_in = 1;
+
+  // Drawn by the name of the lane and the number of its case with which the swarm begins. A
+  // detector that is given no views has no themes of culling.
+  Swarm(const std::string& lane, const SearchSpace& space, std::uint64_t begin);
+};
 
 }  // namespace assay::properties

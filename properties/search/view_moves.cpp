@@ -16,6 +16,21 @@ namespace {
 using detector::FourPoints;
 using Row = Eigen::RowVector3d;
 
+Row any_row(Random& random) {
+  const double x = random.signed_unit(), y = random.signed_unit(), z = random.signed_unit();
+  return {x, y, z};
+}
+
+// Gives the case a view primitive that moves on in each frame.
+void see_from(corpus::Case& c, const Row& q0, const Row& q1, const Row& way, bool is_line) {
+  c.view.emplace();
+  for (std::size_t f = 0; f < c.frames.size(); ++f) {
+    const Row a = q0 + static_cast<double>(f) * way, b = q1 + static_cast<double>(f) * way;
+    c.view->q0.push_back({a[0], a[1], a[2]});
+    if (is_line) c.view->q1.push_back({b[0], b[1], b[2]});
+  }
+}
+
 // A view primitive near the features, or the middle, or none.
 void view(Random& random, Candidate& made, const MoveContext&) {
   auto& c = made.c;
@@ -23,26 +38,15 @@ void view(Random& random, Candidate& made, const MoveContext&) {
   if (c.ghosts || random.one_in(4)) return;
   const auto& first = c.frames.front();
   const double size = greatest_of(c);
-  const Eigen::RowVector3d middle = first.colwise().mean();
+  const Row middle = first.colwise().mean();
   const bool is_line = random.one_in(2), moves = random.one_in(3), at_vertex = random.one_in(3);
   const auto vertex = random.below(static_cast<int>(first.rows()));
-  const auto drawn = [&] {
-    const double x = random.signed_unit(), y = random.signed_unit(), z = random.signed_unit();
-    return Eigen::RowVector3d(x, y, z);
-  };
   const double reach = std::ldexp(size, -random.between(0, 5));
-  Eigen::RowVector3d q0 = at_vertex ? Eigen::RowVector3d(first.row(vertex)) : middle;
-  q0 += reach * drawn();
-  const Eigen::RowVector3d q1 = q0 + size * drawn(), way = moves
-                                                               ? Eigen::RowVector3d(reach * drawn())
-                                                               : Eigen::RowVector3d(0, 0, 0);
-  c.view.emplace();
-  for (std::size_t f = 0; f < c.frames.size(); ++f) {
-    const double share = static_cast<double>(f);
-    const Eigen::RowVector3d a = q0 + share * way, b = q1 + share * way;
-    c.view->q0.push_back({a[0], a[1], a[2]});
-    if (is_line) c.view->q1.push_back({b[0], b[1], b[2]});
-  }
+  Row q0 = at_vertex ? Row(first.row(vertex)) : middle;
+  q0 += reach * any_row(random);
+  const Row q1 = q0 + size * any_row(random),
+            way = moves ? Row(reach * any_row(random)) : Row(0, 0, 0);
+  see_from(c, q0, q1, way, is_line);
 }
 
 // Newton steps of a view primitive and a triangle onto degeneracies of the view polynomial, which
@@ -173,8 +177,8 @@ void face_away(Random& random, Candidate& made, const MoveContext&) {
     places.assign(c.frames.size(), *place);
   }
   const bool is_line = random.one_in(2);
-  const double x = random.signed_unit(), y = random.signed_unit(), z = random.signed_unit();
-  const Row along = std::ldexp(greatest_of(c), -random.between(0, 6)) * Row(x, y, z);
+  const Row way = any_row(random);
+  const Row along = std::ldexp(greatest_of(c), -random.between(0, 6)) * way;
   c.view.emplace();
   for (const auto& q : places) {
     c.view->q0.push_back({q[0], q[1], q[2]});
@@ -262,10 +266,7 @@ void gaze(Random& random, Candidate& made, const MoveContext&) {
   const Row place = x.row(made.focus->vertices[0]);
   const double size = (x.rowwise() - place).cwiseAbs().maxCoeff();
   if (!(size > 0)) return;
-  const auto drawn = [&](double reach) {
-    const double a = random.signed_unit(), b = random.signed_unit(), d = random.signed_unit();
-    return Row(reach * Row(a, b, d));
-  };
+  const auto drawn = [&](double reach) { return Row(reach * any_row(random)); };
   const bool is_line = !random.one_in(3), moves = random.one_in(4);
   auto best = c.view;
   const bool is_within = is_within_a_component(c, *made.focus);
@@ -279,12 +280,7 @@ void gaze(Random& random, Candidate& made, const MoveContext&) {
     const Row q = (goes_on ? Row(old[0], old[1], old[2]) : place) + drawn(reach);
     const Row end = q + drawn(std::ldexp(size, random.between(-3, 2)));
     const Row way = moves ? drawn(reach) : Row(Row::Zero());
-    c.view.emplace();
-    for (std::size_t f = 0; f < c.frames.size(); ++f) {
-      const Row a = q + static_cast<double>(f) * way, b = end + static_cast<double>(f) * way;
-      c.view->q0.push_back({a[0], a[1], a[2]});
-      if (is_line) c.view->q1.push_back({b[0], b[1], b[2]});
-    }
+    see_from(c, q, end, way, is_line);
     const double alike = alike_now();
     if (alike < most) continue;
     most = alike;

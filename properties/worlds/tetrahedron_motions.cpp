@@ -1,11 +1,10 @@
-#include "properties/worlds/tetrahedron_motions.h"
-
 #include <algorithm>
 #include <cassert>
 #include <span>
 #include <utility>
 
 #include "properties/numbering.h"
+#include "properties/worlds/tetrahedron_world.h"
 
 namespace assay::properties {
 namespace {

@@ -11,7 +11,7 @@
 #include "properties/campaign/plan.h"
 #include "properties/campaign/trials/case_tally.h"
 #include "properties/judging/case_check.h"
-#include "properties/queries/rung_cases.h"
+#include "properties/queries/listed_queries.h"
 #include "properties/queries/self_check.h"
 #include "properties/worker/plugin/query_case.h"
 #include "properties/worker/worker_process.h"

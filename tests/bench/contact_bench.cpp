@@ -7,7 +7,7 @@
 #include "detector/contact/lanes/query_lanes.h"
 #include "detector/view/view_signs.h"
 #include "oracle/query/contact.h"
-#include "properties/queries/extreme_queries.h"
+#include "properties/queries/query_families.h"
 #include "reports/bench/interleave.h"
 #include "reports/estimate.h"
 #include "tests/bench/step_parts.h"

@@ -12,7 +12,6 @@
 #include "properties/campaign/ledger/store.h"
 #include "properties/campaign/ledger/tally.h"
 #include "properties/campaign/trials/trials.h"
-#include "properties/generators/pair_blocks.h"
 #include "properties/judging/case_options.h"
 #include "properties/judging/contracted_case.h"
 #include "properties/laws/facts/case_facts.h"

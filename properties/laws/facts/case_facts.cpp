@@ -254,4 +254,16 @@ const CertifiedPatches& CaseFacts::certified_patches(std::size_t s) {
   return *patches;
 }
 
+PairBlock block_of(detector::ViewSign a, detector::ViewSign b, bool either_violated) {
+  using detector::ViewSign;
+  if (either_violated) return PairBlock::violated;
+  if (a == ViewSign::zero && b == ViewSign::zero) return PairBlock::zero_zero;
+  if (a == ViewSign::zero || b == ViewSign::zero) {
+    const ViewSign other = a == ViewSign::zero ? b : a;
+    return other == ViewSign::positive ? PairBlock::positive_zero : PairBlock::negative_zero;
+  }
+  if (a != b) return PairBlock::positive_negative;
+  return a == ViewSign::positive ? PairBlock::positive_positive : PairBlock::negative_negative;
+}
+
 }  // namespace assay::properties

@@ -5,20 +5,71 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <span>
 #include <vector>
 
 #include "corpus/cases/case_file.h"
 #include "detector/detector.h"
 #include "detector/step/stages.h"
+#include "detector/traditional/traditional.h"
 #include "oracle/instant/layers.h"
 #include "oracle/mesh/step.h"
 #include "oracle/view/view_sign.h"
-#include "properties/laws/facts/certified_patches.h"
 #include "properties/laws/facts/view_values.h"
 #include "properties/numbering.h"
 
 namespace assay::properties {
+
+// The patches of a step that the traditional scheme certifies, found by the scheme's own tests.
+//
+// A patch is certified when L13's premise is proved of it: all of its triangles face one direction
+// throughout the step, and its contour, projected along that direction, stays a simple polygon.
+// The patches looked at are nodes of the detector's tree, from the root down to the largest ones
+// that are certified, and unions of two of these that share an edge. A scheme that is wrong in one
+// of its tests certifies too much here as well, and L13 shows it.
+
+struct CertifiedPatches {
+  static constexpr std::int32_t none = -1;
+  std::vector<std::int32_t> patch_of;  // by triangle; none: the triangle faces no direction
+  std::set<std::pair<std::int32_t, std::int32_t>> unions;  // of two patches, the lower one first
+  // How many triangles the largest patch or union has. From 2 on L13 says something.
+  std::size_t largest = 0;
+  // A triangle faces d when the three Bernstein coefficients of N.d over the step are positive (N
+  // its normal, twice its area long). These are the sizes of the coefficients, for the direction
+  // of the patch and all of its triangles, over all patches and unions of two triangles or more.
+  ValueRange facing;
+
+  // Whether both triangles are in one patch, or in one union of two.
+  bool hold(const detector::TrianglePair& pair) const;
+};
+
+// The traditional scheme on one mesh.
+class TraditionalScheme {
+ public:
+  // Null if the search of these stages is not one of normal cones. `x` are the positions that the
+  // detector is made from: they shape the tree. `mesh` must outlive the result.
+  static std::unique_ptr<TraditionalScheme> make(const detector::Stages& stages,
+                                                 const detector::Topology& mesh,
+                                                 const detector::PositionsView& x);
+
+  // The patches that are certified in this step. As dear as a step of the scheme: 10 us for 20
+  // triangles.
+  CertifiedPatches certify(const detector::SteppedMesh& motion) const;
+
+  // The pairs of triangles that the scheme's search of this step does not leave out.
+  std::set<detector::TrianglePair> candidates(const detector::SteppedMesh& motion);
+
+ private:
+  TraditionalScheme(std::shared_ptr<const detector::NormalConeSearch> search,
+                    const detector::Topology& mesh, const detector::PositionsView& x);
+
+  std::shared_ptr<const detector::NormalConeSearch> search_;
+  const detector::Topology& mesh_;
+  detector::BoundingVolumeTree tree_;
+  std::unique_ptr<detector::ContourMaker> maker_;
+  detector::PatchContours contours_;
+};
 
 // How a law makes a detector of its own, to run a changed case. Empty if the results come from a
 // detector that cannot be made here (a plug-in); the premises of laws that need one are then not
@@ -122,5 +173,28 @@ class CaseFacts {
   // Found by positions, because the end of one step is the start of the next.
   std::vector<std::pair<detector::Positions, std::unique_ptr<oracle::LayerState>>> layers_;
 };
+
+// The view sets of a pair's two triangles (L3, detector/README.md). A triangle in Vv counts as
+// violated, whatever its sign.
+enum class PairBlock : std::uint8_t {
+  positive_negative,
+  positive_zero,
+  negative_zero,
+  zero_zero,
+  violated,  // at least one triangle is in Vv
+  positive_positive,
+  negative_negative,  // the last two are outside K, unless in two groups
+};
+constexpr auto names_of(PairBlock) {
+  using enum PairBlock;
+  return std::to_array<Named<PairBlock>>({{positive_negative, "V+ V-"},
+                                          {positive_zero, "V+ V0"},
+                                          {negative_zero, "V- V0"},
+                                          {zero_zero, "V0 V0"},
+                                          {violated, "Vv any"},
+                                          {positive_positive, "V+ V+"},
+                                          {negative_negative, "V- V-"}});
+}
+PairBlock block_of(detector::ViewSign a, detector::ViewSign b, bool either_violated);
 
 }  // namespace assay::properties

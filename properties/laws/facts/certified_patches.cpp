@@ -1,10 +1,8 @@
-#include "properties/laws/facts/certified_patches.h"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "properties/numbering.h"
+#include "properties/laws/facts/case_facts.h"
 
 namespace assay::properties {
 

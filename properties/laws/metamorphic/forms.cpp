@@ -5,18 +5,11 @@
 #include <algorithm>
 #include <map>
 
-#include "properties/laws/metamorphic/halves.h"
 #include "properties/laws/step_law.h"
 #include "properties/random.h"
 #include "properties/worker/case_run.h"
 
 namespace assay::properties {
-namespace {
-
-using detector::StepResult;
-using detector::TimeEnclosure;
-using detector::TrianglePair;
-
 corpus::Case bare(const corpus::Case& c) {
   corpus::Case out;
   out.id = c.id;
@@ -27,6 +20,12 @@ corpus::Case bare(const corpus::Case& c) {
   out.script = corpus::steps_of(c);
   return out;
 }
+
+namespace {
+
+using detector::StepResult;
+using detector::TimeEnclosure;
+using detector::TrianglePair;
 
 // A run that prescribes nothing, so that only mesh and steps are changed.
 PinnedRun run_of(const corpus::Case& c) {

@@ -12,7 +12,7 @@
 #include "corpus/cases/case_file.h"
 #include "detector/step_result.h"
 #include "properties/laws/law.h"
-#include "properties/laws/metamorphic/change_law.h"
+#include "properties/laws/metamorphic/change_laws.h"
 
 namespace assay::properties {
 
@@ -63,7 +63,7 @@ void check_form(CaseFacts& facts, LawTally& tally) {
   check_form(facts, tally, make);
 }
 
-// The case with a change of its mesh, made on a grid or not (change_law.h).
+// The case with a change of its mesh, made on a grid or not (change_laws.h).
 std::optional<Form> form_by_change(const corpus::Case& c, MakeChange make, bool on_grid);
 template <MakeChange make, bool on_grid = false>
 std::optional<Form> form_by(const corpus::Case& c) {
@@ -72,7 +72,19 @@ std::optional<Form> form_by(const corpus::Case& c) {
 std::span<const FormLaw> change_forms();                 // those of change_laws.cpp
 std::optional<Form> scaled_form(const corpus::Case& c);  // by a power of two
 
+// The case with its mesh, frames and steps alone, as forms begin with.
+corpus::Case bare(const corpus::Case& c);
+
 // L18: some edges are split in all triangles that have them.
 std::optional<Form> refined(const corpus::Case& c);
+
+// The same of steps: compares every committed step of the case in two halves with the whole step,
+// both rounded to a grid, so that the middle places of vertices, primitives and apexes are exact. A
+// pair of the whole step is one of a half, at twice its time or at twice its time less one; and a
+// pair of a half is one of the whole.
+void check_halves(CaseFacts& facts, LawTally& tally);
+
+// The run with every committed step in two halves; nothing if some middle place is no double.
+std::optional<PinnedRun> halved_run(const PinnedRun& whole);
 
 }  // namespace assay::properties

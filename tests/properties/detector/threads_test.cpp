@@ -2,7 +2,7 @@
 // be shared out. Small ones, of every kind, are law Change_ThreadsDoNotShow.
 #include "corpus/scenes/scenes.h"
 #include "detector/detector.h"
-#include "properties/laws/metamorphic/result_equality.h"
+#include "properties/laws/step_law.h"
 #include "tests/test.h"
 
 namespace assay::properties {

@@ -1,6 +1,4 @@
 // Each drawn approach is at the distance that it was made for, by the oracle.
-#include "properties/generators/approaches.h"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -9,6 +7,7 @@
 
 #include "detector/mesh/mesh_checks.h"
 #include "oracle/distance/step_distance.h"
+#include "properties/generators/added_bodies.h"
 #include "properties/generators/families.h"
 #include "properties/judging/judged_run.h"
 #include "properties/worker/plugin/query_case.h"

@@ -1,6 +1,5 @@
 // A response made explicit: what is committed is free, what collides is not, and the case replays
 // from its own frames.
-#include "properties/generators/response.h"
 
 #include "oracle/mesh/step.h"
 #include "properties/generators/families.h"

@@ -16,7 +16,7 @@
 #include "detector/mesh/step_types.h"
 #include "oracle/mesh/step.h"
 #include "properties/claims/claims.h"
-#include "properties/generators/pair_blocks.h"
+#include "properties/laws/facts/case_facts.h"
 #include "properties/numbering.h"
 
 namespace assay::properties {
@@ -48,7 +48,7 @@ class TagTable {
 
  private:
   std::map<std::string, TagCount> tags_;
-  std::array<BlockCount, pair_blocks> blocks_;
+  std::array<BlockCount, all_values<PairBlock>.size()> blocks_;
 };
 
 inline void TagTable::add(const std::vector<std::string>& tags, std::uint64_t steps,
@@ -84,7 +84,7 @@ inline void TagTable::merge(const TagTable& other) {
     own.steps += count.steps;
     own.collisions += count.collisions;
   }
-  for (std::size_t b = 0; b < pair_blocks; ++b) {
+  for (std::size_t b = 0; b < all_values<PairBlock>.size(); ++b) {
     for (std::size_t i = 0; i < 3; ++i) {
       blocks_[b].contacts[i] += other.blocks_[b].contacts[i];
       blocks_[b].first_contacts[i] += other.blocks_[b].first_contacts[i];
@@ -103,7 +103,7 @@ inline std::string TagTable::text() const {
   fmt::format_to(to, "\n{:<8} {:>32} {:>32}\n{:<8} {:>32} {:>32}\n", "pairs", "contacts",
                  "first contacts", "of", "apart / at a vertex / at an edge",
                  "apart / at a vertex / at an edge");
-  for (std::size_t b = 0; b < pair_blocks; ++b) {
+  for (std::size_t b = 0; b < all_values<PairBlock>.size(); ++b) {
     const auto row = [](const std::array<std::uint64_t, 3>& n) {
       return fmt::format("{} / {} / {}", n[0], n[1], n[2]);
     };

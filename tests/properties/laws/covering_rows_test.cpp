@@ -1,8 +1,8 @@
-#include "properties/laws/options/covering_rows.h"
-
 #include <gtest/gtest.h>
 
 #include <set>
+
+#include "properties/laws/options/drawn_options.h"
 
 namespace assay::properties {
 namespace {

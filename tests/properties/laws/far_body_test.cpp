@@ -1,10 +1,9 @@
-#include "properties/laws/options/far_body.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "detector/assembly.h"
+#include "properties/generators/added_bodies.h"
 #include "tests/properties/laws/judged_case.h"
 
 namespace assay::properties {

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "oracle/query/contact.h"
-#include "properties/queries/distance_checks.h"
+#include "properties/queries/distance_queries.h"
 #include "properties/queries/self_check.h"
 #include "tests/detector/distance/rational_distance.h"
 

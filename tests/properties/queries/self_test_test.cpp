@@ -1,7 +1,7 @@
 // The parts of the self-test: small worlds are complete, cases can be made alone, exact conditions
 // of the constructed families hold, results do not depend on the number of threads.
+#include "properties/queries/listed_queries.h"
 #include "properties/queries/self_check.h"
-#include "properties/queries/small_worlds.h"
 #include "tests/test.h"
 
 namespace assay::properties {

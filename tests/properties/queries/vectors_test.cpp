@@ -12,7 +12,7 @@
 #include "oracle/query/contact_events.h"
 #include "oracle/query/times/algebraic_times.h"
 #include "oracle/referee/second_opinion.h"
-#include "properties/queries/distance_checks.h"
+#include "properties/queries/distance_queries.h"
 #include "properties/queries/query_checks.h"
 #include "tests/test.h"
 

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "properties/queries/query_families.h"
-#include "properties/search/gap.h"
 
 namespace assay::properties {
 namespace {

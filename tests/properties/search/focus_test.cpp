@@ -1,5 +1,4 @@
 // Whether what meets first is seen alike, and the moves that lead there.
-#include "properties/search/focus.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,11 +1,10 @@
 // The exact gap of a query to each degeneracy: 0 at it, and shrinking towards it.
-#include "properties/search/gap.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "properties/queries/query_families.h"
+#include "properties/search/degeneracy.h"
 
 namespace assay::properties {
 namespace {

@@ -1,10 +1,9 @@
 // A swarm depends on its name, and suits the detector.
-#include "properties/search/swarm.h"
-
 #include <gtest/gtest.h>
 
 #include <set>
 
+#include "properties/search/search.h"
 #include "properties/search/sources.h"
 
 namespace assay::properties {

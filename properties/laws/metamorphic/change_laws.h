@@ -31,16 +31,10 @@ using MakeChange = std::optional<Change> (*)(std::string_view, const PinnedRun&)
 
 // Compares the changed run with the given results. On a grid both sides are run anew, from
 // coordinates that are rounded so that sums and halves are exact (round_to_grid).
-void check_change(CaseFacts& facts, LawTally& tally, MakeChange make);
-void check_change_on_a_grid(CaseFacts& facts, LawTally& tally, MakeChange make);
-
-template <MakeChange make>
+void check_change(CaseFacts& facts, LawTally& tally, MakeChange make, bool on_grid);
+template <MakeChange make, bool on_grid = false>
 void check_change(CaseFacts& facts, LawTally& tally) {
-  check_change(facts, tally, make);
-}
-template <MakeChange make>
-void check_change_on_a_grid(CaseFacts& facts, LawTally& tally) {
-  check_change_on_a_grid(facts, tally, make);
+  check_change(facts, tally, make, on_grid);
 }
 
 // L11: vertices and triangles in reverse order. Applies if there are two holes or more.

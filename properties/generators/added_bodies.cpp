@@ -1,11 +1,10 @@
-#include "properties/generators/approaches.h"
+#include "properties/generators/added_bodies.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 
+#include "detector/mesh/for_all.h"
 #include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
@@ -14,6 +13,34 @@ namespace {
 
 using detector::MovingPoint;
 using detector::Point;
+
+double greatest_of_frames(const corpus::Case& c) {
+  double largest = 0;
+  for (const auto& frame : c.frames) {
+    if (frame.size() > 0) largest = std::max(largest, frame.cwiseAbs().maxCoeff());
+  }
+  return largest;
+}
+
+// In a relation the vertices from `first` on are a body of their own, and at rest they are as at
+// the start. What was said of the case without them is dropped.
+void tell_of_added(corpus::Case& c, std::int32_t first) {
+  if (c.counted) {
+    auto& [pairs, steps] = *c.counted;
+    steps.clear();
+    if (!pairs.body.empty()) {
+      const auto fresh = *std::max_element(pairs.body.begin(), pairs.body.end()) + 1;
+      pairs.body.resize(static_cast<std::size_t>(c.frames.front().rows()), fresh);
+    }
+    if (!pairs.rest.empty()) {
+      const auto at_rest = corpus::points_of(c.frames.front());
+      pairs.rest.insert(pairs.rest.end(), at_rest.begin() + first, at_rest.end());
+    }
+  }
+  c.expected = {};
+  c.view.reset();
+  c.ghosts.reset();
+}
 
 using Corners = std::array<std::array<int, 3>, 3>;
 
@@ -119,15 +146,12 @@ corpus::Case with_approach(corpus::Case c, double d, Random& random) {
   }
   const auto steps = corpus::steps_of(c);
   const auto& step = steps[static_cast<std::size_t>(random.below(static_cast<int>(steps.size())))];
-  double largest = 0;
+  double largest = greatest_of_frames(c);
   for (const auto* triangle : {&a, &b}) {
     for (const MovingPoint& p : *triangle) {
       for (std::size_t k = 0; k < 3; ++k)
         largest = std::max({largest, std::abs(p.t0[k]), std::abs(p.t1[k])});
     }
-  }
-  for (const auto& frame : c.frames) {
-    if (frame.size() > 0) largest = std::max(largest, frame.cwiseAbs().maxCoeff());
   }
   if (largest > most_aimed) return c;
   // The mesh moves, because the numbers of the approach have to stay exact.
@@ -144,27 +168,59 @@ corpus::Case with_approach(corpus::Case c, double d, Random& random) {
       for (int k = 0; k < 3; ++k) frame(vertices + i, k) = x[static_cast<std::size_t>(k)];
     }
   }
-  if (c.counted) {
-    // The two are a body of their own. At rest they are as at the start.
-    auto& [pairs, expected_steps] = *c.counted;
-    expected_steps.clear();
-    if (!pairs.body.empty()) {
-      const auto fresh = *std::max_element(pairs.body.begin(), pairs.body.end()) + 1;
-      pairs.body.insert(pairs.body.end(), 6, fresh);
-    }
-    for (int i = 0; i < 6 && !pairs.rest.empty(); ++i) {
-      const auto row = c.frames.front().row(vertices + i);
-      pairs.rest.push_back({row[0], row[1], row[2]});
-    }
-  }
+  tell_of_added(c, vertices);
   for (auto& frame : c.frames) frame.topRows(vertices).array() += away;
   const Eigen::Index triangles = c.triangles.rows();
   c.triangles.conservativeResize(triangles + 2, 3);
   c.triangles.row(triangles) << vertices, vertices + 1, vertices + 2;
   c.triangles.row(triangles + 1) << vertices + 3, vertices + 4, vertices + 5;
-  c.expected = {};
-  c.view.reset();
-  c.ghosts.reset();
+  return c;
+}
+
+namespace {
+
+constexpr std::int32_t side = 112;  // vertices along each side of the sheet
+static_assert(std::size_t{side} * side > 3 * detector::shared_piece);
+
+std::int32_t vertex_of_sheet(std::int32_t i, std::int32_t j) { return side * i + j; }
+
+void add_triangles(std::int32_t first_vertex, detector::Triangles& triangles) {
+  Eigen::Index t = triangles.rows();
+  triangles.conservativeResize(t + Eigen::Index{2} * (side - 1) * (side - 1), 3);
+  for (std::int32_t i = 0; i + 1 < side; ++i) {
+    for (std::int32_t j = 0; j + 1 < side; ++j) {
+      const auto a = first_vertex + vertex_of_sheet(i, j), b = a + side;
+      triangles.row(t++) << a, b, b + 1;
+      triangles.row(t++) << a, b + 1, a + 1;
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<corpus::Case> with_far_body(corpus::Case c, double apart) {
+  const double largest = greatest_of_frames(c);
+  constexpr double most = 0x1p900;
+  if (!(largest > 1 / most && largest < most && apart < most)) return std::nullopt;
+  Random random(Random::hash(c.id), Random::hash("far body"));
+  // All places of the grid are small integers times a power of two, the width of a cell.
+  const int reach = std::ilogb(largest) + 1, finest = reach - random.between(0, 16);
+  const double cell = std::ldexp(1, apart > 0 ? std::max(finest, std::ilogb(apart) + 2) : finest);
+  const double start = cell * (std::ceil(std::ldexp(4, reach) / cell) + 4);
+  const auto vertices = static_cast<std::int32_t>(c.frames.front().rows());
+  for (auto& frame : c.frames) {
+    const double height = random.signed_unit();
+    frame.conservativeResize(vertices + side * side, 3);
+    for (std::int32_t i = 0; i < side; ++i) {
+      for (std::int32_t j = 0; j < side; ++j) {
+        const double u = i - side / 2, v = j - side / 2;
+        frame.row(vertices + vertex_of_sheet(i, j)) << start + cell * i, cell * v,
+            cell * (height + (u * u + v * v) / side);
+      }
+    }
+  }
+  add_triangles(vertices, c.triangles);
+  tell_of_added(c, vertices);
   return c;
 }
 
