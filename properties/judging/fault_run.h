@@ -1,12 +1,7 @@
-// Runs planted faults on cases: one of the corpus alone, judged by the oracle; and the thesis as
-// printed, put together from such faults: what it misses and saves over random cases of the
-// campaigns' generic families.
+// Runs planted faults on cases.
 #pragma once
 
-#include <cstdint>
 #include <span>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "corpus/cases/case_file.h"
@@ -38,53 +33,5 @@ std::vector<detector::StepResult> run_disturbed(const corpus::Case& c,
 // The results as a run that can be compared with another: without the counts of marking, because
 // these depend on the marking before, whether its step was committed or not.
 CaseRun without_marking_counts(std::vector<detector::StepResult> results);
-
-// The thesis as printed: the detector with those stages that its text describes and that do not
-// hold, all of them together and each alone.
-//
-// The stages that the text takes for granted stay right: the model starts free of collisions (the
-// verified start), the primitive is inside (winding number 1), times and contacts are exact. The
-// wrong stages are planted faults; here they are put together.
-
-struct Deviation {
-  std::string_view name;
-  std::string_view printed;  // what the text says
-  std::string_view fault;    // the planted fault that does so, with its law and case
-};
-
-// In the order of the text.
-std::span<const Deviation> deviations();
-
-// The options of the scheme that the text ends with: a view-line, all pairs claimed.
-inline constexpr detector::Options as_printed_options = {
-    detector::Culling::view_line, detector::Start::verified, detector::Pairs::all};
-
-// The stages with one deviation, and with all of them.
-detector::Stages stages_with(const Deviation& deviation);
-detector::Stages stages_as_printed();
-
-// One detector over all steps. A missed step is counted once, under the worst that befell it.
-struct TollRow {
-  std::string name;
-  std::uint64_t silent = 0;      // answered free, although there is a contact
-  std::uint64_t late = 0;        // answered collision with a late first time
-  std::uint64_t incomplete = 0;  // the first time is right, but pairs are missing
-  std::uint64_t pairs_missing = 0;
-  std::uint64_t candidates = 0;
-  // Milliseconds of the steps without their view tests, because a deviation computes its own in
-  // exact numbers. Not deterministic.
-  double ms = 0;
-};
-
-struct TollTable {
-  std::uint64_t cases = 0, steps = 0, colliding = 0, pairs = 0;  // counted by the oracle
-  std::vector<TollRow> rows;  // the right detector, each deviation alone, all of them together
-};
-
-// Runs the cases campaign:family:0, 1, ... of each generic family. About 30 ms a case.
-TollTable measure_toll(const std::string& campaign, std::uint64_t cases_of_family);
-
-// A table, a line a row.
-std::string text_of(const TollTable& table);
 
 }  // namespace assay::properties
