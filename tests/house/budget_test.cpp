@@ -22,8 +22,8 @@ std::size_t lines_of(const std::string& path) {
 // that is asked for is allowed. Detectors of others count apart; `scripts` are those of all rooms.
 TEST(Budget, NoRoomGrows) {
   const std::map<std::string, std::size_t> budgets = {
-      {"detector", 15873},   {"oracle", 6474},   {"corpus", 5559}, {"corpus/peers", 889},
-      {"properties", 28027}, {"reports", 14843}, {"tests", 47268}, {"scripts", 10466}};
+      {"detector", 15614},   {"oracle", 6244},   {"corpus", 5412}, {"corpus/peers", 857},
+      {"properties", 27167}, {"reports", 14523}, {"tests", 47392}, {"scripts", 10465}};
   std::map<std::string, std::size_t> lines;
   for (const auto* room : rooms) {
     for (const auto& file : files_below(room)) {
