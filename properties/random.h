@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <iterator>
 #include <string_view>
 
 namespace assay::properties {
@@ -34,9 +35,17 @@ class Random {
   // Multiples of 2^-30 in [0, 1) and in [-1, 1): exact, so sums of a few stay exact.
   double unit() { return static_cast<double>(next() >> 34) * 0x1p-30; }
   double signed_unit() { return 2 * unit() - 1; }
+  // A multiple of 2^-52 in [-1, 1).
+  double full_mantissa() { return static_cast<double>(next() >> 11) * 0x1p-52 - 1; }
 
  private:
   std::uint64_t state_;
 };
+
+// One item of a list that is not empty.
+template <class List>
+auto& one_of(Random& random, List& list) {
+  return list[static_cast<std::size_t>(random.below(static_cast<int>(std::size(list))))];
+}
 
 }  // namespace assay::properties

@@ -42,19 +42,13 @@ bool no_edge_used_once(const std::vector<std::size_t>& uses) {
   return std::all_of(uses.begin(), uses.end(), [](auto n) { return n > 1; });
 }
 
-struct ApexStaysBehind : BoundaryHandler {
+// Places the apexes as if the mesh rested where it is at one end of the step.
+template <PositionsView SteppedMesh::*end>
+struct ApexOfEnd : BoundaryHandler {
   std::vector<MovingPoint> place_apexes(const Surface& surface,
                                         const std::vector<detector::ApexRule>& rules,
                                         const SteppedMesh& motion) const override {
-    return BoundaryHandler::place_apexes(surface, rules, motion.at_start());
-  }
-};
-
-struct ApexAhead : BoundaryHandler {
-  std::vector<MovingPoint> place_apexes(const Surface& surface,
-                                        const std::vector<detector::ApexRule>& rules,
-                                        const SteppedMesh& motion) const override {
-    return BoundaryHandler::place_apexes(surface, rules, {motion.vertices_t1, motion.vertices_t1});
+    return BoundaryHandler::place_apexes(surface, rules, {motion.*end, motion.*end});
   }
 };
 
@@ -92,10 +86,10 @@ std::vector<Fault> boundary_faults() {
       {wrong<TakenAsClosed<no_edge_used_once>>, "boundary/fin-taken-as-closed", "L12", "F_fin", 5,
        "a mesh without an edge of one triangle alone is taken as closed: three at an edge are no "
        "cycle"},
-      {wrong<ApexStaysBehind>, "boundary/apex-stays-behind", "L11", "F_apex_moves", 8,
-       "an apex stays where it is at t=0 and jumps between two steps"},
-      {wrong<ApexAhead>, "boundary/apex-ahead", "L11", "F_apex_in_step", 8,
-       "an apex is where it is at t=1 and jumps between two steps"},
+      {wrong<ApexOfEnd<&SteppedMesh::vertices_t0>>, "boundary/apex-stays-behind", "L11",
+       "F_apex_moves", 8, "an apex stays where it is at t=0 and jumps between two steps"},
+      {wrong<ApexOfEnd<&SteppedMesh::vertices_t1>>, "boundary/apex-ahead", "L11", "F_apex_in_step",
+       8, "an apex is where it is at t=1 and jumps between two steps"},
       {wrong<ApexChosenAnew>, "boundary/apex-chosen-anew", "L11", "F_apex_rule_kept", 13,
        "the rule of an apex is chosen anew at each step"},
       {wrong<AlwaysCentroid>, "boundary/always-centroid", "L11", "", 0,
@@ -185,8 +179,8 @@ struct GhostsNotMoved : BoundaryHandler {
 };
 
 // Sweeps only some ghosts.
-class GhostsSkipped : public BoundaryHandler {
- public:
+template <bool (*skips)(const GhostSweep&, std::int32_t ghost)>
+struct GhostsSkipped : BoundaryHandler {
   bool sweep(const GhostSweep& s, GhostIndices ghosts, const StopFunction& stop, Flags& touched,
              GhostCounts& counts) const override {
     std::vector<std::int32_t> kept;
@@ -194,21 +188,16 @@ class GhostsSkipped : public BoundaryHandler {
                  [&](std::int32_t ghost) { return !skips(s, ghost); });
     return BoundaryHandler::sweep(s, kept, stop, touched, counts);
   }
-  virtual bool skips(const GhostSweep& s, std::int32_t ghost) const = 0;
 };
 
-struct FirstLoopOnly : GhostsSkipped {
-  bool skips(const GhostSweep& s, std::int32_t ghost) const override {
-    return s.surface.all().triangles[at(ghost)][2] != s.surface.first_apex;
-  }
-};
+bool of_later_loops(const GhostSweep& s, std::int32_t ghost) {
+  return s.surface.all().triangles[at(ghost)][2] != s.surface.first_apex;
+}
 
-struct FlatGhostsSkipped : GhostsSkipped {
-  bool skips(const GhostSweep& s, std::int32_t ghost) const override {
-    return detector::has_zero_area(s.surface.all(), s.motion.vertices_t0, ghost) ||
-           detector::has_zero_area(s.surface.all(), s.motion.vertices_t1, ghost);
-  }
-};
+bool is_flat(const GhostSweep& s, std::int32_t ghost) {
+  return detector::has_zero_area(s.surface.all(), s.motion.vertices_t0, ghost) ||
+         detector::has_zero_area(s.surface.all(), s.motion.vertices_t1, ghost);
+}
 
 template <std::ptrdiff_t common>
 struct LoopNeighboursSkipped : BoundaryHandler {
@@ -272,9 +261,9 @@ std::vector<Fault> ghost_faults() {
        "ghosts are tested at t=0 and t=1 only"},
       {wrong<GhostsNotMoved>, "boundary/ghosts-not-moved", "L11", "F_ghosts_move", 13,
        "ghosts stay where they are at t=0"},
-      {wrong<FirstLoopOnly>, "boundary/first-loop-only", "L11", "F_second_loop", 6,
+      {wrong<GhostsSkipped<of_later_loops>>, "boundary/first-loop-only", "L11", "F_second_loop", 6,
        "ghosts of the first loop only are swept"},
-      {wrong<FlatGhostsSkipped>, "boundary/flat-ghosts-skipped", "L11", "F_flat_ghost", 8,
+      {wrong<GhostsSkipped<is_flat>>, "boundary/flat-ghosts-skipped", "L11", "F_flat_ghost", 8,
        "a ghost without area at t=0 or t=1 is not swept"},
       {wrong<SweptVertexFaceOnly>, "boundary/swept-vertex-face-only", "L11", "F_ghost_edges", 5,
        "ghosts are swept without edge-edge tests"},

@@ -98,21 +98,18 @@ struct PiercingIgnored : detector::ElementaryTest {
   }
 };
 
-struct TimeRoundedUp : detector::ElementaryTest {
+// Rounds the times of contacts.
+template <void (*round)(detector::TimeEnclosure&)>
+struct Rounded : detector::ElementaryTest {
   ContactResult test(const FourPoints& query, Want want) const override {
     ContactResult result = detector::test_contact_past_axis(query, want);
-    result.time.lo = result.time.hi;
+    round(result.time);
     return result;
   }
 };
 
-struct TimeInSinglePrecision : detector::ElementaryTest {
-  ContactResult test(const FourPoints& query, Want want) const override {
-    ContactResult result = detector::test_contact_past_axis(query, want);
-    result.time.lo = result.time.hi = static_cast<float>(result.time.lo);
-    return result;
-  }
-};
+void up(detector::TimeEnclosure& time) { time.lo = time.hi; }
+void to_float(detector::TimeEnclosure& time) { time.lo = time.hi = static_cast<float>(time.lo); }
 
 double determinant(const Point& a, const Point& b, const Point& c) {
   return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
@@ -188,9 +185,9 @@ std::vector<Fault> elementary_faults() {
        "a vertex that starts behind a face does not meet it"},
       {wrong<PiercingIgnored>, "elementary/piercing-ignored", "free-sound", "F_pierced_start", 5,
        "edges that pierce a triangle at t=0 are not looked for"},
-      {wrong<TimeRoundedUp>, "elementary/time-rounded-up", "not-late", "F_inexact_time", 4,
+      {wrong<Rounded<up>>, "elementary/time-rounded-up", "not-late", "F_inexact_time", 4,
        "times are rounded to the next double"},
-      {wrong<TimeInSinglePrecision>, "elementary/time-in-single-precision", "first-time",
+      {wrong<Rounded<to_float>>, "elementary/time-in-single-precision", "first-time",
        "F_inexact_time", 4, "times are rounded to single precision"},
       {wrong<Dropped<beyond_bound_of_result>>, "elementary/bound-of-result", "free-sound",
        "F_bound_of_result", 4, "the filter's error bound is a share of its result"},

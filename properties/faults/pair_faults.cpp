@@ -18,32 +18,27 @@ using detector::SteppedMesh;
 using detector::Topology;
 using detector::TrianglePair;
 
+// K with other tables.
+template <void (*change)(PairTables&)>
+struct Changed : detector::PairRule {
+  PairTables candidates() const override {
+    PairTables tables = detector::PairRule::candidates();
+    change(tables);
+    return tables;
+  }
+};
+
 template <std::uint8_t a, std::uint8_t b>
-struct BlockDropped : detector::PairRule {
-  PairTables candidates() const override {
-    PairTables tables = detector::PairRule::candidates();
-    tables.within.remove(a, b);
-    return tables;
-  }
-};
+void without(PairTables& tables) {
+  tables.within.remove(a, b);
+}
 
-struct OnlyOppositeSigns : detector::PairRule {
-  PairTables candidates() const override {
-    PairTables tables = detector::PairRule::candidates();
-    for (const auto u : {flag::positive, flag::negative, flag::zero}) {
-      tables.within.remove(u, flag::zero);
-    }
-    return tables;
-  }
-};
+void only_opposite_signs(PairTables& tables) {
+  for (const auto u : {flag::positive, flag::negative, flag::zero})
+    tables.within.remove(u, flag::zero);
+}
 
-struct AcrossBySign : detector::PairRule {
-  PairTables candidates() const override {
-    PairTables tables = detector::PairRule::candidates();
-    tables.across = tables.within;
-    return tables;
-  }
-};
+void across_by_sign(PairTables& tables) { tables.across = tables.within; }
 
 struct NoClosure : detector::PairRule {
   PairTables closure() const override { return {}; }
@@ -179,25 +174,25 @@ class SinglePassClosure : public detector::TreeSearch {
 
 std::vector<Fault> pair_faults() {
   return {
-      {wrong<BlockDropped<flag::zero, flag::zero>>, "pair/zero-zero-dropped", "L3", "C6_only_ZZ", 4,
-       "(V0,V0) is left out"},
-      {wrong<BlockDropped<flag::positive, flag::zero>>, "pair/positive-zero-dropped", "L3",
+      {wrong<Changed<without<flag::zero, flag::zero>>>, "pair/zero-zero-dropped", "L3",
+       "C6_only_ZZ", 4, "(V0,V0) is left out"},
+      {wrong<Changed<without<flag::positive, flag::zero>>>, "pair/positive-zero-dropped", "L3",
        "C6_only_PZ", 4, "(V+,V0) is left out"},
-      {wrong<BlockDropped<flag::negative, flag::zero>>, "pair/negative-zero-dropped", "L3",
+      {wrong<Changed<without<flag::negative, flag::zero>>>, "pair/negative-zero-dropped", "L3",
        "C6_only_MZ", 5, "(V-,V0) is left out"},
-      {wrong<BlockDropped<flag::positive, flag::negative>>, "pair/positive-negative-dropped", "L3",
-       "C6_only_PM", 5, "(V+,V-) is left out"},
-      {wrong<OnlyOppositeSigns>, "pair/only-opposite-signs", "L3", "M_pOnlyPM", 4,
+      {wrong<Changed<without<flag::positive, flag::negative>>>, "pair/positive-negative-dropped",
+       "L3", "C6_only_PM", 5, "(V+,V-) is left out"},
+      {wrong<Changed<only_opposite_signs>>, "pair/only-opposite-signs", "L3", "M_pOnlyPM", 4,
        "only (V+,V-) is kept besides Vv"},
-      {wrong<BlockDropped<flag::violated, flag::violated>>, "pair/u-without-violated", "L11",
+      {wrong<Changed<without<flag::violated, flag::violated>>>, "pair/u-without-violated", "L11",
        "D5_U_minus_Vv", 7, "U is reduced by Vv: (Vv,Vv) is left out"},
-      {wrong<BlockDropped<flag::positive, flag::violated>>, "pair/positive-violated-dropped", "L11",
-       "F_positive_violated", 4, "(V+,Vv) is left out"},
-      {wrong<BlockDropped<flag::negative, flag::violated>>, "pair/negative-violated-dropped", "L11",
-       "F_negative_violated", 4, "(V-,Vv) is left out"},
-      {wrong<BlockDropped<flag::zero, flag::violated>>, "pair/zero-violated-dropped", "L11",
+      {wrong<Changed<without<flag::positive, flag::violated>>>, "pair/positive-violated-dropped",
+       "L11", "F_positive_violated", 4, "(V+,Vv) is left out"},
+      {wrong<Changed<without<flag::negative, flag::violated>>>, "pair/negative-violated-dropped",
+       "L11", "F_negative_violated", 4, "(V-,Vv) is left out"},
+      {wrong<Changed<without<flag::zero, flag::violated>>>, "pair/zero-violated-dropped", "L11",
        "F_zero_violated", 4, "(V0,Vv) is left out"},
-      {wrong<AcrossBySign>, "pair/across-by-sign", "L10", "A2_nested_outward", 9,
+      {wrong<Changed<across_by_sign>>, "pair/across-by-sign", "L10", "A2_nested_outward", 9,
        "pairs of two components are judged by sign"},
       {wrong<NoClosure>, "pair/no-closure", "all-pairs (L7)", "F_closure_one_side", 6,
        "K is claimed to be all pairs"},

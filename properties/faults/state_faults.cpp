@@ -17,44 +17,40 @@ using detector::StepCost;
 using detector::StepMarks;
 using detector::StepState;
 
+using Pairs = std::vector<PairContact>;
+
 // What the step leaves behind is computed from a start at which too much is believed clean, or
 // from a step that is made to have seen too little.
-struct DirtyNotCarried : ReleaseRule {
-  void settle(const GivenStep& step, const StepMarks& marks, const std::vector<PairContact>& pairs,
-              bool complete, StepState& state) const override {
-    StepMarks forgetful = marks;
-    forgetful.clean.assign(marks.clean.size(), 1);
-    ReleaseRule::settle(step, forgetful, pairs, complete, state);
+template <void (*forget)(StepMarks&, Pairs&, bool& complete)>
+struct Forgotten : ReleaseRule {
+  void settle(const GivenStep& step, const StepMarks& marks, const Pairs& pairs, bool complete,
+              StepState& state) const override {
+    StepMarks kept = marks;
+    Pairs seen = pairs;
+    forget(kept, seen, complete);
+    ReleaseRule::settle(step, kept, seen, complete, state);
   }
 };
 
-struct ViolatedNotCarried : ReleaseRule {
-  void settle(const GivenStep& step, const StepMarks& marks, const std::vector<PairContact>& pairs,
-              bool complete, StepState& state) const override {
-    StepMarks forgetful = marks;
-    forgetful.touched.assign(marks.touched.size(), 0);
-    ReleaseRule::settle(step, forgetful, pairs, complete, state);
-  }
-};
+void dirty(StepMarks& marks, Pairs&, bool&) { marks.clean.assign(marks.clean.size(), 1); }
+void violated(StepMarks& marks, Pairs&, bool&) { marks.touched.assign(marks.touched.size(), 0); }
+void contacts(StepMarks&, Pairs& pairs, bool& complete) {
+  pairs.clear();
+  complete = true;
+}
+void later_pairs(StepMarks&, Pairs&, bool& complete) { complete = true; }
 
 struct ReleasedOnNoContact : ReleaseRule {
-  void settle(const GivenStep& step, const StepMarks& marks, const std::vector<PairContact>& pairs,
-              bool complete, StepState& state) const override {
+  void settle(const GivenStep& step, const StepMarks& marks, const Pairs& pairs, bool complete,
+              StepState& state) const override {
     ReleaseRule::settle(step, marks, pairs, complete, state);
     if (pairs.empty()) std::fill(state.clean.begin(), state.clean.end(), 1);
   }
 };
 
-struct ContactsNotCarried : ReleaseRule {
-  void settle(const GivenStep& step, const StepMarks& marks, const std::vector<PairContact>&, bool,
-              StepState& state) const override {
-    ReleaseRule::settle(step, marks, {}, true, state);
-  }
-};
-
 struct OneSideDirty : ReleaseRule {
-  void settle(const GivenStep& step, const StepMarks& marks, const std::vector<PairContact>& pairs,
-              bool, StepState& state) const override {
+  void settle(const GivenStep& step, const StepMarks& marks, const Pairs& pairs, bool,
+              StepState& state) const override {
     ReleaseRule::settle(step, marks, {}, true, state);
     for (const auto& contact : pairs) {
       state.clean[at(contact.pair.a)] = 0;
@@ -63,17 +59,9 @@ struct OneSideDirty : ReleaseRule {
   }
 };
 
-struct FirstPairsAreAll : ReleaseRule {
-  void settle(const GivenStep& step, const StepMarks& marks, const std::vector<PairContact>& pairs,
-              bool, StepState& state) const override {
-    ReleaseRule::settle(step, marks, pairs, true, state);
-  }
-};
-
 // After a step without views, an open component becomes dirty only if the step found a contact.
 struct LostByContactAlone : ReleaseRule {
-  bool knows_clean(const GivenStep& step, const std::vector<PairContact>& pairs,
-                   std::size_t c) const override {
+  bool knows_clean(const GivenStep& step, const Pairs& pairs, std::size_t c) const override {
     return pairs.empty() || ReleaseRule::knows_clean(step, pairs, c);
   }
 };
@@ -81,9 +69,7 @@ struct LostByContactAlone : ReleaseRule {
 // Carries clean bits through a step without views as through any other step, whether or not there
 // are ghosts.
 struct CarriedPastGhosts : ReleaseRule {
-  bool knows_clean(const GivenStep&, const std::vector<PairContact>&, std::size_t) const override {
-    return true;
-  }
+  bool knows_clean(const GivenStep&, const Pairs&, std::size_t) const override { return true; }
 };
 
 // A triangle that the step before did not find in contact is not tested against the ghosts either.
@@ -111,8 +97,8 @@ struct KeptElsewhere : ReleaseRule {
 // same place: if that place was seen to be free, nothing there is taken for dirty.
 class EvaluationKept : public ReleaseRule {
  public:
-  void settle(const GivenStep& step, const StepMarks& marks, const std::vector<PairContact>& pairs,
-              bool complete, StepState& state) const override {
+  void settle(const GivenStep& step, const StepMarks& marks, const Pairs& pairs, bool complete,
+              StepState& state) const override {
     ReleaseRule::settle(step, marks, pairs, complete, state);
     free_from_.resize(pairs.empty() ? step.motion.size() : 0, 3);
     if (pairs.empty()) free_from_ = step.motion.vertices_t0;
@@ -138,17 +124,17 @@ constexpr detector::Options first_pairs = {detector::Culling::view_point, detect
 
 std::vector<Fault> state_faults() {
   return {
-      {wrong<DirtyNotCarried>, "state/dirty-not-carried", "L8", "F_doubt_carried", 6,
+      {wrong<Forgotten<dirty>>, "state/dirty-not-carried", "L8", "F_doubt_carried", 6,
        "doubt of a step's start does not outlive the step"},
-      {wrong<ViolatedNotCarried>, "state/violated-not-carried", "L8", "D8_release_arm_sequence", 22,
-       "what a ghost touched is clean in the next step"},
+      {wrong<Forgotten<violated>>, "state/violated-not-carried", "L8", "D8_release_arm_sequence",
+       22, "what a ghost touched is clean in the next step"},
       {wrong<ReleasedOnNoContact>, "state/released-on-no-contact", "L8", "D8_release_arm_sequence",
        22, "a step without contact releases everything"},
-      {wrong<ContactsNotCarried>, "state/contacts-not-carried", "L8", "F_contacts_carried", 5,
+      {wrong<Forgotten<contacts>>, "state/contacts-not-carried", "L8", "F_contacts_carried", 5,
        "what was in contact is clean in the next step"},
       {wrong<OneSideDirty>, "state/one-side-dirty", "L8", "F_contacts_carried", 5,
        "of a pair in contact only the lower triangle gets dirty"},
-      {wrong<FirstPairsAreAll>, "state/first-pairs-are-all", "L8", "F_first_pairs_only", 6,
+      {wrong<Forgotten<later_pairs>>, "state/first-pairs-are-all", "L8", "F_first_pairs_only", 6,
        "after a collision found by K alone the rest is taken for clean", first_pairs},
       {wrong<LostByContactAlone>, "state/lost-by-contact-alone", "L8", "F_views_dropped", 47,
        "after a free step without views an open component is believed as clean as before",

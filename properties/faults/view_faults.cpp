@@ -160,8 +160,6 @@ std::vector<Fault> view_point_faults() {
 
 namespace {
 
-using detector::MovingPoint;
-
 ViewSign one_corner(const ViewPolynomials& view) { return sign_of(pieces_of_corner(view, 0)); }
 
 // Uses the region of corner 0 at t=0 for everything: one end of the line, or the foot on its axis.

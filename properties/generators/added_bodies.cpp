@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "detector/mesh/for_all.h"
+#include "properties/generators/draft.h"
 #include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
@@ -13,14 +14,6 @@ namespace {
 
 using detector::MovingPoint;
 using detector::Point;
-
-double greatest_of_frames(const corpus::Case& c) {
-  double largest = 0;
-  for (const auto& frame : c.frames) {
-    if (frame.size() > 0) largest = std::max(largest, frame.cwiseAbs().maxCoeff());
-  }
-  return largest;
-}
 
 // In a relation the vertices from `first` on are a body of their own, and at rest they are as at
 // the start. What was said of the case without them is dropped.
@@ -145,8 +138,8 @@ corpus::Case with_approach(corpus::Case c, double d, Random& random) {
     return case_of_query(aimed, c.id);
   }
   const auto steps = corpus::steps_of(c);
-  const auto& step = steps[static_cast<std::size_t>(random.below(static_cast<int>(steps.size())))];
-  double largest = greatest_of_frames(c);
+  const auto& step = one_of(random, steps);
+  double largest = greatest_of(c);
   for (const auto* triangle : {&a, &b}) {
     for (const MovingPoint& p : *triangle) {
       for (std::size_t k = 0; k < 3; ++k)
@@ -199,7 +192,7 @@ void add_triangles(std::int32_t first_vertex, detector::Triangles& triangles) {
 }  // namespace
 
 std::optional<corpus::Case> with_far_body(corpus::Case c, double apart) {
-  const double largest = greatest_of_frames(c);
+  const double largest = greatest_of(c);
   constexpr double most = 0x1p900;
   if (!(largest > 1 / most && largest < most && apart < most)) return std::nullopt;
   Random random(Random::hash(c.id), Random::hash("far body"));

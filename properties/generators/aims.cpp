@@ -23,13 +23,13 @@ class Aimer {
 
   // Chooses a vertex of the mesh, and the nearest of a few faces that do not hold it.
   std::optional<Aimed> choose() {
-    const Face& own = any_of(random_, draft_.faces);
+    const Face& own = one_of(random_, draft_.faces);
     const std::int32_t v = own[at(random_.below(3))];
     const Point& from = at(x_t0(), v);
     std::optional<Aimed> best;
     double nearest = 0;
     for (int tries = random_.one_in(3) ? 2 : 12; tries > 0; --tries) {
-      const Face& f = any_of(random_, draft_.faces);
+      const Face& f = one_of(random_, draft_.faces);
       if (has(f, v)) continue;
       const Point offset = at(x_t0(), f[0]) + at(x_t0(), f[1]) - 2 * from;
       const double distance = dot(offset, offset);
@@ -150,7 +150,7 @@ double any_time(Random& random, Draft& draft, bool may_touch_at_start) {
   draft.tag("aim:mid-step");
   // These times are powers of two, so 1/t is exact.
   constexpr double times[] = {0.5, 0.5, 0.25, 0.125};
-  return any_of(random, times);
+  return one_of(random, times);
 }
 
 }  // namespace
@@ -181,18 +181,14 @@ void aim(Random& random, Draft& draft, bool may_touch_at_start) {
 
 namespace {
 
-Point any_place(Random& random, double reach) {
-  return reach * Point{random.signed_unit(), random.signed_unit(), random.signed_unit()};
-}
-
 Point near_the_middle(Random& random, const Points& x) {
   const double share = random.unit() / 4;
-  return between(mean(x), any_of(random, x), share);
+  return between(mean(x), one_of(random, x), share);
 }
 
 // A place on a face: a vertex, the middle of an edge, or inside.
 Point on_face(Random& random, Draft& draft, const Points& x) {
-  const Face& f = any_of(random, draft.faces);
+  const Face& f = one_of(random, draft.faces);
   const Point &a = at(x, f[0]), &b = at(x, f[1]), &c = at(x, f[2]);
   switch (random.below(3)) {
     case 0:
@@ -211,7 +207,7 @@ Point on_face(Random& random, Draft& draft, const Points& x) {
 // passes through it.
 Point pierced(Random& random, Draft& draft) {
   const auto k = static_cast<std::size_t>(random.below(static_cast<int>(draft.frames.size()) - 1));
-  const Face& f = any_of(random, draft.faces);
+  const Face& f = one_of(random, draft.faces);
   const auto place = [&](const Points& x) {
     return between(between(at(x, f[0]), at(x, f[1]), 0.5), at(x, f[2]), 0.5);
   };
@@ -227,10 +223,10 @@ Point place_of_view(Random& random, Draft& draft) {
       return pierced(random, draft);
     case 2:
       draft.tag("view:outside");
-      return any_place(random, 4);
+      return 4 * any_vector(random);
     case 3:
       draft.tag("view:anywhere");
-      return any_place(random, 1);
+      return any_vector(random);
     default:
       draft.tag("view:inside");
       return near_the_middle(random, draft.rest());
@@ -247,7 +243,7 @@ std::vector<Point> path_of_view(Random& random, Draft& draft, const Point& q) {
     for (std::size_t f = 1; f < path.size(); ++f) path[f] = q + (mean(draft.frames[f]) - start);
     draft.tag("view:moving");
   } else if (kind == 2) {
-    for (std::size_t f = 1; f < path.size(); ++f) path[f] = path[f - 1] + any_place(random, 0.25);
+    for (std::size_t f = 1; f < path.size(); ++f) path[f] = path[f - 1] + 0.25 * any_vector(random);
     draft.tag("view:moving");
   }
   return path;

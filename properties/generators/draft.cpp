@@ -70,6 +70,14 @@ Draft joined(Draft a, const Draft& b) {
   return a;
 }
 
+double greatest_of(const corpus::Case& c) {
+  double greatest = 0;
+  for (const auto& frame : c.frames) {
+    if (frame.size() > 0) greatest = std::max(greatest, frame.cwiseAbs().maxCoeff());
+  }
+  return greatest;
+}
+
 GeneratedCase finished(Draft draft, std::string id) {
   GeneratedCase made;
   corpus::Case& c = made.c;

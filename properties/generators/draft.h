@@ -48,10 +48,21 @@ inline Point cross(const Point& a, const Point& b) {
 // 0 gives a, 1 gives b.
 inline Point between(const Point& a, const Point& b, double s) { return a + s * (b - a); }
 
+// Each coordinate in [-1, 1).
+inline Point any_vector(Random& random) {
+  return {random.signed_unit(), random.signed_unit(), random.signed_unit()};
+}
+
 inline Point mean(const Points& points) {
   Point sum = {0, 0, 0};
   for (const auto& p : points) sum = sum + p;
   return (1.0 / static_cast<double>(points.size())) * sum;
+}
+
+inline Point integer_point(Random& random, int reach) {
+  Point p;
+  for (double& c : p) c = random.between(-reach, reach);
+  return p;
 }
 
 using Face = std::array<std::int32_t, 3>;
@@ -104,12 +115,6 @@ inline Point& at(Points& x, std::int32_t v) { return x[static_cast<std::size_t>(
 
 inline bool has(const Face& f, std::int32_t v) { return f[0] == v || f[1] == v || f[2] == v; }
 
-// REQUIRES a non-empty list.
-template <class List>
-auto& any_of(Random& random, List& list) {
-  return list[at(random.below(static_cast<int>(std::size(list))))];
-}
-
 // Joins two drafts of one frame. The vertices of `b` follow those of `a`.
 Draft joined(Draft a, const Draft& b);
 
@@ -122,6 +127,9 @@ void drop_invalid_faces(Draft& draft);
 
 // Whether each edge (u,v) occurs as often as (v,u).
 bool is_cycle(const std::vector<Face>& faces);
+
+// The greatest magnitude of a coordinate in a frame of the case.
+double greatest_of(const corpus::Case& c);
 
 // Turns the draft into a case. Its tags are sorted, each once.
 GeneratedCase finished(Draft draft, std::string id);

@@ -91,9 +91,9 @@ EverydayNumbers::EverydayNumbers(Random& random) : size_(everyday_size(random)) 
   motion_ = static_cast<Motion>(random.below(3));
   constexpr double divisors[] = {3, 7, 11, 60}, time_steps[] = {1. / 24, 1. / 60, 0.01, 0.001};
   if (rounding_ == inches) multiplier_ = 0.0254;
-  if (rounding_ == quotient) divisor_ = any_of(random, divisors);
+  if (rounding_ == quotient) divisor_ = one_of(random, divisors);
   if (rounding_ == none) size_ /= 3;  // a whole number times a point of few bits is exact
-  time_step_ = any_of(random, time_steps);
+  time_step_ = one_of(random, time_steps);
   // A size has 100 to 10,000,000 grains.
   grain_ = 6;
   while (decimal(1, grain_) > size_) --grain_;
@@ -247,7 +247,7 @@ Draft faller(Random& random, bool closed, int size, std::vector<std::int32_t>& l
     open_up(random, d);
   } else if (!closed && size <= 3) {
     d = of({{0, 1, 2}}, {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}, "shape:triangle");
-    for (auto& p : d.rest()) p = {random.signed_unit(), random.signed_unit(), random.signed_unit()};
+    for (auto& p : d.rest()) p = any_vector(random);
   } else if (closed && random.one_in(4)) {
     d = box({-1, -1, -1}, {1, 1, 1});
   } else {

@@ -80,12 +80,12 @@ void move_freely(Random& random, Draft& draft, int steps, const Recipe& recipe) 
       draft.tag("motion:closing");
       continue;
     }
-    const Motion& motion = *any_of(random, chosen);
+    const Motion& motion = *one_of(random, chosen);
     const double amount = random.one_in(5) ? 1.0 : usual / std::sqrt(static_cast<double>(forward));
     motion.move(random, draft, x, amount);
     if (motion.level && !recipe.exact) roughen(random, x, amount);
     if (recipe.far && random.one_in(3)) {
-      const Point by = {random.signed_unit(), random.signed_unit(), random.signed_unit()};
+      const Point by = any_vector(random);
       for (auto& p : x) p = p + 64 * by;
       draft.tag("motion:large-step");
     }
@@ -218,7 +218,7 @@ constexpr Family counted_table[] = {
 
 GeneratedCase make_any(Random& random, std::string id) {
   const auto known = families();
-  return any_of(random, known).make(random, std::move(id));
+  return one_of(random, known).make(random, std::move(id));
 }
 
 constexpr Family question_table[] = {

@@ -32,9 +32,9 @@ void round_to_grid(Draft& draft, double scale, int bits) {
 
 void place_ulp_neighbours(Random& random, Draft& draft) {
   for (int changes = random.between(1, 6); changes > 0; --changes) {
-    Points& x = any_of(random, draft.frames);
-    const Point other = any_of(random, x);
-    Point& p = any_of(random, x);
+    Points& x = one_of(random, draft.frames);
+    const Point other = one_of(random, x);
+    Point& p = one_of(random, x);
     const auto k = at(random.below(3));
     // Mostly the coordinate stays near its own value. The value of another vertex moves the vertex
     // far.
@@ -96,7 +96,7 @@ void make_denormal(Random& random, Draft& draft) {
     });
   } else {
     for (int changes = random.between(1, 8); changes > 0; --changes) {
-      Point& p = any_of(random, any_of(random, draft.frames));
+      Point& p = one_of(random, one_of(random, draft.frames));
       p[at(random.below(3))] = std::ldexp(random.between(-3, 3), least_exponent) + 0.0;
     }
   }
@@ -121,7 +121,7 @@ Point beside(Random& random, const Points& x, const Face& f, int kind) {
 }
 
 void put_beside(Random& random, Draft& draft) {
-  const Face own = any_of(random, draft.faces), target = any_of(random, draft.faces);
+  const Face own = one_of(random, draft.faces), target = one_of(random, draft.faces);
   const std::int32_t v = own[at(random.below(3))];
   // If the target holds v, it becomes a sliver: v goes to the opposite edge.
   const bool sliver = target[0] == v || target[1] == v || target[2] == v;

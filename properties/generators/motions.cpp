@@ -20,10 +20,6 @@ void roughen(Random& random, Points& x, double amount) {
 
 namespace {
 
-Point any_vector(Random& random) {
-  return {random.signed_unit(), random.signed_unit(), random.signed_unit()};
-}
-
 void turn(Point& p, std::size_t axis, double turns) {
   double& a = p[(axis + 1) % 3];
   double& b = p[(axis + 2) % 3];
@@ -125,14 +121,14 @@ void flatten(Random& random, const Draft&, Points& x, double amount) {
 }
 
 void jump(Random& random, const Draft&, Points& x, double amount) {
-  Point& p = any_of(random, x);
+  Point& p = one_of(random, x);
   p = p + 2 * amount * any_vector(random);
 }
 
 // Moves a vertex, alone or with those beside it, through the middle of the mesh, or through a hole
 // if there is one.
 void poke(Random& random, const Draft& draft, Points& x, double amount) {
-  const Point from = any_of(random, x);
+  const Point from = one_of(random, x);
   const Point goal = draft.holes.empty() ? -0.75 * from
                                          : 1.5 * draft.holes[static_cast<std::size_t>(random.below(
                                                      static_cast<int>(draft.holes.size())))];
@@ -234,7 +230,7 @@ void turn_edge_on(const Face& f, double share, Points& x) {
 
 // Puts the view just below a face, in all frames.
 void view_from_below_surface(Random& random, Draft& draft) {
-  const Face f = any_of(random, draft.faces);
+  const Face f = one_of(random, draft.faces);
   const double depth = std::ldexp(1, -random.between(8, 12));
   for (std::size_t k = 0; k < draft.frames.size(); ++k) {
     const Points& x = draft.frames[k];
@@ -254,8 +250,7 @@ void move_positively(Random& random, Draft& draft, int steps) {
   for (int s = 0; s < steps; ++s) {
     Points x = draft.frames.back();
     breathe(random, drift.back(), x, amount / steps);
-    const Point by =
-        drifts ? Point{random.signed_unit(), random.signed_unit(), random.signed_unit()} : Point{};
+    const Point by = drifts ? any_vector(random) : Point{};
     for (auto& p : x) p = p + by;
     drift.push_back(drift.back() + by);
     draft.frames.push_back(std::move(x));
@@ -267,7 +262,7 @@ void move_positively(Random& random, Draft& draft, int steps) {
     return view_from_below_surface(random, draft);
   }
   // The change is made in every second frame, so that each step has it at one of its ends.
-  const Face face = any_of(random, draft.faces);
+  const Face face = one_of(random, draft.faces);
   const double share = std::ldexp(1, -random.between(8, 12));
   for (auto f = static_cast<std::size_t>(random.below(2)); f < draft.frames.size(); f += 2) {
     if (kind < 6) {

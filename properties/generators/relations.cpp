@@ -78,7 +78,7 @@ CountedPairs relation_without(LeftOut left_out, Random& random, const corpus::Ca
       const double nearer = std::ldexp(length, -random.between(0, 10));
       if (!std::isfinite(nearer)) break;
       pairs.rest_distance = nearer;
-      pairs.rest = corpus::points_of(any_of(random, c.frames));
+      pairs.rest = corpus::points_of(one_of(random, c.frames));
       break;
     }
     case LeftOut::single_pairs:

@@ -24,12 +24,6 @@ using corpus::sin_turn;
 
 // What they are made of, beside the sheets and grids of corpus/scenes/shapes.h.
 
-// Each coordinate between -most and most.
-Point any_point(Random& random, double most) {
-  const double x = random.signed_unit(), y = random.signed_unit(), z = random.signed_unit();
-  return {most * x, most * y, most * z};
-}
-
 // A tetrahedron whose corners are `size` from `middle` along each axis, before it is tilted.
 void add_tetrahedron(Draft& draft, const Point& middle, double size, const Point& tilt) {
   const Point corners[] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
@@ -50,7 +44,7 @@ void layered_cloth(Random& random, int triangles, Draft& draft, Points& end) {
   for (int layer = 0; layer < layers; ++layer) {
     const double phase = random.unit(), wave = 0.05 + 0.05 * random.unit(),
                  height = 0.8 + random.unit();
-    const Point slide = any_point(random, 1);
+    const Point slide = any_vector(random);
     const auto first = draft.vertices();
     add_sheet(draft, cells, cells, [&](int k, int i) {
       return Point{static_cast<double>(k), static_cast<double>(i), gap * layer};
@@ -58,7 +52,7 @@ void layered_cloth(Random& random, int triangles, Draft& draft, Points& end) {
     for (auto v = first; v < draft.vertices(); ++v) {
       Point x = at(draft.rest(), v);
       const double bulge = sin_turn(wave * x[0] + phase) * sin_turn(wave * x[1]);
-      const Point noise = any_point(random, 0.2);
+      const Point noise = 0.2 * any_vector(random);
       end.push_back(x + Point{slide[0], slide[1], height * bulge} + noise);
     }
   }
@@ -77,7 +71,7 @@ void crumpled_sheet(Random& random, int triangles, Draft& draft, Points& end) {
     return Point{gap * pleat, static_cast<double>(i), height};
   });
   for (const auto& x : draft.rest()) {
-    const Point noise = any_point(random, rough);
+    const Point noise = rough * any_vector(random);
     const double wave = sin_turn(0.03 * x[1] + 0.1 * x[2]);
     end.push_back(Point{press * x[0] + wave, x[1], 0.9 * x[2]} + noise);
   }
@@ -127,13 +121,13 @@ void bundle_of_tubes(Random& random, int triangles, Draft& draft, Points& end) {
   // Each tube comes nearer to the one beside it, and leans.
   const int of_tube = around * along + 2;
   std::vector<Point> leans;
-  for (int tube = 0; tube < tubes; ++tube) leans.push_back(any_point(random, 0.04));
+  for (int tube = 0; tube < tubes; ++tube) leans.push_back(0.04 * any_vector(random));
   for (std::size_t v = 0; v < draft.rest().size(); ++v) {
     const Point& x = draft.rest()[v];
     const int tube = static_cast<int>(v) / of_tube;
     const double shift = (1 - squeeze) * (tube % side % 2 == 0 ? 1 : -1);
     const Point& lean = leans[static_cast<std::size_t>(tube)];
-    const Point noise = any_point(random, 0.1);
+    const Point noise = 0.1 * any_vector(random);
     end.push_back(x + Point{2 * radius * shift + x[2] * lean[0], x[2] * (lean[1] + twist), 0} +
                   noise);
   }
@@ -147,12 +141,12 @@ void soup_of_bodies(Random& random, int triangles, Draft& draft, Points& end) {
   for (int body = 0; body < bodies; ++body) {
     const Point cell = grid.cell(body);
     const auto first = draft.vertices();
-    const Point aside = any_point(random, 0.1);
-    const Point tilt = any_point(random, 0.4);
+    const Point aside = 0.1 * any_vector(random);
+    const Point tilt = 0.4 * any_vector(random);
     add_tetrahedron(draft, cell + aside, size, tilt);
-    const Point by = any_point(random, way);
+    const Point by = way * any_vector(random);
     for (auto v = first; v < draft.vertices(); ++v) {
-      const Point noise = any_point(random, 0.1);
+      const Point noise = 0.1 * any_vector(random);
       end.push_back(at(draft.rest(), v) + by + noise);
     }
   }
@@ -199,7 +193,7 @@ void add_ground(Draft& draft, Points& end, Random& random, int triangles, double
     return Point{1. * k, 1. * i, height + 0.1 * sin_turn(0.07 * (k + i) + phase)};
   });
   for (auto v = first; v < draft.vertices(); ++v) {
-    const Point noise = any_point(random, 0.02);
+    const Point noise = 0.02 * any_vector(random);
     end.push_back(at(draft.rest(), v) + noise);
   }
 }
@@ -216,7 +210,7 @@ void contact_in_a_far_corner(Random& random, int triangles, Draft& draft, Points
   const double corner = draft.rest().back()[0];
   const auto first = draft.vertices();
   const double x = corner - 0.5 - random.unit(), y = corner - 0.5 - random.unit();
-  const Point tilt = any_point(random, 0.4);
+  const Point tilt = 0.4 * any_vector(random);
   add_tetrahedron(draft, {x, y, above}, size, tilt);
   move_all(draft, end, first, {0, 0, -above * (0.8 + 0.4 * random.unit())});
 }
@@ -230,10 +224,10 @@ void many_components(Random& random, int triangles, Draft& draft, Points& end) {
   for (int body = 0; body < bodies; ++body) {
     const Point cell = grid.cell(body);
     const auto first = draft.vertices();
-    const Point tilt = any_point(random, 0.4);
+    const Point tilt = 0.4 * any_vector(random);
     add_tetrahedron(draft, cell, size, tilt);
     const bool meets = body % every == every - 1;
-    const Point aside = any_point(random, 0.2);
+    const Point aside = 0.2 * any_vector(random);
     move_all(draft, end, first, aside + Point{meets ? -pitch : 0., 0, 0});
   }
 }
@@ -248,9 +242,9 @@ void bodies_to_one_point(Random& random, int triangles, Draft& draft, Points& en
     const Point lower = scale * Point{1, 1, 1}, upper = scale * Point{1, 1, 1.5};
     for (const bool falls : {false, true}) {
       const auto first = draft.vertices();
-      const Point tilt = any_point(random, 0.4);
+      const Point tilt = 0.4 * any_vector(random);
       add_tetrahedron(draft, falls ? upper : lower, 0.1 * scale, tilt);
-      const Point aside = any_point(random, 0.02);
+      const Point aside = 0.02 * any_vector(random);
       move_all(draft, end, first, scale * (aside + Point{0, 0, falls ? -0.4 : 0.}));
     }
   }

@@ -94,8 +94,7 @@ Observation closure_is_the_pair_set(CaseFacts& facts, std::size_t s) {
   if (!facts.is_judged(s) || !facts.is_trusted(s)) return not_met();
   const auto& ours = facts.result(s);
   const auto& theirs = facts.judgement(s).pairs;
-  const bool answered = ours.answer == Answer::free || ours.answer == Answer::collision;
-  if (!answered || facts.options().pairs != detector::Pairs::all) return not_met();
+  if (!is_answered(ours) || facts.options().pairs != detector::Pairs::all) return not_met();
   if (ours.pairs.empty() && theirs.empty()) return not_met();
   const auto [mine, other] =
       std::mismatch(ours.pairs.begin(), ours.pairs.end(), theirs.begin(), theirs.end(),
@@ -118,8 +117,7 @@ Observation claim_holds(CaseFacts& facts, std::size_t s) {
   const Claims claims = claims_of(facts.options());
   if (!claims.has(claim) || !facts.is_trusted(s)) return not_met();
   if (claim == Claim::total) {
-    return holds_if(result.answer == Answer::free || result.answer == Answer::collision,
-                    "no answer to a valid step");
+    return holds_if(is_answered(result), "no answer to a valid step");
   }
   const auto& judgement = facts.judgement(s);
   if (!judgement.complete || result.answer == Answer::error) return not_met();

@@ -2,7 +2,6 @@
 // (L17), and a step that is stopped.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "detector/assembly.h"

@@ -4,7 +4,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "properties/laws/facts/case_facts.h"
 #include "properties/laws/law.h"

@@ -21,9 +21,7 @@ using detector::Separation;
 // The query of another generator of elementary queries.
 Query motion_of(std::string_view generator, std::uint64_t seed, std::uint64_t index) {
   const auto all = query_generators();
-  const auto found = std::find_if(all.begin(), all.end(),
-                                  [&](const QueryGenerator& g) { return g.name == generator; });
-  return found->make(seed, index).query;
+  return std::ranges::find(all, generator, &QueryGenerator::name)->make(seed, index).query;
 }
 
 void scale(DistanceQuery& q, int exponent) {
@@ -33,12 +31,6 @@ void scale(DistanceQuery& q, int exponent) {
     }
   }
   for (double* d : {&q.distance.first, &q.distance.second}) *d = std::ldexp(*d, exponent);
-}
-
-Point integer_vector(Random& random, int reach) {
-  Point p;
-  for (double& c : p) c = random.between(-reach, reach);
-  return p;
 }
 
 Point sum(const Point& a, const Point& b, double share = 1) {
@@ -82,7 +74,7 @@ class Touch {
       : random_(random), across_(whole_vector(random)), time_(random.below(9) / 8.0) {
     query_.motion.first_group = index % 2 == 0 ? 1 : 2;
     query_.distance = {across_.length, 0};
-    const Point foot = integer_vector(random, 4), other = sum(foot, across_.w);
+    const Point foot = integer_point(random, 4), other = sum(foot, across_.w);
     // Parallel edges, or a face that has become a segment along them, lie along this.
     along_ = tangent();
     if (query_.motion.first_group == 1) {
@@ -99,7 +91,7 @@ class Touch {
 
   // Each point has a velocity of its own.
   DistanceQuery moving_freely(int reach) {
-    return moved([&](std::size_t) { return integer_vector(random_, reach); });
+    return moved([&](std::size_t) { return integer_point(random_, reach); });
   }
   // The groups go towards each other, and each point along the planes of the slab besides.
   DistanceQuery approaching() {
@@ -113,7 +105,7 @@ class Touch {
   // The distance does not change at the time of the touch, to first order. If `rigid`, each group
   // keeps its shape.
   DistanceQuery sliding(bool rigid) {
-    const Point drift = integer_vector(random_, 3);
+    const Point drift = integer_point(random_, 3);
     const std::array<Point, 2> own = {tangent(), tangent()};
     return moved([&](std::size_t i) {
       const bool is_first = query_.motion.in_first_group(static_cast<int>(i));
@@ -125,10 +117,10 @@ class Touch {
   }
 
  private:
-  Point tangent() { return cross(across_.w, integer_vector(random_, 2)); }
+  Point tangent() { return cross(across_.w, integer_point(random_, 2)); }
   // Not on the inner side of the plane at which it is; side 1 is that of the second feature.
   Point outward(double side) {
-    const Point p = integer_vector(random_, 6);
+    const Point p = integer_point(random_, 6);
     return sum({}, p, dot(p, across_.w) * side < 0 ? -1 : 1);
   }
 
@@ -227,15 +219,15 @@ DistanceQuery parallel_edges(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   DistanceQuery q;
   q.motion.first_group = 2;
-  const Point way = integer_vector(random, 3);
+  const Point way = integer_point(random, 3);
   for (std::size_t i = 0; i < 4; i += 2) {
     auto& a = q.motion.points[i];
     auto& b = q.motion.points[i + 1];
-    a = {integer_vector(random, 4), integer_vector(random, 4)};
+    a = {integer_point(random, 4), integer_point(random, 4)};
     b = {sum(a.t0, way, random.between(-2, 2)), sum(a.t1, way, random.between(-2, 2))};
   }
-  if (random.one_in(2)) q.motion.points[3].t1 = integer_vector(random, 4);
-  if (random.one_in(4)) q.motion.points[0].t0 = integer_vector(random, 4);
+  if (random.one_in(2)) q.motion.points[3].t1 = integer_point(random, 4);
+  if (random.one_in(4)) q.motion.points[0].t0 = integer_point(random, 4);
   q.distance = small_distance(random);
   return q;
 }

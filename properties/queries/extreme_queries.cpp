@@ -1,5 +1,4 @@
 #include <cmath>
-#include <limits>
 #include <span>
 
 #include "properties/queries/query_families.h"
@@ -15,11 +14,6 @@ constexpr int least_exponent = -1074, greatest_exponent = 1020;
 
 int any_exponent(Random& random) { return random.between(least_exponent, greatest_exponent); }
 
-// A number in [-1, 1) with 53 bits.
-double full_mantissa(Random& random) {
-  return std::ldexp(static_cast<double>(random.next() >> 11), -52) - 1;
-}
-
 // The source from which a query draws its coordinates.
 class ExtremeNumbers {
  public:
@@ -32,7 +26,7 @@ class ExtremeNumbers {
     switch (kind_) {
       case 0: {  // anything
         const int exponent = any_exponent(random_);
-        return std::ldexp(full_mantissa(random_), exponent);
+        return std::ldexp(random_.full_mantissa(), exponent);
       }
       case 1: {  // few mantissas
         const int exponent = any_exponent(random_);
@@ -56,7 +50,7 @@ class ExtremeNumbers {
       }
       default: {  // full mantissas of few scales
         const int exponent = scales_[random_.below(3)];
-        return std::ldexp(full_mantissa(random_), exponent);
+        return std::ldexp(random_.full_mantissa(), exponent);
       }
     }
   }
@@ -69,9 +63,7 @@ class ExtremeNumbers {
 
 // Makes points coincide, stay or move alike, or lie all in a plane or on a line.
 void degenerate(Random& random, std::span<MovingPoint> points) {
-  const auto any = [&]() -> MovingPoint& {
-    return points[static_cast<std::size_t>(random.below(static_cast<int>(points.size())))];
-  };
+  const auto any = [&]() -> MovingPoint& { return one_of(random, points); };
   if (random.one_in(4)) any() = any();
   if (random.one_in(4)) any().t0 = any().t0;
   if (random.one_in(4)) any().t1 = any().t1;

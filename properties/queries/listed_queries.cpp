@@ -131,12 +131,11 @@ std::span<const RungCase> rung_cases() {
 const char* name_of(Rung rung) { return word_of({"axis", "interval", "quadratic"}, rung); }
 namespace {
 
-using Path = std::array<int, 2>;
-using FourPaths = std::array<Path, 4>;
+using Paths = SmallWorld::Paths;
 
 // The least arrangement of the points of a query: they are sorted within each group, and the
 // lesser edge stands first.
-FourPaths sorted(FourPaths p, int first_group) {
+Paths sorted(Paths p, int first_group) {
   std::sort(p.begin() + first_group, p.end());
   if (first_group == 2) {
     if (p[1] < p[0]) std::swap(p[0], p[1]);
@@ -192,16 +191,16 @@ std::optional<SmallWorld::Arranged> SmallWorld::arranged_at(std::uint64_t place)
 // If one point moves, each arrangement of the other points is one place, so only these need to be
 // in order.
 bool SmallWorld::is_least_of_its_class(const Arranged& query) const {
-  const FourPaths& p = query.paths;
+  const Paths& p = query.paths;
   const bool corner_moves = p[1][0] != p[1][1];
   const bool in_order =
       query.mover_first
           ? (query.first_group == 1 ? corner_moves || p[1] <= p[2] : true) && p[2] <= p[3]
           : p == sorted(p, query.first_group);
   if (!in_order) return false;
-  const FourPaths own = sorted(p, query.first_group);
+  const Paths own = sorted(p, query.first_group);
   return std::all_of(symmetries_.begin(), symmetries_.end(), [&](const std::vector<int>& image) {
-    FourPaths other;
+    Paths other;
     for (std::size_t i = 0; i < 4; ++i) {
       for (std::size_t e = 0; e < 2; ++e) other[i][e] = image[static_cast<std::size_t>(p[i][e])];
     }

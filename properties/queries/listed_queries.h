@@ -46,9 +46,10 @@ class SmallWorld {
   // The query at a place, or nothing. Takes 10 ns to 2 us.
   std::optional<Query> at(std::uint64_t place) const;
 
- private:
   using Path = std::array<int, 2>;  // grid points at t=0 and t=1
   using Paths = std::array<Path, 4>;
+
+ private:
   struct Arranged {
     Paths paths;
     int first_group;

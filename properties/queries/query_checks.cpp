@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <exception>
-#include <span>
 #include <utility>
 
 namespace assay::properties {

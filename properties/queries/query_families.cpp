@@ -68,8 +68,7 @@ std::span<const Family> query_families() {
 const Family* find_family(std::string_view name) {
   for (const auto known :
        {families(), question_families(), size_families(), counted_families(), query_families()}) {
-    const auto found =
-        std::find_if(known.begin(), known.end(), [&](const Family& f) { return f.name == name; });
+    const auto found = std::ranges::find(known, name, &Family::name);
     if (found != known.end()) return &*found;
   }
   return nullptr;
@@ -77,7 +76,7 @@ const Family* find_family(std::string_view name) {
 
 bool is_query_family(std::string_view name) {
   const auto known = query_families();
-  return std::any_of(known.begin(), known.end(), [&](const Family& f) { return f.name == name; });
+  return std::ranges::find(known, name, &Family::name) != known.end();
 }
 
 bool is_dear_query_family(std::string_view name) {
@@ -112,17 +111,6 @@ double& any_coordinate(Random& random, Query& q) {
   MovingPoint& p = q.points[static_cast<std::size_t>(random.below(4))];
   Point& end = random.below(2) == 0 ? p.t0 : p.t1;
   return end[static_cast<std::size_t>(random.below(3))];
-}
-
-// A multiple of 2^-52 in [-1, 1).
-double unit(Random& random) {
-  return std::ldexp(static_cast<double>(random.next() >> 11), -52) - 1;
-}
-
-Point integer_point(Random& random, int reach) {
-  Point p;
-  for (double& c : p) c = random.between(-reach, reach);
-  return p;
 }
 
 // Makes planar and collinear worlds in any direction: it replaces p by its shadow in one.
@@ -289,7 +277,7 @@ GeneratedQuery exponents(std::uint64_t seed, std::uint64_t index) {
   Query q = empty_query(index);
   const bool small = random.below(2) == 0;
   for_each_coordinate(q, [&](double& c) {
-    const double mantissa = small ? random.between(-2, 2) : unit(random);
+    const double mantissa = small ? random.between(-2, 2) : random.full_mantissa();
     c = std::ldexp(mantissa, random.between(-1074, 1022));
   });
   if (random.below(3) == 0) q.points[3] = q.points[static_cast<std::size_t>(random.below(3))];
@@ -299,7 +287,7 @@ GeneratedQuery exponents(std::uint64_t seed, std::uint64_t index) {
 GeneratedQuery generic(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Query q = empty_query(index);
-  for_each_coordinate(q, [&](double& c) { c = unit(random); });
+  for_each_coordinate(q, [&](double& c) { c = random.full_mantissa(); });
   return {q, {}};
 }
 
@@ -311,15 +299,12 @@ GeneratedQuery everyday(std::uint64_t seed, std::uint64_t index) {
   Query q = empty_query(index);
   const auto first_group = static_cast<std::size_t>(q.first_group);
   const EverydayNumbers numbers(random);
-  const auto any_point = [&]() -> Point {
-    return {random.signed_unit(), random.signed_unit(), random.signed_unit()};
-  };
   const auto axis = static_cast<std::size_t>(random.below(3));
   const bool is_level = numbers.keeps_levels();
   std::array<double, 4> weights{};  // of the place of contact, in both groups
   std::array<Point, 4> landed;
   for (std::size_t i = 0; i < 4; ++i) {
-    landed[i] = any_point();
+    landed[i] = any_vector(random);
     if (is_level) landed[i][axis] = 0;
     weights[i] = random.one_in(5) ? 0 : random.between(1, 8);
   }
@@ -343,7 +328,7 @@ GeneratedQuery everyday(std::uint64_t seed, std::uint64_t index) {
 
   const bool is_generic = random.one_in(6), rests = random.one_in(2),
              is_straight = random.one_in(2);
-  Point down = any_point(), other = any_point();
+  Point down = any_vector(random), other = any_vector(random);
   if (is_straight) {
     down = {0, 0, 0};
     down[axis] = random.signed_unit();
@@ -352,7 +337,7 @@ GeneratedQuery everyday(std::uint64_t seed, std::uint64_t index) {
   std::array<Point, 4> end;
   for (std::size_t i = 0; i < 4; ++i) {
     Point way = i < first_group ? down : rests ? Point{0, 0, 0} : other;
-    if (is_generic) way = any_point();
+    if (is_generic) way = any_vector(random);
     q.points[i].t0 = numbers.place(landed[i] - way);
     end[i] = numbers.end(q.points[i].t0, way);
   }

@@ -12,7 +12,6 @@
 #include <limits>
 #include <mutex>
 #include <string_view>
-#include <thread>
 
 #include "detector/detector.h"
 #include "oracle/distance/feature_distance.h"
@@ -21,6 +20,7 @@
 #include "properties/queries/distance_queries.h"
 #include "properties/queries/listed_queries.h"
 #include "properties/random.h"
+#include "properties/threads.h"
 #include "properties/worlds/small_steps.h"
 
 namespace assay::properties {
@@ -29,66 +29,6 @@ namespace {
 
 constexpr std::uint64_t indices_at_once = 64;  // indices that a thread takes at once
 constexpr std::size_t failures_kept = 5;
-
-// The state that the threads of one family share.
-class Run {
- public:
-  Run(const SelfTestFamily& family, const SelfTestOptions& options,
-      const std::function<void(std::uint64_t)>& progress)
-      : family_(family),
-        options_(options),
-        progress_(progress),
-        end_(family.indices(options.queries)) {}
-
-  void work() {
-    while (!stopped_) {
-      const std::uint64_t begin = next_.fetch_add(indices_at_once);
-      if (begin >= end_) return;
-      FamilyResult found;
-      const std::uint64_t end = std::min(begin + indices_at_once, end_);
-      std::uint64_t index = begin;
-      for (; index < end && !stopped_; ++index) {
-        if (options_.stop && options_.stop()) {
-          stopped_ = true;
-          break;
-        }
-        auto wrong = family_.check(options_.seed, index, found.tally);
-        if (!wrong) continue;
-        found.failures.push_back({index, std::move(*wrong)});
-        stopped_ = stopped_ || options_.stop_at_contradiction;
-      }
-      merge(found, index - begin);
-    }
-  }
-
-  FamilyResult result() {
-    result_.complete = done_ == end_;
-    return std::move(result_);
-  }
-
- private:
-  void merge(FamilyResult& found, std::uint64_t done) {
-    const std::lock_guard lock(mutex_);
-    result_.tally += found.tally;
-    auto& kept = result_.failures;
-    std::move(found.failures.begin(), found.failures.end(), std::back_inserter(kept));
-    std::sort(kept.begin(), kept.end(),
-              [](const auto& a, const auto& b) { return a.index < b.index; });
-    if (kept.size() > failures_kept) kept.resize(failures_kept);
-    done_ += done;
-    if (progress_) progress_(done_);
-  }
-
-  const SelfTestFamily& family_;
-  const SelfTestOptions& options_;
-  const std::function<void(std::uint64_t)>& progress_;
-  const std::uint64_t end_;
-  std::atomic<std::uint64_t> next_ = 0;
-  std::atomic<bool> stopped_ = false;
-  std::mutex mutex_;
-  FamilyResult result_;
-  std::uint64_t done_ = 0;
-};
 
 std::optional<std::uint64_t> whole_number(std::string_view text) {
   std::uint64_t value = 0;
@@ -101,15 +41,46 @@ std::optional<std::uint64_t> whole_number(std::string_view text) {
 
 FamilyResult run_family(const SelfTestFamily& family, const SelfTestOptions& options,
                         const std::function<void(std::uint64_t)>& progress) {
-  const auto begin = std::chrono::steady_clock::now();
-  Run run(family, options, progress);
-  {
-    std::vector<std::jthread> others;
-    for (int i = 1; i < options.jobs; ++i) others.emplace_back([&run] { run.work(); });
-    run.work();
-  }
-  FamilyResult result = run.result();
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const auto start = std::chrono::steady_clock::now();
+  const std::uint64_t indices = family.indices(options.queries);
+  std::atomic<std::uint64_t> next = 0;
+  std::atomic<bool> stopped = false;
+  std::mutex mutex;
+  FamilyResult result;
+  std::uint64_t done = 0;
+  const auto merge = [&](FamilyResult& found, std::uint64_t count) {
+    const std::lock_guard lock(mutex);
+    result.tally += found.tally;
+    auto& kept = result.failures;
+    std::move(found.failures.begin(), found.failures.end(), std::back_inserter(kept));
+    std::sort(kept.begin(), kept.end(),
+              [](const auto& a, const auto& b) { return a.index < b.index; });
+    if (kept.size() > failures_kept) kept.resize(failures_kept);
+    done += count;
+    if (progress) progress(done);
+  };
+  in_threads(options.jobs, [&] {
+    while (!stopped) {
+      const std::uint64_t begin = next.fetch_add(indices_at_once);
+      if (begin >= indices) return;
+      FamilyResult found;
+      const std::uint64_t end = std::min(begin + indices_at_once, indices);
+      std::uint64_t index = begin;
+      for (; index < end && !stopped; ++index) {
+        if (options.stop && options.stop()) {
+          stopped = true;
+          break;
+        }
+        auto wrong = family.check(options.seed, index, found.tally);
+        if (!wrong) continue;
+        found.failures.push_back({index, std::move(*wrong)});
+        stopped = stopped || options.stop_at_contradiction;
+      }
+      merge(found, index - begin);
+    }
+  });
+  result.complete = done == indices;
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }
 
@@ -244,8 +215,6 @@ class StepFamily final : public SelfTestFamily {
     return "pairs or times of the oracle's step and the detector's differ";
   }
 
-  std::optional<GeneratedQuery> at(std::uint64_t, std::uint64_t) const override { return {}; }
-
   std::string text(std::uint64_t seed, std::uint64_t index) const override {
     const SmallStep step = make_(seed, index);
     const auto judged = oracle::judge_step({step.x_t0, step.x_t1}, step.triangles, {});
@@ -326,9 +295,6 @@ class DistanceFamilyCheck final : public SelfTestFamily {
     tally.contradictions += wrong ? 1 : 0;
     return wrong;
   }
-
-  // The queries of a plug-in are of contact.
-  std::optional<GeneratedQuery> at(std::uint64_t, std::uint64_t) const override { return {}; }
 
   std::string text(std::uint64_t seed, std::uint64_t index) const override {
     const DistanceQuery query = family_.make(seed, index);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "oracle/mesh/loops.h"
+#include "properties/generators/draft.h"
 #include "properties/reducer/case_edits.h"
 #include "properties/search/moves.h"
 #include "properties/worker/plugin/query_case.h"

@@ -198,12 +198,6 @@ double seen_alike(const corpus::Case& c, const Focus& focus) {
   return std::max(positive, negative);
 }
 
-double greatest_of(const corpus::Case& c) {
-  double greatest = 0;
-  for (const auto& frame : c.frames) greatest = std::max(greatest, frame.cwiseAbs().maxCoeff());
-  return greatest;
-}
-
 std::span<const Move> moves() {
   static const std::vector<Move> all = [] {
     std::vector<Move> list;

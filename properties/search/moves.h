@@ -112,13 +112,4 @@ void nest(Random& random, Candidate& made, const MoveContext& context);
 // corner, on an edge or inside; both are drawn from simple numbers.
 detector::FourPoints brought_together(Random& random, detector::FourPoints query);
 
-// The greatest magnitude of a coordinate.
-double greatest_of(const corpus::Case& c);
-
-// One item of a list that is not empty.
-template <class List>
-auto& one_of(Random& random, List& list) {
-  return list[static_cast<std::size_t>(random.below(static_cast<int>(std::size(list))))];
-}
-
 }  // namespace assay::properties

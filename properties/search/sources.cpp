@@ -1,5 +1,3 @@
-#include "properties/search/sources.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include "properties/generators/families.h"
 #include "properties/queries/query_families.h"
 #include "properties/search/degeneracy.h"
+#include "properties/search/search.h"
 #include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "detector/mesh/topology.h"
+#include "properties/generators/draft.h"
 #include "properties/search/degeneracy.h"
 #include "properties/search/moves.h"
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "properties/random.h"
+#include "properties/generators/draft.h"
 
 namespace assay::properties {
 namespace {
@@ -63,12 +63,6 @@ const std::vector<MeshFamily>& families() {
   return all;
 }
 
-detector::Point small_point(Random& random, int reach) {
-  detector::Point p;
-  for (double& c : p) c = random.between(-reach, reach);
-  return p;
-}
-
 // One of four motions: nothing moves, one vertex moves, all vertices translate, or every vertex
 // goes its own way.
 void move(Random& random, int reach, const detector::Positions& x_t0, detector::Positions& x_t1) {
@@ -77,13 +71,13 @@ void move(Random& random, int reach, const detector::Positions& x_t0, detector::
   const int kind = random.below(8);
   if (kind == 0) return;
   const auto jump = [&](int v) {
-    const auto p = small_point(random, reach);
+    const auto p = integer_point(random, reach);
     for (int k = 0; k < 3; ++k) x_t1(v, k) = p[static_cast<std::size_t>(k)];
   };
   if (kind <= 3) {
     jump(random.below(n));
   } else if (kind == 4) {
-    const auto offset = small_point(random, 2);
+    const auto offset = integer_point(random, 2);
     for (int v = 0; v < n; ++v) {
       for (int k = 0; k < 3; ++k) x_t1(v, k) += offset[static_cast<std::size_t>(k)];
     }
@@ -96,8 +90,7 @@ void move(Random& random, int reach, const detector::Positions& x_t0, detector::
 
 SmallStep make_small_step(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
-  const MeshFamily& family =
-      families()[static_cast<std::size_t>(random.below(static_cast<int>(families().size())))];
+  const MeshFamily& family = one_of(random, families());
   SmallStep step;
   step.family = family.name;
   step.triangles.resize(static_cast<Eigen::Index>(family.faces.size()), 3);
@@ -114,7 +107,7 @@ SmallStep make_small_step(std::uint64_t seed, std::uint64_t index) {
   const bool flat = random.below(6) == 0;
   step.x_t0.resize(family.vertices, 3);
   for (int v = 0; v < family.vertices; ++v) {
-    const auto p = small_point(random, reach);
+    const auto p = integer_point(random, reach);
     for (int k = 0; k < 3; ++k) step.x_t0(v, k) = p[static_cast<std::size_t>(k)];
   }
   move(random, reach, step.x_t0, step.x_t1);
@@ -122,13 +115,13 @@ SmallStep make_small_step(std::uint64_t seed, std::uint64_t index) {
     step.x_t0.col(2).setZero();
     step.x_t1.col(2).setZero();
   }
-  const auto q = small_point(random, reach);
-  step.point.q0 = step.point.q1 = {q, random.below(2) ? q : small_point(random, reach)};
-  const auto q0 = small_point(random, reach), q1 = small_point(random, reach);
+  const auto q = integer_point(random, reach);
+  step.point.q0 = step.point.q1 = {q, random.below(2) ? q : integer_point(random, reach)};
+  const auto q0 = integer_point(random, reach), q1 = integer_point(random, reach);
   const int line_motion = random.below(3);
   step.line.q0 = {q0, q0};
-  step.line.q1 = {q1, line_motion == 0 ? q1 : small_point(random, reach)};
-  if (line_motion == 2) step.line.q0.t1 = small_point(random, reach);
+  step.line.q1 = {q1, line_motion == 0 ? q1 : integer_point(random, reach)};
+  if (line_motion == 2) step.line.q0.t1 = integer_point(random, reach);
   return step;
 }
 

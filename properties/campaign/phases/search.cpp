@@ -1,3 +1,5 @@
+#include "properties/search/search.h"
+
 #include <fmt/format.h>
 
 #include <mutex>
@@ -8,7 +10,6 @@
 #include "properties/campaign/phases/phases.h"
 #include "properties/campaign/trials/planned_case.h"
 #include "properties/campaign/trials/trials.h"
-#include "properties/search/sources.h"
 #include "properties/threads.h"
 
 namespace assay::properties {

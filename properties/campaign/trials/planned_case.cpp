@@ -23,14 +23,6 @@ namespace assay::properties {
 
 namespace {
 
-double largest_of(const corpus::Case& c) {
-  double largest = 0;
-  for (const auto& frame : c.frames) {
-    if (frame.size() > 0) largest = std::max(largest, frame.cwiseAbs().maxCoeff());
-  }
-  return largest;
-}
-
 double shortest_edge_of(const corpus::Case& c) {
   double shortest = std::numeric_limits<double>::infinity();
   for (const auto& edge : edges_of(c)) {
@@ -44,7 +36,7 @@ double shortest_edge_of(const corpus::Case& c) {
 
 // By which power of two the case comes into the range, or as near to it as it does.
 int exponent_into_range(const corpus::Case& c, const Contract& contract) {
-  const double largest = largest_of(c);
+  const double largest = greatest_of(c);
   if (largest == 0) return 0;
   int most = std::ilogb(contract.largest) - std::ilogb(largest);
   if (std::ldexp(largest, most) > contract.largest) --most;
@@ -89,7 +81,7 @@ bool fits(double largest, const Contract& contract) {
 
 // The power of two by which the case is scaled.
 int exponent_within(const corpus::Case& c, const Contract& contract) {
-  const double largest = largest_of(c), extent = unit_of(c);
+  const double largest = greatest_of(c), extent = unit_of(c);
   const int into_range = contract.has_range() ? exponent_into_range(c, contract) : 0;
   if (contract.separation > 0 && extent > 0) {
     // Twice to 512 times as large as the separation: then some of its parts are nearer than that.

@@ -270,7 +270,7 @@ Draft simple_shape(Random& random, int size) {
     // only.
     if (shape.least <= size && (size <= 12 || shape.least > 4)) fitting.push_back(&shape);
   }
-  const Shape& shape = *any_of(random, fitting);
+  const Shape& shape = *one_of(random, fitting);
   Draft d = shape.make(random, size);
   vary(random, d);
   d.tag(std::string("shape:") + shape.name);

@@ -12,7 +12,7 @@ using corpus::sin_turn;
 
 // Cuts away all triangles around a vertex, or one triangle. At least one triangle stays.
 void cut_hole(Random& random, Draft& d) {
-  const Face face = any_of(random, d.faces);
+  const Face face = one_of(random, d.faces);
   const std::int32_t v = face[0];
   const auto around =
       std::count_if(d.faces.begin(), d.faces.end(), [v](const Face& f) { return has(f, v); });
@@ -118,7 +118,7 @@ Draft open_ring(Random& random, int size) {
   const double ramp = random.one_in(2) ? 0 : 0.25 * random.signed_unit();
   const double gap = random.one_in(3) ? 0.5 : 0.25 * (0.125 + random.unit());
   constexpr std::array over = {0.0, 0.0, 0x1p-30, -0x1p-30, 0x1p-8, -0x1p-8, 0x1p-4};
-  const double closed = 1 + any_of(random, over);
+  const double closed = 1 + one_of(random, over);
   // A rolled sheet keeps the length of its columns.
   const auto place = [=](int i, int j, double turns) -> Point {
     const double share = 2.0 * j / along - 1, turn = turns * share / 2;
@@ -139,7 +139,7 @@ Draft open_ring(Random& random, int size) {
 // Two holes of one triangle each that meet at a vertex only. The loop passes that vertex twice.
 Draft loop_twice_through_a_vertex(Random& random, int size) {
   Draft d = star_shape(random, std::max(size, 8));
-  const Face first = any_of(random, d.faces);
+  const Face first = one_of(random, d.faces);
   const std::int32_t v = first[0];
   for (const auto& f : d.faces) {
     const auto shared = std::count_if(f.begin(), f.end(), [&](auto w) { return has(first, w); });
@@ -169,7 +169,7 @@ Draft open_shape(Random& random, int size) {
   constexpr Draft (*shapes[])(Random&, int) = {
       sheet,           open_ring,       tube,     spiral,  loop_twice_through_a_vertex,
       open_star_shape, open_star_shape, cut_open, cut_open};
-  return any_of(random, shapes)(random, size);
+  return one_of(random, shapes)(random, size);
 }
 
 namespace {
@@ -184,14 +184,14 @@ void lose_faces(Random& random, Draft& d) {
 
 void turn_faces(Random& random, Draft& d) {
   for (int n = random.between(1, 3); n > 0; --n) {
-    Face& f = any_of(random, d.faces);
+    Face& f = one_of(random, d.faces);
     std::swap(f[1], f[2]);
   }
 }
 
 // Puts three to six triangles at one edge, fanned outward.
 void add_leaves(Random& random, Draft& d) {
-  const Face f = any_of(random, d.faces);
+  const Face f = one_of(random, d.faces);
   for (int n = random.between(1, 4); n > 0; --n) {
     const double away = random.between(5, 8) / 4.0, along = random.between(0, 4) / 4.0;
     const Point aside = {random.signed_unit() / 4, random.signed_unit() / 4, 0};
@@ -208,7 +208,7 @@ void add_leaves(Random& random, Draft& d) {
 // Adds triangles that have no area at the start. Their third corner is the middle of the other
 // two, or one of them once more.
 void add_zero_area(Random& random, Draft& d) {
-  const Face f = any_of(random, d.faces);
+  const Face f = one_of(random, d.faces);
   const Point &a = at(d.rest(), f[0]), &b = at(d.rest(), f[1]);
   const auto third = d.vertex(between(a, b, random.one_in(2) ? 0.5 : random.between(0, 6) / 2.0));
   d.faces.push_back({f[0], f[1], third});
@@ -217,7 +217,7 @@ void add_zero_area(Random& random, Draft& d) {
 // Some triangles around a vertex take a copy of it. This makes a seam, which opens when the copies
 // part.
 void open_seam(Random& random, Draft& d) {
-  const std::int32_t v = any_of(random, d.faces)[0];
+  const std::int32_t v = one_of(random, d.faces)[0];
   const auto copy = d.vertex(at(d.rest(), v));
   for (auto& f : d.faces) {
     for (auto& w : f) {
@@ -232,7 +232,7 @@ void double_a_vertex(Random& random, Draft& d) {
 
 void add_unused_vertices(Random& random, Draft& d) {
   for (int n = random.between(1, 3); n > 0; --n) {
-    d.vertex({random.signed_unit(), random.signed_unit(), random.signed_unit()});
+    d.vertex(any_vector(random));
   }
 }
 
@@ -262,7 +262,7 @@ constexpr Damage damages[] = {
 Draft broken_shape(Random& random, int size) {
   Draft d = random.one_in(3) ? open_shape(random, size) : closed_shape(random, size);
   for (int n = random.between(1, 3); n > 0; --n) {
-    const Damage& damage = any_of(random, damages);
+    const Damage& damage = one_of(random, damages);
     damage.apply(random, d);
     d.tag(std::string("broken:") + damage.name);
     // Invalid faces are dropped at once, because a later damage may cut away all faces but one,

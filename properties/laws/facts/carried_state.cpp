@@ -32,6 +32,25 @@ bool is_positive_at_start(CaseFacts& facts, std::size_t s, std::size_t component
   });
 }
 
+// Which triangles of `in_question` are untouched, and in the layer of the triangles of their
+// component that are not in doubt, or else in the common layer.
+TriangleFlags clean_beside(CaseFacts& facts, std::size_t s, const TriangleFlags& in_question,
+                           const TriangleFlags& in_doubt) {
+  const auto& layers = facts.layers_at_start(s);
+  OptionalLayers wanted(facts.surface().mesh.components.size());
+  for (std::size_t t = 0; t < in_doubt.size(); ++t) {
+    auto& layer = wanted[component_of(facts, t)];
+    if (!layer && !in_doubt[t]) layer = layers.layer[t];
+  }
+  TriangleFlags clean(in_doubt.size(), 0);
+  for (std::size_t t = 0; t < in_doubt.size(); ++t) {
+    if (!in_question[t] || layers.touched[t]) continue;
+    const auto& layer = wanted[component_of(facts, t)];
+    clean[t] = layer ? layer == layers.layer[t] : layers.clean[t] != 0;
+  }
+  return clean;
+}
+
 }  // namespace
 
 bool is_free_by_view_at_start(CaseFacts& facts, std::size_t s, std::size_t component) {
@@ -52,20 +71,9 @@ std::string what_is_not_clean(const CaseFacts& facts, const oracle::LayerState& 
 }
 
 TriangleFlags may_be_clean(CaseFacts& facts, std::size_t s, const TriangleFlags& in_question) {
-  const auto& layers = facts.layers_at_start(s);
-  const auto dirty = dirty_triangles(facts, s);
-  OptionalLayers wanted(facts.surface().mesh.components.size());
-  for (std::size_t t = 0; t < dirty.size(); ++t) {
-    auto& layer = wanted[component_of(facts, t)];
-    if (!layer && !dirty[t] && !in_question[t] && !layers.touched[t]) layer = layers.layer[t];
-  }
-  TriangleFlags clean(dirty.size(), 0);
-  for (std::size_t t = 0; t < dirty.size(); ++t) {
-    if (!in_question[t] || layers.touched[t]) continue;
-    const auto& layer = wanted[component_of(facts, t)];
-    clean[t] = layer ? layer == layers.layer[t] : layers.clean[t] != 0;
-  }
-  return clean;
+  TriangleFlags in_doubt = dirty_triangles(facts, s);
+  for (std::size_t t = 0; t < in_doubt.size(); ++t) in_doubt[t] |= in_question[t];
+  return clean_beside(facts, s, in_question, in_doubt);
 }
 
 bool has_account(CaseFacts& facts, std::size_t s) {
@@ -106,30 +114,16 @@ TriangleFlags dirty_at_a_new_start(CaseFacts& facts, std::size_t s) {
 }
 
 TriangleFlags account_of_dirty(CaseFacts& facts, std::size_t s) {
-  const std::size_t count = facts.surface().mesh.triangles.size();
-  TriangleFlags dirty(count, 0);
   const auto p = facts.known_from(s);
   if (!facts.has_views(s)) {
     if (p) return in_doubt_after(facts, *p);
-    return TriangleFlags(count, facts.options().start != detector::Start::clean);
+    return TriangleFlags(facts.surface().mesh.triangles.size(),
+                         facts.options().start != detector::Start::clean);
   }
-  if (!p) {
-    return dirty_at_a_new_start(facts, s);
-  }
-  const TriangleFlags in_doubt = in_doubt_after(facts, *p);
-  const auto& layers = facts.layers_at_start(s);
-  OptionalLayers common(facts.surface().mesh.components.size());
-  for (std::size_t t = 0; t < count; ++t) {
-    auto& layer = common[component_of(facts, t)];
-    if (!layer && !in_doubt[t]) layer = layers.layer[t];
-  }
-  for (std::size_t t = 0; t < count; ++t) {
-    if (!in_doubt[t]) continue;
-    const auto& layer = common[component_of(facts, t)];
-    const bool released =
-        !layers.touched[t] && (layer ? layer == layers.layer[t] : layers.clean[t] != 0);
-    dirty[t] = !released;
-  }
+  if (!p) return dirty_at_a_new_start(facts, s);
+  TriangleFlags dirty = in_doubt_after(facts, *p);
+  const auto released = clean_beside(facts, s, dirty, dirty);
+  for (std::size_t t = 0; t < dirty.size(); ++t) dirty[t] = dirty[t] && !released[t];
   return dirty;
 }
 

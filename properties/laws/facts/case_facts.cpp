@@ -58,9 +58,7 @@ CaseFacts::CaseFacts(const corpus::Case& source, const detector::Options& option
   for (std::size_t s = 0; s < script_.size(); ++s) {
     const bool known = committed && same_places(x_t1(*committed), x_t0(s));
     known_from_.push_back(known ? committed : std::nullopt);
-    const auto answer = results_[s].answer;
-    const bool answered = answer == detector::Answer::free || answer == detector::Answer::collision;
-    if (script_[s].commit && answered) committed = s;
+    if (script_[s].commit && is_answered(results_[s])) committed = s;
   }
   const auto own = surface_.mesh.triangles.size();
   std::vector<std::int32_t> ghosts;
@@ -75,8 +73,7 @@ CaseFacts::~CaseFacts() = default;
 
 bool CaseFacts::has_views(std::size_t s) const {
   const auto& r = results_[s];
-  return (r.answer == detector::Answer::free || r.answer == detector::Answer::collision) &&
-         r.signs.size() == surface_.all().triangles.size() &&
+  return is_answered(r) && r.signs.size() == surface_.all().triangles.size() &&
          r.doubts.size() == surface_.mesh.triangles.size() &&
          r.primitives.size() == surface_.mesh.components.size() &&
          r.apexes.size() == surface_.loops.size();

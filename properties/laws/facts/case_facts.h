@@ -61,6 +61,7 @@ class TraditionalScheme {
   std::set<detector::TrianglePair> candidates(const detector::SteppedMesh& motion);
 
  private:
+  class PatchFinder;
   TraditionalScheme(std::shared_ptr<const detector::NormalConeSearch> search,
                     const detector::Topology& mesh, const detector::PositionsView& x);
 
@@ -70,6 +71,10 @@ class TraditionalScheme {
   std::unique_ptr<detector::ContourMaker> maker_;
   detector::PatchContours contours_;
 };
+
+inline bool is_answered(const detector::StepResult& result) {
+  return result.answer == detector::Answer::free || result.answer == detector::Answer::collision;
+}
 
 // How a law makes a detector of its own, to run a changed case. Empty if the results come from a
 // detector that cannot be made here (a plug-in); the premises of laws that need one are then not

@@ -10,7 +10,6 @@ using detector::BoundingVolumeTree;
 using detector::Contour;
 using detector::DirectionSet;
 using detector::NormalConeSearch;
-using detector::PatchContours;
 using detector::PositionsView;
 using detector::SteppedMesh;
 using detector::Topology;
@@ -20,18 +19,18 @@ namespace {
 
 using MovingTriangle = std::array<detector::MovingPoint, 3>;
 
-class PatchFinder {
+}  // namespace
+
+class TraditionalScheme::PatchFinder {
  public:
-  PatchFinder(const NormalConeSearch& search, const Topology& mesh, const BoundingVolumeTree& tree,
-              const PatchContours& contours, const SteppedMesh& motion)
-      : search_(search),
-        mesh_(mesh),
-        tree_(tree),
-        contours_(contours),
+  PatchFinder(const TraditionalScheme& scheme, const SteppedMesh& motion)
+      : scheme_(scheme),
+        mesh_(scheme.mesh_),
+        tree_(scheme.tree_),
         motion_(motion),
         moving_(motion_),
-        cones_(tree.node_count()) {
-    found_.patch_of.assign(mesh.triangles.size(), CertifiedPatches::none);
+        cones_(tree_.node_count()) {
+    found_.patch_of.assign(mesh_.triangles.size(), CertifiedPatches::none);
   }
 
   CertifiedPatches run() {
@@ -56,8 +55,9 @@ class PatchFinder {
   void merge_cones() {
     for (auto node = static_cast<std::int32_t>(cones_.size()); node-- > 0;) {
       const auto child = tree_.child(node);
-      cones_[at(node)] = tree_.is_leaf(node) ? search_.faced(triangle(tree_.triangle(node)))
-                                             : cones_[at(child)] & cones_[at(child + 1)];
+      cones_[at(node)] = tree_.is_leaf(node)
+                             ? scheme_.search_->faced(triangle(tree_.triangle(node)))
+                             : cones_[at(child)] & cones_[at(child + 1)];
     }
   }
 
@@ -65,12 +65,12 @@ class PatchFinder {
   std::optional<int> certified(DirectionSet cone, Contour contour) {
     if (cone == 0 || contour.empty()) return std::nullopt;
     const int bit = detector::nearest_direction(cone, moving_.area(contour));
-    if (!search_.stays_simple(moving_, contour, bit)) return std::nullopt;
+    if (!scheme_.search_->stays_simple(moving_, contour, bit)) return std::nullopt;
     return bit;
   }
 
   void look_at(std::int32_t node) {
-    if (const auto bit = certified(cones_[at(node)], contours_.of(node))) {
+    if (const auto bit = certified(cones_[at(node)], scheme_.contours_.of(node))) {
       const auto patch = static_cast<std::int32_t>(patches_.size());
       patches_.push_back({node, {}});
       auto& triangles = patches_.back().triangles;
@@ -116,8 +116,9 @@ class PatchFinder {
     detector::ContourUnion contour_union(mesh_.vertex_triangles.starts.size());
     for (const auto& [i, j] : neighbours) {
       const Patch &a = patches_[at(i)], &b = patches_[at(j)];
-      const auto bit = certified(cones_[at(a.node)] & cones_[at(b.node)],
-                                 contour_union.join(contours_.of(a.node), contours_.of(b.node)));
+      const auto bit =
+          certified(cones_[at(a.node)] & cones_[at(b.node)],
+                    contour_union.join(scheme_.contours_.of(a.node), scheme_.contours_.of(b.node)));
       if (!bit) continue;
       found_.unions.insert({i, j});
       found_.largest = std::max(found_.largest, a.triangles.size() + b.triangles.size());
@@ -126,18 +127,15 @@ class PatchFinder {
     }
   }
 
-  const NormalConeSearch& search_;
+  const TraditionalScheme& scheme_;
   const Topology& mesh_;
   const BoundingVolumeTree& tree_;
-  const PatchContours& contours_;
   const SteppedMesh& motion_;
   detector::MovingContour moving_;
   std::vector<DirectionSet> cones_;  // by node
   std::vector<Patch> patches_;
   CertifiedPatches found_;
 };
-
-}  // namespace
 
 bool CertifiedPatches::hold(const TrianglePair& pair) const {
   const auto a = patch_of[at(pair.a)], b = patch_of[at(pair.b)];
@@ -162,7 +160,7 @@ TraditionalScheme::TraditionalScheme(std::shared_ptr<const NormalConeSearch> sea
       contours_(mesh, tree_, *maker_) {}
 
 CertifiedPatches TraditionalScheme::certify(const SteppedMesh& motion) const {
-  return PatchFinder(*search_, mesh_, tree_, contours_, motion).run();
+  return PatchFinder(*this, motion).run();
 }
 
 std::set<TrianglePair> TraditionalScheme::candidates(const SteppedMesh& motion) {

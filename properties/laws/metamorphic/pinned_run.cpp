@@ -157,9 +157,7 @@ StepResult PinnedPlayer::evaluate(std::size_t step, const detector::PositionsVie
 }
 
 void PinnedPlayer::commit(std::size_t step, const StepResult& result) {
-  const bool answered =
-      result.answer == detector::Answer::free || result.answer == detector::Answer::collision;
-  if (run_->script[step].commit && answered) detector_->commit();
+  if (run_->script[step].commit && is_answered(result)) detector_->commit();
 }
 
 std::vector<StepResult> PinnedPlayer::play() {

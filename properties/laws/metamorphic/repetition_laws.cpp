@@ -146,9 +146,7 @@ void check_row_stride(CaseFacts& facts, LawTally& tally) {
     const WideRows x_t0(facts.x_t0(s)), x_t1(facts.x_t1(s));
     const StepResult result =
         made.value().evaluate(x_t0.rows.leftCols<3>(), x_t1.rows.leftCols<3>(), given);
-    const bool is_answered =
-        result.answer == detector::Answer::free || result.answer == detector::Answer::collision;
-    if (facts.script(s).commit && is_answered) made.value().commit();
+    if (facts.script(s).commit && is_answered(result)) made.value().commit();
     const std::string differing = difference(facts.result(s), result);
     note(facts, s, differing.empty() ? holds() : differing + " differs", tally);
   }

@@ -7,7 +7,7 @@
 
 #include "properties/queries/query_families.h"
 #include "properties/search/moves.h"
-#include "properties/search/sources.h"
+#include "properties/search/search.h"
 
 namespace assay::properties {
 namespace {

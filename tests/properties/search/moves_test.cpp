@@ -8,7 +8,7 @@
 #include "oracle/mesh/loops.h"
 #include "properties/queries/query_families.h"
 #include "properties/reducer/case_edits.h"
-#include "properties/search/sources.h"
+#include "properties/search/search.h"
 #include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {

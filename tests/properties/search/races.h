@@ -13,7 +13,7 @@
 #include "properties/generators/families.h"
 #include "properties/judging/fault_run.h"
 #include "properties/judging/subject.h"
-#include "properties/search/sources.h"
+#include "properties/search/search.h"
 #include "properties/worker/plugin/plugin_host.h"
 
 namespace assay::properties::test {

@@ -4,7 +4,6 @@
 #include <set>
 
 #include "properties/search/search.h"
-#include "properties/search/sources.h"
 
 namespace assay::properties {
 namespace {
