@@ -213,8 +213,8 @@ namespace {
 
 // Whether options of a run and the detector's parts make the plan of the named one: options limit a
 // case; a plug-in is not asked what the built-in detector is, and no relations where it takes none;
-// its query is judged beside the steps, or alone. Their times may differ: a campaign that was stopped
-// by --time keeps its name.
+// its query is judged beside the steps, or alone. Their times may differ: a campaign that was
+// stopped by --time keeps its name.
 bool is_made_of(CampaignPlan plan, const CampaignPlan& named) {
   plan.seconds = 0;
   plan.case_seconds = named.case_seconds;
