@@ -52,6 +52,13 @@ class JsonWriter : public NamedFields<JsonWriter<Json, zeros>> {
     }
     put(object_[std::string(name)], item);
   }
+  // An object that is there as a whole, or left out if it says nothing.
+  template <class T>
+  void may(const char* name, T& item) {
+    if (item == T{}) return;
+    JsonWriter<Json, Zeros::stay> whole(object_[name]);
+    fields(whole, item);
+  }
 
  private:
   template <class T>
@@ -93,6 +100,13 @@ class JsonReader : public NamedFields<JsonReader<Json, zeros>> {
   void field(std::string_view name, T& item) {
     const std::string key(name);
     if (zeros == Zeros::stay || object_.contains(key)) get(object_.at(key), item);
+  }
+  template <class T>
+  void may(const char* name, T& item) {
+    item = {};
+    if (!object_.contains(name)) return;
+    JsonReader<Json, Zeros::stay> whole(object_.at(name));
+    fields(whole, item);
   }
 
  private:

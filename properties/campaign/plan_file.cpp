@@ -40,7 +40,7 @@ struct Bytes {
 };
 
 // The fields of a plan and of its parts, each named here and nowhere else. An archive reads those
-// that `must` be there and those that `may`, or writes all of them, or lists their names.
+// that `must` be there and those that `may`, or writes all of them.
 template <class Archive>
 void fields(Archive& archive, StratumPlan& stratum) {
   archive.must("family", stratum.family);
@@ -74,16 +74,38 @@ void fields(Archive& archive, CampaignPlan& plan) {
   archive.may("policy", plan.policy);
 }
 
-struct NameList {
-  std::vector<std::string> names;
-  template <class... Ignored>
-  void must(const char* name, const Ignored&...) {
-    names.emplace_back(name);
+class PlanWriter {
+ public:
+  template <class T, class... Rules>
+  void must(const char* name, const T& x, const Rules&...) {
+    write(json[name], x);
   }
-  template <class... Ignored>
-  void may(const char* name, const Ignored&...) {
-    names.emplace_back(name);
+  template <class T, class... Rules>
+  void may(const char* name, const T& x, const Rules&...) {
+    write(json[name], x);
   }
+  template <class T>
+  static Json written(T x) {
+    PlanWriter writer;
+    fields(writer, x);
+    return writer.json;
+  }
+
+ private:
+  static void write(Json& out, const auto& x) { out = x; }
+  static void write(Json& out, const Seconds& x) { out = x.value > 0 ? Json(x.value) : Json(); }
+  static void write(Json& out, const Bytes& x) { out = x.value; }
+  static void write(Json& out, const Policy& policy) { out = written(policy); }
+  static void write(Json& out, const std::vector<StratumPlan>& strata) {
+    out = Json::array();
+    for (const StratumPlan& stratum : strata) out.push_back(written(stratum));
+  }
+  static void write(Json& out, const std::vector<SpeedLimit>& limits) {
+    out = Json::object();
+    for (const auto& [figure, limit] : limits) out[figure] = limit;
+  }
+
+  Json json;
 };
 
 class PlanReader : public corpus::JsonReader<PlanReader> {
@@ -91,15 +113,13 @@ class PlanReader : public corpus::JsonReader<PlanReader> {
   using JsonReader::JsonReader, JsonReader::read;
 
   // Reads all fields of an object. An unknown key is refused, because a misspelt limit must not
-  // pass for a limit that was not stated; `also` are known ones that are not read here.
+  // pass for a limit that was not stated; `known` has those that are not read here.
   template <class T>
-  static void read_all(const JsonField& object, T& x, std::vector<std::string> also = {}) {
+  static void read_all(const JsonField& object, T& x, Json known = Json::object()) {
     if (!object.json().is_object()) throw Refused{object.problem("an object expected")};
-    NameList known{std::move(also)};
-    fields(known, x);
+    known.update(PlanWriter::written(x));
     for (const auto& [key, value] : object.json().items()) {
-      if (std::find(known.names.begin(), known.names.end(), key) == known.names.end())
-        throw Refused{object.problem("no field '" + key + "' is known")};
+      if (!known.contains(key)) throw Refused{object.problem("no field '" + key + "' is known")};
     }
     PlanReader reader(object);
     fields(reader, x);
@@ -148,39 +168,6 @@ class PlanReader : public corpus::JsonReader<PlanReader> {
   }
 };
 
-class PlanWriter {
- public:
-  template <class T, class... Rules>
-  void must(const char* name, const T& x, const Rules&...) {
-    write(json[name], x);
-  }
-  template <class T, class... Rules>
-  void may(const char* name, const T& x, const Rules&...) {
-    write(json[name], x);
-  }
-  Json json;
-
- private:
-  static void write(Json& out, const auto& x) { out = x; }
-  static void write(Json& out, const Seconds& x) { out = x.value > 0 ? Json(x.value) : Json(); }
-  static void write(Json& out, const Bytes& x) { out = x.value; }
-  static void write(Json& out, const Policy& policy) { out = written(policy); }
-  static void write(Json& out, const std::vector<StratumPlan>& strata) {
-    out = Json::array();
-    for (const StratumPlan& stratum : strata) out.push_back(written(stratum));
-  }
-  static void write(Json& out, const std::vector<SpeedLimit>& limits) {
-    out = Json::object();
-    for (const auto& [figure, limit] : limits) out[figure] = limit;
-  }
-  template <class T>
-  static Json written(T x) {
-    PlanWriter writer;
-    fields(writer, x);
-    return writer.json;
-  }
-};
-
 // Returns what is wrong with the plan as a whole, if anything is.
 std::optional<corpus::Problem> fault_of(const JsonField& top, const CampaignPlan& plan) {
   const auto name_letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
@@ -209,7 +196,7 @@ corpus::Expected<CampaignPlan> parse_plan(const std::string& text,
   const auto schema_field = corpus::want(top.at("schema"));
   if (schema_field.json() != schema) return schema_field.problem(std::string(schema) + " expected");
   CampaignPlan plan;
-  PlanReader::read_all(top, plan, {"schema", "about"});
+  PlanReader::read_all(top, plan, {{"schema", schema}, {"about", ""}});
   if (auto fault = fault_of(top, plan)) return *fault;
   return plan;
 } catch (const Refused& refused) {
@@ -217,26 +204,19 @@ corpus::Expected<CampaignPlan> parse_plan(const std::string& text,
 }
 
 std::string plan_text(const CampaignPlan& plan) {
-  CampaignPlan written = plan;
-  PlanWriter writer;
-  writer.json["schema"] = schema;
-  fields(writer, written);
-  return writer.json.dump();
+  Json json = {{"schema", schema}};
+  json.update(PlanWriter::written(plan));
+  return json.dump();
 }
 
 namespace {
 
-// Whether two plans differ in their time alone. A campaign that was stopped by --time keeps its
-// name.
-bool is_the_same_but_for_time(CampaignPlan a, CampaignPlan b) {
-  a.seconds = b.seconds = 0;
-  return plan_text(a) == plan_text(b);
-}
-
 // Whether options of a run and the detector's parts make the plan of the named one: options limit a
 // case; a plug-in is not asked what the built-in detector is, and no relations where it takes none;
-// its query is judged beside the steps, or alone.
+// its query is judged beside the steps, or alone. Their times may differ: a campaign that was
+// stopped by --time keeps its name.
 bool is_made_of(CampaignPlan plan, const CampaignPlan& named) {
+  plan.seconds = 0;
   plan.case_seconds = named.case_seconds;
   plan.case_bytes = named.case_bytes;
   const CampaignPlan of_plugin = without_questions(named);
@@ -246,8 +226,9 @@ bool is_made_of(CampaignPlan plan, const CampaignPlan& named) {
                          with_queries(of_plugin),
                          with_queries(without_relations(of_plugin)),
                          query_plan(of_plugin)};
-  return std::any_of(variants.begin(), variants.end(), [&](const CampaignPlan& variant) {
-    return is_the_same_but_for_time(plan, variant);
+  return std::any_of(variants.begin(), variants.end(), [&](CampaignPlan variant) {
+    variant.seconds = 0;
+    return plan_text(plan) == plan_text(variant);
   });
 }
 

@@ -8,22 +8,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "properties/fields.h"
-
 namespace assay::properties {
-
-ASSAY_FIELDS(TimesOff, steps, worst_share, worst_ulps, shares)
-ASSAY_FIELDS(LimitUse, free, cut, contact, unused, excused, stalls)
-
-template <class Archive>
-void fields(Archive& archive, StepErrors& errors) {
-  // Limits are written by themselves (write_json).
-  auto& [steps, undecided, free, contact, missed, false_alarms, late, early, unsafe, alarming,
-         missing, spurious, limits] = errors;
-  archive("steps", steps, "undecided", undecided, "free", free, "contact", contact);
-  archive("missed", missed, "false_alarms", false_alarms, "late", late, "early", early);
-  archive("unsafe", unsafe, "alarming", alarming, "missing", missing, "spurious", spurious);
-}
 
 namespace {
 
@@ -145,24 +130,8 @@ StepErrors errors_of(const StepDiff& diff) {
   return errors;
 }
 
-namespace {
-
-// Most detectors are no limiters, and have no object for it.
-template <class Json>
-void write_json(Json& json, const StepErrors& errors) {
-  json = json_of_fields<Json>(errors);
-  if (errors.limits != LimitUse{}) json["limits"] = json_of_fields<Json>(errors.limits);
-}
-
-}  // namespace
-
-void to_json(nlohmann::json& json, const StepErrors& errors) { write_json(json, errors); }
-void to_json(nlohmann::ordered_json& json, const StepErrors& errors) { write_json(json, errors); }
-void from_json(const nlohmann::json& json, StepErrors& errors) {
-  read_fields(json, errors);
-  errors.limits = {};
-  const auto limits = json.find("limits");
-  if (limits != json.end()) read_fields(*limits, errors.limits);
+void to_json(nlohmann::ordered_json& json, const StepErrors& errors) {
+  json = json_of_fields<nlohmann::ordered_json>(errors);
 }
 
 }  // namespace assay::properties

@@ -7,6 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "properties/fields.h"
 #include "properties/judging/agreement.h"
 
 namespace assay::properties {
@@ -81,9 +82,20 @@ struct StepErrors {
 StepErrors errors_of(const StepDiff& diff);
 
 // {"steps": 3, ..., "late": {"steps": 1, "worst_share": 0.00012, ...}, ...}: every member by its
-// name. Reading throws nlohmann::json::exception if one is not there.
-void to_json(nlohmann::json& json, const StepErrors& errors);
+// name. Most detectors are no limiters, and have no object `limits`.
 void to_json(nlohmann::ordered_json& json, const StepErrors& errors);
-void from_json(const nlohmann::json& json, StepErrors& errors);
+
+ASSAY_FIELDS(TimesOff, steps, worst_share, worst_ulps, shares)
+ASSAY_FIELDS(LimitUse, free, cut, contact, unused, excused, stalls)
+
+template <class Archive>
+void fields(Archive& archive, StepErrors& errors) {
+  auto& [steps, undecided, free, contact, missed, false_alarms, late, early, unsafe, alarming,
+         missing, spurious, limits] = errors;
+  archive("steps", steps, "undecided", undecided, "free", free, "contact", contact);
+  archive("missed", missed, "false_alarms", false_alarms, "late", late, "early", early);
+  archive("unsafe", unsafe, "alarming", alarming, "missing", missing, "spurious", spurious);
+  archive.may("limits", limits);
+}
 
 }  // namespace assay::properties

@@ -10,14 +10,6 @@
 
 namespace assay::properties {
 
-// The ghosts of a case for a changed mesh.
-
-// Fans over the unmatched edges of `triangles`, which name vertices of `before`. A fan takes the
-// apex of the first old ghost with which it shares a vertex, or else the mean of its loop. Vertex
-// v of the old ghosts has become target[v]. REQUIRES before.ghosts.
-corpus::CaseGhosts renewed_ghosts(const corpus::Case& before, const detector::Triangles& triangles,
-                                  const std::vector<std::int32_t>& target);
-
 namespace {
 
 using corpus::Case;
@@ -39,14 +31,53 @@ detector::Triangles matrix_of(const std::vector<Corners>& triangles) {
   return matrix;
 }
 
-Corners sorted(Corners corners) {
-  std::sort(corners.begin(), corners.end());
-  return corners;
-}
-
 // +1 if the corners are an even permutation of their ascending order, else -1.
 int orientation(const Corners& c) {
   return ((c[0] < c[1]) + (c[1] < c[2]) + (c[2] < c[0])) == 2 ? 1 : -1;
+}
+
+// The ghosts of a case for a changed mesh: fans over the unmatched edges of `triangles`, which name
+// vertices of `before`. A fan takes the apex of the first old ghost with which it shares a vertex,
+// or else the mean of its loop. Vertex v of the old ghosts has become target[v]. REQUIRES
+// before.ghosts.
+corpus::CaseGhosts renewed_ghosts(const corpus::Case& before, const detector::Triangles& triangles,
+                                  const std::vector<std::int32_t>& target) {
+  const auto& old = *before.ghosts;
+  const auto vertices = static_cast<std::int32_t>(before.frames.front().rows());
+  // The apex by loop vertex, taken from the first ghost that has the vertex.
+  std::map<std::int32_t, std::int32_t> apex_at;
+  for (Eigen::Index g = 0; g < old.triangles.rows(); ++g) {
+    std::int32_t apex = -1;
+    for (int i = 0; i < 3; ++i) {
+      if (old.triangles(g, i) >= vertices) apex = old.triangles(g, i) - vertices;
+    }
+    for (int i = 0; i < 3 && apex >= 0; ++i) {
+      const auto v = old.triangles(g, i);
+      if (v < vertices) apex_at.emplace(target[at(v)], apex);
+    }
+  }
+  const auto loops = oracle::boundary_loops(triangles);
+  corpus::CaseGhosts ghosts;
+  ghosts.triangles = oracle::ghost_triangles(loops, vertices);
+  ghosts.apexes.resize(before.frames.size());
+  for (const auto& loop : loops) {
+    const auto known =
+        std::find_if(loop.begin(), loop.end(), [&](std::int32_t v) { return apex_at.contains(v); });
+    for (std::size_t f = 0; f < before.frames.size(); ++f) {
+      if (known != loop.end()) {
+        ghosts.apexes[f].push_back(old.apexes[f][at(apex_at.at(*known))]);
+        continue;
+      }
+      detector::Point mean = {0, 0, 0};
+      for (const auto v : loop) {
+        for (int k = 0; k < 3; ++k) {
+          mean[at(k)] += before.frames[f](v, k) / static_cast<double>(loop.size());
+        }
+      }
+      ghosts.apexes[f].push_back(mean);
+    }
+  }
+  return ghosts;
 }
 
 // Makes the mesh `triangles` over the vertices of c, and drops the vertices that no triangle has.
@@ -245,46 +276,6 @@ Case with_steps(const Case& c, const std::vector<corpus::CaseStep>& steps) {
   }
   if (result.script == corpus::consecutive_steps(result.frames.size())) result.script.clear();
   return result;
-}
-
-corpus::CaseGhosts renewed_ghosts(const corpus::Case& before, const detector::Triangles& triangles,
-                                  const std::vector<std::int32_t>& target) {
-  const auto& old = *before.ghosts;
-  const auto vertices = static_cast<std::int32_t>(before.frames.front().rows());
-  // The apex by loop vertex, taken from the first ghost that has the vertex.
-  std::map<std::int32_t, std::int32_t> apex_at;
-  for (Eigen::Index g = 0; g < old.triangles.rows(); ++g) {
-    std::int32_t apex = -1;
-    for (int i = 0; i < 3; ++i) {
-      if (old.triangles(g, i) >= vertices) apex = old.triangles(g, i) - vertices;
-    }
-    for (int i = 0; i < 3 && apex >= 0; ++i) {
-      const auto v = old.triangles(g, i);
-      if (v < vertices) apex_at.emplace(target[at(v)], apex);
-    }
-  }
-  const auto loops = oracle::boundary_loops(triangles);
-  corpus::CaseGhosts ghosts;
-  ghosts.triangles = oracle::ghost_triangles(loops, vertices);
-  ghosts.apexes.resize(before.frames.size());
-  for (const auto& loop : loops) {
-    const auto known =
-        std::find_if(loop.begin(), loop.end(), [&](std::int32_t v) { return apex_at.contains(v); });
-    for (std::size_t f = 0; f < before.frames.size(); ++f) {
-      if (known != loop.end()) {
-        ghosts.apexes[f].push_back(old.apexes[f][at(apex_at.at(*known))]);
-        continue;
-      }
-      detector::Point mean = {0, 0, 0};
-      for (const auto v : loop) {
-        for (int k = 0; k < 3; ++k) {
-          mean[at(k)] += before.frames[f](v, k) / static_cast<double>(loop.size());
-        }
-      }
-      ghosts.apexes[f].push_back(mean);
-    }
-  }
-  return ghosts;
 }
 
 }  // namespace assay::properties

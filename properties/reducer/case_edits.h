@@ -9,6 +9,8 @@
 // takes the apex of an old fan with which it shares a vertex, or else the mean of its loop.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -32,6 +34,11 @@ corpus::Case with_triangles(const corpus::Case& c,
                             const std::vector<std::array<std::int32_t, 3>>& triangles);
 
 std::vector<std::array<std::int32_t, 3>> triangles_of(const corpus::Case& c);
+
+inline std::array<std::int32_t, 3> sorted(std::array<std::int32_t, 3> corners) {
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
 
 // The case with the triangles t for which keep[t] != 0.
 corpus::Case keep_triangles(const corpus::Case& c, const std::vector<std::uint8_t>& keep);

@@ -63,12 +63,6 @@ bool run(std::span<const Pass> passes, ReductionSearch& search) {
   return search.size() < before;
 }
 
-bool run_to_fixed_point(std::span<const Pass> passes, ReductionSearch& search) {
-  bool any = false;
-  while (run(passes, search)) any = true;
-  return any;
-}
-
 // Whether a case has few numbers. If it does, simple numbers help the passes that shorten. If it
 // has many, the mesh is stuck at a large size, and simplifying the numbers would take all the
 // time.
@@ -82,19 +76,13 @@ bool has_few_numbers(const ReductionSearch& search) {
 void run_all(ReductionSearch& search) {
   bool smaller = true;
   while (smaller) {
-    run_to_fixed_point(shortening_passes, search);
+    while (run(shortening_passes, search)) {
+    }
     smaller = run(simplifying_passes, search);
     if (!smaller && has_few_numbers(search)) smaller = run(number_passes, search);
     if (!smaller) smaller = run(escaping_passes, search);
     if (!smaller && !has_few_numbers(search)) smaller = run(number_passes, search);
   }
-}
-
-void drop_view_at_the_end(ReductionSearch& search) {
-  const MeshSize before = search.size();
-  search.begin_pass("drop view");
-  drop_view(search);
-  if (search.size() < before) run_all(search);
 }
 
 }  // namespace
@@ -119,7 +107,10 @@ Reduction reduce(const corpus::Case& failing, const Judge& judge, const ReduceLi
     reduction.fails_from = cut_large_mesh(search);
     if (reduction.fails_from == 0) {
       run_all(search);
-      drop_view_at_the_end(search);
+      const MeshSize before = search.size();
+      search.begin_pass("drop view");
+      drop_view(search);
+      if (search.size() < before) run_all(search);
       search.begin_pass("canonical order");
       canonical_order(search);
     }

@@ -19,16 +19,14 @@ class Carrier {
       : vertices_(vertices) {
     std::map<std::array<std::int32_t, 3>, std::int32_t> place;
     for (Eigen::Index t = 0; t < after.rows(); ++t) {
-      std::array<std::int32_t, 3> f = {after(t, 0), after(t, 1), after(t, 2)};
+      const std::array<std::int32_t, 3> f = {after(t, 0), after(t, 1), after(t, 2)};
       for (std::size_t k = 0; k < 3; ++k) edges_.insert(ascending({f[k], f[(k + 1) % 3]}));
-      std::sort(f.begin(), f.end());
-      place.emplace(f, static_cast<std::int32_t>(t));
+      place.emplace(sorted(f), static_cast<std::int32_t>(t));
     }
     for (Eigen::Index t = 0; t < before.rows(); ++t) {
       std::array<std::int32_t, 3> f{};
       for (int k = 0; k < 3; ++k) f[at(k)] = number(before(t, k));
-      std::sort(f.begin(), f.end());
-      const auto found = place.find(f);
+      const auto found = place.find(sorted(f));
       triangle_.push_back(found == place.end() ? -1 : found->second);
     }
   }

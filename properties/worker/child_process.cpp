@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -58,17 +59,9 @@ ChildEnd end_of_child(pid_t id) {
 }
 
 bool was_killed_from_outside(const ChildEnd& end) {
-  if (end.by_host) return false;
-  switch (end.signal) {
-    case SIGKILL:
-    case SIGTERM:
-    case SIGINT:
-    case SIGHUP:
-    case SIGQUIT:
-      return true;
-    default:
-      return false;
-  }
+  constexpr std::array from_outside = {SIGKILL, SIGTERM, SIGINT, SIGHUP, SIGQUIT};
+  return !end.by_host &&
+         std::find(from_outside.begin(), from_outside.end(), end.signal) != from_outside.end();
 }
 
 Expected<ChildProcess> ChildProcess::start(const std::filesystem::path& program,

@@ -43,12 +43,6 @@ inline constexpr bool travels_as_bytes =
               detector::StepCounts, detector::StepTimes, corpus::CaseStep,
               std::array<std::int32_t, 2>, detector::VertexAndFace, detector::TwoEdges>;
 
-// The greatest value of an enum, whose values count from 0; a message with another value is
-// invalid. An enum that lists its values needs no more; for another one that travels by itself it
-// is stated below.
-template <class T>
-inline constexpr T last_of = last_value<T>;
-
 class WireWriter : public NamedFields<WireWriter> {
  public:
   // Names are for other archives; the two ends of a message are built from the same list.
@@ -129,7 +123,7 @@ class WireReader : public NamedFields<WireReader> {
     if constexpr (std::is_same_v<T, bool>) {
       get_up_to(item, std::uint8_t{1});
     } else if constexpr (std::is_enum_v<T>) {
-      get_up_to(item, static_cast<std::underlying_type_t<T>>(last_of<T>));
+      get_up_to(item, static_cast<std::underlying_type_t<T>>(last_value<T>));
     } else if constexpr (travels_as_bytes<T>) {
       get_bytes(&item, sizeof item);
     } else {

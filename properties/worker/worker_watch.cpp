@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <sstream>
 #include <thread>
 #include <vector>
 
@@ -222,21 +223,11 @@ void WorkerWatch::look(Clock::time_point now) {
 }
 
 std::string WorkerWatch::why() const {
-  std::array<char, 128> text;
-  switch (end_) {
-    case End::asleep:
-      std::snprintf(text.data(), text.size(),
-                    "no answer in %g s of processor time: asleep for %g s", limit_,
-                    asleep_limit * limit_);
-      break;
-    case End::endless:
-      std::snprintf(text.data(), text.size(), "no answer in %g s of processor time, nor in %g s",
-                    limit_, wall_limit * limit_);
-      break;
-    default:
-      std::snprintf(text.data(), text.size(), "no answer in %g s of processor time", limit_);
-  }
-  return text.data();
+  std::ostringstream text;
+  text << "no answer in " << limit_ << " s of processor time";
+  if (end_ == End::asleep) text << ": asleep for " << asleep_limit * limit_ << " s";
+  if (end_ == End::endless) text << ", nor in " << wall_limit * limit_ << " s";
+  return text.str();
 }
 
 }  // namespace assay::properties

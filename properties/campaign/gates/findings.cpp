@@ -20,17 +20,6 @@ namespace {
 // A configuration is near its limit if it took at least this share of it.
 constexpr double near_share = 1. / 3;
 
-// A digest of what lasts of rows, made as a chain: the digest so far and the hash of the next row
-// make the next digest.
-class RowsDigest {
- public:
-  void add(const Row& row) { digest_ = corpus::sha256_of(digest_ + row_hash(lasting(row))); }
-  const std::string& value() const { return digest_; }
-
- private:
-  std::string digest_ = corpus::sha256_of("");
-};
-
 bool is_before(const StoredFailure& a, const StoredFailure& b) {
   const auto key = [](const StoredFailure& f) {
     return std::tuple(oddity_of(f.signature), f.signature, f.smallest.empty(), f.smallest.size(),
@@ -72,8 +61,8 @@ class Reader {
     const auto digest = corpus::sha256_of_file(file);
     if (!digest) throw StoreProblem(digest.error().message);
     found_.files.push_back({file.filename().string(), digest.value()});
-    if (const auto library = noted_library(store)) found_.library = *library;
-    const auto begun = noted_begin(store);
+    if (const auto library = store.note(library_note)) found_.library = *library;
+    const auto begun = store.note(begin_note);
     if (begun && (found_.begun.empty() || *begun < found_.begun)) found_.begun = *begun;
     take_rows(store, file, binding);
   }
@@ -84,7 +73,12 @@ class Reader {
         throw StoreProblem(
             fmt::format("{}: a run with seed {} is there already", file.string(), run.seed));
     }
-    RowsDigest rows;
+    // A digest of what lasts of rows, made as a chain: the digest so far and the hash of the next
+    // row make the next digest.
+    std::string digest = corpus::sha256_of("");
+    const auto add_row = [&](const Row& row) {
+      digest = corpus::sha256_of(digest + row_hash(lasting(row)));
+    };
     store.for_each(trial_kind, [&](const Row& row) {
       const TrialRecord r = trial_of(row);
       const auto family =
@@ -98,20 +92,20 @@ class Reader {
       if (!is_planned)
         throw StoreProblem(fmt::format("{}: {} is no trial of this run", file.string(), r.id));
       found_.tally.add(r);
-      rows.add(row);
+      add_row(row);
     });
     store.for_each(met_kind, [&](const Row& row) {
       ++found_.times_met[met_signature_of(row)];
-      rows.add(row);
+      add_row(row);
     });
     store.for_each(failure_kind, [&](const Row& row) {
       found_.failures.push_back(failure_of(row));
-      rows.add(row);
+      add_row(row);
     });
     EvidenceFacts evidence;
     try {
       for (const auto& row : store.evidence()) {
-        if (!may_differ(row)) rows.add(row);
+        if (!may_differ(row)) add_row(row);
         evidence.take(row);
       }
       if (found_.parts.empty()) {
@@ -122,7 +116,7 @@ class Reader {
     } catch (const StoreProblem& odd) {  // it names no file
       throw StoreProblem(fmt::format("{}: {}", file.string(), odd.what()));
     }
-    found_.parts.push_back({run.seed, run.shares, rows.value()});
+    found_.parts.push_back({run.seed, run.shares, digest});
   }
 
   RunFindings found_;

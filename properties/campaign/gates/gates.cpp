@@ -75,12 +75,6 @@ void check_faults(const RunFindings& f, Lines& lines) {
   }
 }
 
-// Checks that enough contacts were judged. A share of a campaign may have too few.
-void check_contacts(const RunFindings& f, const Asked& asked, Lines& lines) {
-  if (!f.is_whole()) return;
-  for (auto& line : lacks_of_contacts(f, asked.certificate)) lines.push_back(std::move(line));
-}
-
 void check_trials(const RunFindings& f, const Asked& asked, Lines& lines) {
   for (const auto& stratum : f.run.plan.strata) {
     const auto& tally = f.tally_of(stratum);
@@ -99,7 +93,9 @@ void check_trials(const RunFindings& f, const Asked& asked, Lines& lines) {
   if (asked.certificate && f.tally.judged() > 0 && f.run.detector.query_claims.empty() &&
       judged_claims(f).empty())
     lines.push_back("no claim of the detector was judged");
-  check_contacts(f, asked, lines);
+  // A share of a campaign may have too few contacts.
+  for (auto& line : f.is_whole() ? lacks_of_contacts(f, asked.certificate) : Lines())
+    lines.push_back(std::move(line));
   // Asked of a whole campaign: one share of it may have run on a machine short of memory.
   constexpr std::uint64_t most_disturbed = 100;  // at most one trial in this many
   const auto disturbed = f.tally.disturbed(), trials = f.tally.trials();

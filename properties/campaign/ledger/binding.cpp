@@ -51,14 +51,7 @@ BoundDetector bound(const DetectorUnderTest& detector, std::uint64_t threads) {
 }
 
 // Gives nothing if the file is not there. Whoever runs the file will find that out.
-std::optional<std::string> digest_of(const std::filesystem::path& file) {
-  const auto digest = corpus::sha256_of_file(file);
-  return digest ? std::optional(digest.value()) : std::nullopt;
-}
-
-std::optional<std::string> plugin_digest(const CampaignRequest& request) {
-  if (!request.plugin) return std::nullopt;
-  const auto digest = JudgedLibrary::of(*request.plugin, request.worker)->digest();
+std::optional<std::string> known(const corpus::Expected<std::string>& digest) {
   return digest ? std::optional(digest.value()) : std::nullopt;
 }
 
@@ -90,13 +83,17 @@ std::string first_difference(const std::string& part, const Json& a, const Json&
 std::string binding_of(const CampaignRequest& request) {
   CampaignPlan plan = request.plan;
   plan.seconds = plan.shrink_share = plan.tetrahedron_seconds = 0;
-  const BoundRun run{{},
-                     request.seed,
-                     request.shares,
-                     planted_count(),
-                     bound(request.detector, request.limits.threads),
-                     {digest_of("/proc/self/exe"), digest_of(request.worker),
-                      plugin_digest(request), generator_digest()}};
+  const BoundRun run{
+      {},
+      request.seed,
+      request.shares,
+      planted_count(),
+      bound(request.detector, request.limits.threads),
+      {known(corpus::sha256_of_file("/proc/self/exe")),
+       known(corpus::sha256_of_file(request.worker)),
+       request.plugin ? known(JudgedLibrary::of(*request.plugin, request.worker)->digest())
+                      : std::nullopt,
+       generator_digest()}};
   Json json = json_of_fields<Json>(run);
   json["detector"] = json_of(run.detector);
   json["schema"] = store_schema;

@@ -109,12 +109,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-// A field that may differ between two runs of one campaign.
-struct PassingField {
-  std::string_view kind;
-  const char* name;
-};
-constexpr PassingField passing_fields[] = {
+// The kinds of rows, and their fields that may differ between two runs of one campaign.
+constexpr std::pair<std::string_view, const char*> passing_fields[] = {
     {trial_kind, "oracle_us"}, {trial_kind, "detector_us"}, {trial_kind, "slowest_us"},
     {trial_kind, "disturbed"}, {failure_kind, "smallest"},  {failure_kind, "printed"},
     {note_kind, "value"},
@@ -129,10 +125,10 @@ constexpr std::string_view declaration =
 
 Row lasting(Row row) {
   Json fields;
-  for (const auto& passing : passing_fields) {
-    if (passing.kind != row.kind) continue;
+  for (const auto& [kind, name] : passing_fields) {
+    if (kind != row.kind) continue;
     if (fields.is_null()) fields = fields_of(row);
-    fields.erase(passing.name);
+    fields.erase(name);
   }
   if (!fields.is_null()) row.fields = corpus::json_text(fields);
   return row;

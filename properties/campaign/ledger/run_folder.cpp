@@ -11,12 +11,6 @@
 
 namespace assay::properties {
 
-namespace {
-
-constexpr const char *library_note = "library", *begin_note = "begun";
-
-}  // namespace
-
 std::filesystem::path copied_store_file(const std::filesystem::path& out, std::uint64_t seed) {
   return out / fmt::format("seed-{}.sqlite", seed);
 }
@@ -55,8 +49,6 @@ void note_library(Store& store, const CampaignRequest& request) {
   store.set_note(library_note, error || names_python(named) ? named : found.string());
 }
 
-std::optional<std::string> noted_library(const Store& store) { return store.note(library_note); }
-
 std::string time_in_utc() {
   return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
 }
@@ -64,8 +56,6 @@ std::string time_in_utc() {
 void note_begin(Store& store) {
   if (!store.note(begin_note)) store.set_note(begin_note, time_in_utc());
 }
-
-std::optional<std::string> noted_begin(const Store& store) { return store.note(begin_note); }
 
 std::filesystem::path failure_file(const StoredFailure& failure, bool smallest) {
   std::string stem = fmt::format("{}-{}", failure.id, failure.configuration);

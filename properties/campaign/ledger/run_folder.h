@@ -36,18 +36,15 @@ Expected<std::vector<std::filesystem::path>> stored_runs(const std::filesystem::
 Expected<void> expect_no_other_store(const std::filesystem::path& folder,
                                      const std::set<std::filesystem::path>& expected);
 
-// Stores the path of a plug-in's library, as it was named to the run, and finds it again (nothing
-// if none was stored). Both throw StoreProblem, and are for campaign/ alone.
+// The notes of a store in which these stand: the path of a plug-in's library, as it was named to
+// the run, and when the run was begun. Both functions throw StoreProblem, and are for campaign/
+// alone; a time that is stored already stays.
+inline constexpr const char *library_note = "library", *begin_note = "begun";
 void note_library(Store& store, const CampaignRequest& request);
-std::optional<std::string> noted_library(const Store& store);
+void note_begin(Store& store);
 
 // Now, in UTC: 2026-01-31T12:00:00Z. No verdict rests on it.
 std::string time_in_utc();
-
-// Stores when the run was begun, unless that is stored already, and finds it again. Both throw
-// StoreProblem, as above.
-void note_begin(Store& store);
-std::optional<std::string> noted_begin(const Store& store);
 
 // The file of a failure below OUT, the same in every run that finds the failure:
 // failures/tiny-1-broken-3-bvh-smallest.json.

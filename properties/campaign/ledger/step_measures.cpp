@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/special_functions/beta.hpp>
-#include <nlohmann/json.hpp>
 
 namespace assay::properties {
 
@@ -33,49 +32,6 @@ double risk_of_each(std::uint64_t bounds) {
 
 namespace {
 
-using Json = nlohmann::json;
-
-struct NamedNumber {
-  const char* name;
-  std::uint64_t StepMeasures::*member;
-};
-constexpr NamedNumber numbers[] = {
-    {"free_squared", &StepMeasures::free_squared},
-    {"contact_squared", &StepMeasures::contact_squared},
-    {"without_time", &StepMeasures::without_time},
-    {"unanswered", &StepMeasures::unanswered},
-    {"candidate_steps", &StepMeasures::candidate_steps},
-    {"candidates", &StepMeasures::candidates},
-    {"least_candidates", &StepMeasures::least_candidates},
-    {"redrawn", &StepMeasures::redrawn},
-    {"steps_left_out", &StepMeasures::steps_left_out},
-    {"starts_near", &StepMeasures::starts_near},
-    {"refused", &StepMeasures::refused},
-    {"left_out_misses", &StepMeasures::left_out_misses},
-    {"contact_trials", &StepMeasures::contact_trials},
-    {"repeated_trials", &StepMeasures::repeated_trials},
-    {"relation_trials", &StepMeasures::relation_trials},
-};
-
-// Takes out, level by level, what is the same in `none`.
-Json difference_from(const Json& none, const Json& json) {
-  Json rest = Json::object();
-  for (const auto& [name, value] : json.items()) {
-    const auto known = none.find(name);  // a count by its cause has no name in `none`
-    if (known == none.end()) {
-      rest[name] = value;
-    } else if (value != *known) {
-      rest[name] = value.is_object() ? difference_from(*known, value) : value;
-    }
-  }
-  return rest;
-}
-
-const Json& no_errors() {
-  static const Json none = StepErrors{};
-  return none;
-}
-
 // `squared` is the sum over trials of the squares of their numbers of steps.
 Rate rate_of(std::uint64_t of, std::uint64_t in, std::uint64_t squared) {
   const auto all = static_cast<double>(in);
@@ -91,26 +47,16 @@ double ratio_of(std::uint64_t of, std::uint64_t in) {
 
 StepMeasures& StepMeasures::operator+=(const StepMeasures& other) {
   errors += other.errors;
-  for (const auto& [name, member] : numbers) this->*member += other.*member;
-  return *this;
-}
-
-void to_json(Json& json, const StepMeasures& measures) {
-  json = Json::object();
-  for (const auto& [name, member] : numbers) {
-    if (measures.*member != 0) json[name] = measures.*member;
+  for (const auto member :
+       {&StepMeasures::free_squared, &StepMeasures::contact_squared, &StepMeasures::without_time,
+        &StepMeasures::unanswered, &StepMeasures::candidate_steps, &StepMeasures::candidates,
+        &StepMeasures::least_candidates, &StepMeasures::starts_near, &StepMeasures::redrawn,
+        &StepMeasures::steps_left_out, &StepMeasures::refused, &StepMeasures::left_out_misses,
+        &StepMeasures::contact_trials, &StepMeasures::repeated_trials,
+        &StepMeasures::relation_trials}) {
+    this->*member += other.*member;
   }
-  if (measures.errors != StepErrors{})
-    json["errors"] = difference_from(no_errors(), measures.errors);
-}
-
-void from_json(const Json& json, StepMeasures& measures) {
-  for (const auto& [name, member] : numbers) measures.*member = json.value(name, std::uint64_t{0});
-  const auto found = json.find("errors");
-  if (found == json.end()) return;
-  Json whole = no_errors();
-  whole.merge_patch(*found);
-  whole.get_to(measures.errors);
+  return *this;
 }
 
 StepMeasures measures_of(std::span<const StepDiff> diffs,

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json_fwd.hpp>
 #include <span>
 
 #include "properties/judging/step_errors.h"
@@ -60,10 +59,9 @@ struct StepMeasures {
   StepMeasures& operator+=(const StepMeasures& other);
   friend bool operator==(const StepMeasures&, const StepMeasures&) = default;
 };
-
-// Every member by its name; those that are 0 are left out, and may be missing when it is read.
-void to_json(nlohmann::json& json, const StepMeasures& measures);
-void from_json(const nlohmann::json& json, StepMeasures& measures);
+ASSAY_FIELDS(StepMeasures, errors, free_squared, contact_squared, without_time, unanswered,
+             candidate_steps, candidates, least_candidates, starts_near, redrawn, steps_left_out,
+             refused, left_out_misses, contact_trials, repeated_trials, relation_trials)
 
 // What the steps of one trial show. REQUIRES as many results as diffs, in the same order.
 StepMeasures measures_of(std::span<const StepDiff> diffs,

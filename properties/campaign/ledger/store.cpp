@@ -26,11 +26,6 @@ StoreProblem refused_schema(const std::filesystem::path& file, const std::string
                                   file.string(), schema, store_schema));
 }
 
-FileLock lock_of_store(const std::filesystem::path& file) {
-  return {file.string() + ".lock", FileLock::On::file,
-          fmt::format("{}: another run is writing it", file.string())};
-}
-
 // Reads the binding without a check of its hash, because a store of an older schema has other
 // tables: up to assay-store/5 the binding was a note.
 std::optional<std::string> unchecked_binding(const Database& db) {
@@ -56,16 +51,15 @@ struct Store::Parts {
   Database db;
 
   Parts(const std::filesystem::path& file, Database::Mode mode)
-      : lock(mode == Database::Mode::write ? std::optional(lock_of_store(file)) : std::nullopt),
+      : lock(mode == Database::Mode::write
+                 ? std::optional(FileLock(file.string() + ".lock", FileLock::On::file,
+                                          file.string() + ": another run is writing it"))
+                 : std::nullopt),
         db(file, mode) {}
 
-  void for_each(const std::string& more, const std::vector<std::string_view>& bound,
-                const std::function<void(const Row&)>& visit) const {
-    for_each_row(db, more, bound, visit);
-  }
   std::optional<Row> find(std::string_view kind, std::string_view key) const {
     std::optional<Row> found;
-    for_each("WHERE kind=? AND key=?", {kind, key}, [&](const Row& row) { found = row; });
+    for_each_row(db, "WHERE kind=? AND key=?", {kind, key}, [&](const Row& row) { found = row; });
     return found;
   }
 
@@ -191,7 +185,7 @@ void Store::set_note(const std::string& key, const std::string& value) {
 }
 
 void Store::for_each(std::string_view kind, const std::function<void(const Row&)>& visit) const {
-  parts_->for_each(fmt::format("WHERE kind=? {}", order_of_keys), {kind}, visit);
+  for_each_row(parts_->db, fmt::format("WHERE kind=? {}", order_of_keys), {kind}, visit);
 }
 
 void Store::for_each_trial(const std::function<void(const TrialRecord&)>& visit) const {
@@ -233,9 +227,9 @@ std::optional<std::string> Store::note(const std::string& key) const {
 
 std::vector<Row> Store::evidence() const {
   std::vector<Row> list;
-  parts_->for_each("WHERE kind NOT IN (?,?,?,?,?)",
-                   {binding_kind, note_kind, trial_kind, failure_kind, met_kind},
-                   [&](const Row& row) { list.push_back(row); });
+  for_each_row(parts_->db, "WHERE kind NOT IN (?,?,?,?,?)",
+               {binding_kind, note_kind, trial_kind, failure_kind, met_kind},
+               [&](const Row& row) { list.push_back(row); });
   return list;
 }
 

@@ -56,24 +56,13 @@ void StratumTally::add(const TrialRecord& record) {
   by_configuration.resize(std::max(by_configuration.size(), record.outcomes.size()));
   for (std::size_t i = 0; i < record.outcomes.size(); ++i) {
     auto& outcomes = by_configuration[i];
-    switch (record.outcomes[i]) {
-      case 'H':
-        ++outcomes.holds;
-        break;
-      case 'D':
-        ++outcomes.defects;
-        break;
-      case 'U':
-        ++outcomes.undecided;
-        break;
-      case 'R':
-        ++outcomes.refused;
-        break;
-      case not_run:
-        break;
-      default:
-        ++outcomes.errors;
-    }
+    const char letter = record.outcomes[i];
+    if (letter == not_run) continue;
+    ++(letter == letter_of(Outcome::holds)       ? outcomes.holds
+       : letter == letter_of(Outcome::defect)    ? outcomes.defects
+       : letter == letter_of(Outcome::undecided) ? outcomes.undecided
+       : letter == letter_of(Outcome::refused)   ? outcomes.refused
+                                                 : outcomes.errors);
   }
   const auto& shown = record.counts.measures;
   measures += shown;

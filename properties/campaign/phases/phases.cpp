@@ -234,17 +234,6 @@ std::set<std::uint64_t> choose(std::uint64_t chosen, std::uint64_t all, std::uin
   return numbers;
 }
 
-// Draws trials of a store, in the order of their families and places. `number` counts the trials of
-// all stores.
-std::vector<TrialRecord> draw(const Store& store, const std::set<std::uint64_t>& numbers,
-                              std::uint64_t& number) {
-  std::vector<TrialRecord> drawn;
-  store.for_each_trial([&](const TrialRecord& record) {
-    if (numbers.contains(number++)) drawn.push_back(record);
-  });
-  return drawn;
-}
-
 // Names the first thing in which the two trials differ. Empty if they do not differ.
 std::string difference_of_trials(const TrialRecord& stored, const TrialRecord& now,
                                  const DetectorUnderTest& detector) {
@@ -256,14 +245,13 @@ std::string difference_of_trials(const TrialRecord& stored, const TrialRecord& n
       return fmt::format("{} is {} now, {} is stored", detector.configurations[c].name, letter(now),
                          letter(stored));
   }
-  const auto of = [&](const char* counted, std::uint64_t there, std::uint64_t here) {
-    return fmt::format("{} {} now, {} stored", here, counted, there);
-  };
-  if (stored.triangles != now.triangles) return of("triangles", stored.triangles, now.triangles);
-  if (stored.steps != now.steps) return of("steps", stored.steps, now.steps);
-  if (stored.collisions != now.collisions)
-    return of("collisions", stored.collisions, now.collisions);
-  if (stored.pairs != now.pairs) return of("pairs", stored.pairs, now.pairs);
+  for (const auto& [counted, member] : {std::pair("triangles", &TrialRecord::triangles),
+                                        {"steps", &TrialRecord::steps},
+                                        {"collisions", &TrialRecord::collisions},
+                                        {"pairs", &TrialRecord::pairs}}) {
+    if (stored.*member != now.*member)
+      return fmt::format("{} {} now, {} stored", now.*member, counted, stored.*member);
+  }
   if (stored.mesh != now.mesh) return "its mesh is another one";
   if (stored.outcomes != now.outcomes) return "outcomes of more configurations than there are";
   if (stored.counts != now.counts) return "its counts are others";
@@ -309,10 +297,13 @@ Expected<TrialsAgain> run_again(CampaignRequest request, const std::filesystem::
     const auto wanted = std::ceil(share * static_cast<double>(again.stored));
     again.trials = std::clamp<std::uint64_t>(static_cast<std::uint64_t>(wanted), 1, again.stored);
     const auto numbers = choose(again.trials, again.stored, seed);
-    std::uint64_t number = 0;
+    std::uint64_t number = 0;  // counts the trials of all stores
     for (const auto& file : files) {
       const Store store = value_or_throw(Store::read(file));
-      const auto drawn = draw(store, numbers, number);
+      std::vector<TrialRecord> drawn;  // in the order of their families and places
+      store.for_each_trial([&](const TrialRecord& record) {
+        if (numbers.contains(number++)) drawn.push_back(record);
+      });
       if (drawn.empty()) continue;
       const auto run = value_or_throw(read_binding(store.binding(), file));
       request.seed = run.seed;

@@ -68,11 +68,6 @@ std::string done_note(const StoredFailure& failure) {
   return fmt::format("shrunk {} {}", failure.id, failure.configuration);
 }
 
-// The configuration without the name of the law that broke in it.
-std::string configuration_name(const StoredFailure& failure) {
-  return failure.configuration.substr(0, failure.configuration.find(law_in_configuration));
-}
-
 // The configurations as they were given to this case: if it vouches for a clean start, so do they.
 std::vector<Configuration> configurations_of(const corpus::Case& failing,
                                              const DetectorUnderTest& detector) {
@@ -107,19 +102,15 @@ bool may_be_asked_alone(const StoredFailure& failure, const CampaignRequest& req
   return request.plugin && !is_of_two_runs;
 }
 
-// Puts failures that were shrunk in part before the others of their signature.
-void order_for_shrinking(std::vector<StoredFailure>& failures) {
-  std::stable_partition(failures.begin(), failures.end(),
-                        [](const StoredFailure& f) { return !f.smallest.empty(); });
-}
-
 }  // namespace
 
 void shrink_failures(const CampaignRequest& request, Store& store, const ReduceLimits& limits,
                      RunDeadline deadline,
                      const std::function<void(const std::string&)>& progress) {
   auto failures = store.failures();
-  order_for_shrinking(failures);
+  // Failures that were shrunk in part come before the others of their signature.
+  std::stable_partition(failures.begin(), failures.end(),
+                        [](const StoredFailure& f) { return !f.smallest.empty(); });
   constexpr int most_tried = 3;
   std::map<std::string, int> tried;  // of each signature
   for (auto& failure : failures) {
@@ -132,9 +123,11 @@ void shrink_failures(const CampaignRequest& request, Store& store, const ReduceL
     const auto failing = corpus::parse_case(begin, failure.id);
     if (!failing) continue;
     const auto configurations = configurations_of(failing.value(), request.detector);
-    const auto configuration =
-        std::find_if(configurations.begin(), configurations.end(),
-                     [&](const Configuration& c) { return c.name == configuration_name(failure); });
+    // Without the name of the law that broke in it.
+    const auto name =
+        failure.configuration.substr(0, failure.configuration.find(law_in_configuration));
+    const auto configuration = std::find_if(configurations.begin(), configurations.end(),
+                                            [&](const Configuration& c) { return c.name == name; });
     if (configuration == configurations.end()) continue;
     const auto detector = request.detector.in(*configuration);
     if (progress) progress(failure.signature);
@@ -273,58 +266,41 @@ std::vector<SlowTrial> slowest_trials(const Store& store, double limit) {
   return list;
 }
 
-class SlowCases {
- public:
-  SlowCases(const CampaignRequest& request, Store& store, const ReduceLimits& limits,
-            RunDeadline deadline)
-      : request_(request), store_(store), limits_(limits), deadline_(deadline) {
-    WorkerLimits patient = request.worker_limits();
-    patient.seconds *= 2;
-    worker_.emplace(request.worker, request.plugin, patient);
+void keep_slow_case(const CampaignRequest& request, Store& store, const ReduceLimits& limits,
+                    RunDeadline deadline, const SlowTrial& trial, WorkerProcess& worker,
+                    const std::function<void(const std::string&)>& progress) {
+  const auto seconds_left = [&] {
+    return std::chrono::duration<double>(deadline - std::chrono::steady_clock::now()).count();
+  };
+  const auto known = families();
+  const auto family = std::find_if(known.begin(), known.end(),
+                                   [&](const Family& f) { return f.name == trial.family; });
+  if (family == known.end()) return;
+  const auto planned = case_within(request.detector.contract, *family, trial.id);
+  if (!planned.seen) return;
+  const auto& configuration = request.detector.configurations[trial.configuration];
+  SlowCase slow;
+  slow.id = trial.id;
+  slow.configuration = configuration.name;
+  slow.undecided = trial.is_undecided;
+  slow.seconds = trial.seconds;
+  slow.limit = request.plan.case_seconds;
+  slow.mesh = corpus::case_text(*planned.seen);
+  store.set(to_row(slow));
+  if (!trial.is_undecided || trial.is_asleep || seconds_left() <= 0) return;
+  if (progress) progress(trial.id);
+  const ReduceLimits bounded{std::min(limits.seconds, seconds_left()), limits.calls};
+  const auto judge =
+      judge_of_slowness(request.detector, configuration, worker, 2 * request.plan.case_seconds);
+  const auto reduction = reduce(*planned.seen, judge, bounded, [&](const corpus::Case& better) {
+    slow.smallest = corpus::case_text(better);
+    store.set(to_row(slow));
+  });
+  if (slow.smallest.empty() && !reduction.finding.signature.empty()) {
+    slow.smallest = slow.mesh;  // nothing smaller was found to be as slow
+    store.set(to_row(slow));
   }
-
-  void keep(const SlowTrial& trial, const std::function<void(const std::string&)>& progress) {
-    const auto known = families();
-    const auto family = std::find_if(known.begin(), known.end(),
-                                     [&](const Family& f) { return f.name == trial.family; });
-    if (family == known.end()) return;
-    const auto planned = case_within(request_.detector.contract, *family, trial.id);
-    if (!planned.seen) return;
-    const auto& configuration = request_.detector.configurations[trial.configuration];
-    SlowCase slow;
-    slow.id = trial.id;
-    slow.configuration = configuration.name;
-    slow.undecided = trial.is_undecided;
-    slow.seconds = trial.seconds;
-    slow.limit = request_.plan.case_seconds;
-    slow.mesh = corpus::case_text(*planned.seen);
-    store_.set(to_row(slow));
-    if (!trial.is_undecided || trial.is_asleep || seconds_left() <= 0) return;
-    if (progress) progress(trial.id);
-    const ReduceLimits bounded{std::min(limits_.seconds, seconds_left()), limits_.calls};
-    const auto judge = judge_of_slowness(request_.detector, configuration, *worker_,
-                                         2 * request_.plan.case_seconds);
-    const auto reduction = reduce(*planned.seen, judge, bounded, [&](const corpus::Case& better) {
-      slow.smallest = corpus::case_text(better);
-      store_.set(to_row(slow));
-    });
-    if (slow.smallest.empty() && !reduction.finding.signature.empty()) {
-      slow.smallest = slow.mesh;  // nothing smaller was found to be as slow
-      store_.set(to_row(slow));
-    }
-  }
-
- private:
-  double seconds_left() const {
-    return std::chrono::duration<double>(deadline_ - std::chrono::steady_clock::now()).count();
-  }
-
-  const CampaignRequest& request_;
-  Store& store_;
-  const ReduceLimits& limits_;
-  const RunDeadline deadline_;
-  std::optional<WorkerProcess> worker_;
-};
+}
 
 }  // namespace
 
@@ -354,9 +330,12 @@ void keep_slow_cases(const CampaignRequest& request, Store& store, const ReduceL
     return std::any_of(stored.slow.begin(), stored.slow.end(),
                        [&](const SlowCase& slow) { return slow.id == trial.id; });
   };
-  SlowCases slow_cases(request, store, limits, deadline);
+  WorkerLimits patient = request.worker_limits();
+  patient.seconds *= 2;
+  WorkerProcess worker(request.worker, request.plugin, patient);
   for (const auto& trial : slowest_trials(store, request.plan.case_seconds)) {
-    if (!is_stored(trial)) slow_cases.keep(trial, progress);
+    if (!is_stored(trial))
+      keep_slow_case(request, store, limits, deadline, trial, worker, progress);
   }
 }
 

@@ -223,37 +223,19 @@ bool has_forms(const DetectorUnderTest& detector, const corpus::Case& c) {
 
 namespace {
 
-// How many steps of the form have another answer than those of the case, and how the first differs.
-struct Differences {
-  std::uint64_t steps = 0;
+// Counts the steps of the form that have another answer than those of the case. Returns how the
+// first differs.
+std::string count_differences(const Form& form, const CaseRun& run, const CaseRun& in_form,
+                              LawCount& count) {
   std::string first;
-};
-
-Differences differences(const Form& form, const CaseRun& run, const CaseRun& in_form) {
-  Differences found;
   if (!run.has_answers || run.end != RunEnd::completed || in_form.end != RunEnd::completed)
-    return found;
+    return first;
   for (std::size_t s = 0; s < form.step.size(); ++s) {
     const auto differs = difference_in_form(run.steps[s], form, in_form.steps[form.step[s]]);
-    if (differs.empty()) continue;
-    if (found.steps++ == 0) found.first = fmt::format("step {}: {}", s + 1, differs);
+    if (!differs.empty() && count.differs++ == 0)
+      first = fmt::format("step {}: {}", s + 1, differs);
   }
-  return found;
-}
-
-StoredFailure stored(const FormLaw& law, const corpus::Case& c, const corpus::Case& form,
-                     const CaseRun& run, const DetectorUnderTest& detector,
-                     const Failure& failure) {
-  const auto& configuration = detector.configurations.front();
-  const bool is_flaky = failure.claim == Claim::deterministic;
-  return {c.id,
-          fmt::format("{}{}{}", configuration.name, law_in_configuration, law.law),
-          fmt::format("{}{}, {}", law_in_signature, law.law, failure.signature()),
-          failure.explanation,
-          corpus::case_text(failing_case(form, configuration, detector, failure)),
-          "",
-          is_flaky,
-          run.printed};
+  return first;
 }
 
 }  // namespace
@@ -276,19 +258,26 @@ FormCheck check_in_form(const FormLaw& law, const corpus::Case& c, const CaseRun
   check.disturbances = in_form.disturbances;
   auto judged = judge_trial(*told, judge_case(*told, contract), in_form, configuration, detector);
   if (judged.outcome != Outcome::holds && judged.outcome != Outcome::defect) return check;
-  const auto differing = differences(*form, run, in_form);
+  const auto first_difference = count_differences(*form, run, in_form, check.count);
   check.count.premise = corpus::steps_of(c).size();
-  check.count.differs = differing.steps;
-  if (!judged.failure && differing.steps > 0 && law.same_calls &&
+  if (!judged.failure && check.count.differs > 0 && law.same_calls &&
       detector.claims_on(c, configuration).has(Claim::deterministic)) {
     auto& failure = judged.failure.emplace();
     failure.claim = Claim::deterministic;
     failure.kind = "two runs differ";
-    failure.explanation = differing.first;
+    failure.explanation = first_difference;
   }
   if (!judged.failure) return check;
   check.count.broken = 1;
-  check.failure = stored(law, c, *told, in_form, detector, *judged.failure);
+  const Failure& failure = *judged.failure;
+  check.failure = {c.id,
+                   fmt::format("{}{}{}", configuration.name, law_in_configuration, law.law),
+                   fmt::format("{}{}, {}", law_in_signature, law.law, failure.signature()),
+                   failure.explanation,
+                   corpus::case_text(failing_case(*told, configuration, detector, failure)),
+                   "",
+                   failure.claim == Claim::deterministic,
+                   in_form.printed};
   return check;
 }
 

@@ -103,10 +103,9 @@ using detector::make_topology;
 std::vector<std::int32_t> far_triangles_first(const ReductionSearch& search) {
   const Rings rings = rings_of(search);
   const auto triangles = triangles_of(search.best());
-  std::vector<std::int32_t> order(triangles.size());
+  auto order = in_order(triangles.size());
   std::vector<int> distance(triangles.size(), 0);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    order[t] = static_cast<std::int32_t>(t);
     for (const auto v : triangles[t]) {
       distance[t] = std::max(distance[t], rings.distance[at(v)]);
     }
@@ -128,7 +127,7 @@ void drop_components(ReductionSearch& search) {
   try_halves(search, size, [&](std::size_t begin, std::size_t end) {
     const auto all = components();
     if (end - begin == all.size()) return false;
-    std::vector<std::uint8_t> keep(static_cast<std::size_t>(search.best().triangles.rows()), 1);
+    std::vector<std::uint8_t> keep(triangle_count(search), 1);
     for (std::size_t i = begin; i < end; ++i) {
       for (const auto t : all[i].triangles) keep[at(t)] = 0;
     }
@@ -150,13 +149,10 @@ void keep_rings(ReductionSearch& search) {
 }
 
 void drop_faces(ReductionSearch& search) {
-  const auto size = [&] { return static_cast<std::size_t>(search.best().triangles.rows()); };
+  const auto size = [&] { return triangle_count(search); };
   try_halves(search, size, [&](std::size_t begin, std::size_t end) {
     const auto order = far_triangles_first(search);
-    if (end - begin == order.size()) return false;
-    std::vector<std::uint8_t> keep(order.size(), 1);
-    for (std::size_t i = begin; i < end; ++i) keep[at(order[i])] = 0;
-    return search.offer(keep_triangles(search.best(), keep));
+    return end - begin < order.size() && offer_without(search, order, begin, end);
   });
 }
 

@@ -101,11 +101,6 @@ const std::vector<SphereMesh>& sphere_meshes(int vertices) {
 
 namespace {
 
-Corners sorted(Corners corners) {
-  std::sort(corners.begin(), corners.end());
-  return corners;
-}
-
 // Calls `take` with each subset of `count` of the first `pool` places, in ascending order. Ends
 // when `take` returns true.
 template <class Take>

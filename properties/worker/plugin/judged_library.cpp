@@ -127,14 +127,7 @@ struct Needs {
 
 // Splits at colons, and puts the folder in the place of $ORIGIN.
 Strings folders_of(const std::string& text, const std::string& origin) {
-  Strings folders(1);
-  for (const char c : text) {
-    if (c == ':') {
-      folders.emplace_back();
-    } else {
-      folders.back() += c;
-    }
-  }
+  Strings folders = parts_of(text, ':');
   for (auto& folder : folders) {
     for (const std::string word : {"${ORIGIN}", "$ORIGIN"}) {
       for (auto at = folder.find(word); at != std::string::npos; at = folder.find(word))

@@ -6,15 +6,6 @@
 #include <fstream>
 
 namespace assay::properties {
-namespace {
-
-namespace fs = std::filesystem;
-
-bool is_identifier(std::string_view text) {
-  const auto fits = [](unsigned char c) { return std::isalnum(c) || c == '_' || c >= 0x80; };
-  return !text.empty() && !std::isdigit(static_cast<unsigned char>(text.front())) &&
-         std::all_of(text.begin(), text.end(), fits);
-}
 
 std::vector<std::string> parts_of(const std::string& text, char separator) {
   std::vector<std::string> parts(1);
@@ -26,6 +17,16 @@ std::vector<std::string> parts_of(const std::string& text, char separator) {
     }
   }
   return parts;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_identifier(std::string_view text) {
+  const auto fits = [](unsigned char c) { return std::isalnum(c) || c == '_' || c >= 0x80; };
+  return !text.empty() && !std::isdigit(static_cast<unsigned char>(text.front())) &&
+         std::all_of(text.begin(), text.end(), fits);
 }
 
 // The places where the package may be: in the build folder, around the programs (as pip puts it),

@@ -13,6 +13,9 @@
 
 namespace assay::properties {
 
+// The text between each two separators, empty parts too.
+std::vector<std::string> parts_of(const std::string& text, char separator);
+
 struct PythonWord {
   std::string module;  // a module in a package has dots
   std::string name;    // name of the class
