@@ -16,7 +16,6 @@
 #include "properties/worker/plugin/query_case.h"
 #include "properties/worker/worker_process.h"
 #include "reports/bench/cases.h"
-#include "reports/bench/interleave.h"
 #include "reports/bench/sweep.h"
 #include "reports/campaign/case_folders.h"
 
@@ -198,14 +197,21 @@ using properties::SpeedFigure;
 
 constexpr int rounds = 9;
 
-// The time of the first options over that of the second, measured in turn.
+// The time of the last step by the first options over that by the second, measured in turn.
 SpeedFigure figure_of(std::string_view name, const corpus::Sequence& step, const Options& measured,
                       const Options& beside) {
-  BenchReport unused;
-  TimedStep one("", step.triangles, step.frames, measured, unused);
-  TimedStep other("", step.triangles, step.frames, beside, unused);
-  const auto samples =
-      interleave(rounds, {[&] { return one.time(); }, [&] { return other.time(); }});
+  const auto& frames = step.frames;
+  const auto at_last_step = [&](const Options& options) {
+    auto built_in = made(detector::Detector::create(step.triangles, frames[0], options), "");
+    for (std::size_t f = 0; f + 2 < frames.size(); ++f) built_in.step(frames[f], frames[f + 1]);
+    return built_in;
+  };
+  auto one = at_last_step(measured), other = at_last_step(beside);
+  const auto time = [&](detector::Detector& built_in) {
+    detector::StepResult result;
+    return ns_of([&] { result = built_in.evaluate(*std::prev(frames.end(), 2), frames.back()); });
+  };
+  const auto samples = interleave(rounds, {[&] { return time(one); }, [&] { return time(other); }});
   const Estimate ratio = ratio_of(samples[0], samples[1]);
   return {std::string(name), ratio.value, ratio.lo, ratio.hi, ratio.samples};
 }
