@@ -161,12 +161,9 @@ corpus::Expected<corpus::Case> case_of_scene(const corpus::SceneInfo& scene) {
   options.size = 600;
   options.frames = std::max(6, scene.least_frames);
   BOOST_OUTCOME_TRY(made, corpus::make_scene(scene.name, options));
-  corpus::Case c;
-  c.id = scene.name;
+  auto c = timed_case(std::string(scene.name), std::move(made), detector::Start::verified).c;
   c.about = "a scene";
   c.source = "assay scene";
-  c.triangles = std::move(made.triangles);
-  c.frames = std::move(made.frames);
   return c;
 }
 
