@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "corpus/digest.h"
 #include "corpus/queries/query_csv.h"
 #include "corpus/scenes/scenes.h"
 #include "properties/campaign/ledger/step_measures.h"
@@ -12,7 +11,6 @@
 #include "properties/campaign/trials/case_tally.h"
 #include "properties/judging/case_check.h"
 #include "properties/queries/listed_queries.h"
-#include "properties/queries/self_check.h"
 #include "properties/worker/plugin/query_case.h"
 #include "properties/worker/worker_process.h"
 #include "reports/bench/cases.h"
@@ -256,9 +254,9 @@ void check_own_cases(const properties::CampaignRequest& request, const OnCorpusR
   judged.tell(on_row);
 }
 
-std::string corpus_heading() {
-  return fmt::format("{:<18} {:<18} {:>6} {:>6} {:>11} {:>7} {:>8}\n", "input", "configuration",
-                     "cases", "steps", "collisions", "pairs", "defects");
+CorpusTable::CorpusTable() {
+  fmt::print("{:<18} {:<18} {:>6} {:>6} {:>11} {:>7} {:>8}\n", "input", "configuration", "cases",
+             "steps", "collisions", "pairs", "defects");
 }
 
 void CorpusTable::add(const CorpusRow& row) {
@@ -287,24 +285,6 @@ void CorpusTable::end() {
   }
   std::fflush(stdout);
   rows_.clear();
-}
-
-std::string corpus_digest(const std::filesystem::path& corpus) {
-  const auto files = corpus::case_files(corpus);
-  return digest_of_files(files ? files.value() : std::vector<std::filesystem::path>());
-}
-
-void check_oracle(std::uint64_t queries, int jobs, const OnSelfTestRow& on_family) {
-  properties::SelfTestOptions options;
-  options.queries = queries;
-  options.jobs = jobs;
-  for (const auto& family : properties::self_test_families()) {
-    if (family->indices(queries) == 0) continue;
-    const auto result = properties::run_family(*family, options, [](std::uint64_t) {});
-    const auto& tally = result.tally;
-    on_family({family->name(), tally.queries, tally.contacts, tally.contradictions, tally.open,
-               result.complete});
-  }
 }
 
 void measure_speed(const OnSpeedFigure& on_figure) {
