@@ -16,7 +16,6 @@
 
 #include "corpus/problem.h"
 #include "oracle/libraries.h"
-#include "reports/terminal/manual.h"
 #include "reports/terminal/words.h"
 #include "reports/terminal/work.h"
 #include "reports/verbs/verbs.h"

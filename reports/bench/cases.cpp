@@ -38,11 +38,6 @@ corpus::Sequence bench_scene(const std::string& name, int triangles, int frames)
   return corpus::make_scene(name, {triangles, frames, {}}).value();
 }
 
-corpus::Sequence bench_step(const std::string& name, int triangles, int frames, std::size_t step) {
-  auto scene = bench_scene(name, triangles, frames);
-  return {std::move(scene.triangles), {scene.frames[step], scene.frames[step + 1]}};
-}
-
 std::optional<corpus::Sequence> step_at_first_contact(const std::string& name, int triangles) {
   constexpr int frames = 41;
   const auto scene = bench_scene(name, triangles, frames);
@@ -134,12 +129,6 @@ std::optional<corpus::Sequence> bent_bunny(const BenchSettings& settings) {
   if (!is_there(file)) return std::nullopt;
   constexpr int frames = 6;
   return used(corpus::make_scene("bend", {0, frames, used(corpus::read_mesh(file))}));
-}
-
-std::optional<corpus::Sequence> rod_twist_step(const BenchSettings& settings) {
-  std::vector<std::string> unused;
-  auto rods = real_sequence(settings, "rod-twist", unused);
-  return rods ? std::optional(std::move(rods->frames)) : std::nullopt;
 }
 
 TimedCase timed_case(const std::string& id, corpus::Sequence sequence, Start start) {

@@ -16,9 +16,6 @@ namespace assay::reports {
 // A scene of corpus/. It cannot fail, because names and sizes are those of the benches.
 corpus::Sequence bench_scene(const std::string& name, int triangles, int frames);
 
-// Two of the frames of a scene: the step from frame `step` on.
-corpus::Sequence bench_step(const std::string& name, int triangles, int frames, std::size_t step);
-
 // Two frames of a scene around its first contact: the fastest vertex moves by the mean length of
 // an edge, and the first contact is in the middle. On a fine mesh a step between frames of the
 // scene itself would be many edges long, and its pairs would grow faster than the mesh. Nothing if
@@ -51,9 +48,6 @@ std::optional<RealSequence> real_sequence(const BenchSettings& settings, const s
 
 // The bunny as it is bent into a ring in five steps; nothing if it is not there.
 std::optional<corpus::Sequence> bent_bunny(const BenchSettings& settings);
-
-// The step of rod-twist alone; nothing if it is not there.
-std::optional<corpus::Sequence> rod_twist_step(const BenchSettings& settings);
 
 // A case, and what is known of its start.
 struct TimedCase {

@@ -1,18 +1,51 @@
 #include "reports/bench/sweep.h"
 
 #include <fmt/format.h>
+#include <time.h>
 
 #include <algorithm>
 #include <bit>
+#include <chrono>
 #include <numeric>
 
-#include "detector/assembly.h"
 #include "detector/detector.h"
 #include "properties/worker/case_run.h"
-#include "reports/bench/interleave.h"
 #include "reports/bench/suites.h"
 
 namespace assay::reports {
+
+double ns_of(const std::function<void()>& work) {
+  const auto now = [] {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return 1e9 * static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec);
+  };
+  const double begin = now();
+  work();
+  return now() - begin;
+}
+
+double wall_ns_of(const std::function<void()>& work) {
+  const auto begin = std::chrono::steady_clock::now();
+  work();
+  const std::chrono::duration<double, std::nano> taken = std::chrono::steady_clock::now() - begin;
+  return taken.count();
+}
+
+std::vector<std::vector<double>> interleave(int rounds,
+                                            const std::vector<Measurement>& measurements) {
+  const std::size_t count = measurements.size();
+  for (const auto& measure : measurements) measure();
+  std::vector<std::vector<double>> samples(count);
+  for (int round = 0; round < rounds; ++round) {
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t i = round % 2 == 0 ? k : count - 1 - k;
+      samples[i].push_back(measurements[i]());
+    }
+  }
+  return samples;
+}
+
 namespace {
 
 using namespace detector;
@@ -57,37 +90,6 @@ std::uint64_t result_hash(const StepResult& result) {
   return hash.value();
 }
 
-TimedStep::TimedStep(std::string name, const Triangles& triangles,
-                     std::span<const Positions> frames, const Options& options, BenchReport& report)
-    : TimedStep(std::move(name), triangles, frames, options, standard_stages(options), report) {}
-
-TimedStep::TimedStep(std::string name, const Triangles& triangles,
-                     std::span<const Positions> frames, const Options& options, Stages stages,
-                     BenchReport& report)
-    : name_(std::move(name)),
-      frames_(frames.last(2)),
-      detector_(made(detector::assemble(triangles, frames[0], options, std::move(stages)), name_)),
-      report_(report) {
-  for (std::size_t f = 0; f + 2 < frames.size(); ++f) detector_.step(frames[f], frames[f + 1]);
-}
-
-double TimedStep::time() {
-  const double ns = ns_of([&] { result_ = detector_.evaluate(frames_[0], frames_[1]); });
-  if (result_.answer == Answer::error) throw UnusableData(name_ + ": " + result_.problem->message);
-  const std::uint64_t hash = result_hash(result_);
-  if (evaluated_ && hash != hash_) {
-    report_.wrong_answers.push_back(name_ + ": two evaluations of one step differ");
-  }
-  hash_ = hash;
-  evaluated_ = true;
-  return ns;
-}
-
-const StepResult& TimedStep::result() {
-  if (!evaluated_) time();
-  return result_;
-}
-
 Options bench_options(Culling culling, Arithmetic arithmetic) {
   return {culling, Start::clean, Pairs::all, arithmetic};
 }
@@ -102,11 +104,6 @@ Options options_of_sequence(Culling culling, Start start, std::uint32_t threads)
 Detector made(Expected<Detector> detector, const std::string& name) {
   if (!detector) throw UnusableData(name + ": " + detector.error().message);
   return std::move(detector.value());
-}
-
-Estimate ratio_in_common(const std::vector<double>& a, const std::vector<double>& b) {
-  const std::size_t rounds = std::min(a.size(), b.size());
-  return ratio_of(std::span(a).first(rounds), std::span(b).first(rounds));
 }
 
 namespace {

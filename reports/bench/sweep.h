@@ -1,6 +1,6 @@
 // Times several subjects on the same case, side by side, and returns what they answered and the
 // times of each round. A subject is the built-in detector in this process, by its options, or any
-// detector in a worker. What is compared is measured in turn (interleave.h).
+// detector in a worker. What is compared is measured in turn.
 #pragma once
 
 #include <cmath>
@@ -15,45 +15,28 @@
 #include "corpus/formats/sequence_reader.h"
 #include "detector/detector.h"
 #include "detector/options.h"
-#include "detector/step/stages.h"
 #include "detector/step_result.h"
 #include "properties/worker/worker_process.h"
 #include "reports/bench/bench_report.h"
-#include "reports/bench/interleave.h"
 
 namespace assay::reports {
+
+// The processor time of this thread in one run of `work`, in ns. The work of other programs does
+// not count, but their effect on caches and clock rates remains.
+double ns_of(const std::function<void()>& work);
+// The same by the clock on the wall, for work in several threads.
+double wall_ns_of(const std::function<void()>& work);
+
+// Makes `rounds` rounds of all measurements, in forward and backward order by turns, after one
+// round that is thrown away, so that what is compared was measured side by side, in one run. Each
+// measurement returns what it measured: samples[i][round] for measurement i.
+using Measurement = std::function<double()>;
+std::vector<std::vector<double>> interleave(int rounds,
+                                            const std::vector<Measurement>& measurements);
 
 // A hash of everything in a result that depends neither on time nor on the searches before the
 // step (as the counts of marking do).
 std::uint64_t result_hash(const detector::StepResult& result);
-
-// One step of a detector that can be timed again and again, its result checked each time.
-class TimedStep {
- public:
-  // Commits all steps of `frames` but the last, which is the one to be timed. REQUIRES two frames
-  // or more, which outlive this object. Throws UnusableData if the detector refuses the mesh.
-  TimedStep(std::string name, const detector::Triangles& triangles,
-            std::span<const detector::Positions> frames, const detector::Options& options,
-            BenchReport& report);
-  TimedStep(std::string name, const detector::Triangles& triangles,
-            std::span<const detector::Positions> frames, const detector::Options& options,
-            detector::Stages stages, BenchReport& report);
-
-  // Evaluates the step once and returns the processor time in ns. A result that differs from the
-  // first one is a wrong answer in the report.
-  double time();
-  // The result of the last evaluation. Evaluates the step once if there was none.
-  const detector::StepResult& result();
-
- private:
-  std::string name_;
-  std::span<const detector::Positions> frames_;
-  detector::Detector detector_;
-  BenchReport& report_;
-  detector::StepResult result_;
-  std::uint64_t hash_ = 0;
-  bool evaluated_ = false;
-};
 
 // The options of the benches: the caller vouches for the start, and all pairs are asked for.
 detector::Options bench_options(detector::Culling culling,
@@ -107,8 +90,5 @@ struct SweptRuns {
 // detector in this process refuses the mesh, or a step of it is an error.
 std::vector<SweptRuns> sweep(const corpus::Case& c, std::span<const SweptSubject> subjects,
                              const SweepPlan& plan);
-
-// The ratio over the rounds that both took part in.
-Estimate ratio_in_common(const std::vector<double>& a, const std::vector<double>& b);
 
 }  // namespace assay::reports

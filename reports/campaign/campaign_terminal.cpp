@@ -30,13 +30,8 @@ using Clock = std::chrono::steady_clock;
 Expected<std::vector<corpus::Case>> public_sequences(const std::string& folder) try {
   std::vector<std::string> missing;
   std::vector<corpus::Case> cases;
-  for (auto& real : real_sequences(BenchSettings{folder}, missing)) {
-    corpus::Case c;
-    c.id = real.name;
-    c.triangles = std::move(real.frames.triangles);
-    c.frames = std::move(real.frames.frames);
-    cases.push_back(std::move(c));
-  }
+  for (auto& real : real_sequences(BenchSettings{folder}, missing))
+    cases.push_back(timed_case(real.name, std::move(real.frames), real.start()).c);
   if (cases.empty())
     return Problem{fmt::format("{}: none of the public sequences is there", folder)};
   return cases;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "corpus/digest.h"
 #include "corpus/queries/query_csv.h"
 #include "corpus/scenes/scenes.h"
 #include "properties/campaign/ledger/step_measures.h"
@@ -12,11 +11,9 @@
 #include "properties/campaign/trials/case_tally.h"
 #include "properties/judging/case_check.h"
 #include "properties/queries/listed_queries.h"
-#include "properties/queries/self_check.h"
 #include "properties/worker/plugin/query_case.h"
 #include "properties/worker/worker_process.h"
 #include "reports/bench/cases.h"
-#include "reports/bench/interleave.h"
 #include "reports/bench/sweep.h"
 #include "reports/campaign/case_folders.h"
 
@@ -162,12 +159,9 @@ corpus::Expected<corpus::Case> case_of_scene(const corpus::SceneInfo& scene) {
   options.size = 600;
   options.frames = std::max(6, scene.least_frames);
   BOOST_OUTCOME_TRY(made, corpus::make_scene(scene.name, options));
-  corpus::Case c;
-  c.id = scene.name;
+  auto c = timed_case(std::string(scene.name), std::move(made), detector::Start::verified).c;
   c.about = "a scene";
   c.source = "assay scene";
-  c.triangles = std::move(made.triangles);
-  c.frames = std::move(made.frames);
   return c;
 }
 
@@ -198,14 +192,21 @@ using properties::SpeedFigure;
 
 constexpr int rounds = 9;
 
-// The time of the first options over that of the second, measured in turn.
+// The time of the last step by the first options over that by the second, measured in turn.
 SpeedFigure figure_of(std::string_view name, const corpus::Sequence& step, const Options& measured,
                       const Options& beside) {
-  BenchReport unused;
-  TimedStep one("", step.triangles, step.frames, measured, unused);
-  TimedStep other("", step.triangles, step.frames, beside, unused);
-  const auto samples =
-      interleave(rounds, {[&] { return one.time(); }, [&] { return other.time(); }});
+  const auto& frames = step.frames;
+  const auto at_last_step = [&](const Options& options) {
+    auto built_in = made(detector::Detector::create(step.triangles, frames[0], options), "");
+    for (std::size_t f = 0; f + 2 < frames.size(); ++f) built_in.step(frames[f], frames[f + 1]);
+    return built_in;
+  };
+  auto one = at_last_step(measured), other = at_last_step(beside);
+  const auto time = [&](detector::Detector& built_in) {
+    detector::StepResult result;
+    return ns_of([&] { result = built_in.evaluate(*std::prev(frames.end(), 2), frames.back()); });
+  };
+  const auto samples = interleave(rounds, {[&] { return time(one); }, [&] { return time(other); }});
   const Estimate ratio = ratio_of(samples[0], samples[1]);
   return {std::string(name), ratio.value, ratio.lo, ratio.hi, ratio.samples};
 }
@@ -253,9 +254,9 @@ void check_own_cases(const properties::CampaignRequest& request, const OnCorpusR
   judged.tell(on_row);
 }
 
-std::string corpus_heading() {
-  return fmt::format("{:<18} {:<18} {:>6} {:>6} {:>11} {:>7} {:>8}\n", "input", "configuration",
-                     "cases", "steps", "collisions", "pairs", "defects");
+CorpusTable::CorpusTable() {
+  fmt::print("{:<18} {:<18} {:>6} {:>6} {:>11} {:>7} {:>8}\n", "input", "configuration", "cases",
+             "steps", "collisions", "pairs", "defects");
 }
 
 void CorpusTable::add(const CorpusRow& row) {
@@ -284,24 +285,6 @@ void CorpusTable::end() {
   }
   std::fflush(stdout);
   rows_.clear();
-}
-
-std::string corpus_digest(const std::filesystem::path& corpus) {
-  const auto files = corpus::case_files(corpus);
-  return digest_of_files(files ? files.value() : std::vector<std::filesystem::path>());
-}
-
-void check_oracle(std::uint64_t queries, int jobs, const OnSelfTestRow& on_family) {
-  properties::SelfTestOptions options;
-  options.queries = queries;
-  options.jobs = jobs;
-  for (const auto& family : properties::self_test_families()) {
-    if (family->indices(queries) == 0) continue;
-    const auto result = properties::run_family(*family, options, [](std::uint64_t) {});
-    const auto& tally = result.tally;
-    on_family({family->name(), tally.queries, tally.contacts, tally.contradictions, tally.open,
-               result.complete});
-  }
 }
 
 void measure_speed(const OnSpeedFigure& on_figure) {

@@ -32,26 +32,17 @@ Expected<void> check_corpus(const properties::CampaignRequest& request,
 void check_own_cases(const properties::CampaignRequest& request, const OnCorpusRow& on_row,
                      const OnCorpusFailure& on_failure);
 
-// The heading above the rows on the terminal.
-std::string corpus_heading();
-
-// Collects the rows of an input, and prints them when the next input begins or `end` is called. If
+// Prints the heading, collects the rows of an input, and prints them when the next input begins or `end` is called. If
 // all configurations came to the same, and to nothing that has to be told, they share one row.
 class CorpusTable {
  public:
+  CorpusTable();
   void add(const properties::CorpusRow& row);
   void end();
 
  private:
   std::vector<properties::CorpusRow> rows_;
 };
-
-// SHA-256 over names and bytes of the case files.
-std::string corpus_digest(const std::filesystem::path& corpus);
-
-// Is called for each family of `assay self-test` as soon as it is known.
-using OnSelfTestRow = std::function<void(const properties::SelfTestRow&)>;
-void check_oracle(std::uint64_t queries, int jobs, const OnSelfTestRow& on_family);
 
 // Is called for each of properties::speed_figures: a ratio of processor times of interleaved steps
 // of the built-in detector. 10 s in all.

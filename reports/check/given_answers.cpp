@@ -14,11 +14,6 @@
 
 namespace assay::reports {
 
-std::string GivenAnswers::error_of(std::size_t, const detector::StepResult&) const {
-  const auto error = properties::error_of(run_, 0);
-  return error.empty() ? run_.explanation : error;
-}
-
 void GivenAnswers::begin_run(std::size_t s) {
   first_of_run_ = s;
   run_ = {};

@@ -15,7 +15,6 @@ class GivenAnswers : public StepAnswers {
  public:
   bool is_recorded() const override { return true; }
   nlohmann::ordered_json to_json() const override { return detector_json({{"library", nullptr}}); }
-  std::string error_of(std::size_t, const detector::StepResult&) const override;
 
  protected:
   GivenAnswers(properties::Subject subject, const corpus::StepSource& steps)

@@ -115,11 +115,6 @@ class Plugin : public StepAnswers {
     return s < run_.steps.size() ? run_.steps[s] : undecided();
   }
 
-  std::string error_of(std::size_t s, const StepResult&) const override {
-    const auto error = properties::error_of(run_, s);
-    return error.empty() ? run_.explanation : error;
-  }
-
  private:
   properties::WorkerProcess worker_, second_;
   const std::shared_ptr<const corpus::Case> case_;

@@ -42,7 +42,10 @@ class StepAnswers {
   virtual detector::StepResult answer(std::size_t s, const corpus::SourceStep& step,
                                       const detector::StopFunction& stop) = 0;
   // Why a step ended with an error.
-  virtual std::string error_of(std::size_t s, const detector::StepResult& result) const = 0;
+  virtual std::string error_of(std::size_t s, const detector::StepResult&) const {
+    const auto error = properties::error_of(run_, s - first_of_run_);
+    return error.empty() ? run_.explanation : error;
+  }
 
   bool is_plugin() const { return !under_test().built_in; }
   // The answers were recorded, and nothing runs here.

@@ -30,11 +30,6 @@ struct RecordedDetector {
   std::vector<properties::NotJudged> not_judged;
 };
 
-struct RecordedInput {
-  CheckInput input;
-  std::unique_ptr<StepAnswers> answers;
-};
-
 // The steps of a log, each as the contract takes it.
 class RecordedSteps : public corpus::StepSource {
  public:
@@ -250,23 +245,6 @@ Expected<RecordedDetector> recorded_detector(const corpus::StepLog& log, const s
   return recorded;
 }
 
-// The log must outlive what is returned. Fails if a log of this detector leaves nothing to be
-// judged, or does not hold the step that is asked for.
-Expected<RecordedInput> recorded_input(corpus::StepLog& log, const std::string& file,
-                                       const LogSelection& selection) {
-  BOOST_OUTCOME_TRY(recorded, recorded_detector(log, file));
-  const auto& detector = recorded.subject.detector;
-  if (judged_claims(detector.claims, detector.contract).empty())
-    return Problem{fmt::format(
-        "{}: its detector claims nothing that its contract leaves to be judged by a log", file)};
-  if (selection.step && !selection.follow && !log.place_of(*selection.step))
-    return Problem{
-        fmt::format("{}: there is no whole record of step {}", file, *selection.step + 1)};
-  auto steps = std::make_unique<RecordedSteps>(log, recorded.subject.description, selection);
-  auto answers = std::make_unique<Recorded>(std::move(recorded), *steps);
-  return RecordedInput{{file, std::move(steps)}, std::move(answers)};
-}
-
 }  // namespace
 
 LogName log_name(const std::string& word) {
@@ -309,7 +287,18 @@ Expected<CheckAnswer> judge_log(const LogName& name, const LogQuestion& question
   BOOST_OUTCOME_TRY(log, corpus::StepLog::open(name.file));
   auto selection = question.selection;
   if (name.step) selection.step = name.step;
-  BOOST_OUTCOME_TRY(recorded, recorded_input(log, name.file, selection));
+  BOOST_OUTCOME_TRY(recorded, recorded_detector(log, name.file));
+  const auto& detector = recorded.subject.detector;
+  if (judged_claims(detector.claims, detector.contract).empty())
+    return Problem{fmt::format(
+        "{}: its detector claims nothing that its contract leaves to be judged by a log",
+        name.file)};
+  if (selection.step && !selection.follow && !log.place_of(*selection.step))
+    return Problem{
+        fmt::format("{}: there is no whole record of step {}", name.file, *selection.step + 1)};
+  auto steps = std::make_unique<RecordedSteps>(log, recorded.subject.description, selection);
+  Recorded answers(std::move(recorded), *steps);
+  CheckInput input{name.file, std::move(steps)};
   std::optional<properties::Subject> again;
   if (!question.again.library.empty()) {
     BOOST_OUTCOME_TRY(subject, choose_detector(question.again));
@@ -330,8 +319,7 @@ Expected<CheckAnswer> judge_log(const LogName& name, const LogQuestion& question
   auto check = question.check;
   check.files = {name.file};
   Limits limits(check.time_limit, check.memory_limit);
-  BOOST_OUTCOME_TRY(answer,
-                    check_answers(check, recorded.input, *recorded.answers, limits, with_files));
+  BOOST_OUTCOME_TRY(answer, check_answers(check, input, answers, limits, with_files));
   if (kept) kept->end(answer);
   return std::move(answer);
 }

@@ -1,11 +1,9 @@
-#include "reports/terminal/manual.h"
-
 #include <fmt/format.h>
 
 #include <array>
 #include <sstream>
 
-#include "reports/terminal/work.h"
+#include "reports/terminal/option_words.h"
 
 namespace assay::reports {
 

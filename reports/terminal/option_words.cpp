@@ -9,7 +9,6 @@
 
 #include "corpus/problem.h"
 #include "properties/campaign/plan.h"
-#include "reports/terminal/manual.h"
 #include "reports/terminal/words.h"
 
 namespace assay::reports {

@@ -64,23 +64,6 @@ std::optional<TrialName> trial_of(std::string_view id) {
   return TrialName{found, *index};
 }
 
-struct ReplayedCase {
-  corpus::Case c;                  // if it is read from a file
-  std::optional<TrialName> trial;  // if it is made again by a campaign
-};
-
-// If a file has this name, the case is read from it. Otherwise an id makes the case again.
-corpus::Expected<ReplayedCase> case_of(const std::string& id_or_file) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(id_or_file, ignored)) {
-    if (const auto trial = trial_of(id_or_file)) {
-      return ReplayedCase{corpus::Case{}, trial};
-    }
-  }
-  BOOST_OUTCOME_TRY(read, read_case_of({id_or_file}));
-  return ReplayedCase{std::move(read), std::nullopt};
-}
-
 // A case that states options runs in the configuration of these. One that does not runs in every
 // configuration.
 std::optional<std::string> choose_configurations(const corpus::Case& c,
@@ -157,28 +140,10 @@ std::string run_text(const properties::CaseRun& run, const properties::JudgedTri
   return text;
 }
 
-// What configurations came to: one text of all that came to the same.
-class RunTexts {
- public:
-  void add(const std::string& configuration, const std::string& text) {
-    const auto same = std::ranges::find(texts_, text, &Told::text);
-    if (same == texts_.end()) {
-      texts_.push_back({{configuration}, text});
-    } else {
-      same->configurations.push_back(configuration);
-    }
-  }
-  void print() const {
-    for (const auto& told : texts_)
-      fmt::print("{}: {}", fmt::join(told.configurations, ", "), told.text);
-  }
-
- private:
-  struct Told {
-    std::vector<std::string> configurations;
-    std::string text;
-  };
-  std::vector<Told> texts_;
+// A text, and the configurations that came to it.
+struct RunText {
+  std::vector<std::string> configurations;
+  std::string text;
 };
 
 // Prints the broken laws. Returns whether there are any.
@@ -233,15 +198,21 @@ Expected<int> replay_log(const LogName& log, const ReplayRequest& request) {
 Expected<int> run_replay(const ReplayRequest& request) {
   const auto log = log_name(request.id_or_file);
   if (log.step && request.detector.library.empty()) return replay_log(log, request);
-  auto made = case_of(request.id_or_file);
-  if (!made) {
-    return Problem{made.error().message +
-                   (request.id_or_file.find(':') == std::string::npos
-                        ? ""
-                        : " (an id is CAMPAIGN:SEED:FAMILY:INDEX, with a family of this build)")};
+  // If a file has this name, the case is read from it. Otherwise an id makes the case again.
+  std::error_code ignored;
+  std::optional<TrialName> trial;
+  if (!std::filesystem::exists(request.id_or_file, ignored)) trial = trial_of(request.id_or_file);
+  corpus::Case c;
+  if (!trial) {
+    auto read = read_case_of({request.id_or_file});
+    if (!read) {
+      return Problem{read.error().message +
+                     (request.id_or_file.find(':') == std::string::npos
+                          ? ""
+                          : " (an id is CAMPAIGN:SEED:FAMILY:INDEX, with a family of this build)")};
+    }
+    c = std::move(read.value());
   }
-  corpus::Case& c = made.value().c;
-  const auto& trial = made.value().trial;
   BOOST_OUTCOME_TRY(may_fill(request.export_folder));
   auto words = request.detector;
   const bool is_query =
@@ -291,7 +262,7 @@ Expected<int> run_replay(const ReplayRequest& request) {
   if (vouched) fmt::print("as in the campaign, the detector is given its start as clean\n");
   print_steps(*seen, truth, contract);
   int code = exit_holds;
-  RunTexts texts;
+  std::vector<RunText> texts;
   std::optional<properties::Claim> broken;
   auto exported = subject.detector;
   for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -307,9 +278,12 @@ Expected<int> run_replay(const ReplayRequest& request) {
     const bool is_open = verdict.outcome == Outcome::undecided || verdict.outcome == Outcome::error;
     if (is_open && code == exit_holds) code = exit_undecided;
     if (request.why) text += pair_story(c, configuration.options, *request.why, truth);
-    texts.add(configuration.name, text);
+    auto same = std::ranges::find(texts, text, &RunText::text);
+    if (same == texts.end()) same = texts.insert(same, {{}, text});
+    same->configurations.push_back(configuration.name);
   }
-  texts.print();
+  for (const auto& [configurations, text] : texts)
+    fmt::print("{}: {}", fmt::join(configurations, ", "), text);
   if (subject.detector.built_in && print_broken_laws(c, subject.detector, runs, truth)) {
     code = exit_defect;
   }

@@ -1,21 +1,196 @@
-// `assay run` runs a campaign, or a share of one, and tells what it comes to.
+// `assay run` runs a campaign, or a share of one, and tells what it comes to. `assay certify` runs
+// the corpus, the campaign, the planted faults, the self-test and the measures of speed. Then it
+// writes the certificate.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <set>
+
+#include "corpus/digest.h"
 #include "corpus/problem.h"
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/ledger/binding.h"
 #include "properties/campaign/ledger/run_folder.h"
 #include "properties/campaign/phases/phases.h"
+#include "properties/queries/self_check.h"
 #include "reports/campaign/campaign_terminal.h"
 #include "reports/campaign/campaign_text.h"
+#include "reports/campaign/case_folders.h"
+#include "reports/campaign/failure_text.h"
 #include "reports/certificate/own_checks.h"
 #include "reports/certificate/statement.h"
 #include "reports/certificate/summary.h"
+#include "reports/terminal/text_file.h"
 #include "reports/terminal/words.h"
+#include "reports/terminal/work.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {
 namespace {
+
+using Clock = std::chrono::steady_clock;
+
+class Certification {
+ public:
+  Certification(const CampaignWords& words, const properties::CampaignRequest& request,
+                std::filesystem::path corpus, properties::Store store)
+      : words_(words),
+        request_(request),
+        out_(words.out),
+        corpus_(std::move(corpus)),
+        store_(std::move(store)),
+        begin_(Clock::now()) {}
+
+  // Returns the exit code of the verdict, or of what kept it from being reached.
+  Expected<int> run() {
+    BOOST_OUTCOME_TRY(write_text_file(properties::campaign_file(out_).string(), campaign_text()));
+    store_subject();
+    BOOST_OUTCOME_TRY(run_corpus());
+    BOOST_OUTCOME_TRY(forget_corpus_failures());
+    fmt::print("\n");
+    BOOST_OUTCOME_TRY(run_on_terminal(request_, store_, words_.out));
+    BOOST_OUTCOME_TRY(show_corpus_failures());
+    run_self_test();
+    if (request_.detector.built_in) run_speed();
+    return issue();
+  }
+
+ private:
+  std::string campaign_text() const { return properties::plan_text(request_.plan) + "\n"; }
+
+  void store_subject() {
+    const auto commit = commit_text();
+    checks_.keep(properties::Versions{
+        ASSAY_VERSION, commit.empty() ? std::nullopt : std::optional(commit), version_text()});
+    checks_.keep(properties::Paths{absolute_path(words_.out),
+                                   absolute_path(words_.detector.library),
+                                   absolute_path(words_.own_cases), absolute_path(words_.data)});
+    checks_.keep(input_digests());
+    checks_.keep(properties::asked_of_a_certificate());
+  }
+
+  // If the owner gives cases, their digest is taken together with that of the shipped ones.
+  properties::InputDigests input_digests() const {
+    const auto files = corpus::case_files(corpus_ / "curated");
+    const auto cases =
+        digest_of_files(files ? files.value() : std::vector<std::filesystem::path>());
+    return {request_.own_cases ? corpus::sha256_of(cases + request_.own_cases->digest) : cases};
+  }
+
+  Expected<void> run_corpus() {
+    CorpusTable table;
+    checks_.drop(properties::CorpusRow::kind);
+    const auto on_row = [&](const properties::CorpusRow& row) {
+      table.add(row);
+      checks_.keep(row);
+    };
+    const auto on_failure = [&](const auto& failure) { corpus_failures_.push_back(failure); };
+    auto done = check_corpus(request_, corpus_ / "curated", on_row, on_failure);
+    if (done) check_own_cases(request_, on_row, on_failure);
+    table.end();
+    return done;
+  }
+
+  // Removes failures of an earlier call that the corpus does not show any more.
+  Expected<void> forget_corpus_failures() {
+    std::set<std::string> signatures;
+    for (const auto& failure : corpus_failures_) signatures.insert(failure.signature);
+    checks_.keep_corpus_failures(signatures);
+    if (const auto& problem = checks_.problem()) return *problem;
+    return outcome::success();
+  }
+
+  Expected<void> show_corpus_failures() {
+    if (corpus_failures_.empty()) return outcome::success();
+    {
+      PlainProgress progress("shrinking");
+      properties::keep_corpus_failures(request_, corpus_failures_, checks_,
+                                       [&](const std::string& text) { progress.show(text); });
+    }
+    BOOST_OUTCOME_TRY(kept, checks_.corpus_failures());
+    std::string text;
+    const auto written = write_failures(kept, out_, words_.detector, text);
+    fmt::print("{}", text);
+    return written;
+  }
+
+  void run_self_test() {
+    checks_.drop(properties::SelfTestRow::kind);
+    const auto queries = request_.plan.policy.self_test_queries;
+    if (queries == 0) return;
+    properties::SelfTestOptions options;
+    options.queries = queries;
+    options.jobs = request_.jobs;
+    properties::QueryTally all;
+    for (const auto& family : properties::self_test_families()) {
+      if (family->indices(queries) == 0) continue;
+      const auto result = properties::run_family(*family, options, [](std::uint64_t) {});
+      const auto& tally = result.tally;
+      checks_.keep(properties::SelfTestRow{family->name(), tally.queries, tally.contacts,
+                                           tally.contradictions, tally.open, result.complete});
+      all += tally;
+    }
+    fmt::print("\nself-test of the oracle: {} contradictions in {} queries\n", all.contradictions,
+               all.queries);
+    std::fflush(stdout);
+  }
+
+  void run_speed() {
+    checks_.drop(properties::SpeedFigure::kind);
+    checks_.drop(properties::Issued::kind);
+    fmt::print("\n{:<24} {:>9} {:>19}\n", "speed (a ratio)", "median", "interval");
+    measure_speed([&](const properties::SpeedFigure& figure) {
+      fmt::print("{:<24} {:>9.4f} {:>19}\n", figure.name, figure.median,
+                 fmt::format("[{:.4f}, {:.4f}]", figure.lo, figure.hi));
+      std::fflush(stdout);
+      checks_.keep(figure);
+    });
+  }
+
+  Expected<int> issue() {
+    const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
+    checks_.keep(properties::Issued{properties::time_in_utc(), seconds});
+    if (const auto& problem = checks_.problem()) return *problem;
+    BOOST_OUTCOME_TRY(store_.seal());
+    BOOST_OUTCOME_TRY(findings, properties::read_findings(out_));
+    return issue_certificate(findings, campaign_text(), fmt::format(" in {:.0f} s", seconds));
+  }
+
+  const CampaignWords& words_;
+  const properties::CampaignRequest& request_;
+  const std::filesystem::path out_;
+  const std::filesystem::path corpus_;
+  properties::Store store_;
+  properties::Checks checks_{store_};
+  std::vector<properties::StoredFailure> corpus_failures_;
+  const Clock::time_point begin_;
+};
+
+Expected<int> certify(const CampaignWords& words) {
+  BOOST_OUTCOME_TRY(corpus, shipped_corpus());
+  BOOST_OUTCOME_TRY(request, ask_for_campaign(words));
+  BOOST_OUTCOME_TRY(
+      may_keep_run(words.out, {"campaign.json", "certificate.json", "junit.xml", "summary.md"}));
+  BOOST_OUTCOME_TRY(
+      properties::expect_no_other_store(words.out, {properties::store_file(words.out)}));
+  BOOST_OUTCOME_TRY(store, properties::Store::open(properties::store_file(words.out),
+                                                   properties::binding_of(request)));
+  fmt::print("the shipped corpus, campaign {}, self-test and speed; writes {}\n", request.plan.name,
+             words.out);
+  return Certification(words, request, corpus, std::move(store)).run();
+}
+
+void add_certify_options(Verb& verb, CampaignWords& words) {
+  words.campaign = "smoke";
+  verb.add("--campaign NAME|FILE", words.campaign,
+           "smoke, quick, nightly, release, or a campaign file (.json)")
+      .shows_default();
+  add_campaign_options(verb, words);
+  verb.add("--out DIR", words.out, "Folder for the certificate").required().in(OptionGroup::output);
+}
 
 constexpr const char* go_on = "; what is stored stays: run the same again to go on";
 
@@ -47,7 +222,6 @@ Expected<void> run_own_cases(const properties::CampaignRequest& request, propert
   if (!request.own_cases) return outcome::success();
   std::vector<properties::CorpusRow> rows;
   std::vector<properties::StoredFailure> failures;
-  fmt::print("{}", corpus_heading());
   CorpusTable table;
   check_own_cases(
       request,
@@ -72,7 +246,7 @@ Expected<properties::RunFindings> run_rest(const properties::CampaignRequest& re
 Expected<int> run_campaign(const CampaignWords& words) {
   // A share is judged together with others (verify), so it has a certificate.
   if (words.shares > 1) return certify(words);
-  const auto begin = std::chrono::steady_clock::now();
+  const auto begin = Clock::now();
   const auto& out = words.out;
   BOOST_OUTCOME_TRY(request, ask_for_campaign(words));
   BOOST_OUTCOME_TRY(may_keep_run(out, {"junit.xml", "summary.md"}));
@@ -85,7 +259,7 @@ Expected<int> run_campaign(const CampaignWords& words) {
     problem.message += go_on;
     return problem;
   }
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  const std::chrono::duration<double> took = Clock::now() - begin;
   return conclude(request, findings.value(), out, took.count());
 }
 
@@ -112,6 +286,12 @@ void add_run_options(Verb& verb, CampaignWords& words) {
 }
 
 }  // namespace
+
+AddedVerb add_certify(CLI::App& app) {
+  return make_verb(app, "certify",
+                   "Corpus, campaign, planted faults, self-test, speed: a certificate, or a defect",
+                   add_certify_options, certify);
+}
 
 AddedVerb add_run(CLI::App& app) {
   return make_verb(app, "run",

@@ -1,7 +1,8 @@
 // The verbs of the command line.
 //
 // There is one file for each verb: NAME_command.cpp holds what is asked of it (its request), its
-// options and what it does, so that a new option is a change of one file.
+// options and what it does, so that a new option is a change of one file. `certify` stands beside
+// `run`, whose shares are certified.
 #pragma once
 
 #include "reports/campaign/campaign_terminal.h"
@@ -23,8 +24,5 @@ AddedVerb add_scene(CLI::App& app);
 AddedVerb add_self_test(CLI::App& app);
 AddedVerb add_shrink(CLI::App& app);
 AddedVerb add_verify(CLI::App& app);
-
-// What `certify` does, and `run` where it is to do a share of a campaign.
-Expected<int> certify(const CampaignWords& words);
 
 }  // namespace assay::reports

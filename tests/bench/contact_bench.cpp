@@ -8,7 +8,7 @@
 #include "detector/view/view_signs.h"
 #include "oracle/query/contact.h"
 #include "properties/queries/query_families.h"
-#include "reports/bench/interleave.h"
+#include "reports/bench/sweep.h"
 #include "reports/estimate.h"
 #include "tests/bench/step_parts.h"
 

@@ -10,7 +10,6 @@
 #include "properties/judging/trial.h"
 #include "properties/worker/case_run.h"
 #include "properties/worker/worker_process.h"
-#include "reports/bench/interleave.h"
 #include "reports/bench/sweep.h"
 #include "tests/bench/step_parts.h"
 
@@ -106,7 +105,7 @@ constexpr SizedScene sized_scenes[] = {
     {"one-large-body", "crumpling-sphere", 4'000'000, 41, 12, false}};
 
 Step step_of(const SizedScene& scene) {
-  return reports::bench_step(scene.scene, sized(scene.triangles), scene.frames, scene.step);
+  return bench_step(scene.scene, sized(scene.triangles), scene.frames, scene.step);
 }
 
 void step_of_size(benchmark::State& state, const SizedScene& scene, const Options& options) {
@@ -125,9 +124,7 @@ void judge(benchmark::State& state, const Step& step) {
 
 constexpr int growing_sizes[] = {1'000, 5'000, 25'000, 100'000, 400'000, 1'000'000, 4'000'000};
 
-Step free_step(int triangles) {
-  return reports::bench_step("breathing-sphere", sized(triangles), 11, 1);
-}
+Step free_step(int triangles) { return bench_step("breathing-sphere", sized(triangles), 11, 1); }
 Step contact_step(int triangles) {
   return reports::step_at_first_contact("dented-sphere", sized(triangles));
 }
@@ -375,7 +372,7 @@ const bool are_added = [] {
   add("oracle/rod-twist", [](auto& state) { judge(state, step_named("rod-twist")); });
   for (const int step : {0, 10, 19})
     add("oracle/bend/" + std::to_string(step), [step](auto& state) {
-      judge(state, reports::bench_step("bend", sized(1'000), 21, static_cast<std::size_t>(step)));
+      judge(state, bench_step("bend", sized(1'000), 21, static_cast<std::size_t>(step)));
     });
   for (const auto& family : properties::families())
     add("judged_cases/" + std::string(family.name),

@@ -26,17 +26,26 @@ reports::BenchSettings settings() {
 
 int sized(int full) { return settings().triangles(full); }
 
+corpus::Sequence bench_step(const std::string& name, int triangles, int frames, std::size_t step) {
+  auto scene = reports::bench_scene(name, triangles, frames);
+  return {std::move(scene.triangles), {scene.frames[step], scene.frames[step + 1]}};
+}
+
 const std::optional<corpus::Sequence>& step_named(const std::string& name) {
   static std::map<std::string, std::optional<corpus::Sequence>> made;
   if (const auto found = made.find(name); found != made.end()) return found->second;
   constexpr double hardly = 1e-5;
   auto& step = made[name];
   const int triangles = sized(20'000);
-  if (name.starts_with("rod-twist")) step = reports::rod_twist_step(settings());
+  if (name.starts_with("rod-twist")) {
+    std::vector<std::string> unused;
+    if (auto rods = reports::real_sequence(settings(), "rod-twist", unused))
+      step = std::move(rods->frames);
+  }
   if (name == "rod-twist-shortened" && step)
     step->frames[1] = step->frames[0] + hardly * (step->frames[1] - step->frames[0]);
-  if (name == "folding-sheet") step = reports::bench_step(name, triangles, 21, 19);
-  if (name == "layered-cloth") step = reports::bench_step(name, triangles, 11, 5);
+  if (name == "folding-sheet") step = bench_step(name, triangles, 21, 19);
+  if (name == "layered-cloth") step = bench_step(name, triangles, 11, 5);
   // The first with a contact: bench_options promise a clean start.
   if (name == "crumpling-sphere") step = reports::step_at_first_contact(name, triangles);
   return step;

@@ -22,6 +22,9 @@ int sized(int full);
 // The settings of the product's benches: data of ASSAY_DATA, the same scale.
 reports::BenchSettings settings();
 
+// Two of the frames of a scene: the step from frame `step` on.
+corpus::Sequence bench_step(const std::string& name, int triangles, int frames, std::size_t step);
+
 // The steps that parts of a step are measured on: `rod-twist` of the public data, the same
 // shortened until hardly a vertex moves, and steps of scenes.
 inline constexpr const char* step_names[] = {"rod-twist", "rod-twist-shortened", "folding-sheet",

@@ -25,7 +25,7 @@ constexpr Scene scenes[] = {{"breathing-sphere", 11, 1, Culling::view_point},
                             {"twist", 21, 5, Culling::view_line}};
 
 void write_boxes(benchmark::State& state, const Scene& scene) {
-  const auto step = reports::bench_step(scene.name, sized(full_size), scene.frames, scene.step);
+  const auto step = bench_step(scene.name, sized(full_size), scene.frames, scene.step);
   const auto &x0 = step.frames[0], &x1 = step.frames[1];
   const auto mesh = make_topology(step.triangles, x0.rows());
   std::vector<std::array<double, 6>> boxes(mesh.triangles.size());
@@ -47,7 +47,7 @@ void write_boxes(benchmark::State& state, const Scene& scene) {
 }
 
 void look(benchmark::State& state, const Scene& scene, InstructionSet set) {
-  const auto step = reports::bench_step(scene.name, sized(full_size), scene.frames, scene.step);
+  const auto step = bench_step(scene.name, sized(full_size), scene.frames, scene.step);
   const auto mesh = make_topology(step.triangles, step.frames[0].rows());
   const auto primitives =
       Detector::create(step.triangles, step.frames[0], reports::bench_options(scene.culling))

@@ -7,7 +7,6 @@
 #include "properties/campaign/ledger/step_measures.h"
 #include "properties/judging/contracted_case.h"
 #include "properties/judging/judged_run.h"
-#include "reports/bench/compared/confirmation.h"
 
 namespace assay::reports {
 

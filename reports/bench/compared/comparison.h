@@ -10,20 +10,66 @@
 #include <string>
 #include <vector>
 
+#include "detector/options.h"
 #include "oracle/mesh/step.h"
 #include "properties/judging/step_errors.h"
+#include "properties/judging/subject.h"
 #include "reports/bench/cases.h"
-#include "reports/bench/compared/subjects.h"
 #include "reports/bench/sweep.h"
 #include "reports/estimate.h"
 
 namespace assay::reports {
 
+// Who is compared: the built-in detector by its options, in this process or in a worker, and
+// plug-ins.
+struct BenchSubject : properties::Subject {
+  std::string name = {};
+  detector::Options options = {};  // of the built-in detector; the start is the case's
+  bool is_here = false;            // it runs in this process
+  bool is_vouched_for = true;      // nobody verifies the start of a case that is known to be clean
+  bool must_hold = true;           // a claim that it breaks is a wrong answer of the suite
+  // The claims by which its errors are counted. Every form of the built-in detector is asked for
+  // what exact arithmetic claims, so that the errors of all forms are seen: otherwise doubles,
+  // which claim no pair, could miss none. A plug-in is asked for what it claims.
+  properties::Claims counted = {};
+  // The contract by which it is given steps, if that is not its own.
+  std::optional<properties::Contract> given = std::nullopt;
+
+  const properties::Contract& contract_of_steps() const {
+    return given ? *given : detector.contract;
+  }
+  // A worker that runs it, not yet started.
+  properties::WorkerProcess make_worker(double seconds) const;
+};
+
+// An assembly that a user may choose by options, in this process. "exact view-auto all" is a name.
+BenchSubject variant_of(detector::Arithmetic arithmetic, detector::Culling culling,
+                        detector::Pairs pairs);
+// Every arithmetic with every culling, for all pairs and for first pairs; exact, bvh, all is the
+// first.
+std::vector<BenchSubject> all_variants();
+
+// The built-in detector in a worker, "built-in, exact, bvh".
+BenchSubject built_in_in_worker(const detector::Options& options);
+
+// A detector that is known but cannot be run here.
+struct AbsentPeer {
+  std::string name, why;
+};
+struct Peers {
+  std::vector<BenchSubject> subjects;  // the first is the built-in detector, exact, bvh
+  std::vector<AbsentPeer> absent;
+};
+// The built-in detector in three arithmetics, and the peers in the folder: each library NAME.so, by
+// name. A library that cannot be loaded, has no steps, or is asked for a distance and not for
+// contact, is absent. So is a known peer whose library is not there; `why` says what it needs.
+Peers find_peers(const std::string& folder);
+
 // What was counted of answers that the oracle judged.
 struct JudgedCounts {
   properties::StepErrors errors;       // of the steps that the contract takes
   std::uint64_t left_out = 0;          // steps that it does not take
-  std::uint64_t confirmed = 0;         // of the unsafe ones: without the oracle (confirmation.h)
+  std::uint64_t confirmed = 0;         // of the unsafe ones: without the oracle (is_confirmed)
   std::uint64_t timed_collisions = 0;  // collisions with another first time than [0, 1]
 
   JudgedCounts& operator+=(const JudgedCounts& other);
@@ -134,5 +180,26 @@ JudgedCounts counts_of(const BenchSubject& subject, const corpus::Case& seen,
                        const std::vector<oracle::StepJudgement>& truth,
                        std::vector<UnsafeAnswer>* unsafe,
                        std::vector<properties::StepErrors>* of_steps = nullptr);
+
+// Whether another method shows that step s has a contact that was missed or met too late, or one
+// of the pairs that are missing. If any time of the step will do, this is the referee (a proof
+// without roots). Otherwise it is rational arithmetic at a witness: a time before the one that the
+// detector told at which the two features meet or, if the contract asks for all features, their
+// two triangles; or two times between which the features are proved to meet
+// (oracle/referee/rational_bracket.h). REQUIRES an unsafe diff of that step.
+bool is_confirmed(const corpus::Case& c, std::size_t s, const properties::StepDiff& diff,
+                  const detector::StepResult& result, const properties::Contract& contract);
+
+// A line for each subject: times beside errors. `heading` is that of their names. If workers took
+// part, what the columns say stands below the table.
+std::string subjects_text(std::span<const SubjectRow> rows, const std::string& heading);
+
+// The runs that ended early; who is absent; and a line for each unsafe answer that only the oracle
+// calls so.
+std::string remarks_text(const Comparison& comparison, std::span<const AbsentPeer> absent);
+
+// Adds `subjects`, `families` and `unsafe_answers`.
+void add_figures(std::span<const SubjectRow> rows, const Comparison& comparison,
+                 BenchReport& report);
 
 }  // namespace assay::reports

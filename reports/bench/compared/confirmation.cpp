@@ -1,5 +1,3 @@
-#include "reports/bench/compared/confirmation.h"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -9,6 +7,7 @@
 #include "oracle/referee/rational_bracket.h"
 #include "oracle/referee/referee.h"
 #include "oracle/referee/static_check.h"
+#include "reports/bench/compared/comparison.h"
 
 namespace assay::reports {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "properties/campaign/ledger/binding.h"
-#include "reports/bench/compared/tables.h"
+#include "reports/bench/compared/comparison.h"
 #include "reports/terminal/option_words.h"
 
 namespace assay::reports {

@@ -86,6 +86,12 @@ void find_differences(const Played& played, BenchReport& report) {
   }
 }
 
+// The ratio over the rounds that both took part in.
+Estimate ratio_in_common(const std::vector<double>& a, const std::vector<double>& b) {
+  const std::size_t rounds = std::min(a.size(), b.size());
+  return ratio_of(std::span(a).first(rounds), std::span(b).first(rounds));
+}
+
 // Adds the times of all cullings over that of bvh, for users who want to choose by themselves.
 void add_table_rows(const Played& played, BenchReport& report) {
   for (std::size_t i = 0; i < played.runs.size(); ++i) {

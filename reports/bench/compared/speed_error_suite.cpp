@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <set>
 
-#include "reports/bench/compared/tables.h"
+#include "reports/bench/compared/comparison.h"
 
 namespace assay::reports {
 namespace {

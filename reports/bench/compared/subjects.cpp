@@ -1,11 +1,10 @@
-#include "reports/bench/compared/subjects.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
 
 #include "properties/worker/worker_process.h"
+#include "reports/bench/compared/comparison.h"
 
 namespace assay::reports {
 

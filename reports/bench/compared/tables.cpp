@@ -1,11 +1,10 @@
-#include "reports/bench/compared/tables.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 
 #include "properties/campaign/ledger/binding.h"
+#include "reports/bench/compared/comparison.h"
 
 namespace assay::reports {
 

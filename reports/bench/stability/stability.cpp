@@ -5,7 +5,6 @@
 #include "oracle/view/view_sign.h"
 #include "properties/judging/case_options.h"
 #include "properties/worker/case_run.h"
-#include "reports/bench/stability/stability_changes.h"
 #include "reports/bench/sweep.h"
 
 namespace assay::reports {

@@ -80,6 +80,30 @@ struct StabilityCell {
 StabilityCell judge_hard_case(const detector::StepResult& result, HardTruth& truth,
                               detector::Arithmetic arithmetic);
 
+// Changes of a case that must not change its answer: other numbering, mirrored, scaled, moved.
+struct ChangedCase {
+  corpus::Case changed;
+  std::vector<std::int32_t> triangle;  // by triangle: its index in the changed case
+};
+
+struct CaseChange {
+  const char* name;
+  // Makes the change; nothing if a coordinate would be rounded. The case's id is the only source
+  // of randomness.
+  std::optional<ChangedCase> (*make)(const corpus::Case& c);
+};
+
+// The changes: permutation (of vertices, triangles, first corners), mirror (with all triangles
+// turned, so that outside stays outside), power of two (up or down, by the case's id), and
+// translation (as far as it can be exact).
+std::span<const CaseChange> case_changes();
+
+// Whether both have the same answer and, triangle by triangle, the same pairs; if `times`, also
+// the same times.
+bool same_but_for_numbering(const detector::StepResult& original,
+                            const detector::StepResult& changed,
+                            std::span<const std::int32_t> triangle, bool times);
+
 // How many answers stay the same under a change, of those cases in which the change is exact.
 struct Survival {
   int changed = 0, same = 0;

@@ -1,11 +1,10 @@
-#include "reports/bench/stability/stability_changes.h"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
 #include "detector/step_result.h"
 #include "properties/numbering.h"
+#include "reports/bench/stability/stability.h"
 
 namespace assay::reports {
 namespace {

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "reports/bench/stability/stability.h"
-#include "reports/bench/stability/stability_changes.h"
 
 namespace assay::reports {
 namespace {

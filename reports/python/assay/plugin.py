@@ -63,11 +63,11 @@ class Plugin:
     """
 
     def __init__(self, detector: Any, *, seconds: float = 10):
-        from . import _plugin
+        from . import _judge
 
         self._detector = detector
         with surroundings(detector):
-            self._plugin = _plugin.Plugin(
+            self._plugin = _judge.Plugin(
                 detector_word(detector), str(program("assay-worker")), seconds
             )
         self.name, self.version = self._plugin.name, self._plugin.version

@@ -1,8 +1,6 @@
 // `assay bench`: its statistics on known numbers, its suites at a hundredth of their size, and the
 // verb as a user runs it.
-#include "detector/step/stages.h"
 #include "reports/bench/cases.h"
-#include "reports/bench/interleave.h"
 #include "reports/bench/sweep.h"
 #include "tests/reports/program.h"
 
@@ -95,35 +93,6 @@ TEST(BenchReport, SamplesAreLinesOfFields) {
   report.add_sample(json_object("name", "z", "over", json_object("value", 3, "is_slow", true), "ns",
                                 std::vector<double>{4}));
   EXPECT_EQ(csv_of(report), "name,ns,over_value,over_is_slow\n\"x, y\",1 2.5,,\nz,4,3,1\n");
-}
-
-TEST(TimedStep, AResultThatChangesIsAWrongAnswer) {
-  // An elementary test that finds nothing from its second step on.
-  class Forgetful : public detector::ElementaryTest {
-   public:
-    explicit Forgetful(const bool& forgets) : forgets_(forgets) {}
-    detector::ContactResult test(const detector::FourPoints& query,
-                                 detector::Want want) const override {
-      return forgets_ ? detector::ContactResult{} : ElementaryTest::test(query, want);
-    }
-
-   private:
-    const bool& forgets_;
-  };
-  const auto step = step_at_first_contact("dented-sphere", 1'280);
-  ASSERT_TRUE(step);
-  bool forgets = false;
-  const auto options = bench_options(detector::Culling::view_point);
-  auto stages = detector::standard_stages(options);
-  stages.elementary = std::make_shared<Forgetful>(forgets);
-  BenchReport report;
-  TimedStep timed("dent", step->triangles, step->frames, options, stages, report);
-  timed.time();
-  timed.time();
-  EXPECT_TRUE(report.wrong_answers.empty());
-  forgets = true;
-  timed.time();
-  EXPECT_EQ(report.wrong_answers.size(), 1u);
 }
 
 class Suites : public testing::Test {

@@ -5,8 +5,7 @@
 #include "properties/judging/case_check.h"
 #include "properties/judging/contracted_case.h"
 #include "properties/judging/judged_run.h"
-#include "reports/bench/compared/confirmation.h"
-#include "reports/bench/compared/tables.h"
+#include "reports/bench/compared/comparison.h"
 #include "tests/reports/program.h"
 
 namespace assay::reports {

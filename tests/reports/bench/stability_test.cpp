@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "detector/step/stages.h"
-#include "reports/bench/stability/stability_changes.h"
 #include "tests/reports/json_schema.h"
 #include "tests/test.h"
 

@@ -2,7 +2,7 @@
 #include <regex>
 
 #include "corpus/cases/case_file.h"
-#include "reports/terminal/manual.h"
+#include "reports/terminal/option_words.h"
 #include "tests/recorded_log.h"
 #include "tests/reports/tiny_campaign.h"
 
