@@ -254,6 +254,8 @@ TEST(ProcessorState, AStopFunctionChangesNothingOfIt) {
   };
   const auto wanted = asked({});
   for (const auto& [name, set_state] : odd_states) {
+    // The stop function changes the x87 unit, too, of which the detector knows nothing.
+    const Meanwhile of_this_round([] {});
     int times = 0;
     EXPECT_EQ(asked([&] {
                 ++times;
