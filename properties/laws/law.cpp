@@ -81,7 +81,7 @@ bool same_lists(const List& a, const List& b) {
 }
 
 // The counts that are compared. Those of marking depend on earlier steps too
-// (detector/search/marking.h), and so may those that are set to 0 beside them.
+// (detector/search/pair_rule.h), and so may those that are set to 0 beside them.
 detector::StepCounts of_this_step(detector::StepCounts counts) {
   counts.marking = {};
   counts.search.child_counts = counts.search.skipped = counts.search.contour_tests = 0;

@@ -32,8 +32,9 @@ Expected<void> check_corpus(const properties::CampaignRequest& request,
 void check_own_cases(const properties::CampaignRequest& request, const OnCorpusRow& on_row,
                      const OnCorpusFailure& on_failure);
 
-// Prints the heading, collects the rows of an input, and prints them when the next input begins or `end` is called. If
-// all configurations came to the same, and to nothing that has to be told, they share one row.
+// Prints the heading, collects the rows of an input, and prints them when the next input begins or
+// `end` is called. If all configurations came to the same, and to nothing that has to be told, they
+// share one row.
 class CorpusTable {
  public:
   CorpusTable();
