@@ -99,7 +99,9 @@ class JsonReader : public NamedFields<JsonReader<Json, zeros>> {
   template <class T>
   void field(std::string_view name, T& item) {
     const std::string key(name);
-    if (zeros == Zeros::stay || object_.contains(key)) get(object_.at(key), item);
+    // at() throws if this is no object; contains() would take that for one without fields.
+    if (zeros == Zeros::stay || !object_.is_object() || object_.contains(key))
+      get(object_.at(key), item);
   }
   template <class T>
   void may(const char* name, T& item) {

@@ -66,7 +66,7 @@ ShortenedStep::ShortenedStep(const SteppedMesh& step, double until, PacedStop& p
     motion_.emplace(step.at_start());
     return;
   }
-  constexpr std::uint64_t work_of_vertex = 3;
+  constexpr std::uint64_t work_of_place = 3;
   end_.resize(step.size(), 3);
   const auto place = [&](double& largest, std::size_t v) {
     const auto row = static_cast<Eigen::Index>(v);
@@ -78,7 +78,7 @@ ShortenedStep::ShortenedStep(const SteppedMesh& step, double until, PacedStop& p
   };
   const auto join = [](double& largest, double other) { largest = std::max(largest, other); };
   const double largest =
-      sum_over_all(static_cast<std::size_t>(step.size()), work_of_vertex, &pace, 0.0, place, join);
+      sum_over_all(static_cast<std::size_t>(step.size()), work_of_place, &pace, 0.0, place, join);
   motion_.emplace(SteppedMesh{step.vertices_t0, end_});
   // The product may underflow, by 2^-1075 at most.
   slack_ = 0x1p-48 * largest + 0x1p-1070;

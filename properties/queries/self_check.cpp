@@ -179,6 +179,7 @@ class RandomFamily final : public SelfTestFamily {
     const auto one_in = static_cast<std::uint64_t>(generator_.one_in);
     return (queries + one_in - 1) / one_in;
   }
+  std::optional<GeneratedQuery> at(std::uint64_t, std::uint64_t) const override { return {}; }
 
   std::optional<GeneratedQuery> at(std::uint64_t seed, std::uint64_t index) const override {
     return generator_.make(seed, index);
@@ -196,6 +197,7 @@ class StepFamily final : public SelfTestFamily {
   StepFamily(std::string name, std::string about, Make make)
       : SelfTestFamily(std::move(name), std::move(about)), make_(make) {}
   std::uint64_t indices(std::uint64_t queries) const override { return (queries + 19) / 20; }
+  std::optional<GeneratedQuery> at(std::uint64_t, std::uint64_t) const override { return {}; }
 
   std::optional<std::string> check(std::uint64_t seed, std::uint64_t index,
                                    QueryTally& tally) const override {

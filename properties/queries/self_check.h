@@ -28,7 +28,7 @@ class SelfTestFamily {
   virtual std::uint64_t indices(std::uint64_t queries) const = 0;
   // The query of the case, by seed and index; nothing for whole steps and queries of distance, and
   // for some indices of a small world, which hold no case.
-  virtual std::optional<GeneratedQuery> at(std::uint64_t, std::uint64_t) const { return {}; }
+  virtual std::optional<GeneratedQuery> at(std::uint64_t seed, std::uint64_t index) const = 0;
   // Checks a case. Returns what is wrong with it, or nothing.
   virtual std::optional<std::string> check(std::uint64_t seed, std::uint64_t index,
                                            QueryTally& tally) const;

@@ -204,7 +204,10 @@ SpeedFigure figure_of(std::string_view name, const corpus::Sequence& step, const
   auto one = at_last_step(measured), other = at_last_step(beside);
   const auto time = [&](detector::Detector& built_in) {
     detector::StepResult result;
-    return ns_of([&] { result = built_in.evaluate(*std::prev(frames.end(), 2), frames.back()); });
+    const double ns =
+        ns_of([&] { result = built_in.evaluate(*std::prev(frames.end(), 2), frames.back()); });
+    if (result.answer == detector::Answer::error) throw UnusableData(result.problem->message);
+    return ns;
   };
   const auto samples = interleave(rounds, {[&] { return time(one); }, [&] { return time(other); }});
   const Estimate ratio = ratio_of(samples[0], samples[1]);

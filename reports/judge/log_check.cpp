@@ -288,8 +288,7 @@ Expected<CheckAnswer> judge_log(const LogName& name, const LogQuestion& question
   auto selection = question.selection;
   if (name.step) selection.step = name.step;
   BOOST_OUTCOME_TRY(recorded, recorded_detector(log, name.file));
-  const auto& detector = recorded.subject.detector;
-  if (judged_claims(detector.claims, detector.contract).empty())
+  if (judged_claims(recorded.subject.detector.claims, recorded.subject.detector.contract).empty())
     return Problem{fmt::format(
         "{}: its detector claims nothing that its contract leaves to be judged by a log",
         name.file)};

@@ -28,8 +28,9 @@ class BuildPy(build_py):
         subprocess.run(build, cwd=SOURCES, check=True)
         package = Path(self.build_lib, "assay")
         (package / "bin").mkdir(parents=True, exist_ok=True)
-        for library in (BUILD / "python" / "assay").glob("*.so"):
-            shutil.copy2(library, package)
+        for module in ("_detector", "_recorder", "_judge", "python_detector"):
+            for library in (BUILD / "python" / "assay").glob(f"{module}.*so"):
+                shutil.copy2(library, package)
         for program in ("assay", "assay-worker"):
             shutil.copy2(BUILD / program, package / "bin")
         with tempfile.TemporaryDirectory() as prefix:

@@ -50,7 +50,7 @@ BoundDetector bound(const DetectorUnderTest& detector, std::uint64_t threads) {
   return out;
 }
 
-// Gives nothing if the file is not there. Whoever runs the file will find that out.
+// The digest; nothing if its file is not there. Whoever runs the file will find that out.
 std::optional<std::string> known(const corpus::Expected<std::string>& digest) {
   return digest ? std::optional(digest.value()) : std::nullopt;
 }

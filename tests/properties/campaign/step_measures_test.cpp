@@ -42,6 +42,14 @@ TEST(StepMeasures, SurviveTheirJson) {
   read_fields<nlohmann::json, Zeros::left_out>(nlohmann::json::parse(json.dump()), read);
   EXPECT_EQ(read, m);
   EXPECT_EQ((json_of_fields<nlohmann::json, Zeros::left_out>(StepMeasures{}).dump()), "{}");
+  StepMeasures none;
+  read_fields<nlohmann::json, Zeros::left_out>(nlohmann::json::object(), none);
+  EXPECT_EQ(none, StepMeasures{});
+  for (const char* odd : {"null", "7", "[]", R"({"errors": null})", R"({"errors": 7})",
+                          R"({"errors": {"late": []}})", R"({"errors": {"limits": {"free": 1}}})"})
+    EXPECT_THROW((read_fields<nlohmann::json, Zeros::left_out>(nlohmann::json::parse(odd), none)),
+                 nlohmann::json::exception)
+        << odd;
   EXPECT_EQ(m.errors.collisions(), 100u);
   EXPECT_EQ(m.without_time, 40u);
   // Of the 60 that are late; the 40 others are none of them.
