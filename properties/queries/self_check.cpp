@@ -179,7 +179,6 @@ class RandomFamily final : public SelfTestFamily {
     const auto one_in = static_cast<std::uint64_t>(generator_.one_in);
     return (queries + one_in - 1) / one_in;
   }
-  std::optional<GeneratedQuery> at(std::uint64_t, std::uint64_t) const override { return {}; }
 
   std::optional<GeneratedQuery> at(std::uint64_t seed, std::uint64_t index) const override {
     return generator_.make(seed, index);
@@ -273,6 +272,7 @@ class DistanceFamilyCheck final : public SelfTestFamily {
     const auto one_in = static_cast<std::uint64_t>(4 * family_.one_in);
     return (queries + one_in - 1) / one_in;
   }
+  std::optional<GeneratedQuery> at(std::uint64_t, std::uint64_t) const override { return {}; }
 
   std::optional<std::string> check(std::uint64_t seed, std::uint64_t index,
                                    QueryTally& tally) const override {
