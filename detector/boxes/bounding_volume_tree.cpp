@@ -6,6 +6,8 @@
 #include <numeric>
 #include <span>
 
+#include "detector/mesh/sort_by_key.h"
+
 namespace assay::detector {
 
 namespace {

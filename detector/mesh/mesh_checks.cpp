@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "detector/mesh/for_all.h"
+#include "detector/mesh/sort_by_key.h"
 
 namespace assay::detector {
 namespace {

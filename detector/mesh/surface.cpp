@@ -3,7 +3,7 @@
 #include <cassert>
 #include <utility>
 
-#include "detector/mesh/for_all.h"
+#include "detector/mesh/sort_by_key.h"
 
 namespace assay::detector {
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "detector/mesh/for_all.h"
+#include "detector/mesh/sort_by_key.h"
 
 namespace assay::detector {
 namespace {

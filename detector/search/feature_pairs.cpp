@@ -257,21 +257,21 @@ FloatLanes diagonals(const Point& y) {
 
 void FeaturePoints::assign(const SteppedMesh& motion, PacedStop* pace, double separation) {
   constexpr std::uint64_t work_of_vertex = 8;
-  const FloatGrid f(motion, pace);
+  const FloatGrid grid(motion, pace);
   if (pace && pace->stopped()) return;
   margin_ = {};
   if (separation > 0) {
-    const float along = f.diagonal_margin(separation);
-    margin_.axes = f.margin(separation);
+    const float along = grid.diagonal_margin(separation);
+    margin_.axes = grid.margin(separation);
     margin_.diagonals = FloatLanes{along, along, along, along};
   }
   const auto count = static_cast<std::size_t>(motion.size());
   if (!points_) points_ = std::make_unique_for_overwrite<FeaturePoint[]>(count);
   for_all_paced(count, work_of_vertex, pace, [&](std::size_t v) {
     const auto vertex = static_cast<std::int32_t>(v);
-    const RoundedPoint axes = f(motion, vertex);
-    points_[v] = {axes.t0, diagonals(f.scaled(motion.vertices_t0, vertex)), axes.t1,
-                  diagonals(f.scaled(motion.vertices_t1, vertex))};
+    const RoundedPoint axes = grid(motion, vertex);
+    points_[v] = {axes.t0, diagonals(grid.scaled(motion.vertices_t0, vertex)), axes.t1,
+                  diagonals(grid.scaled(motion.vertices_t1, vertex))};
   });
 }
 

@@ -22,8 +22,8 @@ std::size_t lines_of(const std::string& path) {
 // that is asked for is allowed. Detectors of others count apart; `scripts` are those of all rooms.
 TEST(Budget, NoRoomGrows) {
   const std::map<std::string, std::size_t> budgets = {
-      {"detector", 15614},   {"oracle", 6244},   {"corpus", 5412}, {"corpus/peers", 857},
-      {"properties", 26839}, {"reports", 14329}, {"tests", 47384}, {"scripts", 10466}};
+      {"detector", 15621},   {"oracle", 6244},   {"corpus", 5412}, {"corpus/peers", 857},
+      {"properties", 26839}, {"reports", 14329}, {"tests", 47385}, {"scripts", 10466}};
   std::map<std::string, std::size_t> lines;
   for (const auto* room : rooms) {
     for (const auto& file : files_below(room)) {

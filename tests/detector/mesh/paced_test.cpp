@@ -2,6 +2,7 @@
 // every so much work, and ends where that says so. Counted is the work, not the time.
 #include "detector/mesh/for_all.h"
 #include "detector/mesh/mesh_checks.h"
+#include "detector/mesh/sort_by_key.h"
 #include "detector/mesh/surface.h"
 #include "detector/search/feature_pairs.h"
 #include "detector/traditional/traditional.h"
