@@ -256,7 +256,7 @@ FloatLanes diagonals(const Point& y) {
 }  // namespace
 
 void FeaturePoints::assign(const SteppedMesh& motion, PacedStop* pace, double separation) {
-  constexpr std::uint64_t work_of_vertex = 8;
+  constexpr std::uint64_t work_of_point = 8;
   const FloatGrid grid(motion, pace);
   if (pace && pace->stopped()) return;
   margin_ = {};
@@ -267,7 +267,7 @@ void FeaturePoints::assign(const SteppedMesh& motion, PacedStop* pace, double se
   }
   const auto count = static_cast<std::size_t>(motion.size());
   if (!points_) points_ = std::make_unique_for_overwrite<FeaturePoint[]>(count);
-  for_all_paced(count, work_of_vertex, pace, [&](std::size_t v) {
+  for_all_paced(count, work_of_point, pace, [&](std::size_t v) {
     const auto vertex = static_cast<std::int32_t>(v);
     const RoundedPoint axes = grid(motion, vertex);
     points_[v] = {axes.t0, diagonals(grid.scaled(motion.vertices_t0, vertex)), axes.t1,
