@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "detector/mesh/step_types.h"
-#include "properties/random.h"
 
 namespace assay::properties {
 
@@ -24,15 +23,6 @@ inline Numbers in_order(std::size_t count) {
   Numbers numbers(count);
   std::iota(numbers.begin(), numbers.end(), 0);
   return numbers;
-}
-
-// By Fisher and Yates.
-template <class List>
-List shuffled(Random& random, List list) {
-  for (std::size_t i = list.size(); i > 1; --i) {
-    std::swap(list[i - 1], list[at(random.below(static_cast<int>(i)))]);
-  }
-  return list;
 }
 
 // The pairs after triangle t has become new_number[t], sorted.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <iterator>
 #include <string_view>
+#include <utility>
 
 namespace assay::properties {
 
@@ -46,6 +47,16 @@ class Random {
 template <class List>
 auto& one_of(Random& random, List& list) {
   return list[static_cast<std::size_t>(random.below(static_cast<int>(std::size(list))))];
+}
+
+// By Fisher and Yates.
+template <class List>
+List shuffled(Random& random, List list) {
+  for (std::size_t i = list.size(); i > 1; --i) {
+    const auto other = static_cast<std::size_t>(random.below(static_cast<int>(i)));
+    std::swap(list[i - 1], list[other]);
+  }
+  return list;
 }
 
 }  // namespace assay::properties

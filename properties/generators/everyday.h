@@ -8,7 +8,6 @@
 #pragma once
 
 #include "properties/generators/draft.h"
-#include "properties/random.h"
 
 namespace assay::properties {
 

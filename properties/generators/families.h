@@ -12,13 +12,17 @@
 // most 2.
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 
-#include "properties/generators/draft.h"
-#include "properties/random.h"
+#include "corpus/cases/case_file.h"
 
 namespace assay::properties {
+
+class Random;
+struct GeneratedCase;
 
 struct Family {
   std::string_view name;  // of the stratum

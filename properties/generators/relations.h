@@ -5,7 +5,6 @@
 
 #include "detector/mesh/enum_names.h"
 #include "properties/generators/draft.h"
-#include "properties/random.h"
 
 namespace assay::properties {
 

@@ -11,7 +11,9 @@
 
 #include "corpus/scenes/shapes.h"
 #include "corpus/scenes/trigonometry.h"
+#include "properties/generators/draft.h"
 #include "properties/generators/families.h"
+#include "properties/random.h"
 
 namespace assay::properties {
 namespace {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "properties/generators/draft.h"
 #include "properties/queries/query_checks.h"
 #include "properties/queries/query_families.h"
 #include "properties/random.h"

@@ -16,6 +16,7 @@
 #include "detector/detector.h"
 #include "oracle/distance/feature_distance.h"
 #include "oracle/mesh/step.h"
+#include "properties/generators/draft.h"
 #include "properties/judging/agreement.h"
 #include "properties/queries/distance_queries.h"
 #include "properties/queries/listed_queries.h"

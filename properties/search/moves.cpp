@@ -6,6 +6,7 @@
 
 #include "detector/mesh/topology.h"
 #include "oracle/distance/closest_places.h"
+#include "properties/random.h"
 #include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {

@@ -12,9 +12,10 @@
 #include "detector/mesh/step_types.h"
 #include "properties/claims/claims.h"
 #include "properties/judging/judged_run.h"
-#include "properties/random.h"
 
 namespace assay::properties {
+
+class Random;
 
 // The two features of a case at which the search works: those of its first contact, or, where
 // nothing meets, two that come near each other.

@@ -8,6 +8,7 @@
 
 #include "properties/judging/cause.h"
 #include "properties/judging/contracted_case.h"
+#include "properties/random.h"
 #include "properties/search/degeneracy.h"
 #include "properties/worker/plugin/query_case.h"
 

@@ -6,8 +6,10 @@
 #include <mutex>
 
 #include "corpus/hard/hard_families.h"
+#include "properties/generators/draft.h"
 #include "properties/generators/families.h"
 #include "properties/queries/query_families.h"
+#include "properties/random.h"
 #include "properties/search/degeneracy.h"
 #include "properties/search/search.h"
 #include "properties/worker/plugin/query_case.h"

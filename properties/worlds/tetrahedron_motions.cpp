@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "properties/numbering.h"
+#include "properties/random.h"
 #include "properties/worlds/tetrahedron_world.h"
 
 namespace assay::properties {

@@ -8,6 +8,7 @@
 #include "corpus/hard/hard_families.h"
 #include "corpus/scenes/scenes.h"
 #include "properties/campaign/trials/planned_case.h"
+#include "properties/generators/draft.h"
 #include "properties/generators/families.h"
 #include "reports/bench/sweep.h"
 

@@ -11,6 +11,7 @@
 #include "properties/campaign/request.h"
 #include "properties/campaign/trials/case_tally.h"
 #include "properties/campaign/trials/planned_case.h"
+#include "properties/generators/draft.h"
 #include "properties/judging/case_check.h"
 #include "properties/queries/query_families.h"
 #include "properties/reducer/mesh_size.h"

@@ -3,6 +3,7 @@
 
 #include "properties/campaign/phases/shrink.h"
 #include "properties/campaign/trials/case_tally.h"
+#include "properties/generators/draft.h"
 #include "properties/judging/case_check.h"
 #include "properties/reducer/mesh_size.h"
 #include "properties/worker/plugin/query_case.h"

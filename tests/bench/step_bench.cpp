@@ -5,6 +5,7 @@
 #include "detector/assembly.h"
 #include "detector/search/pair_rule.h"
 #include "oracle/mesh/step.h"
+#include "properties/generators/draft.h"
 #include "properties/generators/families.h"
 #include "properties/judging/judged_run.h"
 #include "properties/judging/trial.h"

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "properties/campaign/trials/planned_case.h"
+#include "properties/generators/draft.h"
 #include "properties/generators/families.h"
 #include "properties/laws/facts/carried_state.h"
 #include "properties/queries/query_families.h"

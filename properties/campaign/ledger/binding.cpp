@@ -9,6 +9,7 @@
 #include "properties/campaign/ledger/store.h"
 #include "properties/faults/fault.h"
 #include "properties/fields.h"
+#include "properties/generators/draft.h"
 #include "properties/queries/query_families.h"
 
 namespace assay::properties {

@@ -8,6 +8,7 @@
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/ledger/database.h"
 #include "properties/campaign/phases/shrink.h"
+#include "properties/generators/draft.h"
 #include "properties/generators/families.h"
 #include "properties/judging/fault_run.h"
 #include "properties/reducer/mesh_size.h"

@@ -12,6 +12,7 @@
 #include "properties/campaign/ledger/store.h"
 #include "properties/campaign/ledger/tally.h"
 #include "properties/campaign/trials/trials.h"
+#include "properties/generators/draft.h"
 #include "properties/judging/case_options.h"
 #include "properties/judging/contracted_case.h"
 #include "properties/laws/facts/case_facts.h"

@@ -12,7 +12,6 @@
 #include "corpus/cases/case_file.h"
 #include "oracle/mesh/step.h"
 #include "properties/campaign/ledger/record.h"
-#include "properties/generators/draft.h"
 #include "properties/judging/trial.h"
 #include "properties/laws/law.h"
 #include "properties/laws/metamorphic/forms.h"
@@ -21,6 +20,8 @@
 #include "properties/worker/worker_process.h"
 
 namespace assay::properties {
+
+struct GeneratedCase;
 
 // How far the cases go on which a detector is tried. Beyond that nothing is known of it.
 

@@ -13,6 +13,7 @@
 #include "oracle/mesh/loops.h"
 #include "properties/campaign/trials/case_tally.h"
 #include "properties/generators/added_bodies.h"
+#include "properties/generators/draft.h"
 #include "properties/judging/contracted_case.h"
 #include "properties/judging/judged_run.h"
 #include "properties/queries/query_families.h"

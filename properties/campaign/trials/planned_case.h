@@ -7,6 +7,7 @@
 
 #include "corpus/cases/case_file.h"
 #include "properties/claims/claims.h"
+#include "properties/generators/draft.h"
 #include "properties/generators/families.h"
 #include "properties/judging/trial.h"
 

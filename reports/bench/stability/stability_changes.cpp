@@ -4,6 +4,7 @@
 
 #include "detector/step_result.h"
 #include "properties/numbering.h"
+#include "properties/random.h"
 #include "reports/bench/stability/stability.h"
 
 namespace assay::reports {

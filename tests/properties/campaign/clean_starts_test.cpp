@@ -1,5 +1,6 @@
 #include "properties/campaign/phases/shrink.h"
 #include "properties/campaign/trials/planned_case.h"
+#include "properties/generators/draft.h"
 #include "properties/generators/families.h"
 #include "properties/judging/case_check.h"
 #include "tests/properties/campaign/campaign_request.h"

@@ -6,6 +6,7 @@
 #include "properties/campaign/phases/fault_hunt.h"
 #include "properties/campaign/phases/shrink.h"
 #include "properties/campaign/trials/case_tally.h"
+#include "properties/generators/draft.h"
 #include "properties/generators/families.h"
 #include "properties/judging/case_check.h"
 #include "properties/worker/worker_process.h"

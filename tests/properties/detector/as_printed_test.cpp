@@ -1,6 +1,7 @@
 // The thesis as printed misses, each deviation on its case; and how often, over random cases.
 #include <fmt/format.h>
 
+#include "properties/generators/draft.h"
 #include "properties/generators/families.h"
 #include "properties/judging/fault_run.h"
 #include "tests/curated_cases.h"

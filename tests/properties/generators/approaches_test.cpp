@@ -8,6 +8,7 @@
 #include "detector/mesh/mesh_checks.h"
 #include "oracle/distance/step_distance.h"
 #include "properties/generators/added_bodies.h"
+#include "properties/generators/draft.h"
 #include "properties/generators/families.h"
 #include "properties/judging/judged_run.h"
 #include "properties/worker/plugin/query_case.h"

@@ -1,6 +1,7 @@
 // Random cases with a relation: each is valid, is the same whenever it is made, and leaves
 // something out.
 #include "detector/mesh/mesh_checks.h"
+#include "properties/generators/draft.h"
 #include "properties/generators/families.h"
 #include "properties/judging/judged_run.h"
 #include "properties/queries/query_families.h"

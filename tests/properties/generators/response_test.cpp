@@ -2,6 +2,7 @@
 // from its own frames.
 
 #include "oracle/mesh/step.h"
+#include "properties/generators/draft.h"
 #include "properties/generators/families.h"
 #include "properties/judging/case_check.h"
 #include "tests/properties/generators/tag_table.h"

@@ -6,6 +6,7 @@
 #include "detector/mesh/mesh_checks.h"
 #include "detector/mesh/topology.h"
 #include "oracle/instant/instant.h"
+#include "properties/generators/draft.h"
 #include "properties/generators/families.h"
 #include "properties/judging/judged_run.h"
 #include "properties/queries/query_families.h"

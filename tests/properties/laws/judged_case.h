@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "oracle/mesh/step.h"
+#include "properties/generators/draft.h"
 #include "properties/generators/families.h"
 #include "properties/laws/facts/case_facts.h"
 #include "properties/laws/law.h"
+#include "properties/random.h"
 #include "properties/worker/case_run.h"
 
 namespace assay::properties::test {

@@ -6,6 +6,7 @@
 #include "detector/mesh/step_types.h"
 #include "detector/step/stages.h"
 #include "properties/faults/fault.h"
+#include "properties/generators/draft.h"
 #include "properties/laws/facts/view_values.h"
 #include "properties/laws/law.h"
 #include "tests/properties/laws/judged_case.h"

@@ -1,6 +1,7 @@
 // Every law by rapidcheck, under its own name; and all of them over cases of all families.
 #include <fmt/format.h>
 
+#include "properties/generators/draft.h"
 #include "properties/judging/case_check.h"
 #include "properties/laws/facts/case_facts.h"
 #include "properties/laws/law.h"

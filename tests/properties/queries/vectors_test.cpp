@@ -14,6 +14,7 @@
 #include "oracle/referee/second_opinion.h"
 #include "properties/queries/distance_queries.h"
 #include "properties/queries/query_checks.h"
+#include "properties/random.h"
 #include "tests/test.h"
 
 namespace assay::properties {

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "properties/queries/query_families.h"
+#include "properties/random.h"
 #include "properties/search/moves.h"
 #include "properties/search/search.h"
 

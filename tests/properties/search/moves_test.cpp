@@ -6,7 +6,9 @@
 
 #include "oracle/instant/layers.h"
 #include "oracle/mesh/loops.h"
+#include "properties/generators/draft.h"
 #include "properties/queries/query_families.h"
+#include "properties/random.h"
 #include "properties/reducer/case_edits.h"
 #include "properties/search/search.h"
 #include "properties/worker/plugin/query_case.h"

@@ -1,6 +1,7 @@
 // Which pairs count (L19), from the case to the detector and back: the built-in detector in the
 // worker, and plug-ins that can be told, leave pairs out by themselves, or cannot be told.
 #include "detector/plugin/assay_builtin_detector.h"
+#include "properties/generators/draft.h"
 #include "properties/generators/families.h"
 #include "properties/judging/judged_run.h"
 #include "properties/worker/plugin/plugin_reading.h"

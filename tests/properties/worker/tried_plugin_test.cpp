@@ -2,6 +2,7 @@
 #include "properties/campaign/ledger/step_measures.h"
 #include "properties/campaign/trials/planned_case.h"
 #include "properties/claims/claims.h"
+#include "properties/generators/draft.h"
 #include "properties/judging/trial.h"
 #include "properties/queries/query_families.h"
 #include "properties/worker/plugin/query_case.h"

@@ -3,6 +3,7 @@
 
 #include "corpus/cases/case_file.h"
 #include "properties/campaign/trials/planned_case.h"
+#include "properties/generators/draft.h"
 #include "properties/generators/families.h"
 #include "tests/reports/tiny_campaign.h"
 
