@@ -6,6 +6,7 @@
 
 #include "corpus/formats/mesh_reader.h"
 #include "corpus/problem.h"
+#include "tests/meshes.h"
 #include "tests/problem_words.h"
 
 namespace assay::corpus {
@@ -50,6 +51,11 @@ class Scratch : public testing::Test {
   std::filesystem::path folder_;
 };
 
+inline std::string bytes_in(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
 inline std::string gzip(std::string_view plain) {
   z_stream stream{};
   EXPECT_EQ(deflateInit2(&stream, 9, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY), Z_OK);
@@ -85,14 +91,16 @@ inline constexpr std::string_view ply_tetrahedron =
     "property double z\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n"
     "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
 
-inline void expect_tetrahedron(const Expected<Mesh>& mesh) {
+// Triangles as a text: "0 1 2, 0 2 3".
+inline void expect_triangles(const Expected<Mesh>& mesh, const std::string& triangles) {
   ASSERT_TRUE(mesh) << mesh.error().message;
-  detector::Positions x(4, 3);
-  x << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1;
-  detector::Triangles triangles(4, 3);
-  triangles << 0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3;
-  EXPECT_EQ(mesh.value().positions, x);
-  EXPECT_EQ(mesh.value().triangles, triangles);
+  EXPECT_EQ(mesh.value().triangles, tests::triangles_of(triangles));
+}
+
+inline void expect_tetrahedron(const Expected<Mesh>& mesh) {
+  expect_triangles(mesh, "0 2 1, 0 1 3, 1 2 3, 2 0 3");
+  ASSERT_TRUE(mesh);
+  EXPECT_EQ(mesh.value().positions, tests::positions_of("0 0 0, 1 0 0, 0 1 0, 0 0 1"));
 }
 
 }  // namespace assay::corpus

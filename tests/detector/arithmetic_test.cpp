@@ -168,8 +168,7 @@ TEST(Arithmetic, DoubleAndFloatAreWrongSomewhere) {
   const auto contact = [](const FourPoints& query, Arithmetic arithmetic) {
     return test_contact(query, Want::yes_no, arithmetic).contact;
   };
-  for (const auto arithmetic : {Arithmetic::exact, Arithmetic::bounded,
-                                Arithmetic::double_precision, Arithmetic::single_precision}) {
+  for (const auto arithmetic : all_values<Arithmetic>) {
     EXPECT_TRUE(contact(falls_through(1), arithmetic));
   }
   // Products of coordinates underflow: coplanar and collinear all along, as it seems.
@@ -203,8 +202,7 @@ TEST(Arithmetic, EachAnswersAStep) {
   Positions squeezed = x, through = x;
   squeezed.row(4) *= .5;
   through.row(4) *= -2;
-  for (const auto arithmetic : {Arithmetic::exact, Arithmetic::bounded,
-                                Arithmetic::double_precision, Arithmetic::single_precision}) {
+  for (const auto arithmetic : all_values<Arithmetic>) {
     for (const auto culling :
          {Culling::view_point, Culling::view_line, Culling::normal_cone, Culling::bvh}) {
       auto made =

@@ -1,37 +1,25 @@
 // Places of contacts that the detector reports, held against rational arithmetic.
 #include "detector/contact_place.h"
 
-#include <boost/multiprecision/cpp_int.hpp>
-#include <map>
-#include <random>
-
 #include "detector/detector.h"
 #include "tests/asked.h"
+#include "tests/detector/distance/rational_distance.h"
 #include "tests/detector/points.h"
 
 namespace assay::detector {
 namespace {
 
-using Rational = boost::multiprecision::cpp_rational;
-using Vector = std::array<Rational, 3>;
-
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Rational dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+using tests::Rational;
+using Vector = tests::RationalPoint;
 
 struct Motion {
   Positions x_t0, x_t1;
   Triangles f;
   Vector at(std::int32_t v, double t) const {
-    Vector x;
-    for (int k = 0; k < 3; ++k)
-      x[k] = (1 - Rational(t)) * Rational(x_t0(v, k)) + Rational(t) * Rational(x_t1(v, k));
-    return x;
+    return tests::place_at(SteppedMesh{x_t0, x_t1}.path(v), Rational(t));
   }
   Vector edge(std::int32_t from, std::int32_t to, double t) const {
-    const auto a = at(from, t), b = at(to, t);
-    return {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+    return tests::minus(at(to, t), at(from, t));
   }
 };
 
@@ -113,17 +101,17 @@ TEST(ContactPlace, IsWithinItsErrorOfBothTriangles) {
       const auto& v = contact.feature.vertices;
       const int first = contact.feature.kind == FeatureKind::vertex_face ? 1 : 2;
       const auto normal = contact.feature.kind == FeatureKind::edge_edge
-                              ? cross(motion.edge(v[0], v[1], t), motion.edge(v[2], v[3], t))
-                              : cross(motion.edge(v[first], v[first + 1], t),
-                                      motion.edge(v[first], v[first + 2], t));
+                              ? tests::cross(motion.edge(v[0], v[1], t), motion.edge(v[2], v[3], t))
+                              : tests::cross(motion.edge(v[first], v[first + 1], t),
+                                             motion.edge(v[first], v[first + 2], t));
       if (place.normal) {
         // In the plane across the exact normal no more than the stated error of three coordinates.
         const Vector n = {Rational((*place.normal)[0]), Rational((*place.normal)[1]),
                           Rational((*place.normal)[2])};
-        const auto across = cross(n, normal);
+        const auto across = tests::cross(n, normal);
         const Rational bound = Rational(place.normal_error) * Rational(place.normal_error) * 3;
-        EXPECT_LE(dot(across, across), bound * dot(normal, normal)) << i;
-        EXPECT_GT(dot(n, normal), 0) << i;
+        EXPECT_LE(tests::dot(across, across), bound * tests::dot(normal, normal)) << i;
+        EXPECT_GT(tests::dot(n, normal), 0) << i;
         ++with_normal;
       }
       ++of_kind[contact.feature.kind];

@@ -1,3 +1,4 @@
+// Steps of a detector: answers, states and refusals, on small meshes.
 #include "detector/detector.h"
 
 #include "detector/mesh/mesh_checks.h"
@@ -7,7 +8,8 @@
 namespace assay::detector {
 namespace {
 
-using tests::octahedron, tests::octahedron_positions;
+using tests::expect_same_contacts, tests::octahedron, tests::octahedron_positions,
+    tests::pushed_octahedron, tests::side_by_side, tests::two_octahedra;
 
 Detector make(const Triangles& t, const Positions& x, Culling culling = Culling::view_point,
               Start start = Start::verified, Pairs pairs = Pairs::all) {
@@ -24,14 +26,10 @@ InputError create_error(const Triangles& t, const Positions& x) {
 
 // A simulation writes each step into the same two arrays.
 TEST(Detector, L3_StepsMayComeInTheSameArrays) {
-  Triangles two(16, 3);
-  two << octahedron(), octahedron().array() + 6;
-  Positions x_t0(12, 3);
-  x_t0 << octahedron_positions(1), octahedron_positions(1).rowwise() + Eigen::RowVector3d(8, 0, 0);
-  Positions x_t1 = x_t0;
+  const Positions x = side_by_side(octahedron_positions(1), octahedron_positions(1), 8);
   for (const auto culling : all_values<Culling>) {
-    Positions now = x_t0, next = x_t1;
-    Detector detector = make(two, now, culling);
+    Positions now = x, next = x;
+    Detector detector = make(two_octahedra(), now, culling);
     ASSERT_EQ(detector.step(now, next).answer, Answer::free);
     now = next;
     next.bottomRows(6).col(0).array() -= 7;
@@ -110,13 +108,6 @@ TEST(Detector, L5_BreathingIsFreeWithoutAnyBoxTest) {
   }
 }
 
-// The apex is pulled out through the side and stays there: the end is in contact too.
-Positions pushed() {
-  Positions x = octahedron_positions(2);
-  x.row(4) << 3, .5, -.25;
-  return x;
-}
-
 TEST(Detector, L8_AFreeStepLeavesNothingInDoubt) {
   const Positions x = octahedron_positions(2), larger = octahedron_positions(3);
   Detector detector = make(octahedron(), x);
@@ -191,35 +182,30 @@ TEST(Detector, AContactNamesFeaturesOfItsTriangles) {
   }
   EXPECT_TRUE(kinds.count(FeatureKind::piercing));
   EXPECT_TRUE(kinds.count(FeatureKind::vertex_face));
-  const auto pulled =
-      make(octahedron(), octahedron_positions(2)).step(octahedron_positions(2), pushed());
+  const auto pulled = make(octahedron(), octahedron_positions(2))
+                          .step(octahedron_positions(2), pushed_octahedron());
   for (const auto& contact : pulled.pairs) expect_own_feature(octahedron(), contact);
 }
 
 TEST(Detector, AllCullingsFindTheSamePairs) {
   const auto reference = make(octahedron(), octahedron_positions(2), Culling::none)
-                             .evaluate(octahedron_positions(2), pushed());
+                             .evaluate(octahedron_positions(2), pushed_octahedron());
   ASSERT_EQ(reference.answer, Answer::collision);
   for (const auto culling : all_values<Culling>) {
     const auto result = make(octahedron(), octahedron_positions(2), culling)
-                            .evaluate(octahedron_positions(2), pushed());
-    EXPECT_EQ(result.first, reference.first);
-    ASSERT_EQ(result.pairs.size(), reference.pairs.size());
-    for (std::size_t i = 0; i < result.pairs.size(); ++i) {
-      EXPECT_EQ(result.pairs[i].pair, reference.pairs[i].pair);
-      EXPECT_EQ(result.pairs[i].time, reference.pairs[i].time);
-    }
+                            .evaluate(octahedron_positions(2), pushed_octahedron());
+    expect_same_contacts(result, reference);
   }
 }
 
 TEST(Detector, L8_ContactsMakeDirtyAndL5Releases) {
   Detector detector = make(octahedron(), octahedron_positions(2));
-  EXPECT_EQ(detector.step(octahedron_positions(2), pushed()).dirty, 0u);
-  const auto still_in = detector.step(pushed(), pushed());
+  EXPECT_EQ(detector.step(octahedron_positions(2), pushed_octahedron()).dirty, 0u);
+  const auto still_in = detector.step(pushed_octahedron(), pushed_octahedron());
   EXPECT_GT(still_in.dirty, 0u);
   EXPECT_EQ(still_in.answer, Answer::collision);
   EXPECT_EQ(still_in.first, (TimeEnclosure{0, 0}));
-  EXPECT_EQ(detector.step(pushed(), octahedron_positions(2)).answer, Answer::collision);
+  EXPECT_EQ(detector.step(pushed_octahedron(), octahedron_positions(2)).answer, Answer::collision);
   const auto out = detector.step(octahedron_positions(2), octahedron_positions(3));
   EXPECT_EQ(out.answer, Answer::free);
   EXPECT_EQ(out.dirty, 0u);
@@ -237,7 +223,7 @@ TEST(Detector, L8_StateBelongsToExactPositions) {
 }
 
 TEST(Detector, L8_PositionsAreTheSameWhateverTheirStride) {
-  const Positions x = octahedron_positions(2), end = pushed();
+  const Positions x = octahedron_positions(2), end = pushed_octahedron();
   Eigen::Matrix<double, 6, 5, Eigen::RowMajor> wide;
   wide.setConstant(7);
   wide.leftCols<3>() = end;
@@ -254,8 +240,8 @@ TEST(Detector, L8_PositionsAreTheSameWhateverTheirStride) {
 
 TEST(Detector, EvaluateWithoutCommitChangesNothing) {
   Detector detector = make(octahedron(), octahedron_positions(2));
-  const auto first = detector.evaluate(octahedron_positions(2), pushed());
-  const auto again = detector.evaluate(octahedron_positions(2), pushed());
+  const auto first = detector.evaluate(octahedron_positions(2), pushed_octahedron());
+  const auto again = detector.evaluate(octahedron_positions(2), pushed_octahedron());
   EXPECT_EQ(first.pairs.size(), again.pairs.size());
   EXPECT_EQ(first.dirty, again.dirty);
   EXPECT_EQ(first.counts.search.box_tests, again.counts.search.box_tests);
@@ -266,22 +252,24 @@ TEST(Detector, EvaluateWithoutCommitChangesNothing) {
 
 TEST(Detector, StopMeansUndecidedAndNoState) {
   Detector detector = make(octahedron(), octahedron_positions(2));
-  const auto result = detector.step(octahedron_positions(2), pushed(), {}, [] { return true; });
+  const auto result =
+      detector.step(octahedron_positions(2), pushed_octahedron(), {}, [] { return true; });
   EXPECT_EQ(result.answer, Answer::undecided);
   EXPECT_TRUE(detector.commit().has_value());
 }
 
 TEST(Detector, PairsFirstHasTheFirstTime) {
-  const auto all =
-      make(octahedron(), octahedron_positions(2)).evaluate(octahedron_positions(2), pushed());
+  const auto all = make(octahedron(), octahedron_positions(2))
+                       .evaluate(octahedron_positions(2), pushed_octahedron());
   Detector first = make(octahedron(), octahedron_positions(2), Culling::view_point, Start::verified,
                         Pairs::first);
-  const auto result = first.step(octahedron_positions(2), pushed());
+  const auto result = first.step(octahedron_positions(2), pushed_octahedron());
   EXPECT_EQ(result.first, all.first);
   EXPECT_LE(result.pairs.size(), all.pairs.size());
-  const auto next = first.evaluate(pushed(), pushed());
+  const auto next = first.evaluate(pushed_octahedron(), pushed_octahedron());
   EXPECT_EQ(next.counts.release.in_doubt, 8u) << "nothing is known after it (L8)";
-  const auto anew = make(octahedron(), octahedron_positions(2)).evaluate(pushed(), pushed());
+  const auto anew = make(octahedron(), octahedron_positions(2))
+                        .evaluate(pushed_octahedron(), pushed_octahedron());
   EXPECT_EQ(next.dirty, anew.dirty) << "and so what a new start finds is released (L9)";
 }
 
@@ -312,9 +300,9 @@ TEST(Detector, PositionsMayHaveAnyRowStride) {
   using Wide = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
   Wide wide_t0 = Wide::Constant(6, 6, 77), wide_t1 = wide_t0;
   wide_t0.leftCols<3>() = octahedron_positions(2);
-  wide_t1.leftCols<3>() = pushed();
-  const auto expected =
-      make(octahedron(), octahedron_positions(2)).evaluate(octahedron_positions(2), pushed());
+  wide_t1.leftCols<3>() = pushed_octahedron();
+  const auto expected = make(octahedron(), octahedron_positions(2))
+                            .evaluate(octahedron_positions(2), pushed_octahedron());
   for (const auto culling : {Culling::view_point, Culling::normal_cone, Culling::bvh}) {
     const auto result = make(octahedron(), octahedron_positions(2), culling)
                             .evaluate(wide_t0.leftCols<3>(), wide_t1.leftCols<3>());
@@ -344,19 +332,107 @@ TEST(Detector, GreatestCoordinatesAreAnswered) {
 
 TEST(Detector, SeparateComponentsAreTestedAgainstEachOther) {
   // Two octahedra; the second flies through the first.
-  Triangles t(16, 3);
-  t.topRows(8) = octahedron();
-  t.bottomRows(8) = octahedron().array() + 6;
-  Positions x_t0(12, 3), x_t1(12, 3);
-  x_t0.topRows(6) = x_t1.topRows(6) = octahedron_positions(1);
-  x_t0.bottomRows(6) = x_t1.bottomRows(6) = octahedron_positions(1);
-  x_t0.bottomRows(6).col(0).array() += 4;
-  x_t1.bottomRows(6).col(0).array() -= 4;
-  const auto result = make(t, x_t0).evaluate(x_t0, x_t1);
+  const Positions one = octahedron_positions(1), x_t0 = side_by_side(one, one, 4),
+                  x_t1 = side_by_side(one, one, -4);
+  const auto result = make(two_octahedra(), x_t0).evaluate(x_t0, x_t1);
   EXPECT_EQ(result.counts.free_components, 2u);
   EXPECT_EQ(result.answer, Answer::collision);
   EXPECT_EQ(result.first, (TimeEnclosure{.25, .25}));
 }
+
+// View primitives that the caller gives: points and lines, fixed and moving, one for all components
+// or one for each. The answer is the same from anywhere (L3, L10).
+
+constexpr ViewPrimitive fixed_point = {{{.25, 0, 0}, {.25, 0, 0}}, {{.25, 0, 0}, {.25, 0, 0}}};
+constexpr ViewPrimitive moving_point = {{{.25, 0, 0}, {-.5, .25, 0}}, {{.25, 0, 0}, {-.5, .25, 0}}};
+constexpr ViewPrimitive fixed_line = {{{-1, 0, 0}, {-1, 0, 0}}, {{1, 0, 0}, {1, 0, 0}}};
+constexpr ViewPrimitive moving_line = {{{-1, 0, 0}, {-.5, .5, 0}}, {{1, 0, 0}, {1, .25, -.25}}};
+constexpr ViewPrimitive far_line = {{{9, 9, 9}, {9, 9, 8}}, {{9, 9, 11}, {9, 8, 11}}};
+constexpr ViewPrimitive all_primitives[] = {fixed_point, moving_point, fixed_line, moving_line,
+                                            far_line};
+
+// Two octahedra: the first breathes, the apex of the second is pulled out through its side.
+Positions two_octahedra(double radius, const Positions& second) {
+  Positions x(12, 3);
+  x << octahedron_positions(radius), second.rowwise() + Eigen::RowVector3d(0, 8, 0);
+  return x;
+}
+
+bool same(const ViewPrimitive& a, const ViewPrimitive& b) {
+  return a.q0.t0 == b.q0.t0 && a.q0.t1 == b.q0.t1 && a.q1.t0 == b.q1.t0 && a.q1.t1 == b.q1.t1;
+}
+
+class Given : public testing::TestWithParam<Culling> {
+ protected:
+  // The step from these primitives, and the same without any views.
+  StepResult run(std::vector<ViewPrimitive> given) {
+    const Positions x_t0 = two_octahedra(2, octahedron_positions(2)),
+                    x_t1 = two_octahedra(3, pushed_octahedron());
+    const auto step = [&](Culling culling, std::span<const ViewPrimitive> primitives) {
+      auto made = Detector::create(two_octahedra(), x_t0, {culling, Start::verified});
+      return made.value().step(x_t0, x_t1, primitives);
+    };
+    const auto expected = step(Culling::none, {});
+    auto result = step(GetParam(), given);
+    EXPECT_EQ(result.answer, Answer::collision);
+    expect_same_contacts(result, expected);
+    return result;
+  }
+};
+
+TEST_P(Given, L3L10_OneForAllComponents) {
+  for (const auto& primitive : all_primitives) {
+    const auto result = run({primitive});
+    if (GetParam() == Culling::view_auto && result.primitives.empty()) continue;  // fell back
+    ASSERT_EQ(result.primitives.size(), 2u);
+    EXPECT_TRUE(same(result.primitives[0], primitive));
+    EXPECT_TRUE(same(result.primitives[1], primitive));
+  }
+}
+
+TEST_P(Given, L3L10_OneForEachComponent) {
+  for (const auto& first : all_primitives) {
+    for (ViewPrimitive second : all_primitives) {
+      for (auto* q : {&second.q0.t0, &second.q0.t1, &second.q1.t0, &second.q1.t1}) (*q)[1] += 8;
+      const auto result = run({first, second});
+      if (GetParam() == Culling::view_auto && result.primitives.empty()) continue;  // fell back
+      ASSERT_EQ(result.primitives.size(), 2u);
+      EXPECT_TRUE(same(result.primitives[0], first));
+      EXPECT_TRUE(same(result.primitives[1], second));
+      // From inside, fixed or moving, the one that breathes is all positive.
+      const bool inside = first.q0.t0[0] < 9;
+      EXPECT_EQ(result.counts.free_components, inside ? 1u : 0u);
+    }
+  }
+}
+
+TEST_P(Given, L5_AGivenPrimitiveThatMovesOnIsKnownToBeInside) {
+  auto made = Detector::create(octahedron(), octahedron_positions(2), {GetParam(), Start::clean});
+  Detector& detector = made.value();
+  const Positions x = octahedron_positions(2);
+  EXPECT_EQ(detector.step(x, x, {&moving_line, 1}).counts.winding_numbers, 1u);
+  // It starts where it ended: nothing to count. It starts elsewhere: counted again.
+  const ViewPrimitive on = {{moving_line.q0.t1, {0, 0, 0}}, {moving_line.q1.t1, {.5, 0, 0}}};
+  EXPECT_EQ(detector.step(x, x, {&on, 1}).counts.winding_numbers, 0u);
+  EXPECT_EQ(detector.step(x, x, {&moving_line, 1}).counts.winding_numbers, 1u);
+  EXPECT_EQ(detector.step(x, x).counts.winding_numbers, 1u) << "its own";
+}
+
+TEST_P(Given, MustBeFiniteAndAsManyAsComponents) {
+  const Positions x = two_octahedra(2, octahedron_positions(2));
+  auto made = Detector::create(two_octahedra(), x, {GetParam()});
+  ViewPrimitive infinite = moving_line;
+  infinite.q1.t1[2] = INFINITY;
+  EXPECT_EQ(made.value().evaluate(x, x, {&infinite, 1}).problem->error,
+            InputError::non_finite_coordinate);
+  const std::vector<ViewPrimitive> three(3, fixed_point);
+  EXPECT_EQ(made.value().evaluate(x, x, three).problem->error, InputError::wrong_primitive_count);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cullings, Given,
+                         testing::Values(Culling::view_auto, Culling::view_point,
+                                         Culling::view_line),
+                         tests::culling_of_test);
 
 }  // namespace
 }  // namespace assay::detector

@@ -2,7 +2,6 @@
 // gives the first time and the pairs at it, as all pairs have them.
 #include "detector/detector.h"
 #include "detector/state/step_state.h"
-#include "tests/detector/contact/same_contacts.h"
 #include "tests/detector/search/search_meshes.h"
 
 namespace assay::detector {
@@ -12,16 +11,11 @@ namespace {
 // opposite order at the end. With `height` 0 they are where SearchMeshes puts them.
 struct Moving {
   explicit Moving(const tests::MovingMesh& mesh, int size = 0, double height = 0)
-      : x_t0(mesh.x_t0), x_t1(mesh.x_t1) {
+      : triangles(mesh.rows()), x_t0(mesh.x_t0), x_t1(mesh.x_t1) {
     for (Eigen::Index v = 0; v < x_t0.rows(); ++v) {
       const double above = height * static_cast<double>(v / ((size + 1) * (size + 1)));
       x_t0(v, 2) += above;
       x_t1(v, 2) -= above;
-    }
-    triangles.resize(static_cast<Eigen::Index>(mesh.topology.triangles.size()), 3);
-    for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
-      const auto& corners = mesh.topology.triangles[static_cast<std::size_t>(t)];
-      triangles.row(t) << corners[0], corners[1], corners[2];
     }
   }
   Detector detector(Options options) const {
@@ -118,11 +112,7 @@ TEST_P(FirstContact, DoesNotDependOnThreads) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cullings, FirstContact, testing::ValuesIn(all_values<Culling>),
-                         [](const auto& tested) {
-                           std::string name = name_of(tested.param);
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+                         tests::culling_of_test);
 
 // Two sheets of 7,000 triangles each that come flat upon each other, all at the same time.
 TEST(FirstContact, OfManyAtOnceIsFoundWithFewTests) {
@@ -138,17 +128,9 @@ TEST(FirstContact, OfManyAtOnceIsFoundWithFewTests) {
     return x;
   };
   constexpr int side = 60;
-  std::vector<tests::Corners> rows;
-  for (int s = 0; s < 2; ++s) {
-    for (int i = 0; i + 1 < side; ++i) {
-      for (int j = 0; j + 1 < side; ++j) {
-        const int v = (s * side + i) * side + j;
-        rows.push_back({v, v + side, v + side + 1});
-        rows.push_back({v, v + side + 1, v + 1});
-      }
-    }
-  }
-  const Triangles triangles = tests::triangles(rows);
+  const Triangles sheet = tests::squares(side - 1, side - 1);
+  Triangles triangles(2 * sheet.rows(), 3);
+  triangles << sheet, sheet.array() + side * side;
   Positions start = flat(1), end = flat(-1);
   end(2 * side * side - 7, 2) = -1.5;  // this vertex comes first
   const auto result_of = [&](Pairs pairs) {

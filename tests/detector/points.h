@@ -1,6 +1,8 @@
 // Shorthand for the tests of this folder.
 #pragma once
 
+#include "detector/options.h"
+#include "detector/step_result.h"
 #include "tests/meshes.h"
 #include "tests/test.h"
 
@@ -20,6 +22,64 @@ inline detector::Positions pushed_octahedron() {
   detector::Positions x = octahedron_positions(2);
   x.row(4) << 3, .5, -.25;
   return x;
+}
+
+// The octahedron of radius 2 whose tip at -z, vertex 5, is elsewhere. At (s, s, s) it is outside of
+// the triangle at +x +y +z where s is above 2/3.
+inline detector::Positions tip_at(const Point& p) {
+  detector::Positions x = octahedron_positions(2);
+  x.row(5) << p[0], p[1], p[2];
+  return x;
+}
+inline detector::Positions tip_at(double s) { return tip_at({s, s, s}); }
+
+// Two octahedra: their triangles, and the positions of both, the second `apart` along x.
+inline detector::Triangles two_octahedra() {
+  detector::Triangles t(16, 3);
+  t << octahedron(), octahedron().array() + 6;
+  return t;
+}
+inline detector::Positions side_by_side(const detector::Positions& a, const detector::Positions& b,
+                                        double apart) {
+  detector::Positions x(a.rows() + b.rows(), 3);
+  x << a, b.rowwise() + Eigen::RowVector3d(apart, 0, 0);
+  return x;
+}
+
+// Two triangles in each of n x m squares, whose first and last vertex both have; numbered row by
+// row, as their (n+1) x (m+1) vertices are.
+inline detector::Triangles squares(std::int32_t n, std::int32_t m) {
+  detector::Triangles t(2 * n * m, 3);
+  for (std::int32_t s = 0; s < n * m; ++s) {
+    const std::int32_t v = s / m * (m + 1) + s % m;
+    t.row(2 * s) << v, v + m + 1, v + m + 2;
+    t.row(2 * s + 1) << v, v + m + 2, v + 1;
+  }
+  return t;
+}
+// The vertices of n x n unit squares.
+inline detector::Positions flat_squares(std::int32_t n) {
+  detector::Positions x((n + 1) * (n + 1), 3);
+  for (std::int32_t v = 0; v < x.rows(); ++v) x.row(v) << v / (n + 1), v % (n + 1), 0;
+  return x;
+}
+
+// Of a test that is run with each of several cullings.
+inline std::string culling_of_test(const testing::TestParamInfo<detector::Culling>& tested) {
+  std::string name = name_of(tested.param);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+// The same pairs are in contact at the same times.
+inline void expect_same_contacts(const detector::StepResult& a, const detector::StepResult& b) {
+  EXPECT_EQ(a.answer, b.answer);
+  EXPECT_EQ(a.first, b.first);
+  ASSERT_EQ(a.pairs.size(), b.pairs.size());
+  for (std::size_t i = 0; i < a.pairs.size(); ++i) {
+    EXPECT_EQ(a.pairs[i].pair, b.pairs[i].pair);
+    EXPECT_EQ(a.pairs[i].time, b.pairs[i].time);
+  }
 }
 
 }  // namespace assay::tests

@@ -59,4 +59,44 @@ inline detector::MovingPoint random_point(Random& random, Coordinates kind) {
   return p;
 }
 
+// Places at rest.
+inline detector::Positions random_rows(Random& random, Coordinates kind, Eigen::Index count) {
+  detector::Positions x(count, 3);
+  for (Eigen::Index i = 0; i < x.size(); ++i) x.data()[i] = random_coordinate(random, kind);
+  return x;
+}
+
+// The ends of a step.
+inline void place_randomly(Random& random, Coordinates kind, Eigen::Index vertices,
+                           detector::Positions& x_t0, detector::Positions& x_t1) {
+  x_t0.resize(vertices, 3);
+  x_t1.resize(vertices, 3);
+  for (Eigen::Index i = 0; i < 3 * vertices; ++i) {
+    x_t0.data()[i] = random_coordinate(random, kind);
+    x_t1.data()[i] = random_coordinate(random, kind);
+  }
+}
+
+// Triangles of any vertices, which may name one twice, and such as name three.
+inline detector::Triangles any_triangles(Random& random, int vertices, int count) {
+  detector::Triangles f(count, 3);
+  for (Eigen::Index i = 0; i < f.size(); ++i) f.data()[i] = random.below(vertices);
+  return f;
+}
+inline detector::Triangles random_triangles(Random& random, int vertices, int count) {
+  detector::Triangles f(count, 3);
+  for (int t = 0; t < count; ++t) {
+    do {
+      f.row(t) = any_triangles(random, vertices, 1);
+    } while (f(t, 0) == f(t, 1) || f(t, 1) == f(t, 2) || f(t, 2) == f(t, 0));
+  }
+  return f;
+}
+
+inline detector::MovingPoint rest(const detector::Point& p) { return {p, p}; }
+
+// In the plane z = 0.
+inline const std::array<detector::MovingPoint, 3> resting_face = {rest({0, 0, 0}), rest({4, 0, 0}),
+                                                                  rest({0, 4, 0})};
+
 }  // namespace assay::oracle::test

@@ -43,8 +43,7 @@ class DamagedFile : public Scratch {
     const auto mesh = read_mesh(write("good.obj", obj_tetrahedron));
     const auto path = folder() / name;
     EXPECT_TRUE(write_mesh(path, mesh.value().positions, mesh.value().triangles));
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
+    return bytes_in(path);
   }
 };
 

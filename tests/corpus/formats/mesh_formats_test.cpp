@@ -42,10 +42,7 @@ TEST_F(Obj, FacesMayComeBeforeTheirVertices) {
 TEST_F(Obj, PolygonsAreFannedFromTheirFirstVertex) {
   const auto mesh =
       read_mesh(write("a.obj", "v 0 0 0\nv 1 0 0\nv 2 1 0\nv 1 2 0\nv 0 1 0\nf 2 3 4 5 1\n"));
-  ASSERT_TRUE(mesh);
-  detector::Triangles fan(3, 3);
-  fan << 1, 2, 3, 1, 3, 4, 1, 4, 0;
-  EXPECT_EQ(mesh.value().triangles, fan);
+  expect_triangles(mesh, "1 2 3, 1 3 4, 1 4 0");
 }
 
 TEST_F(Obj, DuplicateTrianglesAndUnusedVerticesStay) {
@@ -119,10 +116,7 @@ TEST_F(Off, NormalsAndColoursArePassedOver) {
 TEST_F(Off, PolygonsAreFannedFromTheirFirstVertex) {
   const auto mesh =
       read_mesh(write("a.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 2 3 0 1\n"));
-  ASSERT_TRUE(mesh);
-  detector::Triangles fan(2, 3);
-  fan << 2, 3, 0, 2, 0, 1;
-  EXPECT_EQ(mesh.value().triangles, fan);
+  expect_triangles(mesh, "2 3 0, 2 0 1");
 }
 
 TEST_F(Off, ProblemsNameTheLine) {
@@ -236,10 +230,7 @@ TEST_F(Ply, PolygonsAreFannedFromTheirFirstVertex) {
             "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\n"
             "element vertex 4\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
             "4 3 0 1 2\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"));
-  ASSERT_TRUE(mesh) << mesh.error().message;
-  detector::Triangles fan(2, 3);
-  fan << 3, 0, 1, 3, 1, 2;
-  EXPECT_EQ(mesh.value().triangles, fan);
+  expect_triangles(mesh, "3 0 1, 3 1 2");
 }
 
 TEST_F(Ply, Problems) {

@@ -6,7 +6,6 @@
 #include <sys/wait.h>
 
 #include "tests/corpus/scratch.h"
-#include "tests/meshes.h"
 #include "tests/recorded_log.h"
 
 namespace assay::corpus {
@@ -49,11 +48,6 @@ class StepLogs : public Scratch {
     }
     if (ends) log.end();
     return path;
-  }
-
-  static std::string bytes_of(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
   }
 
   // Every step that is read is that of its number, and all before the first damage are.
@@ -135,7 +129,7 @@ TEST_F(StepLogs, AreReadAsTheyWereWritten) {
 }
 
 TEST_F(StepLogs, CutAnywhereTheyLoseWhatWasCut) {
-  good_ = bytes_of(write_log());
+  good_ = bytes_in(write_log());
   const auto ends = ends_of_steps();
   ASSERT_EQ(ends.size(), std::size_t{steps_written});
   for (std::size_t cut = 0; cut <= good_.size(); cut += 13) check_steps(good_.substr(0, cut), ends);
@@ -144,7 +138,7 @@ TEST_F(StepLogs, CutAnywhereTheyLoseWhatWasCut) {
 // A crash leaves the beginning of a record and nothing else, so whatever else ends a log is damage.
 TEST_F(StepLogs, EveryCutIsToldFromDamage) {
   const auto path = write_log();
-  good_ = bytes_of(path);
+  good_ = bytes_in(path);
   const auto begins = marks();
   const std::set<std::size_t> whole(begins.begin(), begins.end());
   for (auto cut = good_.size(); cut >= begins[1]; --cut) {
@@ -159,7 +153,7 @@ TEST_F(StepLogs, EveryCutIsToldFromDamage) {
 }
 
 TEST_F(StepLogs, ARearThatBeginsNoRecordIsDamage) {
-  good_ = bytes_of(write_log());
+  good_ = bytes_in(write_log());
   const auto begins = marks();
   const auto last = begins[begins.size() - 2], size = good_.size() - last;
   const auto damaged = [&](const std::string& bytes) {
@@ -203,7 +197,7 @@ TEST_F(StepLogs, ARearThatBeginsNoRecordIsDamage) {
 
 // Though its length may reach beyond the end of the file, a record in the middle was not cut.
 TEST_F(StepLogs, WithAnyByteChangedTheyEndThere) {
-  good_ = bytes_of(write_log());
+  good_ = bytes_in(write_log());
   const auto ends = ends_of_steps(), begins = marks();
   std::mt19937 random(7);
   const auto form = ends[3];
@@ -226,7 +220,7 @@ TEST_F(StepLogs, WithAnyByteChangedTheyEndThere) {
 }
 
 TEST_F(StepLogs, BytesTakenOutOrPutInEndThem) {
-  good_ = bytes_of(write_log());
+  good_ = bytes_in(write_log());
   const auto ends = ends_of_steps();
   auto missing = good_, more = good_;
   missing.erase(ends[3], ends[5] - ends[3]);  // two whole steps, and the note between them
@@ -287,7 +281,7 @@ TEST_F(StepLogs, GrowWhileTheyAreRead) {
   ASSERT_TRUE(log.go_on());
   EXPECT_TRUE(log.is_ended());
   std::filesystem::rename(path, path.string() + ".moved");
-  write("grows.log", bytes_of(path.string() + ".moved"));
+  write("grows.log", bytes_in(path.string() + ".moved"));
   EXPECT_FALSE(log.go_on());
 }
 
@@ -316,7 +310,7 @@ TEST_F(StepLogs, RefuseWhatIsNone) {
   };
   EXPECT_TRUE(says(told("v 0 0 0\n"), "it is no log of steps"));
   EXPECT_TRUE(says(told(""), "it is no log of steps"));
-  good_ = bytes_of(write_log());
+  good_ = bytes_in(write_log());
   EXPECT_TRUE(says(told(good_.substr(0, 100)), "its first record is damaged"));
   EXPECT_FALSE(StepLog::open(folder() / "absent.log"));
   EXPECT_FALSE(StepLog::open(folder()));

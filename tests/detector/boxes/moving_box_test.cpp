@@ -128,6 +128,15 @@ TEST(MovingBox, MovingTogetherIsApart) {
   EXPECT_TRUE(apart(points.box({0, 1, 2}), points.box({3, 4, 5})));
 }
 
+void expect_same_box(const MovingBox& a, const MovingBox& b, const char* which) {
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_EQ(a.lo_t0[k], b.lo_t0[k]) << which;
+    EXPECT_EQ(a.hi_t0[k], b.hi_t0[k]) << which;
+    EXPECT_EQ(a.lo_t1[k], b.lo_t1[k]) << which;
+    EXPECT_EQ(a.hi_t1[k], b.hi_t1[k]) << which;
+  }
+}
+
 // Boxes of nodes hold those of the triangles below, wherever the mesh lies.
 TEST(MovingBox, NodesHoldTheirTriangles) {
   std::mt19937_64 engine(2);
@@ -145,20 +154,9 @@ TEST(MovingBox, NodesHoldTheirTriangles) {
           tree.box_of_triangle(mesh.triangles[static_cast<std::size_t>(t)], {p.x_t0, p.x_t1});
       std::int32_t node = tree.leaf_of(t);
       ASSERT_EQ(tree.triangle(node), t);
-      for (int k = 0; k < 3; ++k) {
-        EXPECT_EQ(box.lo_t0[k], tree.box(node).lo_t0[k]) << "of a leaf it is the box";
-        EXPECT_EQ(box.hi_t0[k], tree.box(node).hi_t0[k]);
-        EXPECT_EQ(box.lo_t1[k], tree.box(node).lo_t1[k]);
-        EXPECT_EQ(box.hi_t1[k], tree.box(node).hi_t1[k]);
-      }
+      expect_same_box(box, tree.box(node), "of a leaf it is the box");
       for (;; node = tree.parent(node)) {
-        const MovingBox all = join(tree.box(node), box);
-        for (int k = 0; k < 3; ++k) {
-          EXPECT_EQ(all.lo_t0[k], tree.box(node).lo_t0[k]);
-          EXPECT_EQ(all.hi_t0[k], tree.box(node).hi_t0[k]);
-          EXPECT_EQ(all.lo_t1[k], tree.box(node).lo_t1[k]);
-          EXPECT_EQ(all.hi_t1[k], tree.box(node).hi_t1[k]);
-        }
+        expect_same_box(join(tree.box(node), box), tree.box(node), "of a node");
         if (node == BoundingVolumeTree::root) break;
       }
     }

@@ -1,6 +1,5 @@
 // Integers of fixed width against the general path: verdicts, times in every bit, how much they
 // leave open; the widths at their bounds; signs at roots against Tarski queries.
-
 #include "detector/contact/contact_exact.h"
 #include "detector/contact/fixed_products.h"
 #include "detector/contact/fixed_root.h"
@@ -11,8 +10,6 @@
 
 namespace assay::detector {
 namespace {
-
-;
 
 struct Tally {
   int queries = 0, contacts = 0, open = 0;

@@ -162,5 +162,138 @@ TEST(ElementaryTest, CoplanarThroughoutIsRecognised) {
   EXPECT_FALSE(coplanar_throughout(vertex_moves({-1, .25, 0}, {1, .25, 1e-300})));
 }
 
+// Whether a contact is surely later than a bound, against the exact first time.
+
+struct Told {
+  int before = 0, by_doubles = 0, by_integers = 0;
+};
+
+// Asks about bounds around the first contact time and elsewhere. None at or after that time may be
+// told to be before it.
+void ask_about(const FourPoints& query, Told& told) {
+  const auto contact = test_contact(query, Want::first_time);
+  const auto& [lo, hi] = contact.time;
+  for (const double until : {0., lo, hi, lo / 2, std::nextafter(lo, 0.), .25, .75, 1.}) {
+    const bool is_later = !contact.contact || hi > until;
+    const Later later = surely_later(query, until);
+    if (!is_later) {
+      EXPECT_EQ(later, Later::no) << until << " of " << lo;
+    } else {
+      ++told.before;
+      told.by_doubles += later == Later::by_doubles;
+      told.by_integers += later == Later::by_integers;
+    }
+  }
+}
+
+TEST(ContactUntil, NeverPassesAContact) {
+  tests::QueryDraw draw(37);
+  Told fine, coarse, large;
+  for (int i = 0; i < 20'000; ++i) {
+    ask_about(draw.query([&] { return draw.full(); }), fine);
+    ask_about(draw.query([&] { return static_cast<double>(draw.between(-3, 3)); }), coarse);
+    ask_about(draw.query([&] { return std::ldexp(draw.full(), draw.between(0, 1) * 1024); }),
+              large);
+  }
+  EXPECT_GT(fine.by_doubles, fine.before * 3 / 4);
+  EXPECT_GT(coarse.by_integers, 100);
+}
+
+// A vertex in the plane of a face, on its way to it: the cubic vanishes, and only the order along
+// the way tells. The bound is one double before the contact.
+TEST(ContactUntil, InOnePlaneOrderTellsToTheLastBit) {
+  tests::QueryDraw draw(37);
+  for (int i = 0; i < 2'000; ++i) {
+    FourPoints query = draw.query([&] { return draw.full(); });
+    query.first_group = 1;
+    for (std::size_t p = 0; p < 4; ++p) {
+      query.points[p].t0[0] = query.points[p].t1[0] = 0;
+      query.points[p].t0[2] += p == 0 ? 3 : 0;
+      query.points[p].t1[2] = query.points[p].t0[2] + (p == 0 ? -3 : 0);
+      query.points[p].t1[1] = query.points[p].t0[1];
+    }
+    // The way of the vertex ends in the face, which it enters at a corner first.
+    query.points[1].t0[1] = query.points[1].t1[1] = query.points[0].t0[1];
+    query.points[1].t0[2] = query.points[1].t1[2] = .75;
+    query.points[0].t1[2] = 0;
+    const auto contact = test_contact(query, Want::first_time);
+    ASSERT_TRUE(contact.contact);
+    EXPECT_EQ(surely_later(query, contact.time.hi), Later::no);
+    EXPECT_NE(surely_later(query, std::nextafter(contact.time.lo, 0.)), Later::no);
+  }
+}
+
+TEST(ContactUntil, TheGreatestDoublesAreNotOrderedByOverflow) {
+  constexpr double most = std::numeric_limits<double>::max();
+  const FourPoints query = four_points(VertexFace{
+      {{0, 0, -most}, {0, 0, most}}, {still({-1, -1, 0}), still({2, -1, 0}), still({-1, 2, 0})}});
+  EXPECT_EQ(surely_later(query, .75), Later::no);
+  EXPECT_EQ(surely_later(query, .5), Later::no);
+}
+
+// In a thread with a small stack, over the queries that need most of it.
+
+// p = (0,-a,0) -> (0,0,-e), face (0,0,0), (0,0,-c) -> 0, 0 -> (0,-e,0): all in one plane, with
+// roots at 1 - e/a and 1 - e/c, both next to 1, and told apart by as many bits as a / e has. With
+// two points in the first group they are two edges.
+FourPoints roots_next_to_one(double a, double c, double e, int first_group) {
+  return {{MovingPoint{{0, -a, 0}, {0, 0, -e}},
+           still({0, 0, 0}),
+           {{0, 0, -c}, {0, 0, 0}},
+           {{0, 0, 0}, {0, -e, 0}}},
+          first_group};
+}
+
+void expect_answered(const FourPoints& query) {
+  const auto exact = exact_contact(query);
+  const auto general = general_first_contact(query);
+  EXPECT_EQ(general.has_value(), exact.contact);
+  if (general) {
+    EXPECT_EQ(*general, exact.time);
+  }
+  const ContactResult tested = test_contact(query, Want::first_time);
+  EXPECT_EQ(tested.contact, exact.contact);
+  if (exact.contact) {
+    EXPECT_EQ(tested.time, exact.time);
+  }
+  test_contact(query, Want::yes_no);
+  for (const auto arithmetic :
+       {Arithmetic::bounded, Arithmetic::double_precision, Arithmetic::single_precision}) {
+    test_contact(query, Want::first_time, arithmetic);
+  }
+}
+
+TEST(ContactStack, RootsThatManyBitsTellApart) {
+  tests::expect_enough_stack("roots next to 1", [] {
+    for (int big = 20; big <= 1020; big += 100) {
+      for (int small = -20; small >= -1070; small -= 150) {
+        const double a = std::ldexp(1, big), c = std::ldexp(5, big / 2), e = std::ldexp(1, small);
+        for (const int first_group : {1, 2})
+          expect_answered(roots_next_to_one(a, c, e, first_group));
+      }
+    }
+  });
+}
+
+TEST(ContactStack, ExponentsOverAllDoubles) {
+  tests::expect_enough_stack("exponents over all doubles", [] {
+    std::mt19937_64 engine(20117);
+    const auto below = [&engine](int n) { return static_cast<int>(engine() % std::uint64_t(n)); };
+    for (int i = 0; i < 600; ++i) {
+      FourPoints q;
+      q.first_group = 1 + i % 2;
+      const bool flat = i % 3 == 0;
+      for (auto& p : q.points) {
+        for (double* end : {p.t0.data(), p.t1.data()}) {
+          for (int k = 0; k < 3; ++k) {
+            end[k] = flat && k == 0 ? 0 : std::ldexp(below(5) - 2, below(2097) - 1074);
+          }
+        }
+      }
+      expect_answered(q);
+    }
+  });
+}
+
 }  // namespace
 }  // namespace assay::detector

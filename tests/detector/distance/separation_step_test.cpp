@@ -3,9 +3,7 @@
 #include "detector/detector.h"
 #include "detector/distance/nearness.h"
 #include "detector/search/feature_pairs.h"
-#include "tests/detector/contact/same_contacts.h"
 #include "tests/detector/distance/rational_distance.h"
-#include "tests/detector/search/compared_features.h"
 #include "tests/detector/search/search_meshes.h"
 
 namespace assay::tests {
@@ -156,11 +154,7 @@ TEST(SeparationStep, L16_HoldersThatShareNoVertexCount) {
 
 TEST(SeparationStep, ThreadsDoNotShow) {
   const auto mesh = SearchMeshes(12).sheets(2, 24, false);
-  Triangles rows(static_cast<Eigen::Index>(mesh.topology.triangles.size()), 3);
-  for (Eigen::Index t = 0; t < rows.rows(); ++t) {
-    const auto& corners = mesh.topology.triangles[static_cast<std::size_t>(t)];
-    rows.row(t) << corners[0], corners[1], corners[2];
-  }
+  const Triangles rows = mesh.rows();
   const Positions end = .97 * mesh.x_t0 + .03 * mesh.x_t1;
   const auto alone = step_within(rows, mesh.x_t0, end, within(.05));
   EXPECT_GT(alone.pairs.size(), 100u);
@@ -178,11 +172,7 @@ TEST(SeparationStep, ThreadsDoNotShow) {
 // A detector answers each step by itself, whatever it has committed before.
 TEST(SeparationStep, StepsDoNotDependOnEarlierOnes) {
   const auto mesh = SearchMeshes(13).sheets(2, 5, true);
-  Triangles rows(static_cast<Eigen::Index>(mesh.topology.triangles.size()), 3);
-  for (Eigen::Index t = 0; t < rows.rows(); ++t) {
-    const auto& corners = mesh.topology.triangles[static_cast<std::size_t>(t)];
-    rows.row(t) << corners[0], corners[1], corners[2];
-  }
+  const Triangles rows = mesh.rows();
   for (const Start start : all_values<Start>) {
     Options options = within(.5);
     options.start = start;
@@ -205,12 +195,10 @@ TEST(SeparationStep, ASeparationOfZeroAsksForContacts) {
 TEST(SeparationStep, L16_DistancesOfAnySize) {
   const Triangles two = triangles({{0, 1, 2}, {3, 4, 5}});
   const auto above = [](double size, double height) {
-    return positions({{0, 0, 0},
-                      {size, 0, 0},
-                      {0, size, 0},
-                      {0, 0, height},
-                      {size, 0, height},
-                      {0, size, height}});
+    Positions x = positions({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+    x *= size;
+    x.bottomRows(3).col(2).setConstant(height);
+    return x;
   };
   const auto is_near = [&](const Positions& x, double d) {
     return step_within(two, x, x, within(d)).answer == Answer::collision;

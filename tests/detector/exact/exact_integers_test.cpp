@@ -7,8 +7,6 @@
 namespace assay::detector {
 namespace {
 
-// Integers of fixed width against Boost's without bound.
-
 // Of at most `bits` bits, often much shorter, often next to a power of two: carries and borrows.
 template <std::size_t limbs>
 FixedInteger<limbs> draw(std::mt19937_64& engine, int most_bits_drawn) {
@@ -61,8 +59,6 @@ TEST(FixedInteger, AgreesWithIntegersWithoutBound) {
   compare<3, 2>(engine);
   compare<5, 10>(engine);
 }
-
-using Wide = boost::multiprecision::cpp_int;
 
 // An integer and the ball that was computed beside it.
 struct Beside {

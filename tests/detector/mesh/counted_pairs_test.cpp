@@ -1,13 +1,9 @@
 // What a relation between pairs may not say, and what a detector makes of one at its border.
 #include "detector/mesh/counted_pairs.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-
 #include "detector/detector.h"
 #include "detector/mesh/mesh_checks.h"
+#include "tests/test.h"
 
 namespace assay::detector {
 namespace {

@@ -34,21 +34,12 @@ void expect_paced(std::uint64_t work, const std::function<void(PacedStop&)>& mak
   }
 }
 
-Triangles rows_of(const Topology& mesh) {
-  Triangles rows(static_cast<Eigen::Index>(mesh.triangles.size()), 3);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& v = mesh.triangles[t];
-    rows.row(static_cast<Eigen::Index>(t)) << v[0], v[1], v[2];
-  }
-  return rows;
-}
-
 class Paced : public testing::Test {
  protected:
   tests::SearchMeshes random_{7};
   const tests::MovingMesh mesh_ = random_.sheets(2, 60, false);  // 14,400 triangles
   const Topology& topology_ = mesh_.topology;
-  const Triangles rows_ = rows_of(topology_);
+  const Triangles rows_ = mesh_.rows();
   const Eigen::Index vertices_ = mesh_.x_t0.rows();
   const std::uint64_t count_ = topology_.triangles.size();
 };
@@ -139,13 +130,13 @@ TEST_F(Paced, TreeAndItsBoxes) {
   });
   BoundingVolumeTree tree(topology_, mesh_.x_t0);
   expect_paced(8 * count_, [&](PacedStop& pace) {
-    const bool is_done = tree.refit(topology_, {mesh_.x_t0, mesh_.x_t1}, pace);
+    const bool is_done = tree.refit(topology_, mesh_.motion(), pace);
     EXPECT_EQ(is_done, !pace.stopped());
   });
   // What a stop leaves behind does not stay.
-  tree.refit(topology_, {mesh_.x_t0, mesh_.x_t1});
+  tree.refit(topology_, mesh_.motion());
   BoundingVolumeTree fresh(topology_, mesh_.x_t0);
-  fresh.refit(topology_, {mesh_.x_t0, mesh_.x_t1});
+  fresh.refit(topology_, mesh_.motion());
   tree.join_boxes(nullptr);
   fresh.join_boxes(nullptr);
   const auto &box = tree.box(BoundingVolumeTree::root), &same = fresh.box(BoundingVolumeTree::root);
@@ -156,9 +147,8 @@ TEST_F(Paced, TreeAndItsBoxes) {
 }
 
 TEST_F(Paced, PointsAndRepresentatives) {
-  expect_paced(3 * count_, [&](PacedStop& pace) {
-    const FeaturePoints points({mesh_.x_t0, mesh_.x_t1}, &pace);
-  });
+  expect_paced(3 * count_,
+               [&](PacedStop& pace) { const FeaturePoints points(mesh_.motion(), &pace); });
   expect_paced(6 * count_, [&](PacedStop& pace) { const Representatives all(topology_, &pace); });
   Representatives some(topology_);
   const std::vector<TriangleType> types(count_, TriangleType::dirty);
@@ -181,7 +171,7 @@ TEST_F(Paced, NormalCones) {
   const auto of_mesh = search.prepare(topology_, tree, never);
   const Marks marks(tree);
   const PairTables tables = EveryPair().candidates();
-  of_mesh->fit(tree, topology_, {mesh_.x_t0, mesh_.x_t1}, never);
+  of_mesh->fit(tree, topology_, mesh_.motion(), never);
   SearchCounts first_counts;  // of the search that finds the contours
   ASSERT_TRUE(of_mesh->search({topology_, tree, marks, tables, &never}, first_counts,
                               [](std::int32_t, std::int32_t) { return true; }));

@@ -1,7 +1,5 @@
 #include "detector/parallel/workers.h"
 
-#include <mutex>
-
 #include "detector/mesh/for_all.h"
 #include "tests/test.h"
 

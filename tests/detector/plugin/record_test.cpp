@@ -1,10 +1,122 @@
-// What the records of a log hold (detector/plugin/assay_record.h).
-#include "tests/detector/plugin/record_fixture.h"
+// What the records of a log hold (detector/plugin/assay_record.h), read back record by record.
+#include <zlib.h>
 
-namespace assay::detector {
+#include <nlohmann/json.hpp>
+
+#include "detector/plugin/assay_record.h"
+#include "tests/test.h"
+
+namespace assay::tests {
 namespace {
 
-using namespace tests;
+using nlohmann::json;
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::uint64_t big_endian(std::string_view bytes) {
+  std::uint64_t value = 0;
+  for (const char c : bytes) value = value << 8 | static_cast<unsigned char>(c);
+  return value;
+}
+
+// The bodies of all records. Each frame has just the bytes that it has to have.
+std::vector<json> records_of(const std::string& path) {
+  const std::string all = bytes_of(path);
+  std::vector<json> out;
+  for (std::size_t at = 0; at < all.size();) {
+    if (all.substr(at, 9) !=
+        "\x83\x44"
+        "ASR1\xD8\x18\x5B") {
+      ADD_FAILURE() << "no record at " << at << " of " << path;
+      break;
+    }
+    const auto size = big_endian(std::string_view(all).substr(at + 9, 8));
+    const std::string body = all.substr(at + 17, size), trailer = all.substr(at + 17 + size, 5);
+    const auto sum =
+        crc32(0, reinterpret_cast<const Bytef*>(body.data()), static_cast<uInt>(body.size()));
+    EXPECT_EQ(trailer.substr(0, 1), "\x1A");
+    EXPECT_EQ(big_endian(trailer.substr(1)), sum) << "record at " << at;
+    out.push_back(json::from_cbor(body, true, true, json::cbor_tag_handler_t::store));
+    at += 17 + size + 5;
+  }
+  return out;
+}
+
+// The numbers of a typed array, whose tag has to be this one.
+template <class T>
+std::vector<T> numbers(const json& array, unsigned tag) {
+  if (!array.is_binary()) {
+    ADD_FAILURE() << "no array: " << array;
+    return {};
+  }
+  const auto& bytes = array.get_binary();
+  EXPECT_EQ(bytes.subtype(), tag);
+  std::vector<T> out(bytes.size() / sizeof(T));
+  if (!out.empty()) std::memcpy(out.data(), bytes.data(), bytes.size());
+  return out;
+}
+std::vector<std::int32_t> int32s(const json& array) { return numbers<std::int32_t>(array, 78); }
+std::vector<float> floats(const json& array) { return numbers<float>(array, 85); }
+std::vector<double> doubles(const json& array) { return numbers<double>(array, 86); }
+
+// A mesh of two triangles, and a file in a folder of the test's own.
+class Recording : public testing::Test {
+ protected:
+  Recording() {
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+    description.name = "mine";
+    description.version = "1.5";
+  }
+  ~Recording() override {
+    if (recorder.is_begun) assay_record_end(&recorder);
+    std::filesystem::remove_all(folder);
+  }
+
+  std::int32_t begin(const assay_counted_pairs* counted = nullptr) {
+    return assay_record_begin(&recorder, &settings, &description, triangles.data(), 2,
+                              {rest.data(), 0}, 4, counted);
+  }
+  std::string error() const { return assay_record_error(&recorder); }
+  // A step to where all coordinates are this number.
+  std::vector<double> all(double value) const { return std::vector<double>(12, value); }
+  std::int32_t step_to(double value) {
+    const auto x1 = all(value);
+    return assay_record_step(&recorder, step({}, {x1.data(), 0}));
+  }
+  const assay_record_step_data* step(assay_record_array x0, assay_record_array x1,
+                                     assay_record_array committed = {}) {
+    data = {};
+    data.x0 = x0;
+    data.x1 = x1;
+    data.committed = committed;
+    return &data;
+  }
+  // The first step says where it starts.
+  void first_step() {
+    const auto x1 = all(0);
+    ASSERT_EQ(assay_record_step(&recorder, step({rest.data(), 0}, {x1.data(), 0})), ASSAY_OK);
+  }
+  std::vector<json> end() {
+    EXPECT_EQ(assay_record_end(&recorder), ASSAY_OK) << error();
+    return records_of(path);
+  }
+
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() /
+      ("assay_record_" +
+       std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+  const std::string path = folder / "steps.log";
+  const std::vector<std::int32_t> triangles = {0, 1, 2, 2, 1, 3};
+  const std::vector<double> rest = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0.1};
+  assay_record_settings settings = {path.c_str(), 1, 0};
+  assay_description description = {};
+  assay_recorder recorder = {};
+  assay_record_step_data data = {};
+};
 
 class Record : public Recording {};
 
@@ -186,5 +298,214 @@ TEST_F(Record, SumsAreThoseOfZlib) {
     for (std::size_t n = base - 20; n < base + 20; ++n) expect_sum(n % 9, n);
 }
 
+// Which steps a recorder writes, where they start, to which files they go, and what it refuses.
+
+class RecordFiles : public Recording {
+ protected:
+  // The numbers of the steps in a file, which is a log by itself: the first one says where it
+  // starts, and that is where the step before it ended.
+  std::vector<int> steps_in(const std::string& file) {
+    const auto records = records_of(file);
+    std::vector<int> out;
+    for (std::size_t i = 0; i < records.size(); ++i) {
+      EXPECT_EQ(records[i]["record"], i);
+      EXPECT_EQ(records[i]["type"] == "begin", i == 0);
+      if (records[i]["type"] != "step") continue;
+      const int number = records[i]["step"];
+      const bool follows = !out.empty() && out.back() + 1 == number;
+      EXPECT_EQ(records[i].contains("x0"), !follows) << number;
+      if (!follows) {
+        EXPECT_EQ(doubles(records[i]["x0"]), number ? all(number - 1) : rest);
+      }
+      EXPECT_EQ(doubles(records[i]["x1"]), all(number));
+      out.push_back(number);
+    }
+    return out;
+  }
+  void record(int count) {
+    for (int i = 0; i < count; ++i) {
+      if (recorder.next_step == 0) {
+        first_step();
+      } else {
+        ASSERT_EQ(step_to(static_cast<double>(recorder.next_step)), ASSAY_OK) << error();
+      }
+    }
+  }
+};
+
+using Numbers = std::vector<int>;
+
+TEST_F(RecordFiles, EveryThirdStepSaysWhereItStarts) {
+  settings.every = 3;
+  ASSERT_EQ(begin(), ASSAY_OK);
+  record(8);
+  EXPECT_EQ(end().back()["steps"], 8);
+  EXPECT_EQ(steps_in(path), (Numbers{0, 3, 6}));
+}
+
+TEST_F(RecordFiles, AStepStartsWhereTheLastOneWasCommitted) {
+  settings.every = 2;
+  ASSERT_EQ(begin(), ASSAY_OK);
+  const std::vector<float> there(12, 0.25f);
+  const auto x1 = all(7), dx = all(1);
+  record(1);
+  ASSERT_EQ(assay_record_step(&recorder, step({}, {x1.data(), 0}, {there.data(), 1})), ASSAY_OK);
+  ASSERT_EQ(step_to(8), ASSAY_OK);
+  data = {};
+  data.dx = {dx.data(), 0}, data.committed = {x1.data(), 0};
+  ASSERT_EQ(assay_record_step(&recorder, &data), ASSAY_OK);
+  ASSERT_EQ(step_to(9), ASSAY_OK);
+  const auto records = end();
+  ASSERT_EQ(records.size(), 5u);
+  EXPECT_EQ(floats(records[2]["x0"]), there);
+  EXPECT_EQ(doubles(records[3]["x0"]), x1);
+}
+
+TEST_F(RecordFiles, AStepNeedsAKnownStart) {
+  ASSERT_EQ(begin(), ASSAY_OK);
+  EXPECT_EQ(step_to(1), ASSAY_RECORD_NO_START) << "the first one";
+  const auto dx = all(1);
+  data = {};
+  data.x0 = {rest.data(), 0}, data.dx = {dx.data(), 0};
+  ASSERT_EQ(assay_record_step(&recorder, &data), ASSAY_OK);
+  EXPECT_EQ(step_to(1), ASSAY_RECORD_NO_START);
+  EXPECT_TRUE(says(error(), "x0 is missing"));
+  const auto records = end();
+  EXPECT_EQ(records.back()["steps"], 1) << "what was refused does not count";
+  EXPECT_EQ(records.size(), 3u);
+}
+
+TEST_F(RecordFiles, RefusesWrongSteps) {
+  ASSERT_EQ(begin(), ASSAY_OK);
+  const auto x = all(1);
+  EXPECT_EQ(assay_record_step(&recorder, nullptr), ASSAY_RECORD_WRONG_ARGUMENT);
+  EXPECT_EQ(assay_record_step(&recorder, step({x.data(), 0}, {})), ASSAY_RECORD_WRONG_ARGUMENT);
+  step({x.data(), 0}, {x.data(), 0});
+  data.dx = data.x1;
+  EXPECT_EQ(assay_record_step(&recorder, &data), ASSAY_RECORD_WRONG_ARGUMENT);
+  data.dx = {};
+  assay_result result = {};
+  data.result = &result;
+  result.answer = 5;
+  EXPECT_EQ(assay_record_step(&recorder, &data), ASSAY_RECORD_WRONG_ARGUMENT);
+  result.answer = ASSAY_COLLISION, result.pair_count = 1;
+  EXPECT_EQ(assay_record_step(&recorder, &data), ASSAY_RECORD_WRONG_ARGUMENT);
+  EXPECT_TRUE(says(error(), "pairs"));
+  EXPECT_EQ(assay_record_note(&recorder, nullptr), ASSAY_RECORD_WRONG_ARGUMENT);
+  EXPECT_EQ(end().size(), 2u);
+  EXPECT_EQ(assay_record_step(&recorder, step({x.data(), 0}, {x.data(), 0})),
+            ASSAY_RECORD_NOT_BEGUN);
+  EXPECT_EQ(assay_record_note(&recorder, "late"), ASSAY_RECORD_NOT_BEGUN);
+  EXPECT_EQ(assay_record_end(&recorder), ASSAY_RECORD_NOT_BEGUN);
+}
+
+// Its judge would find nothing to judge, after a night perhaps.
+TEST_F(RecordFiles, RefusesAnswersThatCanBeNone) {
+  ASSERT_EQ(begin(), ASSAY_OK);
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const auto x = all(1);
+  const auto code = [&](const assay_result& result, const assay_limit& limit = {-1, nullptr}) {
+    step({rest.data(), 0}, {x.data(), 0});
+    data.result = &result, data.limit = &limit;
+    return assay_record_step(&recorder, &data);
+  };
+  const auto at = [](double lo, double hi) {
+    return assay_result{ASSAY_COLLISION, lo, hi, 0, nullptr, nullptr, nullptr};
+  };
+  for (const auto& [lo, hi] : std::vector<std::pair<double, double>>{
+           {-1, -1}, {2.5, 2.5}, {0, 2}, {-1, 0}, {0.5, 0.25}, {none, none}, {0, none}}) {
+    EXPECT_EQ(code(at(lo, hi)), ASSAY_RECORD_NO_ANSWER) << lo << ' ' << hi;
+    EXPECT_TRUE(says(error(), "first time"));
+  }
+  for (const auto& pair : std::vector<std::array<std::int32_t, 2>>{
+           {0, 0}, {-1, 0}, {0, 2}, {7, 1}, {0, std::numeric_limits<std::int32_t>::min()}}) {
+    for (const auto answer : {ASSAY_COLLISION, ASSAY_UNDECIDED}) {
+      EXPECT_EQ(code({answer, 0, 0, 1, pair.data(), nullptr, nullptr}), ASSAY_RECORD_NO_ANSWER)
+          << pair[0] << ' ' << pair[1];
+      EXPECT_TRUE(says(error(), "no two triangles"));
+    }
+  }
+  const std::int32_t pair[] = {1, 0};
+  const double late[] = {0, 1.5};
+  EXPECT_EQ(code({ASSAY_COLLISION, 0, 0, 1, pair, late, nullptr}), ASSAY_RECORD_NO_ANSWER);
+  EXPECT_EQ(code({ASSAY_FREE, 0, 0, 1, pair, nullptr, nullptr}), ASSAY_RECORD_NO_ANSWER);
+  auto nowhere = all(1);
+  nowhere[7] = none;
+  for (const auto& limit : std::vector<assay_limit>{
+           {1.5, nullptr}, {-0.5, nullptr}, {none, nullptr}, {0.5, nowhere.data()}})
+    EXPECT_EQ(code(at(0, 1), limit), ASSAY_RECORD_NO_ANSWER) << limit.share;
+  EXPECT_EQ(code({ASSAY_COLLISION, 1, 1, 1, pair, nullptr, nullptr}), ASSAY_OK) << error();
+  EXPECT_EQ(code({ASSAY_ERROR, none, none, 0, nullptr, nullptr, "lost"}), ASSAY_OK) << error();
+  EXPECT_EQ(end().size(), 4u) << "what was refused is not there";
+}
+
+TEST_F(RecordFiles, RefusesWrongBeginnings) {
+  const assay_record_array positions = {rest.data(), 0};
+  const auto code = [&](const assay_record_settings* s, const assay_description* d,
+                        const std::int32_t* corners, assay_record_array x, std::uint64_t n,
+                        const assay_counted_pairs* counted = nullptr) {
+    return assay_record_begin(&recorder, s, d, corners, 2, x, n, counted);
+  };
+  const auto wrong = ASSAY_RECORD_WRONG_ARGUMENT;
+  EXPECT_EQ(code(nullptr, &description, triangles.data(), positions, 4), wrong);
+  EXPECT_EQ(code(&settings, nullptr, triangles.data(), positions, 4), wrong);
+  EXPECT_EQ(code(&settings, &description, nullptr, positions, 4), wrong);
+  EXPECT_EQ(code(&settings, &description, triangles.data(), {}, 4), wrong);
+  EXPECT_EQ(code(&settings, &description, triangles.data(), positions, 0), wrong);
+  EXPECT_EQ(code(&settings, &description, triangles.data(), positions, 3), wrong);
+  EXPECT_TRUE(says(error(), "vertex that does not exist"));
+  assay_counted_pairs counted = {};
+  counted.edge_pair_count = 1;
+  EXPECT_EQ(code(&settings, &description, triangles.data(), positions, 4, &counted), wrong);
+  settings.overwrite = 7;
+  EXPECT_EQ(begin(), wrong);
+  settings.overwrite = 0;
+  EXPECT_FALSE(std::filesystem::exists(path)) << "nothing was written";
+  const std::string nowhere = path + "/nowhere";
+  settings.path = nowhere.c_str();
+  EXPECT_EQ(begin(), ASSAY_RECORD_NOT_OPENED);
+  EXPECT_TRUE(says(error(), "cannot open"));
+  settings.path = "";
+  EXPECT_EQ(begin(), wrong);
+}
+
+TEST_F(RecordFiles, FilesThatAreThereAreRefused) {
+  std::ofstream(path) << "precious";
+  EXPECT_EQ(begin(), ASSAY_RECORD_FILE_EXISTS);
+  EXPECT_TRUE(says(error(), path));
+  EXPECT_EQ(bytes_of(path), "precious");
+  settings.overwrite = 1;
+  EXPECT_EQ(begin(), ASSAY_OK);
+  end();
+  std::ofstream(path).close();
+  settings.overwrite = 0;
+  EXPECT_EQ(begin(), ASSAY_OK) << "an empty one";
+}
+
+TEST_F(RecordFiles, AFullDiskIsTold) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  settings.path = "/dev/full", settings.overwrite = 1;
+  EXPECT_EQ(begin(), ASSAY_RECORD_NOT_WRITTEN);
+  EXPECT_TRUE(says(error(), "cannot write to /dev/full: "));
+}
+
+// The disk is full during one step, and has room again. Nobody would read what came behind.
+TEST_F(RecordFiles, AWriteThatFailedEndsTheLog) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  ASSERT_EQ(begin(), ASSAY_OK);
+  record(1);
+  std::FILE* const log = recorder.file;
+  recorder.file = std::fopen("/dev/full", "wb");
+  std::setvbuf(recorder.file, nullptr, _IONBF, 0);
+  EXPECT_EQ(step_to(1), ASSAY_RECORD_NOT_WRITTEN);
+  std::fclose(recorder.file);
+  recorder.file = log;
+  EXPECT_EQ(step_to(2), ASSAY_RECORD_NOT_WRITTEN);
+  EXPECT_EQ(assay_record_note(&recorder, "full"), ASSAY_RECORD_NOT_WRITTEN);
+  EXPECT_TRUE(says(error(), "cannot write to " + path + ": No space left"));
+  EXPECT_EQ(assay_record_end(&recorder), ASSAY_RECORD_NOT_WRITTEN);
+  EXPECT_EQ(records_of(path).size(), 2u);
+}
+
 }  // namespace
-}  // namespace assay::detector
+}  // namespace assay::tests

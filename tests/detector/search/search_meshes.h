@@ -1,7 +1,7 @@
 // Random meshes, motions and types for the tests of the search.
 #pragma once
 
-#include "detector/search/pair_rule.h"
+#include "detector/search/feature_pairs.h"
 #include "tests/detector/points.h"
 
 namespace assay::tests {
@@ -9,6 +9,19 @@ namespace assay::tests {
 struct MovingMesh {
   detector::Topology topology;
   detector::Positions x_t0, x_t1;
+
+  detector::SteppedMesh motion() const { return {x_t0, x_t1}; }
+  detector::Triangles rows() const { return triangles(topology.triangles); }
+};
+
+// A mesh, and a tree that is fitted to its motion, with all triangles of V+.
+struct Fitted {
+  explicit Fitted(const MovingMesh& of) : mesh(of), tree(of.topology, of.x_t0), marks(tree) {
+    tree.refit(mesh.topology, mesh.motion());
+  }
+  MovingMesh mesh;
+  detector::BoundingVolumeTree tree;
+  detector::Marks marks;
 };
 
 class SearchMeshes {
@@ -70,5 +83,26 @@ class SearchMeshes {
  private:
   std::mt19937_64 engine_;
 };
+
+using EdgeEnds = std::array<std::int32_t, 2>;
+
+// Whether two edges are apart by more than a margin, as the detector compares them, by both
+// instruction sets. An edge of equal ends is a point.
+inline bool are_apart(const detector::FeaturePoints& points, const EdgeEnds& a, const EdgeEnds& b,
+                      const detector::FeatureMargin& margin) {
+  const auto corners = [&](const EdgeEnds& ends, detector::TriangleCorners& out) {
+    out[0] = out[1] = points[ends[0]].floats();
+    out[2] = points[ends[1]].floats();
+  };
+  detector::TriangleCorners of_a, of_b;
+  corners(a, of_a);
+  corners(b, of_b);
+  const auto found = [&](const detector::BoxKernels& kernels) {
+    return kernels.compare_features(of_a, of_b, margin.floats(),
+                                    detector::feature_bits::edges(0, 0));
+  };
+  EXPECT_EQ(found(detector::box_kernels()), found(detector::plain_box_kernels()));
+  return found(detector::box_kernels()) == 0;
+}
 
 }  // namespace assay::tests

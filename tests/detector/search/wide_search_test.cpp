@@ -25,16 +25,7 @@ Found found_by(const PairSearch& search, const SearchInput& input) {
   return found;
 }
 
-// A mesh whose tree is fitted to its motion, with all triangles of V+.
-struct Fitted {
-  explicit Fitted(const MovingMesh& of) : mesh(of), tree(of.topology, of.x_t0), marks(tree) {
-    tree.refit(mesh.topology, {mesh.x_t0, mesh.x_t1});
-  }
-  MovingMesh mesh;
-  BoundingVolumeTree tree;
-  Marks marks;
-  const PairTables everything = {PairTable::everything(), PairTable::everything()};
-};
+const PairTables everything = {PairTable::everything(), PairTable::everything()};
 
 PairTables some_tables(int which) {
   PairTables tables = which % 2 == 0 ? PairRule().candidates() : EveryPair().candidates();
@@ -47,7 +38,7 @@ TEST(WideSearch, L3_FindsThePairsOfTheBinaryDescentOnceEach) {
   std::size_t candidates = 0, parts = 0;
   for (int i = 0; i < 60; ++i) {
     Fitted fitted(random.sheets(1 + i % 7, 1 + i % 6, i % 5 == 0));
-    auto& [mesh, tree, marks, everything] = fitted;
+    auto& [mesh, tree, marks] = fitted;
     std::vector<TriangleType> types(mesh.topology.triangles.size(), TriangleType::violated);
     if (i % 4 != 0) random.change(types, 2);
     MarkingCounts marking;
@@ -72,8 +63,7 @@ TEST(WideSearch, LanesDoNotShow) {
     const Workers workers(threads);
     PacedStop pace(never_stops, workers);
     std::vector<std::vector<CandidatePair>> of_lanes(workers.count());
-    const SearchInput input{fitted.mesh.topology, fitted.tree, fitted.marks, fitted.everything,
-                            &pace};
+    const SearchInput input{fitted.mesh.topology, fitted.tree, fitted.marks, everything, &pace};
     SearchCounts counts;
     const auto take = [&](std::span<const CandidatePair> pairs, std::size_t lane) {
       of_lanes[lane].insert(of_lanes[lane].end(), pairs.begin(), pairs.end());
@@ -95,7 +85,7 @@ TEST(WideSearch, LanesDoNotShow) {
 TEST(WideSearch, EndsWhereTheSinkSaysSo) {
   SearchMeshes random(13);
   const Fitted fitted(random.sheets(2, 20, false));
-  const SearchInput input{fitted.mesh.topology, fitted.tree, fitted.marks, fitted.everything};
+  const SearchInput input{fitted.mesh.topology, fitted.tree, fitted.marks, everything};
   SearchCounts counts;
   std::size_t seen = 0;
   EXPECT_FALSE(

@@ -1,17 +1,15 @@
 #include <barrier>
-#include <thread>
 
 #include "detector/detector.h"
 #include "detector/mesh/for_all.h"
 #include "detector/state/layers.h"
-#include "detector/step/release_rule.h"
-#include "tests/detector/points.h"
+#include "tests/detector/step/bare_step.h"
 #include "tests/detector/view/revolved.h"
 
 namespace assay::detector {
 namespace {
 
-using tests::octahedron, tests::octahedron_positions;
+using tests::BareStep, tests::octahedron, tests::octahedron_positions;
 
 // Positions are copied and compared in pieces, of which 100,000 rows make several.
 TEST(StepState, HoldsAtThePositionsThatItKeptAndAtNoOthers) {
@@ -206,8 +204,7 @@ TEST(StepState, L15_AfterAStepWithoutViewsOnlyClosedComponentsAreClean) {
     } else {
       both << open, closed.array() + 6;
     }
-    Positions x(12, 3);
-    x << octahedron_positions(1), octahedron_positions(1).rowwise() + Eigen::RowVector3d(9, 0, 0);
+    const Positions one = octahedron_positions(1), x = tests::side_by_side(one, one, 9);
     auto made = Detector::create(both, x, {Culling::view_auto, Start::clean});
     ASSERT_TRUE(made);
     const MovingPoint far = {{90, 60, 30}, {90, 60, 30}};
@@ -223,23 +220,8 @@ TEST(StepState, L15_AfterAStepWithoutViewsOnlyClosedComponentsAreClean) {
   }
 }
 
-// A step that stays at x, before its stages have run.
-struct Still {
-  Still(const Triangles& triangles, const Positions& at)
-      : x(at), surface(make_surface(triangles, at.rows())), tree(surface.mesh, x) {}
-  Positions x;
-  Surface surface;
-  BoundingVolumeTree tree;
-  BoundaryHandler boundary;
-  ElementaryTest elementary;
-  StopFunction stop;
-  GivenStep given{surface, tree, boundary, elementary, stop, {x, x}, nullptr};
-  StepMarks marks;
-  StepCost cost{.pace = PacedStop(stop)};
-};
-
 TEST(Release, L5_ReleasesWithWindingOneOnly) {
-  Still still(octahedron(), octahedron_positions(1));
+  BareStep still(octahedron(), octahedron_positions(1));
   const auto released_from = [&](const Point& q) {
     still.marks.primitives = {{{q, q}, {q, q}}};
     return ReleaseRule().released_at_start(still.given, still.marks, still.cost, 0);
@@ -249,10 +231,7 @@ TEST(Release, L5_ReleasesWithWindingOneOnly) {
 }
 
 TEST(Release, L9_FindsStaticContactsOfAStartInContact) {
-  // The apex (vertex 4) pulled out through the side.
-  Positions x = octahedron_positions(2);
-  x.row(4) << 3, .5, -.25;
-  Still still(octahedron(), x);
+  BareStep still(octahedron(), tests::pushed_octahedron());
   auto& clean = still.marks.clean;
   clean.assign(8, 2);
   ASSERT_TRUE(ReleaseRule().verify_start(still.given, still.marks, still.cost, {0}));
@@ -264,7 +243,7 @@ TEST(Release, L9_FindsStaticContactsOfAStartInContact) {
 
 // The state after a step: clean before, not touched, in no contact of its own component.
 TEST(Release, L8_ContactsAndTouchesMakeDirty) {
-  Still still(octahedron(), octahedron_positions(1));
+  BareStep still(octahedron(), octahedron_positions(1));
   StepMarks& marks = still.marks;
   marks.clean.assign(8, 1);
   marks.clean[7] = 0;

@@ -2,7 +2,6 @@
 // alone.
 #include "detector/detector.h"
 #include "detector/step/culling_policy.h"
-#include "tests/detector/contact/same_contacts.h"
 #include "tests/detector/points.h"
 #include "tests/detector/view/revolved.h"
 
@@ -65,8 +64,7 @@ TEST(CostModel, L10_EveryComponentIsSeenFromWhatSuitsIt) {
   const Positions x_tube = wavy_tube(), x_ball = sphere(1);
   Triangles t(tube.rows() + ball.rows(), 3);
   t << tube, ball.array() + static_cast<std::int32_t>(x_tube.rows());
-  Positions x(x_tube.rows() + x_ball.rows(), 3);
-  x << x_tube, x_ball.rowwise() + Eigen::RowVector3d(20, 0, 0);
+  const Positions x = tests::side_by_side(x_tube, x_ball, 20);
   const auto result = make(t, x).step(x, x);
   ASSERT_EQ(result.primitives.size(), 2u);
   EXPECT_FALSE(result.primitives[0].is_point());
@@ -95,8 +93,7 @@ Triangles turned(const Triangles& t) {
 // costs more than what the signs of the others can save.
 TEST(CostModel, ALargeSheetIsGlancedAtAndNoMore) {
   const Triangles t = tests::sheet_triangles(sheet_side);
-  const MovingPoint corner = {{0, 0, 0}, {0, 0, 0}};
-  const ViewPrimitive along = {corner, corner};
+  const ViewPrimitive along = {};
   for (const int rising : {0, 24, 36}) {
     for (const bool is_turned : {false, true}) {
       const Triangles sheet = is_turned ? turned(t) : t;  // the risen triangles have the other sign
@@ -116,8 +113,7 @@ TEST(CostModel, ALargeSheetIsGlancedAtAndNoMore) {
 // sign. Views would save a sixteenth of the pairs, whichever the sign is.
 TEST(CostModel, ALargeSheetWithAFewSignsIsGlancedAtAndNoMore) {
   const Triangles t = tests::sheet_triangles(sheet_side);
-  const MovingPoint below = {{0, 0, 0}, {0, 0, 0}};
-  const ViewPrimitive view = {below, below};
+  const ViewPrimitive view = {};  // from below, at the origin
   Positions x = sheet_positions(0), moved = x;
   x.col(2).setOnes();
   moved.col(2).setOnes();

@@ -1,7 +1,6 @@
 // A passage through a hole and back, a caller's response, a state that is saved and restored.
 #include "detector/detector.h"
 #include "detector/state/step_state.h"
-#include "tests/detector/contact/same_contacts.h"
 #include "tests/detector/points.h"
 #include "tests/detector/view/revolved.h"
 
@@ -9,27 +8,17 @@ namespace assay::detector {
 namespace {
 
 using tests::octahedron, tests::octahedron_positions, tests::revolved, tests::sides,
-    tests::sphere_rings;
+    tests::sphere_rings, tests::tip_at;
 
 // The octahedron without its triangle at +x +y +z.
 Triangles with_hole() { return octahedron().bottomRows(7); }
 
-// Vertex 5, the tip at -z, at s (1, 1, 1): out of the hole where s is above 2/3.
-Positions tip_at(double s) {
-  Positions x = octahedron_positions(2);
-  x.row(5) << s, s, s;
-  return x;
-}
-
 // view-auto tests so small a mesh without views.
-Options with_points() {
-  Options options;
-  options.culling = Culling::view_point;
-  return options;
-}
+Options with_points() { return {Culling::view_point}; }
 
-Detector make(const Options& options = with_points()) {
-  return std::move(Detector::create(with_hole(), octahedron_positions(2), options).value());
+Detector make(const Options& options = with_points(), const Positions& x = octahedron_positions(2),
+              const Triangles& triangles = with_hole()) {
+  return std::move(Detector::create(triangles, x, options).value());
 }
 
 void expect_same(const StepResult& a, const StepResult& b) {
@@ -73,7 +62,7 @@ TEST(Release, L9_LastingContactsAreCounted) {
   const Positions in = octahedron_positions(2);
   Positions through = in;
   through.row(5) << .5, .25, 3;
-  Detector detector = std::move(Detector::create(octahedron(), in, with_points()).value());
+  Detector detector = make(with_points(), in, octahedron());
   const auto met = detector.step(in, through);
   ASSERT_GT(met.pairs.size(), 2u);
   const auto still = detector.evaluate(through, through);
@@ -98,11 +87,10 @@ TEST(Release, L9_WhatStaysOutOfOneOfTwoHolesStaysInDoubt) {
   for (const bool through_first : {true, false}) {
     Positions out = in;
     out.row(through_first ? 5 : 4).setConstant(through_first ? 1.5 : -1.5);
-    auto made = Detector::create(two_holes, in, with_points()),
-         anew = Detector::create(two_holes, in, with_points());
-    ASSERT_TRUE(made && anew);
-    EXPECT_GT(made.value().step(in, out).violated, 0u);
-    const auto stays = made.value().step(out, out), expected = anew.value().step(out, out);
+    Detector detector = make(with_points(), in, two_holes),
+             anew = make(with_points(), in, two_holes);
+    EXPECT_GT(detector.step(in, out).violated, 0u);
+    const auto stays = detector.step(out, out), expected = anew.step(out, out);
     EXPECT_GT(expected.dirty, 0u) << through_first;
     EXPECT_GE(stays.dirty, expected.dirty) << through_first;
   }
@@ -134,7 +122,7 @@ TEST(SavedState, RestoredGivesTheSameBits) {
   const SavedState saved = detector.state();
   SavedState copy = saved;
   // Made from other positions: rules of apexes and views are in the state.
-  Detector other = std::move(Detector::create(with_hole(), tip_at(.25), with_points()).value());
+  Detector other = make(with_points(), tip_at(.25));
   ASSERT_FALSE(other.restore(copy));
   Detector same = make();
   ASSERT_FALSE(same.restore(copy));
@@ -150,7 +138,6 @@ TEST(SavedState, RestoredGivesTheSameBits) {
   EXPECT_GT(detector.step(out, in).dirty, 0u) << "back at the saved state";
 }
 
-// Apexes that this detector chose by itself have no part in a state from elsewhere.
 // After a step that looked for the first pairs alone not all contacts are known. What is read from
 // bytes must still say so, or triangles that pierce each other would be taken for clean.
 TEST(SavedState, L6L9_FirstPairsAreNotAllOnceReadFromBytesEither) {
@@ -160,10 +147,8 @@ TEST(SavedState, L6L9_FirstPairsAreNotAllOnceReadFromBytesEither) {
   pierced.row(sides * (sphere_rings / 2)) << -2.25, 0, 0;  // elsewhere, and later
   Options options = with_points();
   options.pairs = Pairs::first;
-  const auto made = [&] {
-    return std::move(Detector::create(revolved(sphere_rings), in, options).value());
-  };
-  Detector detector = made(), other = made();
+  Detector detector = make(options, in, revolved(sphere_rings)),
+           other = make(options, in, revolved(sphere_rings));
   ASSERT_EQ(detector.step(in, pierced).answer, Answer::collision);
   const auto read = SavedState::read(detector.state().bytes());
   ASSERT_TRUE(read);
@@ -174,13 +159,14 @@ TEST(SavedState, L6L9_FirstPairsAreNotAllOnceReadFromBytesEither) {
   expect_same(again, expected);
 }
 
+// Apexes that this detector chose by itself have no part in a state from elsewhere.
 TEST(SavedState, RestoredIsTheWholeState) {
   const Positions x = octahedron_positions(2);
   Detector detector = make();
   detector.step(x, tip_at(.25));
   const SavedState saved = detector.state();
   // With its tip on the centroid of the hole a ghost fan stands elsewhere.
-  Detector other = std::move(Detector::create(with_hole(), tip_at(2. / 3), with_points()).value());
+  Detector other = make(with_points(), tip_at(2. / 3));
   ASSERT_NE(other.state().fields().apex_rules[0].height, saved.fields().apex_rules[0].height);
   ASSERT_FALSE(other.restore(saved));
   EXPECT_EQ(other.state().bytes(), saved.bytes());
@@ -199,7 +185,7 @@ TEST(SavedState, WhatWasEvaluatedBeforeARestoreIsNotCommittedAfterIt) {
 
 TEST(SavedState, OfAnotherMeshOrCullingIsRefused) {
   const Positions x = octahedron_positions(2);
-  Detector closed = std::move(Detector::create(octahedron(), x, with_points()).value());
+  Detector closed = make(with_points(), x, octahedron());
   Detector open = make();
   open.step(x, tip_at(1.5));
   const auto problem = open.restore(closed.state());
@@ -208,11 +194,9 @@ TEST(SavedState, OfAnotherMeshOrCullingIsRefused) {
   EXPECT_GT(open.step(tip_at(1.5), x).dirty, 0u) << "nothing has changed";
   Positions more(7, 3);  // a vertex that no triangle has
   more << x, 0, 0, 0;
-  auto one_more = std::move(Detector::create(with_hole(), more, with_points()).value());
+  Detector one_more = make(with_points(), more);
   ASSERT_TRUE(one_more.restore(open.state()));
-  Options line;
-  line.culling = Culling::view_line;
-  EXPECT_EQ(make(line).restore(open.state())->error, InputError::foreign_state);
+  EXPECT_EQ(make({Culling::view_line}).restore(open.state())->error, InputError::foreign_state);
   EXPECT_FALSE(open.restore(make().state()));
   EXPECT_EQ(open.step(tip_at(.25), x).dirty, 0u) << "the state of one that has not begun";
 }

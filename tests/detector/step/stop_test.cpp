@@ -1,18 +1,15 @@
 // A step that is stopped, at each asking in turn: undecided, and as if it had not been.
 #include "detector/detector.h"
-#include "tests/detector/contact/same_contacts.h"
+#include "detector/mesh/paced_stop.h"
 #include "tests/detector/points.h"
 
 namespace assay::detector {
 namespace {
 
-using tests::octahedron, tests::octahedron_positions;
+using tests::octahedron, tests::octahedron_positions, tests::tip_at;
 
-// The tip at -z elsewhere.
-Positions tip_at(Point p) {
-  Positions x = octahedron_positions(2);
-  x.row(5) << p[0], p[1], p[2];
-  return x;
+Detector make(const Triangles& triangles, const Positions& x, const Options& options) {
+  return std::move(Detector::create(triangles, x, options).value());
 }
 
 // Small meshes: each stage asks when it begins, and no more often than every 256 tests.
@@ -44,29 +41,24 @@ class Stop : public testing::TestWithParam<Culling> {};
 
 TEST_P(Stop, InAClosedMeshThatCollides) {
   const Positions x = octahedron_positions(2);
-  auto detector = std::move(Detector::create(octahedron(), x, {GetParam()}).value());
+  auto detector = make(octahedron(), x, {GetParam()});
   stop_everywhere(detector, x, tip_at({.5, .25, 3}));
 }
 
 TEST_P(Stop, WhereContactsLastFromTheStepBefore) {
   const Positions x = octahedron_positions(2), through = tip_at({.5, .25, 3});
-  auto detector = std::move(Detector::create(octahedron(), x, {GetParam()}).value());
+  auto detector = make(octahedron(), x, {GetParam()});
   ASSERT_EQ(detector.step(x, through).answer, Answer::collision);
   stop_everywhere(detector, through, tip_at({.5, .25, 2.5}));
 }
 
 TEST_P(Stop, WhereGhostsAreSweptAndDoubtIsReleased) {
-  const Positions in = octahedron_positions(2), out = tip_at({1.5, 1.5, 1.5});
+  const Positions in = octahedron_positions(2), out = tip_at(1.5);
   // Without its triangle at +x +y +z.
-  auto detector = std::move(Detector::create(octahedron().bottomRows(7), in, {GetParam()}).value());
+  auto detector = make(octahedron().bottomRows(7), in, {GetParam()});
   stop_everywhere(detector, in, out);
   detector.step(in, out);
   stop_everywhere(detector, out, in);
-}
-
-std::string name_of_culling(const testing::TestParamInfo<Culling>& info) {
-  const char* names[] = {"view_auto", "view_point", "view_line", "normal_cone", "bvh", "none"};
-  return names[static_cast<int>(info.param)];
 }
 
 // Each component is too small to ask by itself; together their view tests take integers, 3 us each.
@@ -80,7 +72,7 @@ TEST(StopInASoup, IsAskedAcrossComponents) {
     x.row(3 * i + 1) << i + .5, 0, .25;
     x.row(3 * i + 2) << i, .5, .125;
   }
-  auto detector = std::move(Detector::create(triangles, x, {Culling::view_point}).value());
+  auto detector = make(triangles, x, {Culling::view_point});
   std::uint64_t asked = 0;
   const StepResult result = detector.evaluate(x, x, {}, [&] { return ++asked, false; });
   ASSERT_GE(result.counts.view.exact, std::uint64_t{count});
@@ -91,7 +83,79 @@ TEST(StopInASoup, IsAskedAcrossComponents) {
 INSTANTIATE_TEST_SUITE_P(Cullings, Stop,
                          testing::Values(Culling::view_point, Culling::view_line,
                                          Culling::normal_cone, Culling::bvh, Culling::none),
-                         name_of_culling);
+                         tests::culling_of_test);
+
+// Creating and stepping on a mesh that takes a while asks the stop function as work is done; what a
+// stop leaves behind does not change what is answered afterwards.
+
+constexpr int bent_squares = 64;
+constexpr std::uint64_t triangle_count = 2 * bent_squares * bent_squares;
+const Triangles bent_sheet = tests::squares(bent_squares, bent_squares);
+
+// A sheet of unit squares, bent over until its two ends pass through each other.
+Positions bent(double angle) {
+  constexpr int side = bent_squares + 1;
+  Positions x(side * side, 3);
+  const double radius = bent_squares / angle;
+  for (int i = 0; i < side; ++i) {
+    for (int j = 0; j < side; ++j) {
+      const double a = angle * i / bent_squares - angle / 2;
+      const double r = radius + .03 * ((7 * i + 3 * j) % 5) + .02 * j;
+      x.row(i * side + j) << r * std::sin(a), j, r * std::cos(a);
+    }
+  }
+  return x;
+}
+
+class StopInAStep : public testing::TestWithParam<Culling> {};
+
+// What only some cullings need is made in the first step that uses it.
+TEST(StopInALargeMesh, IsAskedInCreate) {
+  const Positions x = bent(6);
+  const Options options{Culling::automatic};
+  std::uint64_t asked = 0;
+  ASSERT_TRUE(Detector::create(bent_sheet, x, options, [&] { return ++asked, false; }));
+  // Checks, adjacency and tree alone.
+  EXPECT_GE(asked, 150 * triangle_count / PacedStop::usual_interval);
+  const std::uint64_t all = asked;
+  for (std::uint64_t n = 1; n <= all; ++n) {
+    asked = 0;
+    const auto stopped = Detector::create(bent_sheet, x, options, [&] { return ++asked == n; });
+    ASSERT_FALSE(stopped) << n;
+    EXPECT_EQ(stopped.error().error, InputError::stopped);
+    EXPECT_EQ(asked, n) << "and nothing is asked afterwards";
+  }
+}
+
+TEST_P(StopInAStep, OfALargeMeshIsAsked) {
+  const Positions x_t0 = bent(6.1), x_t1 = bent(6.3);
+  const Options options{GetParam(), Start::clean};
+  auto detector = make(bent_sheet, x_t0, options);
+  std::uint64_t asked = 0;
+  const auto count = [&] { return ++asked, false; };
+  const StepResult whole = detector.evaluate(x_t0, x_t1, {}, count);
+  ASSERT_EQ(whole.answer, Answer::collision);
+  // Boxes, marks and representatives alone.
+  EXPECT_GE(asked, 40 * triangle_count / PacedStop::usual_interval);
+  const std::uint64_t all = asked;
+  const std::uint64_t apart = std::max<std::uint64_t>(all / 24, 1);
+  for (std::uint64_t n = 1; n <= all; n += apart) {
+    SCOPED_TRACE(n);
+    auto other = make(bent_sheet, x_t0, options);
+    asked = 0;
+    EXPECT_EQ(other.evaluate(x_t0, x_t1, {}, [&] { return ++asked == n; }).answer,
+              Answer::undecided);
+    EXPECT_EQ(asked, n) << "and nothing is asked afterwards";
+    const StepResult again = other.evaluate(x_t0, x_t1);
+    tests::expect_same_contacts(again, whole);
+    EXPECT_EQ(again.counts.narrow.elementary_tests, whole.counts.narrow.elementary_tests);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Cullings, StopInAStep,
+                         testing::Values(Culling::view_auto, Culling::view_point,
+                                         Culling::normal_cone, Culling::bvh),
+                         tests::culling_of_test);
 
 }  // namespace
 }  // namespace assay::detector

@@ -2,7 +2,6 @@
 // out. This is what ThreadSanitizer looks at; meshes of every kind are in tests/properties.
 #include "detector/detector.h"
 #include "detector/state/step_state.h"
-#include "tests/detector/contact/same_contacts.h"
 #include "tests/detector/search/search_meshes.h"
 
 namespace assay::detector {
@@ -13,11 +12,7 @@ class ThreadsInSearch : public testing::TestWithParam<Culling> {};
 TEST_P(ThreadsInSearch, DoNotShow) {
   // 9,000 triangles, two sheets that pass through each other.
   const auto mesh = tests::SearchMeshes(11).sheets(2, 48, false);
-  Triangles triangles(static_cast<Eigen::Index>(mesh.topology.triangles.size()), 3);
-  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
-    const auto& corners = mesh.topology.triangles[static_cast<std::size_t>(t)];
-    triangles.row(t) << corners[0], corners[1], corners[2];
-  }
+  const Triangles triangles = mesh.rows();
   const Positions middle = .98 * mesh.x_t0 + .02 * mesh.x_t1,
                   end = .96 * mesh.x_t0 + .04 * mesh.x_t1;
   const auto detector_of = [&](std::uint32_t threads) {

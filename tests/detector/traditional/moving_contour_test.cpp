@@ -1,5 +1,7 @@
+// Contours of patches while they move, the directions that they face, and samples of patches.
 #include "detector/traditional/moving_contour.h"
 
+#include "tests/detector/exact/exact_numbers.h"
 #include "tests/detector/traditional/patch_meshes.h"
 
 namespace assay::detector {
@@ -53,22 +55,18 @@ TEST(ContourUnion, IsTheContourOfBothTogether) {
       if (round % 3 == 0 && v % static_cast<std::size_t>(n + 1) == static_cast<std::size_t>(n))
         name[v] -= n;
     }
-    std::vector<std::array<std::int32_t, 3>> a, b, both;
+    std::vector<tests::Corners> a, b, both;
     for (Eigen::Index t = 0; t < whole.rows.rows(); ++t) {
       const auto to = engine() % 4;
       if (to == 0) continue;
-      std::array<std::int32_t, 3> row;
-      for (int k = 0; k < 3; ++k)
-        row[static_cast<std::size_t>(k)] = name[static_cast<std::size_t>(whole.rows(t, k))];
+      tests::Corners row;
+      for (int k = 0; k < 3; ++k) row[at(k)] = name[at(whole.rows(t, k))];
       (to == 1 ? a : b).push_back(row);
       both.push_back(row);
     }
     if (a.empty() || b.empty()) continue;
-    const auto contour = [&](const std::vector<std::array<std::int32_t, 3>>& rows) {
-      Triangles list(static_cast<Eigen::Index>(rows.size()), 3);
-      for (std::size_t t = 0; t < rows.size(); ++t)
-        list.row(static_cast<Eigen::Index>(t)) << rows[t][0], rows[t][1], rows[t][2];
-      return contour_of(list, whole.x.rows());
+    const auto contour = [&](const std::vector<tests::Corners>& rows) {
+      return contour_of(triangles(rows), whole.x.rows());
     };
     const auto of_a = contour(a), of_b = contour(b), of_both = contour(both);
     if (of_a.empty() || of_b.empty()) continue;
@@ -183,6 +181,113 @@ TEST(MovingContour, L13_SimpleIsNeverSaidOfACrossing) {
   }
   EXPECT_GT(simple, 1000);
   EXPECT_GT(crossing, 1000);
+}
+
+// Directions that a moving triangle faces.
+
+// Directions as exact numbers.
+Exact along(const ExactVector& n, int bit) {
+  const Direction d = direction(bit);
+  return dot(n, {Exact(d[0]), Exact(d[1]), Exact(d[2])});
+}
+
+TEST(Facing, L13_WhatIsFacedIsFacedAtEveryTime) {
+  std::mt19937_64 engine(1309);
+  int faced = 0, unfaced = 0;
+  for (int round = 0; round < 1500; ++round) {
+    // From steps so short that little turns to long ones, with flat and far-off triangles.
+    const double move = std::ldexp(1.0, -static_cast<int>(engine() % 40));
+    const double offset = engine() % 3 ? 0 : 1e6;
+    std::array<MovingPoint, 3> triangle;
+    for (auto& p : triangle) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto number = [&] { return static_cast<double>(engine() % 4096) / 2048 - 1; };
+        p.t0[k] = offset + (k == 2 && round % 5 == 0 ? 0 : number());
+        p.t1[k] = p.t0[k] + move * number();
+      }
+    }
+    const DirectionSet set = faced_directions(triangle);
+    const MovingExact e1 = exact_difference(triangle[1], triangle[0]);
+    const MovingExact e2 = exact_difference(triangle[2], triangle[0]);
+    for (int bit = 0; bit < facing_directions; ++bit) {
+      const bool is_faced = (set >> bit & 1) != 0;
+      double least = HUGE_VAL;
+      bool negative = false;
+      constexpr int times = 16;
+      for (int i = 0; i <= times; ++i) {
+        const Exact t(i / static_cast<double>(times)), s(1 - i / static_cast<double>(times));
+        const auto mean = [&](const MovingExact& e) {
+          ExactVector out;
+          for (std::size_t k = 0; k < 3; ++k) out[k] = s * e.t0[k] + t * e.t1[k];
+          return out;
+        };
+        const Exact value = along(cross(mean(e1), mean(e2)), bit);
+        negative |= value.number <= 0;
+        least = std::min(least, value.number <= 0 ? 0 : magnitude(value));
+      }
+      EXPECT_FALSE(is_faced && negative) << round << ", direction " << bit;
+      // Short steps leave a margin for the Bernstein coefficients.
+      if (move < 0x1p-10 && least > 0.05) {
+        EXPECT_TRUE(is_faced) << round;
+      }
+      (is_faced ? faced : unfaced)++;
+    }
+  }
+  EXPECT_GT(faced, 5000);
+  EXPECT_GT(unfaced, 5000);
+}
+
+TEST(Facing, DirectionsAreDistinctAndLeaveNoGap) {
+  std::mt19937_64 engine(5);
+  for (int i = 0; i < 2000; ++i) {
+    Vector v;
+    for (double& c : v) c = static_cast<double>(engine() % 20001) / 10000 - 1;
+    const Direction d = direction(nearest_direction((DirectionSet{1} << facing_directions) - 1, v));
+    const double cosine = dot(d, v) / std::sqrt(dot(d, d) * dot(v, v));
+    EXPECT_GT(cosine, std::cos(23 * std::numbers::pi / 180));
+  }
+}
+
+// Patches that are sampled.
+
+Topology band(int around, int rows) {
+  Triangles t = tests::squares(rows, around);
+  // The last column of vertices is the first one.
+  t = t.unaryExpr(
+      [&](std::int32_t v) { return v / (around + 1) * around + v % (around + 1) % around; });
+  return make_topology(t, around * (rows + 1));
+}
+
+TEST(SamplePatches, AreOfThreeSizesAndSpreadOverTheMesh) {
+  const Topology mesh = band(128, 64);  // 16,384 triangles
+  ContourMaker maker(mesh);
+  const SamplePatches samples = sample_patches(mesh, maker);
+  EXPECT_EQ(samples.small.size(), 32u);
+  EXPECT_EQ(samples.medium.size(), 16u);
+  EXPECT_EQ(samples.large.size(), 8u);
+  for (const auto& [patches, size] :
+       {std::pair(&samples.small, 12u), {&samples.medium, 36u}, {&samples.large, 96u}}) {
+    std::set<std::int32_t> first_of;
+    for (const auto& patch : *patches) {
+      EXPECT_EQ(patch.triangles.size(), size);
+      EXPECT_EQ(std::set(patch.triangles.begin(), patch.triangles.end()).size(), size);
+      EXPECT_FALSE(patch.contour.empty());
+      EXPECT_LE(patch.contour.size(), size + 2) << "a disk of n triangles has n + 2 at most";
+      first_of.insert(patch.triangles[0] * 8 / 16'384);
+    }
+    EXPECT_EQ(first_of.size(), 8u) << "in each eighth of the mesh";
+  }
+}
+
+TEST(SamplePatches, EndWithTheirComponentAndMayHaveNoContour) {
+  const Topology tetrahedron =
+      make_topology((Triangles(4, 3) << 0, 1, 2, 0, 3, 1, 1, 3, 2, 0, 2, 3).finished(), 4);
+  ContourMaker maker(tetrahedron);
+  const SamplePatches samples = sample_patches(tetrahedron, maker);
+  EXPECT_EQ(samples.small.size(), 4u);
+  ASSERT_EQ(samples.large.size(), 1u);
+  EXPECT_EQ(samples.large[0].triangles.size(), 4u);
+  EXPECT_TRUE(samples.large[0].contour.empty()) << "a closed surface has no boundary";
 }
 
 }  // namespace

@@ -17,18 +17,11 @@ struct Sheet {
 
 template <class Place>
 Sheet sheet(std::int32_t n, std::int32_t m, Place place) {
-  Sheet out;
-  out.rows.resize(2 * n * m, 3);
-  out.x.resize((n + 1) * (m + 1), 3);
-  const auto vertex = [&](std::int32_t i, std::int32_t j) { return i * (m + 1) + j; };
+  Sheet out{squares(n, m), Positions((n + 1) * (m + 1), 3)};
   for (std::int32_t i = 0; i <= n; ++i) {
     for (std::int32_t j = 0; j <= m; ++j) {
       const Point p = place(static_cast<double>(i) / n, static_cast<double>(j) / m);
-      out.x.row(vertex(i, j)) << p[0], p[1], p[2];
-      if (i == n || j == m) continue;
-      const auto t = 2 * (i * m + j);
-      out.rows.row(t) << vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1);
-      out.rows.row(t + 1) << vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1);
+      out.x.row(i * (m + 1) + j) << p[0], p[1], p[2];
     }
   }
   return out;

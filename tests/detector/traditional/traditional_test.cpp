@@ -2,7 +2,6 @@
 #include "detector/traditional/traditional.h"
 
 #include "detector/detector.h"
-#include "tests/detector/contact/same_contacts.h"
 #include "tests/detector/search/search_meshes.h"
 #include "tests/detector/traditional/patch_meshes.h"
 
@@ -40,17 +39,18 @@ PairSet candidates(const PairSearch& search, const Topology& mesh, const Positio
   return pairs;
 }
 
+DirectionSet faced(const Sheet& mesh, const SteppedMesh& motion, std::int32_t t) {
+  const auto path = [&](int k) { return motion.path(mesh.rows(t, k)); };
+  return faced_directions({path(0), path(1), path(2)});
+}
+
 // What bvh finds is what this finds, from fewer candidates.
 TEST(Traditional, L13_AgreesWithBvhOnRandomSheets) {
   int collisions = 0, fewer = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     tests::SearchMeshes random(seed);
     const auto mesh = random.sheets(1 + random.below(3), 1 + random.below(5), seed % 2 == 0);
-    Triangles rows(static_cast<Eigen::Index>(mesh.topology.triangles.size()), 3);
-    for (std::size_t t = 0; t < mesh.topology.triangles.size(); ++t) {
-      const auto& corners = mesh.topology.triangles[t];
-      rows.row(static_cast<Eigen::Index>(t)) << corners[0], corners[1], corners[2];
-    }
+    const Triangles rows = mesh.rows();
     SCOPED_TRACE(seed);
     const auto truth = step(rows, mesh.x_t0, mesh.x_t1, Culling::bvh);
     expect_same_contacts(step(rows, mesh.x_t0, mesh.x_t1, Culling::normal_cone), truth);
@@ -95,13 +95,7 @@ TEST(Traditional, L13_ARampThatWindsOverItselfIsTraversed) {
   expect_same_contacts(meets, step(before.rows, before.x, through, Culling::bvh));
   const SteppedMesh motion = {before.x, apart};
   DirectionSet cone = ~DirectionSet{0};
-  for (Eigen::Index t = 0; t < before.rows.rows(); ++t) {
-    std::array<MovingPoint, 3> corners;
-    for (int k = 0; k < 3; ++k) {
-      corners[static_cast<std::size_t>(k)] = motion.path(before.rows(t, k));
-    }
-    cone &= faced_directions(corners);
-  }
+  for (std::int32_t t = 0; t < before.rows.rows(); ++t) cone &= faced(before, motion, t);
   EXPECT_NE(cone, 0u) << "it has a normal cone as a whole";
 }
 
@@ -141,11 +135,7 @@ TEST(Traditional, HalvesOfASphereHaveNormalCones) {
         below.insert(below.end(), {tree.child(node), tree.child(node) + 1});
         continue;
       }
-      std::array<MovingPoint, 3> corners;
-      for (int k = 0; k < 3; ++k) {
-        corners[static_cast<std::size_t>(k)] = motion.path(before.rows(tree.triangle(node), k));
-      }
-      cone &= faced_directions(corners);
+      cone &= faced(before, motion, tree.triangle(node));
     }
     EXPECT_NE(cone, 0u);
   }

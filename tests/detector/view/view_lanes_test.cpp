@@ -1,9 +1,15 @@
 // Lanes against one triangle after the other, and each instruction set against the others.
 #include "detector/view/view_lanes.h"
 
+#include <numbers>
+
 #include "detector/view/view_signs.h"
+#include "tests/detector/exact/exact_numbers.h"
 #include "tests/detector/view/triangle_batches.h"
 #include "tests/test.h"
+
+#define ASSAY_LANES 2
+#include "detector/view/view_lanes_kernel.h"
 
 namespace assay::detector {
 namespace {
@@ -146,6 +152,158 @@ TEST(ViewLanes, RowsMayHaveAnyStride) {
            found.signs, found.counts);
   EXPECT_EQ(found.signs, packed.signs);
   EXPECT_EQ(found.counts.lanes, packed.counts.lanes);
+}
+
+// The bounds of the lanes hold: what a lane computes against the same in exact numbers, in units of
+// the scales of the component's box. Prints the largest error beside what is allowed.
+
+constexpr std::array families = {BatchFamily::generic, BatchFamily::small_motion,
+                                 BatchFamily::near_degenerate, BatchFamily::far,
+                                 BatchFamily::mixed_scales};
+
+// Coefficients of (p0-q).N, the middle ones times 3, as the lanes have them.
+std::array<Exact, 4> exact_cubic(const std::array<MovingPoint, 3>& p, const MovingPoint& q) {
+  const MovingExact e1 = exact_difference(p[1], p[0]), e2 = exact_difference(p[2], p[0]),
+                    w = exact_difference(p[0], q);
+  const ExactVector n0 = cross(e1.t0, e2.t0), n2 = cross(e1.t1, e2.t1);
+  const ExactVector n1_twice = cross(e1.t0, e2.t1) + cross(e1.t1, e2.t0);
+  return {dot(w.t0, n0), dot(w.t0, n1_twice) + dot(w.t1, n0), dot(w.t0, n2) + dot(w.t1, n1_twice),
+          dot(w.t1, n2)};
+}
+
+// An error in parts of what is allowed.
+double part_of(double allowed, double off) { return off == 0 ? 0 : off / allowed; }
+double part_of(double allowed, double computed, const Exact& exact) {
+  return part_of(allowed, magnitude(Exact(computed) - exact));
+}
+
+Exact value(const Exact& b0, const Exact& b1, double s) { return b0 + Exact(s) * (b1 - b0); }
+
+TEST(ViewBounds, L2_CubicsAndValuesOfLanes) {
+  BatchMaker maker(20113);
+  std::mt19937_64 engine(3);
+  double worst_cubic = 0, worst_value = 0;
+  for (int n = 0; n < 2000; ++n) {
+    const TriangleBatch batch =
+        maker.make(families[static_cast<std::size_t>(n) % families.size()], 8, true);
+    LaneInput in{};
+    ASSERT_TRUE(make_lane_input(batch.mesh.components[0].vertices, {batch.x_t0, batch.x_t1},
+                                batch.primitive, in));
+    in.corners = batch.mesh.triangles[0].data();
+    for (std::int32_t t = 0; t < 8; t += 2) {
+      const std::int32_t two[2] = {t, t + 1};
+      LaneLine line;
+      cubics(line, in, two);
+      for (std::size_t lane = 0; lane < 2; ++lane) {
+        const auto triangle = batch.triangle(static_cast<std::size_t>(two[lane]));
+        const auto h0 = exact_cubic(triangle, batch.primitive.q0);
+        const auto h1 = exact_cubic(triangle, batch.primitive.q1);
+        const double c0[4] = {line.h0.b0[lane], line.h0.b1[lane], line.h0.b2[lane],
+                              line.h0.b3[lane]};
+        const double c1[4] = {line.h1.b0[lane], line.h1.b1[lane], line.h1.b2[lane],
+                              line.h1.b3[lane]};
+        for (std::size_t j = 0; j < 4; ++j) {
+          worst_cubic = std::max({worst_cubic, part_of(in.cubic_error, c0[j], h0[j]),
+                                  part_of(in.cubic_error, c1[j], h1[j])});
+          // As in middle_group, at a given s.
+          const double s = static_cast<double>(engine() >> 11) * 0x1p-53;
+          const double v = c0[j] + s * (c1[j] - c0[j]);
+          worst_value = std::max(worst_value, part_of(in.value_error, v, value(h0[j], h1[j], s)));
+        }
+      }
+    }
+  }
+  std::printf("worst error in parts of what is allowed: cubic %.3f, value %.3f\n", worst_cubic,
+              worst_value);
+  EXPECT_LT(worst_cubic, 1);
+  EXPECT_LT(worst_value, 1);
+  EXPECT_GT(worst_cubic, 0.01) << "errors were there to be seen";
+  EXPECT_GT(worst_value, 0.01);
+}
+
+TEST(ViewBounds, L1_RatiosOfCoefficientsOfLanes) {
+  BatchMaker maker(20114);
+  double worst = 0;
+  int measured = 0;
+  for (int n = 0; n < 4000; ++n) {
+    const TriangleBatch batch =
+        maker.make(families[static_cast<std::size_t>(n) % families.size()], 4, true);
+    LaneInput in{};
+    ASSERT_TRUE(make_lane_input(batch.mesh.components[0].vertices, {batch.x_t0, batch.x_t1},
+                                batch.primitive, in));
+    if (in.axial_error >= 2) continue;  // s may be anything
+    const MovingExact d = exact_difference(batch.primitive.q1, batch.primitive.q0);
+    const Exact length2[3] = {dot(d.t0, d.t0), dot(d.t0, d.t1) + dot(d.t1, d.t0), dot(d.t1, d.t1)};
+    for (const auto v : batch.mesh.components[0].vertices) {
+      const MovingPoint p = SteppedMesh{batch.x_t0, batch.x_t1}.path(v);
+      const MovingExact w = exact_difference(p, batch.primitive.q0);
+      const Exact along[3] = {dot(w.t0, d.t0), dot(w.t0, d.t1) + dot(w.t1, d.t0), dot(w.t1, d.t1)};
+      // As in middle_group.
+      const MovingVector c = difference(p, batch.primitive.q0);
+      const Vector d0 = {in.d_t0[0], in.d_t0[1], in.d_t0[2]},
+                   d1 = {in.d_t1[0], in.d_t1[1], in.d_t1[2]};
+      const double s[3] = {
+          detector::dot(c.t0, d0) * in.length2_reciprocals[0],
+          (detector::dot(c.t0, d1) + detector::dot(c.t1, d0)) * in.length2_reciprocals[1],
+          detector::dot(c.t1, d1) * in.length2_reciprocals[2]};
+      for (std::size_t j = 0; j < 3; ++j) {
+        // |s - along / length2| = |s length2 - along| / length2
+        const double off = magnitude(Exact(s[j]) * length2[j] - along[j]) / magnitude(length2[j]);
+        worst = std::max(worst, part_of(in.axial_error, off));
+        ++measured;
+      }
+    }
+  }
+  std::printf("%d ratios, worst error in parts of what is allowed: %.3f\n", measured, worst);
+  EXPECT_GT(measured, 10000);
+  EXPECT_LT(worst, 1);
+  EXPECT_GT(worst, 0.01) << "errors were there to be seen";
+}
+
+TEST(ViewBounds, OutOfRangeIsRefused) {
+  BatchMaker maker(7);
+  TriangleBatch batch = maker.make(BatchFamily::generic, 4, false);
+  LaneInput in{};
+  const auto& vertices = batch.mesh.components[0].vertices;
+  ASSERT_TRUE(make_lane_input(vertices, {batch.x_t0, batch.x_t1}, batch.primitive, in));
+  batch.x_t1(2, 1) = 0x1p305;
+  EXPECT_FALSE(make_lane_input(vertices, {batch.x_t0, batch.x_t1}, batch.primitive, in));
+  batch.x_t0 *= 0x1p-320;
+  batch.x_t1 = batch.x_t0;
+  batch.primitive = {};
+  EXPECT_FALSE(make_lane_input(vertices, {batch.x_t0, batch.x_t1}, batch.primitive, in));
+}
+
+// The middle coefficient of |d|^2 is d0.d1. Where that is not positive the range of s has no bound,
+// however long the line is at both ends.
+TEST(ViewBounds, L1_LinesThatTurnHaveAnyAxialCoordinate) {
+  BatchMaker maker(8);
+  TriangleBatch batch = maker.make(BatchFamily::generic, 4, true);
+  const auto axial_error = [&](const Point& d0, const Point& d1) {
+    batch.primitive = {{{0, 0, 0}, {0, 0, 0}}, {d0, d1}};
+    LaneInput in{};
+    EXPECT_TRUE(make_lane_input(batch.mesh.components[0].vertices, {batch.x_t0, batch.x_t1},
+                                batch.primitive, in));
+    return in.axial_error;
+  };
+  EXPECT_EQ(axial_error({1, 0, 0}, {-1, 0, 0}), 2);
+  EXPECT_EQ(axial_error({1, 0, 0}, {0, 1, 0}), 2) << "a right angle";
+  for (int degrees = 91; degrees <= 180; ++degrees) {
+    const double angle = degrees * std::numbers::pi / 180;
+    EXPECT_EQ(axial_error({1, 0, 0}, {std::cos(angle), std::sin(angle), 0}), 2) << degrees;
+    EXPECT_EQ(axial_error({0, 3, 0}, {0, std::cos(angle), std::sin(angle)}), 2) << degrees;
+  }
+  // One that turns by less has a bound, which grows without limit towards the right angle.
+  double before = 0;
+  for (int degrees = 0; degrees < 90; ++degrees) {
+    const double angle = degrees * std::numbers::pi / 180;
+    const double error = axial_error({1, 0, 0}, {std::cos(angle), std::sin(angle), 0});
+    EXPECT_LT(error, 1e-6) << degrees;
+    if (degrees > 60) {
+      EXPECT_GT(error, before) << degrees << ": d0.d1 is less than it was";
+    }
+    before = error;
+  }
 }
 
 }  // namespace

@@ -2,13 +2,6 @@
 // query/contact.h; at exact rational times the squared distance agrees; turned and mirrored queries
 // have the same answer; the least distance is the least d that is reached. ASSAY_CASES=100000 runs
 // more of each kind, and of exponents over all doubles.
-#include <gtest/gtest.h>
-
-#include <chrono>
-#include <cmath>
-#include <cstdio>
-#include <limits>
-
 #include "oracle/distance/feature_distance.h"
 #include "oracle/query/contact.h"
 #include "oracle/query/rungs.h"
@@ -19,9 +12,7 @@
 namespace assay::oracle {
 namespace {
 
-using detector::Want;
-using test::QueryKind;
-using test::Random;
+using detector::Want, test::QueryKind, test::Random;
 
 FourPoints query_of(Random& random, QueryKind kind, int first_group) {
   return {test::random_query(random, kind, first_group), first_group};

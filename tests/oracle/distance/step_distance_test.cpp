@@ -1,12 +1,5 @@
 #include "oracle/distance/step_distance.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <tuple>
-
 #include "oracle/mesh/step.h"
 #include "tests/oracle/random_points.h"
 #include "tests/oracle/small_meshes.h"
@@ -14,13 +7,8 @@
 namespace assay::oracle {
 namespace {
 
-using detector::FeatureKind;
-using detector::PairContact;
-using detector::TimeEnclosure;
-using detector::TrianglePair;
-using test::positions;
-using test::Step;
-using test::triangles;
+using detector::FeatureKind, detector::PairContact, detector::TimeEnclosure, detector::TrianglePair,
+    test::positions, test::Step, test::triangles;
 
 StepJudgement judge(const Step& step, const Separation& d, const DistanceOptions& options = {}) {
   return judge_distance({step.x_t0, step.x_t1}, step.f, d, options);
@@ -155,15 +143,8 @@ TEST(StepDistance, Stops) {
 
 // Some triangles over few vertices, so that they share many; coordinates as of the kind.
 Step random_step(test::Random& random, test::Coordinates kind, int vertices, int count) {
-  Step step{detector::Positions(vertices, 3), detector::Positions(vertices, 3),
-            detector::Triangles(count, 3)};
-  for (int v = 0; v < vertices; ++v) {
-    const detector::MovingPoint p = test::random_point(random, kind);
-    for (int k = 0; k < 3; ++k) {
-      step.x_t0(v, k) = p.t0[k];
-      step.x_t1(v, k) = p.t1[k];
-    }
-  }
+  Step step{{}, {}, detector::Triangles(count, 3)};
+  place_randomly(random, kind, vertices, step.x_t0, step.x_t1);
   for (int t = 0; t < count; ++t) {
     const int first = random.below(vertices),
               second = (first + 1 + random.below(vertices - 2)) % vertices;

@@ -76,15 +76,8 @@ TEST(ContactPlace, AFeatureThatIsNotNamedHasNone) {
 Motion random_motion(Random& random, int i) {
   const auto kind = static_cast<test::Coordinates>(i % test::coordinate_kinds);
   Motion motion;
-  motion.x_t0.resize(6, 3);
-  motion.x_t1.resize(6, 3);
-  for (int v = 0; v < 6; ++v) {
-    const auto point = random_point(random, kind);
-    for (int k = 0; k < 3; ++k) {
-      motion.x_t0(v, k) = point.t0[k];
-      motion.x_t1(v, k) = i % 3 == 0 ? point.t0[k] : point.t1[k];
-    }
-  }
+  place_randomly(random, kind, 6, motion.x_t0, motion.x_t1);
+  if (i % 3 == 0) motion.x_t1 = motion.x_t0;
   motion.f = random.below(4) == 0 ? triangles({{0, 1, 2}, {3, 4, 0}})
              : i % 97 == 0        ? triangles({{0, 1, 2}, {1, 0, 2}})
                                   : triangles({{0, 1, 2}, {5, 3, 4}});

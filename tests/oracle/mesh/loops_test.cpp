@@ -86,10 +86,7 @@ TEST(Loops, L12_GhostsCloseAnyTriangles) {
   test::Random random(5);
   for (int i = 0; i < 2000; ++i) {
     const int vertices = 3 + random.below(6), count = random.below(12);
-    Triangles f(count, 3);
-    for (int t = 0; t < count; ++t) {
-      for (int k = 0; k < 3; ++k) f(t, k) = random.below(vertices);
-    }
+    const Triangles f = any_triangles(random, vertices, count);
     const auto loops = boundary_loops(f);
     std::size_t edges = 0;
     for (const Loop& loop : loops) edges += loop.size();

@@ -46,8 +46,7 @@ bool same_bytes(const StepJudgement& a, const StepJudgement& b) {
 
 Step tetrahedron(const detector::Point& top_t0, const detector::Point& top_t1) {
   return {positions({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, top_t0}),
-          positions({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, top_t1}),
-          triangles({{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}})};
+          positions({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, top_t1}), test::tetrahedron_triangles};
 }
 
 TEST(JudgeStep, RestingTetrahedronIsFree) {
@@ -168,19 +167,11 @@ Step random_soup(std::uint64_t seed, int vertices, int faces) {
   Step step;
   step.x_t0.resize(vertices, 3);
   step.x_t1.resize(vertices, 3);
-  for (int v = 0; v < vertices; ++v) {
-    for (int k = 0; k < 3; ++k) {
-      step.x_t0(v, k) = random.integer(6);
-      step.x_t1(v, k) = step.x_t0(v, k) + random.integer(2);
-    }
+  for (Eigen::Index i = 0; i < step.x_t0.size(); ++i) {
+    step.x_t0.data()[i] = random.integer(6);
+    step.x_t1.data()[i] = step.x_t0.data()[i] + random.integer(2);
   }
-  step.f.resize(faces, 3);
-  for (int t = 0; t < faces; ++t) {
-    do {
-      for (int i = 0; i < 3; ++i) step.f(t, i) = random.below(vertices);
-    } while (step.f(t, 0) == step.f(t, 1) || step.f(t, 1) == step.f(t, 2) ||
-             step.f(t, 2) == step.f(t, 0));
-  }
+  step.f = random_triangles(random, vertices, faces);
   return step;
 }
 

@@ -1,20 +1,16 @@
 // Named queries: which answer, which first time, and which rung decides.
 #include "oracle/query/contact.h"
 
-#include "tests/test.h"
+#include "tests/oracle/random_points.h"
 
 namespace assay::oracle {
 namespace {
 
 using detector::EdgeEdge, detector::MovingPoint, detector::Point, detector::TimeEnclosure,
-    detector::VertexFace, detector::Want;
-
-MovingPoint rest(const Point& p) { return {p, p}; }
-
-constexpr std::array<Point, 3> resting_face = {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
+    detector::VertexFace, detector::Want, test::rest;
 
 VertexFace over_resting_face(const Point& from, const Point& to) {
-  return {{from, to}, {rest(resting_face[0]), rest(resting_face[1]), rest(resting_face[2])}};
+  return {{from, to}, test::resting_face};
 }
 
 struct Expected {
@@ -248,6 +244,114 @@ TEST(RungCounts, AddUp) {
   EXPECT_EQ(counts.axis, 2U);
   EXPECT_EQ(counts.interval, 2U);
   EXPECT_EQ(counts.quadratic, 2U);
+}
+
+// Segments that go through a triangle.
+
+using Triangle = std::array<Point, 3>;
+
+constexpr Triangle pierced_face = {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
+
+TEST(Piercing, ThroughTheInside) {
+  EXPECT_TRUE(segment_pierces_triangle({1, 1, -1}, {1, 1, 1}, pierced_face));
+  EXPECT_TRUE(segment_pierces_triangle({1, 1, 1}, {1, 1, -1}, pierced_face));
+}
+
+TEST(Piercing, Beside) {
+  EXPECT_FALSE(segment_pierces_triangle({3, 3, -1}, {3, 3, 1}, pierced_face));
+  EXPECT_FALSE(segment_pierces_triangle({1, 1, 1}, {1, 1, 2}, pierced_face));
+}
+
+TEST(Piercing, TouchingIsNotPiercing) {
+  EXPECT_FALSE(segment_pierces_triangle({1, 1, 0}, {1, 1, 1}, pierced_face));   // end on the face
+  EXPECT_FALSE(segment_pierces_triangle({2, 0, -1}, {2, 0, 1}, pierced_face));  // through an edge
+  EXPECT_FALSE(segment_pierces_triangle({4, 0, -1}, {4, 0, 1}, pierced_face));  // through a corner
+  EXPECT_FALSE(segment_pierces_triangle({-1, 1, 0}, {5, 1, 0}, pierced_face));  // in the plane
+}
+
+TEST(Piercing, DegenerateIsNotPiercing) {
+  EXPECT_FALSE(
+      segment_pierces_triangle({1, 0, -1}, {1, 0, 1}, {{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}}));
+  EXPECT_FALSE(segment_pierces_triangle({1, 1, 0}, {1, 1, 0}, pierced_face));
+}
+
+TEST(Piercing, OneUlpDecides) {
+  const double below = std::nextafter(0.1, 0), above = std::nextafter(0.1, 1);
+  const Triangle at_height = {{{0, 0, 0.1}, {4, 0, 0.1}, {0, 4, 0.1}}};
+  EXPECT_TRUE(segment_pierces_triangle({1, 1, below}, {1, 1, above}, at_height));
+  EXPECT_FALSE(segment_pierces_triangle({1, 1, 0.1}, {1, 1, above}, at_height));
+}
+
+TEST(Piercing, ScalesOfAllDoubles) {
+  test::Random random(31);
+  int pierced = 0;
+  constexpr int query_count = 2000;
+  for (int i = 0; i < query_count; ++i) {
+    std::array<Point, 5> x;
+    for (Point& p : x) {
+      for (double& c : p) c = i % 2 == 0 ? random.unit() : random.integer(3);
+    }
+    const bool expected = segment_pierces_triangle(x[0], x[1], {x[2], x[3], x[4]});
+    pierced += expected;
+    EXPECT_EQ(segment_pierces_triangle(x[1], x[0], {x[3], x[2], x[4]}), expected);
+    for (const int exponent : {-900, 1000}) {
+      std::array<Point, 5> y = x;
+      for (Point& p : y) {
+        for (double& c : p) c = std::ldexp(c, exponent);
+      }
+      EXPECT_EQ(segment_pierces_triangle(y[0], y[1], {y[2], y[3], y[4]}), expected) << i;
+    }
+  }
+  std::printf("%d queries, %d pierced\n", query_count, pierced);
+  EXPECT_GT(pierced, 0);
+}
+
+// What is special about a contact.
+
+template <class Query>
+ContactShape shape(const Query& query, const ContactAnswer& answer) {
+  EXPECT_TRUE(answer.contact);
+  return shape_of(query, answer.first);
+}
+ContactShape shape(const VertexFace& q) {
+  return shape(q, vertex_face_contact(q, detector::Want::first_time));
+}
+ContactShape shape(const EdgeEdge& q) {
+  return shape(q, edge_edge_contact(q, detector::Want::first_time));
+}
+
+TEST(ContactShape, OfAVertexThatFallsOnAFace) {
+  const auto over_face = [](const Point& from, const Point& to) {
+    return shape(over_resting_face(from, to));
+  };
+  EXPECT_EQ(over_face({1, 1, 1}, {1, 1, -1}), ContactShape::generic);
+  EXPECT_EQ(over_face({2, 0, 1}, {2, 0, -1}), ContactShape::at_end_of_feature);
+  EXPECT_EQ(over_face({2, 2, 2}, {2, 2, -1}), ContactShape::at_end_of_feature);
+  EXPECT_EQ(over_face({0, 0, 1}, {0, 0, -1}), ContactShape::at_end_of_feature);
+  EXPECT_EQ(over_face({9, 1, 0}, {1, 1, 0}), ContactShape::coplanar_throughout);
+}
+
+TEST(ContactShape, OfEdges) {
+  const auto with_x = [](const MovingPoint& b0, const MovingPoint& b1) {
+    return shape(EdgeEdge{{rest({-1, 0, 0}), rest({1, 0, 0})}, {b0, b1}});
+  };
+  EXPECT_EQ(with_x({{0, -1, 1}, {0, -1, -1}}, {{0, 1, 1}, {0, 1, -1}}), ContactShape::generic);
+  EXPECT_EQ(with_x({{0, 0, 1}, {0, 0, -1}}, {{0, 1, 1}, {0, 1, -1}}),
+            ContactShape::at_end_of_feature);
+  EXPECT_EQ(with_x({{0, 0, 1}, {0, 0, -1}}, {{2, 0, 1}, {2, 0, -1}}), ContactShape::parallel_edges);
+  EXPECT_EQ(with_x({{0, 3, 0}, {0, -1, 0}}, {{1, 4, 0}, {1, 5, 0}}),
+            ContactShape::coplanar_throughout);
+}
+
+// F = 2 (2t - 1)^2: the first edge sweeps along y, the second rises along z and turns through a
+// point, all at t = 1/2.
+TEST(ContactShape, OfADoubleRoot) {
+  const EdgeEdge q{{MovingPoint{{-1, -1, 0}, {-1, 1, 0}}, MovingPoint{{1, -1, 0}, {1, 1, 0}}},
+                   {MovingPoint{{0, 0, -1}, {0, 0, 1}}, MovingPoint{{1, 1, -1}, {-1, -1, 1}}}};
+  const auto answer = edge_edge_contact(q, detector::Want::first_time);
+  ASSERT_TRUE(answer.contact);
+  EXPECT_EQ(answer.first, (detector::TimeEnclosure{0.5, 0.5}));
+  EXPECT_EQ(shape_of(q, answer.first), ContactShape::double_root);
 }
 
 }  // namespace

@@ -6,9 +6,8 @@ namespace assay::oracle {
 namespace {
 
 using detector::MovingPoint, detector::Point, detector::TimeEnclosure, detector::Want,
-    test::Coordinates, test::Random;
+    test::Coordinates, test::Random, test::rest;
 
-MovingPoint resting_at(const Point& p) { return {p, p}; }
 TimeEnclosure exactly(double t) { return {t, t}; }
 // A time that is no double, between t and the next.
 TimeEnclosure just_above(double t) { return {t, std::nextafter(t, 2)}; }
@@ -50,7 +49,7 @@ TEST(QuadraticRung, CoplanarThroughout) {
 TEST(QuadraticRung, CoplanarThroughoutTouchingAtOneInstant) {
   // The face is a segment in the plane z = 0: one end rests, the other passes over the point.
   const MovingPoint passing = {{3, -1, 0}, {-1, 3, 0}};
-  const FourPoints q = {{resting_at({1, 1, 0}), passing, passing, resting_at({9, 9, 0})}, 1};
+  const FourPoints q = {{rest({1, 1, 0}), passing, passing, rest({9, 9, 0})}, 1};
   EXPECT_EQ(first_of(q), exactly(0.5));
 }
 
@@ -59,7 +58,7 @@ TEST(QuadraticRung, CoplanarThroughoutAtAnIrrationalTime) {
   // (length, 0, length t) where 2 t^2 = 1, or passes beyond the end of it.
   auto query = [](double length) {
     return FourPoints{{MovingPoint{{0, 0, 1}, {2, 0, 1}}, MovingPoint{{0, 0, 9}, {2, 0, 9}},
-                       resting_at({0, 0, 0}), MovingPoint{{length, 0, 0}, {length, 0, length}}},
+                       rest({0, 0, 0}), MovingPoint{{length, 0, 0}, {length, 0, length}}},
                       2};
   };
   EXPECT_EQ(first_of(query(3)), just_above(0x1.6a09e667f3bccp-1));
@@ -71,12 +70,12 @@ TEST(QuadraticRung, CoplanarThroughoutWithADoubleZero) {
   // from the line y = 0, so at the origin L of the third corner is a multiple of (2t - 1)^2.
   const MovingPoint left = {{-1, -1, 0}, {1, 1, 0}}, right = {{1, -1, 0}, {-1, 1, 0}};
   auto query = [&](double x, const MovingPoint& corner) {
-    return FourPoints{{resting_at({x, 0, 0}), left, right, corner}, 1};
+    return FourPoints{{rest({x, 0, 0}), left, right, corner}, 1};
   };
-  EXPECT_EQ(first_of(query(0, resting_at({0, -9, 0}))), exactly(0.5));  // from then on
-  EXPECT_EQ(first_of(query(0, left)), exactly(0.5));                    // then alone
+  EXPECT_EQ(first_of(query(0, rest({0, -9, 0}))), exactly(0.5));  // from then on
+  EXPECT_EQ(first_of(query(0, left)), exactly(0.5));              // then alone
   EXPECT_EQ(first_of(query(0.25, left)), std::nullopt);
-  EXPECT_EQ(first_of(query(2, resting_at({0, -9, 0}))), std::nullopt);
+  EXPECT_EQ(first_of(query(2, rest({0, -9, 0}))), std::nullopt);
 }
 
 TEST(QuadraticRung, CollinearThroughout) {
@@ -93,7 +92,7 @@ TEST(QuadraticRung, CollinearThroughout) {
 // The point (2t, 0, 1), the face (0,0,0), (length, 0, length t), (0, y, 0) where y goes from 4 to
 // `last`: F is a multiple of y (2 t^2 - 1), and so is L of the third corner.
 FourPoints cubic_with_a_quadratic_factor(double length, double last) {
-  return {{MovingPoint{{0, 0, 1}, {2, 0, 1}}, resting_at({0, 0, 0}),
+  return {{MovingPoint{{0, 0, 1}, {2, 0, 1}}, rest({0, 0, 0}),
            MovingPoint{{length, 0, 0}, {length, 0, length}}, MovingPoint{{0, 4, 0}, {0, last, 0}}},
           1};
 }
@@ -110,7 +109,7 @@ TEST(QuadraticRung, ContactsOnTheBorderOfAFace) {
 
 TEST(QuadraticRung, ACubeRoot) {
   // F = t^3 - 1/2, and the weights of the corners are as 1 : t : t^2.
-  const FourPoints q = {{resting_at({0, 0, 0}), MovingPoint{{0, 0, -0.5}, {1, 0, -0.5}},
+  const FourPoints q = {{rest({0, 0, 0}), MovingPoint{{0, 0, -0.5}, {1, 0, -0.5}},
                          MovingPoint{{-1, 0, 0}, {-1, 1, 0}}, MovingPoint{{0, -1, 0}, {0, -1, 1}}},
                         1};
   EXPECT_EQ(first_of(q), just_above(0x1.965fea53d6e3cp-1));

@@ -2,30 +2,15 @@
 // says against distances sampled exactly.
 #include "oracle/referee/distance_referee.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdio>
-#include <limits>
-
 #include "tests/detector/distance/rational_distance.h"
 #include "tests/oracle/query/query_kinds.h"
 
 namespace assay::oracle {
 namespace {
 
-using detector::Decision;
-using detector::EdgeEdge;
-using detector::MovingPoint;
-using detector::Point;
-using detector::VertexFace;
-using test::edge_edge;
-using test::Random;
-using test::vertex_face;
-using tests::Rational;
-using tests::squared_distance;
-
-MovingPoint resting(const Point& p) { return {p, p}; }
+using detector::Decision, detector::EdgeEdge, detector::MovingPoint, detector::Point,
+    detector::VertexFace, test::edge_edge, test::Random, test::rest, test::vertex_face,
+    tests::Rational, tests::squared_distance;
 
 Rational fraction(const RationalTime& t) { return {t.numerator, t.denominator}; }
 Rational squared(const detector::Separation& d) {
@@ -63,7 +48,7 @@ void expect_first_about(const Query& query, const detector::Separation& d, doubl
 }
 
 VertexFace over_face(const Point& from, const Point& to) {
-  return {{from, to}, {resting({0, 0, 0}), resting({4, 0, 0}), resting({0, 4, 0})}};
+  return {{from, to}, test::resting_face};
 }
 
 TEST(DistanceReferee, VertexAboveAFace) {
@@ -86,11 +71,11 @@ TEST(DistanceReferee, FeetAtAnEdgeAndAtACorner) {
 
 EdgeEdge falling(const Point& a0, const Point& a1, const Point& b0, const Point& b1) {
   const auto falls = [](const Point& p) {
-    MovingPoint m = resting(p);
+    MovingPoint m = rest(p);
     m.t1[2] -= 4;
     return m;
   };
-  return {{falls(a0), falls(a1)}, {resting(b0), resting(b1)}};
+  return {{falls(a0), falls(a1)}, {rest(b0), rest(b1)}};
 }
 
 TEST(DistanceReferee, EdgesCrosswiseParallelAndOfNoLength) {
@@ -105,25 +90,24 @@ TEST(DistanceReferee, EdgesCrosswiseParallelAndOfNoLength) {
 TEST(DistanceReferee, ParallelJustThen) {
   // The edges turn against each other, and are parallel at 1/2, at a distance of 1.
   const EdgeEdge turning = {{{{{-2, -2, 2}, {-2, 2, 0}}, {{2, 2, 2}, {2, -2, 0}}}},
-                            {resting({-2, 0, 0}), resting({2, 0, 0})}};
+                            {rest({-2, 0, 0}), rest({2, 0, 0})}};
   expect_first_at(turning, {1, 0}, Rational(1, 2));
 }
 
 TEST(DistanceReferee, AFaceThatCollapses) {
   // At 1/2 the face is a segment on the x axis, over whose middle the vertex then is, 1 away.
   const VertexFace flat = {{{0, 0, 2}, {0, 0, 0}},
-                           {resting({-2, 0, 0}), resting({2, 0, 0}), {{0, 5, 0}, {0, -5, 0}}}};
+                           {rest({-2, 0, 0}), rest({2, 0, 0}), {{0, 5, 0}, {0, -5, 0}}}};
   expect_first_at(flat, {1, 0}, Rational(1, 2));
   // A point throughout.
-  const VertexFace point = {{{0, 3, 8}, {0, 3, 0}}, {resting({}), resting({}), resting({})}};
+  const VertexFace point = {{{0, 3, 8}, {0, 3, 0}}, {rest({}), rest({}), rest({})}};
   expect_first_at(point, {5, 0}, Rational(1, 2));
 }
 
 TEST(DistanceReferee, TouchesTheDistanceAndGoesAway) {
   // Along a line past a corner, at a distance of 5 at 1/2 and at 1/3, and never nearer.
   const auto past = [](double from, double to) {
-    return VertexFace{{{from, 3, 4}, {to, 3, 4}},
-                      {resting({}), resting({0, -1, 0}), resting({0, 0, -1})}};
+    return VertexFace{{{from, 3, 4}, {to, 3, 4}}, {rest({}), rest({0, -1, 0}), rest({0, 0, -1})}};
   };
   expect_first_at(past(-1, 1), {5, 0}, Rational(1, 2));
   expect_first_at(past(-1, 2), {5, 0}, Rational(1, 3));
@@ -158,13 +142,13 @@ TEST(DistanceReferee, AllDoubles) {
   // The differences overflow.
   const VertexFace wide = {
       {{0, 0, huge}, {0, 0, -huge}},
-      {resting({-huge, -huge, -huge}), resting({huge, -huge, -huge}), resting({0, huge, -huge})}};
+      {rest({-huge, -huge, -huge}), rest({huge, -huge, -huge}), rest({0, huge, -huge})}};
   expect_first_at(wide, {huge, 0}, Rational(1, 2));
   expect_first_at(over_face({1, 1, tiny}, {1, 1, 1}), {tiny, 0}, 0);
   expect_never(over_face({1, 1, 2 * tiny}, {1, 1, 1}), {tiny, 0});
   const VertexFace smallest = {
       {{0, 0, 4 * tiny}, {0, 0, 0}},
-      {resting({-tiny, -tiny, 0}), resting({tiny, -tiny, 0}), resting({0, tiny, 0})}};
+      {rest({-tiny, -tiny, 0}), rest({tiny, -tiny, 0}), rest({0, tiny, 0})}};
   expect_first_at(smallest, {tiny, 0}, Rational(3, 4));
   expect_first_at(smallest, {0, 0}, 1);
 }
@@ -172,7 +156,7 @@ TEST(DistanceReferee, AllDoubles) {
 // Past a corner along a line: within d for about 2^-28 of the step.
 TEST(DistanceReferee, AShortTime) {
   const VertexFace corner = {{{-1, 3, 4}, {1.3, 3, 4}},
-                             {resting({}), resting({0, -1, 0}), resting({0, 0, -1})}};
+                             {rest({}), rest({0, -1, 0}), rest({0, 0, -1})}};
   const DistanceVerdict verdict = distance_referee(corner, {5, 0x1p-64});
   ASSERT_EQ(verdict.within, Decision::yes);
   EXPECT_NEAR(static_cast<double>(fraction(verdict.by)), 1 / 2.3, 0x1p-28);
@@ -245,7 +229,7 @@ TEST(DistanceProofs, DoublesDoNotClaimWhatTheyCannotTell) {
 // A direction that turns with the face keeps the vertex away over the whole step.
 TEST(DistanceProofs, OneDirectionThatTurns) {
   const VertexFace turning = {
-      resting({.5, 0, 3}),
+      rest({.5, 0, 3}),
       {{{{-1, -1, 0}, {-1, -1, .5}}, {{2, -1, 0}, {2, -1, -.5}}, {{0, 2, 0}, {0, 2, 0}}}}};
   EXPECT_EQ(apart_in_double(double_reach(turning, {2.7, 0}), 0, 1), SeparationProof::separated);
   EXPECT_TRUE(apart_in_integers(integer_reach(turning, {2.7, 0}), 0, 0));

@@ -3,21 +3,18 @@
 
 #include "oracle/query/contact.h"
 #include "oracle/referee/existence.h"
+#include "oracle/referee/rational_bracket.h"
 #include "tests/oracle/query/query_kinds.h"
 
 namespace assay::oracle {
 namespace {
 
 using detector::EdgeEdge, detector::MovingPoint, detector::Point, detector::VertexFace,
-    test::edge_edge, test::Points, test::QueryKind, test::Random, test::vertex_face;
-
-MovingPoint rest(const Point& p) { return {p, p}; }
-
-constexpr std::array<Point, 3> resting_face = {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
+    test::edge_edge, test::Points, test::QueryKind, test::Random, test::rest, test::resting_face,
+    test::vertex_face;
 
 detector::Decision over_resting_face(const Point& from, const Point& to) {
-  return referee(VertexFace{{from, to},
-                            {rest(resting_face[0]), rest(resting_face[1]), rest(resting_face[2])}});
+  return referee(VertexFace{{from, to}, resting_face});
 }
 
 TEST(Referee, VertexThroughAFace) {
@@ -40,8 +37,7 @@ TEST(Referee, AskedUpToATime) {
   const auto up_to = [](const VertexFace& query, double until) {
     return referee(query, RefereeOptions{.until = until});
   };
-  const VertexFace half{{{1, 1, 1}, {1, 1, -1}},
-                        {rest(resting_face[0]), rest(resting_face[1]), rest(resting_face[2])}};
+  const VertexFace half{{{1, 1, 1}, {1, 1, -1}}, resting_face};
   EXPECT_EQ(up_to(half, 1), detector::Decision::yes);
   EXPECT_EQ(up_to(half, .5), detector::Decision::yes);
   EXPECT_EQ(up_to(half, .75), detector::Decision::yes);
@@ -196,8 +192,7 @@ TEST(Referee, AgreesAndLeavesLittleOpen) {
 
 TEST(SeparationProof, ADirectionThatTurnsAndOneThatStays) {
   // A vertex that passes over a face at a distance of 1: separated in one piece.
-  const VertexFace over = {{{0, 0, 1}, {4, 4, 1}},
-                           {rest(resting_face[0]), rest(resting_face[1]), rest(resting_face[2])}};
+  const VertexFace over = {{{0, 0, 1}, {4, 4, 1}}, resting_face};
   EXPECT_EQ(separated_in_double(double_hull(over), 0, 1), SeparationProof::separated);
   EXPECT_TRUE(separated_in_integers(integer_hull(over), 0, 0));
   const VertexFace through = {{{1, 1, 1}, {1, 1, -1}}, over.face};
@@ -247,16 +242,74 @@ TEST(Existence, OriginInDegenerateHulls) {
 }
 
 TEST(Existence, BoxesProveCrossingsAndNothingElse) {
-  const auto face = std::array{rest(resting_face[0]), rest(resting_face[1]), rest(resting_face[2])};
-  const VertexFace through = {{{1, 1, 1}, {1.1, .9, -1.7}}, face};
+  const VertexFace through = {{{1, 1, 1}, {1.1, .9, -1.7}}, resting_face};
   const auto guess = guess_crossing(double_hull(through), 0, 1);
   ASSERT_TRUE(guess.has_value());
   EXPECT_TRUE(crossing_in_a_box(integer_hull(through), *guess));
-  const VertexFace beside = {{{3, 3, 1}, {3.1, 2.9, -1.7}}, face};
+  const VertexFace beside = {{{3, 3, 1}, {3.1, 2.9, -1.7}}, resting_face};
   EXPECT_FALSE(guess_crossing(double_hull(beside), 0, 1).has_value());
   // A wrong guess proves nothing.
   EXPECT_FALSE(crossing_in_a_box(integer_hull(beside), *guess));
   EXPECT_FALSE(crossing_in_a_box(integer_hull(through), {.9, .3, .3, 0}));
+}
+
+// Contacts that begin and end between neighbouring doubles, and what is no proof.
+
+// A vertex over a face whose plane turns: z = t x, raised by `above` at two corners. The vertex
+// moves along the tangent of its path in that plane at t = 1/2, so that F has two zeros there,
+// which are sqrt(above) away from 1/2, or none where `above` is negative.
+VertexFace grazing(double above, double y = .2) {
+  return {{{.25, y, -.125}, {.75, y, .625}},
+          {{{{0, 0, -above}, {0, 0, -above}},
+            {{0, 1, -above}, {0, 1, -above}},
+            {{1, 0, 0}, {1, 0, 1}}}}};
+}
+
+TEST(RationalBracket, FindsWhatBeginsAndEndsAtOneDouble) {
+  for (const int exponent : {-40, -80, -110, -200}) {
+    EXPECT_TRUE(meet_between(grazing(std::ldexp(1, exponent)), .25, .75)) << exponent;
+    EXPECT_FALSE(meet_between(grazing(-std::ldexp(1, exponent)), .25, .75)) << exponent;
+  }
+}
+
+TEST(RationalBracket, NamesNoContactBesideTheFace) {
+  EXPECT_FALSE(meet_between(grazing(0x1p-40, .6), .25, .75));
+  EXPECT_FALSE(meet_between(grazing(0x1p-40), .75, 1));
+}
+
+// A time told is late only if the contact is before it, so neither end belongs to the interval.
+TEST(RationalBracket, TheEndsDoNotBelongToTheInterval) {
+  const detector::Point a = {0, 0, 0}, b = {4, 0, 0}, c = {0, 4, 0};
+  const VertexFace at_half = {{{1, 1, 1}, {1, 1, -1}}, {{{a, a}, {b, b}, {c, c}}}};
+  EXPECT_TRUE(meet_between(at_half, .25, .75));
+  EXPECT_TRUE(meet_between(at_half, 0, 1));
+  EXPECT_FALSE(meet_between(at_half, .25, .5));
+  EXPECT_FALSE(meet_between(at_half, .5, 1));
+}
+
+template <class Query>
+void expect_what_the_oracle_says(const Query& query, const ContactAnswer& answer, int& contacts) {
+  EXPECT_EQ(meet_between(query, 0, 1), answer.contact);
+  contacts += answer.contact;
+  if (!answer.contact || answer.first.lo == answer.first.hi) return;
+  EXPECT_TRUE(meet_between(query, answer.first.lo, answer.first.hi));
+  EXPECT_FALSE(meet_between(query, 0, answer.first.lo));
+}
+
+TEST(RationalBracket, SaysWhatTheOracleSaysOfGenericQueries) {
+  test::Random random(22);
+  const auto point = [&] { return test::random_point(random, test::Coordinates::generic); };
+  int contacts = 0;
+  for (int i = 0; i < 400; ++i) {
+    SCOPED_TRACE(i);
+    const VertexFace face = {point(), {point(), point(), point()}};
+    expect_what_the_oracle_says(face, vertex_face_contact(face, detector::Want::first_time),
+                                contacts);
+    const EdgeEdge edges = {{point(), point()}, {point(), point()}};
+    expect_what_the_oracle_says(edges, edge_edge_contact(edges, detector::Want::first_time),
+                                contacts);
+  }
+  EXPECT_GT(contacts, 40);
 }
 
 }  // namespace

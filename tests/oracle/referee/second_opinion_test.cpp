@@ -30,14 +30,7 @@ Step folding_sheet(int n, std::uint64_t seed) {
       step.x_t1.row(v) << std::fabs(x), j + 0.3 * random.unit(), 0.4 * random.unit();
     }
   }
-  step.f.resize(2 * n * n, 3);
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j) {
-      const int v = i * (n + 1) + j, t = 2 * (i * n + j);
-      step.f.row(t) << v, v + n + 1, v + 1;
-      step.f.row(t + 1) << v + 1, v + n + 1, v + n + 2;
-    }
-  }
+  step.f = tests::sheet_triangles(n + 1);
   return step;
 }
 

@@ -3,7 +3,9 @@
 
 #include <Eigen/Geometry>
 
+#include "oracle/instant/instant.h"
 #include "oracle/mesh/step.h"
+#include "oracle/rational_time.h"
 #include "tests/oracle/random_points.h"
 #include "tests/oracle/small_meshes.h"
 
@@ -82,26 +84,24 @@ TEST(StaticCheck, SameThreeVerticesMeetAtTheStart) {
   EXPECT_TRUE(meet_at(step, RationalTime{0, 1}));
 }
 
+// A tetrahedron, and two triangles that each share an edge with what is there before them.
+const auto six_triangles =
+    triangles({{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}, {2, 3, 4}, {1, 4, 5}});
+
 // Every meeting at rest is in the pair set of the step, not later, on random tetrahedra pairs.
 TEST(StaticCheck, MeetingsAreInThePairSet) {
   test::Random random(51);
   int checks = 0, meetings = 0;
   for (int i = 0; i < 120; ++i) {
     const auto kind = static_cast<test::Coordinates>(i % test::coordinate_kinds);
-    detector::Positions x_t0(6, 3), x_t1(6, 3);
-    for (int v = 0; v < 6; ++v) {
-      for (int k = 0; k < 3; ++k) {
-        x_t0(v, k) = random_coordinate(random, kind);
-        x_t1(v, k) = random_coordinate(random, kind);
-      }
-    }
-    const auto f = triangles({{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}, {2, 3, 4}, {1, 4, 5}});
-    const StepJudgement judged = judge_step({x_t0, x_t1}, f, {});
-    for (std::int32_t a = 0; a < f.rows(); ++a) {
-      for (std::int32_t b = a + 1; b < f.rows(); ++b) {
+    detector::Positions x_t0, x_t1;
+    place_randomly(random, kind, 6, x_t0, x_t1);
+    const StepJudgement judged = judge_step({x_t0, x_t1}, six_triangles, {});
+    for (std::int32_t a = 0; a < six_triangles.rows(); ++a) {
+      for (std::int32_t b = a + 1; b < six_triangles.rows(); ++b) {
         for (const RationalTime& time : {RationalTime{0, 1}, {2, 7}, {1, 2}, {1, 1}}) {
           ++checks;
-          if (!triangles_meet({x_t0, x_t1}, f, {a, b}, time)) continue;
+          if (!triangles_meet({x_t0, x_t1}, six_triangles, {a, b}, time)) continue;
           ++meetings;
           const auto found =
               std::find_if(judged.pairs.begin(), judged.pairs.end(), [&](const auto& p) {
@@ -122,7 +122,7 @@ TEST(StaticCheck, MeetingsAreInThePairSet) {
 TEST(TrianglesMeetNow, AgreesWithRationalArithmeticOnSmallIntegers) {
   std::mt19937 random(1);
   std::uniform_int_distribution<int> coordinate(0, 3);
-  const auto f = test::triangles({{0, 1, 2}, {3, 4, 5}});
+  const auto f = triangles({{0, 1, 2}, {3, 4, 5}});
   int met = 0, apart = 0, without_area = 0;
   for (int i = 0; i < 3000; ++i) {
     detector::Positions x(6, 3);
@@ -143,6 +143,49 @@ TEST(TrianglesMeetNow, AgreesWithRationalArithmeticOnSmallIntegers) {
   EXPECT_GT(met, 500);
   EXPECT_GT(apart, 500);
   EXPECT_GT(without_area, 20);
+}
+
+// One type of time for all questions about an instant: a time means the same to each of them.
+
+using Pairs = std::vector<detector::TrianglePair>;
+
+// By CGAL's triangles, pair after pair.
+Pairs pairs_that_meet(const detector::Positions& x_t0, const detector::Positions& x_t1,
+                      const detector::Triangles& f, const RationalTime& time) {
+  Pairs pairs;
+  for (std::int32_t a = 0; a < f.rows(); ++a) {
+    for (std::int32_t b = a + 1; b < f.rows(); ++b) {
+      if (triangles_meet({x_t0, x_t1}, f, {a, b}, time)) pairs.push_back({a, b});
+    }
+  }
+  return pairs;
+}
+
+TEST(RationalTime, MeansTheSameToTheInstantAndToTheStaticCheck) {
+  test::Random random(71);
+  std::size_t meetings = 0;
+  bool depends_on_time = false;
+  for (int i = 0; i < 100; ++i) {
+    const auto x_t0 = random_rows(random, test::Coordinates::tiny_grid, 6),
+               x_t1 = random_rows(random, test::Coordinates::tiny_grid, 6);
+    Pairs first;
+    for (const RationalTime& time : {RationalTime{0, 1}, {1, 3}, {2, 4}, {5, 7}, {1, 1}}) {
+      const Pairs pairs = contacts_at(Instant({x_t0, x_t1}, time), six_triangles);
+      EXPECT_EQ(pairs, pairs_that_meet(x_t0, x_t1, six_triangles, time))
+          << i << ": " << time.numerator << "/" << time.denominator;
+      if (time.numerator == 0) first = pairs;
+      depends_on_time = depends_on_time || pairs != first;
+      meetings += pairs.size();
+    }
+  }
+  EXPECT_GT(meetings, 100);
+  EXPECT_TRUE(depends_on_time);
+}
+
+TEST(RationalTime, NeedNotBeInLowestTerms) {
+  const auto x_t0 = positions({{0, 0, 1}}), x_t1 = positions({{0, 0, 2}});
+  EXPECT_EQ(Instant({x_t0, x_t1}, {1, 2}).box(0).min, Instant({x_t0, x_t1}, {2, 4}).box(0).min);
+  EXPECT_EQ(compare(RationalTime{2, 4}, .5), 0);
 }
 
 }  // namespace

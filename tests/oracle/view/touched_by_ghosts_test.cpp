@@ -113,12 +113,7 @@ TEST(TouchedByGhosts, L11_AreThoseInContactWithAGhost) {
   for (int i = 0; i < 400; ++i) {
     const auto kind = static_cast<test::Coordinates>(i % test::coordinate_kinds);
     const int vertices = 8, triangle_count = 5;
-    Triangles f(triangle_count, 3);
-    for (int t = 0; t < triangle_count; ++t) {
-      do {
-        for (int k = 0; k < 3; ++k) f(t, k) = random.below(vertices);
-      } while (f(t, 0) == f(t, 1) || f(t, 1) == f(t, 2) || f(t, 2) == f(t, 0));
-    }
+    const Triangles f = random_triangles(random, vertices, triangle_count);
     const auto loops = boundary_loops(f);
     const Triangles ghosts = ghost_triangles(loops, vertices);
     const auto apexes = static_cast<Eigen::Index>(loops.size());

@@ -2,8 +2,6 @@
 // the other.
 #include "detector/contact/lanes/query_lanes.h"
 
-#include <cmath>
-
 #include "detector/contact/contact_doubles.h"
 #include "detector/contact/contact_pieces.h"
 #include "detector/geometry/orientation.h"
