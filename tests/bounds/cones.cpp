@@ -14,14 +14,7 @@ constexpr double coordinate_error = 2.125;
 // The plane's coordinates of a difference of two points, along the direction (2, 1, 1) or an axis.
 void claim_coordinates(Claims& claims) {
   for (const int bit : {0, 42}) {
-    Positions x_t0(2, 3), x_t1(2, 3);
-    for (int v = 0; v < 2; ++v) {
-      const MovingPoint p = moving_point("p", v);
-      for (int k = 0; k < 3; ++k) {
-        x_t0(v, k) = p.t0[static_cast<std::size_t>(k)];
-        x_t1(v, k) = p.t1[static_cast<std::size_t>(k)];
-      }
-    }
+    const auto [x_t0, x_t1] = moving_vertices("p", 2);
     MovingContour contour({x_t0, x_t1});
     contour.d_ = direction(bit);
     contour.axis_ = {1, 2, 0};

@@ -50,14 +50,7 @@ void claim_shares(const LaneInput& input) {
 void claim_lanes(Claims& claims) {
   const std::vector<std::int32_t> corners = {0, 1, 2, 0, 1, 2};
   for (const bool is_line : {false, true}) {
-    Positions x_t0(3, 3), x_t1(3, 3);
-    for (int v = 0; v < 3; ++v) {
-      const MovingPoint p = moving_point("p", v);
-      for (int k = 0; k < 3; ++k) {
-        x_t0(v, k) = p.t0[static_cast<std::size_t>(k)];
-        x_t1(v, k) = p.t1[static_cast<std::size_t>(k)];
-      }
-    }
+    const auto [x_t0, x_t1] = moving_vertices("p", 3);
     const MovingPoint q0 = moving_point("q", 3);
     LaneInput input{};
     make_lane_input(std::span(corners).first(3), {x_t0, x_t1},

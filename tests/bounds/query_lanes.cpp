@@ -15,14 +15,7 @@ using namespace detector;
 // other, so that everything is computed.
 void claim(Claims& claims, const char* name, const QueryVertices& query,
            void (*group)(const QueryInput&, const QueryVertices*, LaneRung*)) {
-  Positions x_t0(5, 3), x_t1(5, 3);
-  for (int v = 0; v < 5; ++v) {
-    const MovingPoint p = moving_point("x", v);
-    for (int k = 0; k < 3; ++k) {
-      x_t0(v, k) = p.t0[static_cast<std::size_t>(k)];
-      x_t1(v, k) = p.t1[static_cast<std::size_t>(k)];
-    }
-  }
+  const auto [x_t0, x_t1] = moving_vertices("x", 5);
   const QueryVertices queries[] = {query, query};
   LaneRung rungs[2];
   group(query_input({x_t0, x_t1}), queries, rungs);

@@ -3,21 +3,14 @@
 // and no comment may look as if one had folded it.
 #include <regex>
 
-#include "tests/test.h"
+#include "tests/house/tree.h"
 
 namespace assay::tests {
 namespace {
 
-namespace fs = std::filesystem;
 using Lines = std::vector<std::string>;
 
 constexpr std::size_t column_limit = 100;
-
-Lines lines_of(std::istream& in) {
-  Lines out;
-  for (std::string line; std::getline(in, line);) out.push_back(line);
-  return out;
-}
 
 // A line that holds nothing but a comment. Any other line gives an empty one, without text.
 struct Comment {
@@ -176,23 +169,18 @@ TEST(Comments, SoundOnesAreNot) {
 }
 
 TEST(Comments, TheFormatterLeavesThemAlone) {
-  std::ifstream in(fs::path(ASSAY_SOURCE_DIR) / ".clang-format");
-  const Lines lines = lines_of(in);
+  const Lines lines = lines_of(".clang-format");
   EXPECT_EQ(std::count(lines.begin(), lines.end(), "ReflowComments: false"), 1);
 }
 
 TEST(Comments, NoneIsFolded) {
   std::size_t files = 0;
-  for (const auto* room : {"detector", "oracle", "corpus", "properties", "reports", "tests"}) {
-    for (const auto& entry : fs::recursive_directory_iterator(fs::path(ASSAY_SOURCE_DIR) / room)) {
-      const auto extension = entry.path().extension();
-      if (extension != ".h" && extension != ".hpp" && extension != ".cpp") continue;
-      std::ifstream in(entry.path());
-      const Lines lines = lines_of(in);
+  for (const auto* room : rooms) {
+    for (const auto& file : sources_below(room)) {
+      const Lines lines = lines_of(file);
       ++files;
       for (const auto& finding : wrecked(lines)) {
-        ADD_FAILURE() << entry.path().string() << ":" << finding.line << " " << finding.complaint
-                      << "\n"
+        ADD_FAILURE() << file << ":" << finding.line << " " << finding.complaint << "\n"
                       << lines[finding.line - 1];
       }
     }

@@ -2,36 +2,33 @@
 // CGAL out of all headers and only its LGPL part, the fixed top level.
 #include <regex>
 
-#include "tests/test.h"
+#include "tests/house/tree.h"
 
 namespace assay::tests {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path root = ASSAY_SOURCE_DIR;
-
-std::vector<fs::path> sources(const std::string& room) {
-  std::vector<fs::path> out;
-  for (const auto& entry : fs::recursive_directory_iterator(root / room)) {
-    const auto extension = entry.path().extension();
-    if (extension == ".h" || extension == ".hpp" || extension == ".cpp")
-      out.push_back(entry.path());
-  }
-  EXPECT_FALSE(out.empty()) << room;
-  return out;
-}
-
-std::vector<std::string> includes(const fs::path& file) {
+std::vector<std::string> includes(const std::string& file) {
   static const std::regex include(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
   std::vector<std::string> out;
-  std::ifstream in(file);
-  for (std::string line; std::getline(in, line);) {
+  for (const auto& line : lines_of(file)) {
     std::smatch match;
     if (std::regex_search(line, match, include)) out.push_back(match[1]);
   }
   return out;
 }
+
+// What each source below a folder includes.
+void for_each_include(const std::string& folder,
+                      const std::function<void(const std::string&, const std::string&)>& look) {
+  for (const auto& file : sources_below(folder)) {
+    for (const auto& include : includes(file)) look(file, include);
+  }
+}
+
+// All but the tests.
+constexpr std::span<const char* const> rooms_of_the_product(rooms, std::size(rooms) - 1);
 
 std::string room_of(const std::string& include) { return include.substr(0, include.find('/')); }
 
@@ -42,40 +39,33 @@ TEST(House, ArrowsGoOneWay) {
       {"corpus", {"corpus", "detector"}},
       {"properties", {"properties", "corpus", "oracle", "detector"}},
       {"reports", {"reports", "properties", "corpus", "oracle", "detector"}}};
-  const std::set<std::string> rooms = {"detector",   "oracle",  "corpus",
-                                       "properties", "reports", "tests"};
   for (const auto& [room, may_use] : allowed) {
-    for (const auto& file : sources(room)) {
-      for (const auto& include : includes(file)) {
-        if (!rooms.count(room_of(include))) continue;
-        EXPECT_TRUE(may_use.count(room_of(include))) << file << " includes " << include;
-      }
-    }
+    for_each_include(
+        room, [&, &may_use = may_use](const std::string& file, const std::string& include) {
+          const bool is_of_a_room =
+              std::find(std::begin(rooms), std::end(rooms), room_of(include)) != std::end(rooms);
+          EXPECT_TRUE(!is_of_a_room || may_use.count(room_of(include)))
+              << file << " includes " << include;
+        });
   }
 }
 
 TEST(House, OracleAndDetectorShareOnlyPlainTypes) {
   const std::set<std::string> plain = {"detector/mesh/types.h", "detector/mesh/step_types.h",
                                        "detector/mesh/counted_pairs.h"};
-  for (const auto& file : sources("oracle")) {
-    for (const auto& include : includes(file)) {
-      if (room_of(include) == "detector") {
-        EXPECT_TRUE(plain.count(include)) << file << " includes " << include;
-      }
-    }
-  }
+  for_each_include("oracle", [&](const std::string& file, const std::string& include) {
+    EXPECT_TRUE(room_of(include) != "detector" || plain.count(include))
+        << file << " includes " << include;
+  });
 }
 
 // And oneTBB, which one source names and which may be absent.
 TEST(House, DetectorNeedsOnlyEigenAndBoost) {
   const std::regex foreign("^(CGAL|gmp|mpf|nlohmann|fmt|CLI|zlib|gtest|tbb|oneapi)");
-  for (const auto& file : sources("detector")) {
-    for (const auto& include : includes(file)) {
-      if (file == root / "detector/parallel/thread_arena.cpp" && include.starts_with("oneapi/tbb/"))
-        continue;
-      EXPECT_FALSE(std::regex_search(include, foreign)) << file << " includes " << include;
-    }
-  }
+  for_each_include("detector", [&](const std::string& file, const std::string& include) {
+    if (file == "detector/parallel/thread_arena.cpp" && include.starts_with("oneapi/tbb/")) return;
+    EXPECT_FALSE(std::regex_search(include, foreign)) << file << " includes " << include;
+  });
 }
 
 // What the worker is made of, planted faults included: the detector under test must not reach what
@@ -87,18 +77,16 @@ TEST(House, TheWorkerKnowsNoOracle) {
   // The host copies and hashes what is judged before a worker sees it.
   const std::regex host_may_use("^corpus/digest.h");
   // What they may use beside their own folders is held to the same.
-  std::vector<fs::path> files;
-  for (const auto* name :
-       {"problem.h", "words.h", "words.cpp", "fields.h", "numbering.h", "random.h"}) {
-    files.push_back(root / "properties" / name);
-  }
+  std::vector<std::string> files = {"properties/problem.h",   "properties/words.h",
+                                    "properties/words.cpp",   "properties/fields.h",
+                                    "properties/numbering.h", "properties/random.h"};
   for (const auto* folder : {"properties/claims", "properties/worker", "properties/faults"}) {
-    for (const auto& file : sources(folder)) files.push_back(file);
+    for (const auto& file : sources_below(folder)) files.push_back(file);
   }
   for (const auto& file : files) {
     for (const auto& include : includes(file)) {
       if (!fs::exists(root / include)) continue;
-      const bool is_of_the_host = file.stem() == "judged_library";
+      const bool is_of_the_host = fs::path(file).stem() == "judged_library";
       EXPECT_TRUE(std::regex_search(include, may_use) ||
                   (is_of_the_host && std::regex_search(include, host_may_use)))
           << file << ": " << include;
@@ -122,17 +110,14 @@ bool is_shared(const std::string& path) {
 // Inner rooms use each other one way too: no room is reached from itself through others.
 TEST(House, ArrowsBetweenInnerRoomsGoOneWay) {
   std::map<std::string, std::set<std::string>> uses;
-  for (const auto* room : {"detector", "oracle", "corpus", "properties", "reports"}) {
-    for (const auto& file : sources(room)) {
-      const auto path = fs::relative(file, root).string();
-      for (const auto& include : includes(file)) {
-        const auto from = inner_room_of(path), to = inner_room_of(include);
-        if (from == to || room_of(from) != room_of(to)) continue;
-        if (to == room_of(to) && is_shared(include)) continue;
-        if (from == room_of(from) && room_of(from) != "detector") continue;
-        uses[from].insert(to);
-      }
-    }
+  for (const auto* room : rooms_of_the_product) {
+    for_each_include(room, [&](const std::string& file, const std::string& include) {
+      const auto from = inner_room_of(file), to = inner_room_of(include);
+      if (from == to || room_of(from) != room_of(to)) return;
+      if (to == room_of(to) && is_shared(include)) return;
+      if (from == room_of(from) && room_of(from) != "detector") return;
+      uses[from].insert(to);
+    });
   }
   for (const auto& [room, direct] : uses) {
     std::set<std::string> reached;
@@ -156,7 +141,7 @@ TEST(House, ThePublicFaceReachesNoStage) {
     const auto header = next.back();
     next.pop_back();
     if (room_of(header) != "detector" || !reached.insert(header).second) continue;
-    for (const auto& include : includes(root / header)) next.push_back(include);
+    for (const auto& include : includes(header)) next.push_back(include);
   }
   for (const auto& header : reached) {
     const bool is_face = header == "detector/detector.h" || header == "detector/options.h" ||
@@ -168,14 +153,12 @@ TEST(House, ThePublicFaceReachesNoStage) {
 
 TEST(House, CgalStaysOutOfHeadersAndInFewFiles) {
   std::set<std::string> users;
-  for (const auto* room : {"detector", "oracle", "corpus", "properties", "reports"}) {
-    for (const auto& file : sources(room)) {
-      for (const auto& include : includes(file)) {
-        if (room_of(include) != "CGAL") continue;
-        EXPECT_EQ(file.extension(), ".cpp") << file << " includes " << include;
-        users.insert(file.filename().string());
-      }
-    }
+  for (const auto* room : rooms_of_the_product) {
+    for_each_include(room, [&](const std::string& file, const std::string& include) {
+      if (room_of(include) != "CGAL") return;
+      EXPECT_TRUE(file.ends_with(".cpp")) << file << " includes " << include;
+      users.insert(fs::path(file).filename().string());
+    });
   }
   EXPECT_LE(users.size(), 5u);
 }
@@ -230,24 +213,18 @@ TEST(House, TopLevelIsFixed) {
 }
 
 TEST(House, NoFastMathAndNoFusedArithmetic) {
-  for (const auto& entry : fs::recursive_directory_iterator(root)) {
-    if (entry.path().string().find("/build/") != std::string::npos) continue;
-    if (entry.path().filename() != "CMakeLists.txt" &&
-        entry.path().filename() != "CMakePresets.json")
-      continue;
+  for (const auto& file : files_below("")) {
+    if (!file.ends_with("CMakeLists.txt") && !file.ends_with("CMakePresets.json")) continue;
     // A plug-in built that way is there to be found out.
-    if (entry.path() == root / "tests/plugins/CMakeLists.txt") continue;
-    std::ifstream in(entry.path());
-    const std::string text(std::istreambuf_iterator<char>(in), {});
-    EXPECT_EQ(text.find("-ffast-math"), std::string::npos) << entry.path();
-    EXPECT_EQ(text.find("NDEBUG "), std::string::npos) << entry.path();
+    if (file == "tests/plugins/CMakeLists.txt") continue;
+    const auto text = text_of(file);
+    EXPECT_EQ(text.find("-ffast-math"), std::string::npos) << file;
+    EXPECT_EQ(text.find("NDEBUG "), std::string::npos) << file;
   }
 }
 
 TEST(House, EveryRoomHasAReadme) {
-  for (const auto* room : {"detector", "oracle", "corpus", "properties", "reports", "tests"}) {
-    EXPECT_TRUE(fs::exists(root / room / "README.md")) << room;
-  }
+  for (const auto* room : rooms) EXPECT_TRUE(fs::exists(root / room / "README.md")) << room;
 }
 
 }  // namespace

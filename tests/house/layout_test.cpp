@@ -27,9 +27,7 @@ bool is_named_like_a_test(const std::string& path) {
 TEST(Layout, OnlyTestsAreNamedLikeTests) {
   for (const auto* room : rooms) {
     if (std::string(room) == "tests") continue;
-    for (const auto& file : files_below(room)) {
-      EXPECT_FALSE(is_source(file) && is_named_like_a_test(file)) << file;
-    }
+    for (const auto& file : sources_below(room)) EXPECT_FALSE(is_named_like_a_test(file)) << file;
   }
 }
 
@@ -37,8 +35,7 @@ TEST(Layout, OnlyTestsAreNamedLikeTests) {
 // wrote itself to compile a whole folder as one source (ASSAY_UNITY).
 std::set<std::string> compiled_files() {
   const auto matches = [](const std::string& path, const std::regex& line) {
-    std::ifstream in(path);
-    const std::string text(std::istreambuf_iterator<char>(in), {});
+    const auto text = text_of(path);
     std::set<std::string> found;
     for (std::sregex_iterator i(text.begin(), text.end(), line), end; i != end; ++i)
       found.insert((*i)[1]);
@@ -89,14 +86,11 @@ TEST(Layout, TheTreeIsBuiltInAnyFolder) {
 TEST(Layout, TestsOfPublicDataAreNamedSo) {
   const std::regex opens("^(TEST|class|struct)"), named(R"x([( ]Public\w* ?[,:{]|, Public)x");
   int readers = 0;
-  for (const auto& file : files_below("tests")) {
-    if (!is_source(file) || file == "tests/public_data.h" || file.starts_with("tests/house/"))
-      continue;
-    const auto text = text_of(file);
-    EXPECT_EQ(text.find("\"ASSAY_DATA"), std::string::npos) << file << ": public_data() reads it";
-    std::istringstream lines(text);
+  for (const auto& file : sources_below("tests")) {
+    if (file == "tests/public_data.h" || file.starts_with("tests/house/")) continue;
     std::string opened;
-    for (std::string line; std::getline(lines, line);) {
+    for (const auto& line : lines_of(file)) {
+      EXPECT_EQ(line.find("\"ASSAY_DATA"), std::string::npos) << file << ": public_data() reads it";
       if (std::regex_search(line, opens)) opened = line;
       if (line.find("public_data()") == std::string::npos) continue;
       ++readers;
@@ -116,12 +110,10 @@ TEST(Layout, ConstantsAreInSnakeCase) {
   EXPECT_FALSE(is_found("const int size = resize(rc::kNominalSize);"));
   EXPECT_FALSE(is_found("constexpr int most = 3;"));
   for (const auto* room : rooms) {
-    for (const auto& file : files_below(room)) {
-      if (!is_source(file) || file == "tests/house/layout_test.cpp") continue;
-      std::istringstream lines(text_of(file));
-      for (std::string line; std::getline(lines, line);) {
+    for (const auto& file : sources_below(room)) {
+      if (file == "tests/house/layout_test.cpp") continue;
+      for (const auto& line : lines_of(file))
         EXPECT_FALSE(is_found(line.c_str())) << file << ": " << line;
-      }
     }
   }
 }

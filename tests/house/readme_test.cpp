@@ -33,10 +33,9 @@ std::vector<std::string> split(const std::string& text, const std::string& separ
 
 std::vector<Place> places_of(const std::string& room) {
   std::vector<Place> places;
-  std::istringstream readme(text_of(room + "/README.md"));
   bool in_table = false;
   std::string inner;  // the inner room of rows that begin with "... "
-  for (std::string line; std::getline(readme, line);) {
+  for (const auto& line : lines_of(room + "/README.md")) {
     if (!line.starts_with("|")) in_table = false;
     if (line.starts_with("| place |")) {
       in_table = true;

@@ -54,9 +54,23 @@ inline bool is_source(const std::string& path) {
   return path.ends_with(".h") || path.ends_with(".hpp") || path.ends_with(".cpp");
 }
 
-inline std::string text_of(const std::string& path) {
+inline std::vector<std::string> sources_below(const std::string& folder) {
+  auto files = files_below(folder);
+  std::erase_if(files, [](const std::string& file) { return !is_source(file); });
+  EXPECT_FALSE(files.empty()) << folder;
+  return files;
+}
+
+inline std::string text_of(const std::filesystem::path& path) {
   std::ifstream in(root / path);
   return {std::istreambuf_iterator<char>(in), {}};
+}
+
+inline std::vector<std::string> lines_of(const std::filesystem::path& path) {
+  std::istringstream in(text_of(path));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
 }
 
 }  // namespace assay::tests

@@ -42,15 +42,42 @@ inline std::filesystem::path folder_in_memory() {
   return access(shared.c_str(), W_OK) == 0 ? shared : std::filesystem::temp_directory_path();
 }
 
+inline std::string plugin(const std::string& name) {
+  return std::string(ASSAY_PLUGIN_DIR) + "/plugin_" + name + ".so";
+}
+
 // The file of a case of corpus/curated.
 inline std::string curated(const std::string& name) {
   return std::string(ASSAY_SOURCE_DIR) + "/corpus/curated/" + name + ".json";
+}
+
+inline bool contains(const std::string& text, const std::string& word) {
+  return text.find(word) != std::string::npos;
 }
 
 inline std::string read_text(const std::string& path) {
   std::ostringstream text;
   text << std::ifstream(path, std::ios::binary).rdbuf();
   return text.str();
+}
+
+// How often a word is in a text.
+inline std::size_t count_of(const std::string& text, const std::string& word) {
+  std::size_t count = 0;
+  for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++count;
+  return count;
+}
+
+// What a command in a shell ends with; -1 where a signal ends it.
+inline int exit_code_of(const std::string& command) {
+  const int status = std::system(command.c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+// Before a command: root may do everything, and the system counts none of its threads, so it is
+// somebody else who runs it.
+inline std::string not_by_root() {
+  return geteuid() == 0 ? "setpriv --reuid=65534 --regid=65534 --clear-groups " : "";
 }
 
 struct Outcome {
@@ -75,10 +102,50 @@ inline Outcome run_assay(const std::string& arguments, const std::string& prefix
   const Scratch scratch;
   const std::string command = prefix + ASSAY_PROGRAM + " " + arguments + " >" + (scratch / "out") +
                               " 2>" + (scratch / "err") + " </dev/null";
-  const int status = std::system(command.c_str());
+  const int code = exit_code_of(command);
   expect_json_of_schema(arguments);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(scratch / "out"),
-          read_text(scratch / "err")};
+  return {code, read_text(scratch / "out"), read_text(scratch / "err")};
+}
+
+// Expects this exit code, and each of these words in what is printed. A failure names the line that
+// calls.
+inline Outcome expect_ended(const Outcome& outcome, int code,
+                            const std::vector<std::string>& said = {},
+                            const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
+  const testing::ScopedTrace trace(file, line, "");
+  EXPECT_EQ(outcome.exit_code, code) << outcome.out << outcome.err;
+  for (const auto& words : said) EXPECT_TRUE(says(outcome.out, words)) << outcome.err;
+  return outcome;
+}
+inline Outcome expect_ended(const std::string& arguments, int code,
+                            const std::vector<std::string>& said = {},
+                            const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
+  return expect_ended(run_assay(arguments), code, said, file, line);
+}
+
+// Expects this exit code, and a word on stderr.
+inline void expect_problem(const Outcome& outcome, const std::string& word, int code = 2,
+                           const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
+  expect_ended(outcome, code, {}, file, line);
+  const testing::ScopedTrace trace(file, line, "");
+  EXPECT_TRUE(says(outcome.err, word));
+}
+
+// Expects one line on stderr, which holds the word.
+inline void expect_one_line(const Outcome& outcome, const std::string& word = "", int code = 2,
+                            const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
+  expect_problem(outcome, word, code, file, line);
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+}
+
+// Expects this one line and nothing else.
+inline void expect_refused(const Outcome& outcome, const std::string& word) {
+  expect_one_line(outcome, word);
+  EXPECT_EQ(outcome.out, "");
+}
+inline void expect_refused(const std::string& arguments, const std::string& word) {
+  SCOPED_TRACE(arguments);
+  expect_refused(run_assay(arguments), word);
 }
 
 }  // namespace assay::tests

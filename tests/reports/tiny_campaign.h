@@ -7,10 +7,6 @@
 
 namespace assay::tests {
 
-inline std::string plugin(const std::string& name) {
-  return std::string(ASSAY_PLUGIN_DIR) + "/plugin_" + name + ".so";
-}
-
 // How what is told to readers of other machines names the folder of the plug-ins: as it goes from
 // the run's folder, or not at all where it goes through the root.
 inline std::string told_plugins(const std::string& out) {
@@ -30,16 +26,16 @@ inline std::string plan_text(int cases, const std::string& more = "") {
          R"(}, {"family": "broken", "cases": )" + half + "}]" + more + "}";
 }
 
-inline bool contains(const std::string& text, const std::string& word) {
-  return text.find(word) != std::string::npos;
-}
-
-inline void expect_refused(const Outcome& outcome, const std::string& word) {
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_EQ(outcome.out, "");
-  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-  EXPECT_TRUE(contains(outcome.err, word)) << outcome.err;
-}
+// A folder, a tiny campaign, and `assay run` of it.
+class RunFixture : public testing::Test {
+ protected:
+  const Scratch scratch;
+  std::string plan = scratch.write("plan.json", plan_text(16));
+  std::string out = scratch / "out";
+  Outcome run(const std::string& more = "", const std::string& prefix = "") const {
+    return run_assay("run --campaign " + plan + " --out " + out + " " + more, prefix);
+  }
+};
 
 // Each trial of the run in a line, without its times.
 inline std::vector<std::string> trials_of(const std::string& out,

@@ -6,9 +6,7 @@
 namespace assay::reports {
 namespace {
 
-std::string library(const std::string& name) {
-  return std::string(ASSAY_PLUGIN_DIR) + "/plugin_" + name + ".so";
-}
+using tests::plugin;
 
 // What the JSON says of the plug-in, a row for each family.
 struct Benched {
@@ -23,12 +21,12 @@ struct Benched {
 };
 
 Benched bench(const std::string& name, double seconds = 60) {
-  const auto plugin =
-      properties::Subject::open(ASSAY_WORKER, library(name), properties::DetectorPart::by_library,
+  const auto subject =
+      properties::Subject::open(ASSAY_WORKER, plugin(name), properties::DetectorPart::by_library,
                                 {.seconds = seconds})
           .value();
   Benched out;
-  out.report = detector_suite({"/nowhere", 0.01}, plugin, {});
+  out.report = detector_suite({"/nowhere", 0.01}, subject, {});
   const nlohmann::json json = to_json(out.report, "version");
   tests::expect_schema("bench", json);
   for (const auto& row : json["families"]) {
@@ -98,12 +96,10 @@ TEST(DetectorBench, ARunThatEndsEarlyHasNoTimes) {
 
 TEST(DetectorBench, TheVerbWritesItsFiguresAndSaysWhatIsWrong) {
   const tests::Scratch scratch;
-  const auto done =
-      tests::run_assay("bench --quick --data /nowhere --detector " + library("always_free") +
-                       " --json " + (scratch / "j") + " --csv " + (scratch / "c"));
-  EXPECT_EQ(done.exit_code, 1) << done.err;
-  EXPECT_NE(done.out.find("plug-in constant answer 1"), std::string::npos) << done.out;
-  EXPECT_TRUE(says(done.out, "WRONG ANSWER: bend: constant answer breaks free-sound"));
+  tests::expect_ended(
+      tests::run_assay("bench --quick --data /nowhere --detector " + plugin("always_free") +
+                       " --json " + (scratch / "j") + " --csv " + (scratch / "c")),
+      1, {"plug-in constant answer 1", "WRONG ANSWER: bend: constant answer breaks free-sound"});
   const auto json = nlohmann::json::parse(tests::read_text(scratch / "j"));
   EXPECT_EQ(json["subjects"][1]["subject"], "constant answer");
   ASSERT_EQ(json["families"].size(), 2 * corpus::scenes().size());
@@ -113,14 +109,13 @@ TEST(DetectorBench, TheVerbWritesItsFiguresAndSaysWhatIsWrong) {
 
 TEST(DetectorBench, TheVerbRefusesInOneLine) {
   for (const std::string& arguments :
-       {std::string("--detector /nowhere/x.so"), "--detector " + library("without_entry"),
-        "--detector " + library("query_alone"), "--detector " + library("candidates_alone"),
-        "--detector " + library("example") + " --suite sequences",
-        "--detector " + library("example") + " --case-seconds 0",
-        "--detector " + library("example") + " --threads 0"}) {
-    const auto outcome = tests::run_assay("bench " + arguments);
-    EXPECT_EQ(outcome.exit_code, 2) << arguments << outcome.out;
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+       {std::string("--detector /nowhere/x.so"), "--detector " + plugin("without_entry"),
+        "--detector " + plugin("query_alone"), "--detector " + plugin("candidates_alone"),
+        "--detector " + plugin("example") + " --suite sequences",
+        "--detector " + plugin("example") + " --case-seconds 0",
+        "--detector " + plugin("example") + " --threads 0"}) {
+    SCOPED_TRACE(arguments);
+    tests::expect_one_line(tests::run_assay("bench " + arguments));
   }
 }
 

@@ -2,7 +2,7 @@
 #include "corpus/cases/case_file.h"
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/gates/gates.h"
-#include "tests/reports/run_fixture.h"
+#include "tests/reports/tiny_campaign.h"
 
 namespace assay::tests {
 namespace {
@@ -24,10 +24,7 @@ class OwnCases : public RunFixture {
 
 TEST_F(OwnCases, HoldAndAreAGate) {
   add(colliding);
-  const auto made = judge("wrapped_builtin");
-  EXPECT_EQ(made.exit_code, 0) << made.out << made.err;
-  EXPECT_TRUE(contains(made.out, "\nown cases ")) << made.out;
-  EXPECT_TRUE(contains(made.out, "\ncorpus     holds\n")) << made.out;
+  expect_ended(judge("wrapped_builtin"), 0, {"\nown cases ", "\ncorpus     holds\n"});
   const auto findings = properties::read_findings(out).value();
   ASSERT_EQ(findings.evidence.corpus.size(), 1u);
   EXPECT_EQ(findings.evidence.corpus[0].cases, 1u);
@@ -41,10 +38,8 @@ TEST_F(OwnCases, HoldAndAreAGate) {
 TEST_F(OwnCases, ThatFailAreADefectWithAMesh) {
   add(colliding);
   for (int i = 0; i < 2; ++i) {  // the second goes on with what is there
-    const auto made = judge("always_free");
-    EXPECT_EQ(made.exit_code, 1) << made.out << made.err;
-    EXPECT_TRUE(contains(made.out, "\ncorpus     FAILS\n  own/" + colliding)) << made.out;
-    EXPECT_TRUE(contains(made.out, "\nharness    holds\n")) << made.out;
+    expect_ended(judge("always_free"), 1,
+                 {"\ncorpus     FAILS\n  own/" + colliding, "\nharness    holds\n"});
     EXPECT_TRUE(contains(read_text(out + "/junit.xml"), "own/" + colliding));
   }
   const auto findings = properties::read_findings(out).value();
@@ -57,9 +52,7 @@ TEST_F(OwnCases, ThatFailAreADefectWithAMesh) {
   EXPECT_TRUE(is_stored);
   // Another set of cases is another run.
   add("A1_winding2_allpositive");
-  const auto other = judge("always_free");
-  EXPECT_EQ(other.exit_code, 2);
-  EXPECT_TRUE(contains(other.err, "holds another run")) << other.err;
+  expect_problem(judge("always_free"), "holds another run");
 }
 
 // A curated case with triangles far away beside it: no other case has as many as that on which
@@ -110,9 +103,7 @@ TEST_F(OwnCases, ThatCannotBeReadAreRefused) {
 TEST_F(OwnCases, MayNotBeThereYet) {
   for (const bool is_there : {true, false}) {
     if (!is_there) std::filesystem::remove_all(folder);
-    const auto ran = judge("wrapped_builtin");
-    EXPECT_EQ(ran.exit_code, 0) << ran.out << ran.err;
-    EXPECT_TRUE(contains(ran.out, "there is no case in it yet")) << ran.out;
+    expect_ended(judge("wrapped_builtin"), 0, {"there is no case in it yet"});
   }
 }
 

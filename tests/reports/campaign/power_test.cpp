@@ -1,17 +1,122 @@
 // `--power DIR`: the proof that planted faults are found, taken from another run of this build.
 #include "properties/campaign/gates/gates.h"
-#include "tests/reports/campaign/power_fixture.h"
+#include "properties/campaign/ledger/run_folder.h"
+#include "tests/reports/tiny_campaign.h"
 
 namespace assay::tests {
 namespace {
 
-class Power : public PowerFixture {
+// A run that plants all faults and finds them.
+class Power : public testing::Test {
  protected:
+  using Json = nlohmann::ordered_json;
+  using Rows = std::vector<properties::Row>;
+
+  // The curated cases show each of the faults, so that few random ones will do. The tests of a
+  // process share it and leave it as it is.
+  static void SetUpTestSuite() {
+    shared = std::make_unique<Scratch>();
+    const auto plan = shared->write("proof.json", faults_text("proof", 20, 1));
+    const auto made =
+        run_assay("run --seed 7 --jobs 2 --campaign " + plan + " --out " + proof_folder());
+    ASSERT_EQ(made.exit_code, 0) << made.out << made.err;
+    ASSERT_TRUE(contains(made.out, " by their curated case alone\n")) << made.out;
+  }
+  static void TearDownTestSuite() { shared.reset(); }
+  static std::string proof_folder() { return *shared / "proof"; }
+
+  // A campaign that plants faults. `half`: cases of one of its two families, in the other as many.
+  static std::string faults_text(const std::string& name, int cases_of_a_fault, int seeds,
+                                 int half = 8) {
+    const Json plan = {{"schema", "assay-campaign/1"},
+                       {"name", name},
+                       {"strata",
+                        {{{"family", "closed-generic"}, {"cases", half}},
+                         {{"family", "unclosed-generic"}, {"cases", half}},
+                         {{"family", "broken"}, {"cases", half}}}},
+                       {"seconds", nullptr},
+                       {"fault_cases", cases_of_a_fault},
+                       {"fault_seeds", seeds},
+                       {"policy", {{"self_test_queries", 20}}}};
+    return plan.dump();
+  }
+
+  static std::optional<properties::Store> open(const std::string& file) {
+    std::string binding;
+    {
+      const auto read = properties::Store::read(file);
+      EXPECT_TRUE(read) << read.error().message;
+      if (!read) return std::nullopt;
+      binding = read.value().binding();
+    }
+    auto opened = properties::Store::open(file, binding);
+    EXPECT_TRUE(opened) << opened.error().message;
+    if (!opened) return std::nullopt;
+    return std::move(opened.value());
+  }
+  static Rows rows_of(const std::string& file, const std::string& kind) {
+    Rows rows;
+    const auto store = open(file);
+    if (!store) return rows;
+    for (auto& row : store->evidence()) {
+      if (row.kind == kind) rows.push_back(std::move(row));
+    }
+    return rows;
+  }
+  // Another binding of a folder's only store.
+  static void rebind(const std::string& folder, const std::string& digest) {
+    auto store = open(folder + "/run.sqlite");
+    ASSERT_TRUE(store);
+    auto binding = Json::parse(store->binding());
+    binding["digests"][digest] = std::string(64, '0');
+    store->set({"binding", "", 0, binding.dump()});
+    EXPECT_TRUE(store->seal());
+  }
+  // Makes of the first planted fault that a run took over one that was not found: its name.
+  static std::string hide_a_fault(const std::string& file) {
+    auto store = open(file);
+    if (!store) return "";
+    for (auto& row : store->evidence()) {
+      if (row.kind != "fault") continue;
+      auto facts = Json::parse(row.fields);
+      if (facts["status"] != "planted") continue;
+      facts["curated"] = false;
+      for (auto& needed : facts["needed"]) needed = nullptr;
+      row.fields = facts.dump();
+      store->set(row);
+      EXPECT_TRUE(store->seal());
+      return row.key;
+    }
+    ADD_FAILURE() << file << " has no fault that was taken over";
+    return "";
+  }
+  // Makes the campaign that a run took its proof from another one.
+  static void rename_source(const std::string& file, const std::string& key,
+                            const std::string& campaign) {
+    auto sources = rows_of(file, "power");
+    ASSERT_EQ(sources.size(), 1u);
+    auto store = open(file);
+    ASSERT_TRUE(store);
+    store->drop("power");
+    auto fields = nlohmann::json::parse(sources[0].fields);
+    sources[0].key = key;
+    fields["campaign"] = campaign;
+    sources[0].fields = fields.dump();
+    store->set(sources[0]);
+  }
+
+  const Scratch scratch;
+  const std::string library = " --detector " + plugin("wrapped_builtin");
+  const std::string with_proof = " --power " + proof_folder();
+
   const std::string plan = scratch.write("plan.json", faults_text("mine", 20, 1));
   const std::string out = scratch / "out", store = out + "/run.sqlite";
   Outcome run(const std::string& folder, const std::string& more) const {
     return run_assay("run --campaign " + plan + " --out " + folder + library + " " + more);
   }
+
+ private:
+  inline static std::unique_ptr<Scratch> shared;
 };
 
 TEST_F(Power, OfAnotherRunIsCopiedToldAndJudged) {
@@ -62,10 +167,8 @@ TEST_F(Power, ACertificateNamesItAndIsVerified) {
     return run_assay("certify --jobs 2 --campaign " + long_plan + " --out " + out + library +
                      with_proof + more);
   };
-  const auto cut = certify(" --time 1");
-  EXPECT_EQ(cut.exit_code, 3) << cut.out << cut.err;
-  EXPECT_TRUE(contains(cut.out, "\ncomplete   FAILS\n  closed-generic: ")) << cut.out;
-  EXPECT_TRUE(contains(cut.out, "\nverdict: incomplete in ")) << cut.out;
+  expect_ended(certify(" --time 1"), 3,
+               {"\ncomplete   FAILS\n  closed-generic: ", "\nverdict: incomplete in "});
   const std::string certificate = out + "/certificate.json";
   EXPECT_EQ(Json::parse(read_text(certificate))["predicate"]["verdict"], "incomplete");
   const auto before = trials_of(out);
@@ -79,9 +182,7 @@ TEST_F(Power, ACertificateNamesItAndIsVerified) {
   const auto after = trials_of(out);
   EXPECT_EQ(after.size(), 3600u);
   EXPECT_TRUE(std::includes(after.begin(), after.end(), before.begin(), before.end()));
-  const auto verified = run_assay("verify " + certificate);
-  EXPECT_EQ(verified.exit_code, 0) << verified.out;
-  EXPECT_TRUE(contains(verified.out, "verified: mine of ")) << verified.out;
+  expect_ended("verify " + certificate, 0, {"verified: mine of "});
   const auto predicate = Json::parse(read_text(certificate))["predicate"];
   const auto& source = predicate["power"]["taken_from"];
   EXPECT_EQ(source["campaign"], "proof");
@@ -91,11 +192,9 @@ TEST_F(Power, ACertificateNamesItAndIsVerified) {
   EXPECT_EQ(predicate["power"]["planted"], predicate["power"]["found"]);
 
   hide_a_fault(store);
-  const auto tampered = run_assay("verify " + certificate);
-  EXPECT_EQ(tampered.exit_code, 1) << tampered.out;
-  for (const std::string place : {"/predicate/power/faults/", "/predicate/power/found",
-                                  "/predicate/gates/0/state", "/predicate/digests/rows"})
-    EXPECT_TRUE(contains(tampered.out, place)) << place << "\n" << tampered.out;
+  expect_ended("verify " + certificate, 1,
+               {"/predicate/power/faults/", "/predicate/power/found", "/predicate/gates/0/state",
+                "/predicate/digests/rows"});
 }
 
 // Before any work: the folder of the run is not even made.
@@ -104,7 +203,7 @@ TEST_F(Power, IsRefusedInOneLine) {
                            const std::string& why) {
     const auto words = " --campaign " + campaign + " --out " + out + library + " --power " + folder;
     for (const std::string verb : {"run", "certify"}) {
-      expect_refused(run_assay(verb + words), why);
+      expect_refused(verb + words, why);
       EXPECT_FALSE(std::filesystem::exists(out)) << why;
     }
   };
@@ -121,10 +220,9 @@ TEST_F(Power, IsRefusedInOneLine) {
   refused(scratch.write("seeds.json", faults_text("seeds", 20, 2)), proof_folder(),
           "campaign seeds asks for 20 of 2");
   // Where nothing is planted, no proof is wanted.
-  const auto ignored = run_assay("run --campaign " + none + " --out " + (scratch / "ignored") +
-                                 " --power " + proof_folder());
-  EXPECT_EQ(ignored.exit_code, 0) << ignored.err;
-  EXPECT_TRUE(contains(ignored.out, "campaign tiny plants no faults: --power is not needed"));
+  expect_ended(
+      "run --campaign " + none + " --out " + (scratch / "ignored") + " --power " + proof_folder(),
+      0, {"campaign tiny plants no faults: --power is not needed"});
 
   // A proof of a proof.
   ASSERT_EQ(run(scratch / "second", with_proof).exit_code, 0);
@@ -170,22 +268,21 @@ TEST_F(Power, SharesTakeItOverAndAreCertifiedTogether) {
   const auto both = [&](const std::string& name) {
     return run_assay("verify " + folders + "--out " + scratch / name);
   };
-  const auto made = both("both");
-  EXPECT_EQ(made.exit_code, 0) << made.out << made.err;
+  expect_ended(both("both"), 0);
   const auto predicate = Json::parse(read_text(scratch / "both/certificate.json"))["predicate"];
   EXPECT_EQ(predicate["verdict"], "certified");
   EXPECT_EQ(predicate["power"]["taken_from"]["campaign"], "proof");
   EXPECT_EQ(predicate["power"]["planted"], predicate["power"]["found"]);
   const auto hidden = hide_a_fault(scratch / "both/seed-2.sqlite");
-  expect_refused(run_assay("report " + (scratch / "both") + " --out " + scratch / "page.html"),
+  expect_refused("report " + (scratch / "both") + " --out " + scratch / "page.html",
                  "seed-2.sqlite: two runs took over different proofs of " + hidden);
   ASSERT_EQ(both("other").exit_code, 0);
   rename_source(scratch / "other/seed-2.sqlite", "other", "other");
-  expect_refused(run_assay("report " + (scratch / "other") + " --out " + scratch / "page.html"),
+  expect_refused("report " + (scratch / "other") + " --out " + scratch / "page.html",
                  "took over proofs of planted faults from different runs");
   // The key of a row says another name than the row itself.
   rename_source(scratch / "other/seed-2.sqlite", "third", "other");
-  expect_refused(run_assay("report " + (scratch / "other") + " --out " + scratch / "page.html"),
+  expect_refused("report " + (scratch / "other") + " --out " + scratch / "page.html",
                  "power third is not as a run writes it");
 }
 

@@ -1,5 +1,5 @@
 // `assay run` that is killed, interrupted, or started twice: what is stored stays, and the same
-// again goes on.
+// again goes on. A named campaign runs to its end unless its user sets a limit of time.
 #include "properties/random.h"
 #include "tests/reports/campaign/started.h"
 #include "tests/reports/tiny_campaign.h"
@@ -58,8 +58,7 @@ TEST_F(Interrupted, KilledAtAnyMomentItComesToTheSame) {
     killed += WIFSIGNALED(started.end());
   }
   EXPECT_GE(killed, 4);
-  const auto last = run(out);
-  EXPECT_EQ(last.exit_code, 1) << last.out << last.err;
+  expect_ended(run(out), 1);
   EXPECT_EQ(trials_of(out), trials_of(undisturbed));
   EXPECT_EQ(signatures_of(out), signatures_of(undisturbed));
 }
@@ -115,8 +114,7 @@ TEST_F(Interrupted, KilledAtRandomMomentsNothingReportedIsLost) {
       "%d kills: %zu among the trials, %zu after them; %d runs came to their end between; seed %s, "
       "undisturbed %.1f s\n",
       killed, between, after_trials, ended, seed ? seed : "1", whole.count());
-  const auto last = run(out);
-  EXPECT_EQ(last.exit_code, 1) << last.out << last.err;
+  expect_ended(run(out), 1);
   expect_all();
 }
 
@@ -150,8 +148,7 @@ TEST_F(Interrupted, ASecondRunInTheSameFolderIsRefused) {
   started.send(SIGKILL);
   started.end();
   // The dead one does not lock.
-  const auto next = run_assay("run --campaign " + plan + " --time 0.5 --out " + out);
-  EXPECT_EQ(next.exit_code, 3) << next.out << next.err;
+  expect_ended("run --campaign " + plan + " --time 0.5 --out " + out, 3);
 }
 
 TEST_F(Interrupted, ShrinkingLeavesTheBestSoFar) {
@@ -177,6 +174,45 @@ TEST_F(Interrupted, ShrinkingLeavesTheBestSoFar) {
     if (signal == SIGINT && WIFEXITED(status) && WEXITSTATUS(status) == 3) {
       EXPECT_TRUE(says(read_text(text), "interrupted: the smallest so far is in " + small));
     }
+  }
+}
+
+// What `assay run` says it will do. It does not come to do it.
+std::string announced(const std::vector<std::string>& options) {
+  const Scratch scratch;
+  std::vector<std::string> words = {"run", "--jobs", "1", "--out", scratch / "out"};
+  words.insert(words.end(), options.begin(), options.end());
+  const Started started(words, scratch / "text");
+  std::string text;
+  for (int i = 0; i < 3000 && !contains(text, "\nwrites "); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    text = read_text(scratch / "text");
+  }
+  return text;
+}
+
+TEST(RunTimeLimit, SmokeAndQuickHaveNoneButTheUsers) {
+  const std::regex until_done("; 1 jobs; until done\n");
+  const std::regex until_then("; 1 jobs; until [0-2][0-9]:[0-5][0-9]:[0-5][0-9] at the latest\n");
+  for (const std::string name : {"smoke", "quick"}) {
+    const auto without = announced({"--campaign", name});
+    EXPECT_TRUE(contains(without, "campaign " + name + ", seed 1: ")) << without;
+    EXPECT_TRUE(std::regex_search(without, until_done)) << without;
+    const auto with = announced({"--campaign", name, "--time", "60"});
+    EXPECT_TRUE(std::regex_search(with, until_then)) << with;
+  }
+  // Longer than a clock counts: no limit, and above all not over at once.
+  EXPECT_TRUE(std::regex_search(announced({"--campaign", "smoke", "--time", "1e11"}), until_done));
+  const auto nightly = announced({"--campaign", "nightly"});
+  EXPECT_TRUE(std::regex_search(nightly, until_then)) << nightly;
+}
+
+TEST(RunTimeLimit, MoreThanAClockCountsIsNoLimit) {
+  const Scratch scratch;
+  const auto plan = scratch.write("plan.json", plan_text(4, R"(, "tetrahedron_seconds": 1e-3)"));
+  for (const std::string seconds : {"1e11", "1e300"}) {
+    expect_ended("run --campaign " + plan + " --time " + seconds + " --out " + scratch / seconds,
+                 0);
   }
 }
 

@@ -1,6 +1,6 @@
 // Plug-ins that end their own process: on one kind of case always, or now and then. None of them is
 // ever certified.
-#include "tests/reports/run_fixture.h"
+#include "tests/reports/tiny_campaign.h"
 
 namespace assay::tests {
 namespace {
@@ -27,11 +27,8 @@ TEST_F(RunSelfKill, AlwaysOnOneKindOfCaseIsADefectOfTotal) {
       {"aborts", "killed by signal 6 (Aborted)\n"}};
   for (const auto& [name, how] : ends) {
     SCOPED_TRACE(name);
-    const auto ended = verdict(name);
-    EXPECT_EQ(ended.exit_code, 1) << ended.out << ended.err;
-    EXPECT_TRUE(contains(ended.out, "\nDEFECT total: crashed ")) << ended.out;
-    EXPECT_TRUE(contains(ended.out, "  " + how)) << ended.out;
-    EXPECT_TRUE(contains(ended.out, "\nDEFECT: ")) << ended.out;
+    const auto ended =
+        expect_ended(verdict(name), 1, {"\nDEFECT total: crashed ", "  " + how, "\nDEFECT: "});
     EXPECT_FALSE(contains(ended.out, " ran again")) << ended.out;
     EXPECT_TRUE(contains(read_text(out + "/summary.md"), "## Assay: defect\n"));
 
@@ -82,9 +79,7 @@ TEST_F(RunSelfKill, AtRandomIsNeverCertified) {
   for (const auto& stratum : p["times"]["strata"])
     disturbed += stratum["disturbed"].get<std::uint64_t>();
   EXPECT_GT(disturbed, 2u);
-  const auto verified = run_assay("verify " + out + "/certificate.json");
-  EXPECT_EQ(verified.exit_code, made.exit_code) << verified.out;
-  EXPECT_TRUE(contains(verified.out, "verified: ")) << verified.out;
+  expect_ended("verify " + out + "/certificate.json", made.exit_code, {"verified: "});
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 // home with the number of triangles from which it fails, and is not certified up to a size at which
 // it was not judged. Refusals beyond a stated capacity are counted and break nothing.
 #include "properties/campaign/gates/not_judged.h"
-#include "tests/reports/run_fixture.h"
+#include "tests/reports/tiny_campaign.h"
 
 namespace assay::tests {
 namespace {
@@ -30,8 +30,7 @@ class Sizes : public RunFixture {
 };
 
 TEST_F(Sizes, TheBuiltInHoldsAndTheSizeIsSaid) {
-  const auto outcome = run_on(stratum("size-1e3", 4));
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  const auto outcome = expect_ended(run_on(stratum("size-1e3", 4)), 0);
   const auto sizes = judged_sizes(findings());
   EXPECT_FALSE(sizes.empty());
   for (const auto& [claim, triangles] : sizes) {
@@ -44,33 +43,27 @@ TEST_F(Sizes, TheBuiltInHoldsAndTheSizeIsSaid) {
 }
 
 TEST_F(Sizes, FreeAbove5000IsFoundAt10000AndTheNumberIsTold) {
-  const auto outcome = run_on(stratum("size-1e3", 2) + ", " + stratum("size-1e4", 1),
-                              "--detector " + plugin("free_above_5000"), 120);
-  EXPECT_EQ(outcome.exit_code, 1) << outcome.out << outcome.err;
-  EXPECT_TRUE(contains(outcome.out, "fails from 5001 triangles on")) << outcome.out;
+  expect_ended(run_on(stratum("size-1e3", 2) + ", " + stratum("size-1e4", 1),
+                      "--detector " + plugin("free_above_5000"), 120),
+               1, {"fails from 5001 triangles on"});
   EXPECT_EQ(triangles_of_smallest(out), 5001);
 }
 
 TEST_F(Sizes, FreeAbove50000IsFoundAt100000) {
-  const auto outcome =
-      run_on(stratum("size-1e5", 1), "--detector " + plugin("free_above_50000"), 300);
-  EXPECT_EQ(outcome.exit_code, 1) << outcome.out << outcome.err;
-  EXPECT_TRUE(contains(outcome.out, "fails from 50001 triangles on")) << outcome.out;
+  expect_ended(run_on(stratum("size-1e5", 1), "--detector " + plugin("free_above_50000"), 300), 1,
+               {"fails from 50001 triangles on"});
 }
 
 TEST_F(Sizes, ADeepTreeIsFoundAt1000AndComesHomeSmall) {
-  const auto outcome =
-      run_on(stratum("size-1e3", 3), "--detector " + plugin("stack_of_32_levels"), 15);
-  EXPECT_EQ(outcome.exit_code, 1) << outcome.out << outcome.err;
+  expect_ended(run_on(stratum("size-1e3", 3), "--detector " + plugin("stack_of_32_levels"), 15), 1);
   EXPECT_LE(triangles_of_smallest(out), 400);
 }
 
 TEST_F(Sizes, BuffersAndProductsAreFoundAt10000) {
   for (const auto* wrong : {"buffer_of_candidates", "product_in_32_bits"}) {
     std::filesystem::remove_all(out);
-    const auto outcome = run_on(stratum("size-1e4", 4), std::string("--detector ") + plugin(wrong));
-    EXPECT_EQ(outcome.exit_code, 1) << wrong << "\n" << outcome.out << outcome.err;
-    EXPECT_TRUE(contains(outcome.out, "large mesh")) << outcome.out;
+    SCOPED_TRACE(wrong);
+    expect_ended(run_on(stratum("size-1e4", 4), "--detector " + plugin(wrong)), 1, {"large mesh"});
   }
 }
 
@@ -84,10 +77,8 @@ TEST_F(Sizes, RefusalsBeyondTheCapacityAreCounted) {
     unsetenv("ASSAY_BY_CONTRACT");
     return outcome;
   };
-  const auto stated = with("refuse-from=20 capacity-triangles=19");
-  EXPECT_EQ(stated.exit_code, 0) << stated.out << stated.err;
-  EXPECT_TRUE(contains(stated.out, "refused: capacity, in ")) << stated.out;
-  EXPECT_TRUE(contains(stated.out, "capacity 19 triangles")) << stated.out;
+  expect_ended(with("refuse-from=20 capacity-triangles=19"), 0,
+               {"refused: capacity, in ", "capacity 19 triangles"});
   const auto f = findings();
   EXPECT_GT(f.tally.counts.measures.refused, 0u);
   for (const auto& [claim, triangles] : judged_sizes(f)) EXPECT_LT(triangles, 20u) << claim;
@@ -95,12 +86,8 @@ TEST_F(Sizes, RefusalsBeyondTheCapacityAreCounted) {
   EXPECT_GT(largest_tried(f).triangles, 0u);
 
   EXPECT_EQ(with("refuse-pairs-from=9 capacity-contacts=8").exit_code, 0);
-  const auto unstated = with("refuse-from=20");
-  EXPECT_EQ(unstated.exit_code, 1) << unstated.out;
-  EXPECT_TRUE(contains(unstated.out, "total: refused: capacity")) << unstated.out;
-  const auto too_early = with("refuse-pairs-from=8 capacity-contacts=8");
-  EXPECT_EQ(too_early.exit_code, 1) << too_early.out;
-  EXPECT_TRUE(contains(too_early.out, "8 contacts (it holds 8)")) << too_early.out;
+  expect_ended(with("refuse-from=20"), 1, {"total: refused: capacity"});
+  expect_ended(with("refuse-pairs-from=8 capacity-contacts=8"), 1, {"8 contacts (it holds 8)"});
   // Silence is no refusal.
   EXPECT_EQ(with("miss-inside capacity-triangles=3").exit_code, 1);
 }

@@ -17,10 +17,6 @@ using namespace properties;
 using Json = nlohmann::ordered_json;
 using States = std::array<GateState, gate_rules.size()>;
 
-bool contains(const std::string& text, const std::string& word) {
-  return text.find(word) != std::string::npos;
-}
-
 // A folder whose stores bring each gate into the state given. What is not to be judged was not
 // asked for, be it broken or not.
 class GeneratedFolder {

@@ -30,12 +30,11 @@ class CiJob : public testing::Test {
   // The exit code of a line in the folder of the detector. What it prints is in `printed`.
   int run_line(const std::string& line) {
     const std::string log = scratch / "log";
-    const std::string words =
+    const int code = exit_code_of(
         "cd " + (scratch / "mine") + " && export PATH=" + (scratch / "assay/build/release") +
-        ":$PATH CAMPAIGN=" + (scratch / "few.json") + "; (" + line + ") >" + log + " 2>&1";
-    const int status = std::system(words.c_str());
+        ":$PATH CAMPAIGN=" + (scratch / "few.json") + "; (" + line + ") >" + log + " 2>&1");
     printed = read_text(log);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return code;
   }
   int run(const std::string& seed, const std::string& more = "") {
     return run_line("SEED=" + seed + " " + more + " sh " + (source / job_file).string());

@@ -1,22 +1,20 @@
-// JUnit and Markdown say what the certificate says.
-#include "reports/certificate/statement.h"
-#include "reports/certificate/summary.h"
+// JUnit and Markdown say what the certificate says, and take names that are no text, or markup: of
+// a plug-in, of a folder.
+#include "properties/words.h"
+#include "reports/certificate/verify.h"
 #include "tests/properties/campaign/good_findings.h"
-#include "tests/test.h"
+#include "tests/reports/certificate/issued_folder.h"
 
 namespace assay::reports {
 namespace {
 
 using properties::RunFindings, properties::test::failure, properties::test::good_findings;
+using tests::contains;
 
 nlohmann::ordered_json judged(
     const RunFindings& findings,
     const properties::Asked& asked = properties::asked_of_a_certificate()) {
   return make_predicate(findings, judge(findings, asked), findings.run.plan, "");
-}
-
-bool contains(const std::string& text, const std::string& word) {
-  return text.find(word) != std::string::npos;
 }
 
 RunFindings with_a_defect() {
@@ -142,6 +140,60 @@ TEST(Summary, SaysWhoseProofOfPowerItIs) {
   findings.evidence.power = {{"smoke", "built-in", 7, "", "", "", ""}};
   const auto text = summary_text(judged(findings));
   EXPECT_TRUE(contains(text, "Their proof is taken from campaign smoke, seed 7")) << text;
+}
+
+TEST(Printable, IsUtf8WithoutControlCharacters) {
+  const std::string unknown = "\xef\xbf\xbd";
+  const std::pair<std::string, std::string> cases[] = {
+      {"plain, gr\xc3\xbc\xc3\x9f, \xe2\x82\xac, \xf0\x9f\x90\xa2", ""},
+      {"\x1b[31mred\x7f\n", "?[31mred??"},
+      {"\xc2\x9b", "?"},
+      {"a\xff", "a" + unknown},
+      {"\xc3", unknown},                                            // cut
+      {"\xc0\xaf", unknown + unknown},                              // too long a form
+      {"\xed\xa0\x80", unknown + unknown + unknown},                // a surrogate
+      {"\xf4\x90\x80\x80", unknown + unknown + unknown + unknown},  // above U+10FFFF
+  };
+  for (const auto& [text, expected] : cases)
+    EXPECT_EQ(properties::printable(text), expected.empty() ? text : expected);
+}
+
+// All the work is done when the certificate is written: no name may end it then.
+TEST(OddText, OfAPlugInAndAFolderIsReplacedAndVerifies) {
+  const tests::Scratch scratch;
+  const auto folder = scratch / "out";
+  auto run = tests::RunToStore();
+  run.request.detector.name = "bad \xff name";
+  run.request.detector.built_in = false;
+  run.request.detector.configurations = {{"bad \xfe", {}}};
+  run.meet_canary(3).judge("closed-generic", 10, 'H').judge("broken", 10, 'D');
+  run.fail("E1_free_membrane", "all-pairs: missing", "what \xfd");
+  tests::store_and_issue(run, folder, {scratch / "\xff\xfe", "lib\xfc.so"});
+  if (HasFatalFailure()) return;
+  const auto text = tests::read_text(folder + "/certificate.json");
+  EXPECT_TRUE(nlohmann::ordered_json::accept(text)) << "JSON is UTF-8";
+  EXPECT_TRUE(contains(text, "bad \xef\xbf\xbd name"));
+  for (const char* file : {"/junit.xml", "/summary.md"}) {
+    const auto rendered = tests::read_text(folder + file);
+    EXPECT_FALSE(contains(rendered, "\xff") || contains(rendered, "\xfe")) << file;
+  }
+  // The mesh is not written here: nothing else may be amiss.
+  const auto verified = verify_certificate(folder + "/certificate.json");
+  ASSERT_EQ(verified.differences.size(), 1u) << verified.differences[1];
+  EXPECT_TRUE(contains(verified.differences[0], "failures/")) << verified.differences[0];
+}
+
+TEST(OddText, IsNoMarkupInTheSummary) {
+  const tests::Scratch scratch;
+  auto run = tests::good_run();
+  run.request.detector.name = "<img src=x onerror=alert(1)> & | `code` [a](b) *b*";
+  tests::store_and_issue(run, scratch / "out", {"out", ""});
+  const auto summary = tests::read_text(scratch / "out/summary.md");
+  EXPECT_FALSE(contains(summary, "<")) << summary;
+  EXPECT_TRUE(contains(summary,
+                       "&lt;img src=x onerror=alert(1)&gt; &amp; \\| \\`code\\` \\[a\\](b) "
+                       "\\*b\\*"))
+      << summary;
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // The JSON Schemas of what the program reads and writes. The file tests/reports/program.h holds to
 // them what tests let the program write with --json. Here are the others, and what all share.
+#include "properties/campaign/gates/gates.h"
 #include "properties/campaign/plan.h"
+#include "properties/claims/claims.h"
 #include "tests/recorded_log.h"
 #include "tests/reports/program.h"
 #include "tests/reports/stored_run.h"
@@ -23,11 +25,13 @@ std::vector<fs::path> json_files(const std::string& folder) {
 SchemaJson parsed(const fs::path& file) { return SchemaJson::parse(read_text(file.string())); }
 
 // The lines that a schema has for a value.
-std::vector<std::string> wrong_in(const std::string& name, const SchemaJson& value) {
-  const auto schema = schema_named(name);
+std::vector<std::string> wrong_by(const SchemaJson& schema, const SchemaJson& value) {
   std::vector<std::string> wrong;
   check_schema(schema, schema, value, "", wrong);
   return wrong;
+}
+std::vector<std::string> wrong_in(const std::string& name, const SchemaJson& value) {
+  return wrong_by(schema_named(name), value);
 }
 
 // All values of the key, wherever it stands.
@@ -187,6 +191,43 @@ TEST(Schemas, RefuseWhatIsNotOfThem) {
   report = parsed(file);
   report.erase("outcome");
   EXPECT_FALSE(wrong_in("check", report).empty());
+}
+
+// The words that the schema of certificates lists are those of the enums.
+TEST(Words, OfTheSchemaAreThoseOfClaimsAndGates) {
+  const auto types = schema_named("certificate").at("$defs");
+  std::vector<std::string> claims, gates;
+  for (const auto claim : properties::all_claims()) claims.emplace_back(name_of(claim));
+  EXPECT_EQ(types.at("claim").at("enum"), SchemaJson(claims));
+  for (const auto& rule : properties::gate_rules) gates.emplace_back(rule.name);
+  EXPECT_EQ(types.at("gate").at("enum"), SchemaJson(gates));
+}
+
+// The files of a conformance set, and of results, are as the schemas of corpus/vectors say.
+TEST(VectorSchemas, AreThoseOfSetsAndResults) {
+  const std::string room = ASSAY_SOURCE_DIR "/corpus/vectors", results = room + "/results";
+  const std::string mini = ASSAY_SOURCE_DIR "/tests/corpus/vectors/mini_set";
+  const auto of_vectors = parsed(room + "/schema/vectors.schema.json");
+  const auto of_results = parsed(room + "/schema/results.schema.json");
+  int files = 0;
+  for (const auto& folder : {mini, room, results}) {
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      if (entry.path().extension() != ".json") continue;
+      SCOPED_TRACE(entry.path());
+      ++files;
+      auto value = parsed(entry.path());
+      EXPECT_EQ(wrong_by(folder == results ? of_results : of_vectors, value),
+                std::vector<std::string>());
+      value.erase("schema");
+      if (folder == mini) {
+        EXPECT_NE(wrong_by(of_vectors, value), std::vector<std::string>());
+      }
+    }
+  }
+  EXPECT_EQ(files, 6 + 13 + 10);
+  auto changed = parsed(results + "/assay_exact.json");
+  changed["answers"]["vf-d-0001"]["answer"] = "perhaps";
+  EXPECT_FALSE(wrong_by(of_results, changed).empty());
 }
 
 }  // namespace

@@ -35,11 +35,10 @@ class AtRest : public testing::Test {
 };
 
 TEST_F(AtRest, OneFrameIsAskedWhetherItMeetsItself) {
-  const auto meets = check(pair("crossing.obj", "-1"));
-  EXPECT_EQ(meets.exit_code, 0) << meets.out << meets.err;
-  EXPECT_TRUE(contains(meets.out, "2 components (2 unclosed); ")) << meets.out;
-  EXPECT_TRUE(contains(meets.out, "at rest: collision, 1 pair in contact; agree\n")) << meets.out;
-  EXPECT_TRUE(contains(meets.out, "the mesh meets itself: 1 pair; detector and oracle agree\n"));
+  const auto meets =
+      expect_ended(check(pair("crossing.obj", "-1")), 0,
+                   {"2 components (2 unclosed); ", "at rest: collision, 1 pair in contact; agree\n",
+                    "the mesh meets itself: 1 pair; detector and oracle agree\n"});
   EXPECT_FALSE(contains(meets.out, "t = ")) << meets.out;
   EXPECT_EQ(report()["at_rest"], true);
   EXPECT_EQ(report()["culling"], "bvh");
@@ -47,10 +46,8 @@ TEST_F(AtRest, OneFrameIsAskedWhetherItMeetsItself) {
   EXPECT_EQ(report()["culling"], "auto");
   EXPECT_EQ(check(pair("crossing.obj", "-1") + " --fail-on-collision").exit_code, 5);
 
-  const auto free = check(pair("free.obj", "1") + " --fail-on-collision");
-  EXPECT_EQ(free.exit_code, 0) << free.err;
-  EXPECT_TRUE(contains(free.out, "the mesh does not meet itself; detector and oracle agree\n"))
-      << free.out;
+  expect_ended(check(pair("free.obj", "1") + " --fail-on-collision"), 0,
+               {"the mesh does not meet itself; detector and oracle agree\n"});
   // The same frame twice is a motion, and its answer is the same.
   const auto twice = check(pair("crossing.obj", "-1") + " " + pair("again.obj", "-1"));
   EXPECT_TRUE(contains(twice.out, "collision at t = 0 of step 1")) << twice.out;
@@ -64,29 +61,24 @@ TEST_F(AtRest, ACaseFileMayHaveOneFrame) {
   c["expected"] = json::parse(R"({"answer": "collision", "steps": []})");
   c["pending"] = json::object();
   const auto file = scratch.write("rest.json", c.dump());
-  const auto meets = check(file);
-  EXPECT_EQ(meets.exit_code, 0) << meets.out << meets.err;
-  EXPECT_TRUE(contains(meets.out, "the mesh meets itself: ")) << meets.out;
+  expect_ended(check(file), 0, {"the mesh meets itself: "});
   EXPECT_EQ(run_assay("replay " + file).exit_code, 0);
 }
 
 TEST_F(AtRest, APlugInIsJudgedToo) {
   const auto file = pair("crossing.obj", "-1");
-  const auto right = check(file + " --detector " + plugin("wrapped_builtin"));
-  EXPECT_EQ(right.exit_code, 0) << right.out << right.err;
-  EXPECT_TRUE(contains(right.out, "the mesh meets itself: 1 pair; ")) << right.out;
-  EXPECT_TRUE(contains(right.out, "  crossing: 1, touching: 0\n")) << right.out;
-  const auto wrong =
-      check(file + " --detector " + plugin("wrong_wrapper") + " --keep " + (scratch / "kept"));
-  EXPECT_EQ(wrong.exit_code, 1) << wrong.out << wrong.err;
-  EXPECT_TRUE(contains(wrong.out, "the mesh meets itself: 1 pair; DEFECT")) << wrong.out;
+  expect_ended(check(file + " --detector " + plugin("wrapped_builtin")), 0,
+               {"the mesh meets itself: 1 pair; ", "  crossing: 1, touching: 0\n"});
+  expect_ended(
+      check(file + " --detector " + plugin("wrong_wrapper") + " --keep " + (scratch / "kept")), 1,
+      {"the mesh meets itself: 1 pair; DEFECT"});
 }
 
 TEST_F(AtRest, BodiesAreNamed) {
   const auto crossing =
-      check("--body " + box("a.obj", {0, 0, 0}, 2) + " --body " + box("b.obj", {1, 1, 1}, 2) +
-            " --body " + box("far.obj", {9, 9, 9}, 1));
-  EXPECT_EQ(crossing.exit_code, 0) << crossing.out << crossing.err;
+      expect_ended(check("--body " + box("a.obj", {0, 0, 0}, 2) + " --body " +
+                         box("b.obj", {1, 1, 1}, 2) + " --body " + box("far.obj", {9, 9, 9}, 1)),
+                   0);
   EXPECT_TRUE(std::regex_search(
       crossing.out, std::regex("\nbody 0 meets body 1: [0-9]+ pairs; detector and oracle agree")))
       << crossing.out;
@@ -165,11 +157,9 @@ TEST_F(AtRest, ABodyInsideOfAnotherIsTold) {
 TEST_F(AtRest, WithinADistance) {
   const auto bodies =
       "--body " + box("a.obj", {0, 0, 0}, 2) + " --body " + box("b.obj", {2.5, 0, 0}, 1);
-  const auto near = check(bodies + " --separation 0.5");
-  EXPECT_EQ(near.exit_code, 0) << near.out << near.err;
-  EXPECT_TRUE(contains(near.out, "at rest: near, ")) << near.out;
-  EXPECT_TRUE(contains(near.out, "  first: triangles ")) << near.out;
-  EXPECT_TRUE(contains(near.out, " of body 0 and triangle ")) << near.out;
+  const auto near =
+      expect_ended(check(bodies + " --separation 0.5"), 0,
+                   {"at rest: near, ", "  first: triangles ", " of body 0 and triangle "});
   EXPECT_TRUE(
       std::regex_search(near.out, std::regex("\nwithin 0.5: [0-9]+ pairs; least distance 0.5\n")))
       << near.out;
@@ -203,11 +193,7 @@ TEST_F(AtRest, ContactsOfAMotionAreNamedWithTheirPlaces) {
 TEST_F(AtRest, TenContactsAreNamed) {
   const auto all =
       check("--body " + box("a.obj", {0, 0, 0}, 2) + " --body " + box("b.obj", {0, 0, 2}, 2));
-  std::size_t named = 0;
-  for (auto at = all.out.find("  contact: "); at != std::string::npos;
-       at = all.out.find("  contact: ", at + 1))
-    ++named;
-  EXPECT_EQ(named, 10u) << all.out;
+  EXPECT_EQ(count_of(all.out, "  contact: "), 10u) << all.out;
   const auto count = report()["steps"][0]["contacts"].size();
   EXPECT_TRUE(contains(all.out, "  ... " + std::to_string(count - 10) + " more in contact"))
       << all.out;

@@ -26,12 +26,9 @@ class CheckedBodies : public testing::Test {
 };
 
 TEST_F(CheckedBodies, MeetByDefault) {
-  const auto outcome = run_assay("check --body " + still + " --body " + comes + " --json " +
-                                 (scratch / "report.json"));
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-  EXPECT_TRUE(contains(outcome.out, "2 bodies: 8 triangles, 8 vertices, 2 components"))
-      << outcome.out;
-  EXPECT_TRUE(contains(outcome.out, "detector and oracle agree")) << outcome.out;
+  expect_ended(
+      "check --body " + still + " --body " + comes + " --json " + (scratch / "report.json"), 0,
+      {"2 bodies: 8 triangles, 8 vertices, 2 components", "detector and oracle agree"});
   const auto report = json::parse(read_text(scratch / "report.json"));
   EXPECT_EQ(report["steps"][0]["answer"], "collision");
   EXPECT_EQ(report["files"].size(), 3u);
@@ -41,29 +38,22 @@ TEST_F(CheckedBodies, MeetByDefault) {
 
 TEST_F(CheckedBodies, ApartDoNot) {
   const auto bodies = "check --body " + still + " --body " + comes;
-  const auto outcome = run_assay(bodies + " --apart 1,0 --fail-on-collision");
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-  EXPECT_TRUE(contains(outcome.out, "no collision; detector and oracle agree")) << outcome.out;
+  expect_ended(bodies + " --apart 1,0 --fail-on-collision", 0,
+               {"no collision; detector and oracle agree"});
   // The oracle is asked for all pairs where other methods look at it.
-  const auto second = run_assay(bodies + " --apart 1,0 --second-opinion 1");
-  EXPECT_EQ(second.exit_code, 0) << second.out << second.err;
+  expect_ended(bodies + " --apart 1,0 --second-opinion 1", 0);
   // A plug-in that cannot be told is asked about all pairs, and says so.
-  const auto plug_in = run_assay(bodies + " --apart 1,0 --detector " + plugin("wrapped_builtin"));
-  EXPECT_EQ(plug_in.exit_code, 0) << plug_in.out << plug_in.err;
-  EXPECT_TRUE(contains(plug_in.out, "it cannot be told which pairs count, so that all do"));
-  EXPECT_TRUE(contains(plug_in.out, "collision at t ="));
-  const auto told = run_assay(bodies + " --apart 1,0 --detector " + plugin("takes_relations"));
-  EXPECT_EQ(told.exit_code, 0) << told.out << told.err;
-  EXPECT_TRUE(contains(told.out, "no collision"));
+  expect_ended(bodies + " --apart 1,0 --detector " + plugin("wrapped_builtin"), 0,
+               {"it cannot be told which pairs count, so that all do", "collision at t ="});
+  expect_ended(bodies + " --apart 1,0 --detector " + plugin("takes_relations"), 0,
+               {"no collision"});
 }
 
 TEST_F(CheckedBodies, NameTheTrianglesOfADefect) {
-  const auto wrong = run_assay("check --body " + comes + " --body " + still + " --apart 0,1 " +
-                                   "--detector " + plugin("takes_relations"),
-                               "ASSAY_TAKES_RELATIONS=ignores ");
-  EXPECT_EQ(wrong.exit_code, 1) << wrong.out << wrong.err;
-  EXPECT_TRUE(contains(wrong.out, " of body 0 and triangle ")) << wrong.out;
-  EXPECT_TRUE(contains(wrong.out, " of body 1) at t = ")) << wrong.out;
+  expect_ended(run_assay("check --body " + comes + " --body " + still + " --apart 0,1 " +
+                             "--detector " + plugin("takes_relations"),
+                         "ASSAY_TAKES_RELATIONS=ignores "),
+               1, {" of body 0 and triangle ", " of body 1) at t = "});
 }
 
 // A detector that cannot be told of bodies has its failures named by them all the same.
@@ -75,8 +65,7 @@ TEST_F(CheckedBodies, NameWhatAnyDetectorMissesOrHasLate) {
   const auto is_named = [&](const std::string& text, const std::string& before) {
     return std::regex_search(text, std::regex(before + "triangles [0-3] and [4-7]" + named));
   };
-  const auto missing = run_assay(two, "ASSAY_TEST_WRONG=0 ");
-  EXPECT_EQ(missing.exit_code, 1) << missing.out << missing.err;
+  const auto missing = expect_ended(run_assay(two, "ASSAY_TEST_WRONG=0 "), 1);
   EXPECT_TRUE(is_named(missing.out, "  missing: ")) << missing.out;
   EXPECT_TRUE(is_named(missing.out, "  contact: ")) << missing.out;
   EXPECT_TRUE(std::regex_search(read_text(scratch / "kept/step-1/case.json"), std::regex(named)));
@@ -116,22 +105,17 @@ TEST_F(CheckedBodies, DoubledCornersAreToldAndLeftOut) {
   expect(" --rings 1", 5, "collision at t = 0");
   // Welded, all four faces have an edge in common.
   expect(" --weld --rings 1 --separation 0", 0, "no two triangles count");
-  const auto of_a_case = run_assay("check corpus/curated/B1_one_vertex_own_nearest.json --weld");
-  EXPECT_EQ(of_a_case.exit_code, 2);
-  EXPECT_TRUE(contains(of_a_case.err, "a case file states what counts")) << of_a_case.err;
+  expect_problem(run_assay("check corpus/curated/B1_one_vertex_own_nearest.json --weld"),
+                 "a case file states what counts");
 }
 
 TEST_F(CheckedBodies, BadWordsAreOneLine) {
-  const auto expect_refused = [&](const std::string& arguments, const std::string& why) {
-    const auto refused = run_assay("check " + arguments);
-    EXPECT_EQ(refused.exit_code, 2) << arguments;
-    EXPECT_TRUE(contains(refused.err, why)) << refused.err;
-  };
-  expect_refused("", "FRAME is required");
-  expect_refused(comes + " --apart 0,0", "--apart is of bodies");
-  expect_refused(comes + " --body " + comes, "do not go together");
-  expect_refused("--body " + comes + " --apart 0", "A,B: two bodies by number");
-  expect_refused("--body " + comes + " --apart 0,3", "a pair of bodies names 3 of 1");
+  expect_problem(run_assay("check "), "FRAME is required");
+  expect_problem(run_assay("check " + comes + " --apart 0,0"), "--apart is of bodies");
+  expect_problem(run_assay("check " + comes + " --body " + comes), "do not go together");
+  expect_problem(run_assay("check --body " + comes + " --apart 0"), "A,B: two bodies by number");
+  expect_problem(run_assay("check --body " + comes + " --apart 0,3"),
+                 "a pair of bodies names 3 of 1");
 }
 
 }  // namespace

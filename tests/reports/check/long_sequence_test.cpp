@@ -11,10 +11,9 @@ class LongSequence : public testing::Test {
   // The frames of a sphere that grows.
   std::vector<std::string> sphere(int triangles, int frames) const {
     const std::string folder = scratch / "sphere";
-    EXPECT_EQ(run_assay("scene breathing-sphere --size " + std::to_string(triangles) +
-                        " --frames " + std::to_string(frames) + " --out " + folder)
-                  .exit_code,
-              0);
+    expect_ended("scene breathing-sphere --size " + std::to_string(triangles) + " --frames " +
+                     std::to_string(frames) + " --out " + folder,
+                 0);
     std::vector<std::string> files;
     for (const auto& file : std::filesystem::directory_iterator(folder))
       files.push_back(file.path().string());
@@ -55,32 +54,16 @@ class BadLateFrame : public LongSequence {
     return all;
   }
 
-  static void expect_one_line(const Outcome& outcome, const std::vector<std::string>& words) {
-    EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-    for (const auto& word : words)
-      EXPECT_NE(outcome.err.find(word), std::string::npos) << outcome.err;
-  }
-
   // The fourth frame is found to be bad when its step comes.
   void expect_two_steps(const std::string& text, const std::vector<std::string>& words) {
     SCOPED_TRACE(words.back());
     files[3] = scratch.write("bad.obj", text);
     const std::string report = scratch / "report.json";
     const Outcome outcome = run_assay(arguments() + " --json " + report);
-    expect_one_line(outcome, words);
-    EXPECT_NE(outcome.out.find("; 4 steps;"), std::string::npos) << outcome.out;
-    EXPECT_NE(outcome.out.find("step 1: free"), std::string::npos) << outcome.out;
-    EXPECT_NE(outcome.out.find("step 2: free"), std::string::npos) << outcome.out;
+    for (const auto& word : words) expect_one_line(outcome, word);
+    expect_ended(outcome, 2, {"; 4 steps;", "step 1: free", "step 2: free"});
     EXPECT_EQ(outcome.out.find("step 3"), std::string::npos) << outcome.out;
     EXPECT_FALSE(std::filesystem::exists(report));
-  }
-
-  // The file is refused before anything is told.
-  void expect_nothing_told(const std::string& file, const std::string& arguments) {
-    const Outcome outcome = run_assay(arguments);
-    expect_one_line(outcome, {file});
-    EXPECT_EQ(outcome.out, "");
   }
 
   std::vector<std::string> files;
@@ -101,17 +84,16 @@ TEST_F(BadLateFrame, EndsTheCheckAfterTheStepsBeforeIt) {
 
 TEST_F(BadLateFrame, IsRefusedAtOnceWhereThatCanBeSeen) {
   files[3] = scratch / "absent.ply";
-  expect_nothing_told("absent.ply", arguments());
+  expect_refused(arguments(), "absent.ply");
   files[3] = scratch.write("frame.xyz", "1 2 3\n");
-  expect_nothing_told("frame.xyz", arguments());
+  expect_refused(arguments(), "frame.xyz");
   files[3] = scratch.write("empty.obj", "");
-  expect_nothing_told("empty.obj", arguments());
+  expect_refused(arguments(), "empty.obj");
 }
 
 TEST_F(BadLateFrame, IsRefusedAtOnceForAPlugInBecauseItIsSentTheWholeCase) {
   files[3] = scratch.write("cut.ply", good.substr(0, good.size() - 20));
-  expect_nothing_told("cut.ply",
-                      arguments() + " --detector " ASSAY_PLUGIN_DIR "/plugin_example.so");
+  expect_refused(arguments() + " --detector " ASSAY_PLUGIN_DIR "/plugin_example.so", "cut.ply");
 }
 
 // As long as `seconds` of processor time.

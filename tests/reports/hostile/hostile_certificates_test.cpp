@@ -29,9 +29,7 @@ TEST_F(HostilePlugin, LimitsOfTheUserBuyNoCertificate) {
 }
 
 TEST_F(HostilePlugin, LimitsAloneStandInTheCertificate) {
-  const auto made = judge("certify", "", "", forbidden_bwrap);
-  EXPECT_EQ(made.exit_code, 1) << made.out << made.err;
-  EXPECT_TRUE(contains(made.out, "isolation limits alone;")) << made.out;
+  expect_ended(judge("certify", "", "", forbidden_bwrap), 1, {"isolation limits alone;"});
   EXPECT_TRUE(contains(read_text(out + "/certificate.json"), "\"isolation\": \"limits alone\""));
 }
 

@@ -55,8 +55,22 @@ class Runs : public testing::Test {
     EXPECT_FALSE(says(findings.error(), "\n"));
   }
   Json page_of(const RunToStore& run, const std::string& name) {
-    const auto findings = read_run(run.store(scratch / name));
+    return page_of(read_run(run.store(scratch / name)));
+  }
+  static Json page_of(const properties::RunFindings& findings) {
     return reports::run_json(findings, judge(findings));
+  }
+  // A failure that a plug-in of tests/plugins has under these words in its environment, as a scene.
+  Json scene_of(const std::string& library, const char* variable, const char* words,
+                const corpus::Case& c, const std::string& signature) {
+    setenv(variable, words, 1);
+    RunToStore run;
+    run.request.plugin = plugin(library);
+    run.request.detector.built_in = false;
+    run.fail(c, signature, "a line");
+    const auto scene = reports::failure_scenes(read_run(run.store(scratch / library)))[0]["scene"];
+    unsetenv(variable);
+    return scene;
   }
   const Scratch scratch;
 };
@@ -103,7 +117,7 @@ TEST_F(Runs, SharesAreSummed) {
   EXPECT_EQ(findings.tally.trials(), 10u);
   EXPECT_EQ(findings.planned(), 20u);
   EXPECT_TRUE(findings.is_whole());
-  const auto page = reports::run_json(findings, judge(findings));
+  const auto page = page_of(findings);
   EXPECT_EQ(page["findings"]["strata"][1]["with_defect"], 1u);
   const auto& parts = page["findings"]["campaign"]["parts"];
   ASSERT_EQ(parts.size(), 2u);
@@ -168,7 +182,7 @@ TEST_F(Runs, APageTellsNoFolderOfTheMachineThatItIsMadeOn) {
         .fail("A1_winding2_allpositive", "free-sound: answered free", "another");
     const std::string name = library == outside ? "one" : "other";
     const auto findings = read_run(run.store(scratch / name));
-    auto page = reports::run_json(findings, judge(findings));
+    auto page = page_of(findings);
     page["failures"] = reports::failure_scenes(findings);
     const std::string told = library == outside ? "a detector.so" : "../beside/own.so";
     const std::string word = library == outside ? "'a detector.so'" : told;
@@ -220,7 +234,7 @@ TEST_F(Runs, TheDayOnWhichTheFirstShareBeganIsTold) {
     run.store(folder, "seed-" + std::to_string(seed));
   }
   const auto findings = read_run(folder);
-  const auto page = reports::run_json(findings, judge(findings));
+  const auto page = page_of(findings);
   EXPECT_EQ(page["begun"], "2026-01-31T23:50:00Z");
   EXPECT_TRUE(page_of(RunToStore(), "older")["begun"].is_null());
 }
@@ -228,10 +242,10 @@ TEST_F(Runs, TheDayOnWhichTheFirstShareBeganIsTold) {
 // A run stores the digest of its program alone.
 TEST_F(Runs, TheVersionIsKnownWhereTheSameProgramMakesThePage) {
   auto findings = read_run(RunToStore().store(scratch / "run"));
-  const auto own = reports::run_json(findings, judge(findings));
+  const auto own = page_of(findings);
   EXPECT_TRUE(own["findings"]["versions"]["assay"].is_string()) << own["findings"]["versions"];
   findings.run.digests.program->front() ^= 1;
-  const auto other = reports::run_json(findings, judge(findings));
+  const auto other = page_of(findings);
   EXPECT_TRUE(other["findings"]["versions"].is_null());
 }
 
@@ -286,7 +300,7 @@ TEST_F(Runs, AreOfTheSchema) {
       .fail("B1_one_vertex_own_nearest", "all-pairs: missing", "two");
   run.meet_canary(4);
   const auto findings = read_run(run.store(scratch / "fields"));
-  auto json = reports::run_json(findings, judge(findings));
+  auto json = page_of(findings);
   json["failures"] = reports::failure_scenes(findings);
   ASSERT_EQ(json["failures"].size(), 1u) << "one a signature";
   EXPECT_EQ(json["findings"]["failures"].size(), 1u);
@@ -322,13 +336,8 @@ TEST_F(Runs, ASceneHoldsWhatTheOracleFound) {
 // A page that holds a neighbour against a detector that tests none accuses it of what nobody
 // promised.
 TEST_F(Runs, ASceneObeysThePlugInsContract) {
-  setenv("ASSAY_BY_CONTRACT", "strangers drop-last", 1);
-  RunToStore run;
-  run.request.plugin = std::string(ASSAY_PLUGIN_DIR) + "/plugin_by_contract.so";
-  run.request.detector.built_in = false;
-  run.fail("A1_winding2_allpositive", "all-pairs: missing pair", "a line");
-  const auto scene = reports::failure_scenes(read_run(run.store(scratch / "contract")))[0]["scene"];
-  unsetenv("ASSAY_BY_CONTRACT");
+  const auto scene = scene_of("by_contract", "ASSAY_BY_CONTRACT", "strangers drop-last",
+                              curated_case("A1_winding2_allpositive"), "all-pairs: missing pair");
   const auto& step = scene["steps"][0];
   ASSERT_FALSE(step["left_out"].empty());
   EXPECT_EQ(step["oracle"]["pairs"].size() + step["left_out"].size(), 10u);
@@ -340,13 +349,8 @@ TEST_F(Runs, ASceneObeysThePlugInsContract) {
 }
 
 TEST_F(Runs, ASceneUnderADistanceHasTheNearestPointsAndTheBodies) {
-  setenv("ASSAY_KEEPS_DISTANCE", "separation=0.5 ignores-it", 1);
-  RunToStore run;
-  run.request.plugin = std::string(ASSAY_PLUGIN_DIR) + "/plugin_keeps_distance.so";
-  run.request.detector.built_in = false;
-  run.fail(one_above_another(1, 0), "not-late: late", "a line");
-  const auto scene = reports::failure_scenes(read_run(run.store(scratch / "near")))[0]["scene"];
-  unsetenv("ASSAY_KEEPS_DISTANCE");
+  const auto scene = scene_of("keeps_distance", "ASSAY_KEEPS_DISTANCE", "separation=0.5 ignores-it",
+                              one_above_another(1, 0), "not-late: late");
   EXPECT_EQ(scene["asked"], "d 0.5");
   EXPECT_EQ(scene["bodies"], Json::array({0, 1}));
   const auto& step = scene["steps"][0];

@@ -4,6 +4,7 @@
 #include "properties/worker/plugin/query_case.h"
 #include "reports/pictures/case_scene.h"
 #include "reports/pictures/mesh_svg.h"
+#include "tests/reports/program.h"
 #include "tests/reports/stored_run.h"
 #include "tests/sinking_corner.h"
 
@@ -13,17 +14,22 @@ namespace {
 using detector::Positions, detector::Triangles, reports::contact_places, reports::ViewSet;
 using Vector = Eigen::Vector3d;
 
-std::size_t count_of(const std::string& text, const std::string& word) {
-  std::size_t count = 0;
-  for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++count;
-  return count;
-}
-
 reports::CaseScene scene_of(const corpus::Case& c) {
   reports::SceneMaker maker{reports::DetectorWords{}};
   auto scene = maker.scene_of(c, "view-point");
   EXPECT_TRUE(scene);
-  return *scene;
+  return scene.value();
+}
+
+// Of a plug-in of tests/plugins, under these words in its environment.
+reports::CaseScene scene_of(const corpus::Case& c, const std::string& name, const char* variable,
+                            const char* words) {
+  setenv(variable, words, 1);
+  reports::SceneMaker maker{reports::DetectorWords{plugin(name), {}}};
+  auto scene = maker.scene_of(c, "x");
+  unsetenv(variable);
+  EXPECT_TRUE(scene);
+  return scene.value();
 }
 
 TEST(NearestPoints, OfSegments) {
@@ -164,29 +170,23 @@ TEST(Scene, ADetectorThatIsNotAtHandCostsItsPartAlone) {
 }
 
 TEST(Scene, APlugInThatIsAlwaysFreeShowsItsFailure) {
-  reports::SceneMaker maker{
-      reports::DetectorWords{std::string(ASSAY_PLUGIN_DIR) + "/plugin_always_free.so", {}}};
-  const auto scene = maker.scene_of(curated_case("A1_winding2_allpositive"), "x");
-  ASSERT_TRUE(scene);
-  ASSERT_TRUE(scene->failure);
-  EXPECT_EQ(scene->failure->kind, "answered free");
-  EXPECT_EQ(scene->shown_pair(), scene->failure->pair);
-  EXPECT_TRUE(scene->steps[0].answered->pairs.empty());
+  const auto scene =
+      scene_of(curated_case("A1_winding2_allpositive"), "always_free", "ASSAY_BY_CONTRACT", "");
+  ASSERT_TRUE(scene.failure);
+  EXPECT_EQ(scene.failure->kind, "answered free");
+  EXPECT_EQ(scene.shown_pair(), scene.failure->pair);
+  EXPECT_TRUE(scene.steps[0].answered->pairs.empty());
 }
 
 // What is missing is what its claims and its contract let nobody leave out.
 TEST(Scene, OfAPlugInObeysItsClaimsAndItsContract) {
   const auto c = curated_case("A1_winding2_allpositive");
   const auto differences = [&](const char* words) {
-    setenv("ASSAY_BY_CONTRACT", words, 1);
-    reports::SceneMaker maker{
-        reports::DetectorWords{std::string(ASSAY_PLUGIN_DIR) + "/plugin_by_contract.so", {}}};
-    const auto scene = maker.scene_of(c, "x");
-    unsetenv("ASSAY_BY_CONTRACT");
+    const auto scene = scene_of(c, "by_contract", "ASSAY_BY_CONTRACT", words);
     std::map<std::string, std::size_t> counts;
-    const auto& truth = scene->steps[0].truth;
+    const auto& truth = scene.steps[0].truth;
     for (const auto* list : {&truth.pairs, &truth.left_out}) {
-      for (const auto& contact : *list) ++counts[scene->steps[0].difference(contact.pair, *scene)];
+      for (const auto& contact : *list) ++counts[scene.steps[0].difference(contact.pair, scene)];
     }
     return counts;
   };
@@ -226,16 +226,12 @@ TEST(Scene, UnderADistanceHasTheNearestPointsOfTheTwoTriangles) {
 }
 
 TEST(Scene, ADetectorThatIgnoresTheDistanceShowsHowNearThePairIs) {
-  setenv("ASSAY_KEEPS_DISTANCE", "separation=0.5 margin=0.125 ignores-it", 1);
-  reports::SceneMaker maker{
-      reports::DetectorWords{std::string(ASSAY_PLUGIN_DIR) + "/plugin_keeps_distance.so", {}}};
-  const auto scene = maker.scene_of(one_above_another(1, 0.25), "x");
-  unsetenv("ASSAY_KEEPS_DISTANCE");
-  ASSERT_TRUE(scene);
-  ASSERT_TRUE(scene->failure);
-  EXPECT_EQ(scene->failure->kind, "answered free");
-  EXPECT_NEAR(shown_distance(*scene), 0.5, 1e-15);
-  const auto svg = reports::mesh_svg(*scene, "x");
+  const auto scene = scene_of(one_above_another(1, 0.25), "keeps_distance", "ASSAY_KEEPS_DISTANCE",
+                              "separation=0.5 margin=0.125 ignores-it");
+  ASSERT_TRUE(scene.failure);
+  EXPECT_EQ(scene.failure->kind, "answered free");
+  EXPECT_NEAR(shown_distance(scene), 0.5, 1e-15);
+  const auto svg = reports::mesh_svg(scene, "x");
   EXPECT_EQ(count_of(svg, ">distance 0.5, d 0.5, slack 0.125<"), 1u) << svg;
   EXPECT_EQ(count_of(svg, "<line"), 1u);
   EXPECT_EQ(count_of(svg, "<circle"), 2u);

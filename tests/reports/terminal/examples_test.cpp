@@ -44,11 +44,8 @@ std::string made_small(std::string command) {
 // Runs a line in a folder, in a shell that finds the program. What it prints is in files of the
 // scratch folder.
 int code_of(const Scratch& scratch, const std::string& folder, const std::string& line) {
-  const int status =
-      std::system(("cd " + folder + " && PATH=" + (scratch / "bin") + ":$PATH && { " + line +
-                   "; } >" + (scratch / "out") + " 2>" + (scratch / "err") + " </dev/null")
-                      .c_str());
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return exit_code_of("cd " + folder + " && PATH=" + (scratch / "bin") + ":$PATH && { " + line +
+                      "; } >" + (scratch / "out") + " 2>" + (scratch / "err") + " </dev/null");
 }
 
 struct Pasted {

@@ -26,18 +26,16 @@ std::vector<std::string> verbs() {
 }
 
 TEST(Help, IsOneTextHoweverItIsAsked) {
-  const auto all = run_assay("help");
-  EXPECT_EQ(all.exit_code, 0);
+  const auto all = expect_ended("help", 0);
   EXPECT_EQ(run_assay("--help").out, all.out);
   EXPECT_EQ(run_assay("-h").out, all.out);
   EXPECT_EQ(verbs().size(), 13u);
-  const auto run = run_assay("help run");
-  EXPECT_EQ(run.exit_code, 0);
+  const auto run = expect_ended("help run", 0);
   EXPECT_EQ(run_assay("run --help").out, run.out);
   EXPECT_EQ(run_assay("run --campaign smoke -h").out, run.out);
   EXPECT_EQ(run_assay("version").out, run_assay("--version").out);
-  expect_refused(run_assay("help chekc"), "unknown verb 'chekc'; did you mean check?");
-  expect_refused(run_assay("versoin"), "unknown verb 'versoin'; did you mean version?");
+  expect_refused("help chekc", "unknown verb 'chekc'; did you mean check?");
+  expect_refused("versoin", "unknown verb 'versoin'; did you mean version?");
 }
 
 TEST(Help, TheVersionNamesItsCommit) {
@@ -51,9 +49,7 @@ TEST(Help, TheVersionNamesItsCommit) {
 TEST(Help, OfEachVerbIsWholeAndFitsOnATerminal) {
   for (const auto& verb : verbs()) {
     SCOPED_TRACE(verb);
-    const auto help = run_assay("help " + verb);
-    EXPECT_EQ(help.exit_code, 0);
-    EXPECT_TRUE(contains(help.out, "\n\nUsage: assay " + verb)) << help.out;
+    const auto help = expect_ended("help " + verb, 0, {"\n\nUsage: assay " + verb});
     for (const std::string part : {"\nInput:\n", "\nWhat is asked:\n", "\nWhat is written:\n"}) {
       const bool is_empty = contains(help.out, part) && !contains(help.out, part + "  ");
       EXPECT_FALSE(is_empty) << part << help.out;
@@ -94,28 +90,26 @@ TEST(Help, ShowsWordsAndDefaults) {
 TEST(Help, WordsThatAreMisspeltMeanOthers) {
   const Scratch scratch;
   const auto out = " --out " + (scratch / "out");
-  expect_refused(run_assay("run --campain smoke" + out),
+  expect_refused("run --campain smoke" + out,
                  "not expected: --campain smoke; did you mean --campaign? (assay run --help");
   // The option that is missing is the one that is misspelt.
-  expect_refused(run_assay("run --otu=" + (scratch / "out")), "did you mean --out?");
-  expect_refused(run_assay("run one two --seeed 3" + out),
+  expect_refused("run --otu=" + (scratch / "out"), "did you mean --out?");
+  expect_refused("run one two --seeed 3" + out,
                  "not expected: one two --seeed 3; did you mean --seed?");
-  expect_refused(run_assay("run --campaign smok" + out), "did you mean smoke?");
-  expect_refused(run_assay("scene bned" + out), "no scene is named bned; did you mean bend?");
-  expect_refused(run_assay("list scnes"), "did you mean scenes?");
-  expect_refused(run_assay("bench --suite stabilty"), "did you mean stability?");
-  expect_refused(run_assay("check a.obj b.obj --culling bhv"), "did you mean bvh?");
-  expect_refused(run_assay("run --out"), "--out: DIR missing (assay run --help lists options)");
-  expect_refused(run_assay("check a b --no-oracle --second-opinion 0.5"),
+  expect_refused("run --campaign smok" + out, "did you mean smoke?");
+  expect_refused("scene bned" + out, "no scene is named bned; did you mean bend?");
+  expect_refused("list scnes", "did you mean scenes?");
+  expect_refused("bench --suite stabilty", "did you mean stability?");
+  expect_refused("check a.obj b.obj --culling bhv", "did you mean bvh?");
+  expect_refused("run --out", "--out: DIR missing (assay run --help lists options)");
+  expect_refused("check a b --no-oracle --second-opinion 0.5",
                  "--no-oracle and --second-opinion do not go together");
-  expect_refused(run_assay("check a b --jobs many"),
-                 "--jobs: 'many' is not a whole number from 1 to 1024");
-  expect_refused(run_assay(""), "name a verb (assay help lists verbs)");
+  expect_refused("check a b --jobs many", "--jobs: 'many' is not a whole number from 1 to 1024");
+  expect_refused("", "name a verb (assay help lists verbs)");
 }
 
 TEST(Help, ListAloneSaysWhichListsThereAre) {
-  const auto lists = run_assay("list");
-  EXPECT_EQ(lists.exit_code, 0);
+  const auto lists = expect_ended("list", 0);
   for (const std::string list : {"scenes", "laws", "faults", "campaigns"}) {
     EXPECT_TRUE(contains(lists.out, "\n" + list + " ") || lists.out.rfind(list, 0) == 0) << list;
     EXPECT_EQ(run_assay("list " + list).exit_code, 0);

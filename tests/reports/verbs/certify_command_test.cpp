@@ -43,12 +43,11 @@ class Certify : public testing::Test {
 
 // Too little for it is one line, and no certificate.
 TEST_F(Certify, UnderLimitsOfTheUserIsRefusedInALine) {
-  for (const char* limit : {"--fsize=8192", "--as=40000000"}) {
-    const auto ended = run_assay("certify --campaign " + plan + " --out " + out,
-                                 "prlimit " + std::string(limit) + " ");
-    EXPECT_EQ(ended.exit_code, 2) << limit << ended.out;
-    EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
-    EXPECT_FALSE(std::filesystem::exists(certificate)) << limit;
+  for (const std::string limit : {"--fsize=8192", "--as=40000000"}) {
+    SCOPED_TRACE(limit);
+    expect_one_line(
+        run_assay("certify --campaign " + plan + " --out " + out, "prlimit " + limit + " "));
+    EXPECT_FALSE(std::filesystem::exists(certificate));
     std::filesystem::remove_all(out);
   }
 }
@@ -128,9 +127,7 @@ TEST_F(Certify, ACertificateVerifiesAndNoFieldOrFileCanBeChanged) {
   EXPECT_EQ(p["times"]["speed"].size(), 3u);
   EXPECT_TRUE(contains(read_text(out + "/summary.md"), "## Assay: certified"));
   EXPECT_TRUE(contains(read_text(out + "/junit.xml"), "failures=\"0\""));
-  const auto verified = run_assay("verify " + certificate);
-  EXPECT_EQ(verified.exit_code, 0) << verified.out;
-  EXPECT_TRUE(contains(verified.out, "verified: tiny of ")) << verified.out;
+  const auto verified = expect_ended("verify " + certificate, 0, {"verified: tiny of "});
 
   expect_certificate_schema(statement);
 
@@ -162,9 +159,7 @@ TEST_F(Certify, ACertificateVerifiesAndNoFieldOrFileCanBeChanged) {
     EXPECT_FALSE(verify_certificate(certificate).differences.empty());
   }
   write(certificate, changed(Json(whole)));
-  const auto refused = run_assay("verify " + certificate);
-  EXPECT_EQ(refused.exit_code, 1) << refused.out;
-  EXPECT_TRUE(contains(refused.out, "NOT VERIFIED: ")) << refused.out;
+  expect_ended("verify " + certificate, 1, {"NOT VERIFIED: "});
   write(certificate, whole);
 
   // Every file in turn.
@@ -175,13 +170,10 @@ TEST_F(Certify, ACertificateVerifiesAndNoFieldOrFileCanBeChanged) {
   EXPECT_EQ(run_assay("verify " + certificate).exit_code, 0);
 
   // The trials again, some of them and all.
-  const auto some = run_assay("verify --again 0.3 --seed 7 " + certificate);
-  EXPECT_EQ(some.exit_code, 0) << some.out << some.err;
-  EXPECT_TRUE(says(some.out, "again: 15 of 48 trials, seed 7: all as they are stored\n"));
+  const auto some = expect_ended("verify --again 0.3 --seed 7 " + certificate, 0,
+                                 {"again: 15 of 48 trials, seed 7: all as they are stored\n"});
   EXPECT_EQ(run_assay("verify --again 0.3 --seed 7 " + certificate).out, some.out);
-  const auto all = run_assay("verify --again 1 " + certificate);
-  EXPECT_EQ(all.exit_code, 0) << all.out << all.err;
-  EXPECT_TRUE(contains(all.out, "again: 48 of 48 trials, seed ")) << all.out;
+  expect_ended("verify --again 1 " + certificate, 0, {"again: 48 of 48 trials, seed "});
 
   // The same again: the same but for times.
   const auto again = certify();
@@ -194,10 +186,8 @@ TEST_F(Certify, ACertificateVerifiesAndNoFieldOrFileCanBeChanged) {
   // What is beside it and is of no digest is named.
   EXPECT_FALSE(contains(verified.out, "not looked at"));
   write(out + "/page.html", "anything");
-  const auto beside = run_assay("verify " + certificate);
-  EXPECT_EQ(beside.exit_code, 0) << beside.out;
-  EXPECT_TRUE(contains(beside.out, "not looked at, for nothing of it rests on them: page.html\n"))
-      << beside.out;
+  expect_ended("verify " + certificate, 0,
+               {"not looked at, for nothing of it rests on them: page.html\n"});
   std::filesystem::remove(out + "/page.html");
 
   // In another folder: digests are of rows and bytes, not of places.
@@ -213,16 +203,14 @@ TEST_F(Certify, ACertificateVerifiesAndNoFieldOrFileCanBeChanged) {
   for (const auto& command : {"verify " + alone, "verify " + (scratch / ""),
                               "report " + (scratch / "") + " --out " + (scratch / "p.html"),
                               "report " + alone + " --out " + (scratch / "p.html")})
-    expect_refused(run_assay(command), "are not beside it: ask its issuer for the whole folder");
+    expect_refused(command, "are not beside it: ask its issuer for the whole folder");
   const auto of_check = scratch.write("o.json", R"({"schema": "assay-check/1"})");
-  expect_refused(run_assay("report " + of_check + " --out " + (scratch / "p.html")),
+  expect_refused("report " + of_check + " --out " + (scratch / "p.html"),
                  "of schema \"assay-check/1\", no certificate and no run");
 }
 
 TEST_F(Certify, ADefectIsNamedWithAMeshThatReplays) {
-  const auto made = certify("--detector " + plugin("always_free"));
-  EXPECT_EQ(made.exit_code, 1) << made.out << made.err;
-  EXPECT_TRUE(contains(made.out, "verdict: defect in ")) << made.out;
+  expect_ended(certify("--detector " + plugin("always_free")), 1, {"verdict: defect in "});
   const Json statement = read(), &p = statement["predicate"];
   expect_certificate_schema(statement);
   EXPECT_EQ(p["verdict"], "defect");
@@ -241,9 +229,7 @@ TEST_F(Certify, ADefectIsNamedWithAMeshThatReplays) {
   EXPECT_TRUE(contains(read_text(out + "/summary.md"), replay));
   for (const std::string file : {"/certificate.json", "/junit.xml", "/summary.md"})
     EXPECT_FALSE(contains(read_text(out + file), scratch / "")) << file;
-  const auto verified = run_assay("verify " + certificate);
-  EXPECT_EQ(verified.exit_code, 1) << verified.out;
-  EXPECT_TRUE(contains(verified.out, "verdict defect\n")) << verified.out;
+  expect_ended("verify " + certificate, 1, {"verdict defect\n"});
   expect_tampering_is_seen(out + "/" + failure["file"].get<std::string>(), certificate);
 }
 
@@ -266,9 +252,7 @@ TEST_F(Certify, WhatTheCorpusAloneShowsHasItsMeshToo) {
   EXPECT_LT(failure["after"]["triangles"].get<int>(), failure["before"]["triangles"].get<int>());
   EXPECT_EQ(replayed_beside(failure, "fault_view-line_one-corner"), 1);
   EXPECT_TRUE(contains(read_text(out + "/summary.md"), "met in the corpus alone"));
-  const auto verified = run_assay("verify " + certificate);
-  EXPECT_EQ(verified.exit_code, 1) << verified.out;
-  EXPECT_TRUE(contains(verified.out, "verdict defect\n")) << verified.out;
+  expect_ended("verify " + certificate, 1, {"verdict defect\n"});
   expect_tampering_is_seen(out + "/" + failure["file"].get<std::string>(), certificate);
   const auto page = scratch / "page.html";
   ASSERT_EQ(run_assay("report " + out + " --out " + page).exit_code, 0);
@@ -286,23 +270,21 @@ TEST_F(Certify, ACertificateOfAnOlderSchemaIsRefusedByName) {
   old["predicate"]["schema"] = "assay-certificate/1";
   std::filesystem::create_directories(out);
   write(certificate, old.dump(1) + "\n");
-  const auto refused = run_assay("verify " + certificate);
-  EXPECT_EQ(refused.exit_code, 1);
-  EXPECT_TRUE(says(refused.out,
-                   "of schema assay-certificate/1, this assay verifies "
-                   "assay-certificate/7: verify it with the assay that issued it"));
+  expect_ended("verify " + certificate, 1,
+               {"of schema assay-certificate/1, this assay verifies "
+                "assay-certificate/7: verify it with the assay that issued it"});
 }
 
 TEST_F(Certify, BadInputIsOneLine) {
-  expect_refused(run_assay("certify"), "--out");
+  expect_refused("certify", "--out");
   expect_refused(certify("--frobnicate"), "frobnicate");
   expect_refused(certify("--detector " + plan), "not a detector plug-in");
-  expect_refused(run_assay("certify --campaign nowhere --out " + out), "nowhere");
-  expect_refused(run_assay("verify " + scratch / "none.json"), "no such file");
-  expect_refused(run_assay("verify"), "CERTIFICATE is required");
-  expect_refused(run_assay("verify --again 0 " + plan), "--again");
-  expect_refused(run_assay("verify --again 1.5 " + plan), "--again");
-  expect_refused(run_assay("verify --seed 3 " + plan), "--again");
+  expect_refused("certify --campaign nowhere --out " + out, "nowhere");
+  expect_refused("verify " + scratch / "none.json", "no such file");
+  expect_refused("verify", "CERTIFICATE is required");
+  expect_refused("verify --again 0 " + plan, "--again");
+  expect_refused("verify --again 1.5 " + plan, "--again");
+  expect_refused("verify --seed 3 " + plan, "--again");
 }
 
 }  // namespace

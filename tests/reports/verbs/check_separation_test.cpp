@@ -1,4 +1,5 @@
-// assay check --separation, as a user runs it: two triangles whose distance is known.
+// A separation that `assay check` and `assay check-queries` are asked for, as a user runs them: two
+// triangles and a query whose distance is known.
 #include "reports/check/separation_check.h"
 #include "tests/reports/program.h"
 #include "tests/sinking_corner.h"
@@ -23,11 +24,10 @@ class SeparationCommand : public testing::Test {
 };
 
 TEST_F(SeparationCommand, SaysWhenFirstAndHowNear) {
-  const auto near = check("--separation 2 --json " + (scratch / "r.json"));
-  EXPECT_EQ(near.exit_code, 0) << near.err;
-  EXPECT_TRUE(says(near.out, "step 1: near at t = 0.5, 1 pair\n"));
-  EXPECT_TRUE(says(near.out, "least distance 1: triangles 0 and 1 at t = 1 (vertex-face)"));
-  EXPECT_TRUE(says(near.out, "near at t = 0.5 of step 1; least distance 1\n"));
+  expect_ended(check("--separation 2 --json " + (scratch / "r.json")), 0,
+               {"step 1: near at t = 0.5, 1 pair\n",
+                "least distance 1: triangles 0 and 1 at t = 1 (vertex-face)",
+                "near at t = 0.5 of step 1; least distance 1\n"});
   const auto report = json::parse(read_text(scratch / "r.json"));
   EXPECT_EQ(report["separation"], 2.0);
   EXPECT_EQ(report["outcome"], "near");
@@ -52,9 +52,8 @@ TEST_F(SeparationCommand, OffsetsOfTwoBodiesAddUp) {
   };
   const std::string bodies = "check --body " + body("below.obj", "0", "0") + " --body " +
                              body("high.obj", "4", "3") + " " + body("low.obj", "4", "1") + " ";
-  const auto near = run_assay(bodies + "--offset 0.5 --offset 1.5 --json " + (scratch / "r.json"));
-  EXPECT_EQ(near.exit_code, 0) << near.err;
-  EXPECT_TRUE(says(near.out, "step 1: near at t = 0.5, 1 pair\n"));
+  expect_ended(bodies + "--offset 0.5 --offset 1.5 --json " + (scratch / "r.json"), 0,
+               {"step 1: near at t = 0.5, 1 pair\n"});
   const auto report = json::parse(read_text(scratch / "r.json"));
   EXPECT_EQ(report["offsets"], json::array({0.5, 1.5}));
   EXPECT_TRUE(report["separation"].is_null());
@@ -70,9 +69,8 @@ TEST_F(SeparationCommand, TheExitCodeSaysWhatIsAskedFor) {
   for (const char* wrong :
        {"--separation -1", "--separation nan", "--separation 1e999", "--separation x",
         "--separation 1 --culling bvh", "--separation 1 --no-oracle"}) {
-    const auto outcome = check(wrong);
-    EXPECT_EQ(outcome.exit_code, 2) << wrong;
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    SCOPED_TRACE(wrong);
+    expect_one_line(check(wrong));
   }
 }
 
@@ -103,23 +101,83 @@ TEST_F(SeparationCommand, TheSeparationOfACaseIsWhatEveryVerbAsks) {
   auto within = bvh;
   within["separation"] = "2";
   const auto file = scratch.write("within.json", corpus::case_text(sinking_corner(1, within)));
-  const auto checked = run_assay("check " + file + " --json " + (scratch / "r.json"));
-  EXPECT_EQ(checked.exit_code, 0) << checked.out << checked.err;
-  EXPECT_TRUE(says(checked.out, "; culling bvh, within 2\n")) << checked.out;
-  EXPECT_TRUE(says(checked.out, "step 1: collision at t = 0.5, 1 pair within 2; agree\n"));
-  EXPECT_TRUE(says(checked.out, "collision at t = 0.5 of step 1; detector and oracle agree"));
+  expect_ended(
+      "check " + file + " --json " + (scratch / "r.json"), 0,
+      {"; culling bvh, within 2\n", "step 1: collision at t = 0.5, 1 pair within 2; agree\n",
+       "collision at t = 0.5 of step 1; detector and oracle agree"});
   EXPECT_EQ(json::parse(read_text(scratch / "r.json"))["separation"], 2.0);
-  const auto replayed = run_assay("replay " + file);
-  EXPECT_EQ(replayed.exit_code, 0) << replayed.out << replayed.err;
-  EXPECT_TRUE(says(replayed.out, "oracle collision at t = 0.5, 1 pair within 2\n")) << replayed.out;
-  const auto shrunk = run_assay("shrink " + file + " --out " + (scratch / "small.json"));
-  EXPECT_EQ(shrunk.exit_code, 0) << shrunk.out << shrunk.err;
+  expect_ended("replay " + file, 0, {"oracle collision at t = 0.5, 1 pair within 2\n"});
+  expect_ended("shrink " + file + " --out " + (scratch / "small.json"), 0);
   // Without one it is asked for contacts.
   const auto contacts = scratch.write("contacts.json", corpus::case_text(sinking_corner(1, bvh)));
   EXPECT_TRUE(says(run_assay("check " + contacts + " --json " + (scratch / "r.json")).out,
                    "; culling bvh\n"));
   EXPECT_EQ(json::parse(read_text(scratch / "r.json"))["separation"], 0.0);
   EXPECT_TRUE(says(run_assay("replay " + contacts).out, "oracle free\n"));
+}
+
+class QueriesWithin : public testing::Test {
+ protected:
+  // A vertex that sinks from z = 3 to z = 1 above the inside of a face at rest.
+  static std::string rows(const std::string& ending) {
+    std::string text;
+    for (const char* vertex : {"1,1,1,1,3,1", "1,1,1,1,1,1"}) {
+      for (const char* row : {vertex, "0,1,0,1,0,1", "4,1,0,1,0,1", "0,1,4,1,0,1"})
+        text += row + ending + "\n";
+    }
+    return text;
+  }
+  Outcome check(const std::string& text, const std::string& options) const {
+    return run_assay("check-queries " + scratch.write("vf.csv", text) + " --json " +
+                     (scratch / "q.json") + " " + options);
+  }
+  json report() const { return json::parse(read_text(scratch / "q.json")); }
+  const Scratch scratch;
+};
+
+TEST_F(QueriesWithin, EveryMethodThatKnowsDistanceTellsItFromTheDoubleBelow) {
+  for (const std::string method : {"oracle", "referee", "detector-exact"}) {
+    SCOPED_TRACE(method);
+    expect_ended(check(rows(",1"), "--separation 1 --method " + method), 0,
+                 {method + ": 1 queries (1 within 1), 1 yes, 0 without a label"});
+    EXPECT_EQ(report()["separation"], json::array({1.0, 1.0}));
+    EXPECT_EQ(report()["yes"], 1);
+    expect_ended(check(rows(",0"), "--separation 0.9999999999999999 --method " + method), 0);
+    EXPECT_EQ(report()["yes"], 0);
+    EXPECT_EQ(report()["open"], 0);
+    // Distance 0 is contact.
+    EXPECT_EQ(check(rows(",0"), "--separation 0 --method " + method).exit_code, 0);
+    EXPECT_EQ(check(rows(",0"), "--method " + method).exit_code, 0);
+    EXPECT_EQ(report()["separation"], nullptr);
+  }
+}
+
+TEST_F(QueriesWithin, RowsWithASeparationGoBeforeTheOption) {
+  const auto text = rows(",0,0.5") + rows(",1,2") + rows(",1,0.75") + rows(",1");
+  expect_ended(check(text, "--separation 1"), 1,
+               {"oracle: 4 queries (4 within 0.5 to 2), 2 yes",
+                "vf.csv query 2 within 0.75: answer false, label true\n"});
+  EXPECT_EQ(report()["separation"], json::array({0.5, 2.0}));
+  EXPECT_EQ(report()["differences"][0]["separation"], 0.75);
+  // Without the option a row that says none asks for contact.
+  expect_ended(check(rows(",1,2") + rows(",1"), ""), 1,
+               {"2 queries (1 within 2), 1 yes", "vf.csv query 1: answer false, label true\n"});
+  EXPECT_EQ(report()["differences"][0]["separation"], nullptr);
+}
+
+TEST_F(QueriesWithin, WhatKnowsNoDistanceIsRefusedInOneLine) {
+  const auto expect_refused = [&](const std::string& text, const std::string& options,
+                                  const std::string& word) {
+    SCOPED_TRACE(options);
+    expect_one_line(check(text, options), word);
+  };
+  for (const std::string method : {"detector-bounded", "detector-double", "detector-float"}) {
+    const auto knows_none = "--method " + method + " knows no separation";
+    expect_refused(rows(",1"), "--separation 1 --method " + method, "query 0: " + knows_none);
+    expect_refused(rows("") + rows(",1,2"), "--method " + method, "query 1: " + knows_none);
+  }
+  for (const std::string word : {"-1", "nan", "1e999", "x"})
+    expect_refused(rows(",1"), "--separation=" + word, "--separation");
 }
 
 }  // namespace

@@ -13,9 +13,9 @@ class Commands : public testing::Test {
  protected:
   std::string make_scene(const std::string& name, int size, int frames) {
     const std::string folder = scratch / name;
-    const auto made = run_assay("scene " + name + " --size " + std::to_string(size) + " --frames " +
-                                std::to_string(frames) + " --out " + folder);
-    EXPECT_EQ(made.exit_code, 0) << made.err;
+    expect_ended("scene " + name + " --size " + std::to_string(size) + " --frames " +
+                     std::to_string(frames) + " --out " + folder,
+                 0);
     return folder + "/frame_*.ply";
   }
   const Scratch scratch;
@@ -24,10 +24,9 @@ class Commands : public testing::Test {
 TEST_F(Commands, L5_BreathingSphereIsFreeAllPositiveWithoutBoxTests) {
   const auto frames = make_scene("breathing-sphere", 1280, 6);
   for (const std::string culling : {"view-point", "view-line"}) {
-    const auto outcome = run_assay("check " + frames + " --culling " + culling + " --json " +
-                                   (scratch / "report.json"));
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-    EXPECT_NE(outcome.out.find("no collision; detector and oracle agree"), std::string::npos);
+    expect_ended(
+        "check " + frames + " --culling " + culling + " --json " + (scratch / "report.json"), 0,
+        {"no collision; detector and oracle agree"});
     const auto report = json::parse(read_text(scratch / "report.json"));
     EXPECT_EQ(report["schema"], "assay-check/1");
     ASSERT_EQ(report["steps"].size(), 5u);
@@ -54,10 +53,9 @@ TEST_F(Commands, EverySceneAgreesAndSaysWhetherItCollides) {
     SCOPED_TRACE(name);
     const bool collides = std::count(colliding.begin(), colliding.end(), name) > 0;
     ASSERT_TRUE(collides || std::count(free.begin(), free.end(), name) > 0);
-    const auto outcome = run_assay(
-        "check " + make_scene(name, 500, std::max(8, scene.least_frames)) + " --fail-on-collision");
-    EXPECT_EQ(outcome.exit_code, collides ? 5 : 0) << outcome.out << outcome.err;
-    EXPECT_NE(outcome.out.find("detector and oracle agree"), std::string::npos);
+    expect_ended(
+        "check " + make_scene(name, 500, std::max(8, scene.least_frames)) + " --fail-on-collision",
+        collides ? 5 : 0, {"detector and oracle agree"});
   }
 }
 
@@ -109,19 +107,17 @@ TEST_F(Commands, ReportHoldsTheContactsAndTimes) {
 }
 
 TEST_F(Commands, WithoutAnOracleNothingIsJudged) {
-  const auto outcome = run_assay("check " + make_scene("bend", 300, 3) + " --no-oracle");
-  EXPECT_EQ(outcome.exit_code, 0);
-  EXPECT_NE(outcome.out.find("not judged"), std::string::npos);
+  const auto outcome =
+      expect_ended("check " + make_scene("bend", 300, 3) + " --no-oracle", 0, {"not judged"});
   EXPECT_EQ(outcome.out.find("agree"), std::string::npos);
 }
 
 TEST_F(Commands, LimitsEndInUndecided) {
   const auto frames = make_scene("crumpling-sphere", 5000, 3);
   for (const std::string limit : {"--time 0.000001", "--memory 1KB"}) {
-    const auto outcome =
-        run_assay("check " + frames + " " + limit + " --json " + (scratch / "u.json"));
-    EXPECT_EQ(outcome.exit_code, 3) << limit << outcome.out << outcome.err;
-    EXPECT_NE(outcome.out.find("undecided"), std::string::npos);
+    SCOPED_TRACE(limit);
+    expect_ended("check " + frames + " " + limit + " --json " + (scratch / "u.json"), 3,
+                 {"undecided"});
     const auto report = json::parse(read_text(scratch / "u.json"));
     EXPECT_EQ(report["outcome"], "undecided");
     EXPECT_TRUE(report["limit_reached"].is_string());
@@ -145,13 +141,9 @@ TEST_F(Commands, ALimitOfTimeEndsCreating) {
 TEST_F(Commands, ALimitOfMemoryIsReadInEveryUnit) {
   const std::string check = "check --no-oracle " + make_scene("bend", 100, 2) + " --memory ";
   for (const std::string size :
-       {"8G", "8GB", "900M", "900MB", "900000K", "900000KB", "999999999B", "999999999"}) {
-    const auto outcome = run_assay(check + size);
-    EXPECT_EQ(outcome.exit_code, 0) << size << outcome.err;
-  }
-  const auto refused = run_assay(check + "8X");
-  EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_TRUE(says(refused.err, "a whole number above 0, alone or with K, M or G"));
+       {"8G", "8GB", "900M", "900MB", "900000K", "900000KB", "999999999B", "999999999"})
+    EXPECT_EQ(run_assay(check + size).exit_code, 0) << size;
+  expect_problem(run_assay(check + "8X"), "a whole number above 0, alone or with K, M or G");
 }
 
 // What lies upon each other makes M^2 / 2 pairs: far more than the limit holds. The caller's thread
@@ -163,9 +155,9 @@ TEST_F(Commands, TheLimitOfMemoryHolds) {
   for (int i = 0; i < count; ++i) mesh += "0 0 0\n1 0 0\n0 1 0\n";
   for (int i = 0; i < count; ++i) mesh += fmt::format("3 {} {} {}\n", 3 * i, 3 * i + 1, 3 * i + 2);
   const auto a = scratch.write("a.off", mesh), b = scratch.write("b.off", mesh);
-  const auto outcome = run_assay("check --no-oracle --threads 1 --memory 30M --json " +
-                                 (scratch / "m.json") + " " + a + " " + b);
-  EXPECT_EQ(outcome.exit_code, 3) << outcome.out << outcome.err;
+  expect_ended("check --no-oracle --threads 1 --memory 30M --json " + (scratch / "m.json") + " " +
+                   a + " " + b,
+               3);
   const auto report = json::parse(read_text(scratch / "m.json"));
   EXPECT_EQ(report["limit_reached"], "memory limit of 30 MiB");
   EXPECT_LE(report["peak_memory_bytes"].get<double>(), 1.05 * (30 << 20));
@@ -176,9 +168,7 @@ TEST_F(Commands, TheLimitOfMemoryHolds) {
 TEST_F(Commands, ResultDoesNotDependOnJobs) {
   const auto frames = make_scene("crumpling-sphere", 1000, 4);
   const auto without_times = [&](const std::string& jobs) {
-    EXPECT_EQ(run_assay("check " + frames + " --jobs " + jobs + " --json " + (scratch / "j.json"))
-                  .exit_code,
-              0);
+    expect_ended("check " + frames + " --jobs " + jobs + " --json " + (scratch / "j.json"), 0);
     auto report = json::parse(read_text(scratch / "j.json"));
     report.erase("peak_memory_bytes");
     report.erase("times_ms");
@@ -193,9 +183,8 @@ TEST_F(Commands, ResultDoesNotDependOnJobs) {
 
 TEST_F(Commands, CaseFilesAreChecked) {
   const std::string cases = std::string(ASSAY_SOURCE_DIR) + "/corpus/curated/";
-  const auto outcome = run_assay("check " + cases + "B1_one_vertex_own_nearest.json");
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-  EXPECT_NE(outcome.out.find("collision at t = 0.91509"), std::string::npos) << outcome.out;
+  expect_ended("check " + cases + "B1_one_vertex_own_nearest.json", 0,
+               {"collision at t = 0.91509"});
 }
 
 TEST_F(Commands, ACaseWhoseFactsDoNotHoldIsADefect) {
@@ -203,17 +192,14 @@ TEST_F(Commands, ACaseWhoseFactsDoNotHoldIsADefect) {
       read_text(std::string(ASSAY_SOURCE_DIR) + "/corpus/curated/A4_endpoints_only.json");
   for (std::size_t at; (at = text.find("\"collision\"")) != std::string::npos;)
     text.replace(at, 11, "\"free\"");
-  const auto outcome = run_assay("check " + scratch.write("wrong.json", text));
-  EXPECT_EQ(outcome.exit_code, 1) << outcome.out << outcome.err;
-  EXPECT_NE(outcome.out.find("expected facts"), std::string::npos) << outcome.out;
+  expect_ended("check " + scratch.write("wrong.json", text), 1, {"expected facts"});
 }
 
 TEST_F(Commands, QueriesAreScored) {
   const std::string queries = std::string(ASSAY_SOURCE_DIR) + "/corpus/queries/example_vf.csv";
   for (const std::string method : {"oracle", "detector-exact"}) {
-    const auto outcome = run_assay("check-queries " + queries + " --method " + method + " --json " +
-                                   (scratch / "q.json"));
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+    expect_ended(
+        "check-queries " + queries + " --method " + method + " --json " + (scratch / "q.json"), 0);
     const auto report = json::parse(read_text(scratch / "q.json"));
     EXPECT_EQ(report["schema"], "assay-queries/1");
     EXPECT_EQ(report["count"], 5);
@@ -222,35 +208,25 @@ TEST_F(Commands, QueriesAreScored) {
   std::string wrong = read_text(queries);
   for (std::size_t at = 0; (at = wrong.find(",1\n", at)) != std::string::npos; at += 3)
     wrong.replace(at, 3, ",0\n");
-  const auto outcome = run_assay("check-queries " + scratch.write("wrong_vf.csv", wrong));
-  EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_TRUE(says(outcome.out, "2 false positives, 0 false negatives, 1 disputed"));
+  expect_ended("check-queries " + scratch.write("wrong_vf.csv", wrong), 1,
+               {"2 false positives, 0 false negatives, 1 disputed"});
 }
 
 TEST_F(Commands, SceneFromAMeshAndBack) {
   const auto frames = make_scene("breathing-sphere", 320, 2);
   const auto mesh = scratch / "breathing-sphere/frame_0000.ply";
-  const auto made =
-      run_assay("scene bend --mesh " + mesh + " --frames 4 --out " + (scratch / "bent"));
-  EXPECT_EQ(made.exit_code, 0) << made.err;
-  EXPECT_NE(made.out.find("/assay check"), std::string::npos);
+  expect_ended("scene bend --mesh " + mesh + " --frames 4 --out " + (scratch / "bent"), 0,
+               {"/assay check"});
   EXPECT_EQ(run_assay("check " + (scratch / "bent") + "/frame_*.ply").exit_code, 0);
 }
 
 TEST_F(Commands, VersionNamesTheLibraries) {
-  const auto outcome = run_assay("--version");
-  EXPECT_EQ(outcome.exit_code, 0);
-  for (const char* library :
-       {"assay 0.", "CGAL 5", "GMP ", "MPFR ", "MPFI ", "Eigen 3", "Boost 1", "fmt ", "CLI11 "}) {
-    EXPECT_NE(outcome.out.find(library), std::string::npos) << library;
-  }
+  expect_ended(
+      "--version", 0,
+      {"assay 0.", "CGAL 5", "GMP ", "MPFR ", "MPFI ", "Eigen 3", "Boost 1", "fmt ", "CLI11 "});
 }
 
-TEST_F(Commands, ListNamesEveryScene) {
-  const auto outcome = run_assay("list scenes");
-  EXPECT_EQ(outcome.exit_code, 0);
-  EXPECT_NE(outcome.out.find("arm-in-box"), std::string::npos);
-}
+TEST_F(Commands, ListNamesEveryScene) { expect_ended("list scenes", 0, {"arm-in-box"}); }
 
 }  // namespace
 }  // namespace assay::tests

@@ -10,11 +10,6 @@
 namespace assay::tests {
 namespace {
 
-int status_of(const std::string& command) {
-  const int status = std::system(command.c_str());
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
 class ExportedCase : public testing::Test {
  protected:
   // Exports the case, compiles its test and runs it: what it prints, or nothing.
@@ -23,18 +18,19 @@ class ExportedCase : public testing::Test {
     const auto exported = run_assay("replay " + id_or_file + " --export " + (scratch / "case"));
     ASSERT_EQ(exported.exit_code, 0) << exported.out << exported.err;
     ASSERT_EQ(compile(), 0) << read_text(scratch / "compiler");
-    EXPECT_EQ(status_of((scratch / "test >") + (scratch / "printed")), 0)
+    EXPECT_EQ(exit_code_of((scratch / "test >") + (scratch / "printed")), 0)
         << read_text(scratch / "printed");
     EXPECT_NE(read_text(scratch / "printed").find("1 test from"), std::string::npos);
   }
   int compile() const {
-    return status_of(std::string(ASSAY_COMPILER) +
-                     " -std=c++20 -Wall -Werror -I " ASSAY_SOURCE_DIR " -isystem " ASSAY_EIGEN " " +
-                     (scratch / "case/case_test.cpp") +
-                     " " ASSAY_DETECTOR " " ASSAY_DETECTOR_LINKS
-                     " -lgtest_main -lgtest "
-                     "-pthread -o " +
-                     (scratch / "test") + " >" + (scratch / "compiler") + " 2>&1");
+    return exit_code_of(std::string(ASSAY_COMPILER) +
+                        " -std=c++20 -Wall -Werror -I " ASSAY_SOURCE_DIR " -isystem " ASSAY_EIGEN
+                        " " +
+                        (scratch / "case/case_test.cpp") +
+                        " " ASSAY_DETECTOR " " ASSAY_DETECTOR_LINKS
+                        " -lgtest_main -lgtest "
+                        "-pthread -o " +
+                        (scratch / "test") + " >" + (scratch / "compiler") + " 2>&1");
   }
   const Scratch scratch;
 };
@@ -86,7 +82,7 @@ TEST_F(ExportedCase, FailsWhereTheDetectorDiffers) {
   text.replace(text.find(collides), collides.size(), is_free);
   scratch.write("case/case.cpp", text);
   ASSERT_EQ(compile(), 0) << read_text(scratch / "compiler");
-  EXPECT_EQ(status_of(scratch / "test >/dev/null"), 1);
+  EXPECT_EQ(exit_code_of(scratch / "test >/dev/null"), 1);
 }
 
 // Of a plug-in: arrays that compile with nothing beside them, a function to fill in, and the same
@@ -101,16 +97,16 @@ class ExportedPlugIn : public testing::Test {
         words + " ");
   }
   void compile(const std::string& file, const std::string& more = "") const {
-    EXPECT_EQ(status_of(std::string(ASSAY_COMPILER) + " -std=c++17 -Wall -Wextra -Werror " +
-                        (scratch / ("case/" + file)) + more + " -o " + (scratch / "program") +
-                        " >" + (scratch / "compiler") + " 2>&1"),
+    EXPECT_EQ(exit_code_of(std::string(ASSAY_COMPILER) + " -std=c++17 -Wall -Wextra -Werror " +
+                           (scratch / ("case/" + file)) + more + " -o " + (scratch / "program") +
+                           " >" + (scratch / "compiler") + " 2>&1"),
               0)
         << read_text(scratch / "compiler");
   }
   void compile_plugin() const { compile("case_plugin.cpp", " -I " ASSAY_SOURCE_DIR " -ldl"); }
   int judged(const std::string& name, const std::string& words) const {
-    return status_of(words + " " + (scratch / "program ") + plugin(name) + " >" +
-                     (scratch / "printed"));
+    return exit_code_of(words + " " + (scratch / "program ") + plugin(name) + " >" +
+                        (scratch / "printed"));
   }
   // Fills in the function of the exported source and runs it.
   int filled_in(const std::string& lines) const {
@@ -121,7 +117,7 @@ class ExportedPlugIn : public testing::Test {
                  "  found.filled_in = true;\n" + lines + "\n  return found;");
     scratch.write("case/filled.cpp", text);
     compile("filled.cpp");
-    return status_of((scratch / "program >") + (scratch / "printed"));
+    return exit_code_of((scratch / "program >") + (scratch / "printed"));
   }
   std::string printed() const { return read_text(scratch / "printed"); }
   const Scratch scratch;
@@ -135,7 +131,7 @@ TEST_F(ExportedPlugIn, IsPlainArrays) {
   EXPECT_FALSE(contains(read_text(scratch / "case/case.json"), "\"answer\""))
       << "nobody stated what is expected";
   compile("case.cpp");
-  EXPECT_EQ(status_of(scratch / "program >/dev/null"), 2);
+  EXPECT_EQ(exit_code_of(scratch / "program >/dev/null"), 2);
   EXPECT_EQ(filled_in(""), 1);
   EXPECT_TRUE(contains(printed(), "breaks free-sound\n")) << printed();
   EXPECT_TRUE(contains(printed(), "answered free, exact collision at ")) << printed();
@@ -143,7 +139,7 @@ TEST_F(ExportedPlugIn, IsPlainArrays) {
   EXPECT_EQ(judged("by_contract", "ASSAY_BY_CONTRACT=claims=255"), 0) << printed();
   EXPECT_EQ(judged("by_contract", "ASSAY_BY_CONTRACT=miss-inside"), 1);
   EXPECT_EQ(judged("by_contract", "ASSAY_BY_CONTRACT=late=0.1"), 0) << "another claim";
-  EXPECT_EQ(status_of(scratch / "program ./none.so >/dev/null"), 2);
+  EXPECT_EQ(exit_code_of(scratch / "program ./none.so >/dev/null"), 2);
 }
 
 TEST_F(ExportedPlugIn, IsToldWhichPairsCount) {

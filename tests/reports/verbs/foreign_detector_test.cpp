@@ -88,9 +88,8 @@ TEST_F(ForeignDetector, WhoClaimsLittleSeesNoEmptyTable) {
 }
 
 TEST_F(ForeignDetector, WhatItPrintsStandsWithItsFailuresAndNowhereElse) {
-  const auto ran =
-      judge("run", std::string(modest) + "miss-inside print=2", plan_text(8), "--jobs 1");
-  EXPECT_EQ(ran.exit_code, 1);
+  const auto ran = expect_ended(
+      judge("run", std::string(modest) + "miss-inside print=2", plan_text(8), "--jobs 1"), 1);
   EXPECT_FALSE(contains(ran.err, "line 1 of")) << ran.err;
   const auto said = ran.out.find("  it printed:\n    line 1 of ?[31m");
   ASSERT_NE(said, std::string::npos) << ran.out;
@@ -101,10 +100,9 @@ TEST_F(ForeignDetector, WhatItPrintsStandsWithItsFailuresAndNowhereElse) {
   for (const auto& failure : failures)
     EXPECT_TRUE(contains(failure.printed, "line 2 of ?[31m")) << failure.id;
   EXPECT_TRUE(contains(run_assay("list failures " + out).out, "  it printed:\n"));
-  const auto replayed = run_assay(replay_lines(ran.out).front(),
-                                  "ASSAY_BY_CONTRACT='claims=131 miss-inside print=2' ");
-  EXPECT_EQ(replayed.exit_code, 1);
-  EXPECT_TRUE(contains(replayed.out, "  it printed:\n    line 1 of ?[31m")) << replayed.out;
+  expect_ended(run_assay(replay_lines(ran.out).front(),
+                         "ASSAY_BY_CONTRACT='claims=131 miss-inside print=2' "),
+               1, {"  it printed:\n    line 1 of ?[31m"});
 }
 
 TEST_F(ForeignDetector, ItsStoredFailuresAccuseNobodyElse) {
@@ -112,8 +110,7 @@ TEST_F(ForeignDetector, ItsStoredFailuresAccuseNobodyElse) {
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(out + "/failures")) {
     if (entry.path().extension() != ".json") continue;
-    const auto checked = run_assay("check " + entry.path().string());
-    EXPECT_EQ(checked.exit_code, 0) << checked.out << checked.err;
+    expect_ended("check " + entry.path().string(), 0);
     ++files;
   }
   EXPECT_GE(files, 2u);
@@ -143,10 +140,11 @@ TEST_F(ForeignDetector, CheckTellsTheExactTimeBesideItsOwn) {
 
 // What is in contact by the oracle is told as the contract has it, with what it leaves out.
 TEST_F(ForeignDetector, CheckObeysTheContract) {
-  const auto checked = run_assay("check " + curated("A1_winding2_allpositive") + " --detector " +
-                                     library + " --json " + (scratch / "check.json"),
-                                 "ASSAY_BY_CONTRACT=strangers ");
-  EXPECT_EQ(checked.exit_code, 0) << checked.out;
+  const auto checked =
+      expect_ended(run_assay("check " + curated("A1_winding2_allpositive") + " --detector " +
+                                 library + " --json " + (scratch / "check.json"),
+                             "ASSAY_BY_CONTRACT=strangers "),
+                   0);
   const auto step = Json::parse(read_text(scratch / "check.json"))["steps"][0];
   const auto left_out = step["diff"]["left_out"].get<int>();
   EXPECT_GT(left_out, 0);
@@ -180,33 +178,26 @@ TEST_F(ForeignDetector, NoContractSavesOneThatAlwaysAnswersFree) {
   const std::string free = " miss-at-start miss-inside adjacency=2 start=apart:1e4";
   for (const std::string& words : {free, free + " claims=1", free + " claims=129 no-pairs"}) {
     std::filesystem::remove_all(out);
-    const auto made = judge("run", words, plan_text(12));
-    EXPECT_EQ(made.exit_code, 1) << words << made.out << made.err;
-    EXPECT_TRUE(contains(made.out, "\nDEFECT: ")) << words << made.out;
+    SCOPED_TRACE(words);
+    expect_ended(judge("run", words, plan_text(12)), 1, {"\nDEFECT: "});
   }
   std::filesystem::remove_all(out);
-  const auto made = judge("run", free + " range=1e-6:1", plan_text(12));
-  EXPECT_EQ(made.exit_code, 3) << made.out << made.err;
-  EXPECT_TRUE(contains(made.out, "\nincomplete: ")) << made.out;
-  EXPECT_TRUE(says(made.out, "closed-generic: 0 of 12 planned cases have a contact inside"));
+  expect_ended(judge("run", free + " range=1e-6:1", plan_text(12)), 3,
+               {"\nincomplete: ", "closed-generic: 0 of 12 planned cases have a contact inside"});
   // An honest one under a narrow contract holds.
   std::filesystem::remove_all(out);
-  const auto honest =
-      judge("run", "start=apart:0.05 adjacency=2 features=vertex-face float32", plan_text(12));
-  EXPECT_EQ(honest.exit_code, 0) << honest.out << honest.err;
+  expect_ended(
+      judge("run", "start=apart:0.05 adjacency=2 features=vertex-face float32", plan_text(12)), 0);
 }
 
 TEST_F(ForeignDetector, ItsSlowCasesAreListedAndShrunk) {
   const std::string plan =
       R"({"schema": "assay-campaign/1", "name": "tiny", "seconds": 20, "shrink_share": 0.2,)"
       R"( "strata": [{"family": "closed-degenerate", "cases": 12}]})";
-  const auto made =
-      judge("run", "claims=131 start=free no-pairs burn=30", plan, "--case-seconds 0.1 --jobs 2");
-  EXPECT_EQ(made.exit_code, 3) << made.out << made.err;
-  EXPECT_TRUE(contains(made.out, "/assay list slow ")) << made.out;
-  const auto listed = run_assay("list slow " + out);
-  EXPECT_EQ(listed.exit_code, 0) << listed.err;
-  EXPECT_TRUE(contains(listed.out, " without a verdict, at most 0.1 s")) << listed.out;
+  const auto made = expect_ended(
+      judge("run", "claims=131 start=free no-pairs burn=30", plan, "--case-seconds 0.1 --jobs 2"),
+      3, {"/assay list slow "});
+  const auto listed = expect_ended("list slow " + out, 0, {" without a verdict, at most 0.1 s"});
   EXPECT_FALSE(replay_lines(listed.out).empty());
   const auto findings = properties::read_findings(out);
   ASSERT_TRUE(findings) << findings.error().message;
@@ -218,11 +209,8 @@ TEST_F(ForeignDetector, ItsSlowCasesAreListedAndShrunk) {
 }
 
 TEST_F(ForeignDetector, AContractThatTakesNoCaseIsIncomplete) {
-  const auto made = judge("run", std::string(modest) + "start=apart:1e300", plan_text(4));
-  EXPECT_EQ(made.exit_code, 3) << made.out << made.err;
-  EXPECT_TRUE(
-      contains(made.out, "0 of 3 families have a contact inside the contract, 3 are wanted"))
-      << made.out;
+  expect_ended(judge("run", std::string(modest) + "start=apart:1e300", plan_text(4)), 3,
+               {"0 of 3 families have a contact inside the contract, 3 are wanted"});
 }
 
 TEST_F(ForeignDetector, WhatClaimsNothingThatIsLeftIsRefused) {

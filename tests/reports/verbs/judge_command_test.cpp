@@ -1,5 +1,7 @@
 // `judge`: recorded answers are judged as those of a plug-in are, what fails comes home as a small
 // mesh, and what is lost of a log is said.
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "corpus/formats/mesh_writer.h"
@@ -7,7 +9,7 @@
 #include "detector/detector.h"
 #include "tests/public_data.h"
 #include "tests/recorded_log.h"
-#include "tests/reports/run_fixture.h"
+#include "tests/reports/tiny_campaign.h"
 
 namespace assay::tests {
 namespace {
@@ -75,11 +77,9 @@ class JudgeCommand : public testing::Test {
 };
 
 TEST_F(JudgeCommand, RightAnswersHold) {
-  const auto judged = run_assay("judge " + record(answers_));
-  EXPECT_EQ(judged.exit_code, 0) << judged.out << judged.err;
-  EXPECT_TRUE(says(judged.out, "recorded of recorded 1"));
-  EXPECT_TRUE(says(judged.out, "noted before step 3: two steps done"));
-  EXPECT_TRUE(says(judged.out, "all claims hold"));
+  expect_ended(
+      "judge " + record(answers_), 0,
+      {"recorded of recorded 1", "noted before step 3: two steps done", "all claims hold"});
 }
 
 // Frames with a table of answers need no recorder.
@@ -93,32 +93,24 @@ TEST_F(JudgeCommand, ATableOfAnswersIsJudgedBesideFrames) {
   const auto check = [&](const std::string& table, const std::string& more = "") {
     return run_assay("check" + frames() + " --answers " + scratch_.write("t.csv", table) + more);
   };
-  const auto right = check(rows);
-  EXPECT_EQ(right.exit_code, 0) << right.out << right.err;
-  EXPECT_TRUE(says(right.out, "claims: free-sound, not-late"));
+  expect_ended(check(rows), 0, {"claims: free-sound, not-late"});
   auto wrong = rows;
   const auto row = wrong.find(fmt::format("\n{},collision", collision_ + 1));
   wrong.replace(row, wrong.find('\n', row + 1) - row, fmt::format("\n{},free,", collision_ + 1));
   const auto kept = scratch_ / "kept";
-  const auto missed = check(wrong, " --keep " + kept);
-  EXPECT_EQ(missed.exit_code, 1) << missed.out << missed.err;
+  expect_ended(check(wrong, " --keep " + kept), 1);
   const auto file = fmt::format("{}/step-{}/case.json", kept, collision_ + 1);
   EXPECT_EQ(run_assay("replay " + file).exit_code, 0) << "the built-in detector is right there";
-  const auto some = check(rows.substr(0, rows.find("\n3,") + 1));
-  EXPECT_EQ(some.exit_code, 0);
-  EXPECT_TRUE(says(some.out, "step 3: left out: the table has no row of it"));
-  for (const char* bad : {"", "x", "0,free,", "1,maybe,", "1,collision,2", "1,free,\n1,free,"}) {
-    const auto refused = check(bad);
-    EXPECT_EQ(refused.exit_code, 2) << bad << refused.out;
-  }
+  expect_ended(check(rows.substr(0, rows.find("\n3,") + 1)), 0,
+               {"step 3: left out: the table has no row of it"});
+  for (const char* bad : {"", "x", "0,free,", "1,maybe,", "1,collision,2", "1,free,\n1,free,"})
+    EXPECT_EQ(check(bad).exit_code, 2) << bad;
 }
 
 TEST_F(JudgeCommand, CheckKeepsWhatAPluginFailsOnShrunk) {
   const auto kept = scratch_ / "kept";
-  const auto checked =
-      run_assay("check" + frames() + " --detector " + plugin("always_free") + " --keep " + kept);
-  EXPECT_EQ(checked.exit_code, 1) << checked.err;
-  EXPECT_TRUE(says(checked.out, "reproduced; smallest: "));
+  expect_ended("check" + frames() + " --detector " + plugin("always_free") + " --keep " + kept, 1,
+               {"reproduced; smallest: "});
   const auto file = fmt::format("{}/step-{}/smallest.json", kept, collision_ + 1);
   EXPECT_EQ(run_assay("replay " + file + " --detector " + plugin("always_free")).exit_code, 1);
 }
@@ -126,38 +118,31 @@ TEST_F(JudgeCommand, CheckKeepsWhatAPluginFailsOnShrunk) {
 // Whoever did not ask for it gets the line that does, and it runs as it is pasted.
 TEST_F(JudgeCommand, CheckSaysHowToKeepWhatFails) {
   const auto words = "check" + frames() + " --detector '" + plugin("always_free") + "'";
-  const auto checked = run_assay(words, "cd " + (scratch_ / "") + " && ");
-  EXPECT_EQ(checked.exit_code, 1) << checked.err;
+  const auto checked = expect_ended(run_assay(words, "cd " + (scratch_ / "") + " && "), 1);
   const std::string mark = "\nnext: ";
   const auto at = checked.out.find(mark);
   ASSERT_NE(at, std::string::npos) << checked.out;
   const auto line = checked.out.substr(at + mark.size());
-  EXPECT_NE(std::system(
-                ("cd " + (scratch_ / "") + " && " + line.substr(0, line.size() - 1) + " >/dev/null")
-                    .c_str()),
+  EXPECT_NE(exit_code_of("cd " + (scratch_ / "") + " && " + line.substr(0, line.size() - 1) +
+                         " >/dev/null"),
             0);
   const auto file = fmt::format("{}/kept/step-{}/smallest.json", scratch_ / "", collision_ + 1);
   EXPECT_TRUE(std::filesystem::exists(file)) << line;
-  const auto held = run_assay("check" + frames());
-  EXPECT_EQ(held.exit_code, 0);
+  const auto held = expect_ended("check" + frames(), 0);
   EXPECT_FALSE(says(held.out, "next: ")) << held.out;
 }
 
 TEST_F(JudgeCommand, ReportsWhatCheckReportsOfTheSameSteps) {
-  const auto checked = run_assay("check" + frames() + " --detector " + plugin("wrapped_builtin") +
-                                 " --json " + (scratch_ / "check.json"));
-  EXPECT_EQ(checked.exit_code, 0) << checked.out << checked.err;
-  const auto judged =
-      run_assay("judge " + record(answers_) + " --json " + (scratch_ / "judge.json"));
-  EXPECT_EQ(judged.exit_code, 0) << judged.out << judged.err;
+  expect_ended("check" + frames() + " --detector " + plugin("wrapped_builtin") + " --json " +
+                   (scratch_ / "check.json"),
+               0);
+  expect_ended("judge " + record(answers_) + " --json " + (scratch_ / "judge.json"), 0);
   EXPECT_TRUE(steps_in(scratch_ / "judge.json") == steps_in(scratch_ / "check.json"));
 }
 
 TEST_F(JudgeCommand, AMissComesHomeAsTwoTrianglesAndTheirNeighbours) {
   const auto log = record(with_a_miss()), out = scratch_ / "out";
-  const auto judged = run_assay("judge " + log + " --out " + out);
-  EXPECT_EQ(judged.exit_code, 1) << judged.out << judged.err;
-  EXPECT_TRUE(says(judged.out, "broken: free-sound"));
+  const auto judged = expect_ended("judge " + log + " --out " + out, 1, {"broken: free-sound"});
   const auto step = fmt::format("step-{}", collision_ + 1);
   const auto c = nlohmann::json::parse(read_text(out + "/" + step + "/case.json"));
   EXPECT_LT(c["triangles"].size(), 60u);
@@ -170,9 +155,7 @@ TEST_F(JudgeCommand, AMissComesHomeAsTwoTrianglesAndTheirNeighbours) {
   EXPECT_EQ(run_assay("check " + out + "/" + step + "/case.json --fail-on-collision").exit_code, 5);
   const auto again = fmt::format("replay '{}#{}'", log, collision_ + 1);
   EXPECT_TRUE(says(judged.out, again));
-  const auto replayed = run_assay(again);
-  EXPECT_EQ(replayed.exit_code, 1) << replayed.out << replayed.err;
-  EXPECT_TRUE(says(replayed.out, fmt::format("step {}: ", collision_ + 1)));
+  expect_ended(again, 1, {fmt::format("step {}: ", collision_ + 1)});
   EXPECT_EQ(run_assay(fmt::format("replay '{}#1'", log)).exit_code, 0);
   EXPECT_EQ(run_assay(fmt::format("replay '{}#99'", log)).exit_code, 2);
 }
@@ -180,8 +163,7 @@ TEST_F(JudgeCommand, AMissComesHomeAsTwoTrianglesAndTheirNeighbours) {
 TEST_F(JudgeCommand, ThePageShowsVerdictClaimsAndKeptSteps) {
   const auto wrong = scratch_ / "a & b <i>.log", out = scratch_ / "out";
   std::filesystem::rename(record(with_a_miss()), wrong);
-  const auto judged = run_assay("judge '" + wrong + "' --out " + out);
-  EXPECT_EQ(judged.exit_code, 1) << judged.out << judged.err;
+  expect_ended("judge '" + wrong + "' --out " + out, 1);
   const auto page = read_text(out + "/page.html");
   EXPECT_TRUE(contains(page, "<h1>defect: " + (scratch_ / "a &amp; b &lt;i&gt;.log"))) << page;
   EXPECT_TRUE(contains(
@@ -202,8 +184,7 @@ TEST_F(JudgeCommand, ShrinkAndReplayTakeStepsOfLogsAndFrames) {
   const std::string detector = " --detector " + plugin("always_free");
   EXPECT_EQ(run_assay("replay" + step + detector).exit_code, 1);
   for (const auto& input : {step, frames()}) {
-    const auto shrunk = run_assay("shrink" + input + detector + " --time 20 --out " + small);
-    EXPECT_EQ(shrunk.exit_code, 1) << shrunk.out << shrunk.err;
+    expect_ended("shrink" + input + detector + " --time 20 --out " + small, 1);
     EXPECT_LE(nlohmann::json::parse(read_text(small))["triangles"].size(), 3u);
   }
 }
@@ -211,10 +192,8 @@ TEST_F(JudgeCommand, ShrinkAndReplayTakeStepsOfLogsAndFrames) {
 TEST_F(JudgeCommand, LinesPointsAndLooseVerticesAreCounted) {
   const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 5 5\nf 1 2 3\nl 1 2\nl 2 3\np 4\n";
   const auto file = scratch_.write("a.obj", mesh);
-  const auto checked = run_assay("check " + file + " " + file);
-  EXPECT_EQ(checked.exit_code, 0) << checked.err;
-  EXPECT_TRUE(says(checked.out, "4 vertices (1 of no triangle)"));
-  EXPECT_TRUE(says(checked.out, "not looked at: 2 lines (l), 1 point (p)"));
+  expect_ended("check " + file + " " + file, 0,
+               {"4 vertices (1 of no triangle)", "not looked at: 2 lines (l), 1 point (p)"});
 }
 
 TEST_F(JudgeCommand, JUnitHasEachClaim) {
@@ -233,9 +212,7 @@ TEST_F(JudgeCommand, TenOfAKindAreKept) {
     log.step(&sequence_.frames[collision_], sequence_.frames[collision_ + 1],
              with_a_miss()[collision_]);
   log.end();
-  const auto judged = run_assay("judge " + path + " --out " + out);
-  EXPECT_EQ(judged.exit_code, 1) << judged.err;
-  EXPECT_TRUE(says(judged.out, "not kept, 10 of its kind are"));
+  expect_ended("judge " + path + " --out " + out, 1, {"not kept, 10 of its kind are"});
   EXPECT_TRUE(std::filesystem::exists(out + "/step-10"));
   EXPECT_FALSE(std::filesystem::exists(out + "/step-11"));
 }
@@ -259,16 +236,13 @@ TEST_F(JudgeCommand, WhatIsLostIsSaid) {
   const auto good = read_text(log);
   auto bad = good;
   bad[bad.size() / 2] ^= 1;
-  const auto damaged = run_assay("judge " + scratch_.write("bad.log", bad));
-  EXPECT_EQ(damaged.exit_code, 3) << damaged.out;
-  EXPECT_TRUE(says(damaged.out, fmt::format("to {}, from the first damage to the end of the log "
-                                            "(no record); steps read before it: 4\n",
-                                            good.size())));
-  EXPECT_TRUE(says(damaged.out, "undecided: a part of the input is lost"));
-  const auto cut =
-      run_assay("judge " + scratch_.write("cut.log", good.substr(0, good.size() - 99)));
-  EXPECT_EQ(cut.exit_code, 0) << cut.out;
-  EXPECT_TRUE(says(cut.out, "it was cut, or is being written"));
+  expect_ended("judge " + scratch_.write("bad.log", bad), 3,
+               {fmt::format("to {}, from the first damage to the end of the log "
+                            "(no record); steps read before it: 4\n",
+                            good.size()),
+                "undecided: a part of the input is lost"});
+  expect_ended("judge " + scratch_.write("cut.log", good.substr(0, good.size() - 99)), 0,
+               {"it was cut, or is being written"});
   EXPECT_EQ(run_assay("judge " + scratch_.write("none.log", "no log")).exit_code, 2);
 }
 
@@ -277,13 +251,10 @@ TEST_F(JudgeCommand, ALogWhoseRearIsDestroyedIsUndecided) {
   const auto good = read_text(record(with_a_miss()));
   const auto kept = good.size() / 5;
   for (const auto size : {good.size() - kept, std::size_t{5'000'000}}) {
-    const auto judged = run_assay(
-        "judge " + scratch_.write("rear.log", good.substr(0, kept) + std::string(size, '\0')));
-    EXPECT_EQ(judged.exit_code, 3) << judged.out;
-    EXPECT_TRUE(says(judged.out,
-                     fmt::format("to {}, from the first damage to the end of the log (no record)",
-                                 kept + size)));
-    EXPECT_TRUE(says(judged.out, "undecided: a part of the input is lost"));
+    expect_ended(
+        "judge " + scratch_.write("rear.log", good.substr(0, kept) + std::string(size, '\0')), 3,
+        {fmt::format("to {}, from the first damage to the end of the log (no record)", kept + size),
+         "undecided: a part of the input is lost"});
   }
 }
 
@@ -293,10 +264,9 @@ TEST_F(JudgeCommand, WhatLeavesNoStepToBeJudgedIsUndecided) {
   std::filesystem::rename(record({}), none);
   const auto log = record(answers_);
   for (const auto& words : {none, log + " --from 99", log + " --shard 99/99"}) {
+    SCOPED_TRACE(words);
     const auto junit = scratch_ / "none.xml";
-    const auto judged = run_assay("judge " + words + " --junit " + junit);
-    EXPECT_EQ(judged.exit_code, 3) << words << judged.out << judged.err;
-    EXPECT_TRUE(says(judged.out, "undecided: no step was judged")) << judged.out;
+    expect_ended("judge " + words + " --junit " + junit, 3, {"undecided: no step was judged"});
     EXPECT_TRUE(says(read_text(junit), "name=\"total\"><skipped"));
   }
   EXPECT_EQ(run_assay("judge " + log + " --from 7").exit_code, 0);
@@ -311,9 +281,7 @@ TEST_F(JudgeCommand, AStepThatIsNoneIsUndecided) {
   log.step(sequence_.frames.data(), broken, answers_[0]);
   log.step(sequence_.frames.data(), sequence_.frames[1], answers_[0]);
   log.end();
-  const auto judged = run_assay("judge " + path);
-  EXPECT_EQ(judged.exit_code, 3) << judged.out;
-  EXPECT_TRUE(says(judged.out, "lost: step 1: a coordinate is not finite"));
+  expect_ended("judge " + path, 3, {"lost: step 1: a coordinate is not finite"});
 }
 
 TEST_F(JudgeCommand, AnAbsentAnswerHidesNoOtherRemark) {
@@ -325,11 +293,8 @@ TEST_F(JudgeCommand, AnAbsentAnswerHidesNoOtherRemark) {
   log.step(sequence_.frames.data(), sequence_.frames[1], answers_[0]);
   log.end();
   const auto text = read_text(path);
-  const auto judged =
-      run_assay("judge " + scratch_.write("cut.log", text.substr(0, text.size() - 9)));
-  EXPECT_EQ(judged.exit_code, 0) << judged.out;
-  EXPECT_TRUE(says(judged.out, "1 step without an answer"));
-  EXPECT_TRUE(says(judged.out, "it was cut, or is being written"));
+  expect_ended("judge " + scratch_.write("cut.log", text.substr(0, text.size() - 9)), 0,
+               {"1 step without an answer", "it was cut, or is being written"});
 }
 
 TEST_F(JudgeCommand, ALogIsNotOverwritten) {
@@ -343,9 +308,9 @@ TEST_F(JudgeCommand, ALogIsNotOverwritten) {
 TEST_F(JudgeCommand, SeveralLogsAreJudgedWhateverOneIs) {
   const auto out = scratch_ / "out", xml = scratch_ / "all.xml";
   const auto log = record(with_a_miss());
-  const auto judged = run_assay("judge " + log + " " + (scratch_ / "absent.log") + " " + log +
-                                " --out " + out + " --junit " + xml);
-  EXPECT_EQ(judged.exit_code, 1) << judged.out << judged.err;
+  expect_ended("judge " + log + " " + (scratch_ / "absent.log") + " " + log + " --out " + out +
+                   " --junit " + xml,
+               1);
   for (const char* folder : {"/1-steps.log", "/3-steps.log"})
     EXPECT_TRUE(std::filesystem::exists(out + folder)) << folder;
   EXPECT_TRUE(says(read_text(xml), "<error message="));
@@ -394,9 +359,8 @@ TEST_F(JudgeCommand, FollowsALogUntilItEnds) {
 TEST_F(JudgeCommand, WhatALogCannotShowIsNotJudged) {
   auto description = all_claims_description();
   description.claims |= ASSAY_CLAIM_DETERMINISTIC;
-  const auto judged = run_assay("judge " + record(answers_, true, description));
-  EXPECT_EQ(judged.exit_code, 0) << judged.out;
-  EXPECT_TRUE(says(judged.out, "not judged: deterministic, for a log holds each step once"));
+  expect_ended("judge " + record(answers_, true, description), 0,
+               {"not judged: deterministic, for a log holds each step once"});
   description.claims = ASSAY_CLAIM_DETERMINISTIC;
   EXPECT_EQ(run_assay("judge " + record(answers_, true, description)).exit_code, 2);
 }
@@ -417,9 +381,8 @@ TEST(JudgeSimulators, TheSlipOfAClothComesHomeAsTwoTriangles) {
   const auto cloth = std::filesystem::path(ASSAY_PROGRAM).parent_path() / "record_cloth";
   for (const std::string slip : {"", " slip"}) {
     const auto log = scratch / "cloth.log", out = scratch / "out";
-    ASSERT_EQ(std::system((cloth.string() + " " + log + slip + " >/dev/null").c_str()), 0);
-    const auto judged = run_assay("judge " + log + " --out " + out);
-    EXPECT_EQ(judged.exit_code, slip.empty() ? 0 : 1) << judged.out << judged.err;
+    ASSERT_EQ(exit_code_of(cloth.string() + " " + log + slip + " >/dev/null"), 0);
+    const auto judged = expect_ended("judge " + log + " --out " + out, slip.empty() ? 0 : 1);
     if (slip.empty()) continue;
     EXPECT_TRUE(says(judged.out, "114 of 500 steps judged"));
     EXPECT_TRUE(says(judged.out, "386 steps left out by the contract"));
@@ -455,9 +418,8 @@ int main(int count, char** words) {
   const std::string built = "cc -std=c99 -Wall -Wextra -pedantic -Werror -I" ASSAY_SOURCE_DIR
                             "/detector/plugin " +
                             source + " -o " + program;
-  ASSERT_EQ(std::system((built + " && " + program + " " + log).c_str()), 0);
-  const auto judged = run_assay("judge " + log + " --out " + out);
-  EXPECT_EQ(judged.exit_code, 1) << judged.out << judged.err;
+  ASSERT_EQ(exit_code_of(built + " && " + program + " " + log), 0);
+  expect_ended("judge " + log + " --out " + out, 1);
   EXPECT_EQ(pair_of_first_failure(out)["triangles"].size(), 2u);
 }
 
@@ -487,12 +449,10 @@ TEST(JudgePublicSequences, PublicLogsAreReportedAsTheirFrames) {
       }
     }
     log.end();
-    const auto judged = run_assay("judge " + (scratch / "log") + " --json " + (scratch / "a"));
-    EXPECT_EQ(judged.exit_code, 0) << judged.out << judged.err;
-    EXPECT_EQ(run_assay("check" + words + " --detector " + plugin("wrapped_builtin") + " --json " +
-                        (scratch / "b"))
-                  .exit_code,
-              0);
+    expect_ended("judge " + (scratch / "log") + " --json " + (scratch / "a"), 0);
+    expect_ended(
+        "check" + words + " --detector " + plugin("wrapped_builtin") + " --json " + (scratch / "b"),
+        0);
     EXPECT_TRUE(steps_in(scratch / "a") == steps_in(scratch / "b"));
   }
 }

@@ -1,5 +1,6 @@
-// Limiters: the right ones hold, of each wrong one a campaign finds a case, names the claim and
-// shrinks it to two or three triangles; the texts tell how much of what was possible was used.
+// Limiters, and detectors that keep a distance: the right ones hold, of each wrong one a campaign
+// finds a case, names the claim or the distance as its cause and shrinks it to two or three
+// triangles; the texts tell how much of what was possible was used.
 #include <nlohmann/json.hpp>
 
 #include "tests/reports/tiny_campaign.h"
@@ -32,10 +33,8 @@ class LimitsSteps : public testing::Test {
 
 TEST_F(LimitsSteps, TheRightOnesHold) {
   for (const std::string said : {"", "positions", "share-alone", "separation=0.01"}) {
-    const auto ran = run(said);
-    EXPECT_EQ(ran.exit_code, 0) << said << ran.out << ran.err;
-    EXPECT_TRUE(contains(ran.out, "used 0.95 in the median")) << ran.out;
-    EXPECT_TRUE(contains(ran.out, "limits: 0 of ")) << ran.out;
+    SCOPED_TRACE(said);
+    expect_ended(run(said), 0, {"used 0.95 in the median", "limits: 0 of "});
   }
 }
 
@@ -47,10 +46,9 @@ TEST_F(LimitsSteps, EachFaultIsFoundWithTheRightClaimAndShrunk) {
       {"stale-start", "commit-free"}, {"at-contact", "commit-free"},
       {"parallel-zero", "progress"},  {"by-order", "commit-free"}};
   for (const auto& [said, claim] : faults) {
-    const auto ran = run(said);
-    EXPECT_EQ(ran.exit_code, 1) << said << ran.out << ran.err;
-    EXPECT_TRUE(contains(ran.out, "DEFECT " + claim + ": ")) << said << ran.out;
-    EXPECT_LE(triangles_of_smallest(out), 3) << said;
+    SCOPED_TRACE(said);
+    expect_ended(run(said), 1, {"DEFECT " + claim + ": "});
+    EXPECT_LE(triangles_of_smallest(out), 3);
   }
 }
 
@@ -66,14 +64,10 @@ TEST_F(LimitsSteps, AFailureIsShownWithTheWayThatWasAllowed) {
   };
   const std::string asked = "check " + frame(3) + " " + frame(-1) + " --detector " +
                             plugin("limits_steps") + " --json " + (scratch / "report.json");
-  const auto right = run_assay(asked, words(""));
-  EXPECT_EQ(right.exit_code, 0) << right.out << right.err;
-  EXPECT_TRUE(contains(right.out, "limit: 0.7125 of the step, contact ahead at t = 0.75"))
-      << right.out;
-  const auto wrong = run_assay(asked, words("at-contact"));
-  EXPECT_EQ(wrong.exit_code, 1);
-  EXPECT_TRUE(contains(wrong.out, "contact on the way at t = 1 of it")) << wrong.out;
-  EXPECT_TRUE(contains(wrong.out, "broken: commit-free path-free")) << wrong.out;
+  expect_ended(run_assay(asked, words("")), 0,
+               {"limit: 0.7125 of the step, contact ahead at t = 0.75"});
+  expect_ended(run_assay(asked, words("at-contact")), 1,
+               {"contact on the way at t = 1 of it", "broken: commit-free path-free"});
   const auto report = nlohmann::json::parse(read_text(scratch / "report.json"));
   const auto& limit = report["steps"][0]["diff"]["limit"];
   EXPECT_EQ(limit["share"], 0.75);
@@ -84,12 +78,49 @@ TEST_F(LimitsSteps, AFailureIsShownWithTheWayThatWasAllowed) {
   for (const auto& file : std::filesystem::directory_iterator(out + "/failures")) {
     if (contains(file.path().filename().string(), "-smallest.json")) smallest = file.path();
   }
-  const auto replayed = run_assay("replay " + smallest + " --detector " + plugin("limits_steps"),
-                                  words("at-contact"));
-  EXPECT_EQ(replayed.exit_code, 1) << replayed.out << replayed.err;
-  EXPECT_TRUE(contains(replayed.out, "commit-free")) << replayed.out;
+  expect_ended(run_assay("replay " + smallest + " --detector " + plugin("limits_steps"),
+                         words("at-contact")),
+               1, {"commit-free"});
   const auto svg = read_text(std::filesystem::path(smallest).replace_extension(".svg").string());
   EXPECT_TRUE(contains(svg, "t = 1<")) << "the contact is at the end of the way\n" << svg;
+}
+
+// tests/plugins/keeps_distance.cpp says what the words are.
+class KeptDistance : public testing::Test {
+ protected:
+  const Scratch scratch;
+  const std::string out = scratch / "out";
+
+  Outcome run(const std::string& words, const std::string& more = "") const {
+    return run_assay("run --campaign " + scratch.write("plan.json", plan_text(16)) + " --out " +
+                         out + " --time 600 --detector " + plugin("keeps_distance") + " " + more,
+                     "ASSAY_KEEPS_DISTANCE=\"separation=0.01 " + words + "\" ");
+  }
+};
+
+TEST_F(KeptDistance, TheOraclesOwnAnswersHold) {
+  expect_ended(run(""), 0, {"contract: neighbours no-shared-vertex, within 0.01"});
+}
+
+TEST_F(KeptDistance, TheBuiltInDetectorsAnswersHold) { expect_ended(run("ours"), 0); }
+
+TEST_F(KeptDistance, OneThatAlarmsWithinASlackSaysSo) {
+  EXPECT_EQ(run("squares-it margin=0.2").exit_code, 0);
+  std::filesystem::remove_all(out);
+  EXPECT_EQ(run("squares-it margin=0.01").exit_code, 1);
+}
+
+TEST_F(KeptDistance, EachFaultIsFoundAndShrunkToTwoTriangles) {
+  for (const std::string fault : {"ignores-it", "squares-it", "half-boxes", "no-edges"}) {
+    SCOPED_TRACE(fault);
+    std::filesystem::remove_all(out);
+    expect_ended(run(fault), 1);
+    int named = 0;
+    for (const auto& [signature, count] : signatures_of(out))
+      named += contains(signature, "distance") ? 1 : 0;
+    EXPECT_GT(named, 0);
+    EXPECT_EQ(triangles_of_smallest(out), 2);
+  }
 }
 
 // A detector of displacements in float32 is judged on the path that it was given: exact in its own
@@ -104,11 +135,8 @@ TEST(Displacements, AreJudgedOnThePathThatWasGiven) {
             " --time 600 --detector " + plugin("by_contract"),
         "ASSAY_BY_CONTRACT=\"strangers start=free float32 displacement " + said + "\" ");
   };
-  const auto exact = run("");
-  EXPECT_EQ(exact.exit_code, 0) << exact.out << exact.err;
-  EXPECT_TRUE(contains(exact.out, "motion displacement")) << exact.out;
-  const auto rounded = run("rounds-end");
-  EXPECT_EQ(rounded.exit_code, 1) << rounded.out << rounded.err;
+  expect_ended(run(""), 0, {"motion displacement"});
+  const auto rounded = expect_ended(run("rounds-end"), 1);
   EXPECT_TRUE(contains(rounded.out, "DEFECT first-time: ") ||
               contains(rounded.out, "DEFECT not-late: "))
       << rounded.out;

@@ -1,5 +1,7 @@
 // Each line to paste that a verb prints or writes carries all of its inputs: pasted into a shell,
 // in another folder too, it comes to the same verdict.
+#include <fmt/format.h>
+
 #include "tests/recorded_log.h"
 #include "tests/reports/tiny_campaign.h"
 
@@ -36,8 +38,7 @@ class LinesToPaste : public testing::Test {
   }
 
   static int code_of(const std::string& line, const std::string& where) {
-    const int status = std::system(("cd '" + where + "' && " + line + " >/dev/null").c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return exit_code_of("cd '" + where + "' && " + line + " >/dev/null");
   }
 
   // Pastes all lines of the text: `next` in its folder, the others anywhere.
@@ -70,14 +71,12 @@ TEST_F(LinesToPaste, OfCheckNameFramesBodiesAndAnswers) {
   int number = 0;
   for (const auto& input : inputs) {
     SCOPED_TRACE(input);
-    const auto told = run("check " + input);
-    EXPECT_EQ(told.exit_code, 1) << told.out << told.err;
+    const auto told = expect_ended(run("check " + input), 1);
     expect_same(told.out, 1, 1);
     const auto kept = folder / fmt::format("kept {}", ++number), report = kept / "r.json";
     const auto words = fmt::format("check {} --keep '{}' --json '{}'", input,
                                    kept.filename().string(), report.string());
-    const auto made = run(words);
-    EXPECT_EQ(made.exit_code, 1) << made.out << made.err;
+    const auto made = expect_ended(run(words), 1);
     const bool is_plugin = contains(input, "--detector");
     expect_same(made.out, 1, is_plugin ? 2 : 1);
     // The same lines stand in the report and on the page, and the kept case names all files.
@@ -113,8 +112,8 @@ TEST_F(LinesToPaste, OfACaseFileKeepItsRelation) {
        text("[0, 0]",
             R"({"answer": "collision", "first_time": [0.5, 0.5], "pairs": [[0, 1, 0.5, 0.5]]})"));
   EXPECT_EQ(run("check apart.json --detector " + plugin("takes_relations")).exit_code, 0);
-  const auto made = run("check met.json --detector " + plugin("always_free") + " --keep 'of case'");
-  EXPECT_EQ(made.exit_code, 1) << made.out << made.err;
+  const auto made = expect_ended(
+      run("check met.json --detector " + plugin("always_free") + " --keep 'of case'"), 1);
   expect_same(made.out, 1, 2);
 }
 
@@ -122,15 +121,13 @@ TEST_F(LinesToPaste, OfJudgeNameTheLogAndTheStep) {
   const auto path = (folder / "my log").string();
   write_missed_contact(path);
   for (const std::string word : {"'my log'", "'my log#2'"}) {
-    const auto judged = run("judge " + word + " --out judged");
-    EXPECT_EQ(judged.exit_code, 1) << judged.out << judged.err;
+    const auto judged = expect_ended(run("judge " + word + " --out judged"), 1);
     expect_same(judged.out, 1, 1);
   }
   const auto shrunk =
-      run("shrink 'my log#2' --out 'small one.json' --isolation limits --detector " +
-          plugin("always_free"));
-  EXPECT_EQ(shrunk.exit_code, 1) << shrunk.err;
-  EXPECT_TRUE(contains(shrunk.out, " --isolation limits")) << shrunk.out;
+      expect_ended(run("shrink 'my log#2' --out 'small one.json' --isolation limits --detector " +
+                       plugin("always_free")),
+                   1, {" --isolation limits"});
   expect_same(shrunk.out, 1, 1);
 }
 
@@ -138,8 +135,7 @@ TEST_F(LinesToPaste, OfRunsAndSelfTestsNameTheDetectorAsItRan) {
   file("plan.json", plan_text(8));
   const std::string detector =
       " --detector " + plugin("always_free") + " --isolation limits --threads 2";
-  const auto ran = run("run --campaign plan.json --out 'my run'" + detector);
-  EXPECT_EQ(ran.exit_code, 1) << ran.err;
+  const auto ran = expect_ended(run("run --campaign plan.json --out 'my run'" + detector), 1);
   const auto listed = run("list failures 'my run'");
   for (const auto& text : {ran.out, listed.out}) {
     const auto lines = replay_lines(text);
@@ -155,19 +151,11 @@ TEST_F(LinesToPaste, OfRunsAndSelfTestsNameTheDetectorAsItRan) {
 TEST_F(LinesToPaste, WhatItsOwnCaseDoesNotShowSaysSo) {
   const std::string detector = " --detector " + plugin("steps_and_query");
   const std::string state = "ASSAY_QUERY='claims=129 free-after-calls=2' ";
-  const auto checked =
-      run("check 'f 0.obj' 'f 1.obj' 'f 2.obj' 'f 1.obj' --keep state --json "
-          "state/r.json --part steps" +
-              detector,
-          state);
-  EXPECT_EQ(checked.exit_code, 2) << "check has no parts";
-  const auto made =
-      run("check 'f 0.obj' 'f 1.obj' 'f 2.obj' 'f 1.obj' --keep state --json "
-          "state/r.json" +
-              detector,
-          state);
-  EXPECT_EQ(made.exit_code, 1) << made.out << made.err;
-  EXPECT_TRUE(contains(made.out, "not reproduced: asked about this step alone")) << made.out;
+  const std::string check =
+      "check 'f 0.obj' 'f 1.obj' 'f 2.obj' 'f 1.obj' --keep state --json state/r.json";
+  EXPECT_EQ(run(check + " --part steps" + detector, state).exit_code, 2) << "check has no parts";
+  const auto made = expect_ended(run(check + detector, state), 1,
+                                 {"not reproduced: asked about this step alone"});
   EXPECT_FALSE(contains(made.out, "replay: ")) << made.out;
   const auto step = nlohmann::json::parse(read_text(folder / "state/r.json")).at("kept").at(0);
   EXPECT_EQ(step.at("reproduced"), false);
@@ -176,18 +164,16 @@ TEST_F(LinesToPaste, WhatItsOwnCaseDoesNotShowSaysSo) {
   expect_same(made.out, 1, 1);
   ::unsetenv("ASSAY_QUERY");
 
-  const auto queries = run("check-queries --json q.json " + std::string(ASSAY_SOURCE_DIR) +
-                               "/corpus/queries/example_vf.csv" + detector,
-                           state);
-  EXPECT_EQ(queries.exit_code, 1) << queries.out << queries.err;
-  EXPECT_TRUE(contains(queries.out, "asked again by itself")) << queries.out;
+  expect_ended(run("check-queries --json q.json " + std::string(ASSAY_SOURCE_DIR) +
+                       "/corpus/queries/example_vf.csv" + detector,
+                   state),
+               1, {"asked again by itself"});
   EXPECT_TRUE(contains(read_text(folder / "q.json"), "asked again by itself"));
 
   file("plan.json", plan_text(8));
-  const auto ran = run("run --campaign plan.json --jobs 1 --part steps --out stateful" + detector,
-                       "ASSAY_QUERY='claims=129 free-after-calls=20' ");
-  EXPECT_EQ(ran.exit_code, 1) << ran.err;
-  EXPECT_TRUE(contains(ran.out, "asked again by itself")) << ran.out;
+  expect_ended(run("run --campaign plan.json --jobs 1 --part steps --out stateful" + detector,
+                   "ASSAY_QUERY='claims=129 free-after-calls=20' "),
+               1, {"asked again by itself"});
   EXPECT_TRUE(contains(read_text(folder / "stateful/junit.xml"), "asked again by itself"));
   EXPECT_EQ(run("report stateful --out page.html").exit_code, 0);
   EXPECT_TRUE(contains(read_text(folder / "page.html"), "\"flaky\":true"));

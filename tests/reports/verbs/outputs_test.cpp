@@ -1,5 +1,7 @@
 // What a verb is asked to write is written whatever the verdict, or refused by one line before any
 // work.
+#include <fmt/format.h>
+
 #include "tests/recorded_log.h"
 #include "tests/reports/tiny_campaign.h"
 
@@ -47,7 +49,7 @@ TEST_F(Outputs, ThatCannotBeWrittenAreRefusedBeforeTheWork) {
                                  "scene bend --size 100 --out "};
   for (const auto& words : folders) {
     for (const auto& place : {file, file + "/below", std::string("/proc/nowhere")})
-      expect_refused(run_assay(words + place), place);
+      expect_refused(words + place, place);
   }
   const std::string files[] = {check + " --json ",
                                "check " + frames + " --separation 1 --json ",
@@ -61,7 +63,7 @@ TEST_F(Outputs, ThatCannotBeWrittenAreRefusedBeforeTheWork) {
   for (const auto& words : files) {
     for (const auto& place :
          {scratch / "", file + "/below", scratch / "absent/file", std::string("/proc/nowhere")})
-      expect_refused(run_assay(words + place), place);
+      expect_refused(words + place, place);
   }
 }
 
@@ -79,38 +81,35 @@ TEST_F(Outputs, AFileOfAFolderThatCannotBeWrittenIsRefusedToo) {
            {"run --campaign " + plan + " --out ", "summary.md"},
            {"certify --campaign " + plan + " --out ", "certificate.json"},
            {"certify --campaign " + plan + " --out ", "summary.md"}})
-    expect_refused(run_assay(words + out(name)), name);
+    expect_refused(words + out(name), name);
   const auto folder = scratch / "failures_is_a_file";
   std::filesystem::create_directories(folder);
   std::ofstream(folder + "/failures") << "";
-  expect_refused(run_assay("run --campaign " + plan + " --out " + folder), "failures");
+  expect_refused("run --campaign " + plan + " --out " + folder, "failures");
 }
 
 TEST_F(Outputs, TwoOutputsAreNotOneFile) {
   const auto one = scratch / "one";
-  expect_refused(run_assay("bench --suite stability --quick --json " + one + " --csv " + one), one);
-  expect_refused(run_assay("judge " + log() + " --json " + one + " --junit " + one), one);
+  expect_refused("bench --suite stability --quick --json " + one + " --csv " + one, one);
+  expect_refused("judge " + log() + " --json " + one + " --junit " + one, one);
 }
 
 // Nothing fails, and nothing is there yet.
 TEST_F(Outputs, AreWrittenWhateverTheVerdict) {
   for (const auto& [table, code] : {std::pair(right, 0), std::pair(wrong, 1)}) {
     const auto kept = scratch / (code == 0 ? "held/kept" : "failed/kept");
-    const auto checked = run_assay("check " + frames + " --answers " + table + " --keep " + kept +
-                                   " --json " + kept + "/r.json");
-    EXPECT_EQ(checked.exit_code, code) << checked.out << checked.err;
+    expect_ended("check " + frames + " --answers " + table + " --keep " + kept + " --json " + kept +
+                     "/r.json",
+                 code);
     EXPECT_TRUE(std::filesystem::exists(kept + "/page.html"));
     EXPECT_TRUE(std::filesystem::exists(kept + "/r.json"));
     EXPECT_EQ(std::filesystem::exists(kept + "/step-1/case.json"), code == 1);
   }
-  const auto judged = run_assay("judge " + log() + " --out " + (scratch / "x/y") + " --json " +
-                                (scratch / "x/y/r.json"));
-  EXPECT_EQ(judged.exit_code, 1) << judged.err;
+  expect_ended(
+      "judge " + log() + " --out " + (scratch / "x/y") + " --json " + (scratch / "x/y/r.json"), 1);
   EXPECT_TRUE(std::filesystem::exists(scratch / "x/y/page.html"));
-  EXPECT_EQ(
-      run_assay("replay " + curated("A1_winding2_allpositive") + " --export " + (scratch / "p/q"))
-          .exit_code,
-      0);
+  expect_ended("replay " + curated("A1_winding2_allpositive") + " --export " + (scratch / "p/q"),
+               0);
   EXPECT_TRUE(std::filesystem::exists(scratch / "p/q/case.json"));
 }
 
@@ -119,10 +118,9 @@ TEST_F(Outputs, AStepThatCannotBeKeptLosesNoReport) {
   const auto kept = scratch / "in_the_way", report = scratch / "r.json";
   std::filesystem::create_directories(kept);
   for (const char* step : {"/step-1", "/step-2"}) std::ofstream(kept + step) << "";
-  const auto checked = run_assay("check " + frames + " --answers " + wrong + " --keep " + kept +
-                                 " --json " + report);
-  EXPECT_EQ(checked.exit_code, 2);
-  EXPECT_TRUE(contains(checked.out, "not kept: " + kept + "/step-1")) << checked.out;
+  const auto checked = expect_ended(
+      "check " + frames + " --answers " + wrong + " --keep " + kept + " --json " + report, 2,
+      {"not kept: " + kept + "/step-1"});
   EXPECT_TRUE(contains(checked.err, "step-1")) << checked.err;
   EXPECT_TRUE(contains(read_text(report), "\"outcome\": \"defect\""));
   EXPECT_TRUE(std::filesystem::exists(kept + "/page.html"));

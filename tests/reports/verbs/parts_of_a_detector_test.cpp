@@ -52,18 +52,13 @@ TEST_F(Parts, ABroadPhaseIsCheckedByWhatItLoses) {
   const std::string folder = scratch / "scene";
   ASSERT_EQ(run_assay("scene folding-sheet --size 200 --frames 5 --out " + folder).exit_code, 0);
   const std::string check = "check " + folder + "/frame_*.ply --json " + (scratch / "report.json");
-  const auto right = candidates("threads=4", check + " --threads 4");
-  EXPECT_EQ(right.exit_code, 0) << right.out << right.err;
-  EXPECT_TRUE(contains(right.out, "\nthreads: 4")) << right.out;
-  EXPECT_TRUE(contains(right.out, "no answer; agree")) << right.out;
-  EXPECT_TRUE(contains(right.out, " needed, 0 lost")) << right.out;
-  EXPECT_TRUE(contains(right.out, "candidate pairs; all claims hold")) << right.out;
+  expect_ended(
+      candidates("threads=4", check + " --threads 4"), 0,
+      {"\nthreads: 4", "no answer; agree", " needed, 0 lost", "candidate pairs; all claims hold"});
   auto report = Json::parse(read_text(scratch / "report.json"));
   EXPECT_EQ(report["outcome"], "holds");
-  const auto wrong = candidates("every-second", check);
-  EXPECT_EQ(wrong.exit_code, 1) << wrong.out << wrong.err;
-  EXPECT_TRUE(contains(wrong.out, "broken: candidates")) << wrong.out;
-  EXPECT_TRUE(contains(wrong.out, "no candidate: triangles ")) << wrong.out;
+  expect_ended(candidates("every-second", check), 1,
+               {"broken: candidates", "no candidate: triangles "});
   report = Json::parse(read_text(scratch / "report.json"));
   const auto& last = report["steps"].back()["diff"]["candidates"];
   EXPECT_GT(last["given"], last["least"]);
@@ -71,27 +66,22 @@ TEST_F(Parts, ABroadPhaseIsCheckedByWhatItLoses) {
 }
 
 TEST_F(Parts, ABroadPhaseIsCertifiedAndItsMissesAreShrunk) {
-  const auto right = candidates("", campaign("certify", "right"));
-  EXPECT_EQ(right.exit_code, 0) << right.out << right.err;
-  EXPECT_TRUE(contains(right.out, "claims: deterministic, total, candidates\n")) << right.out;
-  EXPECT_TRUE(contains(right.out, "candidates / least")) << right.out;
+  const auto right =
+      expect_ended(candidates("", campaign("certify", "right")), 0,
+                   {"claims: deterministic, total, candidates\n", "candidates / least"});
   EXPECT_FALSE(contains(right.out, "not judged: candidates")) << right.out;
   expect_valid_certificate(out("right") + "/certificate.json");
   const auto statement = Json::parse(read_text(out("right") + "/certificate.json"));
   const auto& measures = statement["predicate"]["strata"][0]["measures"]["candidates"];
   EXPECT_GT(measures["least"], 0);
   EXPECT_GT(measures["over_least"], 1);
-  const auto again = candidates("", "verify --again 1 " + out("right") + "/certificate.json");
-  EXPECT_EQ(again.exit_code, 0) << again.out << again.err;
+  expect_ended(candidates("", "verify --again 1 " + out("right") + "/certificate.json"), 0);
 
-  const auto wrong = candidates("ends-only", campaign("run", "wrong"));
-  EXPECT_EQ(wrong.exit_code, 1) << wrong.out << wrong.err;
-  EXPECT_TRUE(contains(wrong.out, "DEFECT candidates: missing candidate, ")) << wrong.out;
+  const auto wrong = expect_ended(candidates("ends-only", campaign("run", "wrong")), 1,
+                                  {"DEFECT candidates: missing candidate, "});
   const auto lines = replay_lines(wrong.out);
   ASSERT_FALSE(lines.empty());
-  const auto replayed = run_assay(lines[0]);
-  EXPECT_EQ(replayed.exit_code, 1) << lines[0] << replayed.out << replayed.err;
-  EXPECT_TRUE(contains(replayed.out, "DEFECT candidates: missing candidate")) << replayed.out;
+  expect_ended(lines[0], 1, {"DEFECT candidates: missing candidate"});
   const auto page =
       with("ASSAY_CANDIDATES", "ends-only", "report " + out("wrong") + " --out " + out("page"));
   ASSERT_EQ(page.exit_code, 0) << page.err;
@@ -105,24 +95,21 @@ TEST_F(Parts, ABroadPhaseIsCertifiedAndItsMissesAreShrunk) {
 // A library with whole steps and a query that is wrong in its query alone.
 TEST_F(Parts, AQueryIsJudgedBesideTheSteps) {
   const std::string both = " --detector " + plugin("steps_and_query");
-  const auto right = with("ASSAY_QUERY", "", campaign("certify", "both") + both);
-  EXPECT_EQ(right.exit_code, 0) << right.out << right.err;
-  for (const std::string word : {"\nclosed-generic ", "\nquery-ulp ", "\ncurated cases ",
-                                 "\nnamed queries ", "; of its elementary query free-sound, "})
-    EXPECT_TRUE(contains(right.out, word)) << word << "\n" << right.out;
+  expect_ended(with("ASSAY_QUERY", "", campaign("certify", "both") + both), 0,
+               {"\nclosed-generic ", "\nquery-ulp ", "\ncurated cases ", "\nnamed queries ",
+                "; of its elementary query free-sound, "});
   expect_valid_certificate(out("both") + "/certificate.json");
   const auto stated = Json::parse(read_text(out("both") + "/certificate.json"))["predicate"];
   EXPECT_EQ(stated["detector"]["configurations"][0]["claims"].size(), 8u);
   EXPECT_EQ(stated["detector"]["query_claims"].size(), 6u);
   EXPECT_EQ(stated["detector"]["unjudged_parts"], Json::array());
   EXPECT_EQ(stated["confidence"]["bounds"], 3 * 8 + 9 * 6);
-  const auto again =
-      with("ASSAY_QUERY", "", "verify --again 0.2 " + out("both") + "/certificate.json");
-  EXPECT_EQ(again.exit_code, 0) << again.out << again.err;
+  expect_ended(with("ASSAY_QUERY", "", "verify --again 0.2 " + out("both") + "/certificate.json"),
+               0);
 
-  const auto wrong = with("ASSAY_QUERY", "miss-coplanar", campaign("certify", "wrong") + both);
-  EXPECT_EQ(wrong.exit_code, 1) << wrong.out << wrong.err;
-  EXPECT_TRUE(contains(wrong.out, "verdict: defect")) << wrong.out;
+  const auto wrong =
+      expect_ended(with("ASSAY_QUERY", "miss-coplanar", campaign("certify", "wrong") + both), 1,
+                   {"verdict: defect"});
   const auto found = Json::parse(read_text(out("wrong") + "/certificate.json"))["predicate"];
   ASSERT_FALSE(found["failures"].empty());
   // Of the trials of its query, or of the corpus' named queries: none is of its steps.
@@ -134,40 +121,29 @@ TEST_F(Parts, AQueryIsJudgedBesideTheSteps) {
   EXPECT_EQ(run_assay(lines[0]).exit_code, 1) << lines[0];
   EXPECT_EQ(run_assay("verify " + out("wrong") + "/certificate.json").exit_code, 1);
   // The steps by themselves hold, and the query is named as not judged; so is what is not asked.
-  const auto steps = run_assay(campaign("run", "steps") + both + " --part steps");
-  EXPECT_EQ(steps.exit_code, 0) << steps.out << steps.err;
-  EXPECT_TRUE(contains(steps.out, "\nnot judged: the elementary query of this library\n"));
+  expect_ended(campaign("run", "steps") + both + " --part steps", 0,
+               {"\nnot judged: the elementary query of this library\n"});
   const auto query_alone =
-      with("ASSAY_QUERY", "", campaign("run", "query") + both + " --part query");
-  EXPECT_EQ(query_alone.exit_code, 0) << query_alone.out << query_alone.err;
-  EXPECT_TRUE(contains(query_alone.out, "\nnot judged: the whole steps of this library\n"));
+      expect_ended(with("ASSAY_QUERY", "", campaign("run", "query") + both + " --part query"), 0,
+                   {"\nnot judged: the whole steps of this library\n"});
   EXPECT_FALSE(contains(query_alone.out, "\nclosed-generic "));
 }
 
 TEST_F(Parts, LabelledQueriesAreScoredAndJudged) {
   const std::string check = "check-queries " + queries + " --json " + (scratch / "report.json");
-  const auto right = asked("", check);
-  EXPECT_EQ(right.exit_code, 0) << right.out << right.err;
-  EXPECT_TRUE(contains(right.out, "0 false positives, 0 false negatives")) << right.out;
-  EXPECT_TRUE(contains(right.out, "all claims hold in 5 queries")) << right.out;
+  expect_ended(asked("", check), 0,
+               {"0 false positives, 0 false negatives", "all claims hold in 5 queries"});
   const auto report = Json::parse(read_text(scratch / "report.json"));
   EXPECT_EQ(report["method"], "query alone 1");
   EXPECT_EQ(report["detector"]["judged"], 5);
   EXPECT_EQ(report["detector"]["broken"], Json::object());
 
-  const auto missed = asked("miss-inside", check);
-  EXPECT_EQ(missed.exit_code, 1) << missed.out << missed.err;
-  EXPECT_TRUE(contains(missed.out, "broken: free-sound, by ")) << missed.out;
+  const auto missed = expect_ended(asked("miss-inside", check), 1, {"broken: free-sound, by "});
   EXPECT_FALSE(contains(missed.out, " 0 false negatives")) << missed.out;
-  const auto alarm = asked("alarm", check);
-  EXPECT_EQ(alarm.exit_code, 1) << alarm.out << alarm.err;
-  EXPECT_TRUE(contains(alarm.out, "broken: no-spurious, by ")) << alarm.out;
-  const auto late = asked("late=1e-6", check);
-  EXPECT_EQ(late.exit_code, 1) << late.out << late.err;
-  EXPECT_TRUE(contains(late.out, "broken: not-late, by ")) << late.out;
+  expect_ended(asked("alarm", check), 1, {"broken: no-spurious, by "});
+  expect_ended(asked("late=1e-6", check), 1, {"broken: not-late, by "});
   // Whoever does not claim it is not judged by it, and counted.
-  const auto total_alone = asked("claims=128 alarm", check);
-  EXPECT_EQ(total_alone.exit_code, 0) << total_alone.out << total_alone.err;
+  const auto total_alone = expect_ended(asked("claims=128 alarm", check), 0);
   EXPECT_FALSE(contains(total_alone.out, " 0 false positives")) << total_alone.out;
   EXPECT_EQ(asked("features=edge-edge", check).exit_code, 3) << "nothing was judged";
   EXPECT_EQ(asked("undecided", check).exit_code, 3);
@@ -178,61 +154,42 @@ TEST_F(Parts, TheSeparationOfAContractIsThatOfItsQueries) {
   const std::string check = "check-queries " + queries + " --json " + (scratch / "report.json");
   const std::string within = "separation=3 adjacency=2";
   // Labels of contact are no truth of it, unless the user says what they are.
-  const auto unlabelled = asked(within, check);
-  EXPECT_EQ(unlabelled.exit_code, 0) << unlabelled.out << unlabelled.err;
-  EXPECT_TRUE(contains(unlabelled.out, "5 queries (5 within 3), 5 yes, 5 without a label"))
-      << unlabelled.out;
-  EXPECT_TRUE(contains(unlabelled.out, "all claims hold in 5 queries")) << unlabelled.out;
-  const auto labelled = asked(within, check + " --separation 3");
-  EXPECT_EQ(labelled.exit_code, 0) << labelled.out << labelled.err;
-  EXPECT_TRUE(contains(labelled.out, "5 yes, 0 without a label")) << labelled.out;
-  EXPECT_TRUE(contains(labelled.out, "2 disputed labels")) << labelled.out;
+  expect_ended(
+      asked(within, check), 0,
+      {"5 queries (5 within 3), 5 yes, 5 without a label", "all claims hold in 5 queries"});
+  expect_ended(asked(within, check + " --separation 3"), 0,
+               {"5 yes, 0 without a label", "2 disputed labels"});
   EXPECT_EQ(Json::parse(read_text(scratch / "report.json"))["separation"], Json::array({3.0, 3.0}));
-  const auto missed = asked(within + " miss-inside miss-at-start", check);
-  EXPECT_EQ(missed.exit_code, 1) << missed.out << missed.err;
-  EXPECT_TRUE(contains(missed.out, "broken: free-sound, by 5 queries")) << missed.out;
+  expect_ended(asked(within + " miss-inside miss-at-start", check), 1,
+               {"broken: free-sound, by 5 queries"});
   expect_refused(asked(within, check + " --separation 2"),
                  "--separation 2: query alone 1 answers by that of its contract, 3");
 }
 
 TEST_F(Parts, TheSelfTestsFamiliesFindAFaultAndItsLineReplaysIt) {
-  const auto right = asked("", "self-test --queries 300");
-  EXPECT_EQ(right.exit_code, 0) << right.out << right.err;
-  for (const std::string word : {"small-int", "rungs", "plane-2", "all claims hold in "})
-    EXPECT_TRUE(contains(right.out, word)) << word << "\n" << right.out;
-  const auto wrong = asked("miss-coplanar", "self-test --queries 300");
-  EXPECT_EQ(wrong.exit_code, 1) << wrong.out << wrong.err;
-  EXPECT_TRUE(contains(wrong.out, "coplanar throughout")) << wrong.out;
+  expect_ended(asked("", "self-test --queries 300"), 0,
+               {"small-int", "rungs", "plane-2", "all claims hold in "});
+  const auto wrong =
+      expect_ended(asked("miss-coplanar", "self-test --queries 300"), 1, {"coplanar throughout"});
   const auto lines = replay_lines(wrong.out);
   ASSERT_FALSE(lines.empty());
-  const auto replayed = run_assay(lines[0]);
-  EXPECT_EQ(replayed.exit_code, 1) << lines[0] << replayed.out << replayed.err;
-  EXPECT_TRUE(contains(replayed.out, "plug-in: free")) << replayed.out;
+  expect_ended(lines[0], 1, {"plug-in: free"});
 }
 
 TEST_F(Parts, ACampaignOfQueriesIsCertifiedAndVerified) {
-  const auto right = asked("", campaign("certify", "right"));
-  EXPECT_EQ(right.exit_code, 0) << right.out << right.err;
-  EXPECT_TRUE(contains(right.out, "216 trials of 9 families")) << right.out;
-  EXPECT_TRUE(contains(right.out, "query-small-int")) << right.out;
-  EXPECT_TRUE(contains(right.out, "named queries")) << right.out;
+  expect_ended(asked("", campaign("certify", "right")), 0,
+               {"216 trials of 9 families", "query-small-int", "named queries"});
   expect_valid_certificate(out("right") + "/certificate.json");
-  const auto again = asked("", "verify --again 1 " + out("right") + "/certificate.json");
-  EXPECT_EQ(again.exit_code, 0) << again.out << again.err;
+  expect_ended(asked("", "verify --again 1 " + out("right") + "/certificate.json"), 0);
 }
 
 TEST_F(Parts, AFailingQueryIsShrunkAndReplayed) {
-  const auto wrong = asked("miss-inside", campaign("run", "wrong"));
-  EXPECT_EQ(wrong.exit_code, 1) << wrong.out << wrong.err;
-  EXPECT_TRUE(contains(wrong.out, "DEFECT free-sound: answered free, ")) << wrong.out;
-  EXPECT_TRUE(contains(wrong.out, ": one edge-edge query\n")) << wrong.out;
+  const auto wrong =
+      expect_ended(asked("miss-inside", campaign("run", "wrong")), 1,
+                   {"DEFECT free-sound: answered free, ", ": one edge-edge query\n"});
   const auto lines = replay_lines(wrong.out);
   ASSERT_FALSE(lines.empty());
-  for (const auto& line : lines) {
-    const auto replayed = run_assay(line);
-    EXPECT_EQ(replayed.exit_code, 1) << line << replayed.out << replayed.err;
-    EXPECT_TRUE(contains(replayed.out, "DEFECT free-sound: answered free")) << replayed.out;
-  }
+  for (const auto& line : lines) expect_ended(line, 1, {"DEFECT free-sound: answered free"});
   // Simpler than it was drawn, and still the query that it says.
   const auto file = lines[0].substr(lines[0].find(' ') + 1);
   const auto smallest = Json::parse(read_text(file.substr(0, file.find(' '))));
@@ -249,18 +206,14 @@ TEST_F(Parts, AFailingQueryIsExportedAsPlainArrays) {
   };
   const auto missed = replayed("miss-inside");
   ASSERT_EQ(missed.exit_code, 1) << missed.out << missed.err;
-  const auto ends = [](const std::string& command) {
-    const int status = std::system(command.c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  };
   const auto compiles = [&](const std::string& file, const std::string& more) {
-    EXPECT_EQ(ends(ASSAY_COMPILER " -std=c++17 -Wall -Wextra -Werror " + out("case/") + file +
-                   more + " -o " + out("program") + " 2>" + out("compiler")),
+    EXPECT_EQ(exit_code_of(ASSAY_COMPILER " -std=c++17 -Wall -Wextra -Werror " + out("case/") +
+                           file + more + " -o " + out("program") + " 2>" + out("compiler")),
               0)
         << read_text(out("compiler"));
   };
   compiles("case.cpp", "");
-  EXPECT_EQ(ends(out("program") + " >/dev/null"), 2) << "not filled in";
+  EXPECT_EQ(exit_code_of(out("program") + " >/dev/null"), 2) << "not filled in";
   auto text = read_text(out("case/case.cpp"));
   const std::string unfilled = "return found;";
   ASSERT_TRUE(contains(text, unfilled));
@@ -271,7 +224,7 @@ TEST_F(Parts, AFailingQueryIsExportedAsPlainArrays) {
                     "found.filled_in = true; " + answer + " return found;");
     scratch.write("case/filled.cpp", changed);
     compiles("filled.cpp", "");
-    return ends(out("program") + " >" + out("printed"));
+    return exit_code_of(out("program") + " >" + out("printed"));
   };
   EXPECT_EQ(filled("found.collision = true; found.lo = found.hi = 0.5;"), 0);
   EXPECT_EQ(filled("found.collision = true; found.lo = 0.75;"), 0) << "its time is not asked for";
@@ -279,13 +232,13 @@ TEST_F(Parts, AFailingQueryIsExportedAsPlainArrays) {
   EXPECT_TRUE(says(read_text(out("printed")), "answered free, exact collision at 0.5 (1/2)"));
   compiles("case_plugin.cpp", " -I " ASSAY_SOURCE_DIR " -ldl");
   const auto judged = [&](const std::string& words) {
-    return ends("ASSAY_QUERY='" + words + "' " + out("program") + " " + plugin("query_alone") +
-                " >/dev/null");
+    return exit_code_of("ASSAY_QUERY='" + words + "' " + out("program") + " " +
+                        plugin("query_alone") + " >/dev/null");
   };
   EXPECT_EQ(judged(""), 0);
   EXPECT_EQ(judged("miss-inside"), 1);
   EXPECT_EQ(judged("late=0.1"), 0);
-  EXPECT_EQ(ends(out("program") + " " + plugin("candidates_alone") + " >/dev/null"), 2);
+  EXPECT_EQ(exit_code_of(out("program") + " " + plugin("candidates_alone") + " >/dev/null"), 2);
 }
 
 TEST_F(Parts, WhatAsksForAPartThatIsNotThereIsRefused) {
@@ -297,7 +250,7 @@ TEST_F(Parts, WhatAsksForAPartThatIsNotThereIsRefused) {
                  "it holds no elementary query");
   expect_refused(asked("", "check " + frames + "B1_one_vertex_own_nearest.json"),
                  "but a query alone");
-  expect_refused(run_assay("replay tiny:1:query-ulp:0"), "--detector");
+  expect_refused("replay tiny:1:query-ulp:0", "--detector");
   expect_refused(asked("claims=8", "check-queries " + queries), "claims nothing of its query");
 }
 

@@ -30,9 +30,8 @@ class Repetitions : public testing::Test {
 };
 
 TEST_F(Repetitions, AnAnswerThatDependsOnThreadsOnLargeMeshesIsFound) {
-  const auto made = judge("certify", "threads_matter", 1500);
-  EXPECT_EQ(made.exit_code, 1) << made.out << made.err;
-  EXPECT_TRUE(contains(made.out, "DEFECT deterministic: two runs differ, large mesh")) << made.out;
+  const auto made = expect_ended(judge("certify", "threads_matter", 1500), 1,
+                                 {"DEFECT deterministic: two runs differ, large mesh"});
   EXPECT_TRUE(contains(made.out, "larger meshes on which runs differ") ||
               contains(made.out, "verdict: defect"))
       << made.out;
@@ -62,49 +61,42 @@ TEST_F(Repetitions, ADetectorThatIsWrongOnLargeMeshesAloneIsFound) {
   // Free above 600 triangles, whatever it claims; every mesh of the trials is smaller.
   for (const std::string claims : {"", " claims=129"}) {
     std::filesystem::remove_all(out);
-    const auto made = judge("run", "steps_and_query", 900, "--part steps --threads 3",
-                            "ASSAY_QUERY='free-above=600" + claims + "' ");
-    EXPECT_EQ(made.exit_code, 1) << made.out << made.err;
-    EXPECT_TRUE(contains(made.out, "DEFECT free-sound: answered free, ")) << made.out;
-    EXPECT_TRUE(contains(made.out, ", large mesh (query alone), met once")) << made.out;
+    const auto made = expect_ended(
+        judge("run", "steps_and_query", 900, "--part steps --threads 3",
+              "ASSAY_QUERY='free-above=600" + claims + "' "),
+        1, {"DEFECT free-sound: answered free, ", ", large mesh (query alone), met once"});
     const auto lines = replay_lines(made.out);
     ASSERT_FALSE(lines.empty());
-    const auto again = run_assay(lines[0], "ASSAY_QUERY=free-above=600 ");
-    EXPECT_EQ(again.exit_code, 1) << again.out << again.err;
-    EXPECT_TRUE(contains(again.out, "DEFECT free-sound: answered free")) << again.out;
+    expect_ended(run_assay(lines[0], "ASSAY_QUERY=free-above=600 "), 1,
+                 {"DEFECT free-sound: answered free"});
   }
 }
 
 // The seed draws half of the sizes between those of the trials and that of the plan.
 TEST_F(Repetitions, ADetectorThatIsWrongInARangeOfSizesIsFound) {
-  const auto made = judge("run", "steps_and_query", 1500, "--part steps",
-                          "ASSAY_QUERY='free-above=210 up-to=1300' ");
-  EXPECT_EQ(made.exit_code, 1) << made.out << made.err;
-  EXPECT_TRUE(contains(made.out, "DEFECT free-sound: answered free, ")) << made.out;
+  expect_ended(judge("run", "steps_and_query", 1500, "--part steps",
+                     "ASSAY_QUERY='free-above=210 up-to=1300' "),
+               1, {"DEFECT free-sound: answered free, "});
 }
 
 TEST_F(Repetitions, ADetectorThatIsWrongWhereManyPairsMeetIsFound) {
   // In no scene does the colliding step with the fewest contacts have so many.
-  const auto made = judge("run", "steps_and_query", 2000, "--part steps",
-                          "ASSAY_QUERY='free-above=1900 from-pairs=2600' ");
-  EXPECT_EQ(made.exit_code, 1) << made.out << made.err;
-  EXPECT_TRUE(contains(made.out, "DEFECT free-sound: answered free, ")) << made.out;
+  expect_ended(judge("run", "steps_and_query", 2000, "--part steps",
+                     "ASSAY_QUERY='free-above=1900 from-pairs=2600' "),
+               1, {"DEFECT free-sound: answered free, "});
 }
 
 // No other case has so many steps.
 TEST_F(Repetitions, ADetectorThatIsWrongAfterManyCommitsIsFound) {
   for (const std::string claims : {"", " claims=129"}) {
     std::filesystem::remove_all(out);
-    const auto made = judge("run", "steps_and_query", 400, "--part steps",
-                            "ASSAY_QUERY='free-after-commits=100" + claims + "' ");
-    EXPECT_EQ(made.exit_code, 1) << made.out << made.err;
-    EXPECT_TRUE(contains(made.out, "DEFECT free-sound: answered free, ")) << made.out;
-    EXPECT_TRUE(contains(made.out, ", large mesh")) << made.out;
-    EXPECT_TRUE(contains(made.out, " wrong steps of larger meshes")) << made.out;
+    const auto made = expect_ended(
+        judge("run", "steps_and_query", 400, "--part steps",
+              "ASSAY_QUERY='free-after-commits=100" + claims + "' "),
+        1, {"DEFECT free-sound: answered free, ", ", large mesh", " wrong steps of larger meshes"});
     const auto lines = replay_lines(made.out);
     ASSERT_FALSE(lines.empty());
-    const auto again = run_assay(lines[0], "ASSAY_QUERY=free-after-commits=100 ");
-    EXPECT_EQ(again.exit_code, 1) << again.out << again.err;
+    expect_ended(run_assay(lines[0], "ASSAY_QUERY=free-after-commits=100 "), 1);
   }
 }
 
@@ -112,18 +104,17 @@ TEST_F(Repetitions, TheSecondRunOfATrialAsksAgainAndWithOtherThreads) {
   const auto plan = scratch.write("many.json", plan_text(64));
   for (const std::string word : {"free-again", "free-threaded"}) {
     std::filesystem::remove_all(out);
-    const auto made = run_assay("run --campaign " + plan + " --jobs 2 --out " + out +
-                                    " --part steps --detector " + plugin("steps_and_query"),
-                                "ASSAY_QUERY=" + word + " ");
-    EXPECT_EQ(made.exit_code, 1) << word << made.out << made.err;
-    EXPECT_TRUE(contains(made.out, "DEFECT deterministic: two runs differ")) << word << made.out;
+    SCOPED_TRACE(word);
+    expect_ended(run_assay("run --campaign " + plan + " --jobs 2 --out " + out +
+                               " --part steps --detector " + plugin("steps_and_query"),
+                           "ASSAY_QUERY=" + word + " "),
+                 1, {"DEFECT deterministic: two runs differ"});
   }
 }
 
 TEST_F(Repetitions, TheCertificateSaysUpToWhichSizeEachClaimWasTried) {
-  const auto made = judge("certify", "steps_and_query", 700, "--part steps");
-  EXPECT_EQ(made.exit_code, 0) << made.out << made.err;
-  EXPECT_TRUE(says(made.out, "\nnot judged: the elementary query of this library\n"));
+  const auto made = expect_ended(judge("certify", "steps_and_query", 700, "--part steps"), 0,
+                                 {"\nnot judged: the elementary query of this library\n"});
   const auto stated = predicate();
   EXPECT_EQ(stated["detector"]["unjudged_parts"], Json::array({"elementary query"}));
   EXPECT_EQ(stated["detector"]["query_claims"], Json::array());
@@ -152,10 +143,9 @@ TEST_F(Repetitions, TheCertificateSaysUpToWhichSizeEachClaimWasTried) {
 
 // Who does not answer there is not wrong, and nothing is said of that size.
 TEST_F(Repetitions, WhatWasLeftUndecidedWasNotJudged) {
-  const auto made = judge("certify", "steps_and_query", 1500, "--part steps",
-                          "ASSAY_QUERY='undecided-above=1000 claims=129' ");
-  EXPECT_EQ(made.exit_code, 0) << made.out << made.err;
-  EXPECT_TRUE(contains(made.out, " judged, 0 wrong\n")) << made.out;
+  expect_ended(judge("certify", "steps_and_query", 1500, "--part steps",
+                     "ASSAY_QUERY='undecided-above=1000 claims=129' "),
+               0, {" judged, 0 wrong\n"});
   const auto stated = predicate();
   std::uint64_t most = 0;
   for (const auto& row : stated["repeated"]) {
@@ -168,14 +158,10 @@ TEST_F(Repetitions, WhatWasLeftUndecidedWasNotJudged) {
 }
 
 TEST_F(Repetitions, OnSmallMeshesItIsNotAndWithoutTheFaultItHolds) {
-  const auto small = judge("run", "threads_matter", 400);
-  EXPECT_EQ(small.exit_code, 0) << small.out << small.err;
-  EXPECT_TRUE(contains(small.out, " sequences of up to ")) << small.out;
-  EXPECT_TRUE(contains(small.out, " steps; 0 differ")) << small.out;
+  expect_ended(judge("run", "threads_matter", 400), 0,
+               {" sequences of up to ", " steps; 0 differ"});
   std::filesystem::remove_all(out);
-  const auto harmless =
-      judge("certify", "threads_matter", 1500, "", "ASSAY_THREADS_MATTER=harmless ");
-  EXPECT_EQ(harmless.exit_code, 0) << harmless.out << harmless.err;
+  expect_ended(judge("certify", "threads_matter", 1500, "", "ASSAY_THREADS_MATTER=harmless "), 0);
   const auto stated = predicate();
   for (const auto& row : stated["repeated"]) {
     EXPECT_EQ(row["threads"], Json::parse("[1, 2, 4, 4]")) << row;
@@ -185,36 +171,30 @@ TEST_F(Repetitions, OnSmallMeshesItIsNotAndWithoutTheFaultItHolds) {
 }
 
 TEST_F(Repetitions, TwoRunsThatDifferByThemselvesAreFoundToo) {
-  const auto made = judge("run", "threads_matter", 1500, "", "ASSAY_THREADS_MATTER=at-random ");
-  EXPECT_EQ(made.exit_code, 1) << made.out << made.err;
-  EXPECT_TRUE(contains(made.out, "larger meshes on which runs differ")) << made.out;
+  expect_ended(judge("run", "threads_matter", 1500, "", "ASSAY_THREADS_MATTER=at-random "), 1,
+               {"larger meshes on which runs differ"});
 }
 
 TEST_F(Repetitions, TheSameCommandRepeatsNothingTwice) {
   ASSERT_EQ(judge("run", "threads_matter", 400).exit_code, 0);
-  const auto again = judge("run", "threads_matter", 400);
-  EXPECT_EQ(again.exit_code, 0) << again.out << again.err;
-  EXPECT_TRUE(contains(again.out, " steps; 0 differ")) << again.out;
+  expect_ended(judge("run", "threads_matter", 400), 0, {" steps; 0 differ"});
 }
 
 TEST_F(Repetitions, WhoAsksForNoThreadsIsRunTwice) {
-  const auto made = judge("certify", "wrapped_builtin", 400);
-  EXPECT_EQ(made.exit_code, 0) << made.out << made.err;
+  expect_ended(judge("certify", "wrapped_builtin", 400), 0);
   for (const auto& row : predicate()["repeated"])
     EXPECT_EQ(row["threads"], Json::parse("[1, 1, 1]"));
 }
 
 TEST_F(Repetitions, AFolderWithoutThePublicSequencesIsRefused) {
-  const auto refused = judge("run", "threads_matter", 400, "--data /nowhere");
-  EXPECT_EQ(refused.exit_code, 2);
+  const auto refused = expect_ended(judge("run", "threads_matter", 400, "--data /nowhere"), 2);
   EXPECT_EQ(refused.err, "assay: /nowhere: none of the public sequences is there\n");
 }
 
 TEST_F(Repetitions, PublicSequencesAreRepeatedWhereTheyAreNamed) {
   const char* data = public_data();
   if (!data) GTEST_SKIP() << "no public data";
-  const auto made = judge("certify", "threads_matter", 400, std::string("--data ") + data);
-  EXPECT_EQ(made.exit_code, 1) << made.out << made.err;
+  expect_ended(judge("certify", "threads_matter", 400, std::string("--data ") + data), 1);
   const auto stated = predicate();
   // Three forms of each scene, the long sequence, and four public sequences as they are.
   EXPECT_EQ(stated["repeated"].size(), 3 * corpus::scenes().size() + 5);
@@ -238,8 +218,7 @@ TEST_F(Repetitions, LinesThatReplayTellTheThreads) {
   EXPECT_TRUE(contains(read_text(out + "/summary.md"), " --threads 3"));
   EXPECT_TRUE(contains(read_text(out + "/junit.xml"), " --threads 3"));
   // Another number is another run.
-  const auto other = judge("certify", "always_free", 0, "--threads 2");
-  EXPECT_EQ(other.exit_code, 2) << other.out;
+  expect_ended(judge("certify", "always_free", 0, "--threads 2"), 2);
 }
 
 }  // namespace

@@ -13,8 +13,7 @@ namespace {
 const char* const some_id = "tiny:1:closed-generic:5";
 
 TEST(Replay, ByIdGoesThroughEveryConfiguration) {
-  const auto outcome = run_assay(std::string("replay ") + some_id);
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  const auto outcome = expect_ended(std::string("replay ") + some_id, 0);
   EXPECT_EQ(outcome.out.find(some_id), 0u);
   for (const std::string name : {"view-auto", "view-point", "view-line", "normal-cone", "bvh",
                                  "none", "view-point/first", "view-line/bounded"}) {
@@ -29,8 +28,7 @@ TEST(Replay, ByIdGoesThroughEveryConfiguration) {
 }
 
 TEST(Replay, SaysOnceWhatSeveralConfigurationsComeTo) {
-  const auto outcome = run_assay(std::string("replay ") + some_id + " --why 0,1");
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto outcome = expect_ended(std::string("replay ") + some_id + " --why 0,1", 0);
   std::set<std::string> stories;
   std::size_t told = 0;
   for (auto at = outcome.out.find("\n  step 1: "); at != std::string::npos; ++told) {
@@ -46,9 +44,8 @@ TEST(Replay, SaysOnceWhatSeveralConfigurationsComeTo) {
 }
 
 TEST(Replay, ByFileTakesTheFilesOptions) {
-  const auto outcome = run_assay("replay " + curated("A4_endpoints_only"));
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-  EXPECT_TRUE(contains(outcome.out, "view-point: holds")) << outcome.out;
+  const auto outcome =
+      expect_ended("replay " + curated("A4_endpoints_only"), 0, {"view-point: holds"});
   EXPECT_FALSE(contains(outcome.out, "bvh: ")) << outcome.out;
 }
 
@@ -58,10 +55,8 @@ TEST(Replay, WhatACaseSaysOfItselfGivesNoOrders) {
   const auto about = text.find("\"about\": \"");
   ASSERT_NE(about, std::string::npos);
   text.insert(about + 10, "\\u001b[2Jgone");
-  const auto outcome = run_assay("replay " + scratch.write("case.json", text));
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  const auto outcome = expect_ended("replay " + scratch.write("case.json", text), 0, {"?[2Jgone"});
   EXPECT_EQ(outcome.out.find('\033'), std::string::npos) << outcome.out;
-  EXPECT_TRUE(contains(outcome.out, "?[2Jgone")) << outcome.out;
 }
 
 TEST(Replay, GivesTheStartAsTheCampaignDid) {
@@ -92,13 +87,9 @@ TEST(Replay, GivesTheStartAsTheCampaignDid) {
 }
 
 TEST(Replay, OfAPlugInShowsItsDefect) {
-  const auto outcome =
-      run_assay("replay " + curated("A4_endpoints_only") + " --detector " + plugin("always_free"));
-  EXPECT_EQ(outcome.exit_code, 1) << outcome.out << outcome.err;
-  EXPECT_TRUE(contains(outcome.out, "DEFECT free-sound: answered free")) << outcome.out;
-  const auto hang = run_assay("replay tiny:1:broken:1 --detector " + plugin("exit"));
-  EXPECT_EQ(hang.exit_code, 1) << hang.out << hang.err;
-  EXPECT_TRUE(contains(hang.out, "exited with code 0")) << hang.out;
+  expect_ended("replay " + curated("A4_endpoints_only") + " --detector " + plugin("always_free"), 1,
+               {"DEFECT free-sound: answered free"});
+  expect_ended("replay tiny:1:broken:1 --detector " + plugin("exit"), 1, {"exited with code 0"});
 
   const auto wrong =
       run_assay("replay " + curated("A4_endpoints_only") + " --detector " + plugin("no_interval"));
@@ -111,33 +102,30 @@ TEST(Replay, WhatIsNeitherIdNorFileIsRefused) {
         "tiny::closed-generic:5", "tiny:x:closed-generic:5", "tiny:1:closed-generic",
         "tiny:1:closed-generic:5:6", ":1:closed-generic:5", "tiny:1:closed-generic:-5"}) {
     SCOPED_TRACE(id);
-    expect_refused(run_assay("replay " + id), id);
+    expect_refused("replay " + id, id);
   }
-  expect_refused(run_assay("replay tiny:1:closed:5"), "CAMPAIGN:SEED:FAMILY:INDEX");
-  const auto remarked = run_assay("replay smok:1:closed-generic:5");
-  EXPECT_EQ(remarked.exit_code, 0) << "a campaign of a file may be called so";
-  EXPECT_TRUE(contains(remarked.out, "no built-in campaign is called smok; did you mean smoke?"));
-  expect_refused(run_assay("replay"), "CASE is required");
-  expect_refused(run_assay("replay /tmp"), "directory");
-  expect_refused(run_assay("replay " + curated("A4_endpoints_only") + " --detector /nowhere.so"),
+  expect_refused("replay tiny:1:closed:5", "CAMPAIGN:SEED:FAMILY:INDEX");
+  // A campaign of a file may be called so.
+  expect_ended("replay smok:1:closed-generic:5", 0,
+               {"no built-in campaign is called smok; did you mean smoke?"});
+  expect_refused("replay", "CASE is required");
+  expect_refused("replay /tmp", "directory");
+  expect_refused("replay " + curated("A4_endpoints_only") + " --detector /nowhere.so",
                  "no such file");
   const Scratch scratch;
   std::string text = read_text(curated("A4_endpoints_only"));
   const std::string known = "\"culling\": \"view-point\"";
   text.replace(text.find(known), known.size(), "\"culling\": \"fast\"");
-  expect_refused(run_assay("replay " + scratch.write("option.json", text)), "fast");
-  expect_refused(run_assay("replay " + scratch.write("bad.json", "{")), "bad.json");
+  expect_refused("replay " + scratch.write("option.json", text), "fast");
+  expect_refused("replay " + scratch.write("bad.json", "{"), "bad.json");
 }
 
 TEST(Replay, WhyTellsOfAPair) {
   const auto file = curated("A4_endpoints_only");
-  const auto outcome = run_assay("replay " + file + " --why 0,1");
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-  EXPECT_TRUE(contains(outcome.out, "why 0, 1:")) << outcome.out;
-  for (const std::string word : {"triangle 0: component 0", "triangle 1: component ",
-                                 "moving boxes ", "oracle: ", "detector: "}) {
-    EXPECT_TRUE(contains(outcome.out, word)) << word << outcome.out;
-  }
+  const auto outcome =
+      expect_ended("replay " + file + " --why 0,1", 0,
+                   {"why 0, 1:", "triangle 0: component 0", "triangle 1: component ",
+                    "moving boxes ", "oracle: ", "detector: "});
   EXPECT_EQ(run_assay("replay " + file + " --why 1,0").out, outcome.out);
   // What it says of being reported is what the step says.
   const bool reported = contains(outcome.out, "detector: reported");
@@ -145,10 +133,9 @@ TEST(Replay, WhyTellsOfAPair) {
   EXPECT_EQ(reported, in_contact) << outcome.out;
   for (const std::string pair : {"0,99", "-1,2", "1,1", "1", "a,b", "1,2,3", "'1;2'", "''"}) {
     SCOPED_TRACE(pair);
-    expect_refused(run_assay("replay " + file + " --why=" + pair), "--why");
+    expect_refused("replay " + file + " --why=" + pair, "--why");
   }
-  expect_refused(run_assay("replay " + file + " --why 0,1 --detector " + plugin("always_free")),
-                 "--why");
+  expect_refused("replay " + file + " --why 0,1 --detector " + plugin("always_free"), "--why");
 }
 
 // Triangle 1 sinks from 3 to 1 above triangle 0; triangle 2 lies beside that, beyond an edge.
@@ -162,28 +149,24 @@ TEST(Replay, WhyTellsOfADistanceWhereTheCaseHasASeparation) {
     x << 0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, z, 2, 1, 4, 1, 2, 4, 9, 9, 0;
   }
   const Scratch scratch;
-  const auto why = [&](const std::string& separation, const std::string& pair) {
+  const auto expect_why = [&](const std::string& separation, const std::string& pair,
+                              const std::vector<std::string>& said) {
+    SCOPED_TRACE(separation + " " + pair);
     c.options = {{"culling", "bvh"}, {"separation", separation}};
     EXPECT_TRUE(corpus::write_case(scratch / "above.json", c));
-    const auto outcome = run_assay("replay " + (scratch / "above.json") + " --why " + pair);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-    return outcome.out;
+    expect_ended("replay " + (scratch / "above.json") + " --why " + pair, 0, said);
   };
-  const auto near = why("2", "0,1");
-  EXPECT_TRUE(says(near, "oracle collision at t = 0.5, 2 pairs within 2\n"));
-  EXPECT_TRUE(says(near, "moving boxes grown by 2 meet\n"));
-  EXPECT_TRUE(says(near, "oracle: within 2 at t = 0.5 (vertex-face)\n"));
-  EXPECT_TRUE(says(near, "detector: reported\n"));
-  const auto far = why("0.5", "0,1");
-  EXPECT_TRUE(says(far, "moving boxes grown by 0.5 are apart: never tested\n"));
-  EXPECT_TRUE(says(far, "oracle: never within 0.5; least distance 1\n"));
-  EXPECT_TRUE(says(far, "detector: not reported\n"));
-  const auto beside = why("1.5", "1,2");
-  EXPECT_TRUE(says(beside, "moving boxes grown by 1.5 meet\n"));
-  EXPECT_TRUE(says(beside, "oracle: never within 1.5; least distance 1.7320508075688774\n"));
-  const auto neighbours = why("1.5", "0,2");
-  EXPECT_TRUE(says(neighbours, "a common vertex: not asked with a separation; "));
-  EXPECT_TRUE(says(neighbours, "oracle: not asked\n"));
+  expect_why("2", "0,1",
+             {"oracle collision at t = 0.5, 2 pairs within 2\n", "moving boxes grown by 2 meet\n",
+              "oracle: within 2 at t = 0.5 (vertex-face)\n", "detector: reported\n"});
+  expect_why("0.5", "0,1",
+             {"moving boxes grown by 0.5 are apart: never tested\n",
+              "oracle: never within 0.5; least distance 1\n", "detector: not reported\n"});
+  expect_why("1.5", "1,2",
+             {"moving boxes grown by 1.5 meet\n",
+              "oracle: never within 1.5; least distance 1.7320508075688774\n"});
+  expect_why("1.5", "0,2",
+             {"a common vertex: not asked with a separation; ", "oracle: not asked\n"});
 }
 
 TEST(Replay, EveryPairOfACaseHasAStoryThatAgreesWithTheOracle) {
@@ -256,10 +239,8 @@ TEST(Replay, ExportedFramesAreTheCaseBitByBit) {
 TEST(Replay, ExportThatCannotBeWritten) {
   const Scratch scratch;
   const auto file = scratch.write("file", "");
-  expect_refused(run_assay(std::string("replay ") + some_id + " --export " + file),
-                 "cannot be made");
-  expect_refused(run_assay(std::string("replay ") + some_id + " --export /proc/nowhere"),
-                 "cannot be made");
+  expect_refused(std::string("replay ") + some_id + " --export " + file, "cannot be made");
+  expect_refused(std::string("replay ") + some_id + " --export /proc/nowhere", "cannot be made");
 }
 
 }  // namespace

@@ -5,12 +5,6 @@
 namespace assay::tests {
 namespace {
 
-std::size_t count_of(const std::string& text, const std::string& word) {
-  std::size_t count = 0;
-  for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++count;
-  return count;
-}
-
 class Report : public testing::Test {
  protected:
   std::string tiny(const std::string& name, const std::string& explanation = "x") const {
@@ -24,8 +18,7 @@ class Report : public testing::Test {
 
 TEST_F(Report, OnePageOfTwoRunsAndNothingElse) {
   const auto page = scratch / "page.html";
-  const auto outcome = run_assay("report " + tiny("a") + " " + tiny("b") + " --out " + page);
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto outcome = expect_ended("report " + tiny("a") + " " + tiny("b") + " --out " + page, 0);
   EXPECT_EQ(outcome.err, "");
   EXPECT_TRUE(contains(outcome.out, "a: defect")) << outcome.out;
   EXPECT_TRUE(contains(outcome.out, "page " + page)) << outcome.out;
@@ -53,9 +46,8 @@ TEST_F(Report, ACertificateOfAnotherRunIsNotBelieved) {
   ASSERT_EQ(run_assay("report " + good + " --out " + page).exit_code, 0);
   EXPECT_TRUE(contains(read_text(page), R"("verdict":"holds","why":"no gate fails")"));
   std::filesystem::copy_file(good + "/certificate.json", bad + "/certificate.json");
-  const auto outcome = run_assay("report " + bad + " --out " + page);
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_TRUE(says(outcome.out, "bad: unverified; the certificate does not verify: "));
+  expect_ended("report " + bad + " --out " + page, 0,
+               {"bad: unverified; the certificate does not verify: "});
   const auto text = read_text(page);
   EXPECT_TRUE(contains(text, R"("verdict":"unverified","why":"the certificate does not verify: )"));
   EXPECT_FALSE(contains(text, R"("verdict":"holds")")) << "nor in what the page is told besides";
@@ -63,15 +55,14 @@ TEST_F(Report, ACertificateOfAnotherRunIsNotBelieved) {
 
 TEST_F(Report, WrongFoldersAndPlacesAreRefusedInOneLine) {
   const auto page = scratch / "page.html";
-  expect_refused(run_assay("report " + (scratch / "nowhere") + " --out " + page), "nowhere");
+  expect_refused("report " + (scratch / "nowhere") + " --out " + page, "nowhere");
   std::filesystem::create_directory(scratch / "empty");
-  expect_refused(run_assay("report " + (scratch / "empty") + " --out " + page),
-                 "no run is stored here");
-  expect_refused(run_assay("report " + tiny("a")), "--out");
-  expect_refused(run_assay("report --out " + page), "DIR is required");
-  expect_refused(run_assay("report " + tiny("a") + " --out " + (scratch / "no/such/page.html")),
+  expect_refused("report " + (scratch / "empty") + " --out " + page, "no run is stored here");
+  expect_refused("report " + tiny("a"), "--out");
+  expect_refused("report --out " + page, "DIR is required");
+  expect_refused("report " + tiny("a") + " --out " + (scratch / "no/such/page.html"),
                  "folder does not exist");
-  expect_refused(run_assay("report " + tiny("a") + " " + (scratch / "empty") + " --out " + page),
+  expect_refused("report " + tiny("a") + " " + (scratch / "empty") + " --out " + page,
                  "no run is stored here");
   EXPECT_FALSE(std::filesystem::exists(page)) << "a page of some of the runs is none";
 }
@@ -79,9 +70,8 @@ TEST_F(Report, WrongFoldersAndPlacesAreRefusedInOneLine) {
 TEST_F(Report, ARunThatFailsLeavesPicturesAndItsReplayLineOnThePage) {
   const auto plan = scratch.write("plan.json", plan_text(12));
   const auto out = scratch / "out", page = scratch / "page.html";
-  const auto run = run_assay("run --campaign " + plan + " --detector " + plugin("always_free") +
-                             " --out " + out);
-  EXPECT_EQ(run.exit_code, 1) << run.out << run.err;
+  const auto run = expect_ended(
+      "run --campaign " + plan + " --detector " + plugin("always_free") + " --out " + out, 1);
   ASSERT_TRUE(contains(run.out, ".svg")) << run.out;
   const auto listed = run_assay("list failures " + out).out;
   std::size_t pictures = 0;

@@ -1,20 +1,21 @@
 // `assay run` through the program, as its user runs it.
+#include <fmt/format.h>
 #include <unistd.h>
 
-#include "tests/reports/run_fixture.h"
+#include "tests/reports/tiny_campaign.h"
 
 namespace assay::tests {
 namespace {
 
-class Run : public RunFixture {};
-
-// How many kinds of failure a text tells, in full or in a line.
-std::size_t defects_told(const std::string& text) {
-  std::size_t count = 0;
-  const std::string mark = "\nDEFECT ";
-  for (auto at = text.find(mark); at != std::string::npos; at = text.find(mark, at + 1)) ++count;
-  return count;
-}
+class Run : public RunFixture {
+ protected:
+  void expect_line_under(const std::string& limit) const {
+    SCOPED_TRACE(limit);
+    const auto ended = run("--jobs 8", limit);
+    expect_one_line(ended);
+    EXPECT_TRUE(ended.err.starts_with("assay: ")) << ended.err;
+  }
+};
 
 // The triangles of each kind that is told in a line.
 std::vector<int> sizes_told(const std::string& text) {
@@ -26,8 +27,7 @@ std::vector<int> sizes_told(const std::string& text) {
 }
 
 TEST_F(Run, SaysWhatItWillDoAndHowItEnded) {
-  const auto first = run("--seed 5 --jobs 2");
-  EXPECT_EQ(first.exit_code, 0) << first.out << first.err;
+  const auto first = expect_ended(run("--seed 5 --jobs 2"), 0);
   EXPECT_EQ(first.err, "");
   for (const std::string word :
        {"campaign tiny, seed 5: 32 trials of 3 families, 12 configurations; 2 jobs; "
@@ -50,11 +50,9 @@ TEST_F(Run, SaysWhatItWillDoAndHowItEnded) {
 
   // The same again has nothing to do and comes to the same.
   const auto trials = trials_of(out);
-  const auto again = run("--seed 5 --jobs 1 --time 30");
-  EXPECT_EQ(again.exit_code, 0) << again.out << again.err;
-  EXPECT_TRUE(contains(again.out, "(32 are stored, 0 to do)")) << again.out;
+  const auto again = expect_ended(run("--seed 5 --jobs 1 --time 30"), 0,
+                                  {"(32 are stored, 0 to do)", "\nholds: 0 trials with a defect"});
   EXPECT_FALSE(contains(again.out, "trials in ")) << again.out;
-  EXPECT_TRUE(contains(again.out, "\nholds: 0 trials with a defect"));
   EXPECT_EQ(trials_of(out), trials);
   // Its day as well.
   EXPECT_EQ(read_text(out + "/summary.md"), summary);
@@ -99,26 +97,21 @@ TEST_F(Run, JobsDoNotChangeTheTallies) {
 TEST_F(Run, ADefectHasAllThatIsNeededToSeeIt) {
   // A space in a name must not break the line.
   out = "'" + scratch / "with space" + "'";
-  const auto outcome = run("--detector " + plugin("always_free"));
-  EXPECT_EQ(outcome.exit_code, 1) << outcome.out << outcome.err;
-  EXPECT_TRUE(says(outcome.out, "plug-in constant answer 1\nclaims: free-sound, "));
-  EXPECT_TRUE(contains(outcome.out, "contract: leaves nothing out")) << outcome.out;
-  EXPECT_TRUE(contains(outcome.out, "whatever is claimed")) << outcome.out;
-  EXPECT_TRUE(contains(outcome.out, "DEFECT free-sound: answered free, ")) << outcome.out;
-  EXPECT_TRUE(contains(outcome.out, "\nDEFECT: ")) << outcome.out;
-  EXPECT_TRUE(contains(outcome.out, "triangles ")) << outcome.out;
-  EXPECT_TRUE(contains(outcome.out, " -> ")) << outcome.out;
+  const auto outcome =
+      expect_ended(run("--detector " + plugin("always_free")), 1,
+                   {"plug-in constant answer 1\nclaims: free-sound, ",
+                    "contract: leaves nothing out", "whatever is claimed",
+                    "DEFECT free-sound: answered free, ", "\nDEFECT: ", "triangles ", " -> "});
   // The line to paste works as it stands: no shell finds this assay by its name.
   const auto next = outcome.out.find("next: ") + std::string("next: ").size();
   const auto pasted = outcome.out.substr(next, outcome.out.find('\n', next) - next);
   EXPECT_TRUE(contains(pasted, "/assay report '")) << outcome.out;
-  EXPECT_EQ(std::system((pasted + " >/dev/null").c_str()), 0) << pasted;
+  EXPECT_EQ(exit_code_of(pasted + " >/dev/null"), 0) << pasted;
   // One kind of failure is told in full, every other one in a line; the list has all in full.
   const auto printed = replay_lines(outcome.out);
   ASSERT_EQ(printed.size(), 1u) << outcome.out;
   EXPECT_TRUE(contains(outcome.out, "each with the line that replays it: ")) << outcome.out;
-  const auto listed = run_assay("list failures " + out);
-  EXPECT_EQ(listed.exit_code, 0);
+  const auto listed = expect_ended("list failures " + out, 0);
   const auto lines = replay_lines(listed.out);
   EXPECT_NE(std::find(lines.begin(), lines.end(), printed.front()), lines.end());
   EXPECT_GT(lines.size(), 1u);
@@ -127,14 +120,12 @@ TEST_F(Run, ADefectHasAllThatIsNeededToSeeIt) {
   EXPECT_TRUE(std::regex_search(outcome.out, kind, in_a_line)) << outcome.out;
   // Ten kinds are told; the rest is one count.
   ASSERT_GT(lines.size(), 10u) << listed.out;
-  EXPECT_EQ(defects_told(outcome.out), 10u) << outcome.out;
+  EXPECT_EQ(count_of(outcome.out, "\nDEFECT "), 10u) << outcome.out;
   EXPECT_TRUE(contains(outcome.out, fmt::format("\nand {} more kinds, met ", lines.size() - 10)));
   for (const auto& line : lines) {
     EXPECT_TRUE(contains(line, "/failures/tiny-1-")) << line;
     EXPECT_TRUE(contains(line, "-smallest.json")) << line;
-    const auto replayed = run_assay(line);
-    EXPECT_EQ(replayed.exit_code, 1) << line << replayed.out << replayed.err;
-    EXPECT_TRUE(contains(replayed.out, "DEFECT free-sound: answered free")) << replayed.out;
+    expect_ended(line, 1, {"DEFECT free-sound: answered free"});
   }
   std::size_t originals = 0, smallest = 0;
   for (const auto& file : std::filesystem::directory_iterator(scratch / "with space/failures")) {
@@ -161,51 +152,36 @@ TEST_F(Run, PlugInsGetTheVerdictsThatTheyDeserve) {
     out = scratch / name;
     return run("--detector " + plugin(name));
   };
-  const auto held = verdict("wrapped_builtin");
-  EXPECT_EQ(held.exit_code, 0) << held.out << held.err;
-  EXPECT_TRUE(contains(held.out, "\nholds: 0 trials with a defect, 0 undecided"));
+  expect_ended(verdict("wrapped_builtin"), 0, {"\nholds: 0 trials with a defect, 0 undecided"});
 
-  const auto example = verdict("example");
-  EXPECT_EQ(example.exit_code, 0) << example.out << example.err;
-  EXPECT_TRUE(contains(example.out, "neighbours no-shared-vertex")) << example.out;
-  EXPECT_TRUE(contains(example.out,
-                       "steps it does not report a contact, and need not by its contract "
-                       "(neighbours no-shared-vertex): without that, these were misses\n"))
-      << example.out;
+  const auto example =
+      expect_ended(verdict("example"), 0,
+                   {"neighbours no-shared-vertex",
+                    "steps it does not report a contact, and need not by its contract "
+                    "(neighbours no-shared-vertex): without that, these were misses\n"});
   EXPECT_FALSE(contains(example.out, "in 0 steps it does not report")) << example.out;
 
-  const auto alarm = verdict("always_collision");
-  EXPECT_EQ(alarm.exit_code, 1) << alarm.out << alarm.err;
-  EXPECT_TRUE(contains(alarm.out, "DEFECT no-spurious: ")) << alarm.out;
+  const auto alarm = expect_ended(verdict("always_collision"), 1, {"DEFECT no-spurious: "});
   // Hardly any is shrunk: the smallest meshes come first.
   const auto sizes = sizes_told(alarm.out);
   ASSERT_EQ(sizes.size(), 9u) << alarm.out;
   EXPECT_LT(sizes.front(), sizes.back()) << alarm.out;
   EXPECT_TRUE(std::is_sorted(sizes.begin(), sizes.end())) << alarm.out;
 
-  const auto fast = verdict("fast_math");
-  EXPECT_EQ(fast.exit_code, 1) << fast.out << fast.err;
+  expect_ended(verdict("fast_math"), 1);
 
-  const auto refusal = verdict("refuse");
-  EXPECT_EQ(refusal.exit_code, 1) << refusal.out << refusal.err;
-  EXPECT_TRUE(contains(refusal.out, "DEFECT total: refused")) << refusal.out;
+  expect_ended(verdict("refuse"), 1, {"DEFECT total: refused"});
 
-  const auto exit = verdict("exit");
-  EXPECT_EQ(exit.exit_code, 1) << exit.out << exit.err;
-  EXPECT_TRUE(contains(exit.out, "DEFECT total: crashed")) << exit.out;
-  EXPECT_TRUE(contains(exit.out, "exited with code 0")) << exit.out;
+  expect_ended(verdict("exit"), 1, {"DEFECT total: crashed", "exited with code 0"});
 }
 
 TEST_F(Run, ACrashIsADefectAndTheRunGoesOn) {
   // On its 1000th step, so not in a second run of the same case.
   plan = scratch.write("plan.json", R"({"schema": "assay-campaign/1", "name": "long", "seconds": 60,
       "strata": [{"family": "closed-generic", "cases": 640}]})");
-  const auto crash = run("--jobs 1 --detector " + plugin("crash"));
-  EXPECT_EQ(crash.exit_code, 1) << crash.out << crash.err;
-  EXPECT_TRUE(contains(crash.out, "DEFECT total: crashed (flaky)")) << crash.out;
-  EXPECT_TRUE(contains(crash.out, "killed by signal 6 (Aborted)")) << crash.out;
-  EXPECT_TRUE(contains(crash.out, "asked again by itself, it comes to something else: "))
-      << crash.out;
+  const auto crash = expect_ended(run("--jobs 1 --detector " + plugin("crash")), 1,
+                                  {"DEFECT total: crashed (flaky)", "killed by signal 6 (Aborted)",
+                                   "asked again by itself, it comes to something else: "});
   EXPECT_EQ(trials_of(out).size(), 640u);
   for (const auto& line : replay_lines(crash.out)) {
     EXPECT_TRUE(contains(line, "-original.json")) << line;
@@ -216,19 +192,15 @@ TEST_F(Run, ACrashIsADefectAndTheRunGoesOn) {
 TEST_F(Run, AHangIsUndecidedAndSoIsTheRun) {
   plan = scratch.write("plan.json", R"({"schema": "assay-campaign/1", "name": "slow", "seconds": 20,
                        "case_seconds": 0.1, "strata": [{"family": "broken", "cases": 3}]})");
-  const auto hang = run("--detector " + plugin("hang"));
-  EXPECT_EQ(hang.exit_code, 3) << hang.out << hang.err;
-  EXPECT_TRUE(contains(hang.out, "broken, constant answer: 3 without a verdict")) << hang.out;
+  expect_ended(run("--detector " + plugin("hang")), 3,
+               {"broken, constant answer: 3 without a verdict"});
 }
 
 TEST_F(Run, ABoundThatIsOutOfReachIsUndecided) {
   plan = scratch.write("plan.json",
                        R"({"schema": "assay-campaign/1", "name": "small", "seconds": 20,
           "strata": [{"family": "closed-generic", "cases": 8, "bound": 0.01}]})");
-  const auto outcome = run();
-  EXPECT_EQ(outcome.exit_code, 3) << outcome.out << outcome.err;
-  EXPECT_TRUE(contains(outcome.out, "is wanted\n")) << outcome.out;
-  EXPECT_TRUE(contains(outcome.out, "next: ")) << outcome.out;
+  expect_ended(run(), 3, {"is wanted\n", "next: "});
 }
 
 TEST_F(Run, TimeThatEndsEarlyIsIncompleteAndGoesOn) {
@@ -244,8 +216,7 @@ TEST_F(Run, TimeThatEndsEarlyIsIncompleteAndGoesOn) {
   EXPECT_TRUE(contains(outcome.out, "next: run the same again")) << outcome.out;
   const auto before = trials_of(out).size();
   EXPECT_LT(before, 6000u);
-  const auto again = run("--time 1.5");
-  EXPECT_EQ(again.exit_code, 3) << again.out << again.err;
+  expect_ended(run("--time 1.5"), 3);
   EXPECT_GT(trials_of(out).size(), before);
 }
 
@@ -253,11 +224,9 @@ TEST_F(Run, WithoutItsWorkerItEndsWithALine) {
   // The program beside which no worker stands.
   const std::string moved = scratch / "assay";
   std::filesystem::copy_file(ASSAY_PROGRAM, moved);
-  const int status =
-      std::system(("ASSAY_CORPUS=" ASSAY_SOURCE_DIR "/corpus " + moved + " run --campaign " + plan +
-                   " --out " + out + " >" + (scratch / "text") + " 2>&1")
-                      .c_str());
-  EXPECT_EQ(WEXITSTATUS(status), 2);
+  EXPECT_EQ(exit_code_of("ASSAY_CORPUS=" ASSAY_SOURCE_DIR "/corpus " + moved + " run --campaign " +
+                         plan + " --out " + out + " >" + (scratch / "text") + " 2>&1"),
+            2);
   const auto text = read_text(scratch / "text");
   EXPECT_TRUE(contains(text, "assay: cannot start " + (scratch / "assay-worker"))) << text;
 }
@@ -267,10 +236,9 @@ TEST_F(Run, WithoutItsCorpusItEndsWithALine) {
   std::filesystem::create_directories(scratch / "bin");
   std::filesystem::copy_file(ASSAY_PROGRAM, moved);
   const auto line_of = [&](const std::string& variables) {
-    const int status = std::system((variables + moved + " run --campaign " + plan + " --out " +
-                                    out + " >" + (scratch / "text") + " 2>&1")
-                                       .c_str());
-    EXPECT_EQ(WEXITSTATUS(status), 2);
+    EXPECT_EQ(exit_code_of(variables + moved + " run --campaign " + plan + " --out " + out + " >" +
+                           (scratch / "text") + " 2>&1"),
+              2);
     return read_text(scratch / "text");
   };
   EXPECT_TRUE(contains(line_of(""), "assay: the shipped corpus is not at " +
@@ -282,36 +250,23 @@ TEST_F(Run, WithoutItsCorpusItEndsWithALine) {
 // If the system gives no more descriptors, some of the workers cannot be had. That says nothing of
 // the harness, and with more descriptors the run goes on.
 TEST_F(Run, FewDescriptorsEndItWithALine) {
-  const std::string words = "run --jobs 8 --campaign " + plan + " --out " + out;
-  for (const char* limit : {"10", "11", "12"}) {
-    const auto ended = run_assay(words, "prlimit --nofile=" + std::string(limit) + " ");
-    EXPECT_EQ(ended.exit_code, 2) << limit << ended.out << ended.err;
-    EXPECT_TRUE(ended.err.starts_with("assay: ")) << ended.err;
-    EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
-  }
-  const auto whole = run_assay(words);
-  EXPECT_EQ(whole.exit_code, 0) << whole.out << whole.err;
+  for (const std::string limit : {"10", "11", "12"})
+    expect_line_under("prlimit --nofile=" + limit + " ");
+  expect_ended(run("--jobs 8"), 0);
 }
 
 // A thread that the system does not give is done without; a worker cannot be. The system does not
 // count the threads of root.
 TEST_F(Run, FewThreadsEndItWithALine) {
   std::filesystem::permissions(scratch / "", std::filesystem::perms::all);
-  const std::string not_root =
-      geteuid() == 0 ? "setpriv --reuid=65534 --regid=65534 --clear-groups " : "";
-  for (const char* limit : {"3", "4", "6"}) {
-    const auto ended = run_assay("run --jobs 8 --campaign " + plan + " --out " + out,
-                                 not_root + "prlimit --nproc=" + limit + " ");
-    EXPECT_EQ(ended.exit_code, 2) << limit << ended.out << ended.err;
-    EXPECT_TRUE(ended.err.starts_with("assay: ")) << ended.err;
-    EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
-  }
+  for (const std::string limit : {"3", "4", "6"})
+    expect_line_under(not_by_root() + "prlimit --nproc=" + limit + " ");
 }
 
 TEST_F(Run, BadInputIsOneLine) {
-  expect_refused(run_assay("run --campaign " + plan), "--out");
-  expect_refused(run_assay("run --campaign nowhere --out " + out), "nowhere");
-  expect_refused(run_assay("run --campaign " + scratch.write("bad.json", "{}") + " --out " + out),
+  expect_refused("run --campaign " + plan, "--out");
+  expect_refused("run --campaign nowhere --out " + out, "nowhere");
+  expect_refused("run --campaign " + scratch.write("bad.json", "{}") + " --out " + out,
                  "schema is missing");
   for (const std::string share : {"2/3", "1/0", "a/b", "1", "1/2/3", "-1/3", "1/1000001", "''"}) {
     expect_refused(run("--share=" + share), "--share");
@@ -336,13 +291,10 @@ TEST_F(Run, AFolderWithoutPermission) {
   std::filesystem::create_directory(out);
   const auto all = std::filesystem::perms::all;
   for (const auto& open : {scratch / "", plan}) std::filesystem::permissions(open, all);
-  // Root may write everything: then the program runs as somebody else.
-  const bool is_root = geteuid() == 0;
   std::filesystem::permissions(
       out, std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec |
                std::filesystem::perms::others_read | std::filesystem::perms::others_exec);
-  expect_refused(run("", is_root ? "setpriv --reuid=65534 --regid=65534 --clear-groups " : ""),
-                 "ermission denied");
+  expect_refused(run("", not_by_root()), "ermission denied");
 }
 
 TEST_F(Run, ADamagedStore) {
@@ -353,22 +305,20 @@ TEST_F(Run, ADamagedStore) {
   expect_refused(run(), "run.sqlite: ");
   std::ofstream(file, std::ios::binary) << "this is no database, and long enough to tell";
   expect_refused(run(), "not a database");
-  expect_refused(run_assay("list failures " + out), "not a database");
+  expect_refused("list failures " + out, "not a database");
 }
 
 TEST_F(Run, AFullDiskKeepsWhatIsStored) {
   plan = scratch.write("plan.json", plan_text(100));
   // No file may grow beyond 100 KiB.
-  const auto full = run("--jobs 1", "trap '' XFSZ; ulimit -f 200; ");
-  EXPECT_EQ(full.exit_code, 2) << full.out << full.err;
+  const auto full = expect_ended(run("--jobs 1", "trap '' XFSZ; ulimit -f 200; "), 2);
   EXPECT_EQ(std::count(full.err.begin(), full.err.end(), '\n'), 1) << full.err;
   EXPECT_TRUE(contains(full.err, "run.sqlite: ")) << full.err;
   EXPECT_TRUE(contains(full.err, "run the same again to go on")) << full.err;
   const auto stored = trials_of(out);
   EXPECT_GT(stored.size(), 0u);
   EXPECT_LT(stored.size(), 200u);
-  const auto whole = run();
-  EXPECT_EQ(whole.exit_code, 0) << whole.out << whole.err;
+  expect_ended(run(), 0);
   EXPECT_EQ(trials_of(out).size(), 200u);
 }
 

@@ -1,4 +1,5 @@
-// The second opinion and the referee as a user asks for them.
+// What looks at the oracle itself, as a user asks for it: the self-test, the second opinion, the
+// referee.
 #include "reports/steps/step_report.h"
 #include "tests/reports/program.h"
 
@@ -7,19 +8,41 @@ namespace {
 
 using nlohmann::json;
 
+TEST(SelfTestCommand, HoldsAndSaysSeedAndCounts) {
+  expect_ended("self-test --queries 100 --seed 7 --jobs 2", 0,
+               {"seed 7", "small-int ", "cube-2 ", "left out", "steps ", "quadratic %",
+                "no contradiction in", "invariances"});
+}
+
+TEST(SelfTestCommand, ReplaysACaseExactly) {
+  expect_ended(
+      "self-test --replay dyadics:1:4", 0,
+      {"vertex-face", "0x1", "oracle, timed: ", "detector, integers alone: ", "second referee: "});
+  for (const std::string family : {"rungs", "steps", "plane-2"})
+    EXPECT_EQ(run_assay("self-test --replay " + family + ":1:0").exit_code, 0);
+}
+
+TEST(SelfTestCommand, TimeLimitIsUndecided) {
+  expect_ended("self-test --queries 1000000 --time 0.2", 3, {"undecided"});
+}
+
+TEST(SelfTestCommand, BadInputIsOneLine) {
+  for (const char* arguments :
+       {"--replay x", "--replay small-int:1", "--queries 0", "--time -1", "--seed x", "--jobs 0"})
+    expect_refused(std::string("self-test ") + arguments, "");
+}
+
 class SecondOpinionRun : public testing::Test {
  protected:
   std::string make_scene(const std::string& name, int size, int frames) {
     const std::string folder = scratch / name;
-    const auto made = run_assay("scene " + name + " --size " + std::to_string(size) + " --frames " +
-                                std::to_string(frames) + " --out " + folder);
-    EXPECT_EQ(made.exit_code, 0) << made.err;
+    expect_ended("scene " + name + " --size " + std::to_string(size) + " --frames " +
+                     std::to_string(frames) + " --out " + folder,
+                 0);
     return folder + "/frame_*.ply";
   }
   json check(const std::string& arguments) {
-    const auto outcome = run_assay("check " + arguments + " --json " + (scratch / "r.json"));
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-    EXPECT_NE(outcome.out.find("second opinion: "), std::string::npos) << outcome.out;
+    expect_ended("check " + arguments + " --json " + (scratch / "r.json"), 0, {"second opinion: "});
     return json::parse(read_text(scratch / "r.json"));
   }
   const Scratch scratch;
@@ -61,16 +84,9 @@ TEST_F(SecondOpinionRun, NullWithoutTheOption) {
 }
 
 TEST_F(SecondOpinionRun, BadSharesAreRefusedInOneLine) {
-  for (const std::string share : {"0", "-1", "1.5", "nan", "inf", "half", "\"\"", "0.5x"}) {
-    const auto outcome = run_assay("check a.ply b.ply --second-opinion " + share);
-    EXPECT_EQ(outcome.exit_code, 2) << share;
-    EXPECT_TRUE(outcome.out.empty()) << outcome.out;
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-    EXPECT_NE(outcome.err.find("second-opinion"), std::string::npos) << outcome.err;
-  }
-  const auto both = run_assay("check a.ply b.ply --second-opinion 1 --no-oracle");
-  EXPECT_EQ(both.exit_code, 2);
-  EXPECT_EQ(std::count(both.err.begin(), both.err.end(), '\n'), 1) << both.err;
+  for (const std::string share : {"0", "-1", "1.5", "nan", "inf", "half", "\"\"", "0.5x"})
+    expect_refused("check a.ply b.ply --second-opinion " + share, "second-opinion");
+  expect_one_line(run_assay("check a.ply b.ply --second-opinion 1 --no-oracle"));
 }
 
 TEST_F(SecondOpinionRun, RefereeAnswersQueries) {
@@ -89,10 +105,9 @@ TEST_F(SecondOpinionRun, RefereeAnswersQueries) {
   std::filesystem::create_directory(scratch / "vertex-face");
   const auto file = scratch.write("vertex-face/two.csv", rows("1") + rows("9"));
   const auto outcome =
-      run_assay("check-queries --method referee " + file + " --json " + (scratch / "q.json"));
-  EXPECT_EQ(outcome.exit_code, 1) << outcome.out << outcome.err;
+      expect_ended("check-queries --method referee " + file + " --json " + (scratch / "q.json"), 1,
+                   {"0 open, 0 contradictions"});
   EXPECT_EQ(outcome.out.find("rungs"), std::string::npos);
-  EXPECT_NE(outcome.out.find("0 open, 0 contradictions"), std::string::npos) << outcome.out;
   const auto report = json::parse(read_text(scratch / "q.json"));
   EXPECT_EQ(report["method"], "referee");
   EXPECT_EQ(report["count"], 2);

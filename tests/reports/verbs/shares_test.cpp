@@ -50,13 +50,10 @@ class Shares : public testing::Test {
 
 TEST_F(Shares, OfEightSeedsComeToTheWhole) {
   const auto folders = good(1, 8);
-  const auto alone = run_assay("verify " + scratch / "share3");
-  EXPECT_EQ(alone.exit_code, 3) << alone.out << alone.err;
+  expect_ended("verify " + scratch / "share3", 3);
   EXPECT_EQ(predicate(scratch / "share3")["verdict"], "incomplete");
-  const auto all = judge(folders);
-  EXPECT_EQ(all.exit_code, 0) << all.out << all.err;
-  EXPECT_TRUE(contains(all.out, "verdict: holds; " + out + "/certificate.json\n")) << all.out;
-  EXPECT_TRUE(contains(all.out, "seeds 1, 2, 3, 4, 5, 6, 7, 8")) << all.out;
+  expect_ended(judge(folders), 0,
+               {"verdict: holds; " + out + "/certificate.json\n", "seeds 1, 2, 3, 4, 5, 6, 7, 8"});
   const auto stated = predicate(out);
   EXPECT_EQ(stated["campaign"]["is_whole"], true);
   EXPECT_EQ(stated["strata"][1]["trials"], 16);
@@ -73,42 +70,33 @@ TEST_F(Shares, OfEightSeedsComeToTheWhole) {
   const auto certificate = read_text(out + "/certificate.json");
   EXPECT_EQ(judge(folders).exit_code, 0);
   EXPECT_EQ(read_text(out + "/certificate.json"), certificate);
-  const auto more = run_assay("verify " + out + " " + good(9) + "--out " + scratch / "more");
-  EXPECT_EQ(more.exit_code, 0) << more.out << more.err;
+  expect_ended("verify " + out + " " + good(9) + "--out " + scratch / "more", 0);
   EXPECT_EQ(predicate(scratch / "more")["strata"][1]["trials"], 18);
 }
 
 TEST_F(Shares, OfWhichOneIsMissingAreIncomplete) {
-  const auto some = judge(good(1, 7));
-  EXPECT_EQ(some.exit_code, 3) << some.out << some.err;
-  EXPECT_TRUE(contains(some.out,
-                       "complete   FAILS\n  a whole campaign is more than the shares "
-                       "that are there: 1/8 under seed 1, "))
-      << some.out;
+  expect_ended(judge(good(1, 7)), 3,
+               {"complete   FAILS\n  a whole campaign is more than the shares "
+                "that are there: 1/8 under seed 1, "});
   EXPECT_EQ(predicate(out)["verdict"], "incomplete");
   // A share that was not judged to its end.
   const auto half =
       store(eighth(8).judge("closed-generic", 2, 'H').judge("broken", 1, 'H'), "half");
-  const auto all = judge(good(1, 7) + half);
-  EXPECT_EQ(all.exit_code, 3) << all.out << all.err;
-  EXPECT_TRUE(contains(all.out, "\n  broken: 15 of 16 trials\n")) << all.out;
+  expect_ended(judge(good(1, 7) + half), 3, {"\n  broken: 15 of 16 trials\n"});
 }
 
 // Their indices leave the same remainder, and none is one of those that are run twice.
 TEST_F(Shares, OfSeedsWithOneRemainderAreIncomplete) {
   std::string folders;
   for (std::uint64_t seed = 1; seed <= 57; seed += 8) folders += good(seed);
-  const auto all = judge(folders);
-  EXPECT_EQ(all.exit_code, 3) << all.out << all.err;
-  EXPECT_TRUE(contains(all.out, "; shares 1/N need N seeds that follow one another\n")) << all.out;
+  expect_ended(judge(folders), 3, {"; shares 1/N need N seeds that follow one another\n"});
 }
 
 TEST_F(Shares, OfOneSeedDoNotCountTwice) {
   std::filesystem::copy(scratch / "share2", scratch / "copy",
                         (good(1, 2), std::filesystem::copy_options::recursive));
-  const auto twice =
-      judge(scratch / "share1" + (" " + scratch / "share2") + " " + (scratch / "copy") + " ");
-  EXPECT_EQ(twice.exit_code, 2) << twice.out;
+  const auto twice = expect_ended(
+      judge(scratch / "share1" + (" " + scratch / "share2") + " " + (scratch / "copy") + " "), 2);
   EXPECT_TRUE(contains(twice.err, "share2/run.sqlite and ")) << twice.err;
   EXPECT_TRUE(contains(twice.err, "copy/run.sqlite: both are of seed 2, ")) << twice.err;
   EXPECT_FALSE(has_a_store());
@@ -117,9 +105,7 @@ TEST_F(Shares, OfOneSeedDoNotCountTwice) {
 TEST_F(Shares, OfWhichOneHasADefectAreADefect) {
   auto run = eighth(8).judge("closed-generic", 2, 'H').judge("broken", 1, 'H');
   run.judge("broken", 1, 'D').fail("B1_one_vertex_own_nearest", "all-pairs: missing pair", "lost");
-  const auto all = judge(good(1, 7) + store(run, "share8"));
-  EXPECT_EQ(all.exit_code, 1) << all.out << all.err;
-  EXPECT_TRUE(contains(all.out, "verdict: defect; ")) << all.out;
+  expect_ended(judge(good(1, 7) + store(run, "share8")), 1, {"verdict: defect; "});
   const auto stated = predicate(out);
   ASSERT_EQ(stated["failures"].size(), 1u);
   EXPECT_TRUE(
@@ -138,8 +124,7 @@ TEST_F(Shares, WhoseFailuresHaveOneNameKeepTheSmallestMesh) {
     run.failures[0].id = "corpus/one";
     folders += store(run, "share" + std::to_string(seed));
   }
-  const auto all = judge(folders);
-  EXPECT_EQ(all.exit_code, 1) << all.out << all.err;
+  expect_ended(judge(folders), 1);
   EXPECT_EQ(run_assay("verify " + out).exit_code, 1);
   EXPECT_FALSE(contains(run_assay("verify " + out).out, "NOT VERIFIED"));
 }
@@ -148,10 +133,8 @@ TEST_F(Shares, ThatDoNotBelongTogetherAreRefused) {
   const auto first = good(1);
   auto other = eighth(2);
   other.request.plan.case_seconds = 7;
-  const auto plans = judge(first + store(other, "plan"));
-  EXPECT_EQ(plans.exit_code, 2) << plans.out;
-  EXPECT_TRUE(contains(plans.err, "cannot be judged together: campaign/case_seconds "))
-      << plans.err;
+  expect_problem(judge(first + store(other, "plan")),
+                 "cannot be judged together: campaign/case_seconds ");
   EXPECT_FALSE(has_a_store());
   other = eighth(2);
   other.request.detector.configurations.pop_back();
@@ -168,16 +151,13 @@ TEST_F(Shares, ThatDoNotBelongTogetherAreRefused) {
   EXPECT_EQ(run_assay("verify " + out).exit_code, 3);
   // No run goes on there, which would be judged with them.
   for (const std::string verb : {"run", "certify"}) {
-    const auto mixed = run_assay(verb + " --campaign smoke --out " + out);
-    EXPECT_EQ(mixed.exit_code, 2) << mixed.out;
-    EXPECT_TRUE(contains(mixed.err, "seed-1.sqlite: is of another run")) << mixed.err;
+    expect_problem(run_assay(verb + " --campaign smoke --out " + out),
+                   "seed-1.sqlite: is of another run");
   }
   std::filesystem::remove_all(out);
   // A folder with another sum in it.
   ASSERT_EQ(judge(first).exit_code, 3);
-  const auto second = judge(good(2));
-  EXPECT_EQ(second.exit_code, 2) << second.out;
-  EXPECT_TRUE(contains(second.err, "seed-1.sqlite: is of another run")) << second.err;
+  expect_problem(judge(good(2)), "seed-1.sqlite: is of another run");
 }
 
 // A share whose trials were changed does not verify, and nothing is made of it.
@@ -185,9 +165,7 @@ TEST_F(Shares, ThatDoNotVerifyAreNotCounted) {
   const auto folders = good(1, 2);
   properties::Database(scratch / "share2/run.sqlite", properties::Database::Mode::write)
       .run("DELETE FROM ledger WHERE key='tiny:2:broken:2'");
-  const auto judged = judge(folders);
-  EXPECT_EQ(judged.exit_code, 1) << judged.out;
-  EXPECT_TRUE(contains(judged.out, "NOT VERIFIED: ")) << judged.out;
+  expect_ended(judge(folders), 1, {"NOT VERIFIED: "});
   EXPECT_FALSE(has_a_store());
 }
 

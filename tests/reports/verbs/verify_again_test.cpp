@@ -4,7 +4,7 @@
 
 #include "properties/campaign/ledger/record.h"
 #include "tests/reports/certificate/issued_folder.h"
-#include "tests/reports/run_fixture.h"
+#include "tests/reports/tiny_campaign.h"
 
 namespace assay::tests {
 namespace {
@@ -38,19 +38,16 @@ class VerifyAgain : public RunFixture {
     issue(out);
   }
   void expect_named(const std::string& line) const {
-    const auto again = verify("--again 1 --seed 3");
-    EXPECT_EQ(again.exit_code, 1) << again.out << again.err;
-    EXPECT_TRUE(contains(again.out, line)) << again.out;
-    EXPECT_TRUE(says(again.out, "NOT VERIFIED: " + out +
-                                    "/certificate.json, 32 of 32 trials "
-                                    "run again, seed 3; it says nothing\n"));
+    expect_ended(verify("--again 1 --seed 3"), 1,
+                 {line, "NOT VERIFIED: " + out +
+                            "/certificate.json, 32 of 32 trials "
+                            "run again, seed 3; it says nothing\n"});
   }
 };
 
 TEST_F(VerifyAgain, NamesAForgedTrialOfTheBuiltInDetector) {
   run_and_issue("");
-  const auto honest = verify("--again 1");
-  EXPECT_EQ(honest.exit_code, 0) << honest.out << honest.err;
+  expect_ended(verify("--again 1"), 0);
   const std::string id = "tiny:1:broken:5";
   const std::pair<std::uint64_t TrialRecord::*, const char*> numbers[] = {
       {&TrialRecord::triangles, "triangles"},
@@ -68,18 +65,15 @@ TEST_F(VerifyAgain, NamesAForgedTrialOfTheBuiltInDetector) {
   }
   forge(id, [](TrialRecord& record) { record.mesh = 7654; });
   expect_named(fmt::format("trial {}: its mesh is another one\n", id));
-  const auto refused = verify("--again 1 --detector " + plugin("always_free"));
-  EXPECT_EQ(refused.exit_code, 2) << refused.out;
-  EXPECT_TRUE(contains(refused.err, "the built-in detector")) << refused.err;
+  expect_problem(verify("--again 1 --detector " + plugin("always_free")), "the built-in detector");
 }
 
 TEST_F(VerifyAgain, NamesAForgedVerdictOnAPlugIn) {
   const auto library = plugin("always_free");
   run_and_issue("--detector " + library);
-  const auto honest = verify("--again 0.5 --seed 1");
-  EXPECT_EQ(honest.exit_code, 1) << "its verdict is a defect";
-  EXPECT_TRUE(contains(honest.out, "again: 16 of 32 trials, seed 1: all as they are stored\n"))
-      << honest.out << honest.err;
+  // Its verdict is a defect.
+  expect_ended(verify("--again 0.5 --seed 1"), 1,
+               {"again: 16 of 32 trials, seed 1: all as they are stored\n"});
   // A defect becomes a success.
   std::string id;
   {
@@ -98,11 +92,9 @@ TEST_F(VerifyAgain, NamesAForgedVerdictOnAPlugIn) {
   const auto copy = scratch / "copy.so";
   std::filesystem::copy_file(library, copy);
   EXPECT_TRUE(contains(verify("--again 0.1 --detector " + copy).out, "all as they are stored"));
-  const auto other = verify("--again 0.1 --detector " + plugin("always_collision"));
-  EXPECT_EQ(other.exit_code, 2) << other.out;
-  EXPECT_TRUE(contains(other.err, "not the library that was certified")) << other.err;
-  const auto none = verify("--again 0.1 --detector " + (scratch / "none.so"));
-  EXPECT_EQ(none.exit_code, 2) << none.out;
+  expect_problem(verify("--again 0.1 --detector " + plugin("always_collision")),
+                 "not the library that was certified");
+  expect_ended(verify("--again 0.1 --detector " + (scratch / "none.so")), 2);
 }
 
 }  // namespace
