@@ -1,12 +1,16 @@
 // What a run rests on: its binding, its canary, and laws that were met too seldom.
 #include "properties/campaign/ledger/binding.h"
 
+#include "properties/campaign/ledger/run_folder.h"
 #include "properties/campaign/ledger/tally.h"
 #include "properties/campaign/phases/fault_hunt.h"
 #include "properties/campaign/trials/trials.h"
 #include "properties/laws/law.h"
+#include "tests/problem_words.h"
 #include "tests/properties/campaign/campaign_request.h"
+#include "tests/properties/campaign/good_findings.h"
 #include "tests/properties/small_case.h"
+#include "tests/reports/program.h"
 
 namespace assay::properties {
 namespace {
@@ -16,37 +20,27 @@ using test::request_of;
 TEST(Binding, ChangesWithWhatTheTrialsAreOf) {
   const auto request = request_of(10);
   const std::string text = binding_of(request);
-  auto other = request;
-  other.seed = 4;
-  EXPECT_NE(binding_of(other), text);
-  other = request;
-  other.shares = 2;
-  EXPECT_NE(binding_of(other), text);
-  other = request;
-  other.plan.strata[0].cases = 11;
-  EXPECT_NE(binding_of(other), text);
-  other = request;
-  other.plan.case_seconds = 11;
-  EXPECT_NE(binding_of(other), text);
-  other = request;
-  other.plan.case_bytes = 0;
-  EXPECT_NE(binding_of(other), text);
-  other = request;
-  other.detector.configurations.pop_back();
-  EXPECT_NE(binding_of(other), text);
-  other = request;
-  other.worker = "/bin/true";
-  EXPECT_NE(binding_of(other), text);
-  other = request;
-  other.plugin = test::plugin("always_free");
-  const std::string free = binding_of(other);
+  const auto changed = [&](const std::function<void(CampaignRequest&)>& change) {
+    auto other = request;
+    change(other);
+    return binding_of(other);
+  };
+  EXPECT_NE(changed([](auto& r) { r.seed = 4; }), text);
+  EXPECT_NE(changed([](auto& r) { r.shares = 2; }), text);
+  EXPECT_NE(changed([](auto& r) { r.plan.strata[0].cases = 11; }), text);
+  EXPECT_NE(changed([](auto& r) { r.plan.case_seconds = 11; }), text);
+  EXPECT_NE(changed([](auto& r) { r.plan.case_bytes = 0; }), text);
+  EXPECT_NE(changed([](auto& r) { r.detector.configurations.pop_back(); }), text);
+  EXPECT_NE(changed([](auto& r) { r.worker = "/bin/true"; }), text);
+  const auto free = changed([](auto& r) { r.plugin = test::plugin("always_free"); });
   EXPECT_NE(free, text);
-  other.plugin = test::plugin("always_collision");  // of the same name and version
-  EXPECT_NE(binding_of(other), free);
-  other = request;
-  other.plan.seconds = 7;  // a run that ran out of time may go on
-  other.jobs = 5;
-  EXPECT_EQ(binding_of(other), text);
+  // Of the same name and version.
+  EXPECT_NE(changed([](auto& r) { r.plugin = test::plugin("always_collision"); }), free);
+  EXPECT_EQ(changed([](auto& r) {
+              r.plan.seconds = 7;  // a run that ran out of time may go on
+              r.jobs = 5;
+            }),
+            text);
 }
 
 TEST(Binding, OfRunsThatAreJudgedTogetherMayDifferInSeedAndShare) {
@@ -112,6 +106,63 @@ TEST(Starved, LawsAreNamed) {
   EXPECT_EQ(broken_laws(counts), 0u);
   counts.laws[name].broken = 3;
   EXPECT_EQ(broken_laws(counts), 1u);
+}
+
+// What a folder lacks to be the proof of planted faults, by name: a caller may then tell a wrong
+// folder from a run that has to be repeated.
+
+class PowerProofs : public testing::Test {
+ protected:
+  PowerProofs() : request(request_of(2)) {
+    request.plan.fault_cases = 10;
+    request.plan.fault_seeds = 1;
+  }
+
+  // A folder with a run that found all planted faults, but for so many that it left out.
+  std::string proof_without(std::size_t left_out, const std::string& binding) const {
+    const std::string folder = scratch / "proof" + std::to_string(left_out);
+    std::filesystem::create_directories(folder);
+    auto opened = Store::open(store_file(folder), binding);
+    EXPECT_TRUE(opened) << opened.error().message;
+    for (const auto& fault : faults()) {
+      if (fault.status != FaultStatus::planted) continue;
+      if (left_out > 0) {
+        --left_out;
+        continue;
+      }
+      opened.value().set(to_row(test::fault_proof(std::string(fault.name), fault.status, true)));
+    }
+    return folder;
+  }
+  void expect_refused(const std::filesystem::path& folder, std::string_view words) const {
+    const auto proof = take_power(folder, scratch / "out", request);
+    ASSERT_FALSE(proof) << words;
+    EXPECT_TRUE(says(proof.error(), words));
+  }
+
+  const tests::Scratch scratch;
+  CampaignRequest request;
+};
+
+TEST_F(PowerProofs, OfARunOfThisBuildAreTaken) {
+  const auto folder = proof_without(0, binding_of(request));
+  const auto proof = take_power(folder, scratch / "out", request);
+  ASSERT_TRUE(proof) << proof.error().message;
+  EXPECT_EQ(proof.value().faults.size(), planted_count());
+  EXPECT_EQ(proof.value().source.campaign, request.plan.name);
+}
+
+TEST_F(PowerProofs, WhatIsNoneIsRefused) {
+  expect_refused(scratch / "nowhere", "nowhere: No such file");
+  std::filesystem::create_directory(scratch / "empty");
+  expect_refused(scratch / "empty", "no run is stored here");
+  expect_refused(scratch / "out/inside", "a proof must lie outside");
+  expect_refused(proof_without(1, binding_of(request)), ": the run ");
+  auto other = request;
+  other.worker = "/bin/true";
+  expect_refused(proof_without(0, binding_of(other)), "of another build of assay");
+  request.plan.fault_cases = 0;
+  expect_refused(scratch / "nowhere", "no proof of them is needed");
 }
 
 }  // namespace

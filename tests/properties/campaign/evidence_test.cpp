@@ -1,6 +1,10 @@
 // Every kind of evidence survives its row, and what no run stores is refused.
 #include "properties/campaign/ledger/evidence.h"
 
+#include "properties/campaign/ledger/tally.h"
+#include "properties/campaign/phases/fault_hunt.h"
+#include "properties/campaign/trials/case_tally.h"
+#include "properties/campaign/trials/trials.h"
 #include "tests/properties/campaign/good_findings.h"
 #include "tests/test.h"
 
@@ -9,17 +13,18 @@ namespace {
 
 using test::fault_proof;
 
-template <class T>
-EvidenceFacts read_back(const T& evidence) {
-  EvidenceFacts facts;
-  facts.take(to_row(evidence));
-  return facts;
-}
-
 // The row of what was read from a row is that row.
-template <class T>
-void expect_same_row(const T& evidence, const T& back) {
-  const auto one = to_row(evidence), other = to_row(back);
+template <class T, class Held>
+void expect_survives(const T& evidence, Held EvidenceFacts::*list) {
+  const auto one = to_row(evidence);
+  EvidenceFacts facts;
+  facts.take(one);
+  const auto other = [&] {
+    if constexpr (requires { (facts.*list).at(0); })
+      return to_row((facts.*list).at(0));
+    else
+      return to_row((facts.*list).value());
+  }();
   EXPECT_EQ(one.kind, other.kind);
   EXPECT_EQ(one.key, other.key);
   EXPECT_EQ(one.progress, other.progress);
@@ -46,40 +51,32 @@ TEST(Evidence, CasesOfAProofThatWasTakenOverDoNotCountTwice) {
 }
 
 TEST(Evidence, EveryKindSurvivesItsRow) {
-  const Canary canary{"pair/x", 7}, blind{"pair/x", std::nullopt};
-  expect_same_row(canary, read_back(canary).canaries.at(0));
-  expect_same_row(blind, read_back(blind).canaries.at(0));
-  const HarnessProblem problem{"no worker", 7};
-  expect_same_row(problem, read_back(problem).problems.at(0));
+  expect_survives(Canary{"pair/x", 7}, &EvidenceFacts::canaries);
+  expect_survives(Canary{"pair/x", std::nullopt}, &EvidenceFacts::canaries);
+  expect_survives(HarnessProblem{"no worker", 7}, &EvidenceFacts::problems);
   auto proof = fault_proof("a/b", FaultStatus::open, true, {3, std::nullopt});
   proof.shrunk = ShrunkFault{{9, 8, 7}, {3, 2, 1}, 55};
   proof.known_vertices = 5;
-  expect_same_row(proof, read_back(proof).faults.at(0));
-  EXPECT_EQ(read_back(proof).faults.at(0).status, FaultStatus::open);
-  const PowerSource source{"smoke", "built-in", 3, "p", "w", "g", "r"};
-  expect_same_row(source, read_back(source).power.at(0));
-  const World world{"square-2", 3, 4, 5, 1, false, "pairs differ"};
-  expect_same_row(world, read_back(world).worlds.at(0));
+  expect_survives(proof, &EvidenceFacts::faults);
+  EvidenceFacts facts;
+  facts.take(to_row(proof));
+  EXPECT_EQ(facts.faults.at(0).status, FaultStatus::open);
+  expect_survives(PowerSource{"smoke", "built-in", 3, "p", "w", "g", "r"}, &EvidenceFacts::power);
+  expect_survives(World{"square-2", 3, 4, 5, 1, false, "pairs differ"}, &EvidenceFacts::worlds);
   const SearchedLane lane{"003", 500, 480, 2, 1, {"t at 1, moving, generic", "no contact"}};
-  expect_same_row(lane, read_back(lane).search.at(0));
-  const Asked asked{{"harness", "speed"}, true};
-  expect_same_row(asked, *read_back(asked).asked);
-  const Versions versions{"0.2.0", std::nullopt, "CGAL 5.5.1"};
-  expect_same_row(versions, *read_back(versions).versions);
-  const Paths paths{"out", "lib.so"};
-  expect_same_row(paths, *read_back(paths).paths);
-  const InputDigests inputs{"c"};
-  expect_same_row(inputs, *read_back(inputs).inputs);
+  expect_survives(lane, &EvidenceFacts::search);
+  expect_survives(Asked{{"harness", "speed"}, true}, &EvidenceFacts::asked);
+  expect_survives(Versions{"0.2.0", std::nullopt, "CGAL 5.5.1"}, &EvidenceFacts::versions);
+  expect_survives(Paths{"out", "lib.so"}, &EvidenceFacts::paths);
+  expect_survives(InputDigests{"c"}, &EvidenceFacts::inputs);
   const CorpusRow corpus{
       "curated cases",   "bvh", 1, 2, 3, 4, 5, 6, {{"A1", "s", "w"}}, {{"A2", "", "no verdict"}},
       {1, 2, 3, 4, 5, 6}};
-  expect_same_row(corpus, read_back(corpus).corpus.at(0));
-  const SelfTestRow row{"line-3", 10, 3, 0, 1, true};
-  expect_same_row(row, read_back(row).self_test.at(0));
+  expect_survives(corpus, &EvidenceFacts::corpus);
+  expect_survives(SelfTestRow{"line-3", 10, 3, 0, 1, true}, &EvidenceFacts::self_test);
   const SpeedFigure figure{"exact-over-double", 1.25, 1, 1.5, {1, 1.5}};
-  expect_same_row(figure, read_back(figure).speed.at(0));
-  const Issued issued{"2026-01-31T12:00:00Z", 4.5};
-  expect_same_row(issued, *read_back(issued).issued);
+  expect_survives(figure, &EvidenceFacts::speed);
+  expect_survives(Issued{"2026-01-31T12:00:00Z", 4.5}, &EvidenceFacts::issued);
 }
 
 TEST(Evidence, WhatNoRunStoresIsRefused) {
@@ -182,6 +179,109 @@ TEST(Evidence, OfTwoRunsThatTookOverProofsTheProofsAreTheSame) {
   changed = other;
   changed.power[0].seed = 4;
   EXPECT_THROW(EvidenceFacts(sum).add(changed), StoreProblem);
+}
+
+// Records of trials, their counts and sums, and the shares of a campaign.
+
+TEST(Counts, AddUpByName) {
+  TrialCounts sum = {
+      {{"a", 1}, {"b", 2}}, {{"V+/V-", {3, 1}}}, {{"L3", {5, 2, 0, {{"auto", 4}}}}}, {}};
+  sum += {{{"b", 3}, {"c", 4}}, {{"V+/V-", {1, 1}}}, {{"L3", {1, 1, 1, {{"bvh", 1}}}}}, {}};
+  EXPECT_EQ(sum, (TrialCounts{{{"a", 1}, {"b", 5}, {"c", 4}},
+                              {{"V+/V-", {4, 2}}},
+                              {{"L3", {6, 3, 1, {{"auto", 4}, {"bvh", 1}}}}},
+                              {}}));
+  sum.extremes = {1, 20, 3, 40, 5, 60};
+  sum += {{}, {}, {}, {}, {10, 2, 30, 4, 50, 6}};
+  EXPECT_EQ(sum.extremes, (Extremes{10, 20, 30, 40, 50, 60}));
+}
+
+TEST(Records, SurviveTheirRows) {
+  TrialRecord trial{"quick:1:broken:12", "broken", 12, "HD", 1, 2, 3, 4, 5, 6, {},
+                    ~std::uint64_t{0},   1,        8};
+  trial.counts = {{{"shape:x", 1}}, {{"V+/V-", {3, 1}}}, {{"L3", {5, 2, 0, {{"auto", 4}}}}}, {}};
+  trial.counts.measures.redrawn = 3;
+  trial.counts.measures.relation_trials = 1;
+  trial.counts.extremes = {1, 2, 3, 4, 5, 6};
+  trial.counts.measures.errors.steps = 4;
+  trial.counts.measures.errors.late = {2, 0.0123, 7, {{0.013, 1}, {0.001, 1}}};
+  const Row row = to_row(trial);
+  EXPECT_EQ(row_name(row), "trial quick:1:broken:12");
+  const TrialRecord back = trial_of(row);
+  EXPECT_EQ(to_row(back), row);
+  EXPECT_EQ(back.family, "broken");
+  EXPECT_EQ(back.index, 12u);
+  EXPECT_EQ(back.counts, trial.counts);
+  EXPECT_EQ(back.mesh, trial.mesh);
+  // What is 0 takes no room.
+  TrialRecord small;
+  small.id = "q:1:broken:0";
+  small.outcomes = "H";
+  EXPECT_EQ(to_row(small).fields, R"({"outcomes":"H"})");
+  const StoredFailure failure{"quick:1:broken:12", "bvh", "s", "what", "mesh", "small", true, "p"};
+  EXPECT_EQ(to_row(failure_of(to_row(failure))), to_row(failure));
+  EXPECT_EQ(met_signature_of(to_row("quick:1:broken:12", {"bvh", "s"})), "s");
+}
+
+TEST(Records, ThatNoRunStoresAreRefused) {
+  for (const std::string fields : {"", "{", "[]", "1", "null", R"({"steps":"many"})"})
+    EXPECT_THROW(trial_of({"trial", "q:1:broken:0", 0, fields}), StoreProblem) << fields;
+  for (const std::string key : {"", "q", "q:1:broken:x", "q:1:broken:"})
+    EXPECT_THROW(trial_of({"trial", key, 0, "{}"}), StoreProblem) << key;
+  EXPECT_THROW(failure_of({"failure", "k", 0, "{}"}), StoreProblem);
+}
+
+TEST(Counts, TallyOfAStratum) {
+  Tally tally;
+  tally.add({"p:1:broken:0", "broken", 0, "HDUE", 5, 2, 1, 3, 10, 20, {{{"x", 1}}, {}, {}, {}}});
+  tally.add({"p:1:broken:1", "broken", 1, "HHDH", 4, 1, 0, 0, 1, 2, {{{"x", 1}}, {}, {}, {}}});
+  // A case that the detector's numbers do not hold is a trial of no configuration.
+  tally.add({"p:1:broken:2", "broken", 2, "", 0, 0, 0, 0, 0, 0, {}});
+  tally.add({"p:1:closed-generic:0", "closed-generic", 0, "H", 200, 1, 1, 1, 0, 0, {}});
+  EXPECT_EQ(tally.counts.tags, (Counts{{"x", 2}}));
+  ASSERT_EQ(tally.strata.size(), 2u);
+  const auto& broken = tally.strata.at("broken");
+  EXPECT_EQ(broken.trials, 3u);
+  EXPECT_EQ(broken.steps, 3u);
+  EXPECT_EQ(broken.collisions, 1u);
+  EXPECT_EQ(broken.pairs, 3u);
+  EXPECT_EQ(broken.oracle_us, 11u);
+  EXPECT_EQ(broken.detector_us, 22u);
+  ASSERT_EQ(broken.by_configuration.size(), 4u);
+  EXPECT_EQ(broken.by_configuration[0].holds, 2u);
+  EXPECT_EQ(broken.by_configuration[1].defects, 1u);
+  EXPECT_EQ(broken.by_configuration[2].undecided, 1u);
+  EXPECT_EQ(broken.by_configuration[2].defects, 1u);
+  EXPECT_EQ(broken.by_configuration[3].errors, 1u);
+  EXPECT_EQ(broken.sizes, (std::map<int, std::uint64_t>{{-1, 1}, {2, 2}}));
+  EXPECT_EQ(broken.contacts, (std::map<int, std::uint64_t>{{-1, 2}, {1, 1}}));
+  EXPECT_EQ(tally.strata.at("closed-generic").sizes, (std::map<int, std::uint64_t>{{7, 1}}));
+}
+
+TEST(Counts, LettersOfOutcomes) {
+  EXPECT_EQ(letter_of(Outcome::holds), 'H');
+  EXPECT_EQ(letter_of(Outcome::defect), 'D');
+  EXPECT_EQ(letter_of(Outcome::undecided), 'U');
+  EXPECT_EQ(letter_of(Outcome::error), 'E');
+}
+
+TEST(Shares, ReachTheWholeTogether) {
+  CampaignPlan plan;
+  plan.strata = {{"broken", 25, 0}, {"closed-generic", 2, 0}, {"closed-degenerate", 0, 0}};
+  EXPECT_EQ(planned_trial_count(plan, 1), 27u);
+  EXPECT_EQ(planned_trial_count(plan, 3), 10u);
+  for (const std::uint64_t shares : {1u, 2u, 3u, 7u, 40u}) {
+    EXPECT_GE(shares * share_of(25, shares), 25u);
+    EXPECT_LT(shares * (share_of(25, shares) - 1), 25u);
+    EXPECT_EQ(share_of(0, shares), 0u);
+    // Seeds that follow one another judge every index once.
+    std::set<std::uint64_t> indices;
+    for (std::uint64_t seed = 5; seed < 5 + shares; ++seed) {
+      for (std::uint64_t place = 0; place < share_of(25, shares); ++place)
+        EXPECT_TRUE(indices.insert(trial_index(place, seed, shares)).second);
+    }
+    EXPECT_EQ(*indices.rbegin() + 1, indices.size());
+  }
 }
 
 }  // namespace

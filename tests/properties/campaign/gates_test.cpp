@@ -28,6 +28,12 @@ void expect(const Judgement& judgement, Gate gate, const char* word, int code) {
   EXPECT_EQ(judgement.exit_code, code);
 }
 
+// Incomplete for this reason alone.
+void expect_incomplete(const Judgement& judgement, const std::string& reason) {
+  expect(judgement, Gate::complete, "incomplete", 3);
+  EXPECT_EQ(judgement.of(Gate::complete).reasons, std::vector<std::string>{reason});
+}
+
 void expect_certified(const std::vector<Change>& changes) {
   const auto judgement = judged_after(changes);
   EXPECT_EQ(judgement.verdict, "certified");
@@ -216,12 +222,9 @@ void half_alone(RunFindings& f) {
 }
 
 TEST(Gates, AShareAloneIsIncompleteAndTwoAreWhole) {
-  const auto alone = judged_after({half_alone});
-  expect(alone, Gate::complete, "incomplete", 3);
-  EXPECT_EQ(alone.of(Gate::complete).reasons,
-            std::vector<std::string>{"a whole campaign is more than the shares that are there: "
-                                     "1/2 under seed 3; shares 1/N need N seeds that follow one "
-                                     "another"});
+  expect_incomplete(judged_after({half_alone}),
+                    "a whole campaign is more than the shares that are there: 1/2 under seed 3; "
+                    "shares 1/N need N seeds that follow one another");
   const Change second = [](auto& f) {
     f.parts.push_back({4, 2, "r"});
     for (auto& [family, tally] : f.tally.strata) tally = good_tally(2 * tally.trials);
@@ -267,10 +270,8 @@ TEST(Gates, TheSearchAsksAllOfItsCases) {
     return [name](auto& f) { f.evidence.search.push_back({name, 500, 500, 0, 0, {"generic"}}); };
   };
   expect_certified({planned, lane("001"), lane("002")});
-  const auto cut = judged_after({planned, lane("001")});
-  expect(cut, Gate::complete, "incomplete", 3);
-  EXPECT_EQ(cut.of(Gate::complete).reasons,
-            std::vector<std::string>{"the search came to lanes of 500 of 1000 cases"});
+  expect_incomplete(judged_after({planned, lane("001")}),
+                    "the search came to lanes of 500 of 1000 cases");
   const Change no_verdict = [](auto& f) { f.evidence.search.at(0).open = 3; };
   EXPECT_EQ(
       judged_after({planned, lane("001"), lane("002"), no_verdict}).of(Gate::complete).reasons,
@@ -321,12 +322,10 @@ TEST(Gates, APlugInIsGivenEverySceneAndALimiterEveryWalk) {
   };
   const auto all = all_values<WalkKind>.size();
   expect_certified({plug_in, scenes, limits, walks(all)});
-  const auto one_less = judged_after({plug_in, scenes, limits, walks(all - 1)});
-  expect(one_less, Gate::complete, "incomplete", 3);
   const auto wanted = corpus::scenes().size() + 1 + all;
-  EXPECT_EQ(one_less.of(Gate::complete).reasons,
-            std::vector<std::string>{std::to_string(wanted - 1) + " of " + std::to_string(wanted) +
-                                     " scenes were repeated"});
+  expect_incomplete(
+      judged_after({plug_in, scenes, limits, walks(all - 1)}),
+      std::to_string(wanted - 1) + " of " + std::to_string(wanted) + " scenes were repeated");
 }
 
 TEST(Gates, WithoutContactsInsideTheContractNothingIsCertified) {
@@ -337,11 +336,9 @@ TEST(Gates, WithoutContactsInsideTheContractNothingIsCertified) {
     };
   };
   const Change plug_in = [](auto& f) { f.run.detector.built_in = false; };
-  const auto few = judged_after({contacts(0, 1)});
-  expect(few, Gate::complete, "incomplete", 3);
-  EXPECT_EQ(few.of(Gate::complete).reasons,
-            std::vector<std::string>{"broken: 1 of 20 planned cases have a contact inside the "
-                                     "contract, a tenth is wanted"});
+  expect_incomplete(judged_after({contacts(0, 1)}),
+                    "broken: 1 of 20 planned cases have a contact inside the contract, a tenth is "
+                    "wanted");
   expect_certified({contacts(0, 2)});
   expect_certified({plug_in, contacts(0, 2)});
   const auto none = judged_after({plug_in, contacts(0, 0), contacts(1, 0), contacts(2, 0)});
@@ -353,11 +350,8 @@ TEST(Gates, WithoutContactsInsideTheContractNothingIsCertified) {
     auto& tally = f.tally.strata["broken"] = {};
     tally.trials = tally.discards = 20;
   };
-  const auto two = judged_after({left_out});
-  expect(two, Gate::complete, "incomplete", 3);
-  EXPECT_EQ(
-      two.of(Gate::complete).reasons,
-      std::vector<std::string>{"2 of 3 families have a contact inside the contract, 3 are wanted"});
+  expect_incomplete(judged_after({left_out}),
+                    "2 of 3 families have a contact inside the contract, 3 are wanted");
   expect_certified({left_out, [](auto& f) {
                       f.run.plan.strata.push_back({"closed-degenerate", 2, 0.99});
                       f.tally.strata["closed-degenerate"] = good_tally(2);
@@ -386,10 +380,8 @@ TEST(Gates, WithoutContactsInsideTheContractNothingIsCertified) {
       tally.measures.without_time = 2;
     }
   };
-  const auto unjudged = judged_after({plug_in, only_wide_times});
-  expect(unjudged, Gate::complete, "incomplete", 3);
-  EXPECT_EQ(unjudged.of(Gate::complete).reasons,
-            std::vector<std::string>{"no claim of the detector was judged"});
+  expect_incomplete(judged_after({plug_in, only_wide_times}),
+                    "no claim of the detector was judged");
   // A share by itself may have too few, and is incomplete for that alone.
   EXPECT_EQ(judged_after({contacts(0, 0), half_alone}).of(Gate::complete).reasons.size(), 1u);
 }

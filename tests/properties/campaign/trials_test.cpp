@@ -9,6 +9,7 @@
 #include "properties/generators/draft.h"
 #include "properties/generators/families.h"
 #include "properties/judging/case_check.h"
+#include "properties/queries/query_families.h"
 #include "properties/worker/worker_process.h"
 #include "tests/problem_words.h"
 #include "tests/properties/campaign/campaign_request.h"
@@ -93,19 +94,17 @@ TEST_F(Trials, AreMadeAgainByTheirId) {
   std::uint64_t compared = 0;
   store.for_each_trial([&](const TrialRecord& r) {
     EXPECT_EQ(r.id, trial_id(request.plan, request.seed, r.family, r.index));
-    for (const auto& family : families()) {
-      if (family.name != r.family) continue;
-      const auto made = make_case(family, r.id);
-      EXPECT_EQ(corpus::case_text(made.c), corpus::case_text(make_case(family, r.id).c));
-      EXPECT_EQ(static_cast<std::uint64_t>(made.c.triangles.rows()), r.triangles);
-      std::uint64_t pairs = 0;
-      const auto truth = judge_case(made.c);
-      for (const auto& step : truth) pairs += step.pairs.size();
-      EXPECT_EQ(pairs, r.pairs);
-      EXPECT_EQ(extremes_of(made.c, truth), r.counts.extremes);
-      for (const auto& tag : made.tags) EXPECT_EQ(r.counts.tags.at(tag), 1u);
-      ++compared;
-    }
+    const auto& family = *find_family(r.family);
+    const auto made = make_case(family, r.id);
+    EXPECT_EQ(corpus::case_text(made.c), corpus::case_text(make_case(family, r.id).c));
+    EXPECT_EQ(static_cast<std::uint64_t>(made.c.triangles.rows()), r.triangles);
+    std::uint64_t pairs = 0;
+    const auto truth = judge_case(made.c);
+    for (const auto& step : truth) pairs += step.pairs.size();
+    EXPECT_EQ(pairs, r.pairs);
+    EXPECT_EQ(extremes_of(made.c, truth), r.counts.extremes);
+    for (const auto& tag : made.tags) EXPECT_EQ(r.counts.tags.at(tag), 1u);
+    ++compared;
   });
   EXPECT_EQ(compared, 9u);
   EXPECT_EQ(trial_id(request.plan, 7, "broken", 12), "test:7:broken:12");
@@ -280,6 +279,104 @@ TEST_F(Trials, AFailureOfAPlugInKeepsWhatItsPairSharesAndWhen) {
     ++kinds[static_cast<std::size_t>(std::clamp(whole.first, 0, 2))];
   }
   for (const int kind : kinds) EXPECT_GT(kind, 0) << kinds[0] << ' ' << kinds[1] << ' ' << kinds[2];
+}
+
+// The built-in detector under campaign smoke comes to the same, trial by trial, judged as the
+// built-in one and as a plug-in whose description names nothing of the contract: ABI 2 loosens
+// nothing, and takes nothing away. So does a planted fault.
+
+using TrialSums = std::tuple<std::string, std::string, std::uint64_t, std::uint64_t, std::uint64_t,
+                             std::uint64_t, std::uint64_t>;
+
+class JudgedAlike : public testing::Test {
+ protected:
+  // The cases of smoke under its seed, every `one_of`th part of each family.
+  static CampaignRequest smoke(std::uint64_t one_of) {
+    CampaignRequest request;
+    // The plug-ins take no relation, and of limits and distances the built-in is asked apart.
+    request.plan = without_questions(without_relations(find_plan("smoke").value()));
+    EXPECT_EQ(request.plan.name, "smoke");
+    for (auto& stratum : request.plan.strata) stratum.cases /= one_of;
+    request.plan.laws_every = 0;
+    request.jobs = 2;
+    request.worker = ASSAY_WORKER;
+    return request;
+  }
+  static CampaignRequest as_built_in(CampaignRequest request, const Configuration& configuration) {
+    request.detector = built_in_detector();
+    request.detector.configurations = {configuration};
+    return request;
+  }
+  static CampaignRequest as_plugin(CampaignRequest request, const std::string& name) {
+    test::set_plugin(request, test::plugin(name));
+    EXPECT_EQ(request.detector.contract, (Contract{.takes_relations = false, .progress = 0.9}))
+        << "the defaults leave nothing out but what takes a function";
+    EXPECT_EQ(list_of(request.detector.claims.without(claims_on_limits)), list_of(claims_of({})));
+    request.detector.configurations = {{"plug-in", {}}};
+    return request;
+  }
+
+  Tally tally_of(const std::string& name, const CampaignRequest& request,
+                 std::vector<TrialSums>& trials) const {
+    auto file = name;
+    std::replace(file.begin(), file.end(), '/', '-');
+    auto store = Store::open(scratch / file, "b").value();
+    const auto end =
+        run_trials(request, store, std::chrono::steady_clock::now() + std::chrono::hours(1), {});
+    EXPECT_TRUE(end.complete) << end.harness_problem;
+    Tally tally;
+    store.for_each_trial([&](const TrialRecord& r) {
+      tally.add(r);
+      trials.emplace_back(r.id, r.outcomes, r.triangles, r.steps, r.collisions, r.pairs, r.mesh);
+    });
+    EXPECT_EQ(tally.trials(), planned_trial_count(request.plan, 1));
+    return tally;
+  }
+
+  // Trials with a defect, in both alike.
+  std::uint64_t expect_alike(const CampaignRequest& built_in, const CampaignRequest& plugin) const {
+    std::vector<TrialSums> of_built_in, of_plugin;
+    const auto one =
+        tally_of("built-in " + built_in.detector.configurations[0].fault, built_in, of_built_in);
+    const auto other = tally_of(plugin.detector.name, plugin, of_plugin);
+    EXPECT_EQ(of_built_in.size(), of_plugin.size());
+    for (std::size_t i = 0; i < std::min(of_built_in.size(), of_plugin.size()); ++i)
+      EXPECT_EQ(of_built_in[i], of_plugin[i]) << std::get<0>(of_built_in[i]);
+    for (const auto& [family, stratum] : one.strata) {
+      const auto& alike = other.strata.at(family);
+      EXPECT_EQ(stratum.trials, alike.trials) << family;
+      EXPECT_EQ(stratum.steps, alike.steps) << family;
+      EXPECT_EQ(stratum.collisions, alike.collisions) << family;
+      EXPECT_EQ(stratum.pairs, alike.pairs) << family;
+      EXPECT_EQ(stratum.meshes, alike.meshes) << family;
+      EXPECT_EQ(stratum.sizes, alike.sizes) << family;
+      EXPECT_EQ(stratum.contacts, alike.contacts) << family;
+      EXPECT_EQ(stratum.discards + alike.discards, 0u) << family;
+      EXPECT_EQ(stratum.by_configuration, alike.by_configuration) << family;
+    }
+    EXPECT_EQ(one.open() + other.open(), 0u);
+    return one.with_defect();
+  }
+  const tests::Scratch scratch;
+};
+
+TEST_F(JudgedAlike, TheBuiltInDetectorHolds) {
+  const auto request = smoke(1);
+  EXPECT_EQ(planned_trial_count(request.plan, 1), 2800u);
+  EXPECT_EQ(
+      expect_alike(as_built_in(request, {"view-auto", {}}), as_plugin(request, "wrapped_builtin")),
+      0u);
+}
+
+TEST_F(JudgedAlike, APlantedFaultShowsInTheSameTrials) {
+  for (const std::string name : {"elementary/only-vertex-face", "elementary/end-excluded"}) {
+    SCOPED_TRACE(name);
+    auto file = name;
+    std::replace(file.begin(), file.end(), '/', '_');
+    const auto request = smoke(10);
+    const Configuration faulty{"faulty", find_fault(name)->options, name};
+    EXPECT_GT(expect_alike(as_built_in(request, faulty), as_plugin(request, "fault_" + file)), 0u);
+  }
 }
 
 }  // namespace

@@ -102,12 +102,7 @@ TEST(CuratedFacts, Hold) {
 }
 
 // What the files say in words only.
-CuratedStep step_of(const std::string& id) {
-  for (const auto& path : tests::curated_files()) {
-    if (path.stem() == id) return {corpus::read_case(path).value(), 0};
-  }
-  throw std::runtime_error("no case " + id);
-}
+CuratedStep step_of(const std::string& id) { return {tests::curated_case(id), 0}; }
 
 // D7 says that K finds nothing with the Vv of ghosts that stay at their places of t=0. That Vv, as
 // the file itself has it, holds all triangles of the box, and every contact is one of the box: all

@@ -1,6 +1,8 @@
 // Bounded arithmetic against the oracle: it never misses, is never late, and its intervals hold the
 // time; its false alarms are counted. Double and float are counted too, and must be wrong
 // somewhere.
+#include <fmt/format.h>
+
 #include "corpus/queries/query_csv.h"
 #include "detector/contact/elementary.h"
 #include "detector/detector.h"
@@ -53,15 +55,12 @@ void judge(const Query& query, QueryScore& score) {
   ASSERT_GE(timed.time.hi, truth.first.hi) << "the interval ends before the contact";
 }
 
-unsigned long long number(std::uint64_t n) { return n; }
-
 void print(const char* name, const QueryScore& s) {
-  std::printf(
-      "%-13s %7llu queries, %6llu contacts; false alarms: bounded %llu, double %llu, float %llu; "
-      "misses: double %llu, float %llu; bounded: %llu certain, %llu of them within 1e-9\n",
-      name, number(s.queries), number(s.contacts), number(s.bounded.alarms),
-      number(s.doubles.alarms), number(s.floats.alarms), number(s.doubles.misses),
-      number(s.floats.misses), number(s.certain), number(s.narrow));
+  fmt::print(
+      "{:13} {:7} queries, {:6} contacts; false alarms: bounded {}, double {}, float {}; misses: "
+      "double {}, float {}; bounded: {} certain, {} of them within 1e-9\n",
+      name, s.queries, s.contacts, s.bounded.alarms, s.doubles.alarms, s.floats.alarms,
+      s.doubles.misses, s.floats.misses, s.certain, s.narrow);
 }
 
 TEST(ArithmeticQueries, BoundedNeverMissesAndIsNeverLate) {
@@ -131,9 +130,8 @@ TEST(ArithmeticSteps, BoundedKeepsItsClaimsOnSmallSteps) {
       }
     }
   }
-  std::printf(
-      "%llu steps with %llu pairs, each 8 times: %llu spurious pairs, %llu false collisions\n",
-      number(steps), number(pairs), number(spurious), number(false_collisions));
+  fmt::print("{} steps with {} pairs, each 8 times: {} spurious pairs, {} false collisions\n",
+             steps, pairs, spurious, false_collisions);
 }
 
 // Every curated case in every arithmetic: bounded is held to its claims and to the facts that they

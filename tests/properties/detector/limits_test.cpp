@@ -1,6 +1,8 @@
 // L17: where the built-in detector lets a step stop, judged by the oracle: on random small steps,
 // and on walks, in which each step starts where the last one was let stop. ASSAY_CASES=1000000 runs
 // more steps, ASSAY_WALKS=100 more walks, of 1,000 steps each; ASSAY_SEED draws others.
+#include <fmt/format.h>
+
 #include "properties/campaign/phases/repetitions.h"
 #include "properties/judging/agreement.h"
 #include "properties/judging/step_errors.h"
@@ -44,15 +46,14 @@ detector::Positions judge_one(detector::Detector& detector, const corpus::Case& 
 }
 
 void print(const LimitTally& tally) {
-  std::printf(
-      "%llu steps: %llu free, %llu with a contact ahead; used %.4f in the median, %.4f in "
-      "99 of 100, %.4f at worst; %llu stalls\n",
-      static_cast<unsigned long long>(tally.steps), static_cast<unsigned long long>(tally.use.free),
-      static_cast<unsigned long long>(tally.use.contact), tally.use.used(0.5), tally.use.used(0.01),
-      tally.use.used(0), static_cast<unsigned long long>(tally.use.stalled()));
-  for (const auto& [cause, count] : tally.use.stalls)
-    std::printf("  stalled %llu times: %s\n", static_cast<unsigned long long>(count),
-                cause.c_str());
+  const auto& use = tally.use;
+  fmt::print(
+      "{} steps: {} free, {} with a contact ahead; used {:.4f} in the median, {:.4f} in 99 of 100, "
+      "{:.4f} at worst; {} stalls\n",
+      tally.steps, use.free, use.contact, use.used(0.5), use.used(0.01), use.used(0),
+      use.stalled());
+  for (const auto& [cause, count] : use.stalls)
+    fmt::print("  stalled {} times: {}\n", count, cause);
 }
 
 TEST(LimitsOfTheBuiltIn, L17_RandomStepsAreFreeAndGoFar) {

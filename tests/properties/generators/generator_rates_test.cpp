@@ -1,21 +1,98 @@
 // What the families reach, judged by the oracle: collisions, clean starts, premises of the laws and
 // how close they come to failing, set pairs among first contacts; and what a case and a judgement
 // cost. Measured is printed beside wanted.
+#include <fmt/format.h>
+
+#include <bit>
+
 #include "detector/mesh/surface.h"
 #include "oracle/instant/layers.h"
 #include "oracle/mesh/loops.h"
 #include "oracle/mesh/step.h"
+#include "oracle/query/contact.h"
 #include "oracle/view/touched_by_ghosts.h"
 #include "oracle/view/view_sign.h"
+#include "properties/claims/claims.h"
 #include "properties/generators/draft.h"
+#include "properties/generators/everyday.h"
 #include "properties/generators/families.h"
-#include "tests/properties/generators/tag_table.h"
+#include "properties/laws/facts/case_facts.h"
+#include "properties/numbering.h"
+#include "properties/queries/query_families.h"
+#include "tests/meshes.h"
 #include "tests/test.h"
 
 namespace assay::properties {
 namespace {
 
 using detector::Positions, detector::ViewPrimitive, detector::ViewSign;
+
+// Counts how often each tag and each block of set pairs occurs in a run, which shows what the
+// generators reached.
+class TagTable {
+ public:
+  // Adds one case, and how many of its steps collide.
+  void add(const std::vector<std::string>& tags, std::uint64_t steps, std::uint64_t collisions) {
+    for (const auto& tag : tags) {
+      TagCount& count = tags_[tag];
+      ++count.cases;
+      count.steps += steps;
+      count.collisions += collisions;
+    }
+  }
+  // Adds the contacts of one step. Both spans are by triangle: the signs of all, and Vv as 0 or 1,
+  // or empty if no triangle is in Vv.
+  void add_contacts(const detector::TrianglesView& triangles,
+                    const oracle::StepJudgement& judgement, std::span<const ViewSign> signs,
+                    std::span<const std::uint8_t> violated) {
+    const auto in_vv = [&](std::int32_t t) { return !violated.empty() && violated[at(t)] != 0; };
+    for (const auto& contact : judgement.pairs) {
+      const auto [a, b] = contact.pair;
+      const PairBlock block = block_of(signs[at(a)], signs[at(b)], in_vv(a) || in_vv(b));
+      BlockCount& count = blocks_[static_cast<std::size_t>(block)];
+      const auto shared =
+          static_cast<std::size_t>(std::min(shared_vertices(triangles, contact.pair), 2));
+      ++count.contacts[shared];
+      if (contact.time == judgement.first) ++count.first_contacts[shared];
+    }
+  }
+
+  struct TagCount {
+    std::uint64_t cases = 0, steps = 0, collisions = 0;
+  };
+  // Each array is by the number of vertices that a pair shares: 0, 1, 2.
+  struct BlockCount {
+    std::array<std::uint64_t, 3> contacts = {}, first_contacts = {};
+  };
+  const std::map<std::string, TagCount>& tags() const { return tags_; }
+  const BlockCount& block(PairBlock b) const { return blocks_[static_cast<std::size_t>(b)]; }
+
+  // Two tables of plain text, tags ascending; one line a row.
+  std::string text() const {
+    std::string out;
+    const auto to = std::back_inserter(out);
+    fmt::format_to(to, "{:<28} {:>9} {:>9} {:>10}\n", "tag", "cases", "steps", "collisions");
+    for (const auto& [tag, count] : tags_) {
+      fmt::format_to(to, "{:<28} {:>9} {:>9} {:>10}\n", tag, count.cases, count.steps,
+                     count.collisions);
+    }
+    fmt::format_to(to, "\n{:<8} {:>32} {:>32}\n{:<8} {:>32} {:>32}\n", "pairs", "contacts",
+                   "first contacts", "of", "apart / at a vertex / at an edge",
+                   "apart / at a vertex / at an edge");
+    for (std::size_t b = 0; b < all_values<PairBlock>.size(); ++b) {
+      const auto row = [](const std::array<std::uint64_t, 3>& n) {
+        return fmt::format("{} / {} / {}", n[0], n[1], n[2]);
+      };
+      fmt::format_to(to, "{:<8} {:>32} {:>32}\n", name_of(static_cast<PairBlock>(b)),
+                     row(blocks_[b].contacts), row(blocks_[b].first_contacts));
+    }
+    return out;
+  }
+
+ private:
+  std::map<std::string, TagCount> tags_;
+  std::array<BlockCount, all_values<PairBlock>.size()> blocks_;
+};
 
 // Of the processor, so that other work on the machine does not count.
 double microseconds_since(std::clock_t begin) {
@@ -150,6 +227,37 @@ Rates measure(const Family& family, int cases, TagTable& table) {
   return rates;
 }
 
+TEST(TagTable, CountsTagsBlocksAndFirstContacts) {
+  const auto triangles = tests::triangles_of("0 1 2, 0 1 3, 0 4 5, 6 7 8");
+  oracle::StepJudgement judgement;
+  judgement.answer = detector::Answer::collision;
+  judgement.first = {0.25, 0.25};
+  judgement.pairs = {{{0, 1}, {0.25, 0.25}, {}},
+                     {{0, 2}, {0.5, 0.5}, {}},
+                     {{0, 3}, {0.25, 0.25}, {}},
+                     {{2, 3}, {0.25, 0.25}, {}}};
+  const std::vector<ViewSign> signs = {ViewSign::positive, ViewSign::negative, ViewSign::zero,
+                                       ViewSign::positive};
+  TagTable sum;
+  for (int i = 0; i < 2; ++i) {
+    sum.add({"closed", "menu:ulp"}, 2, 1);
+    sum.add_contacts(triangles, judgement, signs, {});
+  }
+  const std::vector<std::uint8_t> violated = {0, 0, 1, 0};
+  sum.add_contacts(triangles, judgement, signs, violated);
+  EXPECT_EQ(sum.tags().at("menu:ulp").cases, 2u);
+  EXPECT_EQ(sum.tags().at("closed").collisions, 2u);
+  using Counts = std::array<std::uint64_t, 3>;
+  EXPECT_EQ(sum.block(PairBlock::positive_negative).first_contacts, (Counts{0, 0, 3}));
+  EXPECT_EQ(sum.block(PairBlock::positive_zero).contacts, (Counts{2, 2, 0}));
+  EXPECT_EQ(sum.block(PairBlock::positive_zero).first_contacts, (Counts{2, 0, 0}));
+  EXPECT_EQ(sum.block(PairBlock::positive_positive).contacts, (Counts{3, 0, 0}));
+  EXPECT_EQ(sum.block(PairBlock::violated).contacts, (Counts{1, 1, 0}));
+  EXPECT_EQ(sum.block(PairBlock::zero_zero).contacts, (Counts{0, 0, 0}));
+  EXPECT_NE(sum.text().find("V+ V-"), std::string::npos);
+  EXPECT_LT(sum.text().find("closed"), sum.text().find("menu:ulp"));
+}
+
 TEST(GeneratorRates, PremisesAndContactsAreMetOftenEnough) {
   constexpr int case_count = 150;
   TagTable table;
@@ -184,6 +292,89 @@ TEST(GeneratorRates, PremisesAndContactsAreMetOftenEnough) {
       EXPECT_GE(count.first_contacts[shared], 1u) << name_of(block) << ", sharing " << shared;
     }
   }
+}
+
+// Everyday numbers: sizes, units of the last place, and how often the things come together that a
+// detector errs by which rounds on the way in.
+
+TEST(EverydayNumbers, SizesAreNoPowersOfTwoAndOfEveryScale) {
+  std::map<int, int> scales;
+  for (std::uint64_t i = 0; i < 2000; ++i) {
+    Random random(1, i);
+    const double size = everyday_size(random);
+    ASSERT_GT(size, 1e-4);
+    ASSERT_LT(size, 1e6);
+    EXPECT_NE(std::bit_cast<std::uint64_t>(size) << 12, 0u) << size;
+    ++scales[static_cast<int>(std::floor(std::log10(size)))];
+  }
+  EXPECT_EQ(scales.size(), 10u);
+}
+
+TEST(EverydayNumbers, UnitsGoBeyondOrStayShort) {
+  EXPECT_EQ(units_beyond(1, 0, -1), 1);
+  EXPECT_EQ(units_beyond(1, 2, 5), 1 + 0x1p-51);
+  EXPECT_EQ(units_beyond(1, 2, -5), 1 - 0x1p-52);
+  EXPECT_EQ(units_beyond(1, -1, 5), 1 - 0x1p-53);
+  EXPECT_EQ(units_beyond(0, 1, -1), -0x1p-52);
+}
+
+// Whether some coordinate of the step is not x0 + (x1 - x0) where it ends.
+bool ends_are_rounded(const detector::Positions& x_t0, const detector::Positions& x_t1) {
+  return (x_t0 + (x_t1 - x_t0)).eval() != x_t1;
+}
+
+TEST(EverydayNumbers, StepsEndInContactWhereDisplacementsAreRounded) {
+  for (const auto& family : families()) {
+    if (!family.name.ends_with("-everyday")) continue;
+    constexpr int cases = 300;
+    int at_end = 0, rounded = 0, at_start = 0;
+    for (int i = 0; i < cases; ++i) {
+      const auto c =
+          make_case(family, "everyday:1:" + std::string(family.name) + ":" + std::to_string(i)).c;
+      const auto& [x_t0, x_t1] = std::tie(c.frames[0], c.frames[1]);
+      const auto truth = oracle::judge_step({x_t0, x_t1}, c.triangles, {1, {}});
+      if (truth.pairs.empty()) continue;
+      at_start += truth.first.hi == 0 ? 1 : 0;
+      if (truth.first.lo < 0.999999) continue;
+      ++at_end;
+      rounded += ends_are_rounded(x_t0, x_t1) ? 1 : 0;
+    }
+    std::printf("%-20s of %d first steps %d meet at the end, %d with rounded ends, %d at start\n",
+                std::string(family.name).c_str(), cases, at_end, rounded, at_start);
+    EXPECT_GE(at_end, cases / 6) << family.name;
+    EXPECT_GE(rounded, cases / 8) << family.name;
+    EXPECT_GE(at_start, cases / 40) << family.name;
+  }
+}
+
+TEST(EverydayNumbers, QueriesEndInContactWhereDisplacementsAreRounded) {
+  const auto& everyday = query_generators().back();
+  constexpr std::uint64_t queries = 2000;
+  int at_end = 0, level = 0, contacts = 0;
+  for (std::uint64_t i = 0; i < queries; ++i) {
+    const auto q = everyday.make(1, i).query;
+    const auto answer = oracle::contact_of(q, detector::Want::first_time);
+    if (!answer.contact) continue;
+    ++contacts;
+    if (answer.first.lo < 0.999999) continue;
+    ++at_end;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto is_rounded = [&](const detector::MovingPoint& p) {
+        return p.t0[k] + (p.t1[k] - p.t0[k]) != p.t1[k];
+      };
+      const auto is_level = [&](const detector::MovingPoint& p) {
+        return std::abs(p.t1[k] - q.points[0].t1[k]) <= 1e-13 * std::abs(p.t1[k]);
+      };
+      if (std::all_of(q.points.begin(), q.points.end(), is_level) &&
+          std::any_of(q.points.begin(), q.points.end(), is_rounded))
+        ++level;
+    }
+  }
+  std::printf("of %d queries %d meet, %d at the end, %d of these level and rounded\n",
+              static_cast<int>(queries), contacts, at_end, level);
+  EXPECT_GE(at_end, static_cast<int>(queries) / 5);
+  EXPECT_GE(level, static_cast<int>(queries) / 20);
+  EXPECT_LT(contacts, static_cast<int>(queries) * 9 / 10);
 }
 
 }  // namespace

@@ -1,11 +1,19 @@
 // Random meshes: every case is valid input, the same bytes whenever it is made, and the families
 // hold what they are for. Rates are printed beside the wanted ones.
+#include <fmt/format.h>
+
 #include <bit>
 
 #include "detector/mesh/mesh_checks.h"
+#include "oracle/distance/step_distance.h"
 #include "oracle/mesh/loops.h"
+#include "properties/generators/added_bodies.h"
 #include "properties/generators/families.h"
 #include "properties/generators/motions.h"
+#include "properties/judging/judged_run.h"
+#include "properties/queries/query_families.h"
+#include "properties/worker/plugin/query_case.h"
+#include "tests/meshes.h"
 #include "tests/test.h"
 
 namespace assay::properties {
@@ -85,11 +93,7 @@ TEST(Generators, EveryCaseIsValidInputAndHasATextThatReadsBack) {
 
 // One face was left there, and it went as invalid later.
 TEST(Generators, ABrokenMeshKeepsATriangle) {
-  const auto known = families();
-  const auto broken = std::find_if(known.begin(), known.end(),
-                                   [](const auto& family) { return family.name == "broken"; });
-  ASSERT_NE(broken, known.end());
-  EXPECT_GE(make_case(*broken, "unclosed:606:broken:8351").c.triangles.rows(), 1);
+  EXPECT_GE(make_case(*find_family("broken"), "unclosed:606:broken:8351").c.triangles.rows(), 1);
 }
 
 TEST(Generators, AnIdGivesTheSameBytesAndAnotherIdOthers) {
@@ -160,6 +164,123 @@ TEST(Generators, EveryTagOccurs) {
   for (const auto& tag : wanted) EXPECT_GE(tags[tag], 5) << tag;
   // And no other: a new tag belongs into the list.
   EXPECT_EQ(tags.size(), wanted.size());
+}
+
+// Random cases with a relation: each is valid, is the same whenever it is made, and leaves
+// something out.
+
+TEST(RelationCases, AreValidAndHaveATextThatReadsBack) {
+  const Family& family = counted_families()[0];
+  EXPECT_EQ(find_family("counted"), &family);
+  std::map<std::string, int> tags;
+  for (int i = 0; i < 400; ++i) {
+    const auto id = id_of(family, i);
+    const auto made = make_case(family, id);
+    SCOPED_TRACE(id);
+    ASSERT_TRUE(made.c.counted && !made.c.counted->pairs.count_all());
+    const auto wrong = detector::check_counted_pairs(made.c.counted->pairs, made.c.triangles,
+                                                     made.c.frames[0].rows());
+    ASSERT_FALSE(wrong) << wrong->message;
+    const auto text = corpus::case_text(made.c);
+    EXPECT_EQ(corpus::case_text(make_case(family, id).c), text);
+    const auto read = corpus::parse_case(text, "case");
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read.value().counted->pairs, made.c.counted->pairs);
+    EXPECT_TRUE(std::is_sorted(made.tags.begin(), made.tags.end()));
+    for (const auto& tag : made.tags) ++tags[tag];
+  }
+  for (const auto* kind : {"relation:triangles", "relation:features", "relation:bodies",
+                           "relation:rings", "relation:rest-distance"})
+    EXPECT_GT(tags[kind], 50) << kind;
+}
+
+TEST(RelationCases, ContactsThatCountAndOthersAreFrequent) {
+  int counted = 0, ignored = 0;
+  for (int i = 0; i < 200; ++i) {
+    auto c = make_case(counted_families()[0], "test:2:counted:" + std::to_string(i)).c;
+    const auto what_counts = judge_case(c);
+    c.counted.reset();
+    const auto all = judge_case(c);
+    for (std::size_t s = 0; s < all.size(); ++s) {
+      counted += what_counts[s].pairs.empty() ? 0 : 1;
+      ignored += what_counts[s].pairs.size() < all[s].pairs.size() ? 1 : 0;
+    }
+  }
+  std::printf("of 200 cases %d steps have contacts that count, %d others\n", counted, ignored);
+  EXPECT_GT(counted, 50);
+  EXPECT_GT(ignored, 50);
+}
+
+// Each drawn approach is at the distance that it was made for, by the oracle.
+
+corpus::Case two_triangles(const Approach& approach) {
+  corpus::Case c;
+  c.id = "approach";
+  c.triangles = tests::triangles({{0, 1, 2}, {3, 4, 5}});
+  c.frames.assign(2, detector::Positions(6, 3));
+  for (int i = 0; i < 6; ++i) {
+    const auto& point = i < 3 ? approach.a[static_cast<std::size_t>(i)]
+                              : approach.b[static_cast<std::size_t>(i - 3)];
+    c.frames[0].row(i) << point.t0[0], point.t0[1], point.t0[2];
+    c.frames[1].row(i) << point.t1[0], point.t1[1], point.t1[2];
+  }
+  return c;
+}
+
+// How the least distance of an approach compares with d.
+std::string place_of(double least, double d) {
+  if (least == d) return "at d";
+  if (least == std::nextafter(d, 0.0)) return "the double before d";
+  if (least == std::nextafter(d, std::numeric_limits<double>::infinity()))
+    return "the double after d";
+  return least == d / 2 ? "half of d" : least == d - d * 0x1p-20 ? "just inside" : "elsewhere";
+}
+
+TEST(Approaches, AreAtTheDistanceThatTheyAreMadeFor) {
+  for (const double d : {0.01, 1.0, 3e-7, 12345.678, 0x1p-890, 0x1p890}) {
+    std::map<std::string, int> places;
+    std::map<bool, int> near, near_at_start;
+    for (std::uint64_t i = 0; i < 400; ++i) {
+      Random random(7, i);
+      const auto c = two_triangles(draw_approach(random, d));
+      const auto least = oracle::least_distance({c.frames[0], c.frames[1]}, c.triangles).distance;
+      ++places[place_of(least, d)];
+      const Contract within = {.adjacency = Adjacency::no_shared_vertex, .separation = d};
+      const auto truth = truth_of(c, judge_case(c, within).front(), within);
+      ASSERT_EQ(truth.first.has_value(), least <= d) << i;
+      ++near[truth.first.has_value()];
+      ++near_at_start[truth.starts_near];
+    }
+    EXPECT_EQ(places.count("elsewhere"), 0u) << d;
+    EXPECT_EQ(places.size(), 5u) << d;
+    for (const bool is : {false, true}) {
+      EXPECT_GT(near[is], 60) << d;
+      EXPECT_GT(near_at_start[is], 5) << d;
+    }
+  }
+}
+
+TEST(Approaches, AreAddedToAMeshOrTakeTheirPlaceAsAQuery) {
+  Random random(3, 1);
+  const auto mesh = make_case(families().front(), "tiny:1:closed-generic:4").c;
+  const auto with = with_approach(mesh, 0.5, random);
+  EXPECT_EQ(with.triangles.rows(), mesh.triangles.rows() + 2);
+  EXPECT_EQ(with.frames.size(), mesh.frames.size());
+  EXPECT_EQ(with.frames.front().rows(), mesh.frames.front().rows() + 6);
+  EXPECT_FALSE(with.view || with.ghosts || with.expected.answer);
+  // The case's relation speaks of the new vertices too, and lets the two triangles meet.
+  for (int i = 0; i < 40; ++i) {
+    auto related = make_case(counted_families().front(), fmt::format("tiny:1:counted:{}", i)).c;
+    ASSERT_TRUE(related.counted);
+    const auto met = with_approach(related, 0.5, random);
+    const auto vertices = met.frames.front().rows();
+    EXPECT_FALSE(detector::check_counted_pairs(met.counted->pairs, met.triangles, vertices)) << i;
+    EXPECT_TRUE(met.counted->steps.empty());
+  }
+  const auto query = case_of_query({{}, 2}, "query");
+  const auto aimed = query_of(with_approach(query, 0.5, random));
+  ASSERT_TRUE(aimed);
+  EXPECT_EQ(aimed->first_group, 2);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include "properties/generators/draft.h"
 #include "properties/generators/families.h"
 #include "properties/judging/case_check.h"
-#include "tests/properties/generators/tag_table.h"
+#include "tests/meshes.h"
 #include "tests/test.h"
 
 namespace assay::properties {
@@ -17,11 +17,8 @@ using detector::Answer;
 corpus::Case down_through_the_floor() {
   corpus::Case c;
   c.id = "down-through-the-floor";
-  c.triangles.resize(4, 3);
-  c.triangles << 0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3;
-  detector::Positions x(4, 3);
-  x << 0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, 2;
-  c.frames = {x, x, x};
+  c.triangles = tests::triangles_of("0 2 1, 0 1 3, 1 2 3, 2 0 3");
+  c.frames.assign(3, tests::positions_of("0 0 0, 4 0 0, 0 4 0, 1 1 2"));
   c.frames[1](3, 2) = -2;
   c.frames[2](3, 2) = 0;  // the second step goes up by 2
   return c;
@@ -67,10 +64,8 @@ TEST(Response, GeneratedOnesCommitWhatIsFreeAndTheDetectorAgrees) {
       for (std::size_t s = 0; s < made.c.script.size(); ++s) {
         const auto& step = made.c.script[s];
         ASSERT_EQ(step.from, now);
-        const auto judgement =
-            oracle::judge_step({made.c.frames[static_cast<std::size_t>(step.from)],
-                                made.c.frames[static_cast<std::size_t>(step.to)]},
-                               made.c.triangles, {1, {}});
+        const auto judgement = oracle::judge_step({start_of(made.c, step), end_of(made.c, step)},
+                                                  made.c.triangles, {1, {}});
         ASSERT_EQ(judgement.answer == Answer::free, step.commit);
         if (step.commit) {
           const bool after_attempt = s > 0 && !made.c.script[s - 1].commit;
@@ -91,40 +86,6 @@ TEST(Response, GeneratedOnesCommitWhatIsFreeAndTheDetectorAgrees) {
   EXPECT_GT(responses, 60);
   EXPECT_GT(evaluated, 60);
   EXPECT_GT(shortened, 20);
-}
-
-TEST(TagTable, CountsTagsBlocksAndFirstContacts) {
-  using detector::ViewSign;
-  detector::Triangles triangles(4, 3);
-  triangles << 0, 1, 2, 0, 1, 3, 0, 4, 5, 6, 7, 8;
-  oracle::StepJudgement judgement;
-  judgement.answer = Answer::collision;
-  judgement.first = {0.25, 0.25};
-  judgement.pairs = {{{0, 1}, {0.25, 0.25}, {}},
-                     {{0, 2}, {0.5, 0.5}, {}},
-                     {{0, 3}, {0.25, 0.25}, {}},
-                     {{2, 3}, {0.25, 0.25}, {}}};
-  const std::vector<ViewSign> signs = {ViewSign::positive, ViewSign::negative, ViewSign::zero,
-                                       ViewSign::positive};
-  TagTable table;
-  table.add({"closed", "menu:ulp"}, 2, 1);
-  table.add_contacts(triangles, judgement, signs, {});
-  TagTable sum;
-  sum.merge(table);
-  sum.merge(table);
-  const std::vector<std::uint8_t> violated = {0, 0, 1, 0};
-  sum.add_contacts(triangles, judgement, signs, violated);
-  EXPECT_EQ(sum.tags().at("menu:ulp").cases, 2u);
-  EXPECT_EQ(sum.tags().at("closed").collisions, 2u);
-  using Counts = std::array<std::uint64_t, 3>;
-  EXPECT_EQ(sum.block(PairBlock::positive_negative).first_contacts, (Counts{0, 0, 3}));
-  EXPECT_EQ(sum.block(PairBlock::positive_zero).contacts, (Counts{2, 2, 0}));
-  EXPECT_EQ(sum.block(PairBlock::positive_zero).first_contacts, (Counts{2, 0, 0}));
-  EXPECT_EQ(sum.block(PairBlock::positive_positive).contacts, (Counts{3, 0, 0}));
-  EXPECT_EQ(sum.block(PairBlock::violated).contacts, (Counts{1, 1, 0}));
-  EXPECT_EQ(sum.block(PairBlock::zero_zero).contacts, (Counts{0, 0, 0}));
-  EXPECT_NE(sum.text().find("V+ V-"), std::string::npos);
-  EXPECT_LT(sum.text().find("closed"), sum.text().find("menu:ulp"));
 }
 
 }  // namespace

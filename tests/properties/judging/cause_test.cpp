@@ -1,6 +1,7 @@
 #include "properties/judging/cause.h"
 
 #include "oracle/mesh/step.h"
+#include "tests/meshes.h"
 #include "tests/test.h"
 
 namespace assay::properties {
@@ -8,20 +9,23 @@ namespace {
 
 // A vertex of the second triangle falls on the first.
 struct Fall {
-  detector::Triangles triangles{2, 3};
-  detector::Positions x_t0{6, 3}, x_t1{6, 3};
+  detector::Triangles triangles = tests::triangles({{0, 1, 2}, {3, 4, 5}});
+  detector::Positions x_t0 = tests::positions_of("0 0 0, 4 0 0, 0 4 0, 1 1 1, 2 1 3, 1 2 3"),
+                      x_t1 = x_t0;
 
-  Fall() {
-    triangles << 0, 1, 2, 3, 4, 5;
-    x_t0 << 0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, 1, 2, 1, 3, 1, 2, 3;
-    x_t1 = x_t0;
-    x_t1(3, 2) = -1;
+  Fall() { x_t1(3, 2) = -1; }
+
+  // The cause behind a contact, or behind a pair that does not meet.
+  template <class... Asked>
+  std::string cause_behind(const Asked&... asked) const {
+    return text_of(cause_of(triangles, {x_t0, x_t1}, asked...));
   }
-
   std::string cause() const {
     const auto judged = oracle::judge_step({x_t0, x_t1}, triangles, {});
-    if (judged.pairs.size() != 1) return "none";
-    return text_of(cause_of(triangles, {x_t0, x_t1}, judged.pairs[0]));
+    return judged.pairs.size() == 1 ? cause_behind(judged.pairs[0]) : "none";
+  }
+  std::string cause_of_the_query(const auto& asked) const {
+    return text_of(cause_of_query(triangles, {x_t0, x_t1}, asked));
   }
 };
 
@@ -34,25 +38,25 @@ TEST(Cause, SaysWhatIsSpecial) {
   at_1.x_t1.col(2).array() += 1;
   at_1.x_t1(3, 2) = 1 - 0x1p-50;
   EXPECT_EQ(at_1.cause(), "t at 1, moving, generic") << "some units beyond";
-  Fall at_0;
-  at_0.x_t0(3, 2) = 0;
-  EXPECT_EQ(at_0.cause(), "t at 0, moving, generic");
-  Fall rests;
-  rests.x_t0(3, 2) = rests.x_t1(3, 2) = 0;
-  EXPECT_EQ(rests.cause(), "t at 0, at rest, generic");
-  Fall huge;
-  huge.x_t0 *= 0x1p50;
-  huge.x_t1 *= 0x1p50;
-  EXPECT_EQ(huge.cause(), "t inside, moving, generic, huge numbers");
-  Fall tiny;
-  tiny.x_t1(5, 0) = 1e-200;
-  EXPECT_EQ(tiny.cause(), "t inside, moving, generic, tiny numbers");
-  Fall flat;
-  flat.x_t1.row(5) = flat.x_t1.row(4);
-  EXPECT_EQ(flat.cause(), "t inside, moving, without area");
-  Fall at_edge;
-  at_edge.x_t0(3, 1) = at_edge.x_t1(3, 1) = 0;
-  EXPECT_EQ(at_edge.cause(), "t inside, moving, at the end of a feature");
+  const auto cause_after = [](const auto& change) {
+    Fall fall;
+    change(fall);
+    return fall.cause();
+  };
+  EXPECT_EQ(cause_after([](Fall& f) { f.x_t0(3, 2) = 0; }), "t at 0, moving, generic");
+  EXPECT_EQ(cause_after([](Fall& f) { f.x_t0(3, 2) = f.x_t1(3, 2) = 0; }),
+            "t at 0, at rest, generic");
+  EXPECT_EQ(cause_after([](Fall& f) {
+              f.x_t0 *= 0x1p50;
+              f.x_t1 *= 0x1p50;
+            }),
+            "t inside, moving, generic, huge numbers");
+  EXPECT_EQ(cause_after([](Fall& f) { f.x_t1(5, 0) = 1e-200; }),
+            "t inside, moving, generic, tiny numbers");
+  EXPECT_EQ(cause_after([](Fall& f) { f.x_t1.row(5) = f.x_t1.row(4); }),
+            "t inside, moving, without area");
+  EXPECT_EQ(cause_after([](Fall& f) { f.x_t0(3, 1) = f.x_t1(3, 1) = 0; }),
+            "t inside, moving, at the end of a feature");
 }
 
 TEST(Cause, NeighboursSayWhatTheyShare) {
@@ -108,12 +112,10 @@ TEST(Cause, OfAQueryItsFeaturesAloneAreNear) {
   const detector::PairContact contact{
       {0, 1}, {0.5, 0.5}, {detector::FeatureKind::vertex_face, {3, 0, 1, 2, -1}}};
   fall.x_t0(4, 2) = fall.x_t1(4, 2) = 0;
-  EXPECT_EQ(text_of(cause_of_query(fall.triangles, {fall.x_t0, fall.x_t1}, contact)),
-            "t inside, moving, generic");
-  EXPECT_EQ(text_of(cause_of(fall.triangles, {fall.x_t0, fall.x_t1}, contact)),
-            "t inside, moving, generic, near contact at the start");
+  EXPECT_EQ(fall.cause_of_the_query(contact), "t inside, moving, generic");
+  EXPECT_EQ(fall.cause_behind(contact), "t inside, moving, generic, near contact at the start");
   fall.x_t0(3, 2) = 1e-6;
-  EXPECT_EQ(text_of(cause_of_query(fall.triangles, {fall.x_t0, fall.x_t1}, contact)),
+  EXPECT_EQ(fall.cause_of_the_query(contact),
             "t inside, moving, generic, near contact at the start");
 }
 
@@ -123,9 +125,8 @@ TEST(Cause, OfAQueryThatStaysApartNothingIsShared) {
   one.triangles(1, 1) = 1;
   one.x_t1 = one.x_t0;
   const detector::Feature features{detector::FeatureKind::vertex_face, {3, 0, 1, 2, -1}};
-  EXPECT_EQ(text_of(cause_of_query(one.triangles, {one.x_t0, one.x_t1}, features)), "at rest");
-  EXPECT_EQ(text_of(cause_of(one.triangles, {one.x_t0, one.x_t1}, detector::TrianglePair{0, 1})),
-            "at rest, sharing a vertex");
+  EXPECT_EQ(one.cause_of_the_query(features), "at rest");
+  EXPECT_EQ(one.cause_behind(detector::TrianglePair{0, 1}), "at rest, sharing a vertex");
 }
 
 TEST(Cause, AContactSoonAfterTheStartIsOneOfItsOwn) {
@@ -135,9 +136,7 @@ TEST(Cause, AContactSoonAfterTheStartIsOneOfItsOwn) {
 }
 
 TEST(Cause, OfAPairThatDoesNotMeet) {
-  const Fall fall;
-  EXPECT_EQ(text_of(cause_of(fall.triangles, {fall.x_t0, fall.x_t1}, detector::TrianglePair{0, 1})),
-            "moving");
+  EXPECT_EQ(Fall().cause_behind(detector::TrianglePair{0, 1}), "moving");
 }
 
 TEST(Cause, OfADistanceSaysWhereTheNearestPointsLie) {
@@ -146,7 +145,7 @@ TEST(Cause, OfADistanceSaysWhereTheNearestPointsLie) {
     for (auto* at : {&fall.x_t0, &fall.x_t1}) at->row(3).head(2) << x, y;
     const detector::PairContact contact{
         {0, 1}, {0.25, 0.25}, {detector::FeatureKind::vertex_face, {3, 0, 1, 2, -1}}};
-    return text_of(cause_of(fall.triangles, {fall.x_t0, fall.x_t1}, contact, true));
+    return fall.cause_behind(contact, true);
   };
   const auto& corner = fall.x_t0;
   const auto middle = [&](int axis) {
@@ -155,9 +154,7 @@ TEST(Cause, OfADistanceSaysWhereTheNearestPointsLie) {
   EXPECT_EQ(cause_at(middle(0), middle(1)), "t inside, moving, distance to a face");
   EXPECT_EQ(cause_at(corner(0, 0) - 1, corner(0, 1) - 1),
             "t inside, moving, distance of two vertices");
-  EXPECT_EQ(
-      text_of(cause_of(fall.triangles, {fall.x_t0, fall.x_t1}, detector::TrianglePair{0, 1}, true)),
-      "moving, beyond the distance");
+  EXPECT_EQ(fall.cause_behind(detector::TrianglePair{0, 1}, true), "moving, beyond the distance");
 }
 
 TEST(Cause, TheMostOrdinaryIsTheLeastOdd) {

@@ -2,9 +2,13 @@
 // made is never broken.
 #include "properties/claims/claims.h"
 
+#include <nlohmann/json.hpp>
+
 #include "detector/plugin/assay_detector.h"
 #include "detector/step_result.h"
 #include "properties/judging/agreement.h"
+#include "properties/judging/step_errors.h"
+#include "tests/meshes.h"
 #include "tests/test.h"
 
 namespace assay::properties {
@@ -13,11 +17,7 @@ namespace {
 using detector::Answer, detector::PairContact, detector::TimeEnclosure;
 
 // Triangles 0-1 share an edge, 0-2 and 1-2 a vertex; 3 and 4 are apart.
-detector::Triangles mesh() {
-  detector::Triangles triangles(5, 3);
-  triangles << 0, 1, 2, 1, 0, 3, 0, 4, 5, 6, 7, 8, 9, 10, 11;
-  return triangles;
-}
+detector::Triangles mesh() { return tests::triangles_of("0 1 2, 1 0 3, 0 4 5, 6 7 8, 9 10 11"); }
 
 PairContact pair_at(std::int32_t a, std::int32_t b, double lo, double hi) {
   return {{a, b}, {lo, hi}, {}};
@@ -45,6 +45,14 @@ oracle::StepJudgement truth(std::vector<PairContact> pairs) {
   judgement.first = {1, 1};
   for (const auto& p : pairs) judgement.first = std::min(judgement.first, p.time);
   judgement.pairs = std::move(pairs);
+  return judgement;
+}
+
+// Of an oracle that was stopped when it had found these.
+oracle::StepJudgement stopped(std::vector<PairContact> pairs) {
+  auto judgement = truth(std::move(pairs));
+  judgement.complete = false;
+  judgement.answer = Answer::undecided;
   return judgement;
 }
 
@@ -281,9 +289,7 @@ TEST(Claims, AnErrorIsNoAnswer) {
 }
 
 TEST(Claims, AStoppedOracleRefutesOnlyWithWhatItFound) {
-  auto judgement = truth({pair_at(3, 4, .5)});
-  judgement.complete = false;
-  judgement.answer = Answer::undecided;
+  const auto judgement = stopped({pair_at(3, 4, .5)});
   EXPECT_EQ(judged(answer(Answer::free), judgement).broken.front(), Claim::free_sound);
   const auto other = collision({.25, .25}, {pair_at(0, 3, .25), pair_at(3, 4, .5)});
   EXPECT_EQ(judged(other, judgement).outcome, Outcome::undecided);
@@ -299,6 +305,198 @@ TEST(Claims, Float32RoundsToNearest) {
   EXPECT_EQ(rounded(0, 1), 0);
   EXPECT_EQ(rounded(0, 2), std::numeric_limits<double>::infinity());
   EXPECT_EQ(contracted(x, Coordinates::float64), x);
+}
+
+// The diff must find what is wrong: each kind of difference is planted once.
+
+detector::StepResult result_with(std::vector<PairContact> pairs) {
+  auto result = collision(truth(pairs).first, std::move(pairs));
+  if (result.pairs.empty()) result = answer(Answer::free);
+  return result;
+}
+
+const Claims first_alone = claims_of({.pairs = detector::Pairs::first});
+
+StepDiff diff_of(std::vector<PairContact> ours, std::vector<PairContact> theirs,
+                 const Claims& claims = claims_of({})) {
+  return compare(result_with(std::move(ours)), truth(std::move(theirs)), claims);
+}
+
+TEST(Agreement, EqualHolds) {
+  EXPECT_EQ(diff_of({}, {}).outcome, Outcome::holds);
+  EXPECT_EQ(diff_of({pair_at(0, 1, .5)}, {pair_at(0, 1, .5)}).outcome, Outcome::holds);
+}
+
+TEST(Agreement, EveryDifferenceIsADefect) {
+  const auto wrong_answer = diff_of({}, {pair_at(0, 1, .5)});
+  EXPECT_TRUE(wrong_answer.wrong_answer());
+  EXPECT_EQ(wrong_answer.outcome, Outcome::defect);
+  const auto missing = diff_of({pair_at(0, 1, .5)}, {pair_at(0, 1, .5), pair_at(2, 3, .75)});
+  EXPECT_EQ(missing.missing.size(), 1u);
+  EXPECT_EQ(missing.outcome, Outcome::defect);
+  const auto spurious = diff_of({pair_at(0, 1, .5), pair_at(2, 3, .75)}, {pair_at(0, 1, .5)});
+  EXPECT_EQ(spurious.spurious.size(), 1u);
+  EXPECT_EQ(spurious.outcome, Outcome::defect);
+  const auto late =
+      diff_of({pair_at(0, 1, .5), pair_at(2, 3, .75)}, {pair_at(0, 1, .5), pair_at(2, 3, .7)});
+  EXPECT_EQ(late.late.size(), 1u);
+  EXPECT_EQ(late.outcome, Outcome::defect);
+  const auto early = diff_of({pair_at(0, 1, .5)}, {pair_at(0, 1, .6)});
+  EXPECT_EQ(early.early.size(), 1u);
+  EXPECT_TRUE(early.wrong_first_time());
+}
+
+TEST(Agreement, L6_PairsFirstExcusesLaterPairsAndOtherPairsOfAReportedPlace) {
+  // 0-1 and 1-2 meet at t*, one place; 4-5 later.
+  const std::vector<PairContact> met = {pair_at(0, 1, .5), pair_at(1, 2, .5), pair_at(4, 5, .75)};
+  const auto excused = diff_of({pair_at(0, 1, .5)}, met, first_alone);
+  EXPECT_EQ(excused.outcome, Outcome::holds);
+  EXPECT_EQ(excused.excused.size(), 2u);
+  const std::vector<PairContact> two_places = {pair_at(0, 1, .5), pair_at(6, 7, .5)};
+  const auto lost_place = diff_of({pair_at(0, 1, .5)}, two_places, first_alone);
+  EXPECT_EQ(lost_place.outcome, Outcome::defect);
+  EXPECT_EQ(lost_place.missing.size(), 1u);
+}
+
+TEST(Agreement, StoppedOracleIsUndecidedButItsPairsCount) {
+  const auto judgement = stopped({pair_at(0, 1, .5)});
+  EXPECT_EQ(compare(result_with({pair_at(0, 1, .5), pair_at(2, 3, .5)}), judgement, claims_of({}))
+                .outcome,
+            Outcome::undecided);
+  EXPECT_EQ(compare(result_with({pair_at(2, 3, .5)}), judgement, claims_of({})).outcome,
+            Outcome::defect);
+}
+
+TEST(Agreement, StoppedOracleAndPairsFirst) {
+  const auto judgement = stopped({pair_at(0, 1, .5), pair_at(2, 3, .75)});
+  const auto later = compare(result_with({pair_at(0, 1, .5)}), judgement, first_alone);
+  EXPECT_EQ(later.outcome, Outcome::undecided);
+  EXPECT_EQ(later.excused.size(), 1u);
+  EXPECT_EQ(compare(result_with({pair_at(4, 5, .6)}), judgement, first_alone).outcome,
+            Outcome::defect);
+}
+
+TEST(Agreement, StoppedOracleStillShowsATimeThatIsTooLate) {
+  const auto judgement = stopped({pair_at(0, 1, .5)});
+  EXPECT_EQ(compare(result_with({pair_at(0, 1, .6)}), judgement, claims_of({})).outcome,
+            Outcome::defect);
+  EXPECT_EQ(compare(result_with({pair_at(0, 1, .4)}), judgement, claims_of({})).outcome,
+            Outcome::undecided);
+}
+
+TEST(Agreement, StoppedDetectorIsUndecidedAndSpuriousPairsCount) {
+  auto result = result_with({pair_at(0, 1, .5)});
+  result.answer = Answer::undecided;
+  EXPECT_EQ(compare(result, truth({pair_at(0, 1, .5), pair_at(2, 3, .5)}), claims_of({})).outcome,
+            Outcome::undecided);
+  EXPECT_EQ(compare(result, truth({pair_at(2, 3, .5)}), claims_of({})).outcome, Outcome::defect);
+}
+
+StepErrors read_back(const nlohmann::json& json) {
+  StepErrors errors;
+  read_fields(json, errors);
+  return errors;
+}
+
+StepErrors errors_of_step(Answer answered, TimeEnclosure first, std::vector<PairContact> reported,
+                          std::vector<PairContact> exact, const Claims& claims = {},
+                          bool complete = true) {
+  auto result = collision(first, std::move(reported));
+  result.answer = answered;
+  auto judgement = truth(std::move(exact));
+  judgement.complete = complete;
+  return errors_of(compare(result, judgement, claims));
+}
+
+const std::vector<PairContact> at_half = {pair_at(0, 1, 0.5)};
+
+TEST(StepErrors, EachWordIsMet) {
+  const auto missed = errors_of_step(Answer::free, {}, {}, at_half);
+  EXPECT_EQ(missed.contact, 1u);
+  EXPECT_EQ(missed.missed, 1u);
+  EXPECT_EQ(missed.unsafe, 1u);
+  EXPECT_EQ(missed.missing, 0u);  // it claims no pairs and reports none
+  const auto alarm = errors_of_step(Answer::collision, {0.5, 0.5}, at_half, {});
+  EXPECT_EQ(alarm.free, 1u);
+  EXPECT_EQ(alarm.false_alarms, 1u);
+  EXPECT_EQ(alarm.spurious, 1u);
+  EXPECT_EQ(alarm.alarming, 1u);
+  EXPECT_EQ(alarm.unsafe, 0u);
+  const auto late = errors_of_step(Answer::collision, {0.625, 0.625}, at_half, at_half);
+  EXPECT_EQ(late.late.steps, 1u);
+  EXPECT_EQ(late.late.worst_share, 0.125);
+  EXPECT_EQ(late.unsafe, 1u);
+  const auto early = errors_of_step(Answer::collision, {0.25, 1}, at_half, at_half);
+  EXPECT_EQ(early.early.worst_share, 0.25);
+  EXPECT_EQ(early.unsafe, 0u);
+  EXPECT_EQ(early.collisions(), 1u);
+}
+
+TEST(StepErrors, AMissingPairIsUnsafeIfPairsAreClaimed) {
+  const std::vector<PairContact> two = {pair_at(0, 1, 0.5), pair_at(2, 3, 0.5)};
+  const auto claimed =
+      errors_of_step(Answer::collision, {0.5, 0.5}, at_half, two, {Claim::first_pairs});
+  EXPECT_EQ(claimed.missing, 1u);
+  EXPECT_EQ(claimed.unsafe, 1u);
+  const auto not_claimed = errors_of_step(Answer::collision, {0.5, 0.5}, at_half, two);
+  EXPECT_EQ(not_claimed.missing, 1u);
+  EXPECT_EQ(not_claimed.unsafe, 0u);
+}
+
+TEST(StepErrors, WithoutAnAnswerOnlyStepsAndUndecidedCount) {
+  for (const auto answer : {Answer::undecided, Answer::error}) {
+    const auto errors = errors_of_step(answer, {}, {}, at_half);
+    StepErrors expected;
+    expected.steps = expected.undecided = 1;
+    EXPECT_EQ(errors, expected);
+  }
+  EXPECT_EQ(errors_of_step(Answer::free, {}, {}, at_half, {}, false), StepErrors{});
+}
+
+TEST(StepErrors, TimesAreCountedInDoublesToo) {
+  const auto errors =
+      errors_of_step(Answer::collision, {std::nextafter(0.5, 1), 1}, at_half, at_half);
+  EXPECT_EQ(errors.late.worst_ulps, 1);
+  EXPECT_EQ(errors.late.worst_share, 0x1p-53);
+  EXPECT_EQ(errors.late.quantile(1), 1.2e-16);  // rounded upward
+}
+
+// Late by the least double: also that share is a number in every report.
+TEST(StepErrors, TheLeastShareIsANumber) {
+  const std::vector<PairContact> at_start = {pair_at(0, 1, 0)};
+  const double least = std::numeric_limits<double>::denorm_min();
+  const auto late = errors_of_step(Answer::collision, {least, least}, at_start, at_start);
+  EXPECT_EQ(late.late.steps, 1u);
+  EXPECT_GE(late.late.quantile(1), least);
+  EXPECT_LT(late.late.quantile(1), 1e-299);
+  EXPECT_EQ(read_back(json_of_fields<nlohmann::json>(late)), late);
+}
+
+TEST(StepErrors, SumsAndQuantiles) {
+  StepErrors sum;
+  for (int i = 1; i <= 60; ++i)
+    sum += errors_of_step(Answer::collision, {0.5 + 1e-3 * i, 1}, at_half, at_half);
+  for (int i = 0; i < 40; ++i) sum += errors_of_step(Answer::free, {}, {}, {});
+  EXPECT_EQ(sum.steps, 100u);
+  EXPECT_EQ(sum.free, 40u);
+  EXPECT_EQ(sum.late.steps, 60u);
+  EXPECT_NEAR(sum.late.quantile(0.5), 0.030, 1e-3);
+  EXPECT_NEAR(sum.late.quantile(0.99), 0.060, 1e-12);
+  EXPECT_EQ(sum.early.quantile(1), 0);
+}
+
+TEST(StepErrors, AsJsonAndBack) {
+  auto errors = errors_of_step(Answer::collision, {0.625, 0.625}, at_half, at_half);
+  errors += errors_of_step(Answer::free, {}, {}, {});
+  const auto json = json_of_fields<nlohmann::json>(errors);
+  EXPECT_EQ(json.at("late").at("worst_share"), 0.125);
+  EXPECT_EQ(read_back(nlohmann::json::parse(json.dump())), errors);
+  EXPECT_EQ(nlohmann::ordered_json(errors).begin().key(), "steps");
+  EXPECT_FALSE(json.contains("limits")) << "it is no limiter";
+  errors.limits.free = 3;
+  errors.limits.stalls["t inside"] = 2;
+  EXPECT_EQ(read_back(json_of_fields<nlohmann::json>(errors)), errors);
+  EXPECT_THROW(read_back(nlohmann::json::object()), nlohmann::json::exception);
 }
 
 }  // namespace

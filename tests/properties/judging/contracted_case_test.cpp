@@ -1,7 +1,13 @@
 #include "properties/judging/contracted_case.h"
 
 #include "properties/campaign/trials/planned_case.h"
+#include "properties/judging/case_check.h"
+#include "properties/judging/case_options.h"
+#include "properties/judging/judged_run.h"
+#include "properties/judging/trial.h"
 #include "properties/worker/plugin/query_case.h"
+#include "tests/curated_cases.h"
+#include "tests/meshes.h"
 #include "tests/test.h"
 
 namespace assay::properties {
@@ -11,13 +17,10 @@ namespace {
 corpus::Case at_heights(const std::vector<double>& heights) {
   corpus::Case c;
   c.id = "heights";
-  c.triangles.resize(2, 3);
-  c.triangles << 0, 1, 2, 3, 4, 5;
-  for (const double z : heights) {
-    detector::Positions x(6, 3);
-    x << 0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, z, 2, 1, z, 1, 2, z;
-    c.frames.push_back(x);
-  }
+  c.triangles = tests::triangles({{0, 1, 2}, {3, 4, 5}});
+  for (const double z : heights)
+    c.frames.push_back(
+        tests::positions({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, z}, {2, 1, z}, {1, 2, z}}));
   return c;
 }
 
@@ -197,11 +200,9 @@ TEST(Contracted, ADisplacementEndsAtTheExactSum) {
   contract.coordinates = Coordinates::float32;
   contract.motion = MotionGiven::displacement;
   corpus::Case c;
-  c.triangles = detector::Triangles(1, 3);
-  c.triangles << 0, 1, 2;
-  detector::Positions x(3, 3), y(3, 3);
-  x << 0, 0, 0, 1, 0, 0, 0, 1, 0;
-  y << 1, 0, 0, 1.1, 0, 1e-7, 0, 1, 0;
+  c.triangles = tests::triangles({{0, 1, 2}});
+  const auto x = tests::positions({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}),
+             y = tests::positions({{1, 0, 0}, {1.1, 0, 1e-7}, {0, 1, 0}});
   c.frames = {x, y, x};
   const auto seen = contracted(c, contract);
   ASSERT_TRUE(seen);
@@ -229,6 +230,193 @@ TEST(Contracted, ADisplacementEndsAtTheExactSum) {
   EXPECT_EQ(fault_of(contract), "");
   contract.coordinates = Coordinates::float64;
   EXPECT_NE(fault_of(contract), "");
+}
+
+// A relation of a case under a contract, and what a contract leaves out by itself.
+
+// A corner of a tube passes through its own 2-ring, and then meets the far side.
+corpus::Case ignored_contact() { return tests::curated_case("F_ignored_contact"); }
+
+TEST(CountedCase, FactsSpeakOfAllPairsAndOfThoseThatCount) {
+  auto c = ignored_contact();
+  EXPECT_EQ(check_case(c).failed, std::vector<std::string>{});
+  EXPECT_EQ(check_case(c, detector::Culling::bvh).failed, std::vector<std::string>{});
+  c.counted->steps[0].pairs->pop_back();
+  const auto failed = check_case(c, detector::Culling::bvh).failed;
+  ASSERT_EQ(failed.size(), 1u);
+  EXPECT_NE(failed[0].find("step 1: of what counts: "), std::string::npos) << failed[0];
+}
+
+TEST(CountedCase, OneThatCannotBeToldSeesNoRelation) {
+  const auto c = ignored_contact();
+  EXPECT_TRUE(contracted(c, {})->counted);
+  EXPECT_FALSE(contracted(c, {.takes_relations = false})->counted);
+}
+
+// The bodies name triangles, whoever cannot be told which of them meet.
+TEST(CountedCase, OneThatCannotBeToldKeepsTheBodies) {
+  auto c = ignored_contact();
+  c.counted->pairs.body.assign(static_cast<std::size_t>(c.frames[0].rows()), 0);
+  c.counted->pairs.apart = {{0, 0}};
+  const auto seen = contracted(c, {.takes_relations = false});
+  ASSERT_TRUE(seen && seen->counted);
+  EXPECT_TRUE(seen->counted->pairs.count_all());
+  EXPECT_EQ(seen->counted->pairs.body, c.counted->pairs.body);
+}
+
+TEST(CountedCase, PlacesAtRestAreRoundedAsCoordinatesAre) {
+  auto c = ignored_contact();
+  c.counted->pairs.rest_distance = 0.1;
+  c.counted->pairs.rest = corpus::points_of(c.frames[0]);
+  c.counted->pairs.rest[0][0] = 0.3;
+  const Contract floats = {.coordinates = Coordinates::float32};
+  const auto seen = contracted(c, floats);
+  ASSERT_TRUE(seen);
+  EXPECT_EQ(seen->counted->pairs.rest_distance, static_cast<double>(0.1f));
+  EXPECT_EQ(seen->counted->pairs.rest[0][0], static_cast<double>(0.3f));
+  EXPECT_TRUE(seen->counted->steps.empty()) << "facts of another relation";
+  c.counted->pairs.rest[0][0] = 1e300;
+  EXPECT_FALSE(contracted(c, floats));
+}
+
+TEST(CountedCase, StepsKeepTheirFacts) {
+  auto c = ignored_contact();
+  c.frames.push_back(c.frames[1]);
+  c.counted->steps.push_back({detector::Answer::free, {}, {}, {}, {}});
+  const auto last = with_steps(c, {1});
+  ASSERT_EQ(last.counted->steps.size(), 1u);
+  EXPECT_EQ(last.counted->steps[0].answer, detector::Answer::free);
+}
+
+// What is too near at rest goes by the frame that a detector is made from.
+TEST(CountedCase, StepsStayWithTheMeshAtRest) {
+  auto c = ignored_contact();
+  c.frames = {c.frames[1], c.frames[0], c.frames[1]};
+  c.script = {{0, 1, true}, {1, 2, true}};
+  EXPECT_EQ(with_steps(c, {1}).frames.front(), c.frames[1]);
+  const auto alone = with_steps(c, {1}, {.rest_distance = 0.1});
+  EXPECT_EQ(alone.frames.front(), c.frames[0]);
+  EXPECT_EQ(start_of(alone, corpus::steps_of(alone).front()), c.frames[1]);
+}
+
+// A contract that leaves out what the case's relation leaves out: the same pairs count, and the
+// others are left out.
+TEST(CountedCase, AContractLeavesOutWhatARelationDoes) {
+  const auto c = ignored_contact();
+  ASSERT_TRUE(c.counted->pairs.apart.empty() && c.counted->pairs.triangle_pairs.empty());
+  Contract contract;
+  contract.counts = c.counted->pairs.level;
+  contract.rings = c.counted->pairs.rings;
+  contract.rest_distance = c.counted->pairs.rest_distance;
+  ASSERT_TRUE(contract.tests_part());
+  const auto counted = judge_case(c)[0];
+  auto all = c;
+  all.counted.reset();
+  const auto judged = judge_case(all, contract)[0];
+  EXPECT_EQ(judged.pairs.size(), judge_case(all)[0].pairs.size());
+  const auto truth = truth_of(all, judged, contract);
+  ASSERT_EQ(truth.pairs.size(), counted.pairs.size());
+  EXPECT_EQ(truth.first->time, counted.first);
+  EXPECT_EQ(truth.left_out.size(), judged.pairs.size() - counted.pairs.size());
+  EXPECT_GT(truth.left_out.size(), 0u);
+}
+
+// Where a start must be free, or apart, only pairs that count are looked at.
+TEST(CountedCase, AStartIsFreeOfWhatCounts) {
+  auto c = at_heights({0, 0});
+  EXPECT_FALSE(contracted(c, free_start));
+  c.counted.emplace();
+  c.counted->pairs.triangle_pairs = {{0, 1}};
+  EXPECT_TRUE(contracted(c, free_start));
+  EXPECT_FALSE(contracted(c, {.start = StartRule::free, .takes_relations = false}));
+  c.counted.reset();
+  EXPECT_TRUE(contracted(c, {.start = StartRule::free, .rest_distance = 1}));
+}
+
+TEST(CountedCase, ABodyNamesItsTriangles) {
+  detector::CountedPairs pairs;
+  const auto triangles = tests::triangles({{0, 1, 2}, {3, 4, 5}, {0, 2, 6}});
+  EXPECT_EQ(BodyNames(nullptr, triangles).text({1, 2}), "");
+  EXPECT_EQ(BodyNames(&pairs, triangles).text({1, 2}), "");
+  pairs.body = {0, 0, 0, 1, 1, 1, 0};
+  EXPECT_EQ(BodyNames(&pairs, triangles).text({1, 2}),
+            " (triangle 0 of body 1 and triangle 1 of body 0)");
+}
+
+// The detector's options as a case states them.
+
+using namespace detector;
+
+TEST(CaseOptions, TellWhetherLimitsAreAsked) {
+  corpus::Case c;
+  Configuration configuration{"a", {Culling::bvh}};
+  for (const bool asks : {false, true}) {
+    configuration.asks_limits = asks;
+    c.options = configuration_text(configuration);
+    const auto read = read_configuration(c, "b");
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read.value().asks_limits, asks);
+    EXPECT_EQ(read.value().name, "b");
+    EXPECT_EQ(configuration_text(read.value()), c.options);
+  }
+  c.options["limits"] = "perhaps";
+  EXPECT_FALSE(read_configuration(c, "b"));
+}
+
+TEST(CaseOptions, SurviveTheirText) {
+  int combinations = 0;
+  for (const auto culling : all_values<Culling>) {
+    for (const auto start : all_values<Start>) {
+      for (const auto pairs : all_values<Pairs>) {
+        for (const auto arithmetic : all_values<Arithmetic>) {
+          corpus::Case c;
+          c.options = options_text({culling, start, pairs, arithmetic});
+          const auto read = read_options(c);
+          ASSERT_TRUE(read) << read.error().message;
+          const auto& again = read.value();
+          EXPECT_EQ(again.culling, culling);
+          EXPECT_EQ(again.start, start);
+          EXPECT_EQ(again.pairs, pairs);
+          EXPECT_EQ(again.arithmetic, arithmetic);
+          ++combinations;
+        }
+      }
+    }
+  }
+  EXPECT_EQ(combinations, 7 * 3 * 2 * 4);
+}
+
+// Stored failures stay what they are in every byte.
+TEST(CaseOptions, DefaultsAreNotStatedButForTheFirstThree) {
+  EXPECT_EQ(options_text({}), (std::map<std::string, std::string, std::less<>>{
+                                  {"culling", "auto"}, {"pairs", "all"}, {"start", "verified"}}));
+  EXPECT_EQ(options_text({.arithmetic = Arithmetic::single_precision}).at("arithmetic"), "float");
+}
+
+TEST(CaseOptions, ASeparationSurvivesItsText) {
+  for (const double d : {0x1p-1074, 1e-4, 0.1, 3.0, std::numeric_limits<double>::max()}) {
+    corpus::Case c;
+    c.options = options_text({.culling = Culling::bvh, .separation = d});
+    const auto read = read_options(c);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read.value().separation, d);
+  }
+  for (const std::string word : {"-1", "inf", "nan", "1e400", "0.1m", ""}) {
+    corpus::Case c;
+    c.options["separation"] = word;
+    EXPECT_FALSE(read_options(c)) << word;
+  }
+}
+
+TEST(CaseOptions, UnknownWordsAreNamed) {
+  for (const std::string name : {"culling", "start", "pairs", "arithmetic", "separation", "release",
+                                 "ghost_test", "speed"}) {
+    corpus::Case c;
+    c.options[name] = "fast";
+    const auto options = read_options(c);
+    ASSERT_FALSE(options) << name;
+    EXPECT_EQ(options.error().message, "option " + name + " = 'fast' is not known");
+  }
 }
 
 }  // namespace

@@ -1,28 +1,34 @@
 // The detector's handling of holes against the oracle's own: loops, touched triangles, clean
-// triangles at a new start. Small-integer steps, where degenerate ghosts and ties are frequent.
+// triangles at a new start. Small-integer steps, where degenerate ghosts and ties are frequent. And
+// sequences of such meshes, and view signs.
+#include <fmt/format.h>
+
 #include "corpus/cases/case_file.h"
 #include "detector/boundary/boundary_handler.h"
 #include "detector/detector.h"
+#include "detector/view/view_signs.h"
 #include "oracle/instant/layers.h"
 #include "oracle/mesh/loops.h"
 #include "oracle/view/touched_by_ghosts.h"
+#include "oracle/view/view_sign.h"
+#include "properties/laws/facts/carried_state.h"
+#include "properties/random.h"
 #include "properties/worlds/small_steps.h"
 #include "tests/curated_cases.h"
-#include "tests/test.h"
+#include "tests/detector/small_stack.h"
+#include "tests/detector/view/triangle_batches.h"
+#include "tests/meshes.h"
+#include "tests/properties/laws/judged_case.h"
 
 namespace assay::properties {
 namespace {
 
-using detector::Positions;
+using namespace detector;
+using test::JudgedCase, tests::BatchFamily;
 
 detector::Triangles ghosts_of(const detector::Surface& surface) {
-  const auto& all = surface.all().triangles;
-  const std::size_t own = surface.mesh.triangles.size();
-  detector::Triangles ghosts(static_cast<Eigen::Index>(all.size() - own), 3);
-  for (std::size_t g = own; g < all.size(); ++g) {
-    ghosts.row(static_cast<Eigen::Index>(g - own)) << all[g][0], all[g][1], all[g][2];
-  }
-  return ghosts;
+  const std::span all(surface.all().triangles);
+  return tests::matrix_of<detector::Triangles>(all.subspan(surface.mesh.triangles.size()));
 }
 
 Positions rows(const std::vector<detector::MovingPoint>& apexes, bool at_end) {
@@ -97,12 +103,8 @@ TEST(Boundary, L9_L11_SetsEqualTheOraclesOnUnclosedMeshes) {
     SCOPED_TRACE(i);
     check(make_small_step(seed, i), tally);
   }
-  std::printf(
-      "%llu unclosed of %llu cases, seed %llu: %llu violated, %llu dirty, %llu all positive\n",
-      static_cast<unsigned long long>(tally.unclosed), static_cast<unsigned long long>(cases),
-      static_cast<unsigned long long>(seed), static_cast<unsigned long long>(tally.violated),
-      static_cast<unsigned long long>(tally.dirty),
-      static_cast<unsigned long long>(tally.all_positive));
+  fmt::print("{} unclosed of {} cases, seed {}: {} violated, {} dirty, {} all positive\n",
+             tally.unclosed, cases, seed, tally.violated, tally.dirty, tally.all_positive);
   EXPECT_GT(tally.unclosed, cases / 5);
   EXPECT_GT(tally.violated, cases / 20);
 }
@@ -121,6 +123,144 @@ TEST(Boundary, L8_L11_D8_TheArmIsViolatedThenDirtyThenFound) {
   const auto b = made.value().step(frames[1], frames[2]);
   EXPECT_EQ(b.answer, detector::Answer::collision);
   EXPECT_GE(b.dirty, a.violated);
+}
+
+// The detector's view signs, lanes and all, against the oracle's, for triangles without a mesh.
+
+int batches_of(BatchFamily family, bool line) {
+  switch (family) {
+    case BatchFamily::generic:
+    case BatchFamily::small_motion:
+    case BatchFamily::far:
+      return line ? 20 : 100;
+    case BatchFamily::tiny:
+    case BatchFamily::huge:
+      return 1;
+    default:
+      return line ? 5 : 20;
+  }
+}
+
+void compare(bool line) {
+  tests::BatchMaker maker(line ? 20116 : 20115);
+  for (std::size_t f = 0; f < tests::batch_family_names.size(); ++f) {
+    const auto family = static_cast<BatchFamily>(f);
+    std::size_t count = 0;
+    std::uint64_t lanes = 0;
+    for (int b = 0; b < batches_of(family, line); ++b) {
+      const auto batch = maker.make(family, 100, line);
+      std::vector<ViewSign> found(batch.mesh.triangles.size());
+      ViewCounts counts;
+      tests::on_small_stack([&] {
+        classify(batch.mesh, batch.mesh.components[0], {batch.x_t0, batch.x_t1}, batch.primitive,
+                 found, counts);
+      });
+      const auto triangles = tests::matrix_of<Triangles>(batch.mesh.triangles);
+      ASSERT_EQ(found, oracle::view_signs({batch.x_t0, batch.x_t1}, triangles,
+                                          std::span(&batch.primitive, 1), 1))
+          << tests::batch_family_names[f] << ", batch " << b;
+      count += found.size();
+      lanes += counts.lanes;
+    }
+    std::printf("%-16s %5zu triangles equal, %.3f of them settled in lanes\n",
+                tests::batch_family_names[f], count,
+                static_cast<double>(lanes) / static_cast<double>(count));
+  }
+}
+
+TEST(ViewSigns, L2_PointSignsAreTheOracles) { compare(false); }
+TEST(ViewSigns, L1_LineSignsAreTheOracles) { compare(true); }
+
+// Random sequences of unclosed meshes, in and out and about: in every step the violated and the
+// dirty triangles are those of the oracle's own account, from its loops, ghosts and layers.
+
+// A walk among three frames of one mesh, often back to where it came from; a step is now and then
+// only evaluated, or starts elsewhere.
+corpus::Case make_sequence(std::uint64_t seed, std::uint64_t index) {
+  const SmallStep step = make_small_step(seed, index);
+  Random random(seed, index + (std::uint64_t{1} << 40));
+  corpus::Case c;
+  c.id = "sequence:" + std::to_string(seed) + ":" + std::to_string(index);
+  c.triangles = step.triangles;
+  c.frames = {step.x_t0, step.x_t1, step.x_t0};
+  for (Eigen::Index v = 0; v < step.x_t0.rows(); ++v) {
+    if (random.one_in(2)) c.frames[2].row(v) = step.x_t1.row(v);
+  }
+  std::int32_t at = random.below(3);
+  const int steps = random.between(3, 6);
+  for (int s = 0; s < steps; ++s) {
+    const std::int32_t to = random.below(3);
+    const bool commit = !random.one_in(6);
+    c.script.push_back({at, to, commit});
+    if (commit || random.one_in(8)) at = to;
+  }
+  return c;
+}
+
+struct SequenceTally {
+  std::uint64_t steps = 0, violated = 0, dirty = 0, in_doubt = 0, released = 0, windings = 0;
+};
+
+void check(const corpus::Case& c, const Options& options, SequenceTally& tally) {
+  test::Setting setting;
+  setting.options = options;
+  const JudgedCase judged(c, setting);
+  CaseFacts facts = judged.facts();
+  ASSERT_EQ(facts.surface().loops, oracle::boundary_loops(c.triangles));
+  ASSERT_TRUE(oracle::closes(c.triangles, facts.ghosts()));
+  for (std::size_t s = 0; s < facts.steps(); ++s) {
+    ASSERT_TRUE(has_account(facts, s));
+    const auto account = account_of_dirty(facts, s);
+    const auto& result = facts.result(s);
+    for (std::size_t t = 0; t < account.size(); ++t) {
+      const bool violated = (result.doubts[t] & doubt::violated) != 0;
+      const bool dirty = (result.doubts[t] & doubt::dirty) != 0;
+      ASSERT_EQ(violated, facts.touched(s)[t] != 0) << "step " << s << ", triangle " << t;
+      ASSERT_EQ(dirty, account[t] != 0) << "step " << s << ", triangle " << t;
+      tally.violated += violated;
+      tally.dirty += dirty;
+    }
+    ++tally.steps;
+    tally.in_doubt += result.counts.release.in_doubt;
+    tally.released += result.counts.release.released;
+    tally.windings += result.counts.release.winding_numbers;
+  }
+}
+
+void check_many(const detector::Options& options, std::uint64_t seed, std::uint64_t wanted) {
+  SequenceTally tally;
+  std::uint64_t unclosed = 0;
+  for (std::uint64_t i = 0; unclosed < wanted && !testing::Test::HasFatalFailure(); ++i) {
+    const auto c = make_sequence(seed, i);
+    if (oracle::boundary_loops(c.triangles).empty()) continue;
+    ++unclosed;
+    SCOPED_TRACE(c.id);
+    check(c, options, tally);
+  }
+  fmt::print(
+      "{} unclosed sequences, seed {}, {} steps: {} violated, {} dirty; in doubt {}, released {}, "
+      "{} "
+      "winding numbers of pieces\n",
+      unclosed, seed, tally.steps, tally.violated, tally.dirty, tally.in_doubt, tally.released,
+      tally.windings);
+  EXPECT_GT(tally.violated, unclosed);
+  EXPECT_GT(tally.dirty, unclosed);
+  EXPECT_GT(tally.released, unclosed / 4);
+  EXPECT_GT(tally.windings, unclosed / 4);
+}
+
+constexpr std::uint64_t sequences = 1500;
+
+TEST(Release, L8_L9_L11_SequencesEqualTheOraclesAccount) {
+  check_many({Culling::view_point, Start::verified, Pairs::all}, 20117, sequences);
+}
+
+TEST(Release, L9_WithFirstPairsOnly) {
+  check_many({Culling::view_line, Start::verified, Pairs::first}, 20118, sequences / 2);
+}
+
+TEST(Release, L9_FromAnUnknownStart) {
+  check_many({Culling::view_point, Start::unknown, Pairs::all}, 20119, sequences / 2);
 }
 
 }  // namespace

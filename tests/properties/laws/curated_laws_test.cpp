@@ -6,7 +6,6 @@
 #include "properties/laws/law.h"
 #include "tests/curated_cases.h"
 #include "tests/properties/laws/judged_case.h"
-#include "tests/test.h"
 
 namespace assay::properties::test {
 namespace {
@@ -111,6 +110,26 @@ TEST(CuratedViews, AreUsedInTheStepsThatAreStated) {
     EXPECT_EQ(used, pending["views_used"].get<std::vector<int>>()) << c.id;
   }
   EXPECT_GE(stated, 4);
+}
+
+// A restored detector that rests: what a step left in contact, and did not name, shows only there.
+
+// Cases on which a state whose bytes did not tell whether its contacts are complete went on
+// otherwise: some 1 of 100 with view-point and first pairs.
+TEST(RestoredState, GoesOnAlikeWhereFirstPairsLeftContactsUnnamed) {
+  const Law* law = law_named("Change_RestoredStateGoesOn");
+  ASSERT_NE(law, nullptr);
+  Setting setting;
+  setting.options.culling = detector::Culling::view_point;
+  setting.options.pairs = detector::Pairs::first;
+  LawTally tally;
+  for (const char* id : {"874", "895", "1193", "1297", "1396"}) {
+    const JudgedCase judged(case_of(std::string("test:1:closed-degenerate:") + id).c, setting);
+    auto facts = judged.facts();
+    law->check(facts, tally);
+  }
+  EXPECT_EQ(tally.broken, 0u) << tally.first_broken;
+  EXPECT_GE(tally.premise, 5u);
 }
 
 }  // namespace

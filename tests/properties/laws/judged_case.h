@@ -1,18 +1,15 @@
 // A generated case through the detector and the oracle, for tests of laws.
 #pragma once
 
-#include <memory>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
 #include "oracle/mesh/step.h"
 #include "properties/generators/draft.h"
 #include "properties/generators/families.h"
 #include "properties/laws/facts/case_facts.h"
 #include "properties/laws/law.h"
+#include "properties/queries/query_families.h"
 #include "properties/random.h"
 #include "properties/worker/case_run.h"
+#include "tests/test.h"
 
 namespace assay::properties::test {
 
@@ -48,10 +45,9 @@ inline Setting setting_for(const Law& law, std::string_view id) {
 inline GeneratedCase case_of(const std::string& id) {
   const auto stratum = id.substr(0, id.rfind(':'));
   const auto name = stratum.substr(stratum.rfind(':') + 1);
-  for (const auto& family : families()) {
-    if (family.name == name) return make_case(family, id);
-  }
-  throw std::invalid_argument("no family in the id " + id);
+  const Family* family = find_family(name);
+  if (!family) throw std::invalid_argument("no family in the id " + id);
+  return make_case(*family, id);
 }
 
 // Played from the detector's own primitives.

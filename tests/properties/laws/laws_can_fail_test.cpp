@@ -10,7 +10,6 @@
 #include "properties/laws/facts/view_values.h"
 #include "properties/laws/law.h"
 #include "tests/properties/laws/judged_case.h"
-#include "tests/test.h"
 
 namespace assay::properties::test {
 namespace {

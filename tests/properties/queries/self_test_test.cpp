@@ -1,7 +1,13 @@
 // The parts of the self-test: small worlds are complete, cases can be made alone, exact conditions
 // of the constructed families hold, results do not depend on the number of threads.
+#include <fmt/format.h>
+
+#include "detector/contact/elementary.h"
+#include "oracle/query/contact.h"
+#include "oracle/referee/referee.h"
 #include "properties/queries/listed_queries.h"
 #include "properties/queries/self_check.h"
+#include "tests/oracle/query/query_kinds.h"
 #include "tests/test.h"
 
 namespace assay::properties {
@@ -131,8 +137,7 @@ TEST(SmallWorld, CubeHoldsAsManyAsBurnsideSays) {
   } while (std::next_permutation(axes.begin(), axes.end()));
   EXPECT_EQ(faces, fixed_faces / 48);
   EXPECT_EQ(edges, fixed_edges / 48);
-  std::printf("%llu vertex-face, %llu edge-edge\n", static_cast<unsigned long long>(faces),
-              static_cast<unsigned long long>(edges));
+  fmt::print("{} vertex-face, {} edge-edge\n", faces, edges);
 }
 
 TEST(Generators, EveryQueryCanBeMadeAlone) {
@@ -172,6 +177,67 @@ TEST(SelfTest, CasesHaveNames) {
   for (const char* wrong : {"", "small-int", "small-int:7", "small-int:7:", "small-int:x:1",
                             "small-int:7:-1", "no-family:1:1", ":1:1", "small-int:7:1 "}) {
     EXPECT_FALSE(self_test_case(wrong)) << wrong;
+  }
+}
+
+// Three methods that share no arithmetic answer the same queries: the oracle's rungs, the referee,
+// and the detector's elementary test.
+
+using detector::Decision, detector::Want, oracle::test::QueryKind;
+
+struct Verdicts {
+  oracle::ContactAnswer oracle;
+  detector::ContactResult detector;
+  detector::Decision referee;
+};
+
+template <class Query>
+Verdicts judge(const Query& query, oracle::ContactAnswer answer) {
+  return {answer, detector::test_contact(detector::four_points(query), Want::first_time),
+          oracle::referee(query)};
+}
+
+Verdicts judge(const oracle::test::Points& x, int first_group) {
+  if (first_group == 1) {
+    const auto query = oracle::test::vertex_face(x);
+    return judge(query, oracle::vertex_face_contact(query, Want::first_time));
+  }
+  const auto query = oracle::test::edge_edge(x);
+  return judge(query, oracle::edge_edge_contact(query, Want::first_time));
+}
+
+TEST(ThreeMethods, AgreeOnEveryKindOfQuery) {
+  constexpr int queries_of_a_kind = 3000;
+  for (int k = 0; k < oracle::test::query_kinds; ++k) {
+    const auto kind = static_cast<QueryKind>(k);
+    const std::uint64_t of_kind = 71 + static_cast<std::uint64_t>(k);
+    oracle::test::Random random(of_kind);
+    int contacts = 0, open = 0;
+    for (int i = 0; i < queries_of_a_kind; ++i) {
+      const int first_group = 1 + i % 2;
+      const Verdicts v = judge(random_query(random, kind, first_group), first_group);
+      contacts += v.oracle.contact ? 1 : 0;
+      open += v.referee == detector::Decision::open ? 1 : 0;
+      ASSERT_EQ(v.detector.contact, v.oracle.contact)
+          << name_of(kind) << ", seed " << of_kind << ", query " << i;
+      if (v.oracle.contact) {
+        ASSERT_EQ(v.detector.time, v.oracle.first)
+            << name_of(kind) << ", seed " << of_kind << ", query " << i;
+      }
+      if (v.referee == detector::Decision::open) continue;
+      ASSERT_EQ(v.referee == detector::Decision::yes, v.oracle.contact)
+          << name_of(kind) << ", seed " << of_kind << ", query " << i;
+    }
+    const double share = static_cast<double>(open) / queries_of_a_kind;
+    fmt::print("{:22} seed {}: {} queries, {} contact, open {:.2f} %\n", name_of(kind), of_kind,
+               queries_of_a_kind, contacts, 100 * share);
+    EXPECT_GT(contacts, 0) << name_of(kind);
+    if (kind == QueryKind::generic || kind == QueryKind::mesh_like) {
+      EXPECT_LE(share, 0.05);
+    }
+    if (is_near_degenerate(kind)) {
+      EXPECT_LE(share, 0.5);
+    }
   }
 }
 

@@ -1,17 +1,43 @@
-// Each pass of the reducer by itself, with judges that say what must stay.
+// Each pass of the reducer by itself, with judges that say what must stay. Size, edits and sphere
+// meshes of the reducer.
 #include <Eigen/Geometry>
 
+#include "corpus/cases/case_file.h"
 #include "corpus/scenes/shapes.h"
+#include "oracle/mesh/loops.h"
 #include "properties/reducer/case_edits.h"
 #include "properties/reducer/mesh_size.h"
 #include "properties/reducer/passes/passes.h"
-#include "tests/properties/reducer/resting_cases.h"
+#include "tests/meshes.h"
 #include "tests/test.h"
 
 namespace assay::properties {
 namespace {
 
-using namespace toys;
+using corpus::Case;
+
+// Small cases in which nothing moves.
+
+Case still_case(const std::vector<tests::Corners>& triangles,
+                const std::vector<detector::Point>& points, std::size_t frames = 2) {
+  Case c;
+  c.triangles = tests::triangles(triangles);
+  c.frames.assign(frames, tests::matrix_of<detector::Positions>(points));
+  return c;
+}
+
+Case octahedron(std::size_t frames = 2) {
+  return still_case(
+      {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}},
+      {{2, 0, 0}, {-2, 0, 0}, {0, 2, 0}, {0, -2, 0}, {0, 0, 2}, {0, 0, -2}}, frames);
+}
+
+Case tetrahedron() {
+  return still_case({{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}},
+                    {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+}
+
+bool is_closed(const Case& c) { return oracle::unmatched_edges(c.triangles).empty(); }
 
 // Both meshes, the second moved along x by 10 and named behind the first.
 Case together(const Case& a, const Case& b) {
@@ -180,6 +206,218 @@ TEST(Escape, LeavesALocalMinimum) {
   const Case stuck = octahedron();
   EXPECT_EQ(after(collapse_edges, stuck, judge).triangles.rows(), 8);
   EXPECT_LT(after(escape, stuck, judge).triangles.rows(), 8);
+}
+
+TEST(MeshSize, StepsThenTrianglesThenVerticesThenMotionThenNumbers) {
+  const Case small = tetrahedron();
+  EXPECT_LT(size_of(small), size_of(octahedron()));
+  EXPECT_LT(size_of(octahedron(2)), size_of(octahedron(3)));
+  Case moving = small;
+  moving.frames[1](0, 0) = 1;
+  EXPECT_EQ(size_of(moving).moving, 1u);
+  Case long_number = small;
+  for (auto& frame : long_number.frames) frame(0, 0) = 0.1;
+  EXPECT_LT(size_of(small), size_of(long_number));
+  EXPECT_LT(size_of(long_number), size_of(moving));
+  EXPECT_EQ(size_text(octahedron(), small),
+            "8 triangles, 6 vertices, 1 step -> 4 triangles, 4 vertices, 1 step");
+}
+
+TEST(MeshSize, NumbersAreSimplerWhenTheyAreShorter) {
+  EXPECT_EQ(number_cost(0), 0u);
+  EXPECT_EQ(number_cost(-9), 9u);
+  EXPECT_EQ(number_cost(10), 20u);
+  EXPECT_EQ(number_cost(123), 30u);
+  EXPECT_EQ(number_cost(0.5), 130u);
+  EXPECT_LT(number_cost(0.25), number_cost(0.3125));
+}
+
+TEST(CaseEdits, ValidCasesOnly) {
+  EXPECT_TRUE(is_valid(tetrahedron()));
+  Case c = tetrahedron();
+  c.triangles(0, 0) = 1;
+  EXPECT_FALSE(is_valid(c));  // index twice
+  c = tetrahedron();
+  c.triangles(0, 0) = 4;
+  EXPECT_FALSE(is_valid(c));  // out of range
+  c = tetrahedron();
+  c.triangles.row(1) = c.triangles.row(0).reverse();
+  EXPECT_FALSE(is_valid(c));  // the same three vertices
+  c = tetrahedron();
+  c.frames[1](2, 2) = std::nan("");
+  EXPECT_FALSE(is_valid(c));
+  c = tetrahedron();
+  c.frames.pop_back();
+  EXPECT_TRUE(is_valid(c));  // a mesh at rest
+  c.frames.clear();
+  EXPECT_FALSE(is_valid(c));
+  c = tetrahedron();
+  c.view = corpus::CaseView{{{0, 0, 0}}, {}};
+  EXPECT_FALSE(is_valid(c));  // one place for two frames
+}
+
+TEST(CaseEdits, MergingVerticesKeepsACycle) {
+  const Case merged = merge_vertices(octahedron(), {0, 1, 2, 3, 4, 0});
+  EXPECT_EQ(merged.triangles.rows(), 6);  // the two at the edge are gone
+  EXPECT_EQ(merged.frames.front().rows(), 5);
+  EXPECT_TRUE(is_closed(merged));
+  // A chain of targets is followed to its end; opposite triangles cancel.
+  const Case chain = merge_vertices(octahedron(), {4, 1, 2, 0, 4, 5});
+  EXPECT_TRUE(is_closed(chain));
+  EXPECT_TRUE(is_valid(chain));
+  EXPECT_EQ(chain.triangles.rows(), 4);
+}
+
+TEST(CaseEdits, CutsAreClosedByFans) {
+  const Case open = keep_triangles(octahedron(), {1, 1, 1, 1, 0, 0, 0, 0});
+  EXPECT_EQ(open.frames.front().rows(), 5);
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    const Case closed = close_loops(open, corner);
+    EXPECT_TRUE(is_closed(closed));
+    EXPECT_EQ(closed.triangles.rows(), 6);
+    EXPECT_TRUE(is_valid(closed));
+  }
+}
+
+TEST(CaseEdits, TheMiddleIsTheMeanOfAllPlaces) {
+  Case c = tetrahedron();
+  c.frames[1].col(2).array() += 1;
+  const Case seen = seen_from_its_middle(c);
+  EXPECT_EQ(seen.view->q0, std::vector<detector::Point>(2, {0.25, 0.25, 0.75}));
+  EXPECT_TRUE(seen.view->q1.empty());
+  EXPECT_TRUE(is_valid(seen));
+}
+
+TEST(CaseEdits, StepsKeepTheirFramesViewAndScript) {
+  Case c = octahedron(4);
+  c.view = corpus::CaseView{{{0, 0, 0}, {0, 0, 1}, {0, 0, 2}, {0, 0, 3}}, {}};
+  const Case tail = with_steps(c, {{2, 3, true}});
+  EXPECT_EQ(tail.frames.size(), 2u);
+  EXPECT_TRUE(tail.script.empty());
+  EXPECT_EQ(tail.view->q0, (std::vector<detector::Point>{{0, 0, 2}, {0, 0, 3}}));
+  const Case apart = with_steps(c, {{0, 1, true}, {2, 3, false}});
+  EXPECT_EQ(apart.frames.size(), 4u);
+  EXPECT_EQ(apart.script, (std::vector<corpus::CaseStep>{{0, 1, true}, {2, 3, false}}));
+}
+
+TEST(CaseEdits, GhostsFollowTheMesh) {
+  Case c = keep_triangles(octahedron(), {1, 1, 1, 1, 1, 1, 1, 0});
+  const auto loops = oracle::boundary_loops(c.triangles);
+  c.ghosts = corpus::CaseGhosts{{{{7, 7, 7}}, {{8, 8, 8}}}, oracle::ghost_triangles(loops, 6)};
+  ASSERT_TRUE(oracle::closes(c.triangles, c.ghosts->triangles));
+  const Case fewer = keep_triangles(c, {1, 1, 1, 1, 0, 0, 0});
+  ASSERT_TRUE(fewer.ghosts);
+  EXPECT_TRUE(is_valid(fewer));
+  EXPECT_TRUE(oracle::closes(fewer.triangles, fewer.ghosts->triangles));
+  EXPECT_EQ(fewer.ghosts->apexes[1], (std::vector<detector::Point>{{8, 8, 8}}));
+  EXPECT_FALSE(close_loops(fewer, 0).ghosts);
+}
+
+TEST(SphereMeshes, AllOfThemAndAllAreCycles) {
+  const std::size_t counts[] = {1, 10, 195, 5712};  // labelled triangulations of the sphere
+  for (int n = 4; n <= 7; ++n) {
+    const auto& all = sphere_meshes(n);
+    EXPECT_EQ(all.size(), counts[n - 4]);
+    EXPECT_EQ(std::set<SphereMesh>(all.begin(), all.end()).size(), all.size());
+    for (const auto& mesh : all) {
+      EXPECT_EQ(mesh.size(), static_cast<std::size_t>(2 * n - 4));
+      const Case c = still_case(mesh, std::vector<detector::Point>(static_cast<std::size_t>(n)));
+      if (!is_closed(c) || !is_valid(c)) FAIL() << n << " vertices";
+    }
+  }
+}
+
+// A relation goes on with what is left of the mesh, and becomes smaller itself.
+
+using detector::CountedLevel, detector::CountedPairs, detector::TrianglePair;
+
+// Two tetrahedra as bodies 0 and 1.
+Case two_bodies() {
+  Case c = still_case(
+      {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {4, 6, 5}, {4, 5, 7}, {5, 6, 7}},
+      {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {5, 0, 0}, {6, 0, 0}, {5, 1, 0}, {5, 0, 1}});
+  c.counted.emplace();
+  c.counted->pairs.body = {0, 0, 0, 0, 1, 1, 1, 1};
+  c.counted->pairs.apart = {{0, 1}, {1, 1}};
+  return c;
+}
+
+TEST(RelationEdits, BodiesAndListsAreNumberedAnew) {
+  Case c = two_bodies();
+  auto& pairs = c.counted->pairs;
+  pairs.triangle_pairs = {{0, 4}, {5, 6}, {4, 6}};
+  pairs.rest_distance = 2;
+  pairs.rest = corpus::points_of(c.frames[0]);
+  const Case rest = keep_triangles(c, {0, 0, 0, 0, 0, 1, 1});
+  ASSERT_TRUE(is_valid(rest));
+  const auto& left = rest.counted->pairs;
+  EXPECT_EQ(left.body, (std::vector<std::int32_t>{0, 0, 0, 0}));
+  EXPECT_EQ(left.apart, (std::vector<std::array<std::int32_t, 2>>{{0, 0}}));
+  EXPECT_EQ(left.triangle_pairs, (std::vector<TrianglePair>{{0, 1}}));
+  ASSERT_EQ(left.rest.size(), 4u);
+  EXPECT_EQ(left.rest[0], (detector::Point{5, 0, 0}));
+}
+
+TEST(RelationEdits, FeaturesThatAreGoneAreLeftOut) {
+  Case c = octahedron();
+  c.counted.emplace();
+  auto& pairs = c.counted->pairs;
+  pairs.level = CountedLevel::features;
+  pairs.vertex_faces = {{5, 0}, {4, 7}, {0, 4}};
+  pairs.edge_pairs = {{{0, 2}, {1, 3}}, {{4, 0}, {5, 1}}};
+  ASSERT_TRUE(is_valid(c));
+  // Vertex 0 becomes 2: triangles 0 and 4 go, 7 is then {2, 3, 5}.
+  const Case merged = merge_vertices(c, {2, 1, 2, 3, 4, 5});
+  ASSERT_TRUE(is_valid(merged));
+  const auto& left = merged.counted->pairs;
+  ASSERT_EQ(left.vertex_faces.size(), 1u);
+  const auto [v, face] = left.vertex_faces[0];
+  EXPECT_EQ(merged.frames[0].row(v), c.frames[0].row(4));
+  EXPECT_EQ(merged.triangles.row(face).minCoeff(), 1);  // vertices 2, 3, 5 are now 1, 2, 4
+  EXPECT_EQ(left.edge_pairs.size(), 1u) << "of 0-2 nothing is left";
+}
+
+TEST(RelationEdits, VerticesThatChangePlacesTakeTheirBodyAlong) {
+  const Case c = two_bodies();
+  detector::Triangles after(1, 3);
+  after << 0, 1, 2;
+  const auto carried = carried_over(c.counted->pairs, c.triangles, after,
+                                    {{-1, -1, -1, -1, -1, 2, 0, 1}, {6, 7, 5}});
+  EXPECT_EQ(carried.body, (std::vector<std::int32_t>{0, 0, 0}));
+  EXPECT_EQ(carried.apart.size(), 1u);
+}
+
+TEST(RelationEdits, ACaseOfTwoBodiesInATriangleIsNotValid) {
+  const Case joined = merge_vertices(two_bodies(), {0, 1, 2, 3, 4, 5, 2, 7});
+  EXPECT_FALSE(is_valid(joined));
+}
+
+Case after_the_pass(const Case& c, const auto& holds) {
+  return after(simplify_relation, c, fails_when(holds));
+}
+
+TEST(RelationPass, WhatDoesNotMatterGoes) {
+  Case c = two_bodies();
+  auto& pairs = c.counted->pairs;
+  pairs.triangle_pairs = {{0, 4}, {5, 6}, {4, 6}, {1, 2}};
+  pairs.rings = 3;
+  pairs.rest_distance = 2;
+  pairs.rest = std::vector<detector::Point>(8, {0.1, 0.2, 0.3});
+  const auto needs = [](const auto& condition) {
+    return [condition](const Case& x) { return x.counted && condition(x.counted->pairs); };
+  };
+  EXPECT_FALSE(after_the_pass(c, [](const Case&) { return true; }).counted);
+  const auto one_pair =
+      after_the_pass(c, needs([](const CountedPairs& p) {
+                       return std::count(p.triangle_pairs.begin(), p.triangle_pairs.end(),
+                                         TrianglePair{5, 6}) == 1;
+                     }));
+  EXPECT_EQ(size_of(one_pair).relation, 1u);
+  EXPECT_EQ(one_pair.counted->pairs.triangle_pairs, (std::vector<TrianglePair>{{5, 6}}));
+  const auto rest = after_the_pass(
+      c, needs([](const CountedPairs& p) { return p.rings >= 1 && p.rest_distance == 2; }));
+  EXPECT_EQ(rest.counted->pairs.rings, 1);
+  EXPECT_EQ(rest.counted->pairs.rest, corpus::points_of(c.frames[0])) << "simpler numbers";
 }
 
 }  // namespace

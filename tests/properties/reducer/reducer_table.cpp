@@ -12,7 +12,6 @@
 #include "properties/campaign/phases/fault_hunt.h"
 #include "properties/reducer/mesh_size.h"
 #include "tests/curated_cases.h"
-#include "tests/properties/reducer/inflate.h"
 #include "tests/properties/reducer/toy_faults.h"
 
 namespace {

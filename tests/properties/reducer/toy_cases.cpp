@@ -1,11 +1,12 @@
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "corpus/scenes/shapes.h"
 #include "detector/options.h"
 #include "properties/random.h"
+#include "properties/reducer/case_edits.h"
 #include "tests/curated_cases.h"
-#include "tests/properties/reducer/inflate.h"
 #include "tests/properties/reducer/toy_faults.h"
 
 namespace assay::properties::toys {
@@ -84,6 +85,124 @@ Case starting_case(Start start, int triangles, Random& random) {
   return c;
 }
 
+class Inflation {
+ public:
+  Inflation(const Judge& judge, std::uint64_t seed) : judge_(judge), random_(seed, 7) {}
+
+  Case run(Case c, int triangles, int steps) {
+    const auto found = judge_(c);
+    if (!found) throw std::runtime_error(c.id + " holds");
+    signature_ = found->signature;
+    Case closed = c;
+    closed.ghosts.reset();
+    keep_if_it_fails(c, closed);
+    // Many splits at once while that goes well.
+    for (int tries = 0, at_once = 16; tries < 8 * triangles; ++tries) {
+      const int wanted = (triangles - static_cast<int>(c.triangles.rows())) / 2;
+      if (wanted <= 0) break;
+      Case larger = c;
+      for (int n = std::min(at_once, wanted); n > 0; --n) larger = split(larger);
+      at_once = keep_if_it_fails(c, larger) ? 2 * at_once : std::max(1, at_once / 2);
+    }
+    keep_if_it_fails(c, noisy(c));
+    while (static_cast<int>(c.frames.size()) <= steps && c.script.empty() && !c.ghosts) {
+      Case longer = c;
+      add_frame(longer, random_.below(3) > 0);
+      if (keep_if_it_fails(c, longer)) continue;
+      Case still = c;
+      insert(still, c.frames.front(), true);
+      if (!keep_if_it_fails(c, still)) break;
+    }
+    return c;
+  }
+
+ private:
+  double unit() { return static_cast<double>(random_.between(-100000, 100000)) / 100000; }
+
+  bool keep_if_it_fails(Case& c, const Case& changed) {
+    if (!is_valid(changed)) return false;
+    const auto found = judge_(changed);
+    if (!found || found->signature != signature_) return false;
+    c = changed;
+    return true;
+  }
+
+  // A vertex in a face, or on an edge that two triangles share; not far from where it was flat.
+  Case split(const Case& c) {
+    auto mesh = triangles_of(c);
+    const auto t = static_cast<std::size_t>(random_.below(static_cast<int>(mesh.size())));
+    const auto corners = mesh[t];
+    const auto added = static_cast<std::int32_t>(c.frames.front().rows());
+    const bool on_edge = random_.below(3) > 0;
+    Case result = c;
+    for (auto& frame : result.frames) {
+      frame.conservativeResize(added + 1, Eigen::NoChange);
+      frame.row(added) = (frame.row(corners[0]) + frame.row(corners[1])) / 2;
+      if (!on_edge) {
+        frame.row(added) =
+            (frame.row(corners[0]) + frame.row(corners[1]) + frame.row(corners[2])) / 3;
+      }
+      for (int k = 0; k < 3; ++k) frame(added, k) += 0.01 * unit();
+    }
+    if (!on_edge) {
+      mesh[t] = {corners[0], corners[1], added};
+      mesh.push_back({corners[1], corners[2], added});
+      mesh.push_back({corners[2], corners[0], added});
+    } else {
+      std::vector<std::array<std::int32_t, 3>> halves;
+      for (const auto& old : mesh) {
+        int at = -1;  // the corner opposite to the edge
+        for (int i = 0; i < 3; ++i) {
+          const auto u = old[static_cast<std::size_t>(i)];
+          const auto v = old[static_cast<std::size_t>((i + 1) % 3)];
+          const bool is_edge =
+              (u == corners[0] && v == corners[1]) || (u == corners[1] && v == corners[0]);
+          if (is_edge) at = i;
+        }
+        if (at < 0) {
+          halves.push_back(old);
+          continue;
+        }
+        const auto u = old[static_cast<std::size_t>(at)];
+        const auto v = old[static_cast<std::size_t>((at + 1) % 3)];
+        const auto w = old[static_cast<std::size_t>((at + 2) % 3)];
+        halves.push_back({u, added, w});
+        halves.push_back({added, v, w});
+      }
+      mesh = halves;
+    }
+    return with_triangles(result, mesh);
+  }
+
+  Case noisy(const Case& c) {
+    Case result = c;
+    for (auto& frame : result.frames) {
+      for (Eigen::Index i = 0; i < frame.size(); ++i) frame.data()[i] += 1e-3 * unit();
+    }
+    return result;
+  }
+
+  // A little larger or smaller than the frame beside it, and moved.
+  void add_frame(Case& c, bool before) {
+    detector::Positions x = before ? c.frames.front() : c.frames.back();
+    const Eigen::RowVector3d shift(0.2 * unit(), 0.2 * unit(), 0.2 * unit());
+    x = x * (1 + 0.1 * unit());
+    x.rowwise() += shift;
+    insert(c, x, before);
+  }
+
+  static void insert(Case& c, const detector::Positions& x, bool before) {
+    c.frames.insert(before ? c.frames.begin() : c.frames.end(), x);
+    if (!c.view) return;
+    c.view->q0.push_back(c.view->q0.back());
+    if (!c.view->q1.empty()) c.view->q1.push_back(c.view->q1.back());
+  }
+
+  const Judge& judge_;
+  Random random_;
+  std::string signature_;
+};
+
 Case known_case(const ToyFault& fault) {
   auto c = tests::curated_case(fault.known);
   c.ghosts.reset();
@@ -91,6 +210,11 @@ Case known_case(const ToyFault& fault) {
 }
 
 }  // namespace
+
+Case inflated_case(const Case& small, const Judge& judge, int triangles, int steps,
+                   std::uint64_t seed) {
+  return Inflation(judge, seed).run(small, triangles, steps);
+}
 
 Case large_failing_case(const ToyFault& fault, int triangles, int steps, std::uint64_t seed) {
   for (std::uint64_t index = 0; index < (fault.known.empty() ? 400 : 4); ++index) {

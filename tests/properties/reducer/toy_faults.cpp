@@ -1,7 +1,9 @@
 #include "tests/properties/reducer/toy_faults.h"
 
+#include <algorithm>
 #include <stdexcept>
 
+#include "detector/mesh/topology.h"
 #include "detector/options.h"
 #include "oracle/instant/instant.h"
 #include "oracle/instant/layers.h"
@@ -9,12 +11,108 @@
 #include "oracle/mesh/step.h"
 #include "oracle/view/touched_by_ghosts.h"
 #include "oracle/view/view_sign.h"
-#include "tests/properties/reducer/toy_step.h"
+#include "properties/judging/agreement.h"
 
 namespace assay::properties::toys {
 namespace {
 
-using corpus::Case, detector::PairContact, detector::Positions, detector::ViewSign;
+using corpus::Case, detector::PairContact, detector::Positions, detector::ViewPrimitive,
+    detector::ViewSign;
+
+// What the toy detectors are made of: a step with its view, signs of several kinds, contacts lost.
+
+using Signs = std::vector<detector::ViewSign>;
+
+// One step as a toy detector sees it.
+struct ToyStep {
+  const corpus::Case& mesh;
+  const detector::Positions &x_t0, &x_t1;
+  const detector::Topology& topology;
+  detector::ViewPrimitive view;
+  std::vector<std::uint8_t> dirty;  // by triangle
+};
+
+Signs exact_signs(const ToyStep& step) {
+  return oracle::view_signs({step.x_t0, step.x_t1}, step.mesh.triangles, {&step.view, 1}, 1);
+}
+
+// The sign that all instants share; zero when they differ.
+Signs sampled_signs(const ToyStep& step, const std::vector<double>& times) {
+  Signs shared;
+  for (const double t : times) {
+    const Positions x = (1 - t) * step.x_t0 + t * step.x_t1;
+    const Signs now = oracle::view_signs({x, x}, step.mesh.triangles, {&step.view, 1}, 1);
+    if (shared.empty()) shared = now;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      if (now[i] != shared[i]) shared[i] = ViewSign::zero;
+    }
+  }
+  return shared;
+}
+
+// As seen from the point of the view-line that is nearest to each triangle's first vertex.
+Signs one_vertex_signs(const ToyStep& step) {
+  Signs signs;
+  const auto& triangles = step.mesh.triangles;
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    std::array<detector::MovingPoint, 3> corners;
+    for (int i = 0; i < 3; ++i) {
+      corners[static_cast<std::size_t>(i)] =
+          detector::SteppedMesh{step.x_t0, step.x_t1}.path(triangles(t, i));
+    }
+    // The nearest point of the first vertex, at both ends, as a moving point.
+    const auto nearest = [&](bool end) {
+      const auto place = [&](const detector::MovingPoint& p) {
+        const auto& x = end ? p.t1 : p.t0;
+        return Eigen::Vector3d(x[0], x[1], x[2]);
+      };
+      const Eigen::Vector3d q0 = place(step.view.q0), q1 = place(step.view.q1);
+      const Eigen::Vector3d d = q1 - q0;
+      const double square = d.squaredNorm();
+      const double s = square > 0 ? (place(corners[0]) - q0).dot(d) / square : 0;
+      const Eigen::Vector3d n = q0 + std::min(1., std::max(0., s)) * d;
+      return detector::Point{n[0], n[1], n[2]};
+    };
+    const detector::MovingPoint q = {nearest(false), nearest(true)};
+    signs.push_back(oracle::view_sign(corners, {q, q}));
+  }
+  return signs;
+}
+
+std::optional<Finding> missing(const PairContact& contact, const char* claim, const char* stage,
+                               std::size_t step) {
+  return Finding{std::string(claim) + "/missing/" + stage + "/" + name_of(contact.feature.kind),
+                 {contact.pair.a, contact.pair.b},
+                 step};
+}
+
+int common_vertices(const detector::Triangles& triangles, const detector::TrianglePair& pair) {
+  int common = 0;
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) common += triangles(pair.a, i) == triangles(pair.b, k) ? 1 : 0;
+  }
+  return common;
+}
+
+// 1 for triangles of a closed mesh that are touched, or not of the common layer.
+std::vector<std::uint8_t> not_clean(const Case& c, const Positions& x) {
+  const auto state = oracle::layers_at(oracle::Instant(x), c.triangles, detector::Triangles(0, 3));
+  std::vector<std::uint8_t> dirty;
+  for (const auto clean : state.clean) dirty.push_back(clean == 0 ? 1 : 0);
+  return dirty;
+}
+
+bool is_cycle(const detector::Topology& mesh) {
+  for (const auto& component : mesh.components) {
+    if (!component.is_cycle) return false;
+  }
+  return true;
+}
+
+// The case's own, or else the origin.
+ViewPrimitive view_of(const Case& c, std::size_t step) {
+  return corpus::view_of_step(c, step).value_or(ViewPrimitive{});
+}
 
 // Runs `judge_one` on each step until it finds something. Closed meshes only; dirty is what the
 // layers at the start of the step say.
@@ -25,8 +123,7 @@ Judge step_judge(JudgeOne judge_one) {
     if (!is_cycle(topology)) return std::nullopt;
     const auto steps = corpus::steps_of(c);
     for (std::size_t s = 0; s < steps.size(); ++s) {
-      const auto& x_t0 = c.frames[static_cast<std::size_t>(steps[s].from)];
-      const auto& x_t1 = c.frames[static_cast<std::size_t>(steps[s].to)];
+      const auto &x_t0 = start_of(c, steps[s]), &x_t1 = end_of(c, steps[s]);
       const auto judgement = oracle::judge_step({x_t0, x_t1}, c.triangles, {});
       if (judgement.answer != detector::Answer::collision) continue;
       const ToyStep step = {c, x_t0, x_t1, topology, view_of(c, s), not_clean(c, x_t0)};
@@ -117,8 +214,7 @@ Judge open_as_closed_judge() {
     if (topology.components.size() != 1 || topology.components[0].is_cycle) return std::nullopt;
     const auto steps = corpus::steps_of(c);
     for (std::size_t s = 0; s < steps.size(); ++s) {
-      const auto& x_t0 = c.frames[static_cast<std::size_t>(steps[s].from)];
-      const auto& x_t1 = c.frames[static_cast<std::size_t>(steps[s].to)];
+      const auto &x_t0 = start_of(c, steps[s]), &x_t1 = end_of(c, steps[s]);
       const ToyStep step = {c, x_t0, x_t1, topology, view_of(c, s), {}};
       bool positive = true;
       for (const ViewSign sign : exact_signs(step)) positive &= sign == ViewSign::positive;
@@ -138,8 +234,7 @@ Judge dirty_not_carried_judge() {
     const auto steps = corpus::steps_of(c);
     if (!is_cycle(topology)) return std::nullopt;
     for (std::size_t s = 0; s < steps.size(); ++s) {
-      const auto& x_t0 = c.frames[static_cast<std::size_t>(steps[s].from)];
-      const auto& x_t1 = c.frames[static_cast<std::size_t>(steps[s].to)];
+      const auto &x_t0 = start_of(c, steps[s]), &x_t1 = end_of(c, steps[s]);
       const bool is_new_start = s == 0 || steps[s - 1].to != steps[s].from;
       const auto judgement = oracle::judge_step({x_t0, x_t1}, c.triangles, {});
       const ToyStep step = {
@@ -175,8 +270,7 @@ Judge violated_not_carried_judge() {
     std::vector<std::uint8_t> carried;
     const auto steps = corpus::steps_of(c);
     for (std::size_t s = 0; s < steps.size(); ++s) {
-      const auto& x_t0 = c.frames[static_cast<std::size_t>(steps[s].from)];
-      const auto& x_t1 = c.frames[static_cast<std::size_t>(steps[s].to)];
+      const auto &x_t0 = start_of(c, steps[s]), &x_t1 = end_of(c, steps[s]);
       const bool is_new_start = s == 0 || steps[s - 1].to != steps[s].from;
       const Positions a_t0 = apexes_of(x_t0), a_t1 = apexes_of(x_t1);
       if (is_new_start) {

@@ -24,8 +24,14 @@ const std::vector<ToyFault>& toy_faults();
 const ToyFault& toy_fault(const std::string& name);
 
 // Meshes of about `triangles` triangles under random smooth motion with single jumps: the first in
-// which the fault shows, or after a few the curated case of the fault, inflated (inflate.h).
+// which the fault shows, or after a few the curated case of the fault, inflated.
 corpus::Case large_failing_case(const ToyFault& fault, int triangles, int steps,
                                 std::uint64_t seed);
+
+// Large failing cases from small ones, the reverse of a reduction. Splits faces and edges of
+// `small`, adds noise to every place, and puts gentle steps before and behind it, keeping only what
+// fails with the same signature. Throws when `small` holds.
+corpus::Case inflated_case(const corpus::Case& small, const Judge& judge, int triangles, int steps,
+                           std::uint64_t seed);
 
 }  // namespace assay::properties::toys

@@ -2,7 +2,6 @@
 #include "properties/search/moves.h"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include "oracle/instant/layers.h"
 #include "oracle/mesh/loops.h"
@@ -12,6 +11,7 @@
 #include "properties/reducer/case_edits.h"
 #include "properties/search/search.h"
 #include "properties/worker/plugin/query_case.h"
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {
@@ -115,6 +115,153 @@ TEST(Moves, APathOfFloatsStaysOne) {
         EXPECT_EQ(contracted(frame, Coordinates::float32), frame) << move.name << " " << i;
     }
   }
+}
+
+// Whether what meets first is seen alike, and the moves that lead there.
+
+// Two triangles that share a vertex, one behind the other on the ray from the origin along z. A
+// corner of the nearer one goes through the farther one; both face away from the origin.
+corpus::Case two_layers() {
+  corpus::Case c;
+  c.triangles.resize(2, 3);
+  c.triangles << 0, 2, 1, 0, 3, 4;
+  c.frames.assign(2, detector::Positions(5, 3));
+  c.frames[0] << 9, 0, 3, 0, 0, 1, 1, 3, 1, -4, 4, 3, -4, -4, 3;
+  c.frames[1] = c.frames[0];
+  c.frames[1](1, 2) = 5;
+  c.view.emplace();
+  c.view->q0.assign(2, {0, 0, 0});
+  return c;
+}
+
+Focus focus_in(const corpus::Case& c) {
+  Random random("focus");
+  return *focus_of(c, judge_case(c, Contract{}), Contract{}, random);
+}
+
+TEST(SeenAlike, IsOneForTwoLayersSeenFromBehind) {
+  const auto c = two_layers();
+  const Focus focus = focus_in(c);
+  ASSERT_EQ(focus.pairs, (std::vector<detector::TrianglePair>{{0, 1}}));
+  EXPECT_TRUE(is_within_a_component(c, focus));
+  EXPECT_EQ(seen_alike(c, focus), 1);
+}
+
+TEST(SeenAlike, IsOneFromBothEndsOfALine) {
+  auto c = two_layers();
+  c.view->q1.assign(2, {0.25, 0.25, 0});
+  EXPECT_EQ(seen_alike(c, focus_in(c)), 1);
+}
+
+TEST(SeenAlike, IsLessWhereATriangleIsTurned) {
+  auto c = two_layers();
+  c.triangles.row(1) << 0, 4, 3;
+  EXPECT_EQ(seen_alike(c, focus_in(c)), 0);
+}
+
+TEST(SeenAlike, IsLessWhereATriangleTurnsOnItsWay) {
+  auto c = two_layers();
+  c.frames[1].row(2) << 1, -3, 1;
+  const double alike = seen_alike(c, focus_in(c));
+  EXPECT_GT(alike, 0.3);
+  EXPECT_LT(alike, 1);
+}
+
+TEST(SeenAlike, IsZeroWithoutAView) {
+  auto c = two_layers();
+  c.view.reset();
+  EXPECT_EQ(seen_alike(c, focus_in(c)), 0);
+}
+
+TEST(SeenAlike, IsAskedWithinAComponent) {
+  auto c = two_layers();
+  c.triangles.row(0) << 5, 2, 1;
+  for (auto& frame : c.frames) {
+    frame.conservativeResize(6, 3);
+    frame.row(5) << 9, 0.5, 3;
+  }
+  const Focus focus = focus_in(c);
+  ASSERT_FALSE(focus.pairs.empty());
+  EXPECT_FALSE(is_within_a_component(c, focus));
+}
+
+// L3: in a clean closed mesh some pair that meets first is not of one sign.
+TEST(SeenAlike, L3_IsLessInACleanClosedMesh) {
+  int met = 0;
+  double most = 0;
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    Random random(fmt::format("alike:{}", i));
+    auto c = tetrahedron(query_generators()[8].make(9, i).query, "tetrahedron");
+    const auto truth = judge_case(c, Contract{});
+    if (truth[0].pairs.empty() || truth[0].first.lo == 0) continue;
+    ++met;
+    Candidate made{c, focus_of(c, truth, Contract{}, random)};
+    for (const Move& move : view_moves()) {
+      if (move.name != "gaze" && move.name != "view") continue;
+      move.make(random, made, {Contract{}});
+      const double alike = seen_alike(made.c, *made.focus);
+      EXPECT_LT(alike, 1) << i << " " << move.name;
+      most = std::max(most, alike);
+    }
+  }
+  EXPECT_GE(met, 30);
+  EXPECT_GT(most, 0.75);
+}
+
+// Whatever went before it, the step in focus is the same, or a part of it, seen from the same
+// place.
+TEST(Past, KeepsTheStepInFocus) {
+  const Contract contract;
+  const auto before = [&] {
+    auto c = two_layers();
+    c.view->q0[1] = {0.5, 0, 0};
+    return c;
+  }();
+  const Focus focus = focus_in(before);
+  const auto query = query_at(before, focus);
+  const auto past = std::find_if(moves().begin(), moves().end(),
+                                 [](const Move& move) { return move.name == "past"; });
+  int kept = 0, parts = 0;
+  for (int i = 0; i < 100; ++i) {
+    Random random(fmt::format("past:{}", i));
+    Candidate made{before, focus};
+    past->make(random, made, {contract});
+    if (!made.focus) continue;
+    const auto now = query_at(made.c, *made.focus);
+    const auto view = corpus::view_of_step(made.c, made.focus->step)->q0;
+    // Where the features meet, the view is that of this time.
+    const double t = made.focus->time, x = view.t0[0] + t * (view.t1[0] - view.t0[0]);
+    EXPECT_DOUBLE_EQ(x, 0.5 * focus.time) << i;
+    for (std::size_t p = 0; p < 4; ++p) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto place = [&](const detector::MovingPoint& path, double time) {
+          return path.t0[k] + time * (path.t1[k] - path.t0[k]);
+        };
+        EXPECT_DOUBLE_EQ(place(now.points[p], t), place(query.points[p], focus.time)) << i;
+      }
+    }
+    (now.points[0].t0 == query.points[0].t0 && now.points[0].t1 == query.points[0].t1 ? kept
+                                                                                      : parts)++;
+  }
+  EXPECT_GE(kept, 40);
+  EXPECT_GE(parts, 5);
+}
+
+// Two shells of one component, of which the inner one goes through the outer one.
+TEST(SeenAlike, NestedShellsMeetAlongARay) {
+  const Contract contract;
+  int alike = 0;
+  constexpr int all = 100;
+  for (std::uint64_t i = 0; i < all; ++i) {
+    Random random(fmt::format("nested:{}", i));
+    Candidate made{tetrahedron(query_generators()[8].make(9, i).query, "tetrahedron"), {}};
+    nest(random, made, {contract});
+    pass_by_ray(random, made, {contract});
+    const auto truth = judge_case(made.c, contract);
+    const auto focus = focus_of(made.c, truth, contract, random);
+    if (focus && seen_alike(made.c, *focus) == 1) ++alike;
+  }
+  EXPECT_GE(alike, all / 3);
 }
 
 }  // namespace

@@ -1,30 +1,216 @@
 // A lane of the search: it depends on its name alone, fills an archive, and finds what is wrong in
-// far fewer cases than the trials need.
+// far fewer cases than the trials need. A race of the search against random cases, the trials of
+// the strata, goes until the first defect of a detector. Both run in this process, so that
+// processor time is that of the cases alone.
 #include "properties/search/search.h"
 
-#include <gtest/gtest.h>
+#include <fmt/format.h>
 
-#include "tests/properties/search/races.h"
+#include "properties/campaign/trials/planned_case.h"
+#include "properties/faults/fault.h"
+#include "properties/generators/families.h"
+#include "properties/judging/fault_run.h"
+#include "properties/judging/subject.h"
+#include "properties/worker/plugin/plugin_host.h"
+#include "tests/curated_cases.h"
+#include "tests/test.h"
 
 namespace assay::properties {
 namespace {
 
-JudgeCases judge_of(const test::Runner& runner) {
+// A detector that runs a case in this process.
+struct Runner {
+  DetectorUnderTest detector;
+  std::function<CaseRun(const corpus::Case&)> run;
+  std::function<bool(const corpus::Case&)> shows_it_as_it_is{};  // of a curated case
+};
+
+SearchedCase judged_by(const Runner& runner, const corpus::Case& c) {
+  SearchedCase judged;
+  judged.runs.push_back(runner.run(c));
+  judged.truth = judge_case(c, runner.detector.contract);
+  judged.trials.push_back(judge_trial(c, judged.truth, judged.runs[0],
+                                      runner.detector.configurations[0], runner.detector));
+  return judged;
+}
+
+Runner runner_of(const Fault& fault) {
+  Runner runner;
+  runner.detector = built_in_detector();
+  runner.detector.configurations = {{std::string(fault.name), fault.options}};
+  runner.run = [&fault](const corpus::Case& c) {
+    CaseRun run;
+    run.steps = run_case(c, fault);
+    return run;
+  };
+  // A fault must not be found by a case that was made for it, or that shows it by chance.
+  std::set<std::string> shown_by;
+  for (const auto& file : tests::curated_files()) {
+    const auto c = corpus::read_case(file);
+    if (c && judged_by(runner, c.value()).trials[0].failure) shown_by.insert(c.value().id);
+  }
+  runner.shows_it_as_it_is = [shown_by](const corpus::Case& c) { return shown_by.contains(c.id); };
+  return runner;
+}
+
+// The library stays loaded. Nothing if it was not built.
+std::optional<Runner> runner_of_peer(const std::string& name) {
+  const auto host = PluginHost::open(std::string(ASSAY_PEER_DIR) + "/" + name + ".so");
+  if (!host) return std::nullopt;
+  const auto& plugin = host.value().description();
+  Runner runner;
+  runner.detector = {
+      plugin.name, false, claims_on_steps(plugin), plugin.contract, {{plugin.name, {}}}};
+  runner.run = [host = host.value()](const corpus::Case& c) { return host.run(c); };
+  return runner;
+}
+
+struct FirstDefect {
+  bool found = false;
+  std::uint64_t cases = 0;
+  double seconds = 0;            // of processor time
+  std::uint64_t candidates = 0;  // of the oracle, in all cases: a measure of work that is no clock
+
+  void count(const SearchedCase& judged) {
+    ++cases;
+    for (const auto& step : judged.truth) candidates += step.feature_candidates;
+  }
+};
+
+// How long a racer may run.
+struct RaceLimits {
+  std::uint64_t cases = 0;
+  double seconds = 1e9;
+};
+
+class ProcessorClock {
+ public:
+  double seconds() const { return now() - begin_; }
+
+ private:
+  static double now() {
+    timespec t{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  }
+  double begin_ = now();
+};
+
+// Case i of these families by turns, as the trials have it, if the contract takes one.
+std::optional<corpus::Case> random_case(const Runner& runner, std::span<const Family> known,
+                                        const std::string& name, std::uint64_t i) {
+  const auto& family = known[i % known.size()];
+  return case_within(runner.detector.contract, family,
+                     fmt::format("{}:{}:{}", name, family.name, i / known.size()))
+      .seen;
+}
+
+FirstDefect race_at_random(const Runner& runner, int seed, const RaceLimits& limits) {
+  FirstDefect first;
+  const ProcessorClock clock;
+  // But for everyday numbers: trials find the racing peer there at once, and nothing is left to
+  // search.
+  std::vector<Family> known(families().begin(), families().end());
+  std::erase_if(known, [](const Family& family) { return family.name.ends_with("-everyday"); });
+  while (first.cases < limits.cases && clock.seconds() < limits.seconds) {
+    const auto c = random_case(runner, known, fmt::format("race:{}", seed), first.cases);
+    const auto judged = c ? judged_by(runner, *c) : SearchedCase{};
+    first.count(judged);
+    if (!c || !judged.trials[0].failure) continue;
+    first.found = true;
+    break;
+  }
+  first.seconds = clock.seconds();
+  return first;
+}
+
+SearchSpace racing_space(const Runner& runner) {
+  const auto& contract = runner.detector.contract;
+  return {contract,
+          case_sources({true, false, ASSAY_SOURCE_DIR "/corpus/curated", runner.shows_it_as_it_is}),
+          [&contract](corpus::Case c) { return brought_into_contract(std::move(c), contract); },
+          runner.detector.built_in};
+}
+
+// Lanes until `stop`. Once `take` says that a case is the last one, no other is judged.
+void search_lanes(const Runner& runner, const SearchSpace& space, const std::string& name,
+                  const std::function<bool(const SearchedCase&)>& take,
+                  const std::function<bool()>& stop) {
+  bool is_done = false;
+  const JudgeCases judge = [&](std::span<const corpus::Case> cases) {
+    std::vector<SearchedCase> judged;
+    for (const auto& c : cases) {
+      judged.push_back(is_done ? SearchedCase{} : judged_by(runner, c));
+      is_done = is_done || take(judged.back());
+    }
+    return judged;
+  };
+  for (int lane = 1; !stop(); ++lane)
+    search({fmt::format("{}:{}", name, lane), 500}, space, judge, stop);
+}
+
+FirstDefect race_by_search(const Runner& runner, int seed, const RaceLimits& limits) {
+  FirstDefect first;
+  const SearchSpace space = racing_space(runner);
+  const ProcessorClock clock;
+  const auto take = [&](const SearchedCase& judged) {
+    first.count(judged);
+    first.found = judged.trials[0].failure.has_value();
+    if (first.found) first.seconds = clock.seconds();
+    return first.found;
+  };
+  search_lanes(runner, space, fmt::format("race:{}", seed), take, [&] {
+    return first.found || first.cases >= limits.cases || clock.seconds() >= limits.seconds;
+  });
+  if (!first.found) first.seconds = clock.seconds();
+  return first;
+}
+
+// The distinct signatures of defects that are met in so many seconds of processor time.
+using Signatures = std::set<std::string>;
+
+void take_signature(const SearchedCase& judged, Signatures& met) {
+  if (const auto& failure = judged.trials[0].failure) met.insert(failure->signature());
+}
+
+Signatures signatures_at_random(const Runner& runner, double seconds) {
+  Signatures met;
+  const ProcessorClock clock;
+  for (std::uint64_t i = 0; clock.seconds() < seconds; ++i) {
+    const auto c = random_case(runner, families(), "causes", i);
+    if (c) take_signature(judged_by(runner, *c), met);
+  }
+  return met;
+}
+
+Signatures signatures_by_search(const Runner& runner, double seconds) {
+  Signatures met;
+  const SearchSpace space = racing_space(runner);
+  const ProcessorClock clock;
+  const auto take = [&](const SearchedCase& judged) {
+    take_signature(judged, met);
+    return false;
+  };
+  search_lanes(runner, space, "causes", take, [&] { return clock.seconds() >= seconds; });
+  return met;
+}
+
+JudgeCases judge_of(const Runner& runner) {
   return [&runner](std::span<const corpus::Case> cases) {
     std::vector<SearchedCase> judged;
-    for (const auto& c : cases) judged.push_back(test::judged_by(runner, c));
+    for (const auto& c : cases) judged.push_back(judged_by(runner, c));
     return judged;
   };
 }
 
-SearchSpace space_of(const test::Runner& runner) {
+SearchSpace space_of(const Runner& runner) {
   return {runner.detector.contract,
           case_sources({true, false, ASSAY_SOURCE_DIR "/corpus/curated", {}}),
           [](corpus::Case c) { return c; }};
 }
 
 TEST(Search, ALaneDependsOnItsNameAlone) {
-  const auto runner = test::runner_of(*find_fault("pair/zero-zero-dropped"));
+  const auto runner = runner_of(*find_fault("pair/zero-zero-dropped"));
   const auto space = space_of(runner);
   const auto judge = judge_of(runner);
   const auto one = search({"search/test:1:1", 150}, space, judge, {});
@@ -42,21 +228,21 @@ TEST(Search, ALaneDependsOnItsNameAlone) {
 }
 
 TEST(Search, WhatIsFoundFailsAgainFromItsFile) {
-  const auto runner = test::runner_of(*find_fault("pair/zero-zero-dropped"));
+  const auto runner = runner_of(*find_fault("pair/zero-zero-dropped"));
   const auto result = search({"search/test:2:1", 300}, space_of(runner), judge_of(runner), {});
   ASSERT_FALSE(result.found.empty());
   EXPECT_GE(result.defects, result.found.size());
   for (const auto& found : result.found) {
     const auto read = corpus::parse_case(corpus::case_text(found.c), "found");
     ASSERT_TRUE(read) << read.error().message;
-    const auto judged = test::judged_by(runner, read.value());
+    const auto judged = judged_by(runner, read.value());
     ASSERT_TRUE(judged.trials[0].failure);
     EXPECT_EQ(judged.trials[0].failure->signature(), found.failure.signature());
   }
 }
 
 TEST(Search, FillsItsArchiveWithCauses) {
-  const test::Runner right{
+  const Runner right{
       built_in_detector().in(built_in_detector().configurations[0]),
       [](const corpus::Case& c) { return run_case(c, built_in_detector().configurations[0]); },
       {}};
@@ -74,7 +260,7 @@ TEST(Search, FillsItsArchiveWithCauses) {
 }
 
 TEST(Search, AStoppedLaneIsNotComplete) {
-  const auto runner = test::runner_of(*find_fault("pair/zero-zero-dropped"));
+  const auto runner = runner_of(*find_fault("pair/zero-zero-dropped"));
   int asked = 0;
   const auto result = search({"search/test:4:1", 1000}, space_of(runner), judge_of(runner),
                              [&] { return ++asked > 3; });
@@ -83,43 +269,183 @@ TEST(Search, AStoppedLaneIsNotComplete) {
 }
 
 // In the candidates of the oracle, over some seeds: a case of the search has few triangles.
-void expect_less_work(const test::Runner& runner, int seeds, double least_ratio) {
-  const test::RaceLimits limits{1500};
+void expect_less_work(const Runner& runner, int seeds, double least_ratio) {
+  const RaceLimits limits{1500};
   double by_search = 0, at_random = 0;
   for (int seed = 1; seed <= seeds; ++seed) {
-    const auto found = test::race_by_search(runner, seed, limits);
+    const auto found = race_by_search(runner, seed, limits);
     EXPECT_TRUE(found.found) << seed;
     by_search += static_cast<double>(found.candidates);
-    at_random += static_cast<double>(test::race_at_random(runner, seed, limits).candidates);
+    at_random += static_cast<double>(race_at_random(runner, seed, limits).candidates);
   }
   fmt::print("{} candidates by search, {} at random\n", by_search, at_random);
   EXPECT_GE(at_random, least_ratio * by_search);
 }
 
 TEST(Search, NeedsLessWorkForAPeer) {
-  const auto runner = test::runner_of_peer("cubic_double");
+  const auto runner = runner_of_peer("cubic_double");
   if (!runner) GTEST_SKIP() << "the peer was not built";
   expect_less_work(*runner, 30, 10);
 }
 
 TEST(Search, NeedsFarLessWorkForAFault) {
-  expect_less_work(test::runner_of(*find_fault("view/three-samples")), 15, 15);
+  expect_less_work(runner_of(*find_fault("view/three-samples")), 15, 15);
 }
 
 // Trials need some 5,000 cases for each of these.
 TEST(Search, FindsWhatRestsOnTheStateAlone) {
   for (const char* name : {"state/released-when-connected", "state/start-layers-not-checked",
                            "state/winding-not-checked"}) {
-    const auto runner = test::runner_of(*find_fault(name));
+    const auto runner = runner_of(*find_fault(name));
     double cases = 0;
     constexpr int seeds = 8;
     for (int seed = 1; seed <= seeds; ++seed) {
-      const auto found = test::race_by_search(runner, seed, {2000});
+      const auto found = race_by_search(runner, seed, {2000});
       EXPECT_TRUE(found.found) << name << " " << seed;
       cases += static_cast<double>(found.cases) / seeds;
     }
     fmt::print("{}: {} cases\n", name, cases);
     EXPECT_LE(cases, 600) << name;
+  }
+}
+
+// A swarm depends on its name, and suits the detector.
+
+class Swarms : public testing::Test {
+ protected:
+  static SearchSpace space(bool gives_views) {
+    static const Contract contract;
+    return {contract, case_sources({true, false, "", {}}), {}, gives_views};
+  }
+};
+
+TEST_F(Swarms, HaveAllThemes) {
+  const auto of_views = space(true), without = space(false);
+  std::set<Theme> themes, themes_without;
+  for (std::uint64_t begin = 0; begin < 100; ++begin) {
+    themes.insert(Swarm("lane", of_views, begin).theme);
+    themes_without.insert(Swarm("lane", without, begin).theme);
+  }
+  EXPECT_EQ(themes.size(), 6);
+  EXPECT_EQ(themes_without,
+            (std::set<Theme>{Theme::everything, Theme::fresh, Theme::degeneracies}));
+}
+
+TEST_F(Swarms, MoveNoViewThatIsNotGiven) {
+  const auto without = space(false);
+  for (std::uint64_t begin = 0; begin < 50; ++begin) {
+    for (const Move* move : Swarm("lane", without, begin).moves)
+      EXPECT_NE(move->kind, MoveKind::view) << begin << " " << move->name;
+  }
+}
+
+TEST_F(Swarms, AreDrawnByTheirNames) {
+  const auto of_views = space(true);
+  for (std::uint64_t begin = 0; begin < 20; ++begin) {
+    const Swarm one("lane", of_views, begin), again("lane", of_views, begin);
+    EXPECT_EQ(one.theme, again.theme);
+    EXPECT_EQ(one.moves, again.moves);
+    EXPECT_EQ(one.sources, again.sources);
+    EXPECT_EQ(one.most_triangles, again.most_triangles);
+    EXPECT_FALSE(one.moves.empty());
+    EXPECT_GE(one.most_frames, 2);
+  }
+  std::vector<Theme> here, elsewhere;
+  for (std::uint64_t begin = 1; begin < 20; ++begin) {
+    here.push_back(Swarm("lane", of_views, begin).theme);
+    elsewhere.push_back(Swarm("other", of_views, begin).theme);
+  }
+  EXPECT_NE(here, elsewhere);
+}
+
+// The search against random cases, until the first defect of planted faults and of detectors of
+// others.
+//
+// ASSAY_RACE_SEEDS=15 ASSAY_RACE_SECONDS=20 properties_search_tests --gtest_filter=*Table* prints
+// the table, of the faults in ASSAY_RACE_FAULTS (names with commas; "all") and of the peers. The
+// seeds begin with ASSAY_RACE_FIRST, or with 1.
+//
+// ASSAY_CAUSES_SECONDS=60 with --gtest_filter=*Causes* counts the distinct causes on each peer, or
+// on those in ASSAY_RACE_PEERS.
+
+double median_of(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+struct Racers {
+  std::vector<double> random, search, random_cases, search_cases;
+  int random_missed = 0, search_missed = 0;
+};
+
+std::string word_from(const char* name) {
+  const char* word = std::getenv(name);
+  return word ? word : "";
+}
+
+Racers race(const Runner& runner, int seeds, const RaceLimits& limits) {
+  Racers racers;
+  const auto first = word_from("ASSAY_RACE_FIRST");
+  const int begin = first.empty() ? 1 : std::stoi(first);
+  for (int seed = begin; seed < begin + seeds; ++seed) {
+    const auto by_search = race_by_search(runner, seed, limits);
+    const auto at_random = race_at_random(runner, seed, limits);
+    racers.random.push_back(at_random.seconds);
+    racers.search.push_back(by_search.seconds);
+    racers.random_cases.push_back(static_cast<double>(at_random.cases));
+    racers.search_cases.push_back(static_cast<double>(by_search.cases));
+    racers.random_missed += at_random.found ? 0 : 1;
+    racers.search_missed += by_search.found ? 0 : 1;
+  }
+  return racers;
+}
+
+// Whether the list of the variable, names with commas, holds a name or says "all".
+bool is_named(const char* variable, std::string_view name) {
+  const auto names = word_from(variable);
+  return names == "all" || ("," + names + ",").find(fmt::format(",{},", name)) != std::string::npos;
+}
+
+void print_row(const std::string& name, const Racers& racers) {
+  const double random = median_of(racers.random), search = median_of(racers.search);
+  fmt::print("{:40} {:>8.0f} {:>9.3f} {:>3} {:>8.0f} {:>9.3f} {:>3} {:>7.2f}\n", name,
+             median_of(racers.random_cases), random, racers.random_missed,
+             median_of(racers.search_cases), search, racers.search_missed, random / search);
+  std::fflush(stdout);
+}
+
+TEST(Power, Table) {
+  const auto seeds = word_from("ASSAY_RACE_SEEDS");
+  if (seeds.empty()) GTEST_SKIP() << "ASSAY_RACE_SEEDS is not set";
+  const auto limit = word_from("ASSAY_RACE_SECONDS");
+  const RaceLimits limits{1'000'000'000, limit.empty() ? 20 : std::stod(limit)};
+  fmt::print("{:40} {:>8} {:>9} {:>3} {:>8} {:>9} {:>3} {:>7}\n", "detector", "random", "s", "no",
+             "search", "s", "no", "ratio");
+  for (const char* peer : {"cubic_double", "cubic_float", "fcl_elementary", "bullet_bernstein"}) {
+    if (const auto runner = runner_of_peer(peer))
+      print_row(peer, race(*runner, std::stoi(seeds), limits));
+  }
+  for (const auto& fault : faults()) {
+    if (fault.status != FaultStatus::planted || fault.is_disturbed) continue;
+    if (is_named("ASSAY_RACE_FAULTS", fault.name))
+      print_row(std::string(fault.name), race(runner_of(fault), std::stoi(seeds), limits));
+  }
+}
+
+TEST(Power, Causes) {
+  const auto seconds = word_from("ASSAY_CAUSES_SECONDS");
+  if (seconds.empty()) GTEST_SKIP() << "ASSAY_CAUSES_SECONDS is not set";
+  for (const char* peer :
+       {"cubic_double", "cubic_float", "cubic_eigen", "fcl_elementary", "bullet_bernstein"}) {
+    const bool is_asked =
+        word_from("ASSAY_RACE_PEERS").empty() || is_named("ASSAY_RACE_PEERS", peer);
+    const auto runner = is_asked ? runner_of_peer(peer) : std::nullopt;
+    if (!runner) continue;
+    const auto by_search = signatures_by_search(*runner, std::stod(seconds));
+    const auto at_random = signatures_at_random(*runner, std::stod(seconds));
+    fmt::print("{:20} {:>5} causes by search {:>5} at random\n", peer, by_search.size(),
+               at_random.size());
+    std::fflush(stdout);
   }
 }
 

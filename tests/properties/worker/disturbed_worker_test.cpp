@@ -11,7 +11,6 @@
 #include "properties/worker/worker_process.h"
 #include "properties/worker/worker_watch.h"
 #include "tests/properties/small_case.h"
-#include "tests/properties/worker/children.h"
 #include "tests/properties/worker/worker_cases.h"
 
 namespace assay::properties {

@@ -1,4 +1,8 @@
-// What a plug-in says of a call that failed is told, whichever call it was, and of every step.
+// What a plug-in says of a call that failed is told, whichever call it was, and of every step. And
+// what it prints.
+#include <unistd.h>
+
+#include "properties/worker/isolation.h"
 #include "properties/worker/plugin/query_case.h"
 #include "properties/worker/worker_process.h"
 #include "tests/properties/worker/worker_cases.h"
@@ -6,12 +10,12 @@
 namespace assay::properties {
 namespace {
 
-using detector::Answer, test::plugin_alone;
+using detector::Answer, test::plugin_alone, test::small_case;
 
 class ErrorTexts : public testing::Test {
  protected:
   explicit ErrorTexts() {
-    c_ = test::small_case(41, 0);
+    c_ = small_case(41, 0);
     // Three steps that commit, forth and back.
     const auto first = c_.frames[0], second = c_.frames[1];
     c_.frames = {first, second, first, second};
@@ -96,6 +100,110 @@ TEST_F(ErrorTexts, NoneWhereNothingFails) {
   ASSERT_EQ(run.end, RunEnd::completed) << run.explanation;
   EXPECT_TRUE(run.errors.empty());
   EXPECT_EQ(run.explanation, "");
+}
+
+// What a plug-in prints: kept a case, its end alone where that is much, and harmless.
+
+TEST(PrintedFile, KeepsTheEndFromAWholeLineOn) {
+  auto printed = PrintedFile::make();
+  ASSERT_TRUE(printed);
+  const auto print = [&](const std::string& text) {
+    EXPECT_EQ(::write(printed->descriptor(), text.data(), text.size()),
+              static_cast<ssize_t>(text.size()));
+  };
+  print("short\n");
+  EXPECT_EQ(printed->take(), "short");
+  EXPECT_EQ(printed->take(), "");
+  // A long text is cut while it comes, too.
+  for (const int often : {1, 40}) {
+    std::string text;
+    for (int i = 0; i < 10'000; ++i) text += "line " + std::to_string(i) + "\n";
+    for (int i = 0; i < often; ++i) {
+      print(text);
+      printed->keep_short();
+    }
+    print("the end\n");
+    const auto kept = printed->take();
+    EXPECT_TRUE(kept.starts_with("...\nline ")) << kept.substr(0, 40);
+    EXPECT_TRUE(kept.ends_with("\nline 9999\nthe end")) << kept.substr(kept.size() - 40);
+    EXPECT_LE(kept.size(), longest_printed + 4);
+    EXPECT_GE(kept.size(), longest_printed - 20);
+  }
+}
+
+TEST(PrintableLines, HoldNoEscapesAndNoEmptyEnd) {
+  EXPECT_EQ(printable_lines("a\x1b[2J\r\n\nb\a\n\n"), "a?[2J\n\nb?");
+  EXPECT_EQ(printable_lines(""), "");
+  EXPECT_EQ(printable_lines("\n\n"), "");
+}
+
+class PrintedByPlugin : public testing::Test {
+ protected:
+  ~PrintedByPlugin() override { ::unsetenv("ASSAY_BY_CONTRACT"); }
+  CaseRun run(const std::string& words, const corpus::Case& c, WorkerLimits limits = {}) {
+    ::setenv("ASSAY_BY_CONTRACT", words.c_str(), 1);
+    WorkerProcess worker(ASSAY_WORKER, test::plugin("by_contract"), limits);
+    return worker.run(c, plugin_alone).front();
+  }
+  // Of a step, without the escape characters that were printed.
+  static std::string lines(int count, Eigen::Index triangles) {
+    std::string text;
+    for (int i = 1; i <= count; ++i)
+      text += (i > 1 ? "\nline " : "line ") + std::to_string(i) + " of ?[31m" +
+              std::to_string(triangles) + " triangles";
+    return text;
+  }
+};
+
+TEST_F(PrintedByPlugin, EachCaseHasItsOwn) {
+  ::setenv("ASSAY_BY_CONTRACT", "print=2", 1);
+  WorkerProcess worker(ASSAY_WORKER, test::plugin("by_contract"));
+  int seen = 0;
+  for (std::uint64_t i = 0; i < 20; ++i) {
+    const auto c = small_case(41, i);
+    const auto one = worker.run(c, plugin_alone).front();
+    ASSERT_EQ(one.end, RunEnd::completed) << one.explanation;
+    EXPECT_TRUE(one.printed.starts_with(lines(2, c.triangles.rows()))) << one.printed;
+    // Two lines a step, and no more.
+    const auto newlines = std::count(one.printed.begin(), one.printed.end(), '\n');
+    EXPECT_EQ(newlines + 1, static_cast<std::ptrdiff_t>(2 * corpus::steps_of(c).size()));
+    ++seen;
+  }
+  EXPECT_EQ(seen, 20);
+  EXPECT_EQ(worker.starts(), 1u);
+}
+
+TEST_F(PrintedByPlugin, AFloodLeavesItsEndAndDelaysNobody) {
+  const auto c = small_case(41, 0);
+  const auto one = run("print=200000", c);
+  ASSERT_EQ(one.end, RunEnd::completed) << one.explanation;
+  EXPECT_LE(one.printed.size(), longest_printed + 4);
+  EXPECT_TRUE(one.printed.starts_with("...\n")) << one.printed.substr(0, 40);
+  EXPECT_NE(one.printed.find("line 200000 of "), std::string::npos);
+}
+
+TEST_F(PrintedByPlugin, ACrashAndAHangKeepWhatWasSaidBefore) {
+  auto c = small_case(41, 0);
+  // A coordinate that is beyond the range makes it abort.
+  const auto crashed = run("print=3 range=1e200:1e300 abort-outside", c);
+  ASSERT_EQ(crashed.end, RunEnd::crashed) << crashed.explanation;
+  EXPECT_EQ(crashed.printed, lines(3, c.triangles.rows()));
+  // Its first time is a double above 0, or it does not burn.
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    c = small_case(41, i);
+    const auto hung = run("print=3 burn=1000", c, {.seconds = .1});
+    if (hung.end != RunEnd::hung) continue;
+    EXPECT_NE(hung.printed.find("line 3 of "), std::string::npos) << hung.printed;
+    return;
+  }
+  FAIL() << "no case hung";
+}
+
+TEST_F(PrintedByPlugin, ItIsKeptWithLimitsAlone) {
+  const auto c = small_case(41, 0);
+  const auto one = run("print=1", c, {.isolation = Isolation::limits});
+  ASSERT_EQ(one.end, RunEnd::completed) << one.explanation;
+  EXPECT_TRUE(one.printed.starts_with(lines(1, c.triangles.rows()))) << one.printed;
 }
 
 }  // namespace

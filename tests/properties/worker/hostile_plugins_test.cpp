@@ -26,11 +26,7 @@ class Bystander {
     waitpid(id_, nullptr, 0);
   }
   pid_t id() const { return id_; }
-  bool sleeps() const {
-    std::ifstream status("/proc/" + std::to_string(id_) + "/stat");
-    std::string text(std::istreambuf_iterator<char>(status), {});
-    return text.find(") S ") != std::string::npos;
-  }
+  bool sleeps() const { return test::stat_of(id_).find(") S ") != std::string::npos; }
 
  private:
   pid_t id_;
@@ -180,8 +176,9 @@ TEST_F(Hostile, NothingThatItStartedOutlivesIt) {
     std::set<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
       std::ifstream file(entry.path() / "environ");
-      const std::string words(std::istreambuf_iterator<char>(file), {});  // none once it has ended
-      if (words.find("ASSAY_HOST_OF_TEST=" + host + '\0') != std::string::npos)
+      // None once it has ended.
+      const std::string variables(std::istreambuf_iterator<char>(file), {});
+      if (variables.find("ASSAY_HOST_OF_TEST=" + host + '\0') != std::string::npos)
         names.insert(entry.path().filename());
     }
     return names;

@@ -1,5 +1,7 @@
-// What the tests of the worker run.
+// What the tests of the worker run, and the child processes of a test.
 #pragma once
+
+#include <unistd.h>
 
 #include "properties/worker/case_run.h"
 #include "tests/properties/small_case.h"
@@ -7,6 +9,26 @@
 namespace assay::properties::test {
 
 inline const std::vector<Configuration> plugin_alone = {{"plug-in", {}}};
+
+// Processes whose parent is this one, dead ones that nobody has waited for included.
+inline std::vector<int> children() {
+  std::vector<int> found;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    const std::string name = entry.path().filename();
+    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+    std::ifstream status(entry.path() / "status");
+    for (std::string line; std::getline(status, line);) {
+      if (line == "PPid:\t" + std::to_string(getpid())) found.push_back(std::stoi(name));
+    }
+  }
+  return found;
+}
+
+// What the system says of a process; nothing once it is gone.
+inline std::string stat_of(int process) {
+  std::ifstream stat("/proc/" + std::to_string(process) + "/stat");
+  return {std::istreambuf_iterator<char>(stat), {}};
+}
 
 // A case on which troubled_builtin.cpp uses so much processor time.
 inline corpus::Case burning_case(double seconds) {

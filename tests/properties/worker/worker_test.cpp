@@ -11,7 +11,6 @@
 #include "tests/curated_cases.h"
 #include "tests/problem_words.h"
 #include "tests/properties/small_case.h"
-#include "tests/properties/worker/children.h"
 #include "tests/properties/worker/worker_cases.h"
 
 namespace assay::properties {
@@ -189,10 +188,7 @@ TEST(Worker, OneThatDiedBetweenCasesIsReplaced) {
   ASSERT_EQ(children().size(), 1u);
   kill(children()[0], SIGKILL);
   for (int i = 0; i < 1000; ++i) {  // until it has closed its channel
-    std::ifstream stat("/proc/" + std::to_string(children()[0]) + "/stat");
-    std::stringstream text;
-    text << stat.rdbuf();
-    if (text.str().find(") Z ") != std::string::npos) break;
+    if (test::stat_of(children()[0]).find(") Z ") != std::string::npos) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   EXPECT_EQ(worker.run(small_case(31, 1), plugin_alone)[0].end, RunEnd::completed);
@@ -227,10 +223,8 @@ TEST(Worker, DiesWithItsHost) {
   kill(host, SIGKILL);
   waitpid(host, nullptr, 0);
   const auto is_gone = [&] {
-    std::ifstream stat("/proc/" + std::to_string(worker) + "/stat");
-    std::stringstream text;
-    text << stat.rdbuf();
-    return text.str().empty() || text.str().find(") Z ") != std::string::npos;
+    const auto stat = test::stat_of(worker);
+    return stat.empty() || stat.find(") Z ") != std::string::npos;
   };
   for (int i = 0; i < 5000 && !is_gone(); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));

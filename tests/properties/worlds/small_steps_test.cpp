@@ -1,17 +1,27 @@
 // Random small steps with small-integer coordinates: the detector with every culling against the
-// oracle, pairs and times compared bit by bit, and view signs against the oracle's.
+// oracle, pairs and times compared bit by bit, and view signs against the oracle's. The same with a
+// relation between pairs, and small worlds of tetrahedra.
 #include "properties/worlds/small_steps.h"
 
+#include <fmt/format.h>
+
+#include "corpus/cases/case_file.h"
+#include "detector/assembly.h"
 #include "detector/detector.h"
+#include "detector/search/pair_relation.h"
 #include "oracle/view/view_sign.h"
 #include "properties/judging/agreement.h"
+#include "properties/judging/case_check.h"
+#include "properties/worlds/tetrahedron_world.h"
 #include "tests/asked.h"
+#include "tests/curated_cases.h"
+#include "tests/properties/worlds/counted_steps.h"
 #include "tests/test.h"
 
 namespace assay::properties {
 namespace {
 
-using detector::Culling;
+using detector::Culling, test::CountedSteps, test::CountedTally, test::disagreement;
 
 // ASSAY_SEED and ASSAY_CASES replay other cases; ASSAY_CASE runs a single one.
 struct Variant {
@@ -98,23 +108,17 @@ TEST(SmallSteps, L3_L7_L12_EveryCullingAgreesWithTheOracle) {
     const auto step = make_small_step(seed, i);
     check(step, tally);
     if (HasFatalFailure()) {
-      std::printf("replay: ASSAY_SEED=%llu ASSAY_CASE=%llu ctest --preset law -R %s\n",
-                  static_cast<unsigned long long>(seed), static_cast<unsigned long long>(i),
-                  "EveryCullingAgreesWithTheOracle");
+      fmt::print("replay: ASSAY_SEED={} ASSAY_CASE={} ctest --preset law -R {}\n", seed, i,
+                 "EveryCullingAgreesWithTheOracle");
       return;
     }
   }
-  std::printf(
-      "%llu cases, seed %llu: %llu collide (%llu at t=0), %llu pairs, %llu view signs, %llu "
-      "free components; %zu variants\n",
-      static_cast<unsigned long long>(cases), static_cast<unsigned long long>(seed),
-      static_cast<unsigned long long>(tally.collisions),
-      static_cast<unsigned long long>(tally.at_start), static_cast<unsigned long long>(tally.pairs),
-      static_cast<unsigned long long>(tally.signs),
-      static_cast<unsigned long long>(tally.free_components), std::size(variants));
-  for (const auto& [family, n] : tally.families) {
-    std::printf("  %-28s %llu\n", family.c_str(), static_cast<unsigned long long>(n));
-  }
+  fmt::print(
+      "{} cases, seed {}: {} collide ({} at t=0), {} pairs, {} view signs, {} free components; {} "
+      "variants\n",
+      cases, seed, tally.collisions, tally.at_start, tally.pairs, tally.signs,
+      tally.free_components, std::size(variants));
+  for (const auto& [family, n] : tally.families) fmt::print("  {:28} {}\n", family, n);
   if (only == cases) {
     EXPECT_GT(tally.collisions, cases / 4);
     EXPECT_GT(tally.collisions - tally.at_start, cases / 20);
@@ -147,11 +151,169 @@ TEST(SmallSteps, L8_StateIsCarriedSoundly) {
       dirty += result.dirty;
     }
   }
-  std::printf("%llu cases, seed %llu: %llu second steps collide, %llu dirty triangles carried\n",
-              static_cast<unsigned long long>(cases), static_cast<unsigned long long>(seed),
-              static_cast<unsigned long long>(second_collisions),
-              static_cast<unsigned long long>(dirty));
+  fmt::print("{} cases, seed {}: {} second steps collide, {} dirty triangles carried\n", cases,
+             seed, second_collisions, dirty);
   EXPECT_GT(dirty, cases);
+}
+
+// Small worlds of tetrahedra: the classes cover every motion, and all of them hold.
+
+const TetrahedronWorld& world_named(std::string_view name) {
+  const auto all = tetrahedron_worlds();
+  return *std::find_if(all.begin(), all.end(), [&](const auto& w) { return w.name == name; });
+}
+
+std::uint64_t sum_of_classes(const TetrahedronMotions& motions) {
+  std::uint64_t sum = 0;
+  for (std::size_t b = 0; b < motions.blocks(); ++b) {
+    motions.for_each(b, [&](const TetrahedronMotion& motion) {
+      for (const auto& view : motion.views) sum += motion.stands_for * view.stands_for;
+      return true;
+    });
+  }
+  return sum;
+}
+
+// Every motion is in exactly one class: the classes' sizes sum up to the motions there are.
+TEST(TetrahedronMotions, ClassesStandForAllMotions) {
+  for (const TetrahedronGrid& grid :
+       {TetrahedronGrid{2, 1, 4}, {3, 1, 4}, {2, 2, 4}, {2, 3, 1}, {2, 3, 2}, {3, 2, 1}}) {
+    const TetrahedronMotions motions(grid);
+    EXPECT_EQ(sum_of_classes(motions), motions.all()) << grid.side << grid.dimensions;
+  }
+  // 8 places: at rest 8^4, one of four vertices on one of 56 paths 4 * 56 * 8^3; 27 view-points.
+  EXPECT_EQ(TetrahedronMotions({2, 3, 1}).all(), (4096u + 4 * 56 * 512) * 27);
+}
+
+void print(const char* name, const TetrahedronWorldResult& r) {
+  fmt::print(
+      "{}: {} classes proved for {} of {} motions{}, {:.1f} s; {} collide, L3 {}, L4 {}, L5 {}\n",
+      name, r.classes, r.motions, r.all, r.complete ? "" : " (not complete)", r.seconds,
+      r.collisions, r.first_in_k, r.one_sign, r.all_positive);
+}
+
+TEST(TetrahedronWorld, L3_L4_L5_HoldInTheSmallestWorlds) {
+  struct Wanted {
+    const char* name;
+    std::uint64_t classes, motions;
+  };
+  for (const Wanted& wanted : {Wanted{"square-2", 4480, 589824}, {"cube-2-one", 4432, 3207168}}) {
+    const auto result = prove(world_named(wanted.name), {2, 0, {}});
+    print(wanted.name, result);
+    ASSERT_TRUE(result.complete) << result.explanation << "\n"
+                                 << corpus::case_text(*result.counterexample);
+    EXPECT_EQ(result.classes, wanted.classes);
+    EXPECT_EQ(result.motions, wanted.motions);
+    EXPECT_EQ(result.motions, result.all);
+  }
+}
+
+TEST(TetrahedronWorld, PremisesAreMetAndCountsDoNotDependOnThreads) {
+  const auto one = prove(world_named("cube-2-one"), {1, 0, {}});
+  const auto three = prove(world_named("cube-2-one"), {3, 0, {}});
+  EXPECT_EQ(one.first_in_k, 1390u);
+  EXPECT_EQ(one.one_sign, 2u);
+  EXPECT_EQ(one.all_positive, 1u);
+  EXPECT_EQ(one.classes, three.classes);
+  EXPECT_EQ(one.collisions, three.collisions);
+  EXPECT_EQ(one.first_in_k, three.first_in_k);
+  EXPECT_EQ(one.clean_starts, three.clean_starts);
+}
+
+TEST(TetrahedronWorld, StopsWhenAskedAndSaysSo) {
+  const auto result = prove(world_named("cube-3-two"), {2, 0.2, {}});
+  print("cube-3-two", result);
+  EXPECT_FALSE(result.complete);
+  EXPECT_FALSE(result.counterexample);
+  EXPECT_GT(result.classes, 0u);
+  EXPECT_LT(result.motions, result.all);
+  EXPECT_LT(result.seconds, 10);
+}
+
+// L19: what counts. A plain loop, the oracle and the detector agree on random steps with random
+// relations.
+
+// ASSAY_SEED and ASSAY_CASES replay other cases; ASSAY_CASE runs a single one.
+template <class Disagreement>
+void expect_agreement(const char* test, std::uint64_t usual, const Disagreement& disagree) {
+  const std::uint64_t seed = tests::asked("ASSAY_SEED", 20119),
+                      cases = tests::asked("ASSAY_CASES", usual),
+                      only = tests::asked("ASSAY_CASE", cases);
+  CountedTally tally;
+  for (std::uint64_t i = 0; i < cases; ++i) {
+    if (only != cases && i != only) continue;
+    const auto wrong = disagree(test::make_counted_steps(seed, i), i, tally);
+    ASSERT_FALSE(wrong) << *wrong << "\nreplay: ASSAY_SEED=" << seed << " ASSAY_CASE=" << i
+                        << " ctest --preset law -R " << test;
+  }
+  fmt::print(
+      "{} steps, seed {}: {} collide, {} pairs count; {} in contact do not, in {} steps, {} of "
+      "which "
+      "collide\n",
+      tally.steps, seed, tally.collisions, tally.pairs, tally.ignored, tally.with_ignored,
+      tally.with_both);
+  if (only != cases) return;
+  EXPECT_GT(tally.with_ignored, tally.steps / 10);
+  EXPECT_GT(tally.with_both, tally.steps / 20);
+  EXPECT_GT(tally.steps - tally.collisions, tally.steps / 20);
+}
+
+TEST(CountedSteps, L19_PlainLoopOracleAndDetectorAgree) {
+  expect_agreement(
+      "PlainLoopOracleAndDetectorAgree", 1000,
+      [](const CountedSteps& steps, auto, auto& tally) { return disagreement(steps, tally); });
+}
+
+TEST(CountedSteps, L16_L19_TheyAgreeWithinASeparationToo) {
+  constexpr double separations[] = {0.5, 1, 2, 0x1p-30, 1.4142135623730951};
+  expect_agreement("TheyAgreeWithinASeparationToo", 150,
+                   [&](const CountedSteps& steps, std::uint64_t i, auto& tally) {
+                     return test::disagreement_within(steps, separations[i % 5], tally);
+                   });
+}
+
+// A detector that drops contacts that do not count before the closure: only what counts joins H.
+class DropsBeforeTheClosure : public detector::PairRule {
+ public:
+  DropsBeforeTheClosure(const detector::CountedPairs& counted, const detector::Topology& mesh)
+      : mesh_(mesh), relation_(&counted, mesh) {}
+  bool joins_closure(const detector::TrianglePair& pair, std::int32_t) const override {
+    return relation_.counts(mesh_, pair);
+  }
+
+ private:
+  const detector::Topology mesh_;
+  const detector::PairRelation relation_;
+};
+
+// A corner of a tube passes through its own 2-ring, and then meets the far side from the inside.
+TEST(CountedSteps, L19_AnIgnoredContactTurnsTriangles) {
+  const auto c = tests::curated_case("F_ignored_contact");
+  ASSERT_TRUE(c.counted && c.counted->steps.size() == 1);
+  const corpus::ExpectedStep& expected = c.counted->steps[0];
+  const CountedSteps steps = {c.triangles, c.frames, c.counted->pairs};
+  CountedTally tally;
+  EXPECT_EQ(disagreement(steps, tally), std::nullopt);
+  EXPECT_GT(tally.ignored, 0u);
+
+  detector::Options options;
+  options.culling = detector::Culling::view_point;
+  options.counted = &c.counted->pairs;
+  auto right = detector::Detector::create(c.triangles, c.frames[0], options);
+  const auto result = right.value().step(c.frames[0], c.frames[1]);
+  EXPECT_EQ(result.answer, expected.answer);
+  EXPECT_EQ(result.first, *expected.first_time);
+  ASSERT_EQ(result.pairs.size(), expected.pairs->size());
+  for (std::size_t i = 0; i < result.pairs.size(); ++i) {
+    EXPECT_EQ(result.pairs[i].pair, (*expected.pairs)[i].pair);
+    EXPECT_EQ(result.pairs[i].time, (*expected.pairs)[i].time);
+  }
+
+  detector::Stages stages = detector::standard_stages(options);
+  stages.pair_rule = std::make_shared<DropsBeforeTheClosure>(
+      c.counted->pairs, detector::make_topology(c.triangles, c.frames[0].rows()));
+  auto wrong = detector::assemble(c.triangles, c.frames[0], options, std::move(stages));
+  EXPECT_EQ(wrong.value().step(c.frames[0], c.frames[1]).answer, detector::Answer::free);
 }
 
 }  // namespace

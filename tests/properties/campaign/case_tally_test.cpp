@@ -1,10 +1,14 @@
-// The laws of a plug-in: what is wrong in another form of a case alone breaks them, and what its
-// claims allow does not.
-#include <set>
+// What is counted of a case: the laws of a plug-in, which what is wrong in another form of a case
+// alone breaks, and what its claims allow does not; and how far a case goes.
+#include "properties/campaign/trials/case_tally.h"
+
+#include <csignal>
+#include <new>
 
 #include "properties/campaign/ledger/tally.h"
-#include "properties/campaign/trials/case_tally.h"
 #include "properties/worker/worker_process.h"
+#include "tests/curated_cases.h"
+#include "tests/meshes.h"
 #include "tests/properties/campaign/campaign_request.h"
 #include "tests/properties/small_case.h"
 #include "tests/reports/program.h"
@@ -17,10 +21,6 @@ FormLaw form_named(std::string_view name) {
     if (form.law == name) return form;
   }
   throw std::invalid_argument(std::string(name));
-}
-
-corpus::Case curated_mesh(const std::string& name) {
-  return corpus::read_case(ASSAY_SOURCE_DIR "/corpus/curated/" + name + ".json").value();
 }
 
 class FormCheckOf {
@@ -53,7 +53,7 @@ TEST(Forms, OfARightDetectorHoldAndDifferInNothing) {
   std::set<std::string_view> met;
   for (const auto& form : form_laws()) {
     for (const char* name : {"C1_lost_plus_plus", "D8_release_arm_sequence", "A3_nonstrict_end"}) {
-      const auto found = check(form.law, curated_mesh(name));
+      const auto found = check(form.law, tests::curated_case(name));
       EXPECT_FALSE(found.failure) << form.law << " of " << name << ": "
                                   << found.failure->explanation;
       EXPECT_EQ(found.count.differs, 0u) << form.law << " of " << name;
@@ -71,11 +71,8 @@ TEST(Forms, AContactThatOnlyTheWayBackMissesBreaksTheLaw) {
   FormCheckOf check(test::plugin("fault_elementary_end-excluded"));
   corpus::Case c;
   c.id = "touches:at:start:0";
-  c.triangles.resize(2, 3);
-  c.triangles << 0, 1, 2, 3, 4, 5;
-  detector::Positions x(6, 3);
-  x << 0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, 0, 1, 1, 5, 2, 1, 5;
-  c.frames = {x, x};
+  c.triangles = tests::triangles({{0, 1, 2}, {3, 4, 5}});
+  c.frames.assign(2, tests::positions_of("0 0 0, 4 0 0, 0 4 0, 1 1 0, 1 1 5, 2 1 5"));
   c.frames[1].bottomRows(3).col(2).array() += 3;
   const auto found = check("Change_StepReversed", c);
   EXPECT_EQ(found.count, (LawCount{1, 0, 1, {}, 1}));
@@ -125,7 +122,7 @@ TEST(Forms, AMeshThatFailsWhenItIsRefinedBreaksL18) {
 
 // Its second intervals are wider. That its claims allow, but not who claims to be deterministic.
 TEST(Forms, OtherAnswersToTheSameCallsAreNotDeterministic) {
-  const auto c = curated_mesh("C1_lost_plus_plus");
+  const auto c = tests::curated_case("C1_lost_plus_plus");
   ::setenv("ASSAY_BY_CONTRACT", "claims=127 changing", 1);
   const auto claimed = FormCheckOf(test::plugin("by_contract"))("Change_EvaluateChangesNothing", c);
   ::setenv("ASSAY_BY_CONTRACT", "claims=63 changing", 1);
@@ -162,6 +159,129 @@ TEST(Forms, AreCountedWithTheTrials) {
   }
   EXPECT_GT(premises, 40u);
   EXPECT_TRUE(store.failures().empty());
+}
+
+// How far a case goes, told of cases that are known by heart.
+
+// A fan of five triangles about vertex 0, and a triangle by itself, in so many frames.
+corpus::Case fan_and_triangle(int frames) {
+  corpus::Case c;
+  c.triangles = tests::triangles_of("0 1 2, 0 2 3, 0 3 4, 0 4 5, 0 5 6, 7 8 9");
+  for (int f = 0; f < frames; ++f)
+    c.frames.emplace_back(detector::Positions::Constant(10, 3, f));  // each at another place
+  return c;
+}
+
+TEST(Extremes, OfTheMesh) {
+  const auto most = extremes_of(fan_and_triangle(2), {});
+  EXPECT_EQ(most, (Extremes{1, 5, 0, 2, 0, 6}));
+  // Components go by vertices, so the one by itself is joined at a corner.
+  auto joined = fan_and_triangle(2);
+  joined.triangles(5, 0) = 0;
+  EXPECT_EQ(extremes_of(joined, {}), (Extremes{1, 6, 0, 1, 0, 6}));
+}
+
+TEST(Extremes, BodiesAreThoseOfARelation) {
+  auto c = fan_and_triangle(2);
+  c.counted.emplace().pairs.rings = 2;
+  EXPECT_EQ(extremes_of(c, {}).bodies, 0u);
+  c.counted->pairs.body = {0, 0, 0, 0, 0, 0, 0, 2, 2, 2};
+  EXPECT_EQ(extremes_of(c, {}).bodies, 3u);
+}
+
+TEST(Extremes, StepsGoOnFromCommittedOnesAlone) {
+  auto c = fan_and_triangle(6);
+  EXPECT_EQ(extremes_of(c, {}).steps_in_a_row, 5u);
+  EXPECT_EQ(new_starts(c), std::vector<std::size_t>{0});
+  const auto told = [&](std::vector<corpus::CaseStep> script) {
+    c.script = std::move(script);
+    return new_starts(c);
+  };
+  using Places = std::vector<std::size_t>;
+  EXPECT_EQ(told({{0, 1}, {1, 2}, {3, 4}, {4, 5}, {5, 0}}), (Places{0, 2}));
+  EXPECT_EQ(extremes_of(c, {}).steps_in_a_row, 3u);
+  // What is evaluated and not committed goes on, and is gone on from by nobody.
+  EXPECT_EQ(told({{0, 1}, {1, 2, false}, {1, 3}, {2, 3}}), (Places{0, 3}));
+  EXPECT_EQ(extremes_of(c, {}).steps_in_a_row, 3u);
+  EXPECT_EQ(told({{0, 1, false}, {1, 2}, {2, 3}}), (Places{0, 1}));
+  EXPECT_EQ(extremes_of(c, {}).steps_in_a_row, 2u);
+}
+
+TEST(Extremes, PairsAreThoseOfTheFullestStep) {
+  std::vector<oracle::StepJudgement> truth(3);
+  truth[0].pairs.resize(2);
+  truth[1].pairs.resize(7);
+  EXPECT_EQ(extremes_of(fan_and_triangle(4), truth).pairs, 7u);
+}
+
+TEST(Extremes, OfManyTheLargerOfEachStays) {
+  Extremes most{1, 20, 3, 40, 5, 60};
+  most.include({10, 2, 30, 4, 50, 6});
+  EXPECT_EQ(most, (Extremes{10, 20, 30, 40, 50, 60}));
+}
+
+// A crash inside a law is a broken law, and nothing else is lost by it.
+
+const LawTally held{7, 2, 0, ""};
+
+std::vector<LawTally> checks_with(std::size_t count, std::size_t bad,
+                                  const std::function<void()>& what_it_does) {
+  return check_in_copies(
+      count, [](std::size_t) { return "a:1:b:2"; },
+      [&](std::size_t i) {
+        if (i == bad) what_it_does();
+        return held;
+      });
+}
+
+TEST(LawChecks, ACrashBreaksTheLawAndNoOther) {
+  const auto tallies = checks_with(4, 1, [] { std::abort(); });
+  const LawTally crashed{1, 0, 1, "a:1:b:2: the check ended: killed by signal 6 (Aborted)"};
+  EXPECT_EQ(tallies, (std::vector<LawTally>{held, crashed, held, held}));
+}
+
+TEST(LawChecks, AnExitIsACrashToo) {
+  for (const int code : {0, 3}) {
+    const auto tallies = checks_with(3, 2, [&] { std::_Exit(code); });
+    ASSERT_EQ(tallies.size(), 3u);
+    EXPECT_EQ(tallies[2].broken, 1u);
+    EXPECT_TRUE(says(tallies[2].first_broken, "exited with code " + std::to_string(code)));
+  }
+}
+
+TEST(LawChecks, NumbersAndWordsArrive) {
+  const LawTally broken{1ull << 60, 3, 2, "case \"x\", step 1:\n\xff"};
+  const auto tallies = check_in_copies(
+      1000, [](std::size_t) { return "c"; },
+      [&](std::size_t i) { return i == 998 ? broken : held; });
+  ASSERT_EQ(tallies.size(), 1000u);
+  EXPECT_EQ(tallies[998].premise, broken.premise);
+  EXPECT_TRUE(tallies[998].first_broken.starts_with("case \"x\", step 1:\n"));
+  EXPECT_EQ(tallies[999], held);
+  EXPECT_TRUE(check_in_copies(0, {}, [](std::size_t) -> LawTally { std::abort(); }).empty());
+}
+
+TEST(LawChecks, WhatIsThrownIsThrown) {
+  EXPECT_THROW(checks_with(2, 1, [] { throw std::bad_alloc(); }), std::bad_alloc);
+  try {
+    checks_with(2, 1, [] { throw std::logic_error("no such thing"); });
+    FAIL();
+  } catch (const std::runtime_error& failure) {
+    EXPECT_STREQ(failure.what(), "no such thing");
+  }
+}
+
+TEST(LawChecks, WhoIsKilledFromOutsideBeginsAgain) {
+  // Only a file outlives the copies.
+  const tests::Scratch scratch;
+  const std::string mark = scratch / "killed once";
+  const auto tallies = checks_with(2, 1, [&] {
+    if (std::filesystem::exists(mark)) return;
+    std::ofstream(mark) << "x";
+    std::raise(SIGTERM);
+  });
+  EXPECT_EQ(tallies, (std::vector<LawTally>{held, held}));
+  EXPECT_THROW(checks_with(2, 1, [] { std::raise(SIGKILL); }), std::runtime_error);
 }
 
 }  // namespace
