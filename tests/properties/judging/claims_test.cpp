@@ -310,7 +310,8 @@ TEST(Claims, Float32RoundsToNearest) {
 // The diff must find what is wrong: each kind of difference is planted once.
 
 detector::StepResult result_with(std::vector<PairContact> pairs) {
-  auto result = collision(truth(pairs).first, std::move(pairs));
+  const auto first = truth(pairs).first;
+  auto result = collision(first, std::move(pairs));
   if (result.pairs.empty()) result = answer(Answer::free);
   return result;
 }

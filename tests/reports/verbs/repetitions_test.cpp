@@ -20,8 +20,8 @@ class Repetitions : public testing::Test {
   Outcome judge(const std::string& verb, const std::string& library, int triangles,
                 const std::string& more = "", const std::string& prefix = "") const {
     const auto plan = scratch.write(
-        "plan.json",
-        plan_text(6, R"(, "policy": {"repeated_triangles": )" + std::to_string(triangles) + "}"));
+        "plan.json", plan_text(6, R"(, "shrink_share": 0.01, "policy": {"repeated_triangles": )" +
+                                      std::to_string(triangles) + "}"));
     return run_assay(verb + " --campaign " + plan + " --jobs 2 --out " + out + " --detector " +
                          plugin(library) + " " + more,
                      prefix);
