@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "properties/random.h"
+
 namespace assay::properties {
 namespace {
 

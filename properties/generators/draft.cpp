@@ -4,7 +4,19 @@
 #include <set>
 #include <utility>
 
+#include "properties/random.h"
+
 namespace assay::properties {
+
+Point any_vector(Random& random) {
+  return {random.signed_unit(), random.signed_unit(), random.signed_unit()};
+}
+
+Point integer_point(Random& random, int reach) {
+  Point p;
+  for (double& c : p) c = random.between(-reach, reach);
+  return p;
+}
 
 void drop_unused_vertices(Draft& draft) {
   std::vector<std::int32_t> number(draft.rest().size(), -1);

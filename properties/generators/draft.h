@@ -10,9 +10,10 @@
 #include "corpus/cases/case_file.h"
 #include "detector/mesh/types.h"
 #include "properties/numbering.h"
-#include "properties/random.h"
 
 namespace assay::properties {
+
+class Random;
 
 // A random case, and words for what it was made of.
 
@@ -49,20 +50,13 @@ inline Point cross(const Point& a, const Point& b) {
 inline Point between(const Point& a, const Point& b, double s) { return a + s * (b - a); }
 
 // Each coordinate in [-1, 1).
-inline Point any_vector(Random& random) {
-  return {random.signed_unit(), random.signed_unit(), random.signed_unit()};
-}
+Point any_vector(Random& random);
+Point integer_point(Random& random, int reach);  // in [-reach, reach]
 
 inline Point mean(const Points& points) {
   Point sum = {0, 0, 0};
   for (const auto& p : points) sum = sum + p;
   return (1.0 / static_cast<double>(points.size())) * sum;
-}
-
-inline Point integer_point(Random& random, int reach) {
-  Point p;
-  for (double& c : p) c = random.between(-reach, reach);
-  return p;
 }
 
 using Face = std::array<std::int32_t, 3>;

@@ -7,6 +7,7 @@
 #include "corpus/scenes/trigonometry.h"
 #include "detector/geometry/orientation.h"
 #include "properties/generators/shapes/shapes.h"
+#include "properties/random.h"
 
 namespace assay::properties {
 

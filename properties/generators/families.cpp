@@ -14,6 +14,7 @@
 #include "properties/generators/motions.h"
 #include "properties/generators/relations.h"
 #include "properties/generators/shapes/shapes.h"
+#include "properties/random.h"
 
 namespace assay::properties {
 

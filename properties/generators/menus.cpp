@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "properties/generators/everyday.h"
+#include "properties/random.h"
 
 namespace assay::properties {
 

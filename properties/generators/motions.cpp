@@ -5,6 +5,7 @@
 
 #include "corpus/scenes/trigonometry.h"
 #include "properties/generators/aims.h"
+#include "properties/random.h"
 
 namespace assay::properties {
 

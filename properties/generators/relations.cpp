@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "detector/mesh/topology.h"
+#include "properties/random.h"
 
 namespace assay::properties {
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "properties/generators/draft.h"
+#include "properties/random.h"
 #include "properties/search/degeneracy.h"
 #include "properties/search/moves.h"
 

@@ -6,6 +6,7 @@
 
 #include "oracle/mesh/loops.h"
 #include "properties/generators/draft.h"
+#include "properties/random.h"
 #include "properties/reducer/case_edits.h"
 #include "properties/search/moves.h"
 #include "properties/worker/plugin/query_case.h"

@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "properties/judging/trial.h"
-#include "properties/random.h"
 #include "properties/search/moves.h"
 
 namespace assay::properties {

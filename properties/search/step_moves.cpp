@@ -7,6 +7,7 @@
 #include "detector/boundary/boundary_handler.h"
 #include "oracle/mesh/loops.h"
 #include "properties/generators/draft.h"
+#include "properties/random.h"
 #include "properties/search/moves.h"
 
 namespace assay::properties {

@@ -8,6 +8,7 @@
 
 #include "detector/mesh/topology.h"
 #include "properties/generators/draft.h"
+#include "properties/random.h"
 #include "properties/search/degeneracy.h"
 #include "properties/search/moves.h"
 

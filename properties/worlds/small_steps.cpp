@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "properties/generators/draft.h"
+#include "properties/random.h"
 
 namespace assay::properties {
 namespace {

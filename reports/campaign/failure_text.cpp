@@ -8,6 +8,7 @@
 #include <span>
 
 #include "corpus/files.h"
+#include "properties/campaign/gates/shared_traits.h"
 #include "properties/campaign/ledger/run_folder.h"
 #include "properties/judging/cause.h"
 #include "properties/queries/query_families.h"
@@ -224,7 +225,7 @@ Expected<void> write_failures(const properties::KeptFailures& kept,
 }
 
 std::string failures_text(const properties::RunFindings& findings) {
-  std::string out;
+  std::string out = properties::shared_traits_text(findings);
   std::set<std::string> told;
   const auto failures = in_order(findings.failures);
   for (const auto& shown : failures) {
@@ -237,7 +238,7 @@ std::string failures_text(const properties::RunFindings& findings) {
             fmt::format("  also {} ({}): {}\n", other.id, other.configuration, other.explanation);
     }
   }
-  return out.empty() ? "no failures\n" : out;
+  return failures.empty() ? "no failures\n" : out;
 }
 
 Expected<void> write_slow_cases(const std::vector<SlowCase>& cases,

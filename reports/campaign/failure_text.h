@@ -31,7 +31,8 @@ Expected<void> write_failures(const properties::KeptFailures& kept,
                               const std::filesystem::path& out, const DetectorWords& detector,
                               std::string& text);
 
-// A paragraph for each signature of a run's failures, and a line for each further case of it.
+// What the failures share (properties/campaign/gates/shared_traits.h), a paragraph for each
+// signature of them, and a line for each further case of it.
 std::string failures_text(const properties::RunFindings& findings);
 
 // Writes two files for each case that was kept, OUT/slow/ID-CONFIGURATION-original.json and

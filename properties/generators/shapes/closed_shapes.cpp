@@ -5,6 +5,7 @@
 
 #include "corpus/scenes/trigonometry.h"
 #include "properties/generators/shapes/shapes.h"
+#include "properties/random.h"
 
 namespace assay::properties {
 

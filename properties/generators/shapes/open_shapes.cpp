@@ -2,6 +2,7 @@
 
 #include "corpus/scenes/trigonometry.h"
 #include "properties/generators/shapes/shapes.h"
+#include "properties/random.h"
 
 namespace assay::properties {
 

@@ -19,6 +19,7 @@
 #include "properties/laws/facts/case_facts.h"
 #include "properties/numbering.h"
 #include "properties/queries/query_families.h"
+#include "properties/random.h"
 #include "tests/meshes.h"
 #include "tests/test.h"
 

@@ -94,6 +94,26 @@ TEST_F(Run, JobsDoNotChangeTheTallies) {
   EXPECT_EQ(trials_of(out), alone);
 }
 
+// One bug is many kinds of failure: what all of these share is told, and not what cases that hold
+// have as often.
+TEST_F(Run, WhatAllLostContactsShareIsTold) {
+  const auto plan = scratch.write("many.json", plan_text(80, R"(, "shrink_share": 0.01)"));
+  const auto judged = [&](const std::string& library) {
+    return run_assay("run --campaign " + plan + " --out " + out + "-" + library + " --detector " +
+                     plugin(library))
+        .out;
+  };
+  const auto one_bug = judged("fault_elementary_only-vertex-face");
+  const std::regex told(R"(\nall \d+ kinds that lose a contact: edge-edge)"
+                        R"( \(\d of \d+ cases that hold ha(s|ve) such a contact\)\n)");
+  std::smatch line;
+  ASSERT_TRUE(std::regex_search(one_bug, line, told)) << one_bug;
+  const auto listed = run_assay("list failures " + out + "-fault_elementary_only-vertex-face").out;
+  EXPECT_EQ("\n" + listed.substr(0, listed.find('\n') + 1), line.str());
+  // It misses everything, so that nothing tells one contact from another.
+  EXPECT_FALSE(contains(judged("always_free"), "kinds that lose a contact"));
+}
+
 TEST_F(Run, ADefectHasAllThatIsNeededToSeeIt) {
   // A space in a name must not break the line.
   out = "'" + scratch / "with space" + "'";
