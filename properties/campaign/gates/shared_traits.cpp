@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <iterator>
 #include <optional>
@@ -151,8 +152,9 @@ std::size_t cases_with(const std::vector<std::vector<Traits>>& cases, const Word
 }  // namespace
 
 std::string shared_traits_text(const RunFindings& findings) {
-  constexpr std::size_t fewest_kinds = 3, most_that_hold = 100, telling_share = 10;
-  Words kinds, shared;
+  constexpr std::size_t most_that_hold = 100;
+  constexpr double most_by_chance = 1e-4;  // some thirty traits are tried
+  Words kinds, cases, shared;
   std::uint64_t least = ~std::uint64_t{0};
   for (const auto& failure : findings.failures) {
     const auto traits = traits_of(failure);
@@ -162,8 +164,9 @@ std::string shared_traits_text(const RunFindings& findings) {
     shared = kinds.empty() ? traits->words : both;
     least = std::min(least, traits->triangles);
     kinds.insert(failure.signature);
+    cases.insert(failure.id);
   }
-  if (kinds.size() < fewest_kinds) return "";
+  if (kinds.size() < 2) return "";
   const auto held = traits_that_hold(findings, most_that_hold);
 
   // The most telling trait first, then each that leaves at most half of the cases that hold.
@@ -178,8 +181,8 @@ std::string shared_traits_text(const RunFindings& findings) {
     for (const auto& word : shared) {
       Words with = told;
       with.insert(word);
-      const auto cases = cases_with(held, with, triangles);
-      if (cases < fewest) std::tie(fewest, best, tells) = std::tuple(cases, word, true);
+      const auto others = cases_with(held, with, triangles);
+      if (others < fewest) std::tie(fewest, best, tells) = std::tuple(others, word, true);
     }
     const auto large = cases_with(held, told, least);
     if (large < fewest) {
@@ -193,7 +196,10 @@ std::string shared_traits_text(const RunFindings& findings) {
     }
     left = fewest;
   }
-  if (in_order.empty() || left * telling_share > held.size()) return "";
+  // How likely so many failing cases have them by chance, if they are as frequent as in those that
+  // hold, or a little more.
+  const double share = (static_cast<double>(left) + 1) / (static_cast<double>(held.size()) + 1);
+  if (in_order.empty() || std::pow(share, cases.size()) > most_by_chance) return "";
   return fmt::format(
       "all {} kinds that lose a contact: {} ({} of {} cases that hold {} such a contact)\n",
       kinds.size(), fmt::join(in_order, ", "), left, held.size(), left == 1 ? "has" : "have");
