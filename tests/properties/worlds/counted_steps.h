@@ -1,5 +1,5 @@
 // Random steps with a relation that says which pairs count (L19), and whether a plain loop over all
-// pairs of triangles, the oracle and the detector agree on them.
+// pairs of triangles (plain_contacts.h), the oracle and the detector agree on them.
 //
 // Coordinates are small integers, so that degenerate contacts and distances that equal the limit
 // are frequent. A mesh has one to three parts, closed, a tube, open or a sheet; some of them stand
