@@ -87,7 +87,7 @@ Swarm::Swarm(const std::string& lane, const SearchSpace& space, std::uint64_t be
 namespace {
 
 // How far the detector is off, in bits: what it may be under its contract counts too.
-double error_bits(const SearchedCase& judged) {
+double error_bits(const Examined& judged) {
   constexpr double alarm = 8, no_answer = 8, disagreement = 16, bits_of_a_double = 53;
   double bits = 0;
   for (std::size_t i = 0; i < judged.trials.size(); ++i) {
@@ -109,7 +109,7 @@ double error_bits(const SearchedCase& judged) {
 
 // What the detector did in its first configuration, in a few letters: it distinguishes cases of one
 // cause that go different ways through it.
-std::string ways_of(const SearchedCase& judged) {
+std::string ways_of(const Examined& judged) {
   std::string ways;
   if (judged.runs.empty()) return ways;
   for (const auto& step : judged.runs[0].steps) {
@@ -143,8 +143,8 @@ std::string word_of_hardest(const Gap& gap) {
   return name_of(static_cast<Hardness>(least - gap.share.begin()));
 }
 
-std::optional<Scored> scored(const corpus::Case& c, const SearchedCase& judged,
-                             const SearchSpace& space, Random& random) {
+std::optional<Scored> scored(const Examined& judged, const SearchSpace& space, Random& random) {
+  const auto& c = judged.c;
   const auto focus = focus_of(c, judged.truth, space.contract, random);
   if (!focus) return std::nullopt;
   const double separation = space.contract.separation;
@@ -220,7 +220,7 @@ class LaneSearch {
   LaneSearch(const SearchLane& lane, const SearchSpace& space)
       : lane_(lane), space_(space), swarm_(lane.id, space, 0) {}
 
-  LaneResult run(const JudgeCases& judge, const std::function<bool()>& stop) {
+  LaneResult run(const ExamineCases& examine, const std::function<bool()>& stop) {
     while (result_.cases < lane_.cases) {
       if (stop && stop()) return std::move(result_);
       constexpr std::uint64_t together = 8, cases_of_a_swarm = 32, most_idle = 20;
@@ -240,8 +240,7 @@ class LaneSearch {
       renew_ = batch.size() < wanted;
       of_swarm_ += batch.size();
       if (idle_ > most_idle) break;  // the contract takes none
-      const auto judged = judge(batch);
-      for (std::size_t i = 0; i < batch.size(); ++i) take(batch[i], judged[i]);
+      for (const auto& one : examine(std::move(batch))) take(one);
     }
     result_.complete = true;
     result_.causes = archive_.take_causes();
@@ -307,7 +306,8 @@ class LaneSearch {
     return made.c;
   }
 
-  void take(const corpus::Case& c, const SearchedCase& judged) {
+  void take(const Examined& judged) {
+    const corpus::Case& c = judged.c;
     ++result_.cases;
     bool is_defect = false;
     for (std::size_t i = 0; i < judged.trials.size(); ++i) {
@@ -327,7 +327,7 @@ class LaneSearch {
       return;
     }
     Random random(c.id + ":focus");
-    if (auto one = scored(c, judged, space_, random)) archive_.offer(std::move(*one));
+    if (auto one = scored(judged, space_, random)) archive_.offer(std::move(*one));
   }
 
   const SearchLane& lane_;
@@ -344,9 +344,9 @@ class LaneSearch {
 
 }  // namespace
 
-LaneResult search(const SearchLane& lane, const SearchSpace& space, const JudgeCases& judge,
+LaneResult search(const SearchLane& lane, const SearchSpace& space, const ExamineCases& examine,
                   const std::function<bool()>& stop) {
-  return LaneSearch(lane, space).run(judge, stop);
+  return LaneSearch(lane, space).run(examine, stop);
 }
 
 }  // namespace assay::properties

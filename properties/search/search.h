@@ -15,20 +15,13 @@
 #include <string>
 #include <vector>
 
-#include "properties/judging/trial.h"
+#include "properties/judging/exam.h"
 #include "properties/search/moves.h"
 
 namespace assay::properties {
 
-// What the oracle and the detector say of one case; a trial and a run for each configuration.
-struct SearchedCase {
-  std::vector<oracle::StepJudgement> truth;
-  std::vector<CaseRun> runs;
-  std::vector<JudgedTrial> trials;
-};
-
-// Judges some cases, each as the contract has it.
-using JudgeCases = std::function<std::vector<SearchedCase>(std::span<const corpus::Case>)>;
+// Examines some cases, each as the contract has it.
+using ExamineCases = std::function<std::vector<Examined>(std::vector<corpus::Case>)>;
 
 // Where fresh cases come from. A case of at most so many triangles is wanted; a larger one is not
 // taken.
@@ -77,7 +70,7 @@ struct LaneResult {
 
 // A lane of which the contract takes no case ends early. `stop` is asked between batches of cases.
 // The same lane gives the same result wherever it runs.
-LaneResult search(const SearchLane& lane, const SearchSpace& space, const JudgeCases& judge,
+LaneResult search(const SearchLane& lane, const SearchSpace& space, const ExamineCases& examine,
                   const std::function<bool()>& stop);
 
 // What a lane of the search does for a while: which moves it makes, where its cases come from, how

@@ -10,6 +10,7 @@
 #include "properties/campaign/plan.h"
 #include "properties/campaign/trials/case_tally.h"
 #include "properties/judging/case_check.h"
+#include "properties/judging/exam.h"
 #include "properties/queries/listed_queries.h"
 #include "properties/worker/plugin/query_case.h"
 #include "properties/worker/worker_process.h"
@@ -107,26 +108,26 @@ class JudgedRows {
       return;
     }
     const auto& configurations = request_.detector.configurations;
-    const auto runs = worker_.run(*seen, configurations);
-    // A run without a step is judged without the truth, which takes most of the time by far.
-    const bool is_answered =
-        std::any_of(runs.begin(), runs.end(), [](const auto& run) { return !run.steps.empty(); });
-    std::vector<oracle::StepJudgement> truth;
-    if (is_answered)
-      truth = properties::judge_case(*seen, request_.detector.contract, request_.jobs);
-    hung_ += std::any_of(runs.begin(), runs.end(),
+    const auto examined = properties::examine({.detector = request_.detector,
+                                               .configurations = configurations,
+                                               .worker = &worker_,
+                                               .oracle_jobs = request_.jobs,
+                                               .needs_an_answer = true},
+                                              *seen);
+    hung_ += std::any_of(examined.runs.begin(), examined.runs.end(),
                          [](const auto& run) { return run.end == properties::RunEnd::hung; });
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-      for (const auto& step : truth) count(rows_[i], step);
-      const auto verdict =
-          properties::judge_trial(*seen, truth, runs[i], configurations[i], request_.detector);
+      for (const auto& step : examined.truth) count(rows_[i], step);
+      const auto& verdict = examined.trials[i];
       if (!verdict.steps.empty() && verdict.outcome != Outcome::refused)
-        count_extremes(rows_[i], *seen, truth, properties::has_judged_contact(verdict.steps));
+        count_extremes(rows_[i], *seen, examined.truth,
+                       properties::has_judged_contact(verdict.steps));
       if (verdict.outcome == Outcome::holds || verdict.outcome == Outcome::refused) continue;
       const auto& failure = verdict.failure;
       rows_[i].defects += failure ? 1 : 0;
       if (!failure) {
-        rows_[i].open.push_back({before_id_ + c.id, "", "no verdict: " + runs[i].explanation});
+        rows_[i].open.push_back(
+            {before_id_ + c.id, "", "no verdict: " + examined.runs[i].explanation});
       } else {
         rows_[i].failed.push_back({before_id_ + c.id, failure->signature(), failure->explanation});
         on_failure_({std::string(properties::corpus_in_id) + before_id_ + c.id,
@@ -136,7 +137,7 @@ class JudgedRows {
                      corpus::case_text(*seen),
                      {},
                      false,
-                     runs[i].printed});
+                     examined.runs[i].printed});
       }
     }
   }

@@ -135,7 +135,8 @@ bool QueryDetector::answers_alone(const detector::FourPoints& query,
   auto fresh = subject_.process();
   const auto asked =
       properties::contracted(properties::case_of_query(query, "query"), subject_.detector.contract);
-  return same_answers(run, fresh.run(*asked, {&asked_query, 1}).front());
+  return same_answers(
+      run, properties::run_alone({subject_.detector, {&asked_query, 1}, &fresh}, *asked, 0));
 }
 
 std::vector<JudgedQuery> QueryDetector::judge_some(std::span<const detector::FourPoints> queries) {
@@ -152,20 +153,15 @@ std::vector<JudgedQuery> QueryDetector::judge_some(std::span<const detector::Fou
     places.push_back(i);
     cases.push_back(std::move(*seen));
   }
-  auto runs = worker_.run(cases, {&asked_query, 1});
-  std::vector<properties::CaseRun> again;
-  if (plugin.claims.has(properties::Claim::deterministic)) {
-    again = second_.run(std::vector(cases.rbegin(), cases.rend()), {&asked_query, 1});
-    std::reverse(again.begin(), again.end());
-  }
+  const bool asks_twice = plugin.claims.has(properties::Claim::deterministic);
+  auto examined = properties::examine(
+      {plugin, {&asked_query, 1}, &worker_, asks_twice ? &second_ : nullptr}, std::move(cases));
   for (std::size_t i = 0; i < places.size(); ++i) {
     JudgedQuery& one = judged[places[i]];
-    one.run = std::move(runs[i]);
+    one.run = std::move(examined[i].runs[0]);
     crashes_ += one.run.end == properties::RunEnd::crashed ? 1 : 0;
-    const auto truth = properties::judge_case(cases[i], plugin.contract);
-    one.contact = !truth[0].pairs.empty();
-    one.verdict = properties::judge_trial(cases[i], truth, one.run, asked_query, plugin,
-                                          again.empty() ? nullptr : &again[i]);
+    one.contact = !examined[i].truth[0].pairs.empty();
+    one.verdict = std::move(examined[i].trials[0]);
     measures_ += properties::measures_of(one.verdict.steps, one.run.steps);
   }
   return judged;

@@ -12,7 +12,7 @@
 
 #include "detector/mesh/step_types.h"
 #include "properties/campaign/ledger/step_measures.h"
-#include "properties/judging/trial.h"
+#include "properties/judging/exam.h"
 #include "reports/terminal/option_words.h"
 #include "reports/terminal/work.h"
 

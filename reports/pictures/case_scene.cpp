@@ -8,7 +8,7 @@
 
 #include "detector/mesh/mesh_checks.h"
 #include "properties/judging/case_check.h"
-#include "properties/judging/judged_run.h"
+#include "properties/judging/exam.h"
 #include "properties/worker/plugin/query_case.h"
 #include "reports/pictures/mesh_svg.h"
 #include "reports/terminal/option_words.h"
@@ -265,13 +265,16 @@ std::optional<CaseScene> make_scene(const corpus::Case& c,
   auto seen = properties::contracted(c, detector.contract);
   if (!seen) return std::nullopt;
   CaseScene scene;
-  scene.c = std::move(*seen);
-  auto truth = properties::judge_case(scene.c, detector.contract);
-  properties::CaseRun run{RunEnd::not_run, "the detector is not at hand", {}};
-  if (worker) run = worker->run(scene.c, {&configuration, 1}).front();
-  properties::JudgedTrial judged;
-  if (run.end != RunEnd::not_run)
-    judged = properties::judge_trial(scene.c, truth, run, configuration, detector);
+  const properties::Exam exam{detector, {&configuration, 1}, worker};
+  properties::Examined examined;
+  examined.c = std::move(*seen);
+  examined.runs = {{RunEnd::not_run, "the detector is not at hand", {}}};
+  if (worker) run_first(exam, examined);
+  judge(exam, examined);
+  scene.c = std::move(examined.c);
+  auto& truth = examined.truth;
+  auto& judged = examined.trials[0];
+  const auto& run = examined.runs[0];
   scene.failure = judged.failure;
   scene.contract = detector.contract;
   if (run.end != RunEnd::completed) scene.ended = end_text(run);

@@ -13,6 +13,7 @@
 #include "properties/campaign/trials/planned_case.h"
 #include "properties/generators/draft.h"
 #include "properties/judging/case_check.h"
+#include "properties/judging/exam.h"
 #include "properties/queries/query_families.h"
 #include "properties/reducer/mesh_size.h"
 #include "properties/words.h"
@@ -244,19 +245,17 @@ Expected<int> run_replay(const ReplayRequest& request) {
     return Problem{fmt::format("{}: nothing of it is within the detector's contract: {}",
                                request.id_or_file, properties::why_left_out(c, contract))};
   }
-  const auto truth = properties::judge_case(*seen, contract);
-  auto worker = subject.process();
-  const auto runs = worker.run(*seen, subject.detector.configurations);
-  for (const auto& run : runs) {
-    if (run.end == properties::RunEnd::not_run) return Problem{run.explanation};
-  }
   // A plug-in that claims to be deterministic is asked again, as in a campaign: in another process,
   // in which each step is evaluated twice.
   const bool asks_twice =
       !subject.detector.built_in && subject.detector.claims.has(properties::Claim::deterministic);
-  auto second = subject.process(1, true);
-  const auto again = asks_twice ? second.run(*seen, subject.detector.configurations)
-                                : std::vector<properties::CaseRun>{};
+  auto worker = subject.process(), second = subject.process(1, true);
+  const auto examined = properties::examine(
+      {subject.detector, subject.detector.configurations, &worker, asks_twice ? &second : nullptr},
+      *seen);
+  if (auto why = examined.why_not_run(); !why.empty()) return Problem{std::move(why)};
+  const auto& runs = examined.runs;
+  const auto& truth = examined.truth;
   fmt::print("{}: {}{}\n", properties::printable(c.id), properties::size_text(c),
              c.about.empty() ? "" : "; " + properties::printable(c.about));
   if (trial) fmt::print("{}", misspelt(request.id_or_file));
@@ -268,8 +267,7 @@ Expected<int> run_replay(const ReplayRequest& request) {
   auto exported = subject.detector;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const auto& configuration = subject.detector.configurations[i];
-    const auto verdict = properties::judge_trial(
-        *seen, truth, runs[i], configuration, subject.detector, asks_twice ? &again[i] : nullptr);
+    const auto& verdict = examined.trials[i];
     std::string text = run_text(runs[i], verdict, is_query);
     if (verdict.outcome == Outcome::defect) code = exit_defect;
     if (verdict.failure && !broken) {

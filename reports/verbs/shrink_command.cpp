@@ -42,10 +42,9 @@ std::optional<Failing> find_failure(const corpus::Case& c,
     if (finding) return Failing{finding->signature, configuration, nullptr};
   }
   if (!detector.built_in) return std::nullopt;
-  const auto runs = worker.run(c, detector.configurations);
-  const auto truth = properties::judge_case(c);
+  const auto examined = properties::examine({detector, detector.configurations, &worker}, c);
   const properties::GeneratedCase made{c, {}};
-  const properties::RunCase one{made, detector.configurations, runs, truth};
+  const properties::RunCase one{made, detector.configurations, examined.runs, examined.truth};
   const auto tally = properties::tally_cases({&one, 1}).front();
   if (tally.broken.empty()) return std::nullopt;
   const auto& broken = tally.broken.front();

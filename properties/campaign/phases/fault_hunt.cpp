@@ -8,6 +8,7 @@
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/ledger/database.h"
 #include "properties/campaign/phases/shrink.h"
+#include "properties/campaign/trials/trials.h"
 #include "properties/generators/draft.h"
 #include "properties/generators/families.h"
 #include "properties/judging/fault_run.h"
@@ -200,13 +201,13 @@ Canary meet_canary(const CampaignRequest& request) {
   const auto known = families();
   for (std::uint64_t i = 0; i < most_cases; ++i) {
     const Family& family = known[i % known.size()];
-    const auto made = make_case(
+    auto made = make_case(
         family, fmt::format("{}:{}.canary:{}:{}", request.plan.name, request.seed, family.name, i));
-    const auto run = worker.run(made.c, {&configuration, 1});
-    if (run[0].end == RunEnd::not_run) throw StoreProblem(run[0].explanation);
-    const auto verdict = judge_trial(made.c, judge_case(made.c), run[0], configuration, detector);
+    const auto examined = examine({detector, {&configuration, 1}, &worker}, std::move(made.c));
+    throw_if_not_run(examined);
     // A worker that dies does not show that a defect was seen.
-    if (run[0].end != RunEnd::completed || verdict.outcome != Outcome::defect) continue;
+    const bool is_complete = examined.runs[0].end == RunEnd::completed;
+    if (!is_complete || examined.trials[0].outcome != Outcome::defect) continue;
     result.found_after = i + 1;
     return result;
   }

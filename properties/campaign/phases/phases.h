@@ -30,9 +30,9 @@ struct SearchProgress {
   std::uint64_t lanes = 0, planned = 0, cases = 0, defects = 0;
 };
 
-// Judges cases in the worker, by the oracle and by what the detector claims. The arguments must
-// outlive it. Throws StoreProblem if there is no worker.
-JudgeCases judge_in(WorkerProcess& worker, const DetectorUnderTest& detector);
+// Examines the cases of a lane. The exam must outlive it. Throws StoreProblem if there is no
+// worker.
+ExamineCases examine_in_lane(const Exam& exam);
 
 // Searches in the lanes of this run that are not stored yet, and stores what each comes to: its
 // defects with their meshes, then the lane itself. So a run that is killed does again what was cut,

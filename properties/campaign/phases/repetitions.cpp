@@ -375,9 +375,17 @@ class Repetitions {
     std::map<std::string, int> kept;
     for (const auto s : places) {
       const auto alone = with_steps(c, {s}, contract());
-      const auto truth = judge_case(alone, contract(), is_small ? 1 : request_.jobs);
-      const auto judged =
-          judge_trial(alone, truth, step_alone(run, s), configuration(), request_.detector);
+      Examined examined;
+      examined.c = alone;
+      examined.runs = {step_alone(run, s)};
+      judge({request_.detector,
+             {&configuration(), 1},
+             nullptr,
+             nullptr,
+             is_small ? 1 : request_.jobs},
+            examined);
+      const auto& truth = examined.truth;
+      const auto& judged = examined.trials[0];
       // Without a verdict nothing is known of this size.
       if (judged.outcome != Outcome::holds && judged.outcome != Outcome::defect) continue;
       const auto facts = truth_of(alone, truth[0], contract());
@@ -402,10 +410,16 @@ class Repetitions {
     auto shown = with_steps(c, {s}, contract());
     if (!same_answers(step_alone(run, s), run_once(shown, 0)))
       shown = with_steps(c, first_places(s + 1), contract());
-    store_.add({fmt::format("{}{}, step {}", repeated_in_id, c.id, s + 1), configuration().name,
-                failure.signature(), failure.explanation,
-                corpus::case_text(failing_case(shown, configuration(), request_.detector, failure)),
-                "", false, run.printed});
+    add(fmt::format("{}, step {}", c.id, s + 1), shown, failure, run.printed);
+  }
+
+  void add(const std::string& id, const corpus::Case& shown, const Failure& failure,
+           const std::string& printed, bool flaky = false) {
+    auto stored =
+        stored_failure(shown, configuration(), request_.detector, failure, false, printed);
+    stored.id = fmt::format("{}{}", repeated_in_id, id);
+    stored.flaky = flaky;
+    store_.add(stored);
   }
 
   // Tells of a run that differs from the first one, or that ended in a way that breaks a claim.
@@ -428,10 +442,7 @@ class Repetitions {
     failure.kind = failure.claim == Claim::deterministic ? "two runs differ" : name_of(run.end);
     failure.cause = special_;
     failure.explanation = fmt::format("{}, {} triangles, {}", c.id, c.triangles.rows(), what);
-    const auto shown = failing_case(c, configuration(), request_.detector, failure);
-    store_.add({fmt::format("{}{}", repeated_in_id, c.id), configuration().name,
-                failure.signature(), failure.explanation, corpus::case_text(shown), "", true,
-                run.printed});
+    add(c.id, c, failure, run.printed, true);
   }
 
   const CampaignRequest& request_;

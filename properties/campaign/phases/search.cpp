@@ -53,13 +53,14 @@ class ShareSearch {
     // If something goes wrong in one thread, all of them end.
     try {
       WorkerProcess worker(request_.worker, request_.plugin, request_.worker_limits());
-      const auto judge = judge_in(worker, request_.detector);
+      const Exam exam{request_.detector, request_.detector.configurations, &worker};
+      const auto examine = examine_in_lane(exam);
       while (const auto lane = next_lane()) {
         const SearchLane searched{fmt::format("{}{}:{}:{}", searched_in_id, request_.plan.name,
                                               request_.seed, name_of_lane(*lane)),
                                   cases_of_lane(cases_, *lane)};
-        const auto result = search(searched, space_, judge, [this] { return is_over(); });
-        keep(*lane, result, worker);
+        const auto result = search(searched, space_, examine, [this] { return is_over(); });
+        keep(*lane, result, exam);
       }
     } catch (const StoreProblem& failure) {
       end_by(failure.problem());
@@ -96,24 +97,15 @@ class ShareSearch {
   }
 
   // A defect as it is stored: if the case, run again by itself, has other answers, it is flaky.
-  StoredFailure stored_of(const FoundDefect& found, WorkerProcess& worker) const {
-    const auto& configuration = request_.detector.configurations[found.configuration];
-    const auto again = worker.run(found.c, {&configuration, 1});
-    const bool flaky = !same_answers(found.run, again[0]);
-    const auto failing = failing_case(found.c, configuration, request_.detector, found.failure);
-    return {found.c.id,
-            configuration.name,
-            found.failure.signature() + (flaky ? " (flaky)" : ""),
-            found.failure.explanation,
-            corpus::case_text(failing),
-            "",
-            flaky,
-            found.run.printed};
+  static StoredFailure stored_of(const FoundDefect& found, const Exam& exam) {
+    const bool flaky = !same_answers(found.run, run_alone(exam, found.c, found.configuration));
+    return stored_failure(found.c, exam.configurations[found.configuration], exam.detector,
+                          found.failure, flaky, found.run.printed);
   }
 
-  void keep(std::uint64_t number, const LaneResult& result, WorkerProcess& worker) {
+  void keep(std::uint64_t number, const LaneResult& result, const Exam& exam) {
     std::vector<StoredFailure> failures;
-    for (const auto& found : result.found) failures.push_back(stored_of(found, worker));
+    for (const auto& found : result.found) failures.push_back(stored_of(found, exam));
     const SearchedLane lane{name_of_lane(number), cases_of_lane(cases_, number),
                             result.cases,         result.defects,
                             result.open,          {result.causes.begin(), result.causes.end()}};
@@ -140,22 +132,11 @@ class ShareSearch {
 
 }  // namespace
 
-JudgeCases judge_in(WorkerProcess& worker, const DetectorUnderTest& detector) {
-  return [&](std::span<const corpus::Case> cases) {
-    auto runs = worker.run(cases, detector.configurations);
-    const std::size_t configurations = detector.configurations.size();
-    std::vector<SearchedCase> judged(cases.size());
-    for (std::size_t i = 0; i < cases.size(); ++i) {
-      judged[i].truth = judge_case(cases[i], detector.contract);
-      for (std::size_t c = 0; c < configurations; ++c) {
-        auto& run = runs[i * configurations + c];
-        if (run.end == RunEnd::not_run) throw StoreProblem(run.explanation);
-        judged[i].trials.push_back(
-            judge_trial(cases[i], judged[i].truth, run, detector.configurations[c], detector));
-        judged[i].runs.push_back(std::move(run));
-      }
-    }
-    return judged;
+ExamineCases examine_in_lane(const Exam& exam) {
+  return [&exam](std::vector<corpus::Case> cases) {
+    auto examined = examine(exam, std::move(cases));
+    for (const auto& one : examined) throw_if_not_run(one);
+    return examined;
   };
 }
 

@@ -33,13 +33,11 @@ Judge judge_of_detector(const DetectorUnderTest& detector, const Configuration& 
     // fault of the detector.
     const bool vouched = configuration.options.start == detector::Start::clean;
     if (detector.built_in && vouched && !starts_clean(c)) return std::nullopt;
-    const auto run = worker.run(*seen, {&configuration, 1});
-    if (run[0].end == RunEnd::not_run) throw StoreProblem(run[0].explanation);
-    const auto verdict =
-        judge_trial(*seen, judge_case(*seen, detector.contract, is_large(c) ? jobs : 1), run[0],
-                    configuration, detector);
-    if (!verdict.failure) return std::nullopt;
-    return finding_of(*verdict.failure);
+    const auto examined =
+        examine({detector, {&configuration, 1}, &worker, nullptr, is_large(c) ? jobs : 1}, *seen);
+    throw_if_not_run(examined);
+    const auto& failure = examined.trials[0].failure;
+    return failure ? std::optional(finding_of(*failure)) : std::nullopt;
   };
 }
 
@@ -310,9 +308,10 @@ Judge judge_of_slowness(const DetectorUnderTest& detector, const Configuration& 
           seconds](const corpus::Case& c) -> std::optional<Finding> {
     const auto seen = contracted(c, detector.contract);
     if (!seen) return std::nullopt;
+    const Exam exam{detector, {&configuration, 1}, &worker};
     int slow = 0, quick = 0;
     while (slow < 2 && quick < 2) {
-      const auto run = worker.run(*seen, {&configuration, 1}).front();
+      const auto run = run_alone(exam, *seen, 0);
       if (run.end == RunEnd::not_run) throw std::runtime_error(run.explanation);
       const bool is_slow = run.end == RunEnd::hung && run.processor_seconds >= seconds;
       ++(is_slow ? slow : quick);

@@ -15,6 +15,7 @@
 #include "properties/generators/draft.h"
 #include "properties/judging/case_options.h"
 #include "properties/judging/contracted_case.h"
+#include "properties/judging/exam.h"
 #include "properties/laws/facts/case_facts.h"
 #include "properties/worker/child_process.h"
 #include "properties/worker/plugin/query_case.h"
@@ -254,10 +255,11 @@ FormCheck check_in_form(const FormLaw& law, const corpus::Case& c, const CaseRun
       contract.margin > 0 || contract.separation > 0 || contract.rest_distance > 0;
   if (told->frames != form->c.frames || (states_lengths && !law.keeps_lengths)) form->step.clear();
   const auto& configuration = detector.configurations.front();
-  const auto in_form = std::move(worker.run(*told, {&configuration, 1}).front());
-  if (in_form.end == RunEnd::not_run) throw StoreProblem(in_form.explanation);
+  auto examined = examine({detector, {&configuration, 1}, &worker}, *told);
+  throw_if_not_run(examined);
+  const auto& in_form = examined.runs[0];
+  auto& judged = examined.trials[0];
   check.disturbances = in_form.disturbances;
-  auto judged = judge_trial(*told, judge_case(*told, contract), in_form, configuration, detector);
   if (judged.outcome != Outcome::holds && judged.outcome != Outcome::defect) return check;
   const auto first_difference = count_differences(*form, run, in_form, check.count);
   check.count.premise = corpus::steps_of(c).size();
@@ -271,14 +273,13 @@ FormCheck check_in_form(const FormLaw& law, const corpus::Case& c, const CaseRun
   if (!judged.failure) return check;
   check.count.broken = 1;
   const Failure& failure = *judged.failure;
-  check.failure = {c.id,
-                   fmt::format("{}{}{}", configuration.name, law_in_configuration, law.law),
-                   fmt::format("{}{}, {}", law_in_signature, law.law, failure.signature()),
-                   failure.explanation,
-                   corpus::case_text(failing_case(*told, configuration, detector, failure)),
-                   "",
-                   failure.claim == Claim::deterministic,
-                   in_form.printed};
+  check.failure = stored_failure(*told, configuration, detector, failure, false, in_form.printed);
+  check.failure->id = c.id;
+  check.failure->configuration =
+      fmt::format("{}{}{}", configuration.name, law_in_configuration, law.law);
+  check.failure->signature =
+      fmt::format("{}{}, {}", law_in_signature, law.law, failure.signature());
+  check.failure->flaky = failure.claim == Claim::deterministic;
   return check;
 }
 

@@ -33,14 +33,26 @@ corpus::Case failing_case(const corpus::Case& c, const Configuration& configurat
   return out;
 }
 
+StoredFailure stored_failure(const corpus::Case& c, const Configuration& configuration,
+                             const DetectorUnderTest& detector, const Failure& failure, bool flaky,
+                             const std::string& printed) {
+  return {c.id,
+          configuration.name,
+          failure.signature() + (flaky ? " (flaky)" : ""),
+          failure.explanation,
+          corpus::case_text(failing_case(c, configuration, detector, failure)),
+          "",
+          flaky,
+          printed};
+}
+
+void throw_if_not_run(const Examined& examined) {
+  if (const auto why = examined.why_not_run(); !why.empty()) throw StoreProblem(why);
+}
+
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-std::uint64_t microseconds_since(Clock::time_point begin) {
-  return static_cast<std::uint64_t>(
-      std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - begin).count());
-}
 
 // Hashes triangles and frames bit by bit. Two cases with the same hash count as one.
 std::uint64_t mesh_hash(const corpus::Case& c) {
@@ -124,19 +136,20 @@ class Trials {
     // If something goes wrong in one thread, all of them end.
     try {
       while (const PlannedTrial* planned = next_trial()) {
-        Trial trial = run_first(*planned, workers);
+        Trial trial = make(*planned, workers);
+        if (trial.is_within) run(trial, run_first);
         if (planned->index % repeat_every != 0 || !trial.is_within) {
-          conclude(trial, nullptr, workers);
+          conclude(trial);
           judged.push_back(std::move(trial));
         } else {
           waiting.push_back(std::move(trial));
-          if (waiting.size() == repeated_together) repeat(waiting, workers, judged);
+          if (waiting.size() == repeated_together) repeat(waiting, judged);
         }
         const bool is_large = planned->family->triangles > 0;  // not many of them in memory
         if (judged.size() >= counted_together || !request_.detector.built_in || is_large)
           finish(judged);
       }
-      repeat(waiting, workers, judged);
+      repeat(waiting, judged);
       finish(judged);
     } catch (const StoreProblem& failure) {
       const std::lock_guard lock(mutex_);
@@ -174,12 +187,11 @@ class Trials {
   struct Trial {
     const PlannedTrial* planned = nullptr;
     const DetectorUnderTest* detector = nullptr;  // as it is asked in the stratum
+    WorkerProcess *first = nullptr, *second = nullptr;
     GeneratedCase made;
-    corpus::Case seen;  // the case as the detector's contract has it, if it takes it
-    bool is_within = true;
+    bool is_within = true;  // the detector's contract takes the case
     std::vector<Configuration> configurations;
-    std::vector<oracle::StepJudgement> truth;
-    std::vector<CaseRun> runs;
+    Examined examined;
     bool has_contact = false;  // one that the contract does not leave out, and that was judged
     TrialRecord record;
     std::vector<StoredFailure> failures;
@@ -211,47 +223,56 @@ class Trials {
     std::map<std::pair<double, std::uint32_t>, WorkerProcess> processes_;
   };
 
-  Trial run_first(const PlannedTrial& planned, Workers& workers) const {
-    Trial trial = make(planned);
-    if (!trial.is_within) return trial;
-    auto begin = Clock::now();
-    trial.truth = judge_case(trial.seen, trial.detector->contract);
-    trial.record.oracle_us = microseconds_since(begin);
-    begin = Clock::now();
-    trial.runs = run(trial, trial.configurations, workers.first(*planned.family));
-    trial.record.detector_us = microseconds_since(begin);
-    return trial;
+  static Exam exam_of(const Trial& trial) {
+    return {*trial.detector, trial.configurations, trial.first, trial.second};
+  }
+
+  // Runs the case, and notes what disturbed the runs and how long they took.
+  static void run(Trial& trial, void (*part)(const Exam&, Examined&)) {
+    part(exam_of(trial), trial.examined);
+    throw_if_not_run(trial.examined);
+    for (const auto& one : part == run_first ? trial.examined.runs : trial.examined.again)
+      note(trial.record, one);
+  }
+
+  static void note(TrialRecord& record, const CaseRun& run) {
+    record.disturbed += run.disturbances;
+    record.slowest_us =
+        std::max(record.slowest_us, static_cast<std::uint64_t>(1e6 * run.processor_seconds));
   }
 
   // Moves the trials from `waiting` to `judged`.
-  void repeat(std::vector<Trial>& waiting, Workers& workers, std::vector<Trial>& judged) const {
+  void repeat(std::vector<Trial>& waiting, std::vector<Trial>& judged) const {
     for (; !waiting.empty(); waiting.pop_back()) {
       auto& trial = waiting.back();
-      const auto again = run(trial, trial.configurations, workers.second(*trial.planned->family));
-      conclude(trial, again.data(), workers);
+      run(trial, run_again);
+      conclude(trial);
       judged.push_back(std::move(trial));
     }
   }
 
-  // `again` is a second run for each configuration, or NULL.
-  void conclude(Trial& trial, const CaseRun* again, Workers& workers) const {
+  void conclude(Trial& trial) const {
     if (!trial.is_within) return;
-    auto& worker = workers.first(*trial.planned->family);
-    trial.record.outcomes.assign(trial.detector->configurations.size(), not_run);
-    for (std::size_t i = 0; i < trial.runs.size(); ++i)
-      judge_configuration(trial, i, again ? again + i : nullptr, worker);
-    auto& measures = trial.record.counts.measures;
+    auto& record = trial.record;
+    auto& examined = trial.examined;
+    judge(exam_of(trial), examined);
+    record.oracle_us = examined.oracle_us;
+    record.detector_us = examined.detector_us;
+    record.outcomes.assign(trial.detector->configurations.size(), not_run);
+    for (std::size_t i = 0; i < trial.configurations.size(); ++i) conclude_configuration(trial, i);
+    auto& measures = record.counts.measures;
     measures.contact_trials = trial.has_contact ? 1 : 0;
-    measures.repeated_trials = again ? 1 : 0;
+    measures.repeated_trials = examined.again.empty() ? 0 : 1;
     count_steps(trial);
-    if (has_forms(request_.detector, trial.seen)) count_forms(trial, again, worker);
+    if (has_forms(request_.detector, examined.c)) count_forms(trial);
   }
 
   // The laws of a plug-in, in cases that hold: what fails anyway shows nothing of a form.
-  void count_forms(Trial& trial, const CaseRun* again, WorkerProcess& worker) const {
+  void count_forms(Trial& trial) const {
     const auto every = request_.plan.laws_every;
     if (every == 0 || trial.planned->index % every != 0) return;
-    const auto& run = trial.runs.front();
+    const auto& run = trial.examined.runs.front();
+    const auto* again = trial.examined.second(0);
     if (run.end != RunEnd::completed) return;
     auto& counts = trial.record.counts.laws;
     if (again && request_.description.parts.takes_threads && again->end == RunEnd::completed) {
@@ -263,7 +284,7 @@ class Trials {
     if (trial.record.outcomes.front() != letter_of(Outcome::holds)) return;
     for (const auto& law : form_laws()) {
       if (!is_given_in_form(law, trial.record.id)) continue;
-      auto check = check_in_form(law, trial.seen, run, request_.detector, worker);
+      auto check = check_in_form(law, trial.examined.c, run, request_.detector, *trial.first);
       if (check.count.premise > 0) counts[std::string(law.law)] += check.count;
       trial.record.disturbed += check.disturbances;
       if (check.failure) trial.failures.push_back(std::move(*check.failure));
@@ -277,14 +298,16 @@ class Trials {
     judged.clear();
   }
 
-  Trial make(const PlannedTrial& planned) const {
+  Trial make(const PlannedTrial& planned, Workers& workers) const {
     Trial trial;
     trial.planned = &planned;
+    trial.first = &workers.first(*planned.family);
+    trial.second = &workers.second(*planned.family);
     const auto& detector = *(trial.detector = &asked_.find(planned.family->name)->second);
     auto drawn = case_within(detector.contract, *planned.family, id_of(planned));
     trial.made = std::move(drawn.made);
     trial.is_within = drawn.seen.has_value();
-    if (drawn.seen) trial.seen = std::move(*drawn.seen);
+    if (drawn.seen) trial.examined.c = std::move(*drawn.seen);
     const bool vouched = is_vouched_for(detector, trial.made.c, planned.index);
     trial.configurations =
         vouched ? with_clean_start(detector.configurations) : detector.configurations;
@@ -305,46 +328,33 @@ class Trials {
     return trial;
   }
 
-  // Notes what disturbed the runs and how long they took. Throws if there is no worker.
-  std::vector<CaseRun> run(Trial& trial, std::span<const Configuration> configurations,
-                           WorkerProcess& worker) const {
-    auto runs = worker.run(trial.seen, configurations);
-    for (const auto& one : runs) {
-      if (one.end == RunEnd::not_run) throw StoreProblem(one.explanation);
-      trial.record.disturbed += one.disturbances;
-      trial.record.slowest_us = std::max(trial.record.slowest_us,
-                                         static_cast<std::uint64_t>(1e6 * one.processor_seconds));
-    }
-    return runs;
-  }
-
-  void judge_configuration(Trial& trial, std::size_t i, const CaseRun* again,
-                           WorkerProcess& worker) const {
+  void conclude_configuration(Trial& trial, std::size_t i) const {
     const auto& configuration = trial.configurations[i];
-    JudgedTrial judged =
-        judge_trial(trial.seen, trial.truth, trial.runs[i], configuration, *trial.detector, again);
+    const auto& run = trial.examined.runs[i];
+    auto& judged = trial.examined.trials[i];
     // What is special about the first of many contacts says little, and would tell apart what a
     // large mesh shows of one cause.
     if (judged.failure && !request_.detector.built_in && trial.planned->family->triangles > 0)
       judged.failure->cause = "large mesh";
     trial.record.outcomes[place_of(configuration, *trial.detector)] = letter_of(judged.outcome);
-    if (trial.runs[i].end == RunEnd::beyond_capacity && judged.outcome == Outcome::refused)
-      trial.record.counts.measures.refused += trial.truth.size();
+    if (run.end == RunEnd::beyond_capacity && judged.outcome == Outcome::refused)
+      trial.record.counts.measures.refused += trial.examined.truth.size();
     trial.has_contact |= has_judged_contact(judged.steps);
     if (!request_.detector.built_in) {
       auto& measures = trial.record.counts.measures;
-      measures += measures_of(judged.steps, trial.runs[i].steps);
+      measures += measures_of(judged.steps, run.steps);
       measures.left_out_misses += judged.left_out_misses;
     }
     if (!judged.failure) return;
     // A failing case is run again before it is reported. If the two runs differ, that is a failure
     // by itself.
-    const bool flaky = !same_answers(trial.runs[i], run(trial, {&configuration, 1}, worker)[0]);
-    const auto failing = failing_case(trial.seen, configuration, *trial.detector, *judged.failure);
-    trial.failures.push_back({trial.record.id, configuration.name,
-                              judged.failure->signature() + (flaky ? " (flaky)" : ""),
-                              judged.failure->explanation, corpus::case_text(failing), "", flaky,
-                              printed_of(trial.runs[i], again)});
+    const auto alone = run_alone(exam_of(trial), trial.examined.c, i);
+    if (alone.end == RunEnd::not_run) throw StoreProblem(alone.explanation);
+    note(trial.record, alone);
+    auto failure = stored_failure(trial.examined.c, configuration, *trial.detector, *judged.failure,
+                                  !same_answers(run, alone), trial.examined.printed(i));
+    failure.id = trial.record.id;
+    trial.failures.push_back(std::move(failure));
   }
 
   static std::size_t place_of(const Configuration& configuration,
@@ -356,23 +366,18 @@ class Trials {
     return static_cast<std::size_t>(found - all.begin());
   }
 
-  // Two runs may differ in whether something was printed. If the first printed nothing, the text
-  // of the second is taken.
-  static const std::string& printed_of(const CaseRun& run, const CaseRun* again) {
-    return run.printed.empty() && again ? again->printed : run.printed;
-  }
-
   static void count_steps(Trial& trial) {
     auto& record = trial.record;
-    record.triangles = static_cast<std::uint64_t>(trial.seen.triangles.rows());
-    for (const auto& step : trial.truth) {
+    const auto& examined = trial.examined;
+    record.triangles = static_cast<std::uint64_t>(examined.c.triangles.rows());
+    for (const auto& step : examined.truth) {
       ++record.steps;
       record.collisions += step.pairs.empty() ? 0 : 1;
       record.pairs += step.pairs.size();
     }
     if (!record.is_judged() || is_query_family(record.family)) return;
-    record.counts.extremes = extremes_of(trial.seen, trial.truth);
-    const auto* counted = corpus::counted_of(trial.seen);
+    record.counts.extremes = extremes_of(examined.c, examined.truth);
+    const auto* counted = corpus::counted_of(examined.c);
     record.counts.measures.relation_trials = counted && !counted->count_all() ? 1 : 0;
   }
 
@@ -384,7 +389,8 @@ class Trials {
       const auto& family = *trial.planned->family;
       const bool with_laws = every > 0 && trial.planned->index % every == 0 &&
                              family.triangles == 0 && !is_question_family(family.name);
-      cases.push_back({trial.made, trial.configurations, trial.runs, trial.truth, with_laws});
+      cases.push_back(
+          {trial.made, trial.configurations, trial.examined.runs, trial.examined.truth, with_laws});
     }
     const auto tallies = tally_cases(cases);
     for (std::size_t i = 0; i < judged.size(); ++i) {

@@ -7,6 +7,7 @@
 
 #include "properties/campaign/ledger/store.h"
 #include "properties/campaign/request.h"
+#include "properties/judging/exam.h"
 
 namespace assay::properties {
 
@@ -43,5 +44,13 @@ TrialsEnd run_trials(const CampaignRequest& request, Store& store, RunDeadline d
 // The case of a failure as it is stored: with the options of its configuration.
 corpus::Case failing_case(const corpus::Case& c, const Configuration& configuration,
                           const DetectorUnderTest& detector, const Failure& failure);
+// The failure as it is stored, under the id of the case. One that a second run does not show is
+// flaky.
+StoredFailure stored_failure(const corpus::Case& c, const Configuration& configuration,
+                             const DetectorUnderTest& detector, const Failure& failure, bool flaky,
+                             const std::string& printed);
+
+// Throws StoreProblem if there was no worker; so it is for campaign/ alone.
+void throw_if_not_run(const Examined& examined);
 
 }  // namespace assay::properties

@@ -25,13 +25,12 @@ struct Runner {
   std::function<bool(const corpus::Case&)> shows_it_as_it_is{};  // of a curated case
 };
 
-SearchedCase judged_by(const Runner& runner, const corpus::Case& c) {
-  SearchedCase judged;
-  judged.runs.push_back(runner.run(c));
-  judged.truth = judge_case(c, runner.detector.contract);
-  judged.trials.push_back(judge_trial(c, judged.truth, judged.runs[0],
-                                      runner.detector.configurations[0], runner.detector));
-  return judged;
+Examined judged_by(const Runner& runner, const corpus::Case& c) {
+  Examined examined;
+  examined.c = c;
+  examined.runs = {runner.run(c)};
+  judge({runner.detector, runner.detector.configurations, nullptr}, examined);
+  return examined;
 }
 
 Runner runner_of(const Fault& fault) {
@@ -71,7 +70,7 @@ struct FirstDefect {
   double seconds = 0;            // of processor time
   std::uint64_t candidates = 0;  // of the oracle, in all cases: a measure of work that is no clock
 
-  void count(const SearchedCase& judged) {
+  void count(const Examined& judged) {
     ++cases;
     for (const auto& step : judged.truth) candidates += step.feature_candidates;
   }
@@ -114,7 +113,7 @@ FirstDefect race_at_random(const Runner& runner, int seed, const RaceLimits& lim
   std::erase_if(known, [](const Family& family) { return family.name.ends_with("-everyday"); });
   while (first.cases < limits.cases && clock.seconds() < limits.seconds) {
     const auto c = random_case(runner, known, fmt::format("race:{}", seed), first.cases);
-    const auto judged = c ? judged_by(runner, *c) : SearchedCase{};
+    const auto judged = c ? judged_by(runner, *c) : Examined{};
     first.count(judged);
     if (!c || !judged.trials[0].failure) continue;
     first.found = true;
@@ -134,26 +133,27 @@ SearchSpace racing_space(const Runner& runner) {
 
 // Lanes until `stop`. Once `take` says that a case is the last one, no other is judged.
 void search_lanes(const Runner& runner, const SearchSpace& space, const std::string& name,
-                  const std::function<bool(const SearchedCase&)>& take,
+                  const std::function<bool(const Examined&)>& take,
                   const std::function<bool()>& stop) {
   bool is_done = false;
-  const JudgeCases judge = [&](std::span<const corpus::Case> cases) {
-    std::vector<SearchedCase> judged;
-    for (const auto& c : cases) {
-      judged.push_back(is_done ? SearchedCase{} : judged_by(runner, c));
-      is_done = is_done || take(judged.back());
+  const ExamineCases examine = [&](const std::vector<corpus::Case>& cases) {
+    std::vector<Examined> judged(cases.size());
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      judged[i].c = cases[i];
+      if (!is_done) judged[i] = judged_by(runner, cases[i]);
+      is_done = is_done || take(judged[i]);
     }
     return judged;
   };
   for (int lane = 1; !stop(); ++lane)
-    search({fmt::format("{}:{}", name, lane), 500}, space, judge, stop);
+    search({fmt::format("{}:{}", name, lane), 500}, space, examine, stop);
 }
 
 FirstDefect race_by_search(const Runner& runner, int seed, const RaceLimits& limits) {
   FirstDefect first;
   const SearchSpace space = racing_space(runner);
   const ProcessorClock clock;
-  const auto take = [&](const SearchedCase& judged) {
+  const auto take = [&](const Examined& judged) {
     first.count(judged);
     first.found = judged.trials[0].failure.has_value();
     if (first.found) first.seconds = clock.seconds();
@@ -169,7 +169,7 @@ FirstDefect race_by_search(const Runner& runner, int seed, const RaceLimits& lim
 // The distinct signatures of defects that are met in so many seconds of processor time.
 using Signatures = std::set<std::string>;
 
-void take_signature(const SearchedCase& judged, Signatures& met) {
+void take_signature(const Examined& judged, Signatures& met) {
   if (const auto& failure = judged.trials[0].failure) met.insert(failure->signature());
 }
 
@@ -187,7 +187,7 @@ Signatures signatures_by_search(const Runner& runner, double seconds) {
   Signatures met;
   const SearchSpace space = racing_space(runner);
   const ProcessorClock clock;
-  const auto take = [&](const SearchedCase& judged) {
+  const auto take = [&](const Examined& judged) {
     take_signature(judged, met);
     return false;
   };
@@ -195,9 +195,9 @@ Signatures signatures_by_search(const Runner& runner, double seconds) {
   return met;
 }
 
-JudgeCases judge_of(const Runner& runner) {
-  return [&runner](std::span<const corpus::Case> cases) {
-    std::vector<SearchedCase> judged;
+ExamineCases examine_by(const Runner& runner) {
+  return [&runner](const std::vector<corpus::Case>& cases) {
+    std::vector<Examined> judged;
     for (const auto& c : cases) judged.push_back(judged_by(runner, c));
     return judged;
   };
@@ -212,10 +212,10 @@ SearchSpace space_of(const Runner& runner) {
 TEST(Search, ALaneDependsOnItsNameAlone) {
   const auto runner = runner_of(*find_fault("pair/zero-zero-dropped"));
   const auto space = space_of(runner);
-  const auto judge = judge_of(runner);
-  const auto one = search({"search/test:1:1", 150}, space, judge, {});
-  const auto again = search({"search/test:1:1", 150}, space, judge, {});
-  const auto other = search({"search/test:1:2", 150}, space, judge, {});
+  const auto examine = examine_by(runner);
+  const auto one = search({"search/test:1:1", 150}, space, examine, {});
+  const auto again = search({"search/test:1:1", 150}, space, examine, {});
+  const auto other = search({"search/test:1:2", 150}, space, examine, {});
   ASSERT_TRUE(one.complete);
   EXPECT_EQ(one.cases, 150);
   EXPECT_EQ(one.causes, again.causes);
@@ -229,7 +229,7 @@ TEST(Search, ALaneDependsOnItsNameAlone) {
 
 TEST(Search, WhatIsFoundFailsAgainFromItsFile) {
   const auto runner = runner_of(*find_fault("pair/zero-zero-dropped"));
-  const auto result = search({"search/test:2:1", 300}, space_of(runner), judge_of(runner), {});
+  const auto result = search({"search/test:2:1", 300}, space_of(runner), examine_by(runner), {});
   ASSERT_FALSE(result.found.empty());
   EXPECT_GE(result.defects, result.found.size());
   for (const auto& found : result.found) {
@@ -246,7 +246,7 @@ TEST(Search, FillsItsArchiveWithCauses) {
       built_in_detector().in(built_in_detector().configurations[0]),
       [](const corpus::Case& c) { return run_case(c, built_in_detector().configurations[0]); },
       {}};
-  const auto result = search({"search/test:3:1", 600}, space_of(right), judge_of(right), {});
+  const auto result = search({"search/test:3:1", 600}, space_of(right), examine_by(right), {});
   EXPECT_EQ(result.defects, 0);
   EXPECT_GE(result.causes.size(), 30);
   const auto holds = [&](const std::string& word) {
@@ -262,7 +262,7 @@ TEST(Search, FillsItsArchiveWithCauses) {
 TEST(Search, AStoppedLaneIsNotComplete) {
   const auto runner = runner_of(*find_fault("pair/zero-zero-dropped"));
   int asked = 0;
-  const auto result = search({"search/test:4:1", 1000}, space_of(runner), judge_of(runner),
+  const auto result = search({"search/test:4:1", 1000}, space_of(runner), examine_by(runner),
                              [&] { return ++asked > 3; });
   EXPECT_FALSE(result.complete);
   EXPECT_LT(result.cases, 100);
