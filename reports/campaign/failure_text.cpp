@@ -8,7 +8,7 @@
 #include <span>
 
 #include "corpus/files.h"
-#include "properties/campaign/gates/shared_traits.h"
+#include "properties/campaign/gates/failure_groups.h"
 #include "properties/campaign/ledger/run_folder.h"
 #include "properties/judging/cause.h"
 #include "properties/queries/query_families.h"
@@ -224,8 +224,27 @@ Expected<void> write_failures(const properties::KeptFailures& kept,
   return outcome::success();
 }
 
+std::string groups_text(const properties::RunFindings& findings) {
+  const auto kinds = findings.kinds().size();
+  if (kinds < 2) return "";
+  const auto groups = properties::failure_groups(findings);
+  std::string text;
+  std::size_t rest = kinds;
+  for (std::size_t i = 0; i < std::min(groups.size(), most_groups_shown); ++i) {
+    const auto& group = groups[i];
+    const auto* smallest = findings.example_of(group.smallest);
+    text += fmt::format("{}\n  the smallest: {}: {}\n", text_of(group, kinds), group.smallest,
+                        smallest_size(*smallest));
+    rest -= group.kinds.size();
+  }
+  if (rest > 0)
+    text += fmt::format("the other {} kinds of failure are in {} more groups\n", rest,
+                        groups.size() - most_groups_shown);
+  return text;
+}
+
 std::string failures_text(const properties::RunFindings& findings) {
-  std::string out = properties::shared_traits_text(findings);
+  std::string out = groups_text(findings);
   std::set<std::string> told;
   const auto failures = in_order(findings.failures);
   for (const auto& shown : failures) {

@@ -31,8 +31,15 @@ Expected<void> write_failures(const properties::KeptFailures& kept,
                               const std::filesystem::path& out, const DetectorWords& detector,
                               std::string& text);
 
-// What the failures share (properties/campaign/gates/shared_traits.h), a paragraph for each
-// signature of them, and a line for each further case of it.
+// As many groups of failures are shown at most.
+inline constexpr std::size_t most_groups_shown = 5;
+
+// The groups of failures (properties/campaign/gates/failure_groups.h), a line each with the
+// smallest mesh of each, and how many more there are. Empty if there are not even two kinds.
+std::string groups_text(const properties::RunFindings& findings);
+
+// The groups of failures, then a paragraph for each signature of them, and a line for each further
+// case of it.
 std::string failures_text(const properties::RunFindings& findings);
 
 // Writes two files for each case that was kept, OUT/slow/ID-CONFIGURATION-original.json and

@@ -4,6 +4,7 @@
 
 #include "corpus/cases/case_file.h"
 #include "corpus/digest.h"
+#include "properties/campaign/gates/failure_groups.h"
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/gates/not_judged.h"
 #include "properties/campaign/ledger/run_folder.h"
@@ -341,6 +342,16 @@ Json failures_json(const RunFindings& findings) {
                     {"sha256", corpus::sha256_of(mesh)},
                     {"replay", "assay " + replay_words("", name, detector_of(findings))}});
   }
+  return list;
+}
+
+Json failure_groups_json(const RunFindings& findings) {
+  Json list = Json::array();
+  const auto kinds = findings.kinds().size();
+  for (const auto& group : properties::failure_groups(findings))
+    list.push_back({{"what", properties::text_of(group, kinds)},
+                    {"kinds", group.kinds},
+                    {"smallest", group.smallest}});
   return list;
 }
 

@@ -206,6 +206,7 @@ Json make_predicate(const RunFindings& findings, const properties::Judgement& ju
        {"repeated", repeated_json(findings)},
        {"search", search_json(findings)},
        {"failures", failures_json(findings)},
+       {"failure_groups", failure_groups_json(findings)},
        {"replay", replay_json(findings)},
        {"digests", digests_json(findings, campaign_digest)},
        {"times", times_json(findings)}});

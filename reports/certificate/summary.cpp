@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "properties/campaign/plan.h"
 #include "properties/fields.h"
 #include "properties/words.h"
+#include "reports/campaign/failure_text.h"
 #include "reports/steps/measures_text.h"
 #include "reports/terminal/option_words.h"
 #include "reports/terminal/text_file.h"
@@ -67,7 +69,11 @@ std::string strata_text(const Json& p) {
 
 std::string failures_text(const Json& p) {
   std::string out =
-      p["failures"].empty() ? "" : "\nLines to replay are for the folder of the run.\n";
+      p["failures"].empty() ? "" : "\nLines to replay are for the folder of the run.\n\n";
+  for (std::size_t i = 0; i < std::min(p["failure_groups"].size(), most_groups_shown); ++i) {
+    const auto& group = p["failure_groups"][i];
+    out += fmt::format("- {}; the smallest: {}\n", cell(group["what"]), cell(group["smallest"]));
+  }
   for (const auto& failure : p["failures"]) {
     const auto& after = failure["after"];
     out += fmt::format("\n**{}** ({}), {}{}\n\n    {}\n", cell(failure["signature"]),
@@ -243,10 +249,14 @@ Suite corpus_suite(const Json& p) {
 
 Suite failures_suite(const Json& p) {
   Suite suite{"failures", {}};
+  std::map<std::string, std::string> groups;
+  for (const auto& group : p["failure_groups"]) {
+    for (const auto& kind : group["kinds"]) groups[text(kind)] = text(group["what"]);
+  }
   for (const auto& failure : p["failures"]) {
-    const auto line =
-        fmt::format("{} ({}), {}; {}\n", text(failure["what"]), text(failure["configuration"]),
-                    met_text(failure), text(failure["case"]));
+    const auto line = fmt::format("{} ({}), {}; {}\ngroup: {}\n", text(failure["what"]),
+                                  text(failure["configuration"]), met_text(failure),
+                                  text(failure["case"]), groups[text(failure["signature"])]);
     suite.cases.push_back({text(failure["signature"]), TestState::failed,
                            line + "replay, in the folder of the run: " + text(failure["replay"])});
   }

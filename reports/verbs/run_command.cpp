@@ -12,7 +12,6 @@
 #include "corpus/digest.h"
 #include "corpus/problem.h"
 #include "properties/campaign/gates/findings.h"
-#include "properties/campaign/gates/shared_traits.h"
 #include "properties/campaign/ledger/binding.h"
 #include "properties/campaign/ledger/run_folder.h"
 #include "properties/campaign/phases/phases.h"
@@ -200,7 +199,7 @@ Expected<int> conclude(const properties::CampaignRequest& request,
                        double seconds) {
   const auto judgement = judge(findings, properties::asked_of_a_run(findings));
   fmt::print("{}\n{}{}\n{}, in {:.0f} s\n", findings_text(findings),
-             properties::shared_traits_text(findings), gates_text(judgement),
+             groups_text(findings), gates_text(judgement),
              verdict_text(findings, judgement), seconds);
   const bool is_complete = !findings.has_more_to_do();
   if (!findings.evidence.slow.empty())

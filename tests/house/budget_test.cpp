@@ -22,7 +22,7 @@ std::size_t count_lines(const std::string& path) {
 TEST(Budget, NoRoomGrows) {
   const std::map<std::string, std::size_t> budgets = {
       {"detector", 15621},   {"oracle", 6244},   {"corpus", 5412}, {"corpus/peers", 857},
-      {"properties", 27178}, {"reports", 14334}, {"tests", 45547}, {"scripts", 10466}};
+      {"properties", 27337}, {"reports", 14376}, {"tests", 45578}, {"scripts", 10486}};
   std::map<std::string, std::size_t> lines;
   for (const auto* room : rooms) {
     for (const auto& file : files_below(room)) {

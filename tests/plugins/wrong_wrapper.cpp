@@ -1,12 +1,14 @@
-// The built-in detector wrapped, wrong in one of eleven ways: ASSAY_TEST_WRONG says in which. The
-// same in Python is tests/reports/python/wrong_detectors.py: what finds the ones has to find the
-// others.
+// The built-in detector wrapped, wrong in one of twelve ways: ASSAY_TEST_WRONG says in which. All
+// but the last are in Python, too, tests/reports/python/wrong_detectors.py: what finds the ones has
+// to find the others.
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <random>
 #include <set>
+#include <sstream>
+#include <string>
 
 #include "detector/detector.h"
 #include "detector/plugin/assay_detector.hpp"
@@ -27,12 +29,18 @@ enum Way {
   free_at_start,
   add_a_pair,
   half_a_step,
-  drawn_when_loaded  // right, but never twice the same
+  drawn_when_loaded,  // right, but never twice the same
+  drop_edge_edge
 };
 
-Way way() {
-  const char* number = std::getenv("ASSAY_TEST_WRONG");
-  return static_cast<Way>(number ? std::atoi(number) : 0);
+// ASSAY_TEST_WRONG: "5", or "5,7" for two at once.
+bool is(Way way) {
+  const char* numbers = std::getenv("ASSAY_TEST_WRONG");
+  std::istringstream list(numbers ? numbers : "0");
+  for (std::string number; std::getline(list, number, ',');) {
+    if (std::atoi(number.c_str()) == way) return true;
+  }
+  return false;
 }
 
 // Another number in each process.
@@ -65,18 +73,18 @@ class Wrong {
   Result evaluate(Positions given_t0, Positions given_t1) {
     detector::Positions x_t0 = eigen(given_t0), x_t1 = eigen(given_t1);
     end_ = x_t1;
-    if (way() == forget_commit) x_t0 = start_;
-    if (way() == round_to_float) {
+    if (is(forget_commit)) x_t0 = start_;
+    if (is(round_to_float)) {
       x_t0 = x_t0.cast<float>().cast<double>();
       x_t1 = x_t1.cast<float>().cast<double>();
     }
-    if (way() == half_a_step) x_t1 = (x_t0 + x_t1) / 2;
+    if (is(half_a_step)) x_t1 = (x_t0 + x_t1) / 2;
     return spoiled(detector_->evaluate(x_t0, x_t1));
   }
 
   void commit() {
     detector_->commit();
-    if (way() != forget_commit) start_ = end_;
+    if (!is(forget_commit)) start_ = end_;
   }
 
  private:
@@ -90,22 +98,22 @@ class Wrong {
   Result spoiled(const detector::StepResult& answered) const {
     if (answered.answer == detector::Answer::error) return Result::error("refused");
     if (answered.answer != detector::Answer::collision) return Result::free();
-    if (way() == free_when_few && answered.pairs.size() < 3) return Result::free();
-    if (way() == free_at_start && answered.first.lo == 0) return Result::free();
+    if (is(free_when_few) && answered.pairs.size() < 3) return Result::free();
+    if (is(free_at_start) && answered.first.lo == 0) return Result::free();
     Result result = Result::collision(answered.first.lo, answered.first.hi);
-    if (way() == drawn_when_loaded) result.first[0] *= drawn();
-    if (way() == late_by_an_ulp)
-      result.first = {{later(answered.first.lo), later(answered.first.hi)}};
+    if (is(drawn_when_loaded)) result.first[0] *= drawn();
+    if (is(late_by_an_ulp)) result.first = {{later(answered.first.lo), later(answered.first.hi)}};
     std::set<Pair> known;
     for (const auto& [pair, time, feature] : answered.pairs) {
       known.insert({{pair.a, pair.b}});
-      if (way() == drop_neighbours && are_neighbours(pair)) continue;
-      const bool is_late = way() == late_pairs;
+      if (is(drop_neighbours) && are_neighbours(pair)) continue;
+      if (is(drop_edge_edge) && feature.kind == detector::FeatureKind::edge_edge) continue;
+      const bool is_late = is(late_pairs);
       result.add(pair.a, pair.b, is_late ? later(time.lo) : time.lo,
                  is_late ? later(time.hi) : time.hi);
     }
-    if (way() == drop_a_pair) result.pairs.erase(result.pairs.begin()), result.pair_times.clear();
-    if (way() == add_a_pair && triangles_.rows() > 1 && !known.contains({{0, 1}}))
+    if (is(drop_a_pair)) result.pairs.erase(result.pairs.begin()), result.pair_times.clear();
+    if (is(add_a_pair) && triangles_.rows() > 1 && !known.contains({{0, 1}}))
       result.add(0, 1, answered.first.lo, answered.first.hi);
     return result;
   }

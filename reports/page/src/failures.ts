@@ -35,6 +35,28 @@ const printed = (run: Run, failure: Failure): HTMLElement =>
     failureFacts(run, failure),
   );
 
+const mostGroups = 5;
+
+// What the groups of kinds share, for one mistake shows as many kinds.
+const groups = (run: Run, links: Map<string, string>): HTMLElement[] => {
+  const all = run.findings.failure_groups;
+  if (run.findings.failures.length < 2) return [];
+  const rest = sum(all.slice(mostGroups).map((group) => group.kinds.length));
+  const lines = all
+    .slice(0, mostGroups)
+    .map((group) =>
+      html(
+        "li",
+        {},
+        html("strong", {}, group.what),
+        "; the smallest: ",
+        html("a", { href: links.get(group.smallest) ?? "" }, group.smallest),
+      ),
+    );
+  if (rest > 0) lines.push(html("li", {}, `the other ${rest} kinds of failure are in ${all.length - mostGroups} more groups`));
+  return [html("ul", { class: "groups" }, ...lines)];
+};
+
 export function failures(run: Run, names: string[], address: (place: string) => string): FailuresView {
   let viewer: Viewer | null = null;
   const detail = html("div", { class: "detail", tabindex: -1, "aria-live": "polite" });
@@ -87,6 +109,7 @@ export function failures(run: Run, names: string[], address: (place: string) => 
             {},
             `${counted(all.length, "kind")}, told apart by claim, difference, stage and feature. The plainest cause comes first, however often it was met, and the verdict names it. Each has the smallest mesh that was found for it.`,
           ),
+          ...groups(run, new Map(all.map((failure, i) => [failure.signature, address(failurePlace + names[i]!)]))),
           html(
             "div",
             { class: "failures" },

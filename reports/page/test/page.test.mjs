@@ -175,6 +175,21 @@ describe("the page", () => {
     assert.deepEqual(anew.seen.problems, []);
   });
 
+  test("kinds of failure are grouped, and each group leads to its smallest mesh", async () => {
+    const groups = at.page.locator(".groups li");
+    const kinds = await at.page.locator(".failures .list a").count();
+    let grouped = 0;
+    for (let i = 0; i < (await groups.count()); ++i) {
+      const [, of, all] = /^(all|\d+ of) (\d+) kinds of failure /.exec(await groups.nth(i).textContent());
+      assert.equal(Number(all), kinds);
+      grouped += of === "all" ? kinds : parseInt(of);
+      const link = groups.nth(i).locator("a");
+      await link.click();
+      assert.equal(await at.page.locator(".detail h3").textContent(), await link.textContent());
+    }
+    assert.equal(grouped, kinds);
+  });
+
   test("the reasons of a gate lead to the failures that they name", async () => {
     const link = at.page.locator(".gates .reason a").first();
     const signature = await link.textContent();

@@ -108,7 +108,7 @@ TEST_F(Run, WhatAllLostContactsShareIsTold) {
       {"fault_elementary_end-excluded", "t at 1"}};
   for (const auto& [library, shared] : bugs) {
     const auto said = judged(library);
-    const std::regex told("\nall \\d+ kinds that lose a contact: [^\n]*" + shared +
+    const std::regex told("\nall \\d+ kinds of failure lose a contact: [^\n]*" + shared +
                           R"([^\n]* \(\d of \d+ cases that hold ha(s|ve) such a contact\)\n)");
     std::smatch line;
     ASSERT_TRUE(std::regex_search(said, line, told)) << said;
@@ -120,7 +120,30 @@ TEST_F(Run, WhatAllLostContactsShareIsTold) {
   for (const std::string library : {"always_free", "fault_search_fitted-once"}) {
     const auto said = judged(library);
     EXPECT_TRUE(contains(said, "\nDEFECT: ")) << said;
-    EXPECT_FALSE(contains(said, "kinds that lose a contact")) << said;
+    EXPECT_FALSE(contains(said, "such a contact")) << said;
+  }
+}
+
+// Two mistakes in one detector are two groups, each with a mesh of its own, in each text.
+TEST_F(Run, KindsOfFailureAreGroupedByWhatOneChangeWouldMend) {
+  const auto plan = scratch.write("two.json", R"({
+      "schema": "assay-campaign/1", "name": "two", "seconds": 600, "shrink_share": 0.01, "strata": [
+        {"family": "unclosed-everyday", "cases": 200}, {"family": "closed-degenerate", "cases": 200}]})");
+  const auto said = run_assay("run --campaign " + plan + " --out " + out + " --detector " +
+                                  plugin("wrong_wrapper"),
+                              "ASSAY_TEST_WRONG=7,11 ")
+                        .out;
+  const auto listed = "\n" + run_assay("list failures " + out).out;
+  for (const std::string mistake : {"edge-edge", "t at 0"}) {
+    const std::regex line(R"(\n(\d+ of \d+ kinds of failure lose a contact: )" + mistake +
+                          R"( \(.*\))\n  the smallest: ([^\n]*): \d+ triangles, )");
+    std::smatch group;
+    ASSERT_TRUE(std::regex_search(said, group, line)) << said;
+    EXPECT_TRUE(contains(group.str(2), ", " + mistake + ", ")) << said;
+    EXPECT_TRUE(contains(listed, group.str(0))) << listed;
+    EXPECT_TRUE(contains(read_text(out + "/junit.xml"), "\ngroup: " + group.str(1) + "\n"));
+    EXPECT_TRUE(contains(read_text(out + "/summary.md"),
+                         "\n- " + group.str(1) + "; the smallest: " + group.str(2) + "\n"));
   }
 }
 

@@ -1,0 +1,383 @@
+#include "properties/campaign/gates/failure_groups.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "corpus/cases/case_file.h"
+#include "detector/mesh/enum_names.h"
+#include "detector/mesh/topology.h"
+#include "properties/campaign/ledger/run_folder.h"
+#include "properties/campaign/trials/planned_case.h"
+#include "properties/judging/cause.h"
+#include "properties/judging/judged_run.h"
+#include "properties/queries/query_families.h"
+#include "properties/reducer/mesh_size.h"
+#include "properties/worker/plugin/query_case.h"
+
+namespace assay::properties {
+namespace {
+
+using Words = std::set<std::string>;
+
+// The words of a cause, and the opposites of those that it leaves out because they are ordinary.
+void add_cause(Words& words, const std::string& cause) {
+  for (std::size_t begin = 0; begin < cause.size();) {
+    const auto end = std::min(cause.find(", ", begin), cause.size());
+    words.insert(cause.substr(begin, end - begin));
+    begin = end + 2;
+  }
+  constexpr std::array<std::array<const char*, 2>, 2> opposites = {
+      {{"sharing", "sharing nothing"}, {"near contact", "apart at the start"}}};
+  for (const auto& [mark, otherwise] : opposites) {
+    if (cause.find(mark) == std::string::npos) words.insert(otherwise);
+  }
+  if (!words.contains("sharing nothing")) words.insert("neighbours");
+}
+
+// The traits of a mesh, and of two of its triangles.
+class MeshTraits {
+ public:
+  explicit MeshTraits(const corpus::Case& c)
+      : is_query_(query_of(c).has_value()),
+        mesh_(detector::make_topology(c.triangles, c.frames.front().rows())) {}
+
+  // A query has no mesh.
+  void add_to(Words& words, const detector::TrianglePair& pair) const {
+    if (is_query_) return;
+    const auto of = [&](std::int32_t t) { return mesh_.component_of_triangle[detector::at(t)]; };
+    words.insert(of(pair.a) == of(pair.b) ? "within one component" : "between two components");
+    const bool closed = std::ranges::all_of(mesh_.components, &detector::Component::is_cycle);
+    words.insert(closed ? "a closed mesh" : "an unclosed mesh");
+    for (std::size_t decade = 1; decade < mesh_.triangles.size(); decade *= 10) {
+      for (const auto least : {decade, 2 * decade, 5 * decade}) {
+        if (least > 2 && least <= mesh_.triangles.size())
+          words.insert(fmt::format("at least {} triangles", least));
+      }
+    }
+  }
+
+ private:
+  const bool is_query_;
+  const detector::Topology mesh_;
+};
+
+// The traits of the contacts of a case, of one pair alone if it is given.
+std::vector<Words> contacts_of(const corpus::Case& c, const Contract& contract,
+                               const detector::TrianglePair* alone = nullptr) {
+  std::vector<Words> contacts;
+  const MeshTraits mesh(c);
+  const bool is_query = query_of(c).has_value(), of_distance = contract.separation > 0;
+  const auto judged = judge_case(c, contract);
+  for (std::size_t s = 0; s < judged.size(); ++s) {
+    const auto step = corpus::steps_of(c)[s];
+    const detector::SteppedMesh motion{start_of(c, step), end_of(c, step)};
+    for (const auto& contact : truth_of(c, judged[s], contract).pairs) {
+      if (alone && contact.pair != *alone) continue;
+      auto& words = contacts.emplace_back();
+      words.insert(name_of(contact.feature.kind));
+      add_cause(words, text_of(is_query ? cause_of_query(c.triangles, motion, contact, of_distance)
+                                        : cause_of(c.triangles, motion, contact, of_distance)));
+      mesh.add_to(words, contact.pair);
+    }
+  }
+  return contacts;
+}
+
+// The contacts of each of up to so many cases that hold, of those that have one.
+std::vector<std::vector<Words>> contacts_that_hold(const RunFindings& findings, std::size_t most) {
+  std::vector<std::pair<std::string, std::string>> trials;  // family, id
+  const auto files = stored_runs(findings.folder);
+  if (!files) return {};
+  for (const auto& file : files.value()) {
+    value_or_throw(Store::read(file)).for_each_trial([&](const TrialRecord& trial) {
+      const bool holds =
+          trial.outcomes.find_first_not_of(letter_of(Outcome::holds)) == std::string::npos;
+      if (holds && trial.collisions > 0 && !is_size_family(trial.family))
+        trials.emplace_back(trial.family, trial.id);
+    });
+  }
+  std::vector<std::vector<Words>> held;
+  const auto count = std::min(most, trials.size());
+  const auto& contract = findings.run.detector.contract;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto& [family, id] = trials[i * trials.size() / count];
+    const auto c = case_within(contract, *find_family(family), id).seen;
+    if (c) held.push_back(contacts_of(*c, contract));
+  }
+  return held;
+}
+
+// What its signature tells of the contact that a failure lost: "edge-edge, t inside, moving".
+std::optional<std::string> lost_contact(const std::string& signature) {
+  for (const std::string kind :
+       {": answered free, ", ": late, ", ": missing pair, ", ": missing candidate, ",
+        ": contact on the way, ", ": share too large, "}) {
+    const auto at = signature.find(kind);
+    if (at != std::string::npos) return signature.substr(at + kind.size());
+  }
+  return std::nullopt;
+}
+
+constexpr const char* loses = "lose a contact";
+
+// What failures of this kind do.
+const char* deed_of(const StoredFailure& failure) {
+  const auto& signature = failure.signature;
+  const auto says = [&](const char* word) { return signature.find(word) != std::string::npos; };
+  if (failure.flaky || says("two runs differ")) return "answer otherwise when asked again";
+  if (lost_contact(signature) || says(": late pair")) return loses;
+  for (const char* kind : {": answered collision", ": spurious pair", ": early"}) {
+    if (says(kind)) return "report what is not there, or too early";
+  }
+  if (says(": share too small") || says(": free step cut")) return "stop before they have to";
+  return signature.starts_with(law_in_signature) ? "break a law" : "end without an answer";
+}
+
+// The two triangles that the explanation names; nothing if they are none of the mesh.
+std::optional<detector::TrianglePair> pair_told(const std::string& explanation,
+                                                const corpus::Case& c) {
+  constexpr const char* word = "triangles ";
+  detector::TrianglePair pair{0, 0};
+  for (auto at = explanation.find(word); at != std::string::npos;
+       at = explanation.find(word, at + 1)) {
+    if (std::sscanf(explanation.c_str() + at, "triangles %d and %d", &pair.a, &pair.b) != 2)
+      continue;
+    const auto [low, high] = std::minmax(pair.a, pair.b);
+    if (low >= 0 && high < c.triangles.rows()) return pair;
+  }
+  return std::nullopt;
+}
+
+// The traits of the contact that a failure lost. The signature of a late pair tells none, because
+// another contact of the pair was found; the oracle does.
+Words traits_of(const StoredFailure& failure, const Contract& contract) {
+  Words words;
+  const auto contact = lost_contact(failure.signature);
+  if (contact) add_cause(words, *contact);
+  const auto c = corpus::parse_case(failure.mesh, "stored case");
+  const auto pair = c ? pair_told(failure.explanation, c.value()) : std::nullopt;
+  if (!pair) return words;
+  if (!contact) {
+    const auto exact = contacts_of(c.value(), contract, &*pair);
+    return exact.empty() ? words : exact.front();
+  }
+  MeshTraits(c.value()).add_to(words, *pair);
+  return words;
+}
+
+// A set of traits, a bit each.
+using Traits = std::uint64_t;
+constexpr std::size_t most_traits = 64;
+
+bool holds(Traits all, Traits some) { return (all & some) == some; }
+
+// A kind of failure that loses a contact: what all of its contacts have in common.
+struct LostKind {
+  std::string signature;
+  Traits traits = ~Traits{0};
+  Words cases;  // ids of those that show it
+};
+
+using LostKinds = std::vector<LostKind>;
+
+// Tells kinds that lose a contact apart by what sets their contacts apart from those that were
+// found.
+class Sorter {
+ public:
+  Sorter(LostKinds kinds, std::vector<std::string> names, std::vector<std::vector<Traits>> held)
+      : left_(std::move(kinds)), names_(std::move(names)), held_(std::move(held)) {}
+
+  std::vector<FailureGroup> run() {
+    std::vector<FailureGroup> groups;
+    while (!left_.empty()) {
+      const auto chosen = next();
+      LostKinds taken, others;
+      for (auto& kind : left_) (holds(kind.traits, chosen) ? taken : others).push_back(kind);
+      left_ = std::move(others);
+      groups.push_back(group_of(taken));
+    }
+    return groups;
+  }
+
+ private:
+  // In how many cases that hold some contact has all of these traits.
+  std::size_t held_with(Traits traits) const {
+    return static_cast<std::size_t>(std::ranges::count_if(held_, [&](const auto& contacts) {
+      return std::ranges::any_of(contacts, [&](Traits of) { return holds(of, traits); });
+    }));
+  }
+
+  static std::size_t cases_of(const LostKinds& kinds, Traits traits) {
+    Words cases;
+    for (const auto& kind : kinds) {
+      if (holds(kind.traits, traits)) cases.insert(kind.cases.begin(), kind.cases.end());
+    }
+    return cases.size();
+  }
+
+  static Traits common(const LostKinds& kinds) {
+    Traits all = ~Traits{0};
+    for (const auto& kind : kinds) all &= kind.traits;
+    return all;
+  }
+
+  // Minus the logarithm of how likely so many failing cases have these traits by chance, if they
+  // are as frequent there as in cases that hold, or a little more.
+  double surprise(std::size_t cases, Traits traits) const {
+    const double share =
+        (static_cast<double>(held_with(traits)) + 1) / (static_cast<double>(held_.size()) + 1);
+    return -static_cast<double>(cases) * std::log(share);
+  }
+
+  // The traits of the next group: those that would be the greatest surprise by chance. What all
+  // kinds that are left have in common goes first, unless it surprises less than half as much: one
+  // mistake is likelier than two. No trait, for all that are left: nothing is a surprise.
+  Traits next() const {
+    const Traits all = common(left_);
+    const double of_all = surprise(cases_of(left_, 0), all);
+    Traits best = 0;
+    double most = least_surprise_of_some;
+    for (std::size_t a = 0; a < names_.size(); ++a) {
+      for (std::size_t b = a; b < names_.size(); ++b) {
+        const Traits traits = Traits{1} << a | Traits{1} << b;
+        const auto cases = cases_of(left_, traits);
+        const double found = surprise(cases, traits);
+        if (cases < least_cases || found < least_surprise_of_a_case * static_cast<double>(cases))
+          continue;
+        if (found > most) most = found, best = traits;
+      }
+    }
+    return 2 * of_all >= most && of_all >= least_surprise_of_all ? all : best;
+  }
+
+  FailureGroup group_of(const LostKinds& kinds) const {
+    FailureGroup group{loses, {}, {}, "", held_.size(), held_.size()};
+    for (const auto& kind : kinds) group.kinds.push_back(kind.signature);
+    const Traits shared = common(kinds);
+    const auto cases = cases_of(kinds, 0);
+    if (surprise(cases, shared) < least_surprise_of_all) return group;
+    // The most telling trait first, then each that leaves at most half of the cases that hold; two
+    // at once where none does so alone.
+    Traits told = 0;
+    for (bool tells = true; tells && group.held_with > 0;) {
+      Traits best = 0;
+      auto fewest = group.held_with / 2 + 1;
+      const auto offer = [&](Traits traits) {
+        if (!holds(shared, traits)) return;
+        const auto others = held_with(told | traits);
+        if (others < fewest) fewest = others, best = traits;
+      };
+      for (std::size_t a = 0; a < names_.size(); ++a) offer(Traits{1} << a);
+      for (std::size_t a = 0; best == 0 && a < names_.size(); ++a) {
+        for (std::size_t b = 0; b < a; ++b) offer(Traits{1} << a | Traits{1} << b);
+      }
+      tells = best != 0;
+      if (!tells) break;
+      told |= best;
+      group.held_with = fewest;
+      for (std::size_t a = 0; a < names_.size(); ++a) {
+        if (best >> a & 1) group.shared.push_back(names_[a]);
+      }
+    }
+    if (surprise(cases, told) < least_surprise_of_all) {
+      group.shared.clear();
+      group.held_with = group.held;
+    }
+    return group;
+  }
+
+  static constexpr double least_surprise_of_all = 9.21;    // 1e-4; some thirty traits are tried
+  static constexpr double least_surprise_of_some = 13.82;  // 1e-6; some hundreds are
+  static constexpr std::size_t least_cases = 3;
+  static constexpr double least_surprise_of_a_case = 2.08;  // an eighth of the cases that hold
+
+  LostKinds left_;
+  const std::vector<std::string> names_;
+  const std::vector<std::vector<Traits>> held_;
+};
+
+std::vector<FailureGroup> groups_of_lost(const RunFindings& findings,
+                                         const std::vector<const StoredFailure*>& kinds) {
+  constexpr std::size_t most_that_hold = 100;
+  std::map<std::string, std::size_t> numbers;
+  const auto traits_in = [&](const Words& words, bool adds) {
+    Traits traits = 0;
+    for (const auto& word : words) {
+      if (adds && numbers.size() < most_traits) numbers.emplace(word, numbers.size());
+      if (const auto number = numbers.find(word); number != numbers.end())
+        traits |= Traits{1} << number->second;
+    }
+    return traits;
+  };
+  LostKinds lost;
+  for (const auto* kind : kinds) {
+    auto& one = lost.emplace_back();
+    one.signature = kind->signature;
+    for (const auto& failure : findings.failures) {
+      if (failure.signature != kind->signature) continue;
+      one.traits &= traits_in(traits_of(failure, findings.run.detector.contract), true);
+      one.cases.insert(failure.id);
+    }
+  }
+  std::vector<std::vector<Traits>> held;
+  for (const auto& contacts : contacts_that_hold(findings, most_that_hold)) {
+    auto& of_case = held.emplace_back();
+    for (const auto& words : contacts) of_case.push_back(traits_in(words, false));
+  }
+  std::vector<std::string> names(numbers.size());
+  for (const auto& [word, number] : numbers) names[number] = word;
+  return Sorter(std::move(lost), std::move(names), std::move(held)).run();
+}
+
+}  // namespace
+
+std::vector<FailureGroup> failure_groups(const RunFindings& findings) {
+  std::vector<FailureGroup> groups;
+  const auto kinds = findings.kinds();
+  std::vector<const StoredFailure*> lost;
+  for (const auto* kind : kinds) {
+    const std::string deed = deed_of(*kind);
+    if (deed == loses) {
+      lost.push_back(kind);
+      continue;
+    }
+    auto group = std::ranges::find(groups, deed, &FailureGroup::does);
+    if (group == groups.end()) group = groups.insert(group, {deed, {}, {}, ""});
+    group->kinds.push_back(kind->signature);
+  }
+  for (auto& group : groups_of_lost(findings, lost)) groups.push_back(std::move(group));
+  std::map<std::string, MeshSize> sizes;
+  for (const auto* kind : kinds) {
+    const auto c =
+        corpus::parse_case(kind->smallest.empty() ? kind->mesh : kind->smallest, "stored case");
+    if (c) sizes[kind->signature] = size_of(c.value());
+  }
+  for (auto& group : groups)
+    group.smallest = *std::ranges::min_element(
+        group.kinds, {}, [&](const std::string& kind) { return sizes[kind]; });
+  std::ranges::stable_sort(groups, std::greater(),
+                           [](const FailureGroup& group) { return group.kinds.size(); });
+  return groups;
+}
+
+std::string text_of(const FailureGroup& group, std::size_t kinds) {
+  const auto count = group.kinds.size();
+  auto text = count == kinds
+                  ? fmt::format("all {} kinds of failure {}", kinds, group.does)
+                  : fmt::format("{} of {} kinds of failure {}", count, kinds, group.does);
+  if (!group.shared.empty())
+    text += fmt::format(": {} ({} of {} cases that hold {} such a contact)",
+                        fmt::join(group.shared, ", "), group.held_with, group.held,
+                        group.held_with == 1 ? "has" : "have");
+  return text;
+}
+
+}  // namespace assay::properties
