@@ -208,7 +208,7 @@ Contract contract_of(const detector::Options& options);
 // of queries, and of steps if it leaves neighbours out.
 Claims judged_claims(const Claims& claims, const Contract& contract, bool of_queries = false);
 
-// Adds to `broken` those of the claims that the step breaks, and makes it a defect if there are any.
+// Adds to `broken` those of the claims that the step breaks, and makes it a defect if one is.
 void weigh(const Claims& claims, StepDiff& diff);
 
 // What a plug-in says of itself.

@@ -125,7 +125,7 @@ struct StepDiff {
 };
 
 // How a step breaks a claim, which is the kind of its failure ("late pair"; null: it does not), and
-// by what: a contact of the oracle, a contact that comes within the slack alone, a pair with a wrong
+// by what: a contact of the oracle, one that comes within the slack alone, a pair with a wrong
 // time, a pair that is not in contact, or nothing that could be named.
 struct WithinSlack {
   detector::PairContact contact;

@@ -194,8 +194,8 @@ class Comparison {
       diff_.first_in_slack = *first;
   }
 
-  // The diff, which has this outcome if it breaks no claim. With a slack to go by, alarms are judged
-  // as those of queries are.
+  // The diff, which has this outcome if it breaks no claim. With a slack to go by, alarms are
+  // judged as those of queries are.
   StepDiff weighed(Outcome outcome) {
     diff_.outcome = outcome;
     weigh(judged_claims(claims_, contract_, judgement_.within_slack.has_value()), diff_);

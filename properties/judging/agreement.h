@@ -123,11 +123,11 @@ struct LimitedStep {
 // contract. Where the limiter stops short of x_t1 the oracle is asked once more, about the step
 // from x_t0 to there. If it was stopped, a step that would hold is undecided.
 //
-// The share is too short if it is below Contract::progress times the least of 1 and the first
+// The share is too short if it is below Contract::progress times t*, the least of 1 and the first
 // contact time of the whole step, where rounding cannot be the reason: so much of the step moves
-// some vertex by 2^10 units in its last place or more; the gaps at the start, beyond the separation,
-// are 2^6 units of the largest coordinate or more; and each of eight equal places from that share to
-// the contact is free to go to, with its rounding, by the oracle. Elsewhere it is only counted.
+// some vertex by 2^10 units in its last place or more; the gaps at the start, beyond the
+// separation, are 2^6 units of the largest coordinate or more; and each of eight equal places from
+// that share to t* is free to go to, with its rounding, by the oracle. Else it is only counted.
 void judge_limit(const std::optional<LimitAnswer>& answer, const LimitedStep& step,
                  const oracle::StepJudgement& judgement, const Claims& claims,
                  const Contract& contract, StepDiff& diff);
