@@ -1,8 +1,8 @@
-// What a detector promises: the contract under which its claims hold (which steps, coordinates and
-// features it takes, and how its times are read), its claims, and what else a plug-in says of
-// itself.
+// What a detector promises: its claims, and what else a plug-in says of itself. Its contract, under
+// which they hold, is contract.h.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <initializer_list>
@@ -10,188 +10,11 @@
 #include <string_view>
 #include <vector>
 
-#include "detector/mesh/counted_pairs.h"
-#include "detector/mesh/step_types.h"
-#include "detector/mesh/types.h"
 #include "detector/options.h"
-#include "properties/fields.h"
-#include "properties/words.h"
+#include "detector/plugin/assay_detector.h"
+#include "properties/claims/step_diff.h"
 
 namespace assay::properties {
-
-// Which neighbours a detector tests against each other.
-enum class Adjacency : std::uint8_t {
-  all,               // every pair of triangles
-  not_edge_sharing,  // pairs that share at most one vertex
-  no_shared_vertex,  // pairs that share nothing
-};
-constexpr auto names_of(Adjacency) {
-  using enum Adjacency;
-  return std::to_array<Named<Adjacency>>({{all, "all"},
-                                          {not_edge_sharing, "not-edge-sharing"},
-                                          {no_shared_vertex, "no-shared-vertex"}});
-}
-
-// The coordinates that the detector computes with. Inputs of a float32 detector are rounded to the
-// nearest float32 before the detector and the oracle see them.
-enum class Coordinates : std::uint8_t { float64, float32 };
-constexpr auto names_of(Coordinates) {
-  return std::to_array<Named<Coordinates>>(
-      {{Coordinates::float64, "float64"}, {Coordinates::float32, "float32"}});
-}
-
-// Which steps the detector takes, by how the mesh lies at t = 0. The others are left out, and
-// counted.
-enum class StartRule : std::uint8_t {
-  any,    // every step
-  free,   // steps that start without a contact
-  apart,  // steps that start with all features at least start_distance apart
-};
-constexpr auto names_of(StartRule) {
-  using enum StartRule;
-  return std::to_array<Named<StartRule>>({{any, "any"}, {free, "free"}, {apart, "apart"}});
-}
-
-// Which features the detector tests against each other. Contacts of the others are not held
-// against it.
-enum class TestedFeatures : std::uint8_t { both, vertex_face, edge_edge };
-constexpr auto names_of(TestedFeatures) {
-  using enum TestedFeatures;
-  return std::to_array<Named<TestedFeatures>>(
-      {{both, "both"}, {vertex_face, "vertex-face"}, {edge_edge, "edge-edge"}});
-}
-
-// How a detector is told where a step goes.
-enum class MotionGiven : std::uint8_t {
-  ends,          // by the positions at its end
-  displacement,  // by what is added to those at its start; the exact sum is the end
-};
-constexpr auto names_of(MotionGiven) {
-  return std::to_array<Named<MotionGiven>>(
-      {{MotionGiven::ends, "ends"}, {MotionGiven::displacement, "displacement"}});
-}
-
-// Where a limiter that states a share of a step lets the caller stop (L17).
-enum class LimitGives : std::uint8_t {
-  positions,   // where it says itself
-  start_plus,  // x_t0 + share (x_t1 - x_t0), in the contract's coordinates
-  blend,       // (1 - share) x_t0 + share x_t1
-};
-constexpr auto names_of(LimitGives) {
-  using enum LimitGives;
-  return std::to_array<Named<LimitGives>>(
-      {{positions, "positions"}, {start_plus, "start-plus"}, {blend, "blend"}});
-}
-
-// A contract that asks for more is refused.
-inline constexpr double widest_time_tolerance = 1e-3;
-
-// Lengths are in the user's units; times are shares of the step. The default contract leaves
-// nothing out.
-struct Contract {
-  Adjacency adjacency = Adjacency::all;
-  Coordinates coordinates = Coordinates::float64;
-  // The slack m: the detector may also report what comes within separation + m. Above 0, first-time
-  // is not judged, and no-spurious is only if the detector leaves neighbours out: these are within
-  // m of each other throughout.
-  double margin = 0;
-  StartRule start = StartRule::any;
-  double start_distance = 0;  // for StartRule::apart
-  // No coordinate has a magnitude above `largest`, because rounding goes by the coordinates. Every
-  // edge has length 0 or at least least_nonzero, because thresholds go by lengths; length is the
-  // greatest difference along an axis. The extent of a mesh is that of an edge at least. Both 0:
-  // any mesh.
-  double least_nonzero = 0, largest = 0;
-  TestedFeatures features = TestedFeatures::both;
-  double time_tolerance = 0;  // a time is late, early or wrong when it is off by more than this
-  bool reports_pairs = true;
-  // Above 0: the question is not which triangles touch, but which come within this distance. Then
-  // pairs that share no vertex are asked for alone.
-  double separation = 0;
-  // What the detector leaves out by itself, as members of detector/mesh/counted_pairs.h, at the
-  // level `counts`. At rest the mesh is as in the frame that a detector is made from.
-  detector::CountedLevel counts = detector::CountedLevel::triangles;
-  std::int32_t rings = 0;
-  double rest_distance = 0;
-  // Whether the detector can be told which pairs count. One that cannot is asked about all pairs.
-  bool takes_relations = true;
-  // Of a limiter: where the caller stops who is told a share alone, and what share of the first
-  // contact time it promises (Claim::progress); 0: none.
-  LimitGives limit_gives = LimitGives::positions;
-  double progress = 0;
-  // Displacements are in float32 alone: the end of a step is then a double, in which the oracle
-  // holds it.
-  MotionGiven motion = MotionGiven::ends;
-  // How much the detector holds; 0: as much as there is. Beyond one of them a step may be refused
-  // (beyond_capacity).
-  std::uint64_t capacity_triangles = 0, capacity_contacts = 0, capacity_candidates = 0;
-  friend bool operator==(const Contract&, const Contract&) = default;
-
-  bool has_range() const { return largest > 0; }
-  // Whether it is judged what the detector reports although it is not there. The features of a
-  // query share no vertex.
-  bool judges_alarms(bool of_queries = false) const {
-    return margin == 0 || of_queries || adjacency == Adjacency::no_shared_vertex;
-  }
-  // Whether the oracle has to tell contacts that the detector tests from others
-  // (StepJudgement::asked_pairs).
-  bool tests_part() const {
-    return features != TestedFeatures::both || rings > 0 || rest_distance > 0;
-  }
-};
-
-// Each member by its name, in reports, certificates and messages.
-ASSAY_FIELDS(Contract, adjacency, coordinates, margin, start, start_distance, least_nonzero,
-             largest, features, time_tolerance, reports_pairs, separation, counts, rings,
-             rest_distance, takes_relations, limit_gives, progress, motion, capacity_triangles,
-             capacity_contacts, capacity_candidates)
-
-// The shortest decimal that reads back to the same double. It is made without libfmt, because the
-// worker does not use that.
-std::string number_text(double x);
-
-// What is wrong with the contract, without a subject ("its margin is no length"); empty if nothing
-// is.
-std::string fault_of(const Contract& contract);
-
-// What the contract leaves out or changes, one phrase each: "starts free", "edges from 1e-06",
-// "coordinates up to 1e+06", "times within 1e-09". Empty for the contract that leaves nothing out.
-std::vector<std::string> phrases_of(const Contract& contract);
-
-// How much a step is, as the oracle counts it: triangles of its mesh, pairs of them in contact that
-// the contract does not leave out, and feature pairs whose swept boxes meet.
-struct StepLoad {
-  std::uint64_t triangles = 0, contacts = 0, candidates = 0;
-};
-// Whether a detector with this contract may refuse such a step.
-bool beyond_capacity(const Contract& contract, const StepLoad& load);
-
-// The relation of what the contract tests, on a mesh whose vertices are at rest at `rest`.
-detector::CountedPairs tested_pairs(const Contract& contract, const detector::Positions& rest);
-
-int shared_vertices(const detector::TrianglesView& triangles, detector::TrianglePair pair);
-
-// Whether the contract's adjacency alone lets the detector leave this pair out.
-bool leaves_out(const Contract& contract, const detector::TrianglesView& triangles,
-                detector::TrianglePair pair);
-
-// The positions that the detector and the oracle are both given. A coordinate that has no float32
-// becomes infinite.
-detector::Positions contracted(const detector::PositionsView& x, Coordinates coordinates);
-
-// The displacement of a step that a detector of float32 is given: the nearest to its way.
-detector::Positions displacement(const detector::PositionsView& x_t0,
-                                 const detector::PositionsView& x_t1);
-
-using Edge = std::array<std::int32_t, 2>;
-
-double length_of(const detector::PositionsView& x, const Edge& edge);
-
-// Where a mesh with these edges leaves the contract's range, with the member of the contract:
-// "vertex 3 has the coordinate 2e+06, above largest, 1e+06" or "edge 3-4 is 2e-13 long, below
-// least_nonzero, 1e-06". Empty if it does not.
-std::string beyond_range(const detector::PositionsView& x, const std::vector<Edge>& edges,
-                         const Contract& contract);
 
 // What a detector claims of its answers.
 
@@ -218,22 +41,98 @@ enum class Claim : std::uint8_t {
   // detector does: nobody claims it from outside, and no list names it.
   times_unique,
 };
+
+// What a claim is about, and so which part of a library can make it. `runs`: any part can.
+enum class About : std::uint8_t { answers, times, pairs, broad_phase, limits, runs };
+
+// What puts a claim to the test.
+enum class Tried : std::uint8_t {
+  by_step,           // any that is judged
+  by_contact,        // a step with a contact that counts
+  by_stated_time,    // such a step, where first times are stated
+  by_candidates,     // a step with pairs that have to be among them
+  by_contact_ahead,  // of a limiter
+  by_free_way,       // of a limiter
+  by_second_run,     // of the same case
+};
+
+// All that there is to know of a claim: who judges it, leaves it out or speaks of it reads it here.
+struct ClaimRow {
+  Claim value;
+  const char* name;
+  std::uint32_t bit;  // of assay_description::claims; 0: nobody claims it from outside
+  About about;
+  Tried tried;
+  // How a step breaks it. Two runs alone break `deterministic` (judged_run.h), and nothing breaks
+  // times_unique.
+  Shown (*shown_by)(const StepDiff&) = [](const StepDiff&) { return Shown(); };
+  // Why it is not judged under this contract; empty if it is.
+  const char* (*why_void)(const Contract&, bool of_queries) = [](const Contract&, bool) {
+    return "";
+  };
+};
+
 constexpr auto names_of(Claim) {
   using enum Claim;
-  return std::to_array<Named<Claim>>({{free_sound, "free-sound"},
-                                      {not_late, "not-late"},
-                                      {first_time, "first-time"},
-                                      {first_pairs, "first-pairs"},
-                                      {all_pairs, "all-pairs"},
-                                      {no_spurious, "no-spurious"},
-                                      {deterministic, "deterministic"},
-                                      {total, "total"},
-                                      {candidates, "candidates"},
-                                      {commit_free, "commit-free"},
-                                      {path_free, "path-free"},
-                                      {progress, "progress"},
-                                      {whole, "whole-when-safe"},
-                                      {times_unique, "times-unique"}});
+  using enum About;
+  using enum Tried;
+  using C = const Contract&;
+  using D = const StepDiff&;
+  constexpr auto without_pairs = [](C c, bool) {
+    return c.reports_pairs ? "" : "the detector reports no pairs";
+  };
+  return std::to_array<ClaimRow>({
+      {free_sound, "free-sound", ASSAY_CLAIM_FREE_SOUND, answers, by_contact,
+       [](D d) { return if_so(d.answered_free, "answered free", d.first_contact); }},
+      {not_late, "not-late", ASSAY_CLAIM_NOT_LATE, times, by_contact,
+       [](D d) { return if_so(d.late_first, "late", d.first_contact); }},
+      {first_time, "first-time", ASSAY_CLAIM_FIRST_TIME, times, by_stated_time,
+       [](D d) {  // an oracle that was stopped knows no exact first time
+         return if_so(d.first && d.late_first, "late", d.first_contact) |
+                if_so(d.first && d.early_first, "early", d.first_contact);
+       },
+       [](C c, bool) { return c.margin > 0 ? "the contract has a margin" : ""; }},
+      {first_pairs, "first-pairs", ASSAY_CLAIM_FIRST_PAIRS, pairs, by_contact,
+       [](D d) { return d.is_without_excuse ? if_any("missing pair", d.missing) : Shown(); },
+       without_pairs},
+      {all_pairs, "all-pairs", ASSAY_CLAIM_ALL_PAIRS, pairs, by_contact,
+       [](D d) { return if_any("missing pair", d.missing) | if_any("late pair", d.late); },
+       without_pairs},
+      {no_spurious, "no-spurious", ASSAY_CLAIM_NO_SPURIOUS, answers, by_step,
+       [](D d) {
+         const auto pair =
+             d.spurious.empty() ? Shown() : Shown{"spurious pair", d.spurious.front().pair};
+         if (d.answered_collision) return Shown{"answered collision", pair.by};
+         return pair | if_any("early pair", d.early) |
+                (d.first_in_slack ? Shown{"early alarm", WithinSlack{*d.first_in_slack}} : Shown());
+       },
+       [](C c, bool of_queries) {
+         return c.judges_alarms(of_queries) ? ""
+                                            : "the contract has a margin, and tests neighbours";
+       }},
+      {deterministic, "deterministic", ASSAY_CLAIM_DETERMINISTIC, runs, by_second_run},
+      {total, "total", ASSAY_CLAIM_TOTAL, runs, by_step,
+       [](D d) { return if_so(d.owes_answer, d.refused ? name_of(Outcome::refused) : "error"); }},
+      {candidates, "candidates", ASSAY_CLAIM_CANDIDATES, broad_phase, by_candidates,
+       [](D d) { return if_any("missing candidate", d.missing_candidates); }},
+      {commit_free, "commit-free", ASSAY_CLAIM_COMMIT_FREE, limits, by_contact_ahead,
+       [](D d) {
+         return d.limit && d.limit->hit ? Shown{"contact on the way", *d.limit->hit} : Shown();
+       }},
+      {path_free, "path-free", ASSAY_CLAIM_PATH_FREE, limits, by_contact_ahead,
+       [](D d) { return if_so(d.limit && d.limit->too_far, "share too large", d.first_contact); }},
+      {progress, "progress", ASSAY_CLAIM_PROGRESS, limits, by_contact_ahead,
+       [](D d) {
+         return if_so(d.limit && d.limit->too_short, "share too small", d.first_contact);
+       }},
+      {whole, "whole-when-safe", ASSAY_CLAIM_WHOLE, limits, by_free_way,
+       [](D d) { return if_so(d.limit && d.limit->is_cut, "free step cut", d.first_contact); }},
+      {times_unique, "times-unique", 0, times, by_contact},
+  });
+}
+inline constexpr auto claim_rows = names_of(Claim());
+constexpr const ClaimRow& row_of(Claim claim) {
+  return claim_rows[static_cast<std::size_t>(claim)];
 }
 
 // A set of claims.
@@ -269,18 +168,28 @@ class Claims {
   std::uint32_t bits_ = 0;
 };
 
-// Those that only a limiter can make.
-inline constexpr Claims claims_on_limits = {Claim::commit_free, Claim::path_free, Claim::progress,
-                                            Claim::whole};
+// Those that a detector may claim from outside of these things.
+constexpr Claims claims_about(std::initializer_list<About> abouts) {
+  Claims claims;
+  for (const About about : abouts) {
+    for (const auto& row : claim_rows)
+      if (row.about == about) claims = claims.with(Claims::of_bits(row.bit));
+  }
+  return claims;
+}
+inline constexpr Claims claims_on_limits = claims_about({About::limits});
+inline constexpr Claims claims_from_outside = claims_about(
+    {About::answers, About::times, About::pairs, About::broad_phase, About::limits, About::runs});
+static_assert(std::all_of(claim_rows.begin(), claim_rows.end(), [](const ClaimRow& row) {
+  return row_of(row.value).value == row.value &&
+         (row.bit == 0 || row.bit == Claims({row.value}).bits());
+}));
 
-// Those that a detector may claim from outside. Their numbers are the bits of
-// assay_description::claims (detector/plugin/assay_detector.h).
-inline constexpr Claims claims_from_outside =
-    Claims::of_bits((1u << static_cast<unsigned>(Claim::times_unique)) - 1);
-
-// Those of claims_from_outside that `claims` has, in the order of Claim; and all of them.
+// Those of claims_from_outside that `claims` has, in the order of Claim.
 std::vector<Claim> list_of(const Claims& claims);
-std::vector<Claim> all_claims();
+// Their words, and the claims of words. A word of no claim is passed over.
+std::vector<std::string> words_of(const Claims& claims);
+Claims claims_named(const std::vector<std::string>& words);
 
 // What the built-in detector claims. exact: everything. bounded: everything but no-spurious (its
 // intervals hold the times by construction, see StepResult::first). double and float:
@@ -294,11 +203,13 @@ inline constexpr double built_in_progress = 0.9;
 // that share no vertex.
 Contract contract_of(const detector::Options& options);
 
-// The claims that are judged under this contract. If it has a margin, first-time is not judged,
-// because the detector may then report a collision before there is one; no-spurious is judged with
-// the margin of queries, and of steps if the detector leaves neighbours out. First-pairs and
-// all-pairs are not judged of a detector that reports no pairs.
+// The claims that are judged under this contract (ClaimRow::why_void). If it has a margin, the
+// detector may report a collision before there is one; its false alarms are judged with the margin
+// of queries, and of steps if it leaves neighbours out.
 Claims judged_claims(const Claims& claims, const Contract& contract, bool of_queries = false);
+
+// Adds to `broken` those of the claims that the step breaks, and makes it a defect if one is.
+void weigh(const Claims& claims, StepDiff& diff);
 
 // What a plug-in says of itself.
 

@@ -73,12 +73,11 @@ class Comparison {
     diff_.answer = result_.answer;
     diff_.oracle_complete = judgement_.complete;
     diff_.nothing_in_contact = judgement_.complete && allowed().empty();
-    diff_.claims_pairs = claims_.has(Claim::all_pairs) || claims_.has(Claim::first_pairs);
+    diff_.claims_pairs = claims_.has_any(claims_about({About::pairs}));
     diff_.unanswered_contact = is_unanswered_contact(result_, truth);
     if (result_.answer == Answer::error) {
-      broken(Claim::total, !result_.problem);
-      diff_.outcome = diff_.broken.empty() ? Outcome::error : Outcome::defect;
-      return std::move(diff_);
+      diff_.owes_answer = !result_.problem;
+      return weighed(Outcome::error);
     }
     diff_.partial = !detector_complete() || !judgement_.complete;
     truth_ = std::move(truth);
@@ -90,8 +89,7 @@ class Comparison {
     compare_answers();
     compare_with_slack();
     excuse();
-    weigh();
-    return std::move(diff_);
+    return weighed(diff_.partial ? Outcome::undecided : Outcome::holds);
   }
 
  private:
@@ -157,29 +155,30 @@ class Comparison {
     diff_.first = {result_.first, exact, time_off(result_.first, exact, times_.tolerance)};
   }
 
-  // Sorts out the missing pairs that are excused. Those left in unexcused_ break first-pairs.
+  // Sorts out the missing pairs that are excused.
   void excuse() {
-    unexcused_ = diff_.missing;
+    auto unexcused = diff_.missing;
     std::vector<PairContact> excused;
     if (truth_.complete && truth_.first) {
-      excuse_beside_the_first(truth_.pairs, truth_.first->time, unexcused_, excused);
+      excuse_beside_the_first(truth_.pairs, truth_.first->time, unexcused, excused);
     } else if (result_.answer == Answer::collision) {
       // If the oracle was stopped, only a pair that is earlier than the detector's first time is
       // missed for sure.
       const auto later = std::stable_partition(
-          unexcused_.begin(), unexcused_.end(), [&](const PairContact& contact) {
+          unexcused.begin(), unexcused.end(), [&](const PairContact& contact) {
             return times_.begins_after(result_.first, contact.time);
           });
-      excused.assign(later, unexcused_.end());
-      unexcused_.erase(later, unexcused_.end());
+      excused.assign(later, unexcused.end());
+      unexcused.erase(later, unexcused.end());
     }
+    diff_.is_without_excuse = !unexcused.empty();
     if (claims_.has(Claim::all_pairs)) return;
     const bool is_silent = result_.pairs.empty() && !claims_.has(Claim::first_pairs);
     if (!contract_.reports_pairs || is_silent) {
       diff_.missing.clear();
       return;
     }
-    diff_.missing = unexcused_;
+    diff_.missing = std::move(unexcused);
     diff_.excused = std::move(excused);
   }
 
@@ -195,24 +194,12 @@ class Comparison {
       diff_.first_in_slack = *first;
   }
 
-  void broken(Claim claim, bool refuted) {
-    if (refuted && claims_.has(claim)) diff_.broken.push_back(claim);
-  }
-
-  void weigh() {
-    broken(Claim::free_sound, diff_.answered_free);
-    broken(Claim::not_late, diff_.late_first);
-    broken(Claim::first_time, diff_.wrong_first_time() && truth_.complete && contract_.margin == 0);
-    if (contract_.reports_pairs) {
-      broken(Claim::first_pairs, !unexcused_.empty());
-      broken(Claim::all_pairs, !diff_.missing.empty() || !diff_.late.empty());
-    }
-    const bool spurious = diff_.answered_collision || !diff_.spurious.empty() ||
-                          !diff_.early.empty() || diff_.first_in_slack;
-    broken(Claim::no_spurious, spurious && (contract_.margin == 0 || judgement_.within_slack));
-    diff_.outcome = !diff_.broken.empty() ? Outcome::defect
-                    : diff_.partial       ? Outcome::undecided
-                                          : Outcome::holds;
+  // The diff, which has this outcome if it breaks no claim. With a slack to go by, alarms are
+  // judged as those of queries are.
+  StepDiff weighed(Outcome outcome) {
+    diff_.outcome = outcome;
+    weigh(judged_claims(claims_, contract_, judgement_.within_slack.has_value()), diff_);
+    return std::move(diff_);
   }
 
   const detector::StepResult& result_;
@@ -221,7 +208,6 @@ class Comparison {
   const Contract& contract_;
   Times times_;
   StepTruth truth_;
-  std::vector<PairContact> unexcused_;
   StepDiff diff_;
 };
 
@@ -294,10 +280,8 @@ void judge_candidates(const CandidatePairs& candidates, const oracle::StepJudgem
     }
     diff.candidates = {candidates->size(), truth.pairs.size()};
   }
-  if (!diff.missing_candidates.empty()) {
-    diff.broken.push_back(Claim::candidates);
-    diff.outcome = Outcome::defect;
-  } else if (diff.outcome == Outcome::holds && !(candidates && judgement.complete)) {
+  weigh(claims.only(claims_about({About::broad_phase})), diff);
+  if (diff.outcome == Outcome::holds && !(candidates && judgement.complete)) {
     diff.partial = true;
     diff.outcome = Outcome::undecided;
   }
@@ -318,8 +302,9 @@ StepDiff diff_of_refusal(const oracle::StepJudgement& judgement, const Claims& c
     diff.partial = true;
     diff.outcome = Outcome::undecided;
   } else {
-    if (claims.has(Claim::total)) diff.broken.push_back(Claim::total);
-    diff.outcome = claims.has(Claim::total) ? Outcome::defect : Outcome::error;
+    diff.owes_answer = true;
+    diff.outcome = Outcome::error;
+    weigh(claims, diff);
   }
   return diff;
 }
@@ -331,8 +316,9 @@ StepDiff diff_without_answer(const detector::StepResult& result,
   diff.has_answer = false;
   if (result.answer != detector::Answer::error) return diff;
   diff.unanswered_contact = is_unanswered_contact(result, truth_of(judgement, contract, triangles));
-  if (claims.has(Claim::total)) diff.broken.push_back(Claim::total);
-  diff.outcome = claims.has(Claim::total) ? Outcome::defect : Outcome::error;
+  diff.owes_answer = true;
+  diff.outcome = Outcome::error;
+  weigh(claims, diff);
   return diff;
 }
 

@@ -2,17 +2,14 @@
 // what the candidate pairs of a broad phase lack, and what a limiter allows too much or too little.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "detector/mesh/step_types.h"
 #include "detector/options.h"
 #include "detector/step_result.h"
 #include "oracle/mesh/step.h"
 #include "properties/claims/claims.h"
-#include "properties/words.h"
 #include "properties/worker/case_run.h"
 
 namespace assay::properties {
@@ -44,7 +41,7 @@ struct StepTruth {
 // a separation, which come within it; with a margin also what comes within separation + margin.
 // What the contract leaves out is among it: truth_of takes it out. Under a separation, pairs that
 // share a vertex are not asked for. Of `options` the features are the contract's; the tested pairs
-// have to be those of tested_pairs (claims.h). Cost: oracle/mesh/step.h,
+// have to be those of tested_pairs (contract.h). Cost: oracle/mesh/step.h,
 // oracle/distance/step_distance.h.
 oracle::StepJudgement judge_under(const Contract& contract, const detector::SteppedMesh& motion,
                                   const detector::TrianglesView& triangles,
@@ -62,111 +59,8 @@ using ContactPart = std::vector<detector::PairContact>;
 std::vector<ContactPart> contact_parts(const std::vector<detector::PairContact>& pairs,
                                        const detector::TimeEnclosure& time);
 
-// refused: beyond the capacity of the contract, where the detector need not answer.
-enum class Outcome : std::uint8_t { holds, defect, undecided, error, refused };
-constexpr auto names_of(Outcome) {
-  using enum Outcome;
-  return std::to_array<Named<Outcome>>({{holds, "holds"},
-                                        {defect, "defect"},
-                                        {undecided, "undecided"},
-                                        {error, "error"},
-                                        {refused, "refused: capacity"}});
-}
-
-// A pair whose first time the detector has wrong.
-struct WrongTime {
-  detector::TrianglePair pair;
-  detector::TimeEnclosure detector, oracle;
-};
-
-// How far a stated first time is off, as a share of the step. A time is taken by the lower end of
-// its interval, because that is how far the caller goes: it is late if this end is after t*, and
-// early if it is before t*, each by more than the tolerance. So [0.25, 1] states a time, and where
-// t* is 0.75 it is early by 0.5, although it holds t*. At most one of the two is not 0. Every count
-// of late and early first times is one of these (step_errors.h).
-struct TimeOff {
-  double late = 0, early = 0;
-  double ulps = 0;  // how many doubles lie between the two lower ends; 0 if neither late nor early
-};
 TimeOff time_off(const detector::TimeEnclosure& stated, const detector::TimeEnclosure& exact,
                  double tolerance);
-
-// The first time of the detector and of the oracle, and how far they are apart.
-struct FirstTimes {
-  detector::TimeEnclosure detector, oracle;
-  TimeOff off;
-};
-
-// How many candidate pairs the detector gave, and the least possible number: the pairs in contact
-// that count.
-struct CandidateCount {
-  std::uint64_t given = 0, least = 0;
-};
-
-// What a limiter allowed in a step that starts without a contact (judge_limit).
-struct LimitDiff {
-  double share = -1;  // of the step; -1: not stated
-  double used = 0;    // the share, or else how much of the way the positions go
-  std::optional<detector::TimeEnclosure> ahead;  // the first contact time of the step, if any
-  // The first contact on the straight way to where the caller stops.
-  std::optional<detector::PairContact> hit;
-  bool is_cut = false;      // the step has no contact, and is not gone to its end
-  bool is_excused = false;  // less than claimed is gone, and rounding may be why
-  std::string stall;  // the caller stays although it could move: the cause of the contact ahead
-};
-
-struct StepDiff {
-  Outcome outcome = Outcome::holds;
-  std::vector<Claim> broken;  // claims of the detector that this step refutes
-  detector::Answer answer = detector::Answer::undecided;  // the detector's
-  bool oracle_complete = false;                           // false: the oracle was stopped
-  bool nothing_in_contact = false;  // by a complete oracle, whatever the contract leaves out
-  bool starts_near = false;         // StepTruth::starts_near
-  bool claims_pairs = false;        // all-pairs or first-pairs is claimed
-  bool unanswered_contact = false;  // a contact that counts, and no answer that can be judged
-  // The detector or the oracle was stopped: only what both reached is compared.
-  bool partial = false;
-  bool answered_free = false;       // `free`, although there is a contact that counts
-  bool answered_collision = false;  // `collision`, and there is no contact at all
-  // Both answer collision, and the detector's interval does not hold t*, by more than the
-  // tolerance: it begins after t*, or ends before it.
-  bool late_first = false, early_first = false;
-  // Pairs of the oracle that the detector does not report. Empty for a detector that reports no
-  // pairs.
-  std::vector<detector::PairContact> missing;
-  std::vector<detector::PairContact> excused;   // missing, but not claimed
-  std::vector<detector::PairContact> spurious;  // reported, but not in contact
-  // Pairs whose interval begins after their time, which is unsafe, or ends before it.
-  std::vector<WrongTime> late, early;
-
-  // With a slack, the first pair that comes within it, if the detector's first time ends before
-  // that.
-  std::optional<detector::PairContact> first_in_slack;
-
-  // The earliest contact that counts; nothing if there is none.
-  std::optional<detector::PairContact> first_contact;
-  // The detector's first time, and the exact one of the contacts that count, if both answer
-  // collision.
-  std::optional<FirstTimes> first;
-
-  // The answer is wrong, whatever the detector claims.
-  bool wrong_answer() const { return answered_free || answered_collision; }
-  bool wrong_first_time() const { return late_first || early_first; }
-
-  // Pairs in contact that the contract lets the detector leave out. `left_out_missed`: only
-  // because of that leave is the step no miss. If these pairs counted, the answer `free`, or the
-  // first time, would be wrong.
-  std::vector<detector::PairContact> left_out;
-  bool left_out_missed = false;
-
-  // Only for a detector that claims candidates (judge_candidates); nothing if it failed to give
-  // them.
-  std::optional<CandidateCount> candidates;
-  std::vector<detector::PairContact> missing_candidates;
-  std::optional<LimitDiff> limit;   // only of a limiter
-  bool has_answer = true;           // false: the library gives candidates or limits, no answers
-  std::optional<StepLoad> refused;  // only of a step that was refused as beyond the capacity
-};
 
 // Judges a step by what its detector claims. Pairs of the oracle that lie outside of the
 // contract's adjacency and features do not count against the detector: its first time is compared
@@ -188,18 +82,8 @@ struct StepDiff {
 // because `total` speaks of valid input. `deterministic` is not judged here, because it needs two
 // runs: same_answers. O(n log n) in the number of pairs.
 //
-// What breaks a claim:
-// - free-sound: the answer `free`, although there is a contact.
-// - not-late: a first time that is late.
-// - first-time: a first time that is late, or whose interval ends before t*.
-// - first-pairs: a missing pair without excuse.
-// - all-pairs: a missing pair, or a late one.
-// - no-spurious: `collision` although there is no contact, a spurious pair, a pair whose time
-//   ends before its contact, or, with a margin, a first time that ends before all that comes within
-//   the slack.
-//
-// times-unique breaks nothing by itself. If it is claimed, an interval is wrong unless it is the
-// oracle's in every bit.
+// What breaks a claim says its row (claims.h). If times-unique is claimed, an interval is wrong
+// unless it is the oracle's in every bit.
 //
 // REQUIRES a judgement of the oracle that was asked for asked_features(contract), and the triangles
 // if the contract leaves out neighbours.
@@ -239,15 +123,11 @@ struct LimitedStep {
 // contract. Where the limiter stops short of x_t1 the oracle is asked once more, about the step
 // from x_t0 to there. If it was stopped, a step that would hold is undecided.
 //
-// What breaks a claim; t* is the first contact time of the whole step:
-// - commit-free: a contact in the straight step from x_t0 to where the caller stops.
-// - path-free: a share that is not below t*.
-// - progress: a share below Contract::progress times the least of t* and 1, where rounding cannot
-//   be the reason: so much of the step moves some vertex by 2^10 units in its last place or more;
-//   the gaps at the start, beyond the separation, are 2^6 units of the largest coordinate or more;
-//   and each of eight equal places from that share to t* is free to go to, with its rounding, by
-//   the oracle. Elsewhere it is only counted.
-// - whole-when-safe: x_t1 is not reached, and the step has no contact.
+// The share is too short if it is below Contract::progress times t*, the least of 1 and the first
+// contact time of the whole step, where rounding cannot be the reason: so much of the step moves
+// some vertex by 2^10 units in its last place or more; the gaps at the start, beyond the
+// separation, are 2^6 units of the largest coordinate or more; and each of eight equal places from
+// that share to t* is free to go to, with its rounding, by the oracle. Else it is only counted.
 void judge_limit(const std::optional<LimitAnswer>& answer, const LimitedStep& step,
                  const oracle::StepJudgement& judgement, const Claims& claims,
                  const Contract& contract, StepDiff& diff);

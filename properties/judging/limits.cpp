@@ -70,23 +70,15 @@ class LimitComparison {
     }
     const double promised = contract_.progress > 0 ? contract_.progress : usual_progress;
     if (stays && could_move(promised * possible, ulps_of_a_stall)) limit.stall = cause_of_stall();
-    const auto breaks = [&](Claim claim, bool is_broken) {
-      if (is_broken && claims_.has(claim)) diff.broken.push_back(claim);
-    };
-    breaks(Claim::commit_free, limit.hit.has_value());
-    if (answer_.share >= 0) {
-      breaks(Claim::path_free, first && !is_before(answer_.share, first->time));
-      // The sign of this is exact but for the least of all doubles.
-      const bool is_short = std::fma(promised, possible, -limit.used) > 0;
-      if (is_short && claims_.has(Claim::progress)) {
-        limit.is_excused = !is_owed(promised * possible, possible);
-        breaks(Claim::progress, !limit.is_excused);
-      }
+    limit.too_far = answer_.share >= 0 && first && !is_before(answer_.share, first->time);
+    // The sign of this is exact but for the least of all doubles.
+    const bool is_short = answer_.share >= 0 && std::fma(promised, possible, -limit.used) > 0;
+    if (is_short && claims_.has(Claim::progress)) {
+      limit.too_short = is_owed(promised * possible, possible);
+      limit.is_excused = !limit.too_short;
     }
-    breaks(Claim::whole, limit.is_cut);
-    if (!diff.broken.empty()) {
-      diff.outcome = Outcome::defect;
-    } else if (was_stopped_ && diff.outcome == Outcome::holds) {
+    weigh(claims_.only(claims_on_limits), diff);
+    if (was_stopped_ && diff.outcome == Outcome::holds) {
       diff.partial = true;
       diff.outcome = Outcome::undecided;
     }

@@ -147,60 +147,60 @@ std::string share_text(double share) {
   return share > 0 ? fmt::format("{:.3g}", share) : "less than an ulp";
 }
 
-// Makes a failure of a step: it finds the kind that fits the broken claim, and the pair.
+// Makes a failure of a step of what shows the broken claim.
 class FailureOfStep {
  public:
-  FailureOfStep(const StepDiff& diff, const Contract& contract) : diff_(diff), contract_(contract) {
-    failure_.claim = diff.broken.front();
-    switch (failure_.claim) {
-      case Claim::free_sound:
-        at("answered free", *diff.first_contact);
-        break;
-      case Claim::not_late:
-      case Claim::first_time:
-        off_first_time();
-        break;
-      case Claim::first_pairs:
-      case Claim::all_pairs:
-        lost_pair();
-        break;
-      case Claim::no_spurious:
-        too_much();
-        break;
-      case Claim::commit_free:
-        at("contact on the way", *diff.limit->hit);
-        failure_.explanation = "on the way that is allowed, " + failure_.explanation;
-        at_limit();
-        break;
-      case Claim::path_free:
-        at("share too large", *diff.first_contact);
-        at_limit();
-        break;
-      case Claim::progress:
-        too_short("share too small");
-        break;
-      case Claim::whole:
-        too_short("free step cut");
-        break;
-      case Claim::candidates:
-        at("missing candidate", diff.missing_candidates.front());
-        failure_.explanation +=
-            fmt::format(", and are none of {} candidates", diff.candidates->given);
-        break;
-      default:
-        failure_.kind = diff.refused ? name_of(Outcome::refused) : "error";
-        if (diff.refused) failure_.explanation = refusal_text(*diff.refused);
-    }
+  FailureOfStep(const StepDiff& diff, const detector::StepResult& result, const Contract& contract)
+      : diff_(diff), contract_(contract), row_(row_of(diff.broken.front())) {
+    failure_.claim = row_.value;
+    const Shown shown = row_.shown_by(diff);
+    failure_.kind = shown.kind;
+    if (diff.refused) failure_.explanation = refusal_text(*diff.refused);
+    if (row_.about == About::runs) return;
+    std::visit([&](const auto& by) { tell(by); }, shown.by);
+    if (row_.value == Claim::commit_free)
+      failure_.explanation = "on the way that is allowed, " + failure_.explanation;
+    if (row_.about == About::times && diff.first)  // else the oracle was stopped
+      failure_.explanation +=
+          fmt::format(", {} by {}", shown.kind,
+                      share_text(diff.late_first ? diff.first->off.late : diff.first->off.early));
+    failure_.explanation +=
+        row_.about == About::limits ? how_far()
+        : row_.about == About::broad_phase
+            ? fmt::format(", and are none of {} candidates", diff.candidates->given)
+            : fmt::format("; answered {}, exact {}", answer_text(result.answer, result.first),
+                          diff.first_contact
+                              ? answer_text(detector::Answer::collision, diff.first_contact->time)
+                              : name_of(detector::Answer::free));
   }
 
   Failure take() { return std::move(failure_); }
 
  private:
-  void at(const char* kind, const detector::PairContact& contact) {
-    failure_.kind = kind;
+  void tell(const detector::PairContact& contact) {
     failure_.pair = contact.pair;
     failure_.feature = name_of(contact.feature.kind);
     failure_.explanation = contact_text(contact, " " + asked_text(contract_));
+  }
+  void tell(const WithinSlack& within) {
+    failure_.explanation =
+        contact_text(within.contact, " " + asked_text(contract_, contract_.margin));
+  }
+  void tell(const WrongTime& wrong) {
+    failure_.pair = wrong.pair;
+    failure_.explanation =
+        fmt::format("triangles {} and {} at {}, and not at {}", wrong.pair.a, wrong.pair.b,
+                    enclosure_text(wrong.detector), enclosure_text(wrong.oracle));
+  }
+  void tell(const detector::TrianglePair& pair) {
+    failure_.pair = pair;
+    failure_.explanation = fmt::format("triangles {} and {} do not {}", pair.a, pair.b,
+                                       asked_text(contract_, contract_.margin));
+  }
+  void tell(std::monostate) {
+    failure_.explanation =
+        "no two triangles " +
+        asked_text(contract_, row_.about == About::limits ? 0 : contract_.margin);
   }
 
   std::string refusal_text(const StepLoad& load) const {
@@ -214,70 +214,19 @@ class FailureOfStep {
                        of(load.candidates, "candidates", contract_.capacity_candidates));
   }
 
-  void of_pair(const char* kind, const WrongTime& wrong) {
-    failure_.kind = kind;
-    failure_.pair = wrong.pair;
-    failure_.explanation =
-        fmt::format("triangles {} and {} at {}, and not at {}", wrong.pair.a, wrong.pair.b,
-                    enclosure_text(wrong.detector), enclosure_text(wrong.oracle));
-  }
-
-  void off_first_time() {
-    at(diff_.late_first ? "late" : "early", *diff_.first_contact);
-    if (!diff_.first) return;  // the oracle was stopped
-    const double off = diff_.late_first ? diff_.first->off.late : diff_.first->off.early;
-    failure_.explanation += fmt::format(", {} by {}", failure_.kind, share_text(off));
-  }
-
   // How far the limiter goes, and how far it might.
-  void at_limit() {
+  std::string how_far() const {
     const auto& limit = *diff_.limit;
-    failure_.explanation += limit.share >= 0
-                                ? fmt::format("; allowed a share of {}", limit.share)
-                                : fmt::format("; allowed {:.3g} of the way", limit.used);
-    if (contract_.progress > 0 && failure_.claim == Claim::progress)
-      failure_.explanation += fmt::format(", promised {} of what is free", contract_.progress);
-  }
-
-  void too_short(const char* kind) {
-    if (diff_.first_contact) {
-      at(kind, *diff_.first_contact);
-    } else {
-      failure_.kind = kind;
-      failure_.explanation = "no two triangles " + asked_text(contract_);
-    }
-    at_limit();
-  }
-
-  void lost_pair() {
-    if (!diff_.missing.empty()) {
-      at("missing pair", diff_.missing.front());
-    } else {
-      of_pair("late pair", diff_.late.front());
-    }
-  }
-
-  void too_much() {
-    if (!diff_.answered_collision && diff_.spurious.empty()) {
-      if (!diff_.early.empty()) return of_pair("early pair", diff_.early.front());
-      failure_.kind = "early alarm";
-      failure_.explanation =
-          contact_text(*diff_.first_in_slack, " " + asked_text(contract_, contract_.margin));
-      return;
-    }
-    failure_.kind = diff_.answered_collision ? "answered collision" : "spurious pair";
-    const auto allowed = asked_text(contract_, contract_.margin);
-    if (diff_.spurious.empty()) {
-      failure_.explanation = "no two triangles " + allowed;
-      return;
-    }
-    const auto& pair = diff_.spurious.front().pair;
-    failure_.pair = pair;
-    failure_.explanation = fmt::format("triangles {} and {} do not {}", pair.a, pair.b, allowed);
+    std::string text = limit.share >= 0 ? fmt::format("; allowed a share of {}", limit.share)
+                                        : fmt::format("; allowed {:.3g} of the way", limit.used);
+    if (contract_.progress > 0 && row_.value == Claim::progress)
+      text += fmt::format(", promised {} of what is free", contract_.progress);
+    return text;
   }
 
   const StepDiff& diff_;
   const Contract& contract_;
+  const ClaimRow& row_;
   Failure failure_;
 };
 
@@ -290,16 +239,7 @@ std::string contact_text(const detector::PairContact& contact, const std::string
 
 Failure failure_of(const StepDiff& diff, const detector::StepResult& result,
                    const Contract& contract) {
-  Failure failure = FailureOfStep(diff, contract).take();
-  Claims without_answer = claims_on_limits;
-  without_answer.set(Claim::candidates);
-  if (failure.kind == "error" || diff.refused || without_answer.has(failure.claim)) return failure;
-  const auto exact = diff.first_contact
-                         ? answer_text(detector::Answer::collision, diff.first_contact->time)
-                         : answer_text(detector::Answer::free, {});
-  failure.explanation +=
-      fmt::format("; answered {}, exact {}", answer_text(result.answer, result.first), exact);
-  return failure;
+  return FailureOfStep(diff, result, contract).take();
 }
 
 }  // namespace assay::properties

@@ -44,10 +44,8 @@ class BodyNames {
 // A defect of a trial, described by what distinguishes it from other defects.
 struct Failure {
   Claim claim = Claim::total;
-  // How the claim is broken. One of these, as fits the claim: "answered free", "late", "early",
-  // "missing pair", "late pair", "answered collision", "spurious pair", "early pair", "missing
-  // candidate", "contact on the way", "share too large", "share too small", "free step cut",
-  // "error", "two runs differ", "crashed", "refused", "refused: capacity".
+  // How the claim is broken: by a step (ClaimRow::shown_by), or else "two runs differ", "crashed"
+  // or "refused".
   std::string kind;
   std::size_t step = 0;                        // step of the script
   std::optional<detector::TrianglePair> pair;  // the first wrong pair

@@ -142,14 +142,8 @@ void CheckOutcome::count(const properties::StepDiff& diff, const detector::StepR
 void CheckOutcome::judge_claims(const properties::DetectorUnderTest& plugin,
                                 std::size_t steps_left_out) {
   measures.steps_left_out = steps_left_out;
-  std::vector<std::string> claims;
-  for (const auto claim : list_of(plugin.claims)) claims.emplace_back(name_of(claim));
-  not_judged = properties::not_judged(claims, plugin.contract, measures);
-  for (const auto& claim : claims) {
-    const bool is_held = std::none_of(not_judged.begin(), not_judged.end(),
-                                      [&](const auto& one) { return one.claim == claim; });
-    if (is_held) held.push_back(claim);
-  }
+  not_judged = properties::not_judged(plugin.claims, plugin.contract, measures);
+  held = words_of(without(plugin.claims, not_judged));
 }
 
 }  // namespace assay::reports

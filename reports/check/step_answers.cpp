@@ -124,12 +124,9 @@ class Plugin : public StepAnswers {
 }  // namespace
 
 nlohmann::ordered_json StepAnswers::detector_json(const nlohmann::ordered_json& of_process) const {
-  nlohmann::ordered_json claims = nlohmann::ordered_json::array();
-  for (const auto claim : properties::list_of(under_test().claims))
-    claims.push_back(name_of(claim));
   nlohmann::ordered_json detector = {{"name", subject_.description.name},
                                      {"version", subject_.description.version},
-                                     {"claims", std::move(claims)},
+                                     {"claims", words_of(under_test().claims)},
                                      {"contract", properties::json_of(under_test().contract)}};
   detector.update(of_process);
   return {{"culling", nullptr}, {"arithmetic", nullptr}, {"detector", std::move(detector)}};

@@ -244,9 +244,8 @@ std::string SceneStep::difference(const detector::TrianglePair& pair,
   const auto* reported = contact_of(answered->pairs, pair);
   if (!exact) return claims.has(Claim::no_spurious) ? "spurious" : "no contact, not claimed";
   if (!reported) {
-    const bool are_claimed =
-        scene.reports_pairs && (claims.has(Claim::all_pairs) || claims.has(Claim::first_pairs));
-    if (are_claimed && has_pair(diff->missing, pair)) return "missing";
+    const bool are_claimed = claims.has_any({Claim::all_pairs, Claim::first_pairs});
+    if (scene.reports_pairs && are_claimed && has_pair(diff->missing, pair)) return "missing";
     return diff->answered_free && claims.has(Claim::free_sound) ? "answered free" : "not claimed";
   }
   if (has_pair(diff->early, pair))

@@ -57,9 +57,7 @@ inline std::vector<ContractMember> contract_members() {
 
 inline pybind11::tuple claim_words() {
   pybind11::list words;
-  for (const auto& row : names_of(properties::Claim{})) {
-    if (properties::claims_from_outside.has(row.value)) words.append(row.name);
-  }
+  for (const auto& word : properties::words_of(properties::claims_from_outside)) words.append(word);
   return words;
 }
 

@@ -282,8 +282,7 @@ class Plugin {
 
   bool serves(bool is_query, double separation, bool asks_limits) const {
     const auto& detector = subject_.detector;
-    const bool is_limiter =
-        detector.claims.has(Claim::commit_free) || detector.claims.has(Claim::path_free);
+    const bool is_limiter = detector.claims.has_any({Claim::commit_free, Claim::path_free});
     if (separation != detector.contract.separation || asks_limits != is_limiter) return false;
     if (!is_query) return !detector.of_queries;
     return detector.of_queries || detector.query_claims != properties::Claims();

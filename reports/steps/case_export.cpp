@@ -146,19 +146,12 @@ static_assert(static_cast<int>(exported_case::Claim::times_unique) ==
 // What an answer is asked for: the broken claim, or all that are judged if none is broken.
 std::string asked_text(const properties::DetectorUnderTest& detector, bool is_query,
                        std::optional<properties::Claim> broken) {
-  using properties::Claim;
   const auto claims = detector.claims_in(detector.configurations.front());
-  auto asked = properties::judged_claims(claims, detector.contract);
-  // The features of a query are no neighbours, so a slack does not make this void.
-  if (is_query) asked.set(Claim::no_spurious, claims.has(Claim::no_spurious));
+  auto asked = properties::judged_claims(claims, detector.contract, is_query);
   if (broken) asked = {*broken};
-  asked.set(Claim::times_unique, false);  // nobody claims it but the built-in detector: test_text
   std::vector<std::string> names;
-  for (const auto claim : all_values<Claim>) {
-    if (asked.has(claim))
-      names.push_back(fmt::format("{{Claim::{}, \"{}\"}}", replaced(name_of(claim), {{'-', "_"}}),
-                                  name_of(claim)));
-  }
+  for (const auto& word : words_of(asked))
+    names.push_back(fmt::format("{{Claim::{}, \"{}\"}}", replaced(word, {{'-', "_"}}), word));
   return joined(names, ", ");
 }
 

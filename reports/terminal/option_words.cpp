@@ -272,8 +272,7 @@ Expected<properties::Subject> choose_detector(const DetectorWords& words,
 }
 
 std::string detector_text(const properties::DetectorUnderTest& detector) {
-  std::vector<const char*> claims;
-  for (const auto claim : list_of(detector.claims)) claims.push_back(name_of(claim));
+  const auto claims = words_of(detector.claims);
   const std::string left_out = joined(phrases_of(detector.contract), ", ");
   return fmt::format("{}\nclaims: {}\ncontract: {}", detector.name,
                      claims.empty() ? "nothing" : joined(claims, ", "),

@@ -104,13 +104,6 @@ void check_trials(const RunFindings& f, const Asked& asked, Lines& lines) {
         fmt::format("{} of {} trials were disturbed from outside, 1 % may be", disturbed, trials));
 }
 
-bool speaks_of_limits(const std::vector<std::string>& claims) {
-  const auto of_limits = list_of(claims_on_limits);
-  return std::any_of(of_limits.begin(), of_limits.end(), [&](Claim claim) {
-    return std::find(claims.begin(), claims.end(), name_of(claim)) != claims.end();
-  });
-}
-
 // Checks that a plug-in was given every scene at the plan's size, the long sequence, and the walks
 // of a limiter.
 void check_repetitions(const RunFindings& f, Lines& lines) {
@@ -119,7 +112,7 @@ void check_repetitions(const RunFindings& f, Lines& lines) {
   for (const auto& scene : corpus::scenes()) wanted.emplace_back(scene.name);
   wanted.emplace_back(name_of_long_sequence);
   const auto& configurations = f.run.detector.configurations;
-  if (!configurations.empty() && speaks_of_limits(configurations[0].claims)) {
+  if (!configurations.empty() && claims_named(configurations[0].claims).has_any(claims_on_limits)) {
     for (const auto kind : all_values<WalkKind>) wanted.push_back(name_of_walk(kind));
   }
   const auto done = std::count_if(wanted.begin(), wanted.end(), [&](const std::string& name) {

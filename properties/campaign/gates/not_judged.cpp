@@ -24,56 +24,38 @@ std::string without_contact(const StepMeasures& m) {
              : fmt::format("the {} steps with a contact have {}", m.unanswered, no_usable_answer);
 }
 
+bool speaks_of_contacts(const ClaimRow& row) {
+  return row.tried != Tried::by_step && row.tried != Tried::by_second_run;
+}
+
 // Says why a claim was not judged. Empty if it was judged.
-std::string reason_against(Claim claim, const Contract& contract, const StepMeasures& m,
+std::string reason_against(const ClaimRow& row, const Contract& contract, const StepMeasures& m,
                            bool of_queries) {
-  switch (claim) {
-    case Claim::no_spurious:
-      return contract.judges_alarms(of_queries) ? ""
-                                                : "the contract has a margin, and tests neighbours";
-    case Claim::first_pairs:
-    case Claim::all_pairs:
-      if (!contract.reports_pairs) return "the detector reports no pairs";
-      break;
-    case Claim::first_time:
-      if (contract.margin > 0) return "the contract has a margin";
-      if (seldom * m.without_time > m.errors.collisions())
-        return fmt::format("its interval is wider than {} in {} of {} collisions",
-                           widest_stated_time, m.without_time, m.errors.collisions());
-      break;
-    case Claim::candidates:
-      return m.least_candidates == 0 ? without_contact(m) : "";
-    case Claim::commit_free:
-    case Claim::path_free:
-    case Claim::progress:
-      return m.errors.limits.contact == 0 ? without_contact(m) : "";
-    case Claim::whole:
-      return m.errors.limits.free == 0 ? "no step was without a contact" : "";
-    case Claim::deterministic:
-    case Claim::total:
-      return "";
-    default:
-      break;
-  }
-  return m.errors.contact == 0 ? without_contact(m) : "";
-}
-
-bool has(const std::vector<std::string>& words, Claim claim) {
-  return std::find(words.begin(), words.end(), name_of(claim)) != words.end();
-}
-
-bool is_among(const std::vector<NotJudged>& left, std::string_view claim) {
-  return std::any_of(left.begin(), left.end(), [&](const auto& one) { return one.claim == claim; });
+  if (const auto* reason = row.why_void(contract, of_queries); *reason) return reason;
+  const auto& limits = m.errors.limits;
+  if (row.tried == Tried::by_stated_time && seldom * m.without_time > m.errors.collisions())
+    return fmt::format("its interval is wider than {} in {} of {} collisions", widest_stated_time,
+                       m.without_time, m.errors.collisions());
+  if (row.tried == Tried::by_free_way)
+    return limits.free == 0 ? "no step was without a contact" : "";
+  const auto contacts = row.tried == Tried::by_candidates      ? m.least_candidates
+                        : row.tried == Tried::by_contact_ahead ? limits.contact
+                                                               : m.errors.contact;
+  return speaks_of_contacts(row) && contacts == 0 ? without_contact(m) : "";
 }
 
 }  // namespace
 
-std::vector<NotJudged> not_judged(const std::vector<std::string>& claims, const Contract& contract,
+Claims without(Claims claims, const std::vector<NotJudged>& left) {
+  for (const auto& one : left) claims = claims.without(claims_named({one.claim}));
+  return claims;
+}
+
+std::vector<NotJudged> not_judged(const Claims& claims, const Contract& contract,
                                   const StepMeasures& measures, bool of_queries) {
   std::vector<NotJudged> list;
-  for (const Claim claim : all_claims()) {
-    if (!has(claims, claim)) continue;
-    auto reason = reason_against(claim, contract, measures, of_queries);
+  for (const Claim claim : list_of(claims)) {
+    auto reason = reason_against(row_of(claim), contract, measures, of_queries);
     if (!reason.empty()) list.push_back({name_of(claim), std::move(reason)});
   }
   return list;
@@ -82,7 +64,8 @@ std::vector<NotJudged> not_judged(const std::vector<std::string>& claims, const 
 std::vector<NotJudged> not_judged(const BoundDetector& detector, const StepMeasures& measures,
                                   bool of_queries) {
   if (detector.built_in || detector.configurations.empty()) return {};
-  return not_judged(detector.configurations[0].claims, detector.contract, measures, of_queries);
+  return not_judged(claims_named(detector.configurations[0].claims), detector.contract, measures,
+                    of_queries);
 }
 
 std::vector<NotJudged> not_judged(const RunFindings& findings) {
@@ -95,13 +78,9 @@ std::vector<NotJudged> not_judged(const RunFindings& findings) {
 }
 
 std::vector<std::string> judged_claims(const RunFindings& findings) {
-  std::vector<std::string> judged;
-  if (findings.run.detector.configurations.empty()) return judged;
-  const auto left = not_judged(findings);
-  for (const auto& claim : findings.run.detector.configurations[0].claims) {
-    if (!is_among(left, claim)) judged.push_back(claim);
-  }
-  return judged;
+  const auto& configurations = findings.run.detector.configurations;
+  if (configurations.empty()) return {};
+  return words_of(without(claims_named(configurations[0].claims), not_judged(findings)));
 }
 
 std::vector<std::string> left_out_families(const RunFindings& findings) {
@@ -123,7 +102,7 @@ struct Largest {
 bool is_claimed_in(const RunFindings& findings, std::string_view family, Claim claim) {
   const auto asked = configurations_in(findings.run.detector, family);
   return std::any_of(asked.begin(), asked.end(),
-                     [&](const auto& one) { return has(one.claims, claim); });
+                     [&](const auto& one) { return claims_named(one.claims).has(claim); });
 }
 
 Largest largest_of(const RunFindings& findings, Claim claim) {
@@ -152,26 +131,17 @@ Largest largest_of(const RunFindings& findings, Claim claim) {
   return largest;
 }
 
-bool speaks_of_contacts(Claim claim) {
-  return claim != Claim::no_spurious && claim != Claim::deterministic && claim != Claim::total;
-}
-
-std::vector<std::string> claims_of_any_configuration(const BoundDetector& detector) {
-  std::vector<std::string> words;
-  for (const Claim claim : all_claims()) {
-    const auto& all = detector.configurations;
-    if (std::any_of(all.begin(), all.end(), [&](const auto& c) { return has(c.claims, claim); }))
-      words.emplace_back(name_of(claim));
-  }
-  return words;
+Claims claims_of_any_configuration(const BoundDetector& detector) {
+  Claims claims;
+  for (const auto& one : detector.configurations) claims = claims.with(claims_named(one.claims));
+  return claims;
 }
 
 // Whether one of these claims speaks of contacts and is not void under the contract.
-bool wants_contacts(const std::vector<std::string>& words, const Contract& contract) {
-  Claims claims;
-  for (const Claim claim : all_claims()) claims.set(claim, has(words, claim));
+bool wants_contacts(const Claims& claims, const Contract& contract) {
   const auto judged = list_of(judged_claims(claims, contract));
-  return std::any_of(judged.begin(), judged.end(), speaks_of_contacts);
+  return std::any_of(judged.begin(), judged.end(),
+                     [](Claim claim) { return speaks_of_contacts(row_of(claim)); });
 }
 
 }  // namespace
@@ -179,14 +149,13 @@ bool wants_contacts(const std::vector<std::string>& words, const Contract& contr
 std::vector<JudgedSize> judged_sizes(const RunFindings& findings) {
   std::vector<JudgedSize> sizes;
   if (asks_queries_alone(findings.run.plan)) return sizes;
-  const auto left = not_judged(findings);
-  const auto words = claims_of_any_configuration(findings.run.detector);
-  for (const Claim claim : all_claims()) {
-    if (is_among(left, name_of(claim)) || !has(words, claim)) continue;
+  const auto claims = claims_of_any_configuration(findings.run.detector);
+  for (const Claim claim : list_of(without(claims, not_judged(findings)))) {
+    const auto& row = row_of(claim);
     const auto largest = largest_of(findings, claim);
-    const auto triangles = claim == Claim::deterministic ? largest.repeated
-                           : speaks_of_contacts(claim)   ? largest.in_contact
-                                                         : largest.judged;
+    const auto triangles = row.tried == Tried::by_second_run ? largest.repeated
+                           : speaks_of_contacts(row)         ? largest.in_contact
+                                                             : largest.judged;
     if (triangles > 0) sizes.push_back({name_of(claim), triangles});
   }
   return sizes;
@@ -204,7 +173,7 @@ std::vector<std::string> lacks_of_contacts(const RunFindings& findings, bool for
   constexpr std::size_t least_families = 3;
   std::vector<std::string> lines;
   const auto& detector = findings.run.detector;
-  const auto look = [&](bool of_queries, const std::vector<std::string>& claims) {
+  const auto look = [&](bool of_queries, const Claims& claims) {
     std::size_t with_contacts = 0, all = 0;
     if (!wants_contacts(claims, detector.contract)) return;
     for (const auto& stratum : findings.run.plan.strata) {
@@ -230,7 +199,7 @@ std::vector<std::string> lacks_of_contacts(const RunFindings& findings, bool for
   };
   const bool alone = asks_queries_alone(findings.run.plan);
   if (!alone) look(false, claims_of_any_configuration(detector));
-  look(true, detector.query_claims);
+  look(true, claims_named(detector.query_claims));
   for (const auto& [claim, reason] : not_judged(findings)) {
     if (reason == no_contact || reason.ends_with(no_usable_answer))
       lines.push_back(fmt::format("{}: {}", claim, reason));

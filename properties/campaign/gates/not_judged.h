@@ -17,11 +17,14 @@ struct NotJudged {
 // the first time were wider than 1e-3 in more than one of a hundred collisions, and so state no
 // time. Of a detector that is judged by steps and queries, the steps decide. Empty for the built-in
 // detector, whose contract is the default and whose times are enclosures.
-std::vector<NotJudged> not_judged(const std::vector<std::string>& claims, const Contract& contract,
+std::vector<NotJudged> not_judged(const Claims& claims, const Contract& contract,
                                   const StepMeasures& measures, bool of_queries = false);
 std::vector<NotJudged> not_judged(const BoundDetector& detector, const StepMeasures& measures,
                                   bool of_queries = false);
 std::vector<NotJudged> not_judged(const RunFindings& findings);
+
+// Those of the claims that are not among these.
+Claims without(Claims claims, const std::vector<NotJudged>& left);
 
 // The names of the claims of a plug-in that were judged.
 std::vector<std::string> judged_claims(const RunFindings& findings);

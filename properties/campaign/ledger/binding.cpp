@@ -29,12 +29,6 @@ void fields(Archive& archive, BoundRun& run) {
 
 namespace {
 
-std::vector<std::string> words_of(const Claims& claims) {
-  std::vector<std::string> words;
-  for (const auto claim : list_of(claims)) words.emplace_back(name_of(claim));
-  return words;
-}
-
 BoundDetector bound(const DetectorUnderTest& detector, std::uint64_t threads) {
   BoundDetector out{detector.name,
                     detector.built_in,

@@ -144,14 +144,11 @@ Json json_of(const ShareOfSteps& share) {
 
 Json json_of(const SubjectRow& row) {
   const auto& subject = *row.subject;
-  std::vector<const char*> claims;
-  for (const auto claim : properties::list_of(subject.detector.claims))
-    claims.push_back(name_of(claim));
   return json_object("subject", subject.name, "version", subject.description.version, "is_built_in",
                      subject.detector.built_in, "arithmetic", name_of(subject.options.arithmetic),
                      "culling", name_of(subject.options.culling), "pairs",
-                     name_of(subject.options.pairs), "claims", claims, "contract",
-                     phrases_of(subject.detector.contract), "answers", row.answers,
+                     name_of(subject.options.pairs), "claims", words_of(subject.detector.claims),
+                     "contract", phrases_of(subject.detector.contract), "answers", row.answers,
                      "time_over_reference", row.over, "create_over_reference", row.create_over,
                      "families_timed", row.families, "slow", row.slow, "ended_early", row.ended,
                      "bytes_a_triangle", row.bytes_a_triangle, "unsafe", json_of(row.unsafe),

@@ -1,0 +1,192 @@
+// The contract of a detector: which steps, coordinates and features it takes, and how its times are
+// read.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "detector/mesh/counted_pairs.h"
+#include "detector/mesh/step_types.h"
+#include "detector/mesh/types.h"
+#include "properties/fields.h"
+#include "properties/words.h"
+
+namespace assay::properties {
+
+// Which neighbours a detector tests against each other.
+enum class Adjacency : std::uint8_t {
+  all,               // every pair of triangles
+  not_edge_sharing,  // pairs that share at most one vertex
+  no_shared_vertex,  // pairs that share nothing
+};
+constexpr auto names_of(Adjacency) {
+  using enum Adjacency;
+  return std::to_array<Named<Adjacency>>({{all, "all"},
+                                          {not_edge_sharing, "not-edge-sharing"},
+                                          {no_shared_vertex, "no-shared-vertex"}});
+}
+
+// The coordinates that the detector computes with. Inputs of a float32 detector are rounded to the
+// nearest float32 before the detector and the oracle see them.
+enum class Coordinates : std::uint8_t { float64, float32 };
+constexpr auto names_of(Coordinates) {
+  return std::to_array<Named<Coordinates>>(
+      {{Coordinates::float64, "float64"}, {Coordinates::float32, "float32"}});
+}
+
+// Which steps the detector takes, by how the mesh lies at t = 0. The others are left out, and
+// counted.
+enum class StartRule : std::uint8_t {
+  any,    // every step
+  free,   // steps that start without a contact
+  apart,  // steps that start with all features at least start_distance apart
+};
+constexpr auto names_of(StartRule) {
+  using enum StartRule;
+  return std::to_array<Named<StartRule>>({{any, "any"}, {free, "free"}, {apart, "apart"}});
+}
+
+// Which features the detector tests against each other. Contacts of the others are not held
+// against it.
+enum class TestedFeatures : std::uint8_t { both, vertex_face, edge_edge };
+constexpr auto names_of(TestedFeatures) {
+  using enum TestedFeatures;
+  return std::to_array<Named<TestedFeatures>>(
+      {{both, "both"}, {vertex_face, "vertex-face"}, {edge_edge, "edge-edge"}});
+}
+
+// How a detector is told where a step goes.
+enum class MotionGiven : std::uint8_t {
+  ends,          // by the positions at its end
+  displacement,  // by what is added to those at its start; the exact sum is the end
+};
+constexpr auto names_of(MotionGiven) {
+  return std::to_array<Named<MotionGiven>>(
+      {{MotionGiven::ends, "ends"}, {MotionGiven::displacement, "displacement"}});
+}
+
+// Where a limiter that states a share of a step lets the caller stop (L17).
+enum class LimitGives : std::uint8_t {
+  positions,   // where it says itself
+  start_plus,  // x_t0 + share (x_t1 - x_t0), in the contract's coordinates
+  blend,       // (1 - share) x_t0 + share x_t1
+};
+constexpr auto names_of(LimitGives) {
+  using enum LimitGives;
+  return std::to_array<Named<LimitGives>>(
+      {{positions, "positions"}, {start_plus, "start-plus"}, {blend, "blend"}});
+}
+
+// A contract that asks for more is refused.
+inline constexpr double widest_time_tolerance = 1e-3;
+
+// Lengths are in the user's units; times are shares of the step. The default contract leaves
+// nothing out.
+struct Contract {
+  Adjacency adjacency = Adjacency::all;
+  Coordinates coordinates = Coordinates::float64;
+  // The slack m: the detector may also report what comes within separation + m. Above 0, first-time
+  // is not judged, and no-spurious is only if the detector leaves neighbours out: these are within
+  // m of each other throughout.
+  double margin = 0;
+  StartRule start = StartRule::any;
+  double start_distance = 0;  // for StartRule::apart
+  // No coordinate has a magnitude above `largest`, because rounding goes by the coordinates. Every
+  // edge has length 0 or at least least_nonzero, because thresholds go by lengths; length is the
+  // greatest difference along an axis. The extent of a mesh is that of an edge at least. Both 0:
+  // any mesh.
+  double least_nonzero = 0, largest = 0;
+  TestedFeatures features = TestedFeatures::both;
+  double time_tolerance = 0;  // a time is late, early or wrong when it is off by more than this
+  bool reports_pairs = true;
+  // Above 0: the question is not which triangles touch, but which come within this distance. Then
+  // pairs that share no vertex are asked for alone.
+  double separation = 0;
+  // What the detector leaves out by itself, as members of detector/mesh/counted_pairs.h, at the
+  // level `counts`. At rest the mesh is as in the frame that a detector is made from.
+  detector::CountedLevel counts = detector::CountedLevel::triangles;
+  std::int32_t rings = 0;
+  double rest_distance = 0;
+  // Whether the detector can be told which pairs count. One that cannot is asked about all pairs.
+  bool takes_relations = true;
+  // Of a limiter: where the caller stops who is told a share alone, and what share of the first
+  // contact time it promises (Claim::progress); 0: none.
+  LimitGives limit_gives = LimitGives::positions;
+  double progress = 0;
+  // Displacements are in float32 alone: the end of a step is then a double, in which the oracle
+  // holds it.
+  MotionGiven motion = MotionGiven::ends;
+  // How much the detector holds; 0: as much as there is. Beyond one of them a step may be refused
+  // (beyond_capacity).
+  std::uint64_t capacity_triangles = 0, capacity_contacts = 0, capacity_candidates = 0;
+  friend bool operator==(const Contract&, const Contract&) = default;
+
+  bool has_range() const { return largest > 0; }
+  // Whether it is judged what the detector reports although it is not there. The features of a
+  // query share no vertex.
+  bool judges_alarms(bool of_queries = false) const {
+    return margin == 0 || of_queries || adjacency == Adjacency::no_shared_vertex;
+  }
+  // Whether the oracle has to tell contacts that the detector tests from others
+  // (StepJudgement::asked_pairs).
+  bool tests_part() const {
+    return features != TestedFeatures::both || rings > 0 || rest_distance > 0;
+  }
+};
+
+// Each member by its name, in reports, certificates and messages.
+ASSAY_FIELDS(Contract, adjacency, coordinates, margin, start, start_distance, least_nonzero,
+             largest, features, time_tolerance, reports_pairs, separation, counts, rings,
+             rest_distance, takes_relations, limit_gives, progress, motion, capacity_triangles,
+             capacity_contacts, capacity_candidates)
+
+// The shortest decimal that reads back to the same double. It is made without libfmt, because the
+// worker does not use that.
+std::string number_text(double x);
+
+// What is wrong with the contract, without a subject ("its margin is no length"); empty if nothing
+// is.
+std::string fault_of(const Contract& contract);
+
+// What the contract leaves out or changes, one phrase each: "starts free", "edges from 1e-06",
+// "coordinates up to 1e+06", "times within 1e-09". Empty for the contract that leaves nothing out.
+std::vector<std::string> phrases_of(const Contract& contract);
+
+// How much a step is, as the oracle counts it: triangles of its mesh, pairs of them in contact that
+// the contract does not leave out, and feature pairs whose swept boxes meet.
+struct StepLoad {
+  std::uint64_t triangles = 0, contacts = 0, candidates = 0;
+};
+// Whether a detector with this contract may refuse such a step.
+bool beyond_capacity(const Contract& contract, const StepLoad& load);
+
+// The relation of what the contract tests, on a mesh whose vertices are at rest at `rest`.
+detector::CountedPairs tested_pairs(const Contract& contract, const detector::Positions& rest);
+
+int shared_vertices(const detector::TrianglesView& triangles, detector::TrianglePair pair);
+
+// Whether the contract's adjacency alone lets the detector leave this pair out.
+bool leaves_out(const Contract& contract, const detector::TrianglesView& triangles,
+                detector::TrianglePair pair);
+
+// The positions that the detector and the oracle are both given. A coordinate that has no float32
+// becomes infinite.
+detector::Positions contracted(const detector::PositionsView& x, Coordinates coordinates);
+
+// The displacement of a step that a detector of float32 is given: the nearest to its way.
+detector::Positions displacement(const detector::PositionsView& x_t0,
+                                 const detector::PositionsView& x_t1);
+
+using Edge = std::array<std::int32_t, 2>;
+
+double length_of(const detector::PositionsView& x, const Edge& edge);
+
+// Where a mesh with these edges leaves the contract's range, with the member of the contract:
+// "vertex 3 has the coordinate 2e+06, above largest, 1e+06" or "edge 3-4 is 2e-13 long, below
+// least_nonzero, 1e-06". Empty if it does not.
+std::string beyond_range(const detector::PositionsView& x, const std::vector<Edge>& edges,
+                         const Contract& contract);
+
+}  // namespace assay::properties
