@@ -22,7 +22,7 @@ std::size_t count_lines(const std::string& path) {
 TEST(Budget, NoRoomGrows) {
   const std::map<std::string, std::size_t> budgets = {
       {"detector", 15621},   {"oracle", 6244},   {"corpus", 5412}, {"corpus/peers", 857},
-      {"properties", 27054}, {"reports", 14336}, {"tests", 45547}, {"scripts", 10466}};
+      {"properties", 27054}, {"reports", 14333}, {"tests", 45568}, {"scripts", 10466}};
   std::map<std::string, std::size_t> lines;
   for (const auto* room : rooms) {
     for (const auto& file : files_below(room)) {
