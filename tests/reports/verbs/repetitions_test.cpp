@@ -107,7 +107,7 @@ TEST_F(Repetitions, ADetectorThatIsWrongAfterManyCommitsIsFound) {
 }
 
 TEST_F(Repetitions, TheSecondRunOfATrialAsksAgainAndWithOtherThreads) {
-  const auto plan = scratch.write("many.json", plan_text(64));
+  const auto plan = scratch.write("many.json", plan_text(64, R"(, "shrink_share": 0)"));
   for (const std::string word : {"free-again", "free-threaded"}) {
     std::filesystem::remove_all(out);
     SCOPED_TRACE(word);
