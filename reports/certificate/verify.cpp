@@ -203,12 +203,11 @@ std::string sent_alone(const std::filesystem::path& certificate) {
                    certificate.string());
 }
 
-Verification verify_certificate(const std::filesystem::path& certificate,
-                                const properties::Expected<Json>* computed) {
+Verification verify_certificate(const std::filesystem::path& certificate) {
   auto read = read_certificate(certificate);
   if (!read) return {{read.error().message}, nullptr};
   Verification result{{}, std::move(read.value())};
-  compare(certificate, computed ? *computed : make_statement(folder_of(certificate)), result);
+  compare(certificate, make_statement(folder_of(certificate)), result);
   return result;
 }
 

@@ -28,11 +28,7 @@ struct Verification {
 // Computes counts, bounds, digests, gates and verdict again from campaign.json and the stores
 // beside the certificate, and compares every field and byte. It also checks the failing meshes
 // that the certificate names, junit.xml and summary.md. It names the other files.
-// `computed`, if given, is the result of make_statement(folder) for its folder, which has been
-// computed before.
-Verification verify_certificate(
-    const std::filesystem::path& certificate,
-    const properties::Expected<nlohmann::ordered_json>* computed = nullptr);
+Verification verify_certificate(const std::filesystem::path& certificate);
 
 // The file itself, or certificate.json in a folder.
 std::filesystem::path certificate_in(const std::filesystem::path& file_or_folder);

@@ -200,7 +200,7 @@ Json law_statements(const Json& laws) {
 // A run stores no version, but it does store which program it was. If that is this one, its version
 // is known.
 Json versions_of_run(const properties::RunFindings& findings) {
-  const auto own = corpus::sha256_of_file("/proc/self/exe");
+  static const auto own = corpus::sha256_of_file("/proc/self/exe");
   if (!own || findings.run.digests.program != own.value()) return nullptr;
   const auto commit = commit_text();
   return {{"assay", ASSAY_VERSION},

@@ -110,7 +110,7 @@ def changed(text, change):
 
 def write_scripts(options, work, filters, pool):
     """Compiles the filters and writes their scripts. The program's exit code and output."""
-    compile_ = [options.compiler, "-std=c++20", "-O1", "-w", f"-I{work}", f"-I{ROOT}",
+    compile_ = [options.compiler, "-std=c++20", "-O0", "-w", f"-I{work}", f"-I{ROOT}",
                 *[f"-isystem{i}" for i in options.include]]
 
     # Eigen and the standard library are read once.

@@ -40,11 +40,14 @@ class GeneratedFolder {
     store_checks(states);
     write(campaign_file(folder_), plan_text(request_.plan) + "\n");
   }
-  void issue() const {
-    const auto statement = reports::make_statement(folder_);
-    ASSERT_TRUE(statement) << statement.error().message;
+  RunFindings issue() const {
+    auto findings = read_findings(folder_);
+    EXPECT_TRUE(findings) << findings.error().message;
+    const auto statement = reports::make_statement(findings.value());
+    EXPECT_TRUE(statement) << statement.error().message;
     write(certificate_file(folder_), reports::statement_text(statement.value()));
-    ASSERT_TRUE(reports::write_for_ci(statement.value()["predicate"], folder_));
+    EXPECT_TRUE(reports::write_for_ci(statement.value()["predicate"], folder_));
+    return std::move(findings.value());
   }
 
  private:
@@ -150,11 +153,9 @@ void expect_gate(const Json& gate, const GateResult& result, const std::string& 
 }
 
 // `run` asks for four of the gates.
-void expect_agreement_of_run(const std::string& folder, const States& states,
+void expect_agreement_of_run(const RunFindings& findings, const States& states,
                              const Judgement& judgement) {
-  const auto findings = read_findings(folder);
-  ASSERT_TRUE(findings) << findings.error().message;
-  const auto run = judge(findings.value(), asked_of_a_run());
+  const auto run = judge(findings, asked_of_a_run());
   bool asks_the_same = true;
   for (std::size_t i = 0; i < states.size(); ++i) {
     const bool is_asked = run.gates[i].state != GateState::not_judged;
@@ -166,20 +167,18 @@ void expect_agreement_of_run(const std::string& folder, const States& states,
   if (!asks_the_same) return;
   EXPECT_EQ(run.verdict, judgement.verdict);
   EXPECT_EQ(run.exit_code, judgement.exit_code);
-  EXPECT_EQ(reports::verdict_text(findings.value(), run),
-            reports::verdict_text(findings.value(), judgement));
+  EXPECT_EQ(reports::verdict_text(findings, run), reports::verdict_text(findings, judgement));
 }
 
-void expect_agreement(const std::string& folder, const States& states) {
+void expect_agreement(const RunFindings& findings, const std::string& folder,
+                      const States& states) {
   const auto [verdict, code] = expected_of(states);
-  const auto findings = read_findings(folder);
-  ASSERT_TRUE(findings) << findings.error().message;
-  const auto judgement = judge(findings.value());
+  const auto judgement = judge(findings);
   for (std::size_t i = 0; i < states.size(); ++i)
     EXPECT_EQ(judgement.gates[i].state, states[i]) << gate_rules[i].name;
   EXPECT_EQ(judgement.verdict, verdict);
   EXPECT_EQ(judgement.exit_code, code);
-  expect_agreement_of_run(folder, states, judgement);
+  expect_agreement_of_run(findings, states, judgement);
 
   // The certificate, as written and as verified.
   const auto verified = reports::verify_certificate(certificate_file(folder));
@@ -188,7 +187,7 @@ void expect_agreement(const std::string& folder, const States& states) {
   EXPECT_EQ(predicate["verdict"], verdict);
   EXPECT_EQ(predicate["exit_code"], code);
   // The page.
-  const auto page = reports::run_json(findings.value(), judgement);
+  const auto page = reports::run_json(findings, judgement);
   EXPECT_EQ(page["verdict"], verdict);
   const auto junit = read_text(folder + "/junit.xml"), summary = read_text(folder + "/summary.md"),
              terminal = reports::gates_text(judgement);
@@ -224,8 +223,7 @@ TEST(Verdicts, AllTextsAgreeOverAllCombinationsOfGateResults) {
       rest /= 3;
     }
     const std::string folder = scratch / std::to_string(number);
-    GeneratedFolder(folder, states).issue();
-    expect_agreement(folder, states);
+    expect_agreement(GeneratedFolder(folder, states).issue(), folder, states);
     if (HasFailure()) return;
     // By the program itself, for some of them.
     constexpr int every = 61;

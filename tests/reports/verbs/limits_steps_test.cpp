@@ -17,14 +17,17 @@ class LimitsSteps : public testing::Test {
   std::string words(const std::string& said) const {
     return "ASSAY_LIMITS_STEPS=\"" + said + "\" ";
   }
-  // With edges that are parallel, and neighbouring doubles.
-  Outcome run(const std::string& said) const {
+  // With edges that are parallel, and neighbouring doubles. `part`: of the cases one in so many.
+  Outcome run(const std::string& said, int part = 1) const {
     std::filesystem::remove_all(out);
-    const auto plan = scratch.write(
-        "plan.json",
-        R"({"schema": "assay-campaign/1", "name": "tiny", "seconds": null, "strata": [)"
-        R"({"family": "closed-generic", "cases": 30}, {"family": "unclosed-generic", "cases": 20},)"
-        R"({"family": "unclosed-degenerate", "cases": 120}, {"family": "broken", "cases": 20}]})");
+    nlohmann::json campaign = {
+        {"schema", "assay-campaign/1"}, {"name", "tiny"}, {"seconds", nullptr}};
+    for (const auto& [family, cases] : {std::pair("closed-generic", 30),
+                                        {"unclosed-generic", 20},
+                                        {"unclosed-degenerate", 120},
+                                        {"broken", 20}})
+      campaign["strata"].push_back({{"family", family}, {"cases", cases / part}});
+    const auto plan = scratch.write("plan.json", campaign.dump());
     return run_assay(
         "run --campaign " + plan + " --out " + out + " --detector " + plugin("limits_steps"),
         words(said));
@@ -39,15 +42,22 @@ TEST_F(LimitsSteps, TheRightOnesHold) {
 }
 
 TEST_F(LimitsSteps, EachFaultIsFoundWithTheRightClaimAndShrunk) {
-  const std::vector<std::pair<std::string, std::string>> faults = {
-      {"rounds-up", "path-free"},     {"nearest-vertex", "commit-free"},
-      {"forgets-one", "commit-free"}, {"ignores-it separation=0.01", "commit-free"},
-      {"last-pair", "commit-free"},   {"float-end", "commit-free"},
-      {"stale-start", "commit-free"}, {"at-contact", "commit-free"},
-      {"parallel-zero", "progress"},  {"by-order", "commit-free"}};
-  for (const auto& [said, claim] : faults) {
+  struct Fault {
+    const char *said, *claim;
+    int part;  // the more it shows in, the fewer cases find it, and the fewer are shrunk
+  };
+  for (const auto& [said, claim, part] : {Fault{"rounds-up", "path-free", 3},
+                                          {"nearest-vertex", "commit-free", 10},
+                                          {"forgets-one", "commit-free", 3},
+                                          {"ignores-it separation=0.01", "commit-free", 10},
+                                          {"last-pair", "commit-free", 3},
+                                          {"float-end", "commit-free", 1},
+                                          {"stale-start", "commit-free", 5},
+                                          {"at-contact", "commit-free", 10},
+                                          {"parallel-zero", "progress", 1},
+                                          {"by-order", "commit-free", 1}}) {
     SCOPED_TRACE(said);
-    expect_ended(run(said), 1, {"DEFECT " + claim + ": "});
+    expect_ended(run(said, part), 1, {std::string("DEFECT ") + claim + ": "});
     EXPECT_LE(triangles_of_smallest(out), 3);
   }
 }

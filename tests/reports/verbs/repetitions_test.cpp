@@ -19,7 +19,7 @@ class Repetitions : public testing::Test {
 
   Outcome judge(const std::string& verb, const std::string& library, int triangles,
                 const std::string& more = "", const std::string& prefix = "",
-                const char* shrink_share = "0.01") const {
+                const char* shrink_share = "0") const {
     const auto plan = scratch.write(
         "plan.json",
         plan_text(6, fmt::format(R"(, "shrink_share": {}, "policy": {{"repeated_triangles": {}}})",
@@ -60,12 +60,12 @@ TEST_F(Repetitions, AnAnswerThatDependsOnThreadsOnLargeMeshesIsFound) {
 }
 
 TEST_F(Repetitions, ADetectorThatIsWrongOnLargeMeshesAloneIsFound) {
-  // Free above 600 triangles, whatever it claims; every mesh of the trials is smaller.
+  // Free above 210 triangles, whatever it claims; every mesh of the trials is smaller.
   for (const std::string claims : {"", " claims=129"}) {
     std::filesystem::remove_all(out);
     const auto made = expect_ended(
-        judge("run", "steps_and_query", 900, "--part steps --threads 3",
-              "ASSAY_QUERY='free-above=600" + claims + "' ", claims.empty() ? "0.1" : "0.01"),
+        judge("run", "steps_and_query", 240, "--part steps --threads 3",
+              "ASSAY_QUERY='free-above=210" + claims + "' ", claims.empty() ? "1" : "0"),
         1, {"DEFECT free-sound: answered free, ", ", large mesh (query alone), met once"});
     const auto lines = replay_lines(made.out);
     ASSERT_FALSE(lines.empty());
@@ -73,15 +73,15 @@ TEST_F(Repetitions, ADetectorThatIsWrongOnLargeMeshesAloneIsFound) {
     if (claims.empty()) {
       EXPECT_TRUE(contains(lines[0], "-smallest.json")) << lines[0];
     }
-    expect_ended(run_assay(lines[0], "ASSAY_QUERY=free-above=600 "), 1,
+    expect_ended(run_assay(lines[0], "ASSAY_QUERY=free-above=210 "), 1,
                  {"DEFECT free-sound: answered free"});
   }
 }
 
 // The seed draws half of the sizes between those of the trials and that of the plan.
 TEST_F(Repetitions, ADetectorThatIsWrongInARangeOfSizesIsFound) {
-  expect_ended(judge("run", "steps_and_query", 1500, "--part steps",
-                     "ASSAY_QUERY='free-above=210 up-to=1300' "),
+  expect_ended(judge("run", "steps_and_query", 800, "--part steps",
+                     "ASSAY_QUERY='free-above=210 up-to=700' "),
                1, {"DEFECT free-sound: answered free, "});
 }
 
@@ -97,7 +97,7 @@ TEST_F(Repetitions, ADetectorThatIsWrongAfterManyCommitsIsFound) {
   for (const std::string claims : {"", " claims=129"}) {
     std::filesystem::remove_all(out);
     const auto made = expect_ended(
-        judge("run", "steps_and_query", 400, "--part steps",
+        judge("run", "steps_and_query", 100, "--part steps",
               "ASSAY_QUERY='free-after-commits=100" + claims + "' "),
         1, {"DEFECT free-sound: answered free, ", ", large mesh", " wrong steps of larger meshes"});
     const auto lines = replay_lines(made.out);
@@ -107,7 +107,7 @@ TEST_F(Repetitions, ADetectorThatIsWrongAfterManyCommitsIsFound) {
 }
 
 TEST_F(Repetitions, TheSecondRunOfATrialAsksAgainAndWithOtherThreads) {
-  const auto plan = scratch.write("many.json", plan_text(64));
+  const auto plan = scratch.write("many.json", plan_text(64, R"(, "shrink_share": 0)"));
   for (const std::string word : {"free-again", "free-threaded"}) {
     std::filesystem::remove_all(out);
     SCOPED_TRACE(word);
@@ -187,7 +187,7 @@ TEST_F(Repetitions, TheSameCommandRepeatsNothingTwice) {
 }
 
 TEST_F(Repetitions, WhoAsksForNoThreadsIsRunTwice) {
-  expect_ended(judge("certify", "wrapped_builtin", 400), 0);
+  expect_ended(judge("certify", "wrapped_builtin", 100), 0);
   for (const auto& row : predicate()["repeated"])
     EXPECT_EQ(row["threads"], Json::parse("[1, 1, 1]"));
 }
