@@ -26,10 +26,9 @@ using namespace assay;
 
 // The verbs, in the order of `assay help`.
 constexpr reports::AddedVerb (*verbs[])(CLI::App&) = {
-    reports::add_check,    reports::add_judge,  reports::add_check_queries, reports::add_run,
-    reports::add_certify,  reports::add_bench,  reports::add_list,          reports::add_replay,
-    reports::add_shrink,   reports::add_verify, reports::add_report,        reports::add_scene,
-    reports::add_self_test};
+    reports::add_check,  reports::add_run,    reports::add_certify,  reports::add_bench,
+    reports::add_list,   reports::add_replay, reports::add_shrink,   reports::add_verify,
+    reports::add_report, reports::add_scene,  reports::add_self_test};
 
 using Words = std::vector<std::string>;
 
@@ -85,6 +84,10 @@ class Formatter : public CLI::Formatter {
 };
 
 int refuse_verb(const CLI::App& app, const std::string& word) {
+  for (const auto& [gone, input] : {std::pair("judge", "LOG"), {"check-queries", "QUERIES.csv"}}) {
+    if (word == gone)
+      return reports::refuse(fmt::format("{} is check: assay check {}", gone, input));
+  }
   Words names;
   for (const auto* verb : app.get_subcommands({})) names.push_back(verb->get_name());
   return reports::refuse(fmt::format("unknown verb '{}'{} (assay help lists verbs)", word,

@@ -57,7 +57,7 @@ constexpr OtherFormat other_formats[] = {{".stl", "an STL", ".ply"},
                                          {".3ds.3mf.x3d.wrl", "a 3D"},
                                          {".step.stp.igs.iges", "a CAD"}};
 
-Problem unknown_format(const std::filesystem::path& path) {
+Problem unknown_format(const std::filesystem::path& path, std::string_view bytes) {
   const auto end = mesh_extension(path);
   const std::string read = "OBJ, PLY and OFF are read: ";
   if (end == ".npz" || end == ".npy")
@@ -78,10 +78,13 @@ Problem unknown_format(const std::filesystem::path& path) {
                           "(python3-meshio of Debian, or pip install meshio)",
                           name, read, file.string(), converted.string()));
   }
+  const auto line = bytes.substr(0, bytes.find_first_of("\r\n"));
+  const bool is_text = std::ranges::all_of(line, [](char c) { return c >= ' ' && c <= '~'; });
   return problem_in(
-      path,
-      "neither PLY nor OFF by its first line, nor .obj by its name; other formats are "
-      "not read");
+      path, fmt::format("{}: neither PLY nor OFF by its first line, nor .obj by its name; other "
+                        "formats are not read. Nor is it a case file, a log or a query file "
+                        "(assay check --help)",
+                        is_text ? "it begins with " + excerpt(line) : "no text"));
 }
 
 Expected<Format> format_of(std::string_view bytes, const std::filesystem::path& path) {
@@ -91,7 +94,7 @@ Expected<Format> format_of(std::string_view bytes, const std::filesystem::path& 
     return problem_in(path, "text of two bytes a letter (UTF-16): save it as UTF-8");
   if (mesh_extension(path) == ".obj") return Format::obj;
   if (mesh_extension(path) == ".off") return Format::off;
-  return unknown_format(path);
+  return unknown_format(path, bytes);
 }
 
 // A folder is refused with a word on what is in it.

@@ -10,8 +10,10 @@
 #include "corpus/files.h"
 #include "corpus/formats/sequence_reader.h"
 #include "corpus/formats/step_log.h"
+#include "corpus/formats/text_lines.h"
 #include "corpus/frame_order.h"
 #include "detector/mesh/mesh_checks.h"
+#include "detector/mesh/step_types.h"
 
 namespace assay::corpus {
 namespace {
@@ -211,13 +213,33 @@ Expected<std::unique_ptr<StepSource>> steps_of_bodies(const BodyFiles& bodies) {
                                         std::move(counted), std::move(first), std::move(second));
 }
 
-Expected<std::unique_ptr<StepSource>> read_steps(const std::vector<std::filesystem::path>& files) {
-  if (files.size() > 1 || files[0].extension() != ".json") {
-    const auto start = read_start(files[0], mark_of_log.size());
-    if (start && start.value() == mark_of_log)
-      return problem_in(files[0], "it is a log of steps: assay judge");
-    return steps_of_files(files);
+InputKind kind_of_file(const std::filesystem::path& file) {
+  constexpr std::size_t bytes_that_tell = 4096;
+  const auto read = read_start(file, bytes_that_tell);
+  const std::string start = read ? read.value() : "";
+  if (start.starts_with(mark_of_log)) return InputKind::log;
+  const auto end = (file.extension() == ".gz" ? file.stem() : file).extension();
+  Lines lines(start, '#', false);
+  const auto row = lines.next().value_or("");
+  const bool is_case = row.starts_with('{') && start.find("\"assay-case/") != std::string::npos;
+  if (is_case || end == ".json") return InputKind::case_file;
+  const auto comma = row.find(',');
+  if (comma != std::string_view::npos) {
+    const auto word = row.substr(comma + 1, row.find(',', comma + 1) - comma - 1);
+    if (word == "answer" || from_name<detector::Answer>(word)) return InputKind::answers;
   }
+  // Numbers with blanks between them may be OFF without its first line, or a cloud of points, too.
+  const bool is_shape = comma == std::string_view::npos && (end == ".off" || end == ".xyz");
+  const bool has_numbers =
+      !row.empty() && row.find_first_not_of("0123456789+-.eE, \t") == std::string_view::npos;
+  const bool is_query = end == ".csv" || (has_numbers && !is_shape);
+  return is_query ? InputKind::queries : InputKind::frames;
+}
+
+Expected<std::unique_ptr<StepSource>> read_steps(const std::vector<std::filesystem::path>& files) {
+  const auto kind = kind_of_file(files[0]);
+  if (kind == InputKind::log) return problem_in(files[0], "it is a log of steps: assay check");
+  if (files.size() > 1 || kind != InputKind::case_file) return steps_of_files(files);
   BOOST_OUTCOME_TRY(c, read_case(files[0]));
   return steps_of_case(std::make_shared<const Case>(std::move(c)), true);
 }

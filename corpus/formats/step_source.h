@@ -103,7 +103,12 @@ struct BodyFiles {
 // steps has the bodies. REQUIRES a body, and a file of each.
 Expected<std::unique_ptr<StepSource>> steps_of_bodies(const BodyFiles& bodies);
 
-// What these files hold: one case file (.json), or frames of one mesh. REQUIRES a file.
+// What a file is for: by the bytes that it begins with, and by its name where these do not tell, or
+// cannot be read. `frames`, too, if nothing tells: the reader of frames says what it found.
+enum class InputKind { frames, case_file, log, queries, answers };
+InputKind kind_of_file(const std::filesystem::path& file);
+
+// What these files hold: one case file, or frames of one mesh. REQUIRES a file.
 Expected<std::unique_ptr<StepSource>> read_steps(const std::vector<std::filesystem::path>& files);
 
 }  // namespace assay::corpus

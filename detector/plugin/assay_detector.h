@@ -309,7 +309,7 @@ typedef struct assay_detector_api {
   void (*use_threads)(uint32_t count);
 
   /* Whether two features meet during the step, and when first. This elementary query is a part of
-   * its own (PARTS above), judged by `check-queries`, `self-test` and campaigns of queries. kind:
+   * its own (PARTS above), judged by `check`, `self-test` and campaigns of queries. kind:
    * ASSAY_QUERY_... x_t0 and x_t1 are 4 x 3 doubles each: the vertex and the three corners of the
    * face, or the two ends of one edge and the two ends of the other. It needs no handle. */
   int32_t (*query)(int32_t kind, const double* x_t0, const double* x_t1,

@@ -1,5 +1,5 @@
 /* Records what a simulator does: its mesh, each of its steps, and what its own collision detector
- * answered, in a log that `assay judge` reads. C99 or C++11; this header and assay_detector.h
+ * answered, in a log that `assay check` reads. C99 or C++11; this header and assay_detector.h
  * beside it are all that is needed, and nothing is linked.
  *
  *   assay_recorder recorder;

@@ -511,13 +511,14 @@ Expected<CheckAnswer> check_mesh(const CheckQuestion& question, CheckInput& inpu
   const auto vertices = input.steps->first_frame().rows();
   if (const auto bad = detector::check_triangles(input.steps->triangles(), vertices))
     return corpus::problem_of_triangles(*input.steps, input.file, *bad);
-  const bool is_plugin = !question.detector.library.empty();
+  const bool is_plugin = !input.recorded && !question.detector.library.empty();
   if (is_plugin) {
     BOOST_OUTCOME_TRY(whole, input.steps->read_whole());
     input.steps = std::move(whole);
   }
   Limits limits(question.time_limit, question.memory_limit);
   const auto begin = [&]() -> Expected<std::unique_ptr<StepAnswers>> {
+    if (input.recorded) return std::move(input.recorded);
     if (!question.answers.empty())
       return answers_of_table(question.answers, input, question.adjacency);
     if (!is_plugin) {
@@ -534,14 +535,8 @@ Expected<CheckAnswer> check_mesh(const CheckQuestion& question, CheckInput& inpu
     return answers_of_plugin(std::move(plugin), input);
   };
   BOOST_OUTCOME_TRY(answers, begin());
-  return check_answers(question, input, *answers, limits, listener);
-}
-
-Expected<CheckAnswer> check_answers(const CheckQuestion& question, CheckInput& input,
-                                    StepAnswers& answers, Limits& limits,
-                                    const CheckListener& listener) {
-  auto mesh = detector::make_topology(input.steps->triangles(), input.steps->first_frame().rows());
-  return CheckRun(question, *input.steps, std::move(mesh), answers, input.is_at_rest, limits,
+  auto mesh = detector::make_topology(input.steps->triangles(), vertices);
+  return CheckRun(question, *input.steps, std::move(mesh), *answers, input.is_at_rest, limits,
                   listener)
       .run();
 }

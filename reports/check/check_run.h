@@ -70,13 +70,10 @@ struct CheckAnswer {
 
 // Checks one mesh. The steps of `input` are used up; for a plug-in they become those that its
 // contract takes. If a file that is read on the way is refused, `listener` was told of all steps
-// before its frame. `worker` is the program assay-worker, for a plug-in.
+// before its frame. `worker` is the program assay-worker, for a plug-in. Recorded answers of the
+// input are judged, and then no detector runs here.
 Expected<CheckAnswer> check_mesh(const CheckQuestion& question, CheckInput& input,
                                  const std::filesystem::path& worker,
                                  const CheckListener& listener);
-// The same of answers that are there already.
-Expected<CheckAnswer> check_answers(const CheckQuestion& question, CheckInput& input,
-                                    StepAnswers& answers, Limits& limits,
-                                    const CheckListener& listener);
 
 }  // namespace assay::reports

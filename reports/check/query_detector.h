@@ -1,5 +1,5 @@
-// The elementary query of a plug-in, as `check-queries` and `self-test` judge it: many queries at
-// once, by its claims. Nothing is stored.
+// The elementary query of a plug-in, as `check` and `self-test` judge it: many queries at once, by
+// its claims. Nothing is stored.
 #pragma once
 
 #include <cstdint>

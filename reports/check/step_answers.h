@@ -1,4 +1,5 @@
-// The detector that `check` runs and judges, and its answers: the built-in one, or a plug-in.
+// The detector that `check` runs and judges, and its answers: the built-in one, or a plug-in; and
+// the mesh and the steps that they are about.
 #pragma once
 
 #include <memory>
@@ -14,14 +15,6 @@
 #include "reports/terminal/work.h"
 
 namespace assay::reports {
-
-// The mesh and the steps that `check` is given.
-struct CheckInput {
-  std::string file;  // the first file
-  std::unique_ptr<corpus::StepSource> steps;
-  // Whether it is a mesh at rest. A contract may change its steps, and not this.
-  bool is_at_rest = steps->is_at_rest();
-};
 
 // The detector that `check` has before it, and its answers to the steps: those of the built-in one
 // are made in this process, one by one, those of a plug-in in a worker, all at once, and those of a
@@ -105,6 +98,16 @@ class StepAnswers {
   std::optional<double> create_ms_;
   properties::CaseRun run_;
   std::size_t first_of_run_ = 0;  // the step that run_ begins with
+};
+
+// The mesh and the steps that `check` is given.
+struct CheckInput {
+  std::string file;  // the first file
+  std::unique_ptr<corpus::StepSource> steps;
+  // Whether it is a mesh at rest. A contract may change its steps, and not this.
+  bool is_at_rest = steps->is_at_rest();
+  // Those that were recorded with the steps of a log, in place of a detector; else null.
+  std::unique_ptr<StepAnswers> recorded = nullptr;
 };
 
 // The options of the built-in detector that the user states. The others are those of the case, or

@@ -4,10 +4,15 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <vector>
 
 #include "properties/campaign/phases/shrink.h"
 #include "properties/judging/contracted_case.h"
 #include "properties/judging/judged_run.h"
+#include "properties/judging/subject.h"
 #include "properties/judging/trial.h"
 #include "properties/reducer/case_edits.h"
 #include "properties/reducer/mesh_size.h"
@@ -85,16 +90,54 @@ std::optional<corpus::Case> part_that_shows(const corpus::Case& whole, TriangleP
   return shows ? std::optional(std::move(part)) : std::nullopt;
 }
 
-}  // namespace
+class KeptFailures {
+ public:
+  // `again(number)` is the line that judges this step again, with all that came before it where
+  // that may matter.
+  KeptFailures(const Keeping& keeping, std::function<std::string(std::uint64_t number)> again,
+               std::optional<properties::Subject> plugin)
+      : folder_(keeping.folder),
+        keeping_(keeping),
+        again_(std::move(again)),
+        plugin_(std::move(plugin)) {}
 
-KeptFailures::KeptFailures(std::filesystem::path folder, std::string origin,
-                           std::function<std::string(std::uint64_t)> again,
-                           std::optional<properties::Subject> plugin, double shrink_seconds)
-    : folder_(std::move(folder)),
-      origin_(std::move(origin)),
-      again_(std::move(again)),
-      plugin_(std::move(plugin)),
-      shrink_seconds_(shrink_seconds) {}
+  // Keeps the step, unless many that fail in the same way are kept already. Returns what is to be
+  // printed.
+  std::string keep(const FailedStep& failed);
+
+  // Writes FOLDER/page.html: the verdict, what each claim came to, and the steps that are kept,
+  // with their pictures. It is one file that asks for nothing. The report lists the steps, and the
+  // outcome gets the first problem of all files.
+  void end(CheckAnswer& answer) const;
+
+ private:
+  struct Kept {
+    std::uint64_t number = 0;  // from 1
+    std::string what, size;    // "14 triangles, 12 vertices, 1 step"
+    std::string folder;        // in the folder of all
+    std::string again;
+    std::string picture = {};             // SVG; empty: too large
+    std::optional<bool> reproduced = {};  // by the plug-in; nothing: it was not asked
+    std::string asked = {};               // what came of asking it, in words
+    std::string replay = {};              // the line that replays the smallest case; or empty
+  };
+
+  // Returns what is to be printed. Fails if a file cannot be written.
+  Expected<std::string> write_step(const FailedStep& failed, const properties::Failure& failure,
+                                   const std::string& again);
+  Expected<void> write_page(const CheckOutcome& outcome) const;
+  // Asks the plug-in about the case, in a process that was asked nothing before, and shrinks what
+  // it fails on.
+  Expected<void> ask_plugin(const corpus::Case& c, Kept& kept) const;
+
+  const std::filesystem::path folder_;
+  const Keeping& keeping_;
+  const std::function<std::string(std::uint64_t)> again_;
+  const std::optional<properties::Subject> plugin_;
+  std::map<std::string, int> met_;  // by signature
+  std::vector<Kept> steps_;
+  std::string unwritten_;  // the first problem of a file
+};
 
 std::string KeptFailures::keep(const FailedStep& failed) {
   if (failed.diff.broken.empty()) return "";
@@ -126,7 +169,7 @@ Expected<std::string> KeptFailures::write_step(const FailedStep& failed,
   const auto name = [&](corpus::Case& c, std::string id) {
     c.id = std::move(id);
     c.about = fmt::format("{}: {}", failure.signature(), failure.explanation);
-    c.source = fmt::format("step {} of {}", number, origin_);
+    c.source = fmt::format("step {} of {}", number, keeping_.origin);
   };
   const int relation_rings =
       std::max(contract.rings, whole.counted ? whole.counted->pairs.rings : 0);
@@ -205,7 +248,7 @@ Expected<void> KeptFailures::write_page(const CheckOutcome& outcome) const {
   if (steps.empty()) steps = "<p>No step failed.</p>\n";
   return write_text_file(
       folder_ / "page.html",
-      fmt::format(page_form, fmt::arg("name", xml_escaped(origin_)),
+      fmt::format(page_form, fmt::arg("name", xml_escaped(keeping_.origin)),
                   fmt::arg("word", outcome.word()),
                   fmt::arg("summary", xml_escaped(outcome.summary())),
                   fmt::arg("claims", claims.empty() ? "" : "<table>\n" + claims + "</table>\n"),
@@ -229,9 +272,9 @@ Expected<void> KeptFailures::ask_plugin(const corpus::Case& c, Kept& kept) const
   }
   constexpr std::uint64_t most_calls = 100'000;
   auto worker = plugin_->process();
-  auto smallest =
-      properties::shrink_case(c, detector, configuration, worker, {shrink_seconds_, most_calls})
-          .smallest;
+  auto smallest = properties::shrink_case(c, detector, configuration, worker,
+                                          {keeping_.shrink_seconds, most_calls})
+                      .smallest;
   // A process that was asked much may fail where a new one does not.
   if (!fails(smallest)) smallest = c;
   const auto file = folder_ / kept.folder / "smallest.json";
@@ -243,6 +286,32 @@ Expected<void> KeptFailures::ask_plugin(const corpus::Case& c, Kept& kept) const
                       plugin_->limits.threads};
   kept.replay = line_to_paste("replay " + shell_word(absolute_path(file)) + detector_words(words));
   return outcome::success();
+}
+
+}  // namespace
+
+Expected<CheckAnswer> check_keeping(const CheckQuestion& question, CheckInput& input,
+                                    const Keeping& keeping, CheckListener listener) {
+  const auto& worker = properties::worker_program();
+  if (keeping.folder.empty()) return check_mesh(question, input, worker, listener);
+  BOOST_OUTCOME_TRY(may_fill(keeping.folder, {"page.html"}));
+  std::optional<properties::Subject> plugin;
+  if (!question.detector.library.empty()) {
+    auto words = question.detector;
+    words.threads = std::max<std::uint64_t>(question.threads, 1);
+    BOOST_OUTCOME_TRY(subject, choose_detector(words));
+    plugin = std::move(subject);
+  }
+  // A step of a log is judged alone; what failed elsewhere may need all of the input.
+  const auto again = [log = input.recorded ? input.file : "", &question](std::uint64_t number) {
+    if (log.empty()) return question.again;
+    return line_to_paste("replay " + shell_word(fmt::format("{}#{}", absolute_path(log), number)));
+  };
+  KeptFailures kept(keeping, again, std::move(plugin));
+  listener.failed = [&](const FailedStep& failed) { return kept.keep(failed); };
+  BOOST_OUTCOME_TRY(answer, check_mesh(question, input, worker, listener));
+  kept.end(answer);
+  return std::move(answer);
 }
 
 }  // namespace assay::reports

@@ -11,11 +11,8 @@
 #include "properties/worker/plugin/plugin_reading.h"
 #include "reports/certificate/summary.h"
 #include "reports/check/given_answers.h"
-#include "reports/judge/kept_failures.h"
 #include "reports/terminal/option_words.h"
-#include "reports/terminal/text_file.h"
 #include "reports/terminal/words.h"
-#include "reports/terminal/work.h"
 
 namespace assay::reports {
 
@@ -33,9 +30,9 @@ struct RecordedDetector {
 // The steps of a log, each as the contract takes it.
 class RecordedSteps : public corpus::StepSource {
  public:
-  RecordedSteps(corpus::StepLog& log, const properties::PluginDescription& detector,
+  RecordedSteps(corpus::StepLog log, const properties::PluginDescription& detector,
                 LogSelection selection)
-      : log_(log),
+      : log_(std::move(log)),
         contract_(detector.contract),
         asks_answers_(detector.parts.steps),
         asks_limits_(detector.parts.limit),
@@ -143,12 +140,12 @@ class RecordedSteps : public corpus::StepSource {
   // Spreads the numbers evenly, and goes by them alone, so that every run chooses the same steps.
   bool chooses(std::uint64_t number) const {
     if (selection_.step) return number == *selection_.step;
-    if (number < selection_.from || !selection_.shard.holds(number)) return false;
+    if (number + 1 < selection_.from || !selection_.shard.holds(number)) return false;
     constexpr std::uint64_t golden = 0x9E3779B97F4A7C15;
     return static_cast<double>((number * golden) >> 11) * 0x1p-53 < selection_.share;
   }
 
-  corpus::StepLog& log_;
+  corpus::StepLog log_;
   const Contract contract_;
   const bool asks_answers_, asks_limits_;
   const LogSelection selection_;
@@ -282,56 +279,34 @@ corpus::Expected<corpus::Case> read_case_of(const std::vector<std::string>& word
   return c;
 }
 
-Expected<CheckAnswer> judge_log(const LogName& name, const LogQuestion& question,
-                                const CheckListener& listener) {
+Expected<CheckInput> read_log(const LogName& name, LogSelection selection) {
   BOOST_OUTCOME_TRY(log, corpus::StepLog::open(name.file));
-  auto selection = question.selection;
   if (name.step) selection.step = name.step;
   BOOST_OUTCOME_TRY(recorded, recorded_detector(log, name.file));
-  if (judged_claims(recorded.subject.detector.claims, recorded.subject.detector.contract).empty())
+  const auto& detector = recorded.subject.detector;
+  if (judged_claims(detector.claims, detector.contract).empty())
     return Problem{fmt::format(
         "{}: its detector claims nothing that its contract leaves to be judged by a log",
         name.file)};
   if (selection.step && !selection.follow && !log.place_of(*selection.step))
     return Problem{
         fmt::format("{}: there is no whole record of step {}", name.file, *selection.step + 1)};
-  auto steps = std::make_unique<RecordedSteps>(log, recorded.subject.description, selection);
-  Recorded answers(std::move(recorded), *steps);
-  CheckInput input{name.file, std::move(steps)};
-  std::optional<properties::Subject> again;
-  if (!question.again.library.empty()) {
-    BOOST_OUTCOME_TRY(subject, choose_detector(question.again));
-    again = std::move(subject);
-  }
-  std::unique_ptr<KeptFailures> kept;
-  CheckListener with_files = listener;
-  if (!question.out.empty()) {
-    BOOST_OUTCOME_TRY(may_fill(question.out, {"page.html"}));
-    const auto replay = [&](std::uint64_t number) {
-      const auto step = fmt::format("{}#{}", absolute_path(name.file), number);
-      return line_to_paste("replay " + shell_word(step));
-    };
-    kept = std::make_unique<KeptFailures>(question.out, name.file, replay, std::move(again),
-                                          question.shrink_seconds);
-    with_files.failed = [&](const FailedStep& failed) { return kept->keep(failed); };
-  }
-  auto check = question.check;
-  check.files = {name.file};
-  Limits limits(check.time_limit, check.memory_limit);
-  BOOST_OUTCOME_TRY(answer, check_answers(check, input, answers, limits, with_files));
-  if (kept) kept->end(answer);
-  return std::move(answer);
+  auto steps =
+      std::make_unique<RecordedSteps>(std::move(log), recorded.subject.description, selection);
+  auto answers = std::make_unique<Recorded>(std::move(recorded), *steps);
+  return CheckInput{name.file, std::move(steps), false, std::move(answers)};
 }
 
-std::string junit_suite(const std::string& log, const CheckOutcome& outcome) {
+std::string junit_text(const std::string& log, const CheckOutcome& outcome) {
   using State = ClaimResult::State;
   const auto results = outcome.claim_results();
   const auto broken = std::ranges::count(results, State::broken, &ClaimResult::state);
   const auto held = std::ranges::count(results, State::holds, &ClaimResult::state);
   const auto name = xml_escaped(log);
   std::string text = fmt::format(
-      "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n", name,
-      results.size(), broken, static_cast<std::ptrdiff_t>(results.size()) - broken - held);
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"assay\">\n"
+      "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n",
+      name, results.size(), broken, static_cast<std::ptrdiff_t>(results.size()) - broken - held);
   for (const auto& [claim, state, why] : results) {
     text += fmt::format("    <testcase classname=\"{}\" name=\"{}\"", name, claim);
     text += state == State::holds
@@ -342,21 +317,7 @@ std::string junit_suite(const std::string& log, const CheckOutcome& outcome) {
   if (!outcome.asked_again.empty())
     text += fmt::format("    <system-out>{}</system-out>\n",
                         xml_escaped(joined(outcome.asked_again, "\n")));
-  return text + "  </testsuite>\n";
-}
-
-std::string junit_suite_of_problem(const std::string& log, const std::string& message) {
-  const auto name = xml_escaped(log);
-  return fmt::format(
-      "  <testsuite name=\"{0}\" tests=\"1\" failures=\"0\" errors=\"1\">\n"
-      "    <testcase classname=\"{0}\" name=\"log\"><error message=\"{1}\"/></testcase>\n"
-      "  </testsuite>\n",
-      name, xml_escaped(message));
-}
-
-std::string junit_text(const std::string& suites) {
-  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"assay\">\n" + suites +
-         "</testsuites>\n";
+  return text + "  </testsuite>\n</testsuites>\n";
 }
 
 }  // namespace assay::reports

@@ -1,5 +1,5 @@
-// `judge`: a log of steps (corpus/formats/step_log.h), whose steps are taken as the contract of the
-// detector takes them, and whose recorded answers are judged as those of a plug-in are.
+// A log of steps (corpus/formats/step_log.h), as `check` takes it: the steps as the contract of the
+// detector takes them, and its recorded answers, which are judged as those of a plug-in are.
 #pragma once
 
 #include <string>
@@ -19,17 +19,9 @@ struct Shard {
 struct LogSelection {
   double share = 1;  // in (0, 1]; which steps these are goes by their numbers alone
   Shard shard = {};
-  std::uint64_t from = 0;             // steps before this one are not judged
+  std::uint64_t from = 1;             // steps before this one, from 1, are not judged
   std::optional<std::uint64_t> step;  // this one alone
   bool follow = false;                // waits for steps until the recorder ends the log
-};
-
-struct LogQuestion {
-  LogSelection selection;
-  CheckQuestion check;         // jobs, limits, second opinion; whether a report is wanted
-  std::string out;             // where failing steps are kept; empty: nowhere
-  DetectorWords again;         // a plug-in of the same code, which is asked again; or none
-  double shrink_seconds = 20;  // for each failing step that it fails on again
 };
 
 // A log's file, and "#N" behind it for step N alone, counted from 1.
@@ -42,16 +34,12 @@ LogName log_name(const std::string& word);
 // The case that the words name: a case file, frames of one mesh, or LOG#N.
 corpus::Expected<corpus::Case> read_case_of(const std::vector<std::string>& words);
 
-// Judges one log. Fails if it cannot be read, if nothing of it can be judged, or if a file cannot
-// be written.
-Expected<CheckAnswer> judge_log(const LogName& log, const LogQuestion& question,
-                                const CheckListener& listener);
+// The steps that are chosen of a log, and the answers to them. Fails if it cannot be read, or if
+// nothing of it can be judged.
+Expected<CheckInput> read_log(const LogName& log, LogSelection selection);
 
-// What each claim of a log came to, as a suite of JUnit XML, and a file of suites. A claim that is
-// broken fails, and one of which the log tells nothing, or not enough, is skipped.
-std::string junit_suite(const std::string& log, const CheckOutcome& outcome);
-// The suite of a log that could not be judged.
-std::string junit_suite_of_problem(const std::string& log, const std::string& message);
-std::string junit_text(const std::string& suites);
+// What each claim of a log came to, as a file of JUnit XML with one suite. A claim that is broken
+// fails, and one of which the log tells nothing, or not enough, is skipped.
+std::string junit_text(const std::string& log, const CheckOutcome& outcome);
 
 }  // namespace assay::reports

@@ -134,6 +134,18 @@ VerbOption Verb::add_word(const std::string& name,
   return named(app_->add_option_function<std::string>(word, std::move(take), about), name);
 }
 
+std::function<std::vector<std::string>()> Verb::given() const {
+  return [app = app_] {
+    std::vector<std::string> words;
+    for (const auto* option : app->get_options()) {
+      if (option->count() == 0 || option->get_positional()) continue;
+      const auto value = option->get_type_name();
+      words.push_back(option->get_name() + (value.empty() ? "" : " " + value));
+    }
+    return words;
+  };
+}
+
 std::string wrong_word(const std::string& word, const std::string& wanted) {
   const auto meant = corpus::did_you_mean(words_of(wanted), word);
   return fmt::format("'{}' is wrong{}{} wanted: {}", word, meant, meant.empty() ? "," : "", wanted);

@@ -104,6 +104,8 @@ class Verb {
   // `take` is called with the word, once it has passed the checks.
   VerbOption add_word(const std::string& name, std::function<void(const std::string& word)> take,
                       const std::string& about);
+  // Gives the options of the command line as help names them ("--out DIR"), once it is parsed.
+  std::function<std::vector<std::string>()> given() const;
 
  private:
   CLI::App* app_;

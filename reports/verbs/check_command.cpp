@@ -1,15 +1,17 @@
-// `assay check` takes consecutive frames as the steps of one mesh. Each step goes through the
-// detector and, unless it is left out, the oracle, and the two are compared.
+// `assay check` judges what it is given: a mesh, whose steps go through the detector and, unless it
+// is left out, the oracle; a log, whose recorded answers are judged; or query files
+// (check_queries.cpp).
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <boost/assert.hpp>
 #include <limits>
 
+#include "corpus/formats/step_source.h"
 #include "properties/judging/case_options.h"
-#include "properties/worker/worker_process.h"
 #include "reports/check/separation_check.h"
 #include "reports/judge/kept_failures.h"
+#include "reports/judge/log_check.h"
 #include "reports/terminal/option_words.h"
 #include "reports/terminal/text_file.h"
 #include "reports/terminal/words.h"
@@ -19,7 +21,7 @@ namespace assay::reports {
 namespace {
 
 struct CheckRequest {
-  std::vector<std::string> files;  // the frames of one mesh, or one case file
+  std::vector<std::string> inputs;
   std::vector<std::string> apart;  // words "A,B"
   std::uint64_t rings = 0;
   double rest_distance = 0;
@@ -27,10 +29,137 @@ struct CheckRequest {
   CheckQuestion question;
   std::optional<double> separation;
   std::vector<double> offsets;
+  LogSelection selection;  // of a log
+  bool all_steps = false;  // of a log
+  QueryQuestion queries;   // the labels and the method
   bool fail_on_collision = false;
-  std::string json_file;  // empty: not written
-  std::string keep;       // where failing steps are kept; empty: nowhere
+  std::string json_file, junit_file;  // empty: not written
+  Keeping keeping;
+  std::function<std::vector<std::string>()> given;  // Verb::given
 };
+
+// What is judged, as bits, so that an option may be of several kinds.
+enum Kind : unsigned { frames = 1, rest = 2, bodies = 4, a_case = 8, a_log = 16, queries = 32 };
+
+struct KindWords {
+  Kind kind;
+  const char *name, *input;  // for people; behind "assay check"
+};
+constexpr KindWords kinds[] = {{frames, "frames", "FRAME..."},
+                               {rest, "a mesh at rest", "FRAME"},
+                               {bodies, "bodies", "--body FRAME..."},
+                               {a_case, "a case file", "CASE.json"},
+                               {a_log, "a log", "LOG"},
+                               {queries, "queries", "QUERIES.csv"}};
+
+// Of which kinds these options are, and which others they do not go with there. An option that
+// means another thing elsewhere stands in a row for each.
+struct OptionRow {
+  std::string options;
+  unsigned kinds;
+  std::string without = {};
+};
+
+const std::vector<OptionRow>& option_rows() {
+  constexpr unsigned shapes = frames | rest | bodies, meshes = shapes | a_case,
+                     steps = meshes | a_log, all = steps | queries;
+  const std::string built_in = " --culling --start --pairs --arithmetic ",
+                    of_steps = built_in +
+                               "--detector --answers --no-oracle --second-opinion --keep --ply ";
+  static const std::vector<OptionRow> rows = {
+      {" --body --apart ", bodies},
+      {" --rings --rest-distance --weld ", shapes},
+      {" --share --shard --from --follow --shrink-time --all-steps --junit ", a_log},
+      {" --truth --method ", queries},
+      {" --detector ", meshes, built_in + "--answers "},
+      {" --detector ", a_log},
+      {" --detector ", queries, " --method "},
+      {" --answers ", meshes, built_in},
+      {built_in + "--adjacency --ply ", meshes},
+      {" --no-oracle ", meshes, " --second-opinion "},
+      {" --second-opinion --jobs --time --memory --fail-on-collision --keep ", steps},
+      {" --separation ", meshes, of_steps},
+      {" --separation ", queries},
+      {" --offset ", bodies, of_steps + "--separation "},
+      {" --isolation --threads --json ", all}};
+  return rows;
+}
+
+Expected<void> refuse_options(Kind kind, const std::string& file,
+                              const std::vector<std::string>& given) {
+  // With the blanks that are about it in a row.
+  const auto name_in = [](const std::string& word) {
+    return " " + word.substr(0, word.find(' ')) + " ";
+  };
+  const auto holds = [](const std::string& options, const std::string& name) {
+    return options.find(name) != std::string::npos;
+  };
+  for (const auto& word : given) {
+    const OptionRow* taken = nullptr;
+    unsigned of = 0;
+    for (const auto& row : option_rows()) {
+      if (!holds(row.options, name_in(word))) continue;
+      of |= row.kinds;
+      if ((row.kinds & kind) != 0) taken = &row;
+    }
+    BOOST_ASSERT(of != 0);
+    std::vector<KindWords> takers, found;
+    for (const auto& one : kinds) {
+      if ((one.kind & of) != 0) takers.push_back(one);
+      if (one.kind == kind) found.push_back(one);
+    }
+    if (!taken)
+      return Problem{
+          fmt::format("{}is of {}, and this is {} ({}): leave it out, or assay check {} {}",
+                      name_in(word).substr(1), joined(corpus::names_among(takers), " or "),
+                      found[0].name, file, takers[0].input, word)};
+    for (const auto& other : given) {
+      if (holds(taken->without, name_in(other)))
+        return Problem{fmt::format("{} and{}do not go together (assay check --help lists options)",
+                                   name_in(word).substr(1, name_in(word).size() - 2),
+                                   name_in(other))};
+    }
+  }
+  return outcome::success();
+}
+
+// The kind of the input as a whole. Inputs of two kinds are refused, and two where one is judged.
+Expected<Kind> kind_of(const std::vector<std::string>& inputs, const BodyWords& words_of_bodies) {
+  using corpus::InputKind;
+  auto files = inputs;
+  for (const auto& body : words_of_bodies) files.insert(files.end(), body.begin(), body.end());
+  if (files.empty())
+    return Problem{
+        "INPUT is required: frames of a mesh, a case file, a log or query files; or --body for "
+        "each mesh"};
+  constexpr std::array names = {"a frame", "a case file", "a log", "a query file"};
+  std::vector<InputKind> found;
+  const auto said = [&](std::size_t i) {
+    return fmt::format("{} is {}", files[i], names[static_cast<std::size_t>(found[i])]);
+  };
+  for (const auto& file : files) {
+    found.push_back(log_name(file).step ? InputKind::log : corpus::kind_of_file(file));
+    if (found.back() == InputKind::answers)
+      return Problem{fmt::format(
+          "{} is a table of answers, which stands beside frames: assay check FRAME... --answers {}",
+          file, shell_word(file))};
+    const auto i = found.size() - 1;
+    const bool is_alone = found[i] == InputKind::case_file || found[i] == InputKind::log;
+    if (i > 0 && (found[i] != found[0] || is_alone))
+      return Problem{fmt::format("{}, and {}: check one by one: assay check {}", said(0), said(i),
+                                 shell_word(files[found[i] == InputKind::frames ? 0 : i]))};
+  }
+  constexpr std::array of_file = {frames, a_case, a_log, queries};
+  const auto kind = of_file[static_cast<std::size_t>(found[0])];
+  if (words_of_bodies.empty()) return kind == frames && files.size() == 1 ? rest : kind;
+  if (kind != frames)
+    return Problem{
+        fmt::format("--body is of frames, and {}: assay check {}", said(0), shell_word(files[0]))};
+  if (!inputs.empty())
+    return Problem{fmt::format(
+        "{} and --body do not go together: assay check --body FRAME... for each mesh", files[0])};
+  return bodies;
+}
 
 bool counts_all(const CheckRequest& request) {
   return request.rings == 0 && request.rest_distance == 0 && !request.weld;
@@ -38,7 +167,7 @@ bool counts_all(const CheckRequest& request) {
 
 // The input in words as they were typed.
 std::string words_of(const CheckRequest& request) {
-  std::string words = joined(request.files, " ");
+  std::string words = joined(request.inputs, " ");
   for (const auto& files : request.question.bodies)
     words += fmt::format("{}--body {}", words.empty() ? "" : " ", joined(files, " "));
   for (const auto& apart : request.apart) words += " --apart " + apart;
@@ -49,70 +178,65 @@ std::string words_of(const CheckRequest& request) {
   return answers.empty() ? words : words + " --answers " + answers;
 }
 
-// Keeps what fails where the user wants that; a plug-in shrinks it.
-Expected<std::unique_ptr<KeptFailures>> kept_failures(const CheckRequest& request) {
-  if (request.keep.empty()) return std::unique_ptr<KeptFailures>();
-  std::optional<properties::Subject> plugin;
-  if (!request.question.detector.library.empty()) {
-    auto words = request.question.detector;
-    words.threads = std::max<std::uint64_t>(request.question.threads, 1);
-    BOOST_OUTCOME_TRY(subject, choose_detector(words));
-    plugin = std::move(subject);
-  }
-  // What failed may need all of the input.
-  const auto again = [](std::uint64_t) { return this_command(PastedIn::any_folder); };
-  return std::make_unique<KeptFailures>(request.keep, words_of(request), again, std::move(plugin));
+// The mesh and its steps. Fails as their readers do.
+Expected<CheckInput> read_input(Kind kind, const CheckRequest& request,
+                                const CheckQuestion& question) {
+  if (kind == a_log) return read_log(log_name(request.inputs.front()), request.selection);
+  if (question.bodies.empty() && counts_all(request)) return read_check_input(request.inputs);
+  return read_bodies(question.bodies.empty() ? BodyWords{request.inputs} : question.bodies,
+                     {{},
+                      question.apart,
+                      static_cast<std::int32_t>(request.rings),
+                      request.rest_distance,
+                      request.weld});
 }
 
 Expected<int> run_check(const CheckRequest& request) {
+  BOOST_OUTCOME_TRY(kind, kind_of(request.inputs, request.question.bodies));
+  BOOST_OUTCOME_TRYV(refuse_options(
+      kind, request.inputs.empty() ? request.question.bodies[0][0] : request.inputs[0],
+      request.given()));
   CheckQuestion question = request.question;
-  question.files = request.files;
+  if (kind == queries) {
+    auto asked = request.queries;
+    asked.files = request.inputs;
+    asked.separation = request.separation;
+    asked.detector = question.detector;
+    asked.detector.threads = std::max<std::uint64_t>(question.threads, 1);
+    asked.json_file = request.json_file;
+    return check_queries(asked);
+  }
+  const bool is_log = kind == a_log;
+  for (const auto& word : request.inputs)
+    question.files.push_back(is_log ? log_name(word).file : word);
   for (const auto& files : question.bodies)
     question.files.insert(question.files.end(), files.begin(), files.end());
-  if (question.files.empty())
-    return Problem{
-        "FRAME is required: frames of a mesh, or one case file; or --body for each mesh"};
   for (const auto& word : request.apart) question.apart.push_back(*two_numbers(word));
-  if (!question.apart.empty() && question.bodies.empty())
-    return Problem{"--apart is of bodies, which --body names"};
   if (!request.offsets.empty() && request.offsets.size() != question.bodies.size())
     return Problem{
         fmt::format("{} offsets for {} bodies: give one for each --body, in the same order",
                     request.offsets.size(), question.bodies.size())};
+  auto keeping = request.keeping;
+  keeping.origin = is_log ? question.files.front() : words_of(request);
+  if (is_log && !question.detector.library.empty() && keeping.folder.empty())
+    return Problem{"--detector asks again about what is kept: --keep says where"};
   // This is asked before the work, not after it.
   auto inputs = question.files;
   if (!question.answers.empty()) inputs.push_back(question.answers);
-  BOOST_OUTCOME_TRY(may_fill(request.keep, {"page.html"}));
-  BOOST_OUTCOME_TRY(may_write({request.json_file, request.question.ply_file}, inputs));
-  const std::filesystem::path ply(request.question.ply_file);
+  BOOST_OUTCOME_TRY(may_fill(keeping.folder, {"page.html"}));
+  BOOST_OUTCOME_TRY(may_write({request.json_file, request.junit_file, question.ply_file}, inputs));
+  const std::filesystem::path ply(question.ply_file);
   if (!ply.empty() && ply.extension() != ".ply")
     return Problem{ply.string() + ": --ply writes PLY, and a name ends with .ply"};
-  if (!counts_all(request) && request.files.size() == 1 && request.files[0].ends_with(".json"))
-    return Problem{
-        "--rings, --rest-distance and --weld are of frames: a case file states what counts"};
-  const auto read = [&]() -> corpus::Expected<CheckInput> {
-    if (question.bodies.empty() && counts_all(request)) return read_check_input(request.files);
-    return read_bodies(question.bodies.empty() ? BodyWords{request.files} : question.bodies,
-                       {{},
-                        question.apart,
-                        static_cast<std::int32_t>(request.rings),
-                        request.rest_distance,
-                        request.weld});
-  };
-  BOOST_OUTCOME_TRY(input, read());
+  BOOST_OUTCOME_TRY(input, read_input(kind, request, question));
   question.wants_report = !request.json_file.empty();
   question.announced_file = request.json_file;
   question.again = this_command(PastedIn::any_folder);
+  question.shows_all_steps = !is_log || request.all_steps;
   CheckListener terminal{[](const std::string& text) {
     fmt::print("{}", text);
     std::fflush(stdout);
   }};
-  BOOST_OUTCOME_TRY(kept, kept_failures(request));
-  bool has_failed = false;
-  terminal.failed = [&](const FailedStep& failed) {
-    has_failed = true;
-    return kept ? kept->keep(failed) : "";
-  };
   if (request.separation || !request.offsets.empty()) {
     const AskedDistance d = {request.separation.value_or(0), request.offsets};
     BOOST_OUTCOME_TRY(near,
@@ -122,27 +246,53 @@ Expected<int> run_check(const CheckRequest& request) {
     }
     return near.exit_code;
   }
-  BOOST_OUTCOME_TRY(answer, check_mesh(question, input, properties::worker_program(), terminal));
-  if (kept) {
-    kept->end(answer);
-  } else if (has_failed) {
+  bool has_failed = false;
+  terminal.failed = [&](const FailedStep&) {
+    has_failed = true;
+    return "";
+  };
+  BOOST_OUTCOME_TRY(answer, check_keeping(question, input, keeping, terminal));
+  if (has_failed && !is_log)
     fmt::print("next: {} --keep kept\n", this_command(PastedIn::this_folder));
-  }
   if (question.wants_report) {
     BOOST_OUTCOME_TRY(write_json_file(request.json_file, answer.report));
+  }
+  if (!request.junit_file.empty()) {
+    BOOST_OUTCOME_TRY(
+        write_text_file(request.junit_file, junit_text(request.inputs.front(), answer.outcome)));
   }
   return answer.outcome.end(request.fail_on_collision);
 }
 
+// The shard in words such as "2/8"; nothing for other words.
+std::optional<Shard> shard_of(const std::string& word) {
+  const auto slash = word.find('/');
+  if (slash == std::string::npos) return std::nullopt;
+  const auto index = whole_number_of<std::uint64_t>(word.substr(0, slash));
+  const auto count = whole_number_of<std::uint64_t>(word.substr(slash + 1));
+  const bool is_shard = index && count && *index >= 1 && *index <= *count;
+  return is_shard ? std::optional(Shard{*index, *count}) : std::nullopt;
+}
+
+// Which steps of a log are judged.
+void add_selection(Verb& verb, LogSelection& selection) {
+  verb.add("--share SHARE", selection.share, "Judge this share of a log's steps").with(share());
+  add_choice(verb, "--shard I/N", selection.shard, "I/N with 1 <= I <= N", shard_of,
+             "I/N: the part of a log's steps that this process judges, one of N");
+  verb.add("--from N", selection.from, "Go on with this step of a log, counted from 1")
+      .in_range(1, std::numeric_limits<std::int64_t>::max());
+  verb.add_flag("--follow", selection.follow, "Wait for steps until the recorder ends the log");
+}
+
 void add_options(Verb& verb, CheckRequest& request) {
-  const auto frames =
-      verb.add("FRAME", request.files,
-               "Frames (OBJ, PLY, OFF; .gz too), whose steps are judged; one alone: a mesh at "
-               "rest. Or one case file (.json)");
-  verb.add("--body FRAME", request.question.bodies,
+  auto& question = request.question;
+  verb.add("INPUT", request.inputs,
+           "Frames (OBJ, PLY, OFF; .gz too), whose steps are judged; one alone: a mesh at "
+           "rest. Or one case file (.json). Or a log that a recorder wrote (assay_record.h, "
+           "assay.Recorder); LOG#N: step N alone. Or query files (.csv, .csv.gz)");
+  verb.add("--body FRAME", question.bodies,
            "The frames of one of several meshes, which become bodies of one; numbered from 0. One "
-           "frame: it stands still")
-      .excludes(frames);
+           "frame: it stands still");
   verb.add("--apart A,B", request.apart,
            "A,B: bodies that do not meet; A,A: one that meets not itself")
       .with(one_of("A,B: two bodies by number", two_numbers));
@@ -155,85 +305,77 @@ void add_options(Verb& verb, CheckRequest& request) {
       .with(length());
   verb.add_flag("--weld", request.weld,
                 "Vertices of a body that stand at one place in every frame count as one");
-  auto plugin =
-      add_detector_alone(verb, request.question.detector,
-                         "A plug-in's library, or python:MODULE:CLASS (default: the built-in)");
-  add_threads(verb, request.question.threads);
-  auto answers =
-      verb.add("--answers FILE", request.question.answers,
-               "Judge the answers of this table (step,answer,time) in place of a detector")
-          .excludes(plugin);
-  add_choice(verb, "--adjacency", request.question.adjacency, all_names<properties::Adjacency>(),
+  add_selection(verb, request.selection);
+  add_query_options(verb, request.queries);
+  add_detector_alone(verb, question.detector,
+                     "A plug-in's library, or python:MODULE:CLASS (default: the built-in). Of "
+                     "queries: its query answers. Of a log: one of the same code; it is asked "
+                     "again about what is kept, and that is shrunk");
+  add_threads(verb, question.threads);
+  verb.add("--answers FILE", question.answers,
+           "Judge the answers of this table (step,answer,time) in place of a detector");
+  add_choice(verb, "--adjacency", question.adjacency, all_names<properties::Adjacency>(),
              from_name<properties::Adjacency>,
              "Which neighbours --answers are about (default all)");
-  auto& built_in = request.question.built_in;
-  const std::array of_built_in = {
-      add_choice(verb, "--culling", built_in.culling, all_names<detector::Culling>(),
-                 from_name<detector::Culling>, "How the detector culls (default auto)"),
-      add_choice(verb, "--start", built_in.start, all_names<detector::Start>(),
-                 from_name<detector::Start>, "What is known of the first frame (default verified)"),
-      add_choice(verb, "--pairs", built_in.pairs, all_names<detector::Pairs>(),
-                 from_name<detector::Pairs>, "Which pairs are asked for (default all)"),
-      add_choice(verb, "--arithmetic", built_in.arithmetic, all_names<detector::Arithmetic>(),
-                 from_name<detector::Arithmetic>, "What the detector computes in (default exact)")};
-  const auto no_oracle = verb.add_flag("--no-oracle", request.question.no_oracle,
-                                       "Detector only; prints `not judged`");
-  const auto second_opinion =
-      verb.add("--second-opinion SHARE", request.question.second_opinion,
-               "Check the oracle itself by other methods, on this share of its questions")
-          .with(share())
-          .excludes(no_oracle);
-  auto separation =
-      verb.add("--separation LENGTH", request.separation,
-               "Ask the oracle alone which triangles that share no vertex come within this "
-               "distance, when first, and how near any two come")
-          .with(length())
-          .excludes(plugin)
-          .excludes(answers)
-          .excludes(no_oracle)
-          .excludes(second_opinion);
-  auto offset = verb.add("--offset LENGTH", request.offsets,
-                         "The same with a length for each --body, in their order: the distance of "
-                         "two triangles is the sum of their bodies' lengths")
-                    .with(length())
-                    .excludes(plugin)
-                    .excludes(answers)
-                    .excludes(no_oracle)
-                    .excludes(second_opinion)
-                    .excludes(separation);
-  for (const auto& option : of_built_in) {
-    plugin.excludes(option);
-    answers.excludes(option);
-    separation.excludes(option);
-    offset.excludes(option);
-  }
-  add_jobs(verb, request.question.jobs);
-  add_limits(verb, request.question.time_limit, request.question.memory_limit);
+  auto& built_in = question.built_in;
+  add_choice(verb, "--culling", built_in.culling, all_names<detector::Culling>(),
+             from_name<detector::Culling>, "How the detector culls (default auto)");
+  add_choice(verb, "--start", built_in.start, all_names<detector::Start>(),
+             from_name<detector::Start>, "What is known of the first frame (default verified)");
+  add_choice(verb, "--pairs", built_in.pairs, all_names<detector::Pairs>(),
+             from_name<detector::Pairs>, "Which pairs are asked for (default all)");
+  add_choice(verb, "--arithmetic", built_in.arithmetic, all_names<detector::Arithmetic>(),
+             from_name<detector::Arithmetic>, "What the detector computes in (default exact)");
+  verb.add_flag("--no-oracle", question.no_oracle, "Detector only; prints `not judged`");
+  verb.add("--second-opinion SHARE", question.second_opinion,
+           "Check the oracle itself by other methods, on this share of its questions")
+      .with(share());
+  verb.add("--separation LENGTH", request.separation,
+           "Ask the oracle alone which triangles that share no vertex come within this "
+           "distance, when first, and how near any two come. Of queries: ask for this distance, "
+           "and not for contact, where a query's rows say none")
+      .with(length());
+  verb.add("--offset LENGTH", request.offsets,
+           "The same with a length for each --body, in their order: the distance of two triangles "
+           "is the sum of their bodies' lengths")
+      .with(length());
+  add_jobs(verb, question.jobs);
+  add_limits(verb, question.time_limit, question.memory_limit);
   verb.add_flag("--fail-on-collision", request.fail_on_collision,
-                "Exit code 5 when they agree on a collision, or a step comes within --separation");
-  verb.add(
-          "--keep DIR", request.keep,
-          "Keep failing steps here: the part of the mesh that shows each, as case, OBJ and C++; of "
-          "a plug-in shrunk")
-      .excludes(separation)
-      .excludes(offset)
+                "Exit code 5 when they agree on a collision, or a step comes within --separation; "
+                "of a log when one is recorded, and no answer breaks a claim");
+  verb.add("--keep DIR", request.keeping.folder,
+           "Keep failing steps here: the part of the mesh that shows each, as case, OBJ and C++; "
+           "of a plug-in shrunk")
       .in(OptionGroup::output);
-  verb.add("--ply FILE", request.question.ply_file,
+  verb.add("--shrink-time SECONDS", request.keeping.shrink_seconds,
+           "Of a log, seconds at most for each that is shrunk")
+      .with(positive())
+      .shows_default()
+      .in(OptionGroup::limits);
+  verb.add("--ply FILE", question.ply_file,
            "Write the mesh at its first contact here, with the triangles in contact in red, at "
-           "rest those "
-           "that only touch in amber")
-      .excludes(separation)
-      .excludes(offset)
+           "rest those that only touch in amber")
       .in(OptionGroup::output);
-  verb.add("--json FILE", request.json_file, "Write the report here (assay-check/1)")
+  verb.add_flag("--all-steps", request.all_steps,
+                "Print every step of a log, not only those that are not as claimed")
       .in(OptionGroup::output);
+  verb.add("--junit FILE", request.junit_file,
+           "Write what each claim of a log came to here, as JUnit XML")
+      .in(OptionGroup::output);
+  verb.add("--json FILE", request.json_file,
+           "Write the report here (assay-check/1; of queries assay-queries/1)")
+      .in(OptionGroup::output);
+  request.given = verb.given();
 }
 
 }  // namespace
 
 AddedVerb add_check(CLI::App& app) {
-  return make_verb(app, "check", "Detector against oracle on the steps of one mesh", add_options,
-                   run_check);
+  return make_verb(app, "check",
+                   "Detector against oracle on the steps of one mesh; recorded answers of a "
+                   "simulator; labelled queries",
+                   add_options, run_check);
 }
 
 }  // namespace assay::reports

@@ -19,6 +19,7 @@
 #include "properties/words.h"
 #include "properties/worker/plugin/query_case.h"
 #include "properties/worker/worker_process.h"
+#include "reports/judge/kept_failures.h"
 #include "reports/judge/log_check.h"
 #include "reports/pictures/case_scene.h"
 #include "reports/pictures/mesh_svg.h"
@@ -190,10 +191,12 @@ std::string misspelt(const std::string& id) {
 // A step of a log, judged again.
 Expected<int> replay_log(const LogName& log, const ReplayRequest& request) {
   if (request.why) return Problem{"--why is of the built-in detector, and this is a log"};
-  LogQuestion question;
-  question.out = request.export_folder;
-  BOOST_OUTCOME_TRY(
-      answer, judge_log(log, question, {[](const std::string& text) { fmt::print("{}", text); }}));
+  BOOST_OUTCOME_TRY(input, read_log(log, {}));
+  CheckQuestion question;
+  question.files = {log.file};
+  const CheckListener terminal{[](const std::string& text) { fmt::print("{}", text); }};
+  BOOST_OUTCOME_TRY(answer,
+                    check_keeping(question, input, {request.export_folder, log.file}, terminal));
   return answer.outcome.end(false);
 }
 

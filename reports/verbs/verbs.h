@@ -2,9 +2,10 @@
 //
 // There is one file for each verb: NAME_command.cpp holds what is asked of it (its request), its
 // options and what it does, so that a new option is a change of one file. `certify` stands beside
-// `run`, whose shares are certified.
+// `run`, whose shares are certified, and what `check` does of query files in check_queries.cpp.
 #pragma once
 
+#include "properties/queries/query_methods.h"
 #include "reports/campaign/campaign_terminal.h"
 #include "reports/terminal/option_words.h"
 
@@ -14,8 +15,6 @@ namespace assay::reports {
 AddedVerb add_bench(CLI::App& app);
 AddedVerb add_certify(CLI::App& app);
 AddedVerb add_check(CLI::App& app);
-AddedVerb add_check_queries(CLI::App& app);
-AddedVerb add_judge(CLI::App& app);
 AddedVerb add_list(CLI::App& app);
 AddedVerb add_replay(CLI::App& app);
 AddedVerb add_report(CLI::App& app);
@@ -24,5 +23,18 @@ AddedVerb add_scene(CLI::App& app);
 AddedVerb add_self_test(CLI::App& app);
 AddedVerb add_shrink(CLI::App& app);
 AddedVerb add_verify(CLI::App& app);
+
+// What `check` is asked of query files.
+struct QueryQuestion {
+  std::vector<std::string> files;
+  std::vector<std::string> truths;  // none, or one for each file
+  const properties::QueryMethod* method = &properties::oracle_method();
+  std::optional<double> separation;  // of the queries whose rows say none
+  DetectorWords detector;
+  std::string json_file;
+};
+// --truth and --method.
+void add_query_options(Verb& verb, QueryQuestion& question);
+Expected<int> check_queries(const QueryQuestion& question);
 
 }  // namespace assay::reports

@@ -161,11 +161,11 @@ def input_rows(build, folder):
               "    for a, b in zip(f.positions, f.positions[1:]): log.step(a, b, answer='free')\n")
     env = dict(os.environ, PYTHONPATH=str(build / "python"))
     run([PYTHON, "-c", record, folder / "steps.log", *frames], folder, env)
-    tasks.append(("log", ["judge", "steps.log"]))
+    tasks.append(("log", ["check", "steps.log"]))
     (folder / "vertex_face.csv").write_text("".join(
         f"{x},{y},{z},1\n" for end in (1, -1)
         for x, y, z in [(0.25, 0.25, end), (0, 0, 0), (1, 0, 0), (0, 1, 0)]))
-    tasks.append(("queries", ["check-queries", "vertex_face.csv"]))
+    tasks.append(("queries", ["check", "vertex_face.csv"]))
     with ThreadPoolExecutor(2) as pool:
         rows = list(pool.map(lambda task: checked(build, task[1], folder, task[0]), tasks))
     told = run([build / "assay", "self-test", "--queries", 200], folder).stdout

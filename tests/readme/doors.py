@@ -41,7 +41,7 @@ class Door:
 BUILT = ["reports/package/pack", "apt-get install -y ./build/assay_*.deb"]
 # The C++ comes last, so that no other door has its folder `cases`.
 DOORS = {
-    "a recorded log": Door(("6.",), "assay judge steps.log --out build/judged", "assay judge steps.log"),
+    "a recorded log": Door(("6.",), "assay check steps.log --keep build/judged", "assay check steps.log"),
     "a detector in Python": Door(("5.",), "SEED=3 sh detector/plugin/ci/job.sh",
                                  "SEED=4 sh detector/plugin/ci/job.sh"),
     "a detector in C++": Door(("1.", "2.", "3.", "4."),

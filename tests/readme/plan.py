@@ -67,7 +67,7 @@ QUICK = {
         "assay check --body build/bend/frame_0000.ply --body build/bend/frame_0011.ply",
     ],
     "reports/check/QUERIES.md": [
-        "assay check-queries corpus/queries/example_vf.csv --method detector-exact",
+        "assay check corpus/queries/example_vf.csv --method detector-exact",
     ],
     "reports/campaign/README.md": [
         "assay replay quick:1:closed-generic:5 --why 0,5",
@@ -140,7 +140,7 @@ ENDS = {
         "assay replay build/mine/failures/search-push-2-001-315-my-CCD-smallest.json --detector ./my_ccd.so": [1, 0],
         "SEED=1 SOURCES=tests/plugins/additive_ccd.cpp sh detector/plugin/ci/job.sh": [1],
         "SEED=3 sh detector/plugin/ci/job.sh": [1],
-        "assay judge steps.log --out build/judged": [1],
+        "assay check steps.log --keep build/judged": [1],
     },
 }
 
@@ -163,8 +163,8 @@ SHOWN = {
         "assay run --campaign detector/plugin/ci/push.json --seed 2 --detector ./my_ccd.so --power build/proof --out build/mine-mended": "claims     holds",
         "SEED=1 SOURCES=tests/plugins/additive_ccd.cpp sh detector/plugin/ci/job.sh": "corpus     FAILS",
         "SEED=3 sh detector/plugin/ci/job.sh": "verdict: defect",
-        "assay judge steps.log --out build/judged": "step 111: free; DIFFER",
-        "assay judge steps.log": "500 of 500 steps judged",
+        "assay check steps.log --keep build/judged": "step 111: free; DIFFER",
+        "assay check steps.log": "500 of 500 steps judged",
     },
 }
 
@@ -192,7 +192,7 @@ NOT_RUN = {
         "assay verify night/* --out all": NIGHT + "; tests/nightly runs it",
     },
     "detector/plugin/README.md": {
-        "assay check-queries --detector ./libmine.so corpus/queries/example_vf.csv": NO_QUERY,
+        "assay check --detector ./libmine.so corpus/queries/example_vf.csv": NO_QUERY,
         "assay self-test --detector ./libmine.so": NO_QUERY,
         "assay run --campaign smoke --part query --detector ./libmine.so --power proof --out mine-query":
             NO_QUERY,
@@ -253,11 +253,11 @@ NO_COMMAND = {
         "corpus     FAILS": "what the job prints of a fault",
         "verdict: defect": "what the job prints of a fault in Python",
         "claims     holds": "what `assay run` prints",
-        "step 111: free; DIFFER": "what `assay judge` prints",
-        "500 of 500 steps judged": "what `assay judge` prints",
+        "step 111: free; DIFFER": "what `assay check` prints",
+        "500 of 500 steps judged": "what `assay check` prints",
     },
     "reports/check/QUERIES.md": {
-        "oracle: 5 queries (5 within": "what `assay check-queries --separation` prints",
+        "oracle: 5 queries (5 within": "what `assay check --separation` prints",
     },
     "corpus/README.md": {
         "83                      an array": "the bytes of a record; tests/detector/plugin reads them",

@@ -1,4 +1,4 @@
-"""What a simulator does, recorded for `assay judge`."""
+"""What a simulator does, recorded for `assay check`."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class Recorder:
 
     path: the file. triangles: integers (m, 3). positions: real numbers (n, 3), those that the
     detector was made from. name, version, claims, contract: of that detector, in the words of a
-    detector in Python (assay/hosting.py); without claims there is nothing that `assay judge` could
+    detector in Python (assay/hosting.py); without claims there is nothing that `assay check` could
     judge. bodies: (n,) the number of each vertex's body, from 0 on; apart: pairs of bodies that
     do not meet, or a body paired with itself. rings, rest_distance: pairs that do not count, as of
     assay.check; at rest the mesh is at `positions`.

@@ -30,9 +30,9 @@ expect 0 list scenes
 expect 0 scene bend --size 200 --frames 4 --out bend
 expect 0 check bend/frame_0000.ply bend/frame_0001.ply bend/frame_0002.ply --json check.json
 expect 0 check "$data/corpus/curated/B1_one_vertex_own_nearest.json"
-expect 0 check-queries "$data/corpus/queries/example_vf.csv"
+expect 0 check "$data/corpus/queries/example_vf.csv"
 expect 0 self-test --queries 200
-expect 0 judge steps.log
+expect 0 check steps.log
 expect 0 run --campaign few.json --out proof
 expect 0 list failures proof
 expect 0 report proof --out proof.html

@@ -106,11 +106,11 @@ TEST_F(CheckedBodies, DoubledCornersAreToldAndLeftOut) {
   // Welded, all four faces have an edge in common.
   expect(" --weld --rings 1 --separation 0", 0, "no two triangles count");
   expect_problem(run_assay("check corpus/curated/B1_one_vertex_own_nearest.json --weld"),
-                 "a case file states what counts");
+                 "--weld is of frames or a mesh at rest or bodies, and this is a case file (");
 }
 
 TEST_F(CheckedBodies, BadWordsAreOneLine) {
-  expect_problem(run_assay("check "), "FRAME is required");
+  expect_problem(run_assay("check "), "INPUT is required");
   expect_problem(run_assay("check " + comes + " --apart 0,0"), "--apart is of bodies");
   expect_problem(run_assay("check " + comes + " --body " + comes), "do not go together");
   expect_problem(run_assay("check --body " + comes + " --apart 0"), "A,B: two bodies by number");

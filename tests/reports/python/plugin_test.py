@@ -185,7 +185,7 @@ def test_what_goes_wrong_is_told(mine, frames, name, outcome, text):
         ("python:absent:Mine", "No module named 'absent'"),
         ("python:mine", "python:MODULE:CLASS is wanted"),
         ("python:mi-ne:X", "python:MODULE:CLASS is wanted"),
-        ("python:mine:Queries", "assay check-queries"),
+        ("python:mine:Queries", "assay check QUERIES.csv"),
     ],
 )
 def test_what_is_no_detector_is_refused_in_a_line(mine, frames, word, text):

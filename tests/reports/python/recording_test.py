@@ -100,7 +100,7 @@ def test_the_slip_comes_home_as_two_triangles(logs, tmp_path):
                 pairs=rows(step.get("pairs"), 2),
             )
     program = Path(os.environ["ASSAY_BUILD_DIR"], "assay")
-    judged = subprocess.run([program, "judge", tmp_path / "log", "--out", tmp_path / "out"])
+    judged = subprocess.run([program, "check", tmp_path / "log", "--keep", tmp_path / "out"])
     assert judged.returncode == 1
     first = sorted((tmp_path / "out").glob("step-*"))[0]
     assert len(json.loads((first / "pair.json").read_text())["triangles"]) == 2

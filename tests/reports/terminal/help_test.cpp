@@ -29,12 +29,14 @@ TEST(Help, IsOneTextHoweverItIsAsked) {
   const auto all = expect_ended("help", 0);
   EXPECT_EQ(run_assay("--help").out, all.out);
   EXPECT_EQ(run_assay("-h").out, all.out);
-  EXPECT_EQ(verbs().size(), 13u);
+  EXPECT_EQ(verbs().size(), 11u);
   const auto run = expect_ended("help run", 0);
   EXPECT_EQ(run_assay("run --help").out, run.out);
   EXPECT_EQ(run_assay("run --campaign smoke -h").out, run.out);
   EXPECT_EQ(run_assay("version").out, run_assay("--version").out);
   expect_refused("help chekc", "unknown verb 'chekc'; did you mean check?");
+  expect_refused("judge steps.log", "judge is check: assay check LOG");
+  expect_refused("help check-queries", "check-queries is check: assay check QUERIES.csv");
   expect_refused("versoin", "unknown verb 'versoin'; did you mean version?");
 }
 
@@ -78,7 +80,7 @@ TEST(Help, SaysTheExitCodesOfTheDesign) {
 
 TEST(Help, ShowsWordsAndDefaults) {
   const auto check = run_assay("help check").out;
-  EXPECT_TRUE(contains(check, "Usage: assay check [FRAME...] [OPTION...]\n")) << check;
+  EXPECT_TRUE(contains(check, "Usage: assay check [INPUT...] [OPTION...]\n")) << check;
   EXPECT_TRUE(contains(check, "--pairs WORD")) << check;
   EXPECT_TRUE(contains(check, "(default all): all, first")) << check;
   EXPECT_TRUE(contains(check, "--apart A,B...  ")) << check;

@@ -99,16 +99,14 @@ TEST_F(BadInput, QueryFiles) {
   std::string row = "0,1,0,1,0,1\n", seven, letters;
   for (int i = 0; i < 7; ++i) seven += row;
   for (int i = 0; i < 8; ++i) letters += "a,b,c,d,e,f\n";
-  expect_brief_refusal("check-queries " + scratch.write("7ee.csv", seven), "7ee.csv");
-  expect_brief_refusal("check-queries " + scratch.write("letters_vf.csv", letters),
-                       "letters_vf.csv");
-  expect_brief_refusal("check-queries " + scratch.write("unnamed.csv", seven + row), "unnamed.csv");
+  expect_brief_refusal("check " + scratch.write("7ee.csv", seven), "7ee.csv");
+  expect_brief_refusal("check " + scratch.write("letters_vf.csv", letters), "letters_vf.csv");
+  expect_brief_refusal("check " + scratch.write("unnamed.csv", seven + row), "unnamed.csv");
   const auto eight = scratch.write("8ee.csv", seven + row);
   const auto truths = scratch.write("truth.json", "[true,false]");
-  expect_brief_refusal("check-queries " + eight + " --truth " + truths, "truth.json");
-  expect_brief_refusal("check-queries " + eight + " --truth " + truths + " " + truths,
-                       "2 truth files");
-  expect_brief_refusal("check-queries " + eight + " --method guess", "guess");
+  expect_brief_refusal("check " + eight + " --truth " + truths, "truth.json");
+  expect_brief_refusal("check " + eight + " --truth " + truths + " " + truths, "2 truth files");
+  expect_brief_refusal("check " + eight + " --method guess", "guess");
 }
 
 TEST_F(BadInput, CaseFiles) {

@@ -1,4 +1,4 @@
-// A separation that `assay check` and `assay check-queries` are asked for, as a user runs them: two
+// A separation that `assay check` is asked for, of meshes and of queries, as a user runs it: two
 // triangles and a query whose distance is known.
 #include "reports/check/separation_check.h"
 #include "tests/reports/program.h"
@@ -128,8 +128,8 @@ class QueriesWithin : public testing::Test {
     return text;
   }
   Outcome check(const std::string& text, const std::string& options) const {
-    return run_assay("check-queries " + scratch.write("vf.csv", text) + " --json " +
-                     (scratch / "q.json") + " " + options);
+    return run_assay("check " + scratch.write("vf.csv", text) + " --json " + (scratch / "q.json") +
+                     " " + options);
   }
   json report() const { return json::parse(read_text(scratch / "q.json")); }
   const Scratch scratch;

@@ -198,8 +198,7 @@ TEST_F(Commands, ACaseWhoseFactsDoNotHoldIsADefect) {
 TEST_F(Commands, QueriesAreScored) {
   const std::string queries = std::string(ASSAY_SOURCE_DIR) + "/corpus/queries/example_vf.csv";
   for (const std::string method : {"oracle", "detector-exact"}) {
-    expect_ended(
-        "check-queries " + queries + " --method " + method + " --json " + (scratch / "q.json"), 0);
+    expect_ended("check " + queries + " --method " + method + " --json " + (scratch / "q.json"), 0);
     const auto report = json::parse(read_text(scratch / "q.json"));
     EXPECT_EQ(report["schema"], "assay-queries/1");
     EXPECT_EQ(report["count"], 5);
@@ -208,7 +207,7 @@ TEST_F(Commands, QueriesAreScored) {
   std::string wrong = read_text(queries);
   for (std::size_t at = 0; (at = wrong.find(",1\n", at)) != std::string::npos; at += 3)
     wrong.replace(at, 3, ",0\n");
-  expect_ended("check-queries " + scratch.write("wrong_vf.csv", wrong), 1,
+  expect_ended("check " + scratch.write("wrong_vf.csv", wrong), 1,
                {"2 false positives, 0 false negatives, 1 disputed"});
 }
 

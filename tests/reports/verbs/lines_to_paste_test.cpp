@@ -117,11 +117,11 @@ TEST_F(LinesToPaste, OfACaseFileKeepItsRelation) {
   expect_same(made.out, 1, 2);
 }
 
-TEST_F(LinesToPaste, OfJudgeNameTheLogAndTheStep) {
+TEST_F(LinesToPaste, OfCheckNameTheLogAndTheStep) {
   const auto path = (folder / "my log").string();
   write_missed_contact(path);
   for (const std::string word : {"'my log'", "'my log#2'"}) {
-    const auto judged = expect_ended(run("judge " + word + " --out judged"), 1);
+    const auto judged = expect_ended(run("check " + word + " --keep judged"), 1);
     expect_same(judged.out, 1, 1);
   }
   const auto shrunk =
@@ -164,7 +164,7 @@ TEST_F(LinesToPaste, WhatItsOwnCaseDoesNotShowSaysSo) {
   expect_same(made.out, 1, 1);
   ::unsetenv("ASSAY_QUERY");
 
-  expect_ended(run("check-queries --json q.json " + std::string(ASSAY_SOURCE_DIR) +
+  expect_ended(run("check --json q.json " + std::string(ASSAY_SOURCE_DIR) +
                        "/corpus/queries/example_vf.csv" + detector,
                    state),
                1, {"asked again by itself"});

@@ -37,11 +37,10 @@ TEST_F(Outputs, ThatCannotBeWrittenAreRefusedBeforeTheWork) {
   const auto file = scratch.write("file", "");
   const auto run = scratch / "run";
   ASSERT_EQ(run_assay("run --campaign " + plan + " --out " + run).exit_code, 0);
-  const std::string check = "check " + frames + " --answers " + right, judge = "judge " + log();
+  const std::string check = "check " + frames + " --answers " + right, judge = "check " + log();
   const std::string folders[] = {check + " --keep ",
                                  "check " + frames + " --keep ",
-                                 judge + " --out ",
-                                 judge + " " + (scratch / "steps.log") + " --out ",
+                                 judge + " --keep ",
                                  "run --campaign " + plan + " --out ",
                                  "certify --campaign " + plan + " --out ",
                                  "replay " + curated("A1_winding2_allpositive") + " --export ",
@@ -53,7 +52,7 @@ TEST_F(Outputs, ThatCannotBeWrittenAreRefusedBeforeTheWork) {
   }
   const std::string files[] = {check + " --json ",
                                "check " + frames + " --separation 1 --json ",
-                               "check-queries " + queries + " --json ",
+                               "check " + queries + " --json ",
                                judge + " --json ",
                                judge + " --junit ",
                                "report " + run + " --out ",
@@ -76,7 +75,7 @@ TEST_F(Outputs, AFileOfAFolderThatCannotBeWrittenIsRefusedToo) {
   };
   for (const auto& [words, name] : std::vector<std::pair<std::string, std::string>>{
            {"check " + frames + " --keep ", "page.html"},
-           {"judge " + log() + " --out ", "page.html"},
+           {"check " + log() + " --keep ", "page.html"},
            {"run --campaign " + plan + " --out ", "junit.xml"},
            {"run --campaign " + plan + " --out ", "summary.md"},
            {"certify --campaign " + plan + " --out ", "certificate.json"},
@@ -91,7 +90,7 @@ TEST_F(Outputs, AFileOfAFolderThatCannotBeWrittenIsRefusedToo) {
 TEST_F(Outputs, TwoOutputsAreNotOneFile) {
   const auto one = scratch / "one";
   expect_refused("bench --suite stability --quick --json " + one + " --csv " + one, one);
-  expect_refused("judge " + log() + " --json " + one + " --junit " + one, one);
+  expect_refused("check " + log() + " --json " + one + " --junit " + one, one);
 }
 
 // Nothing fails, and nothing is there yet.
@@ -106,7 +105,7 @@ TEST_F(Outputs, AreWrittenWhateverTheVerdict) {
     EXPECT_EQ(std::filesystem::exists(kept + "/step-1/case.json"), code == 1);
   }
   expect_ended(
-      "judge " + log() + " --out " + (scratch / "x/y") + " --json " + (scratch / "x/y/r.json"), 1);
+      "check " + log() + " --keep " + (scratch / "x/y") + " --json " + (scratch / "x/y/r.json"), 1);
   EXPECT_TRUE(std::filesystem::exists(scratch / "x/y/page.html"));
   expect_ended("replay " + curated("A1_winding2_allpositive") + " --export " + (scratch / "p/q"),
                0);
@@ -125,7 +124,7 @@ TEST_F(Outputs, AStepThatCannotBeKeptLosesNoReport) {
   EXPECT_TRUE(contains(read_text(report), "\"outcome\": \"defect\""));
   EXPECT_TRUE(std::filesystem::exists(kept + "/page.html"));
   const auto junit = scratch / "j.xml";
-  EXPECT_EQ(run_assay("judge " + log() + " --out " + kept + " --junit " + junit).exit_code, 2);
+  EXPECT_EQ(run_assay("check " + log() + " --keep " + kept + " --junit " + junit).exit_code, 2);
   EXPECT_TRUE(contains(read_text(junit), "<failure"));
 }
 

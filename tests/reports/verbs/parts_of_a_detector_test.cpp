@@ -130,7 +130,7 @@ TEST_F(Parts, AQueryIsJudgedBesideTheSteps) {
 }
 
 TEST_F(Parts, LabelledQueriesAreScoredAndJudged) {
-  const std::string check = "check-queries " + queries + " --json " + (scratch / "report.json");
+  const std::string check = "check " + queries + " --json " + (scratch / "report.json");
   expect_ended(asked("", check), 0,
                {"0 false positives, 0 false negatives", "all claims hold in 5 queries"});
   const auto report = Json::parse(read_text(scratch / "report.json"));
@@ -151,7 +151,7 @@ TEST_F(Parts, LabelledQueriesAreScoredAndJudged) {
 
 TEST_F(Parts, TheSeparationOfAContractIsThatOfItsQueries) {
   // All of them come within 3, and two have no contact.
-  const std::string check = "check-queries " + queries + " --json " + (scratch / "report.json");
+  const std::string check = "check " + queries + " --json " + (scratch / "report.json");
   const std::string within = "separation=3 adjacency=2";
   // Labels of contact are no truth of it, unless the user says what they are.
   expect_ended(
@@ -243,7 +243,7 @@ TEST_F(Parts, AFailingQueryIsExportedAsPlainArrays) {
 
 TEST_F(Parts, WhatAsksForAPartThatIsNotThereIsRefused) {
   const std::string frames = std::string(ASSAY_SOURCE_DIR) + "/corpus/curated/";
-  expect_refused(candidates("", "check-queries " + queries), "it holds no elementary query");
+  expect_refused(candidates("", "check " + queries), "it holds no elementary query");
   expect_refused(candidates("", "self-test"), "it holds no elementary query");
   expect_refused(asked("", campaign("run", "steps") + " --part steps"), "but a query alone");
   expect_refused(candidates("", campaign("run", "query") + " --part query"),
@@ -251,7 +251,7 @@ TEST_F(Parts, WhatAsksForAPartThatIsNotThereIsRefused) {
   expect_refused(asked("", "check " + frames + "B1_one_vertex_own_nearest.json"),
                  "but a query alone");
   expect_refused("replay tiny:1:query-ulp:0", "--detector");
-  expect_refused(asked("claims=8", "check-queries " + queries), "claims nothing of its query");
+  expect_refused(asked("claims=8", "check " + queries), "claims nothing of its query");
 }
 
 }  // namespace

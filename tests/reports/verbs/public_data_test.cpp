@@ -69,17 +69,17 @@ class PublicQueries : public PublicMeshes {};
 TEST_F(PublicQueries, NoDifferenceFromTheTruth) {
   for (const std::string method : {"oracle", "detector-exact"}) {
     const std::string json_file = scratch / "q.json";
-    const auto outcome = expect_ended("check-queries --method " + method + " " + data +
-                                          "/sample-queries/*/*/*.csv --json " + json_file,
-                                      0);
+    const auto outcome = expect_ended(
+        "check --method " + method + " " + data + "/sample-queries/*/*/*.csv --json " + json_file,
+        0);
     EXPECT_EQ(json::parse(read_text(json_file))["count"], 2324);
     EXPECT_EQ(json::parse(read_text(json_file))["differences"].size(), 0u) << outcome.out;
     const std::string rods = data + "/scalable-ccd/rod-twist/";
-    const auto simulation = expect_ended(
-        "check-queries --method " + method + " " + rods + "queries/3036ee.csv " + rods +
-            "queries/3036vf.csv --truth " + rods + "mma_bool/3036ee_mma_bool.json " + rods +
-            "mma_bool/3036vf_mma_bool.json --json " + json_file,
-        0);
+    const auto simulation =
+        expect_ended("check --method " + method + " " + rods + "queries/3036ee.csv " + rods +
+                         "queries/3036vf.csv --truth " + rods + "mma_bool/3036ee_mma_bool.json " +
+                         rods + "mma_bool/3036vf_mma_bool.json --json " + json_file,
+                     0);
     const auto report = json::parse(read_text(json_file));
     EXPECT_EQ(report["count"], 5171);
     EXPECT_EQ(report["unlabelled"], 0);
@@ -94,8 +94,8 @@ TEST_F(PublicQueries, RefereeContradictsNothing) {
   for (const std::string& files :
        {data + "/sample-queries/*/*/*.csv",
         rods + "queries/3036ee.csv " + rods + "queries/3036vf.csv" + truths}) {
-    const auto outcome = expect_ended(
-        "check-queries --method referee " + files + " --json " + (scratch / "q.json"), 0);
+    const auto outcome =
+        expect_ended("check --method referee " + files + " --json " + (scratch / "q.json"), 0);
     const auto report = json::parse(read_text(scratch / "q.json"));
     EXPECT_GT(report["count"], 2000);
     EXPECT_EQ(report["contradictions"], 0);

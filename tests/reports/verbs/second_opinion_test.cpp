@@ -105,7 +105,7 @@ TEST_F(SecondOpinionRun, RefereeAnswersQueries) {
   std::filesystem::create_directory(scratch / "vertex-face");
   const auto file = scratch.write("vertex-face/two.csv", rows("1") + rows("9"));
   const auto outcome =
-      expect_ended("check-queries --method referee " + file + " --json " + (scratch / "q.json"), 1,
+      expect_ended("check --method referee " + file + " --json " + (scratch / "q.json"), 1,
                    {"0 open, 0 contradictions"});
   EXPECT_EQ(outcome.out.find("rungs"), std::string::npos);
   const auto report = json::parse(read_text(scratch / "q.json"));

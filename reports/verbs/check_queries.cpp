@@ -1,5 +1,5 @@
-// `assay check-queries` asks one method labelled vertex-face and edge-edge queries, scores the
-// answers against their truth, and times them one by one. The query of a plug-in may answer
+// `assay check` of query files asks one method labelled vertex-face and edge-edge queries, scores
+// the answers against their truth, and times them one by one. The query of a plug-in may answer
 // instead; then its claims are judged too.
 #include <fmt/format.h>
 
@@ -236,15 +236,6 @@ class QueryScore {
 
 using QuerySet = std::vector<corpus::LabelledQuery>;
 
-struct CheckQueriesRequest {
-  std::vector<std::string> files;
-  std::vector<std::string> truths;  // none, or one for each file
-  const properties::QueryMethod* method = &properties::oracle_method();
-  std::optional<double> separation;  // of the queries whose rows say none
-  DetectorWords detector;
-  std::string json_file;
-};
-
 Expected<void> write_report(const std::string& file, const nlohmann::ordered_json& report) {
   if (file.empty()) return outcome::success();
   const auto written = write_json_file(file, report);
@@ -279,29 +270,29 @@ Expected<void> ask_plugin(QueryDetector& detector, const std::string& file, cons
   return outcome::success();
 }
 
-Expected<int> check_plugin(const CheckQueriesRequest& request, const std::vector<QuerySet>& sets) {
-  BOOST_OUTCOME_TRY(detector, QueryDetector::open(request.detector));
-  if (request.separation.value_or(detector.separation()) != detector.separation()) {
+Expected<int> check_plugin(const QueryQuestion& question, const std::vector<QuerySet>& sets) {
+  BOOST_OUTCOME_TRY(detector, QueryDetector::open(question.detector));
+  if (question.separation.value_or(detector.separation()) != detector.separation()) {
     return Problem{fmt::format("--separation {}: {} answers by that of its contract, {}",
-                               *request.separation, detector.name(), detector.separation())};
+                               *question.separation, detector.name(), detector.separation())};
   }
   fmt::print("{}\n", detector.title());
   std::fflush(stdout);
   QueryScore score(detector.name());
   for (std::size_t i = 0; i < sets.size(); ++i) {
-    BOOST_OUTCOME_TRY(ask_plugin(detector, request.files[i], sets[i], score));
+    BOOST_OUTCOME_TRY(ask_plugin(detector, question.files[i], sets[i], score));
   }
   score.print();
   fmt::print("{}", detector.text());
-  auto report = score.to_json(request.files);
+  auto report = score.to_json(question.files);
   report["detector"] = detector.to_json();
-  BOOST_OUTCOME_TRY(write_report(request.json_file, report));
+  BOOST_OUTCOME_TRY(write_report(question.json_file, report));
   return detector.exit_code();
 }
 
 // The problem of a method that knows no distance, if some query has a separation.
-Expected<void> check_method(const CheckQueriesRequest& request, const std::vector<QuerySet>& sets) {
-  if (request.method->within) return outcome::success();
+Expected<void> check_method(const QueryQuestion& question, const std::vector<QuerySet>& sets) {
+  if (question.method->within) return outcome::success();
   for (std::size_t i = 0; i < sets.size(); ++i) {
     const auto asks = std::find_if(sets[i].begin(), sets[i].end(),
                                    [](const auto& query) { return query.separation.has_value(); });
@@ -311,46 +302,47 @@ Expected<void> check_method(const CheckQueriesRequest& request, const std::vecto
       if (method.within) others.push_back(method.name);
     }
     return Problem{fmt::format("{} query {}: --method {} knows no separation; these do: {}",
-                               request.files[i], asks - sets[i].begin(), request.method->name,
+                               question.files[i], asks - sets[i].begin(), question.method->name,
                                joined(others, ", "))};
   }
   return outcome::success();
 }
 
-Expected<int> run_check_queries(const CheckQueriesRequest& request) {
-  if (!request.truths.empty() && request.truths.size() != request.files.size()) {
+}  // namespace
+
+Expected<int> check_queries(const QueryQuestion& question) {
+  if (!question.truths.empty() && question.truths.size() != question.files.size()) {
     return Problem{
         fmt::format("{} truth files for {} query files: give one for each, in the same order",
-                    request.truths.size(), request.files.size())};
+                    question.truths.size(), question.files.size())};
   }
-  auto inputs = request.files;
-  inputs.insert(inputs.end(), request.truths.begin(), request.truths.end());
-  BOOST_OUTCOME_TRY(may_write({request.json_file}, inputs));
+  auto inputs = question.files;
+  inputs.insert(inputs.end(), question.truths.begin(), question.truths.end());
+  BOOST_OUTCOME_TRY(may_write({question.json_file}, inputs));
   std::vector<QuerySet> sets;
-  for (std::size_t i = 0; i < request.files.size(); ++i) {
+  for (std::size_t i = 0; i < question.files.size(); ++i) {
     std::optional<std::filesystem::path> truth;
-    if (!request.truths.empty()) truth = request.truths[i];
-    BOOST_OUTCOME_TRY(queries, corpus::read_queries(request.files[i], truth));
+    if (!question.truths.empty()) truth = question.truths[i];
+    BOOST_OUTCOME_TRY(queries, corpus::read_queries(question.files[i], truth));
     for (auto& query : queries) {
-      if (!query.separation) query.separation = request.separation;
+      if (!query.separation) query.separation = question.separation;
     }
     sets.push_back(std::move(queries));
   }
-  if (!request.detector.library.empty()) return check_plugin(request, sets);
-  BOOST_OUTCOME_TRY(check_method(request, sets));
-  QueryScore score(*request.method);
-  for (std::size_t i = 0; i < sets.size(); ++i) score.add(request.files[i], sets[i]);
+  if (!question.detector.library.empty()) return check_plugin(question, sets);
+  BOOST_OUTCOME_TRY(check_method(question, sets));
+  QueryScore score(*question.method);
+  for (std::size_t i = 0; i < sets.size(); ++i) score.add(question.files[i], sets[i]);
   score.print();
-  auto report = score.to_json(request.files);
+  auto report = score.to_json(question.files);
   report["detector"] = nullptr;
-  BOOST_OUTCOME_TRY(write_report(request.json_file, report));
+  BOOST_OUTCOME_TRY(write_report(question.json_file, report));
   if (score.is_unsound()) return exit_unsound;
   return score.is_wrong() ? exit_defect : exit_holds;
 }
 
-void add_options(Verb& verb, CheckQueriesRequest& request) {
-  verb.add("FILE", request.files, "Query files (.csv, .csv.gz)").required();
-  verb.add("--truth FILE", request.truths, "Labels (.json), one file for each query file");
+void add_query_options(Verb& verb, QueryQuestion& question) {
+  verb.add("--truth FILE", question.truths, "Labels (.json), one file for each query file");
   std::vector<const char*> words;
   for (const auto& method : properties::named_methods()) words.push_back(method.name);
   const auto parse = [](std::string_view word) -> std::optional<const properties::QueryMethod*> {
@@ -359,22 +351,8 @@ void add_options(Verb& verb, CheckQueriesRequest& request) {
     }
     return std::nullopt;
   };
-  const auto method = add_choice(verb, "--method", request.method, joined(words, ", "), parse,
-                                 "Who answers (default oracle)");
-  verb.add("--separation LENGTH", request.separation,
-           "Ask for this distance, and not for contact, where a query's rows say none")
-      .with(length());
-  add_detector(verb, request.detector, "A plug-in's library: its query answers").excludes(method);
-  verb.add("--json FILE", request.json_file, "Write the report here (assay-queries/1)")
-      .in(OptionGroup::output);
-}
-
-}  // namespace
-
-AddedVerb add_check_queries(CLI::App& app) {
-  return make_verb(app, "check-queries",
-                   "Labelled vertex-face and edge-edge queries against their truth", add_options,
-                   run_check_queries);
+  add_choice(verb, "--method", question.method, joined(words, ", "), parse,
+             "Who answers queries (default oracle)");
 }
 
 }  // namespace assay::reports

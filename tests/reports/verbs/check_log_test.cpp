@@ -1,5 +1,5 @@
-// `judge`: recorded answers are judged as those of a plug-in are, what fails comes home as a small
-// mesh, and what is lost of a log is said.
+// `check` of a log: recorded answers are judged as those of a plug-in are, what fails comes home as
+// a small mesh, and what is lost of a log is said.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -24,7 +24,7 @@ nlohmann::json steps_in(const std::string& file) {
   return report["steps"];
 }
 
-class JudgeCommand : public testing::Test {
+class CheckLog : public testing::Test {
  protected:
   void SetUp() override {
     sequence_ = corpus::make_scene("crumpling-sphere", {400, 8, {}}).value();
@@ -76,14 +76,14 @@ class JudgeCommand : public testing::Test {
   std::size_t collision_ = 0;
 };
 
-TEST_F(JudgeCommand, RightAnswersHold) {
+TEST_F(CheckLog, RightAnswersHold) {
   expect_ended(
-      "judge " + record(answers_), 0,
+      "check " + record(answers_), 0,
       {"recorded of recorded 1", "noted before step 3: two steps done", "all claims hold"});
 }
 
 // Frames with a table of answers need no recorder.
-TEST_F(JudgeCommand, ATableOfAnswersIsJudgedBesideFrames) {
+TEST_F(CheckLog, ATableOfAnswersIsJudgedBesideFrames) {
   std::string rows = "step,answer,time\n";
   for (std::size_t s = 0; s < answers_.size(); ++s) {
     const bool hits = answers_[s].answer == detector::Answer::collision;
@@ -107,7 +107,7 @@ TEST_F(JudgeCommand, ATableOfAnswersIsJudgedBesideFrames) {
     EXPECT_EQ(check(bad).exit_code, 2) << bad;
 }
 
-TEST_F(JudgeCommand, CheckKeepsWhatAPluginFailsOnShrunk) {
+TEST_F(CheckLog, CheckKeepsWhatAPluginFailsOnShrunk) {
   const auto kept = scratch_ / "kept";
   expect_ended("check" + frames() + " --detector " + plugin("always_free") + " --keep " + kept, 1,
                {"reproduced; smallest: "});
@@ -116,7 +116,7 @@ TEST_F(JudgeCommand, CheckKeepsWhatAPluginFailsOnShrunk) {
 }
 
 // Whoever did not ask for it gets the line that does, and it runs as it is pasted.
-TEST_F(JudgeCommand, CheckSaysHowToKeepWhatFails) {
+TEST_F(CheckLog, CheckSaysHowToKeepWhatFails) {
   const auto words = "check" + frames() + " --detector '" + plugin("always_free") + "'";
   const auto checked = expect_ended(run_assay(words, "cd " + (scratch_ / "") + " && "), 1);
   const std::string mark = "\nnext: ";
@@ -132,17 +132,17 @@ TEST_F(JudgeCommand, CheckSaysHowToKeepWhatFails) {
   EXPECT_FALSE(says(held.out, "next: ")) << held.out;
 }
 
-TEST_F(JudgeCommand, ReportsWhatCheckReportsOfTheSameSteps) {
+TEST_F(CheckLog, ReportsWhatCheckReportsOfTheSameSteps) {
   expect_ended("check" + frames() + " --detector " + plugin("wrapped_builtin") + " --json " +
                    (scratch_ / "check.json"),
                0);
-  expect_ended("judge " + record(answers_) + " --json " + (scratch_ / "judge.json"), 0);
-  EXPECT_TRUE(steps_in(scratch_ / "judge.json") == steps_in(scratch_ / "check.json"));
+  expect_ended("check " + record(answers_) + " --json " + (scratch_ / "log.json"), 0);
+  EXPECT_TRUE(steps_in(scratch_ / "log.json") == steps_in(scratch_ / "check.json"));
 }
 
-TEST_F(JudgeCommand, AMissComesHomeAsTwoTrianglesAndTheirNeighbours) {
+TEST_F(CheckLog, AMissComesHomeAsTwoTrianglesAndTheirNeighbours) {
   const auto log = record(with_a_miss()), out = scratch_ / "out";
-  const auto judged = expect_ended("judge " + log + " --out " + out, 1, {"broken: free-sound"});
+  const auto judged = expect_ended("check " + log + " --keep " + out, 1, {"broken: free-sound"});
   const auto step = fmt::format("step-{}", collision_ + 1);
   const auto c = nlohmann::json::parse(read_text(out + "/" + step + "/case.json"));
   EXPECT_LT(c["triangles"].size(), 60u);
@@ -160,10 +160,10 @@ TEST_F(JudgeCommand, AMissComesHomeAsTwoTrianglesAndTheirNeighbours) {
   EXPECT_EQ(run_assay(fmt::format("replay '{}#99'", log)).exit_code, 2);
 }
 
-TEST_F(JudgeCommand, ThePageShowsVerdictClaimsAndKeptSteps) {
+TEST_F(CheckLog, ThePageShowsVerdictClaimsAndKeptSteps) {
   const auto wrong = scratch_ / "a & b <i>.log", out = scratch_ / "out";
   std::filesystem::rename(record(with_a_miss()), wrong);
-  expect_ended("judge '" + wrong + "' --out " + out, 1);
+  expect_ended("check '" + wrong + "' --keep " + out, 1);
   const auto page = read_text(out + "/page.html");
   EXPECT_TRUE(contains(page, "<h1>defect: " + (scratch_ / "a &amp; b &lt;i&gt;.log"))) << page;
   EXPECT_TRUE(contains(
@@ -174,11 +174,11 @@ TEST_F(JudgeCommand, ThePageShowsVerdictClaimsAndKeptSteps) {
   EXPECT_TRUE(contains(page, fmt::format("#{}'</pre>", collision_ + 1))) << "the line to replay";
   EXPECT_FALSE(contains(page, "<script"));
   const auto right = record(answers_);
-  EXPECT_EQ(run_assay("judge " + right + " --out " + out).exit_code, 0);
+  EXPECT_EQ(run_assay("check " + right + " --keep " + out).exit_code, 0);
   EXPECT_TRUE(contains(read_text(out + "/page.html"), "<p>No step failed.</p>"));
 }
 
-TEST_F(JudgeCommand, ShrinkAndReplayTakeStepsOfLogsAndFrames) {
+TEST_F(CheckLog, ShrinkAndReplayTakeStepsOfLogsAndFrames) {
   const auto log = record(with_a_miss()), small = scratch_ / "small.json";
   const auto step = fmt::format(" '{}#{}'", log, collision_ + 1);
   const std::string detector = " --detector " + plugin("always_free");
@@ -189,91 +189,92 @@ TEST_F(JudgeCommand, ShrinkAndReplayTakeStepsOfLogsAndFrames) {
   }
 }
 
-TEST_F(JudgeCommand, LinesPointsAndLooseVerticesAreCounted) {
+TEST_F(CheckLog, LinesPointsAndLooseVerticesAreCounted) {
   const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 5 5\nf 1 2 3\nl 1 2\nl 2 3\np 4\n";
   const auto file = scratch_.write("a.obj", mesh);
   expect_ended("check " + file + " " + file, 0,
                {"4 vertices (1 of no triangle)", "not looked at: 2 lines (l), 1 point (p)"});
 }
 
-TEST_F(JudgeCommand, JUnitHasEachClaim) {
+TEST_F(CheckLog, JUnitHasEachClaim) {
   const auto file = scratch_ / "junit.xml";
-  EXPECT_EQ(run_assay("judge " + record(with_a_miss()) + " --junit " + file).exit_code, 1);
+  EXPECT_EQ(run_assay("check " + record(with_a_miss()) + " --junit " + file).exit_code, 1);
   const auto xml = read_text(file);
   EXPECT_TRUE(says(xml, fmt::format("name=\"free-sound\"><failure message=\"first in step {}\"/>",
                                     collision_ + 1)));
   EXPECT_TRUE(says(xml, "name=\"no-spurious\"/>"));
 }
 
-TEST_F(JudgeCommand, TenOfAKindAreKept) {
+TEST_F(CheckLog, TenOfAKindAreKept) {
   const auto path = scratch_ / "same.log", out = scratch_ / "out";
   LogWriter log(path, sequence_.triangles, sequence_.frames.front());
   for (int s = 0; s < 12; ++s)
     log.step(&sequence_.frames[collision_], sequence_.frames[collision_ + 1],
              with_a_miss()[collision_]);
   log.end();
-  expect_ended("judge " + path + " --out " + out, 1, {"not kept, 10 of its kind are"});
+  expect_ended("check " + path + " --keep " + out, 1, {"not kept, 10 of its kind are"});
   EXPECT_TRUE(std::filesystem::exists(out + "/step-10"));
   EXPECT_FALSE(std::filesystem::exists(out + "/step-11"));
 }
 
-TEST_F(JudgeCommand, APluginOfTheSameCodeIsAskedAgain) {
+TEST_F(CheckLog, APluginOfTheSameCodeIsAskedAgain) {
   const auto log = record(with_a_miss()), out = scratch_ / "out";
-  const auto same = run_assay("judge " + log + " --out " + out + " --detector " +
+  const auto same = run_assay("check " + log + " --keep " + out + " --detector " +
                               plugin("always_free") + " --shrink-time 20");
   EXPECT_TRUE(says(same.out, "reproduced; smallest: ")) << same.err;
   const auto smallest = nlohmann::json::parse(
       read_text(fmt::format("{}/step-{}/smallest.json", out, collision_ + 1)));
   EXPECT_LE(smallest["triangles"].size(), 3u);
+  expect_refused("check " + log + " --detector " + plugin("always_free"), "--keep says where");
   std::filesystem::remove_all(out);
   const auto other =
-      run_assay("judge " + log + " --out " + out + " --detector " + plugin("wrapped_builtin"));
+      run_assay("check " + log + " --keep " + out + " --detector " + plugin("wrapped_builtin"));
   EXPECT_TRUE(says(other.out, "not reproduced"));
 }
 
-TEST_F(JudgeCommand, WhatIsLostIsSaid) {
+TEST_F(CheckLog, WhatIsLostIsSaid) {
   const auto log = record(answers_);
   const auto good = read_text(log);
   auto bad = good;
   bad[bad.size() / 2] ^= 1;
-  expect_ended("judge " + scratch_.write("bad.log", bad), 3,
+  expect_ended("check " + scratch_.write("bad.log", bad), 3,
                {fmt::format("to {}, from the first damage to the end of the log "
                             "(no record); steps read before it: 4\n",
                             good.size()),
                 "undecided: a part of the input is lost"});
-  expect_ended("judge " + scratch_.write("cut.log", good.substr(0, good.size() - 99)), 0,
+  expect_ended("check " + scratch_.write("cut.log", good.substr(0, good.size() - 99)), 0,
                {"it was cut, or is being written"});
-  EXPECT_EQ(run_assay("judge " + scratch_.write("none.log", "no log")).exit_code, 2);
+  EXPECT_EQ(run_assay("check " + scratch_.write("none.log", "no log")).exit_code, 2);
 }
 
 // The miss is in the part that is gone.
-TEST_F(JudgeCommand, ALogWhoseRearIsDestroyedIsUndecided) {
+TEST_F(CheckLog, ALogWhoseRearIsDestroyedIsUndecided) {
   const auto good = read_text(record(with_a_miss()));
   const auto kept = good.size() / 5;
   for (const auto size : {good.size() - kept, std::size_t{5'000'000}}) {
     expect_ended(
-        "judge " + scratch_.write("rear.log", good.substr(0, kept) + std::string(size, '\0')), 3,
+        "check " + scratch_.write("rear.log", good.substr(0, kept) + std::string(size, '\0')), 3,
         {fmt::format("to {}, from the first damage to the end of the log (no record)", kept + size),
          "undecided: a part of the input is lost"});
   }
 }
 
 // Nothing is no success.
-TEST_F(JudgeCommand, WhatLeavesNoStepToBeJudgedIsUndecided) {
+TEST_F(CheckLog, WhatLeavesNoStepToBeJudgedIsUndecided) {
   const auto none = scratch_ / "none.log";
   std::filesystem::rename(record({}), none);
   const auto log = record(answers_);
   for (const auto& words : {none, log + " --from 99", log + " --shard 99/99"}) {
     SCOPED_TRACE(words);
     const auto junit = scratch_ / "none.xml";
-    expect_ended("judge " + words + " --junit " + junit, 3, {"undecided: no step was judged"});
+    expect_ended("check " + words + " --junit " + junit, 3, {"undecided: no step was judged"});
     EXPECT_TRUE(says(read_text(junit), "name=\"total\"><skipped"));
   }
-  EXPECT_EQ(run_assay("judge " + log + " --from 7").exit_code, 0);
+  EXPECT_EQ(run_assay("check " + log + " --from 7").exit_code, 0);
 }
 
 // Where a step goes is not known; that is no fault of the detector, and no proof for it.
-TEST_F(JudgeCommand, AStepThatIsNoneIsUndecided) {
+TEST_F(CheckLog, AStepThatIsNoneIsUndecided) {
   const auto path = scratch_ / "nan.log";
   LogWriter log(path, sequence_.triangles, sequence_.frames.front());
   auto broken = sequence_.frames[1];
@@ -281,10 +282,10 @@ TEST_F(JudgeCommand, AStepThatIsNoneIsUndecided) {
   log.step(sequence_.frames.data(), broken, answers_[0]);
   log.step(sequence_.frames.data(), sequence_.frames[1], answers_[0]);
   log.end();
-  expect_ended("judge " + path, 3, {"lost: step 1: a coordinate is not finite"});
+  expect_ended("check " + path, 3, {"lost: step 1: a coordinate is not finite"});
 }
 
-TEST_F(JudgeCommand, AnAbsentAnswerHidesNoOtherRemark) {
+TEST_F(CheckLog, AnAbsentAnswerHidesNoOtherRemark) {
   const auto path = scratch_ / "silent.log";
   LogWriter log(path, sequence_.triangles, sequence_.frames.front());
   assay_record_step_data silent = {};
@@ -293,34 +294,30 @@ TEST_F(JudgeCommand, AnAbsentAnswerHidesNoOtherRemark) {
   log.step(sequence_.frames.data(), sequence_.frames[1], answers_[0]);
   log.end();
   const auto text = read_text(path);
-  expect_ended("judge " + scratch_.write("cut.log", text.substr(0, text.size() - 9)), 0,
+  expect_ended("check " + scratch_.write("cut.log", text.substr(0, text.size() - 9)), 0,
                {"1 step without an answer", "it was cut, or is being written"});
 }
 
-TEST_F(JudgeCommand, ALogIsNotOverwritten) {
+TEST_F(CheckLog, ALogIsNotOverwritten) {
   const auto log = record(answers_);
   for (const char* option : {" --json ", " --junit "}) {
-    EXPECT_EQ(run_assay("judge '" + log + "#1'" + option + log).exit_code, 2);
-    EXPECT_EQ(run_assay("judge " + log).exit_code, 0);
+    EXPECT_EQ(run_assay("check '" + log + "#1'" + option + log).exit_code, 2);
+    EXPECT_EQ(run_assay("check " + log).exit_code, 0);
   }
 }
 
-TEST_F(JudgeCommand, SeveralLogsAreJudgedWhateverOneIs) {
-  const auto out = scratch_ / "out", xml = scratch_ / "all.xml";
+TEST_F(CheckLog, SeveralLogsAreRefused) {
   const auto log = record(with_a_miss());
-  expect_ended("judge " + log + " " + (scratch_ / "absent.log") + " " + log + " --out " + out +
-                   " --junit " + xml,
-               1);
-  for (const char* folder : {"/1-steps.log", "/3-steps.log"})
-    EXPECT_TRUE(std::filesystem::exists(out + folder)) << folder;
-  EXPECT_TRUE(says(read_text(xml), "<error message="));
+  expect_refused("check " + log + " " + log + " --keep " + (scratch_ / "out"),
+                 "check one by one: assay check " + log);
+  EXPECT_FALSE(std::filesystem::exists(scratch_ / "out"));
 }
 
-TEST_F(JudgeCommand, AShareOfTheStepsIsTheSameInEveryRun) {
+TEST_F(CheckLog, AShareOfTheStepsIsTheSameInEveryRun) {
   const auto log = record(answers_);
   const auto run = [&] {
     const auto file = scratch_ / "share.json";
-    EXPECT_EQ(run_assay("judge " + log + " --share 0.5 --json " + file).exit_code, 0);
+    EXPECT_EQ(run_assay("check " + log + " --share 0.5 --json " + file).exit_code, 0);
     return steps_in(file);
   };
   const auto steps = run();
@@ -329,23 +326,23 @@ TEST_F(JudgeCommand, AShareOfTheStepsIsTheSameInEveryRun) {
   EXPECT_TRUE(run() == steps);
 }
 
-TEST_F(JudgeCommand, ShardsJudgeEachStepOnce) {
+TEST_F(CheckLog, ShardsJudgeEachStepOnce) {
   const auto log = record(answers_), file = scratch_ / "part.json";
   std::size_t steps = 0;
   for (const char* shard : {"1/2", "2/2"}) {
-    EXPECT_EQ(run_assay("judge " + log + " --shard " + shard + " --json " + file).exit_code, 0);
+    EXPECT_EQ(run_assay("check " + log + " --shard " + shard + " --json " + file).exit_code, 0);
     steps += steps_in(file).size();
   }
   EXPECT_EQ(steps, answers_.size());
-  EXPECT_EQ(run_assay("judge " + log + " --from 5 --json " + file).exit_code, 0);
+  EXPECT_EQ(run_assay("check " + log + " --from 5 --json " + file).exit_code, 0);
   EXPECT_EQ(steps_in(file).size(), answers_.size() - 4);
 }
 
-TEST_F(JudgeCommand, FollowsALogUntilItEnds) {
+TEST_F(CheckLog, FollowsALogUntilItEnds) {
   const auto path = scratch_ / "grows.log";
   LogWriter log(path, sequence_.triangles, sequence_.frames.front());
   Outcome judged;
-  std::thread reader([&] { judged = run_assay("judge " + path + " --follow"); });
+  std::thread reader([&] { judged = run_assay("check " + path + " --follow"); });
   for (std::size_t s = 0; s < answers_.size(); ++s) {
     log.step(sequence_.frames.data() + s, sequence_.frames[s + 1], answers_[s]);
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
@@ -356,13 +353,13 @@ TEST_F(JudgeCommand, FollowsALogUntilItEnds) {
   EXPECT_TRUE(says(judged.out, fmt::format("{0} of {0} steps judged", answers_.size())));
 }
 
-TEST_F(JudgeCommand, WhatALogCannotShowIsNotJudged) {
+TEST_F(CheckLog, WhatALogCannotShowIsNotJudged) {
   auto description = all_claims_description();
   description.claims |= ASSAY_CLAIM_DETERMINISTIC;
-  expect_ended("judge " + record(answers_, true, description), 0,
+  expect_ended("check " + record(answers_, true, description), 0,
                {"not judged: deterministic, for a log holds each step once"});
   description.claims = ASSAY_CLAIM_DETERMINISTIC;
-  EXPECT_EQ(run_assay("judge " + record(answers_, true, description)).exit_code, 2);
+  EXPECT_EQ(run_assay("check " + record(answers_, true, description)).exit_code, 2);
 }
 
 nlohmann::json pair_of_first_failure(const std::string& out) {
@@ -376,13 +373,13 @@ nlohmann::json pair_of_first_failure(const std::string& out) {
 }
 
 // A cloth that falls and folds; its detector drops some pairs of edges (tests/recording/cloth.cpp).
-TEST(JudgeSimulators, TheSlipOfAClothComesHomeAsTwoTriangles) {
+TEST(CheckLogOfSimulators, TheSlipOfAClothComesHomeAsTwoTriangles) {
   const Scratch scratch;
   const auto cloth = std::filesystem::path(ASSAY_PROGRAM).parent_path() / "record_cloth";
   for (const std::string slip : {"", " slip"}) {
     const auto log = scratch / "cloth.log", out = scratch / "out";
     ASSERT_EQ(exit_code_of(cloth.string() + " " + log + slip + " >/dev/null"), 0);
-    const auto judged = expect_ended("judge " + log + " --out " + out, slip.empty() ? 0 : 1);
+    const auto judged = expect_ended("check " + log + " --keep " + out, slip.empty() ? 0 : 1);
     if (slip.empty()) continue;
     EXPECT_TRUE(says(judged.out, "114 of 500 steps judged"));
     EXPECT_TRUE(says(judged.out, "386 steps left out by the contract"));
@@ -391,7 +388,7 @@ TEST(JudgeSimulators, TheSlipOfAClothComesHomeAsTwoTriangles) {
 }
 
 // A program in C that knows nothing of us but the header.
-TEST(JudgeSimulators, TheSlipOfACProgramComesHomeAsTwoTriangles) {
+TEST(CheckLogOfSimulators, TheSlipOfACProgramComesHomeAsTwoTriangles) {
   const Scratch scratch;
   const auto source = scratch.write("simulator.c", R"(
 #include "assay_record.h"
@@ -419,12 +416,12 @@ int main(int count, char** words) {
                             "/detector/plugin " +
                             source + " -o " + program;
   ASSERT_EQ(exit_code_of(built + " && " + program + " " + log), 0);
-  expect_ended("judge " + log + " --out " + out, 1);
+  expect_ended("check " + log + " --keep " + out, 1);
   EXPECT_EQ(pair_of_first_failure(out)["triangles"].size(), 2u);
 }
 
 // Real meshes, from logs and from frames.
-TEST(JudgePublicSequences, PublicLogsAreReportedAsTheirFrames) {
+TEST(CheckLogOfPublicSequences, PublicLogsAreReportedAsTheirFrames) {
   if (!public_data()) GTEST_SKIP() << "no public data";
   const std::string data = public_data();
   const std::string cloth = data + "/ipc-toolkit/thick-cloth/t", dancer = data + "/codim-ipc-kick/";
@@ -449,7 +446,7 @@ TEST(JudgePublicSequences, PublicLogsAreReportedAsTheirFrames) {
       }
     }
     log.end();
-    expect_ended("judge " + (scratch / "log") + " --json " + (scratch / "a"), 0);
+    expect_ended("check " + (scratch / "log") + " --json " + (scratch / "a"), 0);
     expect_ended(
         "check" + words + " --detector " + plugin("wrapped_builtin") + " --json " + (scratch / "b"),
         0);
