@@ -297,16 +297,15 @@ Expected<CheckInput> read_log(const LogName& name, LogSelection selection) {
   return CheckInput{name.file, std::move(steps), false, std::move(answers)};
 }
 
-std::string junit_text(const std::string& log, const CheckOutcome& outcome) {
+std::string junit_suite(const std::string& log, const CheckOutcome& outcome) {
   using State = ClaimResult::State;
   const auto results = outcome.claim_results();
   const auto broken = std::ranges::count(results, State::broken, &ClaimResult::state);
   const auto held = std::ranges::count(results, State::holds, &ClaimResult::state);
   const auto name = xml_escaped(log);
   std::string text = fmt::format(
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"assay\">\n"
-      "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n",
-      name, results.size(), broken, static_cast<std::ptrdiff_t>(results.size()) - broken - held);
+      "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n", name,
+      results.size(), broken, static_cast<std::ptrdiff_t>(results.size()) - broken - held);
   for (const auto& [claim, state, why] : results) {
     text += fmt::format("    <testcase classname=\"{}\" name=\"{}\"", name, claim);
     text += state == State::holds
@@ -317,7 +316,16 @@ std::string junit_text(const std::string& log, const CheckOutcome& outcome) {
   if (!outcome.asked_again.empty())
     text += fmt::format("    <system-out>{}</system-out>\n",
                         xml_escaped(joined(outcome.asked_again, "\n")));
-  return text + "  </testsuite>\n</testsuites>\n";
+  return text + "  </testsuite>\n";
+}
+
+std::string junit_suite_of_problem(const std::string& log, const std::string& message) {
+  const auto name = xml_escaped(log);
+  return fmt::format(
+      "  <testsuite name=\"{0}\" tests=\"1\" failures=\"0\" errors=\"1\">\n"
+      "    <testcase classname=\"{0}\" name=\"log\"><error message=\"{1}\"/></testcase>\n"
+      "  </testsuite>\n",
+      name, xml_escaped(message));
 }
 
 }  // namespace assay::reports

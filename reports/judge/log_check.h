@@ -38,8 +38,10 @@ corpus::Expected<corpus::Case> read_case_of(const std::vector<std::string>& word
 // nothing of it can be judged.
 Expected<CheckInput> read_log(const LogName& log, LogSelection selection);
 
-// What each claim of a log came to, as a file of JUnit XML with one suite. A claim that is broken
-// fails, and one of which the log tells nothing, or not enough, is skipped.
-std::string junit_text(const std::string& log, const CheckOutcome& outcome);
+// What each claim of a log came to, as a suite of JUnit XML. A claim that is broken fails, and one
+// of which the log tells nothing, or not enough, is skipped.
+std::string junit_suite(const std::string& log, const CheckOutcome& outcome);
+// The suite of a log that could not be judged.
+std::string junit_suite_of_problem(const std::string& log, const std::string& message);
 
 }  // namespace assay::reports

@@ -144,7 +144,10 @@ Expected<Kind> kind_of(const std::vector<std::string>& inputs, const BodyWords& 
           "{} is a table of answers, which stands beside frames: assay check FRAME... --answers {}",
           file, shell_word(file))};
     const auto i = found.size() - 1;
-    const bool is_alone = found[i] == InputKind::case_file || found[i] == InputKind::log;
+    std::error_code ignored;
+    if (found[0] == InputKind::log && !std::filesystem::exists(file, ignored))
+      found[i] = InputKind::log;  // one that is absent keeps no other from being judged
+    const bool is_alone = found[i] == InputKind::case_file;
     if (i > 0 && (found[i] != found[0] || is_alone))
       return Problem{fmt::format("{}, and {}: check one by one: assay check {}", said(0), said(i),
                                  shell_word(files[found[i] == InputKind::frames ? 0 : i]))};
@@ -191,21 +194,9 @@ Expected<CheckInput> read_input(Kind kind, const CheckRequest& request,
                       request.weld});
 }
 
-Expected<int> run_check(const CheckRequest& request) {
-  BOOST_OUTCOME_TRY(kind, kind_of(request.inputs, request.question.bodies));
-  BOOST_OUTCOME_TRYV(refuse_options(
-      kind, request.inputs.empty() ? request.question.bodies[0][0] : request.inputs[0],
-      request.given()));
+// Judges steps: of one mesh, or of one log, which adds its suite of JUnit XML.
+Expected<int> check_steps(Kind kind, const CheckRequest& request, std::string& suites) {
   CheckQuestion question = request.question;
-  if (kind == queries) {
-    auto asked = request.queries;
-    asked.files = request.inputs;
-    asked.separation = request.separation;
-    asked.detector = question.detector;
-    asked.detector.threads = std::max<std::uint64_t>(question.threads, 1);
-    asked.json_file = request.json_file;
-    return check_queries(asked);
-  }
   const bool is_log = kind == a_log;
   for (const auto& word : request.inputs)
     question.files.push_back(is_log ? log_name(word).file : word);
@@ -257,11 +248,57 @@ Expected<int> run_check(const CheckRequest& request) {
   if (question.wants_report) {
     BOOST_OUTCOME_TRY(write_json_file(request.json_file, answer.report));
   }
-  if (!request.junit_file.empty()) {
-    BOOST_OUTCOME_TRY(
-        write_text_file(request.junit_file, junit_text(request.inputs.front(), answer.outcome)));
-  }
+  if (is_log) suites += junit_suite(request.inputs.front(), answer.outcome);
   return answer.outcome.end(request.fail_on_collision);
+}
+
+// Judges each log by itself, whatever the others are. Returns the worst exit code.
+Expected<int> check_logs(const CheckRequest& request, std::string& suites) {
+  if (!request.json_file.empty()) return Problem{"--json is of one log: name them one by one"};
+  if (request.selection.follow) return Problem{"--follow is of one log"};
+  BOOST_OUTCOME_TRY(may_fill(request.keeping.folder));
+  constexpr std::array from_best = {exit_holds, exit_collision, exit_undecided,
+                                    exit_usage, exit_defect,    exit_unsound};
+  auto worst = from_best.begin();
+  for (std::size_t i = 0; i < request.inputs.size(); ++i) {
+    const auto& word = request.inputs[i];
+    fmt::print("{}\n", word);
+    auto one = request;
+    one.inputs = {word};
+    // Step 3 of one log is not that of another, and logs of two folders may have one name.
+    const auto name = std::filesystem::path(log_name(word).file).filename().string();
+    if (!one.keeping.folder.empty())
+      one.keeping.folder = fmt::format("{}/{}-{}", request.keeping.folder, i + 1, name);
+    const auto code = check_steps(a_log, one, suites);
+    if (!code) suites += junit_suite_of_problem(word, code.error().message);
+    worst =
+        std::max(worst, std::ranges::find(from_best, code ? code.value() : refuse(code.error())));
+  }
+  return *worst;
+}
+
+Expected<int> run_check(const CheckRequest& request) {
+  BOOST_OUTCOME_TRY(kind, kind_of(request.inputs, request.question.bodies));
+  BOOST_OUTCOME_TRYV(refuse_options(
+      kind, request.inputs.empty() ? request.question.bodies[0][0] : request.inputs[0],
+      request.given()));
+  if (kind == queries) {
+    auto asked = request.queries;
+    asked.files = request.inputs;
+    asked.separation = request.separation;
+    asked.detector = request.question.detector;
+    asked.detector.threads = std::max<std::uint64_t>(request.question.threads, 1);
+    asked.json_file = request.json_file;
+    return check_queries(asked);
+  }
+  std::string suites;
+  const bool are_logs = kind == a_log && request.inputs.size() > 1;
+  const auto code = are_logs ? check_logs(request, suites) : check_steps(kind, request, suites);
+  if (!request.junit_file.empty() && !suites.empty()) {
+    suites = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"assay\">\n" + suites;
+    BOOST_OUTCOME_TRY(write_text_file(request.junit_file, suites + "</testsuites>\n"));
+  }
+  return code;
 }
 
 // The shard in words such as "2/8"; nothing for other words.
@@ -289,7 +326,8 @@ void add_options(Verb& verb, CheckRequest& request) {
   verb.add("INPUT", request.inputs,
            "Frames (OBJ, PLY, OFF; .gz too), whose steps are judged; one alone: a mesh at "
            "rest. Or one case file (.json). Or a log that a recorder wrote (assay_record.h, "
-           "assay.Recorder); LOG#N: step N alone. Or query files (.csv, .csv.gz)");
+           "assay.Recorder); LOG#N: step N alone; several, each by itself. Or query files (.csv, "
+           ".csv.gz)");
   verb.add("--body FRAME", question.bodies,
            "The frames of one of several meshes, which become bodies of one; numbered from 0. One "
            "frame: it stands still");

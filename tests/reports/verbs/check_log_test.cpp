@@ -306,11 +306,15 @@ TEST_F(CheckLog, ALogIsNotOverwritten) {
   }
 }
 
-TEST_F(CheckLog, SeveralLogsAreRefused) {
+TEST_F(CheckLog, SeveralLogsAreJudgedWhateverOneIs) {
+  const auto out = scratch_ / "out", xml = scratch_ / "all.xml";
   const auto log = record(with_a_miss());
-  expect_refused("check " + log + " " + log + " --keep " + (scratch_ / "out"),
-                 "check one by one: assay check " + log);
-  EXPECT_FALSE(std::filesystem::exists(scratch_ / "out"));
+  expect_ended("check " + log + " " + (scratch_ / "absent.log") + " " + log + " --keep " + out +
+                   " --junit " + xml,
+               1);
+  for (const char* folder : {"/1-steps.log", "/3-steps.log"})
+    EXPECT_TRUE(std::filesystem::exists(out + folder)) << folder;
+  EXPECT_TRUE(says(read_text(xml), "<error message="));
 }
 
 TEST_F(CheckLog, AShareOfTheStepsIsTheSameInEveryRun) {
