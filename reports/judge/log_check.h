@@ -9,16 +9,9 @@
 
 namespace assay::reports {
 
-// The steps that one of `count` processes judges, by their numbers.
-struct Shard {
-  std::uint64_t index = 1, count = 1;  // 1-based
-  bool holds(std::uint64_t number) const { return number % count == index - 1; }
-};
-
 // Which steps of a log are judged.
 struct LogSelection {
   double share = 1;  // in (0, 1]; which steps these are goes by their numbers alone
-  Shard shard = {};
   std::uint64_t from = 1;             // steps before this one, from 1, are not judged
   std::optional<std::uint64_t> step;  // this one alone
   bool follow = false;                // waits for steps until the recorder ends the log

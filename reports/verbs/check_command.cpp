@@ -69,7 +69,7 @@ const std::vector<OptionRow>& option_rows() {
   static const std::vector<OptionRow> rows = {
       {" --body --apart ", bodies},
       {" --rings --rest-distance --weld ", shapes},
-      {" --share --shard --from --follow --shrink-time --all-steps --junit ", a_log},
+      {" --share --from --follow --shrink-time --all-steps --junit ", a_log},
       {" --truth --method ", queries},
       {" --detector ", meshes, built_in + "--answers "},
       {" --detector ", a_log},
@@ -301,21 +301,9 @@ Expected<int> run_check(const CheckRequest& request) {
   return code;
 }
 
-// The shard in words such as "2/8"; nothing for other words.
-std::optional<Shard> shard_of(const std::string& word) {
-  const auto slash = word.find('/');
-  if (slash == std::string::npos) return std::nullopt;
-  const auto index = whole_number_of<std::uint64_t>(word.substr(0, slash));
-  const auto count = whole_number_of<std::uint64_t>(word.substr(slash + 1));
-  const bool is_shard = index && count && *index >= 1 && *index <= *count;
-  return is_shard ? std::optional(Shard{*index, *count}) : std::nullopt;
-}
-
 // Which steps of a log are judged.
 void add_selection(Verb& verb, LogSelection& selection) {
   verb.add("--share SHARE", selection.share, "Judge this share of a log's steps").with(share());
-  add_choice(verb, "--shard I/N", selection.shard, "I/N with 1 <= I <= N", shard_of,
-             "I/N: the part of a log's steps that this process judges, one of N");
   verb.add("--from N", selection.from, "Go on with this step of a log, counted from 1")
       .in_range(1, std::numeric_limits<std::int64_t>::max());
   verb.add_flag("--follow", selection.follow, "Wait for steps until the recorder ends the log");

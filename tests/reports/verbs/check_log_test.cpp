@@ -264,7 +264,7 @@ TEST_F(CheckLog, WhatLeavesNoStepToBeJudgedIsUndecided) {
   const auto none = scratch_ / "none.log";
   std::filesystem::rename(record({}), none);
   const auto log = record(answers_);
-  for (const auto& words : {none, log + " --from 99", log + " --shard 99/99"}) {
+  for (const auto& words : {none, log + " --from 99"}) {
     SCOPED_TRACE(words);
     const auto junit = scratch_ / "none.xml";
     expect_ended("check " + words + " --junit " + junit, 3, {"undecided: no step was judged"});
@@ -330,14 +330,8 @@ TEST_F(CheckLog, AShareOfTheStepsIsTheSameInEveryRun) {
   EXPECT_TRUE(run() == steps);
 }
 
-TEST_F(CheckLog, ShardsJudgeEachStepOnce) {
+TEST_F(CheckLog, WhatWasKilledGoesOnWithALaterStep) {
   const auto log = record(answers_), file = scratch_ / "part.json";
-  std::size_t steps = 0;
-  for (const char* shard : {"1/2", "2/2"}) {
-    EXPECT_EQ(run_assay("check " + log + " --shard " + shard + " --json " + file).exit_code, 0);
-    steps += steps_in(file).size();
-  }
-  EXPECT_EQ(steps, answers_.size());
   EXPECT_EQ(run_assay("check " + log + " --from 5 --json " + file).exit_code, 0);
   EXPECT_EQ(steps_in(file).size(), answers_.size() - 4);
 }

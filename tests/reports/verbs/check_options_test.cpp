@@ -51,7 +51,6 @@ class CheckOptions : public testing::Test {
             {"--rest-distance 0.5", "frb"},
             {"--weld", "frb"},
             {"--share 0.5", "l"},
-            {"--shard 1/1", "l"},
             {"--from 1", "l"},
             {"--follow", "l"},
             {"--truth " + truths, "q"},
@@ -152,9 +151,6 @@ TEST_F(CheckOptions, InputsThatAreNotOfOneKindAreRefused) {
   };
   expect_one_by_one(a + " " + recorded, recorded);
   expect_one_by_one(recorded + " " + a, recorded);
-  expect_one_by_one(recorded + " " + recorded, recorded);
-  expect_one_by_one("'" + (scratch / "a log#1") + "' '" + (scratch / "a log#2") + "'",
-                    "'" + (scratch / "a log#2") + "'");
   expect_one_by_one(a + " " + bare, bare);
   expect_one_by_one(bare + " " + bare, bare);
   expect_one_by_one(queries + " " + a, queries);
