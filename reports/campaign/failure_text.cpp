@@ -225,21 +225,16 @@ Expected<void> write_failures(const properties::KeptFailures& kept,
 }
 
 std::string groups_text(const properties::RunFindings& findings) {
-  const auto kinds = findings.kinds().size();
-  if (kinds < 2) return "";
   const auto groups = properties::failure_groups(findings);
+  const auto kinds = findings.kinds().size();
   std::string text;
   std::size_t rest = kinds;
-  for (std::size_t i = 0; i < std::min(groups.size(), most_groups_shown); ++i) {
-    const auto& group = groups[i];
-    const auto* smallest = findings.example_of(group.smallest);
+  for (const auto& group : std::span(groups).first(std::min(groups.size(), most_groups_shown))) {
     text += fmt::format("{}\n  the smallest: {}: {}\n", text_of(group, kinds), group.smallest,
-                        smallest_size(*smallest));
+                        smallest_size(*findings.example_of(group.smallest)));
     rest -= group.kinds.size();
   }
-  if (rest > 0)
-    text += fmt::format("the other {} kinds of failure are in {} more groups\n", rest,
-                        groups.size() - most_groups_shown);
+  if (!groups.empty() && rest > 0) text += fmt::format("{} more in other groups\n", rest);
   return text;
 }
 

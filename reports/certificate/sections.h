@@ -32,7 +32,6 @@ nlohmann::ordered_json power_json(const properties::RunFindings& findings);
 nlohmann::ordered_json failures_json(const properties::RunFindings& findings);
 // Those signatures by groups (properties/campaign/gates/failure_groups.h).
 nlohmann::ordered_json failure_groups_json(const properties::RunFindings& findings);
-nlohmann::ordered_json failure_groups_json(const properties::RunFindings& findings);
 
 // One {claim, reason} for each claim of which the verdict says nothing.
 nlohmann::ordered_json not_judged_json(const properties::RunFindings& findings);

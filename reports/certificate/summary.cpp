@@ -254,9 +254,10 @@ Suite failures_suite(const Json& p) {
     for (const auto& kind : group["kinds"]) groups[text(kind)] = text(group["what"]);
   }
   for (const auto& failure : p["failures"]) {
-    const auto line = fmt::format("{} ({}), {}; {}\ngroup: {}\n", text(failure["what"]),
-                                  text(failure["configuration"]), met_text(failure),
-                                  text(failure["case"]), groups[text(failure["signature"])]);
+    const auto group = groups[text(failure["signature"])];
+    const auto line = fmt::format(
+        "{} ({}), {}; {}\n{}", text(failure["what"]), text(failure["configuration"]),
+        met_text(failure), text(failure["case"]), group.empty() ? "" : "group: " + group + "\n");
     suite.cases.push_back({text(failure["signature"]), TestState::failed,
                            line + "replay, in the folder of the run: " + text(failure["replay"])});
   }

@@ -158,7 +158,8 @@ Expected<std::unique_ptr<StepAnswers>> answers_of_plugin(properties::Subject plu
   const auto library = plugin.plugin->string();
   if (detector.of_queries)
     return Problem{fmt::format(
-        "{}: it holds no steps, but a query alone: assay check QUERIES.csv --detector", library)};
+        "{}: it holds no steps, but a query alone: assay check QUERIES.csv --detector {}", library,
+        shell_word(library))};
   if (judged_claims(detector.claims, detector.contract).empty())
     return Problem{fmt::format(
         "{}: it claims nothing that its contract leaves to be judged; there is nothing to check",

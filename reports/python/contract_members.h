@@ -57,7 +57,9 @@ inline std::vector<ContractMember> contract_members() {
 
 inline pybind11::tuple claim_words() {
   pybind11::list words;
-  for (const auto& word : properties::words_of(properties::claims_from_outside)) words.append(word);
+  for (const auto& row : properties::claim_rows) {
+    if (row.bit != 0) words.append(row.name);
+  }
   return words;
 }
 

@@ -137,16 +137,19 @@ Expected<Kind> kind_of(const std::vector<std::string>& inputs, const BodyWords& 
   const auto said = [&](std::size_t i) {
     return fmt::format("{} is {}", files[i], names[static_cast<std::size_t>(found[i])]);
   };
-  for (const auto& file : files) {
+  for (const auto& file : files)
     found.push_back(log_name(file).step ? InputKind::log : corpus::kind_of_file(file));
-    if (found.back() == InputKind::answers)
+  // A log that is absent, or cut before its first bytes tell anything, keeps no other from being
+  // judged. Alone it is refused as what cannot be read.
+  const bool are_logs = std::ranges::find(found, InputKind::log) != found.end();
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const auto start = corpus::read_start(log_name(files[i]).file, 1);
+    if (!start && files.size() == 1) return start.error();
+    if (are_logs && (!start || start.value().empty())) found[i] = InputKind::log;
+    if (found[i] == InputKind::answers)
       return Problem{fmt::format(
           "{} is a table of answers, which stands beside frames: assay check FRAME... --answers {}",
-          file, shell_word(file))};
-    const auto i = found.size() - 1;
-    std::error_code ignored;
-    if (found[0] == InputKind::log && !std::filesystem::exists(file, ignored))
-      found[i] = InputKind::log;  // one that is absent keeps no other from being judged
+          files[i], shell_word(files[i]))};
     const bool is_alone = found[i] == InputKind::case_file;
     if (i > 0 && (found[i] != found[0] || is_alone))
       return Problem{fmt::format("{}, and {}: check one by one: assay check {}", said(0), said(i),
@@ -209,8 +212,6 @@ Expected<int> check_steps(Kind kind, const CheckRequest& request, std::string& s
                     request.offsets.size(), question.bodies.size())};
   auto keeping = request.keeping;
   keeping.origin = is_log ? question.files.front() : words_of(request);
-  if (is_log && !question.detector.library.empty() && keeping.folder.empty())
-    return Problem{"--detector asks again about what is kept: --keep says where"};
   // This is asked before the work, not after it.
   auto inputs = question.files;
   if (!question.answers.empty()) inputs.push_back(question.answers);
@@ -257,6 +258,9 @@ Expected<int> check_logs(const CheckRequest& request, std::string& suites) {
   if (!request.json_file.empty()) return Problem{"--json is of one log: name them one by one"};
   if (request.selection.follow) return Problem{"--follow is of one log"};
   BOOST_OUTCOME_TRY(may_fill(request.keeping.folder));
+  std::vector<std::string> files;
+  for (const auto& word : request.inputs) files.push_back(log_name(word).file);
+  BOOST_OUTCOME_TRY(may_write({request.junit_file}, files));
   constexpr std::array from_best = {exit_holds, exit_collision, exit_undecided,
                                     exit_usage, exit_defect,    exit_unsound};
   auto worst = from_best.begin();
@@ -269,8 +273,10 @@ Expected<int> check_logs(const CheckRequest& request, std::string& suites) {
     const auto name = std::filesystem::path(log_name(word).file).filename().string();
     if (!one.keeping.folder.empty())
       one.keeping.folder = fmt::format("{}/{}-{}", request.keeping.folder, i + 1, name);
+    const auto before = suites.size();
     const auto code = check_steps(a_log, one, suites);
-    if (!code) suites += junit_suite_of_problem(word, code.error().message);
+    if (!code && suites.size() == before)
+      suites += junit_suite_of_problem(word, code.error().message);
     worst =
         std::max(worst, std::ranges::find(from_best, code ? code.value() : refuse(code.error())));
   }
@@ -282,6 +288,8 @@ Expected<int> run_check(const CheckRequest& request) {
   BOOST_OUTCOME_TRYV(refuse_options(
       kind, request.inputs.empty() ? request.question.bodies[0][0] : request.inputs[0],
       request.given()));
+  if (kind == a_log && !request.question.detector.library.empty() && request.keeping.folder.empty())
+    return Problem{"--detector asks again about what is kept: --keep says where"};
   if (kind == queries) {
     auto asked = request.queries;
     asked.files = request.inputs;

@@ -42,7 +42,15 @@ properties::Expected<Json> describe_run(const std::string& folder, PlainProgress
 }
 
 Expected<int> run_report(const ReportRequest& request) {
-  BOOST_OUTCOME_TRY(may_write({request.out}));
+  // A page may stand beside the run and take the place of an older one, not that of another file.
+  std::vector<std::string> files;
+  for (const auto& folder : request.folders) {
+    std::error_code none;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+      if (entry.path().extension() != ".html") files.push_back(entry.path().string());
+    }
+  }
+  BOOST_OUTCOME_TRY(may_write({request.out}, files));
   Json runs = Json::array();
   PlainProgress progress("report");
   for (const auto& folder : request.folders) {

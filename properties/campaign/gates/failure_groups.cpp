@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string_view>
 
 #include "corpus/cases/case_file.h"
 #include "detector/mesh/enum_names.h"
@@ -56,7 +57,7 @@ class MeshTraits {
     words.insert(of(pair.a) == of(pair.b) ? "within one component" : "between two components");
     const bool closed = std::ranges::all_of(mesh_.components, &detector::Component::is_cycle);
     words.insert(closed ? "a closed mesh" : "an unclosed mesh");
-    for (std::size_t decade = 1; decade < mesh_.triangles.size(); decade *= 10) {
+    for (std::size_t decade = 1; decade <= mesh_.triangles.size(); decade *= 10) {
       for (const auto least : {decade, 2 * decade, 5 * decade}) {
         if (least > 2 && least <= mesh_.triangles.size())
           words.insert(fmt::format("at least {} triangles", least));
@@ -115,30 +116,51 @@ std::vector<std::vector<Words>> contacts_that_hold(const RunFindings& findings, 
   return held;
 }
 
-// What its signature tells of the contact that a failure lost: "edge-edge, t inside, moving".
-std::optional<std::string> lost_contact(const std::string& signature) {
-  for (const std::string kind :
-       {": answered free, ", ": late, ", ": missing pair, ", ": missing candidate, ",
-        ": contact on the way, ", ": share too large, "}) {
-    const auto at = signature.find(kind);
-    if (at != std::string::npos) return signature.substr(at + kind.size());
-  }
-  return std::nullopt;
+// What a signature tells, but for a law before it and the stage of the built-in detector: that of
+// "free-sound: answered free at pair search, edge-edge, t inside" is "answered free" and
+// "edge-edge, t inside".
+struct Told {
+  std::string kind, contact;
+};
+
+Told told_by(const std::string& signature) {
+  const auto colon = signature.find(": ");
+  if (colon == std::string::npos) return {};  // a law alone
+  const auto said = signature.substr(colon + 2);
+  const auto comma = std::min(said.find(", "), said.size());
+  const auto kind = said.substr(0, comma);
+  return {kind.substr(0, kind.find(" at ")), said.substr(std::min(comma + 2, said.size()))};
 }
 
-constexpr const char* loses = "lose a contact";
+constexpr std::string_view loses = "lose a contact",
+                           reports = "report what is not there, or too early",
+                           stops = "stop before they have to",
+                           differs = "answer otherwise when asked again";
 
 // What failures of this kind do.
-const char* deed_of(const StoredFailure& failure) {
-  const auto& signature = failure.signature;
-  const auto says = [&](const char* word) { return signature.find(word) != std::string::npos; };
-  if (failure.flaky || says("two runs differ")) return "answer otherwise when asked again";
-  if (lost_contact(signature) || says(": late pair")) return loses;
-  for (const char* kind : {": answered collision", ": spurious pair", ": early"}) {
-    if (says(kind)) return "report what is not there, or too early";
+std::string deed_of(const StoredFailure& failure) {
+  constexpr std::array<std::array<std::string_view, 2>, 15> deeds = {
+      {{"answered free", loses},
+       {"late", loses},
+       {"missing pair", loses},
+       {"late pair", loses},
+       {"missing candidate", loses},
+       {"contact on the way", loses},
+       {"share too large", loses},
+       {"answered collision", reports},
+       {"spurious pair", reports},
+       {"early", reports},
+       {"early pair", reports},
+       {"early alarm", reports},
+       {"share too small", stops},
+       {"free step cut", stops},
+       {"two runs differ", differs}}};
+  const auto kind = told_by(failure.signature).kind;
+  if (failure.flaky) return std::string(differs);
+  for (const auto& [word, deed] : deeds) {
+    if (kind == word) return std::string(deed);
   }
-  if (says(": share too small") || says(": free step cut")) return "stop before they have to";
-  return signature.starts_with(law_in_signature) ? "break a law" : "end without an answer";
+  return kind.empty() ? "break a law" : "end without an answer";
 }
 
 // The two triangles that the explanation names; nothing if they are none of the mesh.
@@ -160,12 +182,13 @@ std::optional<detector::TrianglePair> pair_told(const std::string& explanation,
 // another contact of the pair was found; the oracle does.
 Words traits_of(const StoredFailure& failure, const Contract& contract) {
   Words words;
-  const auto contact = lost_contact(failure.signature);
-  if (contact) add_cause(words, *contact);
+  const auto told = told_by(failure.signature);
+  const bool is_told = told.kind != "late pair" && !told.contact.empty();
+  if (is_told) add_cause(words, told.contact);
   const auto c = corpus::parse_case(failure.mesh, "stored case");
   const auto pair = c ? pair_told(failure.explanation, c.value()) : std::nullopt;
   if (!pair) return words;
-  if (!contact) {
+  if (!is_told) {
     const auto exact = contacts_of(c.value(), contract, &*pair);
     return exact.empty() ? words : exact.front();
   }
@@ -259,7 +282,7 @@ class Sorter {
   }
 
   FailureGroup group_of(const LostKinds& kinds) const {
-    FailureGroup group{loses, {}, {}, "", held_.size(), held_.size()};
+    FailureGroup group{std::string(loses), {}, {}, "", held_.size(), held_.size()};
     for (const auto& kind : kinds) group.kinds.push_back(kind.signature);
     const Traits shared = common(kinds);
     const auto cases = cases_of(kinds, 0);
@@ -307,6 +330,7 @@ class Sorter {
 std::vector<FailureGroup> groups_of_lost(const RunFindings& findings,
                                          const std::vector<const StoredFailure*>& kinds) {
   constexpr std::size_t most_that_hold = 100;
+  if (kinds.empty()) return {};
   std::map<std::string, std::size_t> numbers;
   const auto traits_in = [&](const Words& words, bool adds) {
     Traits traits = 0;
@@ -342,9 +366,10 @@ std::vector<FailureGroup> groups_of_lost(const RunFindings& findings,
 std::vector<FailureGroup> failure_groups(const RunFindings& findings) {
   std::vector<FailureGroup> groups;
   const auto kinds = findings.kinds();
+  if (kinds.size() < 2) return {};
   std::vector<const StoredFailure*> lost;
   for (const auto* kind : kinds) {
-    const std::string deed = deed_of(*kind);
+    const auto deed = deed_of(*kind);
     if (deed == loses) {
       lost.push_back(kind);
       continue;
@@ -356,13 +381,14 @@ std::vector<FailureGroup> failure_groups(const RunFindings& findings) {
   for (auto& group : groups_of_lost(findings, lost)) groups.push_back(std::move(group));
   std::map<std::string, MeshSize> sizes;
   for (const auto* kind : kinds) {
-    const auto c =
-        corpus::parse_case(kind->smallest.empty() ? kind->mesh : kind->smallest, "stored case");
-    if (c) sizes[kind->signature] = size_of(c.value());
+    const auto& mesh = kind->smallest.empty() ? kind->mesh : kind->smallest;
+    if (const auto c = corpus::parse_case(mesh, "stored case"))
+      sizes[kind->signature] = size_of(c.value());
   }
-  for (auto& group : groups)
-    group.smallest = *std::ranges::min_element(
-        group.kinds, {}, [&](const std::string& kind) { return sizes[kind]; });
+  const auto is_smaller = [&](const std::string& a, const std::string& b) {
+    return sizes.contains(a) && (!sizes.contains(b) || sizes[a] < sizes[b]);
+  };
+  for (auto& group : groups) group.smallest = *std::ranges::min_element(group.kinds, is_smaller);
   std::ranges::stable_sort(groups, std::greater(),
                            [](const FailureGroup& group) { return group.kinds.size(); });
   return groups;
@@ -374,7 +400,7 @@ std::string text_of(const FailureGroup& group, std::size_t kinds) {
                   ? fmt::format("all {} kinds of failure {}", kinds, group.does)
                   : fmt::format("{} of {} kinds of failure {}", count, kinds, group.does);
   if (!group.shared.empty())
-    text += fmt::format(": {} ({} of {} cases that hold {} such a contact)",
+    text += fmt::format(": {} ({} of {} colliding cases that hold {} such a contact)",
                         fmt::join(group.shared, ", "), group.held_with, group.held,
                         group.held_with == 1 ? "has" : "have");
   return text;

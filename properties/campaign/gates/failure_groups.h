@@ -12,14 +12,14 @@ namespace assay::properties {
 struct FailureGroup {
   std::string does;                // "lose a contact", "report what is not there"
   std::vector<std::string> kinds;  // signatures, in the order of RunFindings::kinds()
-  std::vector<std::string>
-      shared;            // what all contacts that it lost have in common; perhaps nothing
+  // What all contacts that it lost have in common; perhaps nothing.
+  std::vector<std::string> shared;
   std::string smallest;  // the kind whose stored mesh is the smallest
   // In so many of those cases that hold and were looked at, some contact has all of that, too.
   std::size_t held_with = 0, held = 0;
 };
 
-// The group with the most kinds comes first.
+// The group with the most kinds comes first. A single kind is in no group.
 //
 // Failures that do different things are in different groups. Those that lose a contact (answered
 // free, late, left out a pair or a candidate, let a limiter through) are grouped by its traits: its
@@ -33,8 +33,8 @@ struct FailureGroup {
 // in the folder of the findings no traits are told.
 std::vector<FailureGroup> failure_groups(const RunFindings& findings);
 
-// "34 of 51 kinds of failure lose a contact: edge-edge (2 of 100 cases that hold have such a
-// contact)"; `kinds` is the number of all.
+// "34 of 51 kinds of failure lose a contact: edge-edge (2 of 100 colliding cases that hold
+// have such a contact)"; `kinds` is the number of all.
 std::string text_of(const FailureGroup& group, std::size_t kinds);
 
 }  // namespace assay::properties

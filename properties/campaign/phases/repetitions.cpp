@@ -314,7 +314,7 @@ class Repetitions {
       workers_.emplace_back(request_.worker, request_.plugin, limits);
     }
     auto run = std::move(workers_[process].run(c, {&configuration(), 1}).front());
-    if (run.end == RunEnd::not_run) throw StoreProblem(run.explanation);
+    throw_if_not_run(run);
     return run;
   }
 
@@ -374,9 +374,8 @@ class Repetitions {
     const bool is_small = c.triangles.rows() <= largest_small_mesh;
     std::map<std::string, int> kept;
     for (const auto s : places) {
-      const auto alone = with_steps(c, {s}, contract());
       Examined examined;
-      examined.c = alone;
+      examined.c = with_steps(c, {s}, contract());
       examined.runs = {step_alone(run, s)};
       judge({request_.detector,
              {&configuration(), 1},
@@ -384,6 +383,7 @@ class Repetitions {
              nullptr,
              is_small ? 1 : request_.jobs},
             examined);
+      const auto& alone = examined.c;
       const auto& truth = examined.truth;
       const auto& judged = examined.trials[0];
       // Without a verdict nothing is known of this size.

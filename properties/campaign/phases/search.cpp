@@ -98,7 +98,9 @@ class ShareSearch {
 
   // A defect as it is stored: if the case, run again by itself, has other answers, it is flaky.
   static StoredFailure stored_of(const FoundDefect& found, const Exam& exam) {
-    const bool flaky = !same_answers(found.run, run_alone(exam, found.c, found.configuration));
+    const auto alone = run_alone(exam, found.c, found.configuration);
+    throw_if_not_run(alone);
+    const bool flaky = !same_answers(found.run, alone);
     return stored_failure(found.c, exam.configurations[found.configuration], exam.detector,
                           found.failure, flaky, found.run.printed);
   }

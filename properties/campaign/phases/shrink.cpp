@@ -312,7 +312,7 @@ Judge judge_of_slowness(const DetectorUnderTest& detector, const Configuration& 
     int slow = 0, quick = 0;
     while (slow < 2 && quick < 2) {
       const auto run = run_alone(exam, *seen, 0);
-      if (run.end == RunEnd::not_run) throw std::runtime_error(run.explanation);
+      throw_if_not_run(run);
       const bool is_slow = run.end == RunEnd::hung && run.processor_seconds >= seconds;
       ++(is_slow ? slow : quick);
     }

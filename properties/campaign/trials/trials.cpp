@@ -50,6 +50,10 @@ void throw_if_not_run(const Examined& examined) {
   if (const auto why = examined.why_not_run(); !why.empty()) throw StoreProblem(why);
 }
 
+void throw_if_not_run(const CaseRun& run) {
+  if (run.end == RunEnd::not_run) throw StoreProblem(run.explanation);
+}
+
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -349,7 +353,7 @@ class Trials {
     // A failing case is run again before it is reported. If the two runs differ, that is a failure
     // by itself.
     const auto alone = run_alone(exam_of(trial), trial.examined.c, i);
-    if (alone.end == RunEnd::not_run) throw StoreProblem(alone.explanation);
+    throw_if_not_run(alone);
     note(trial.record, alone);
     auto failure = stored_failure(trial.examined.c, configuration, *trial.detector, *judged.failure,
                                   !same_answers(run, alone), trial.examined.printed(i));

@@ -50,7 +50,8 @@ StoredFailure stored_failure(const corpus::Case& c, const Configuration& configu
                              const DetectorUnderTest& detector, const Failure& failure, bool flaky,
                              const std::string& printed);
 
-// Throws StoreProblem if there was no worker; so it is for campaign/ alone.
+// Both throw StoreProblem if there was no worker; so they are for campaign/ alone.
 void throw_if_not_run(const Examined& examined);
+void throw_if_not_run(const CaseRun& run);
 
 }  // namespace assay::properties

@@ -40,7 +40,7 @@ const mostGroups = 5;
 // What the groups of kinds share, for one mistake shows as many kinds.
 const groups = (run: Run, links: Map<string, string>): HTMLElement[] => {
   const all = run.findings.failure_groups;
-  if (run.findings.failures.length < 2) return [];
+  if (all.length === 0) return [];
   const rest = sum(all.slice(mostGroups).map((group) => group.kinds.length));
   const lines = all
     .slice(0, mostGroups)
@@ -53,7 +53,7 @@ const groups = (run: Run, links: Map<string, string>): HTMLElement[] => {
         html("a", { href: links.get(group.smallest) ?? "" }, group.smallest),
       ),
     );
-  if (rest > 0) lines.push(html("li", {}, `the other ${rest} kinds of failure are in ${all.length - mostGroups} more groups`));
+  if (rest > 0) lines.push(html("li", {}, `${rest} more in other groups`));
   return [html("ul", { class: "groups" }, ...lines)];
 };
 

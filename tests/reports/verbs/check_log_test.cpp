@@ -264,7 +264,7 @@ TEST_F(CheckLog, WhatLeavesNoStepToBeJudgedIsUndecided) {
   const auto none = scratch_ / "none.log";
   std::filesystem::rename(record({}), none);
   const auto log = record(answers_);
-  for (const auto& words : {none, log + " --from 99"}) {
+  for (const auto& words : {none, log + " --from 99", log + " --share 1e-9 --from 2"}) {
     SCOPED_TRACE(words);
     const auto junit = scratch_ / "none.xml";
     expect_ended("check " + words + " --junit " + junit, 3, {"undecided: no step was judged"});
@@ -308,13 +308,23 @@ TEST_F(CheckLog, ALogIsNotOverwritten) {
 
 TEST_F(CheckLog, SeveralLogsAreJudgedWhateverOneIs) {
   const auto out = scratch_ / "out", xml = scratch_ / "all.xml";
-  const auto log = record(with_a_miss());
-  expect_ended("check " + log + " " + (scratch_ / "absent.log") + " " + log + " --keep " + out +
-                   " --junit " + xml,
+  const auto log = record(with_a_miss()), empty = scratch_.write("empty.log", "");
+  expect_ended("check " + (scratch_ / "absent.log") + " " + log + " " + empty + " " + log +
+                   " --keep " + out + " --junit " + xml,
                1);
-  for (const char* folder : {"/1-steps.log", "/3-steps.log"})
+  for (const char* folder : {"/2-steps.log", "/4-steps.log"})
     EXPECT_TRUE(std::filesystem::exists(out + folder)) << folder;
-  EXPECT_TRUE(says(read_text(xml), "<error message="));
+  const auto suites = read_text(xml);
+  const auto problem = suites.find("<error message=");
+  EXPECT_NE(problem, std::string::npos);
+  EXPECT_NE(suites.find("<error message=", problem + 1), std::string::npos);
+  // No log is written over, and what each would refuse is refused once.
+  const auto bytes = read_text(log);
+  expect_refused("check " + log + " " + log + " --junit " + log, log);
+  EXPECT_EQ(read_text(log), bytes);
+  expect_refused(
+      "check " + log + " " + log + " --detector " + plugin("always_free") + " --junit " + xml,
+      "--keep says where");
 }
 
 TEST_F(CheckLog, AShareOfTheStepsIsTheSameInEveryRun) {

@@ -41,6 +41,7 @@ TEST_F(Outputs, ThatCannotBeWrittenAreRefusedBeforeTheWork) {
   const std::string folders[] = {check + " --keep ",
                                  "check " + frames + " --keep ",
                                  judge + " --keep ",
+                                 judge + " " + (scratch / "steps.log") + " --keep ",
                                  "run --campaign " + plan + " --out ",
                                  "certify --campaign " + plan + " --out ",
                                  "replay " + curated("A1_winding2_allpositive") + " --export ",
@@ -55,6 +56,7 @@ TEST_F(Outputs, ThatCannotBeWrittenAreRefusedBeforeTheWork) {
                                "check " + queries + " --json ",
                                judge + " --json ",
                                judge + " --junit ",
+                               judge + " " + (scratch / "steps.log") + " --junit ",
                                "report " + run + " --out ",
                                "bench --suite stability --quick --json ",
                                "bench --suite stability --quick --csv ",
@@ -64,6 +66,15 @@ TEST_F(Outputs, ThatCannotBeWrittenAreRefusedBeforeTheWork) {
          {scratch / "", file + "/below", scratch / "absent/file", std::string("/proc/nowhere")})
       expect_refused(words + place, place);
   }
+}
+
+// The store of a run is no place for its page.
+TEST_F(Outputs, APageTakesThePlaceOfNoOtherFileOfItsRun) {
+  const auto run = scratch / "run", page = run + "/report.html";
+  ASSERT_EQ(run_assay("run --campaign " + plan + " --out " + run).exit_code, 0);
+  expect_refused("report " + run + " --out " + run + "/run.sqlite", "is an input too");
+  for (int times = 0; times < 2; ++times)
+    EXPECT_EQ(run_assay("report " + run + " --out " + page).exit_code, 0);
 }
 
 // A folder stands where a file of the folder has to go.

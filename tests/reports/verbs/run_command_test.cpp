@@ -108,8 +108,9 @@ TEST_F(Run, WhatAllLostContactsShareIsTold) {
       {"fault_elementary_end-excluded", "t at 1"}};
   for (const auto& [library, shared] : bugs) {
     const auto said = judged(library);
-    const std::regex told("\nall \\d+ kinds of failure lose a contact: [^\n]*" + shared +
-                          R"([^\n]* \(\d of \d+ cases that hold ha(s|ve) such a contact\)\n)");
+    const std::regex told(
+        "\nall \\d+ kinds of failure lose a contact: [^\n]*" + shared +
+        R"([^\n]* \(\d of \d+ colliding cases that hold ha(s|ve) such a contact\)\n)");
     std::smatch line;
     ASSERT_TRUE(std::regex_search(said, line, told)) << said;
     const auto listed = run_assay("list failures " + out + "-" + library).out;
