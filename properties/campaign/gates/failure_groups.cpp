@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -70,6 +72,28 @@ class MeshTraits {
   const detector::Topology mesh_;
 };
 
+// Which of the two triangles move, and how small the smaller one is at the start.
+void add_motion(Words& words, const detector::TrianglesView& triangles,
+                const detector::SteppedMesh& motion, const detector::TrianglePair& pair) {
+  int moving = 0;
+  double area = std::numeric_limits<double>::infinity();
+  for (const auto t : {pair.a, pair.b}) {
+    const auto at_start = [&](int k) -> Eigen::Vector3d {
+      return motion.vertices_t0.row(triangles(t, k)).transpose();
+    };
+    bool moves = false;
+    for (const auto v : triangles.row(t))
+      moves |= motion.vertices_t0.row(v) != motion.vertices_t1.row(v);
+    moving += moves ? 1 : 0;
+    const Eigen::Vector3d u = at_start(1) - at_start(0), w = at_start(2) - at_start(0);
+    area = std::min(area, u.cross(w).norm() / 2);
+  }
+  if (moving > 0) words.insert(moving == 2 ? "both triangles move" : "one triangle rests");
+  for (const double below : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12}) {
+    if (area < below) words.insert(fmt::format("a triangle with an area below {}", below));
+  }
+}
+
 // The traits of the contacts of a case, of one pair alone if it is given.
 std::vector<Words> contacts_of(const corpus::Case& c, const Contract& contract,
                                const detector::TrianglePair* alone = nullptr) {
@@ -87,6 +111,7 @@ std::vector<Words> contacts_of(const corpus::Case& c, const Contract& contract,
       add_cause(words, text_of(is_query ? cause_of_query(c.triangles, motion, contact, of_distance)
                                         : cause_of(c.triangles, motion, contact, of_distance)));
       mesh.add_to(words, contact.pair);
+      if (!is_query) add_motion(words, c.triangles, motion, contact.pair);
     }
   }
   return contacts;
@@ -178,19 +203,19 @@ std::optional<detector::TrianglePair> pair_told(const std::string& explanation,
   return std::nullopt;
 }
 
-// The traits of the contact that a failure lost. The signature of a late pair tells none, because
-// another contact of the pair was found; the oracle does.
+// The traits of the contact that a failure lost: those of the oracle's contact of that pair that is
+// as the signature says; of a large mesh, where the oracle takes long, what the signature says.
 Words traits_of(const StoredFailure& failure, const Contract& contract) {
+  constexpr Eigen::Index most_triangles = 1000;
   Words words;
-  const auto told = told_by(failure.signature);
-  const bool is_told = told.kind != "late pair" && !told.contact.empty();
-  if (is_told) add_cause(words, told.contact);
+  add_cause(words, told_by(failure.signature).contact);
   const auto c = corpus::parse_case(failure.mesh, "stored case");
   const auto pair = c ? pair_told(failure.explanation, c.value()) : std::nullopt;
   if (!pair) return words;
-  if (!is_told) {
-    const auto exact = contacts_of(c.value(), contract, &*pair);
-    return exact.empty() ? words : exact.front();
+  if (c.value().triangles.rows() <= most_triangles) {
+    for (auto& exact : contacts_of(c.value(), contract, &*pair)) {
+      if (std::ranges::includes(exact, words)) return std::move(exact);
+    }
   }
   MeshTraits(c.value()).add_to(words, *pair);
   return words;

@@ -23,11 +23,12 @@ struct FailureGroup {
 //
 // Failures that do different things are in different groups. Those that lose a contact (answered
 // free, late, left out a pair or a candidate, let a limiter through) are grouped by its traits: its
-// features and its cause (cause.h), whether it lies within a component or between two, whether the
-// mesh is closed, and at least how many triangles it has. The traits of a group are those that set
-// its contacts apart from contacts of a hundred cases that hold, over the whole run, with which the
-// detector was right. They are not told if as many failing cases might have them by chance: if
-// their share among cases that hold, to that power, is above 1e-4.
+// features and its cause (cause.h), whether both triangles move, how small they are, whether it
+// lies within a component or between two, whether the mesh is closed, and at least how many
+// triangles it has. The traits of a group are those that set its contacts apart from contacts of a
+// hundred cases that hold, over the whole run, with which the detector was right. They are not told
+// if as many failing cases might have them by chance: if their share among cases that hold, to that
+// power, is above 1e-4.
 //
 // Deterministic. The oracle judges the cases that hold again, which takes seconds. Without stores
 // in the folder of the findings no traits are told.
