@@ -105,7 +105,7 @@ TEST_F(CheckedBodies, DoubledCornersAreToldAndLeftOut) {
   expect(" --rings 1", 5, "collision at t = 0");
   // Welded, all four faces have an edge in common.
   expect(" --weld --rings 1 --separation 0", 0, "no two triangles count");
-  expect_problem(run_assay("check corpus/curated/B1_one_vertex_own_nearest.json --weld"),
+  expect_problem(run_assay("check " + curated("B1_one_vertex_own_nearest") + " --weld"),
                  "--weld is of frames or a mesh at rest or bodies, and this is a case file (");
 }
 
