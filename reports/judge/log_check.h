@@ -11,8 +11,8 @@ namespace assay::reports {
 
 // Which steps of a log are judged.
 struct LogSelection {
-  double share = 1;  // in (0, 1]; which steps these are goes by their numbers alone
-  std::uint64_t from = 1;             // steps before this one, from 1, are not judged
+  double share = 1;        // in (0, 1]; which steps these are goes by their numbers alone
+  std::uint64_t from = 1;  // steps before this one, from 1, are not judged
   std::optional<std::uint64_t> step;  // this one alone
   bool follow = false;                // waits for steps until the recorder ends the log
 };

@@ -198,9 +198,8 @@ Expected<int> conclude(const properties::CampaignRequest& request,
                        const properties::RunFindings& findings, const std::string& out,
                        double seconds) {
   const auto judgement = judge(findings, properties::asked_of_a_run(findings));
-  fmt::print("{}\n{}{}\n{}, in {:.0f} s\n", findings_text(findings),
-             groups_text(findings), gates_text(judgement),
-             verdict_text(findings, judgement), seconds);
+  fmt::print("{}\n{}{}\n{}, in {:.0f} s\n", findings_text(findings), groups_text(findings),
+             gates_text(judgement), verdict_text(findings, judgement), seconds);
   const bool is_complete = !findings.has_more_to_do();
   if (!findings.evidence.slow.empty())
     fmt::print("slow cases: {}\n",
