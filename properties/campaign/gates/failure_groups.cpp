@@ -30,13 +30,20 @@ namespace {
 
 using Words = std::set<std::string>;
 
-// The words of a cause, and the opposites of those that it leaves out because they are ordinary.
-void add_cause(Words& words, const std::string& cause) {
-  for (std::size_t begin = 0; begin < cause.size();) {
-    const auto end = std::min(cause.find(", ", begin), cause.size());
-    words.insert(cause.substr(begin, end - begin));
+// "edge-edge, t inside" as words.
+Words words_in(const std::string& text) {
+  Words words;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const auto end = std::min(text.find(", ", begin), text.size());
+    words.insert(text.substr(begin, end - begin));
     begin = end + 2;
   }
+  return words;
+}
+
+// The words of a cause, and the opposites of those that it leaves out because they are ordinary.
+void add_cause(Words& words, const std::string& cause) {
+  words.merge(words_in(cause));
   constexpr std::array<std::array<const char*, 2>, 2> opposites = {
       {{"sharing", "sharing nothing"}, {"near contact", "apart at the start"}}};
   for (const auto& [mark, otherwise] : opposites) {
@@ -120,16 +127,17 @@ std::vector<Words> contacts_of(const corpus::Case& c, const Contract& contract,
 // The contacts of each of up to so many cases that hold, of those that have one.
 std::vector<std::vector<Words>> contacts_that_hold(const RunFindings& findings, std::size_t most) {
   std::vector<std::pair<std::string, std::string>> trials;  // family, id
-  const auto files = stored_runs(findings.folder);
-  if (!files) return {};
-  for (const auto& file : files.value()) {
-    value_or_throw(Store::read(file)).for_each_trial([&](const TrialRecord& trial) {
-      const bool holds =
-          trial.outcomes.find_first_not_of(letter_of(Outcome::holds)) == std::string::npos;
-      if (holds && trial.collisions > 0 && !is_size_family(trial.family))
-        trials.emplace_back(trial.family, trial.id);
-    });
-  }
+  const auto take = [&](const TrialRecord& trial) {
+    const bool holds =
+        trial.outcomes.find_first_not_of(letter_of(Outcome::holds)) == std::string::npos;
+    if (holds && trial.collisions > 0 && !is_size_family(trial.family))
+      trials.emplace_back(trial.family, trial.id);
+  };
+  const auto read = catch_store_problem([&] {
+    for (const auto& file : value_or_throw(stored_runs(findings.folder)))
+      value_or_throw(Store::read(file)).for_each_trial(take);
+  });
+  if (!read) return {};  // the folder holds no run, or cannot be read any more
   std::vector<std::vector<Words>> held;
   const auto count = std::min(most, trials.size());
   const auto& contract = findings.run.detector.contract;
@@ -205,10 +213,10 @@ std::optional<detector::TrianglePair> pair_told(const std::string& explanation,
 
 // The traits of the contact that a failure lost: those of the oracle's contact of that pair that is
 // as the signature says; of a large mesh, where the oracle takes long, what the signature says.
+// What a signature leaves out is then not known: that of the built-in detector tells no cause.
 Words traits_of(const StoredFailure& failure, const Contract& contract) {
   constexpr Eigen::Index most_triangles = 1000;
-  Words words;
-  add_cause(words, told_by(failure.signature).contact);
+  Words words = words_in(told_by(failure.signature).contact);
   const auto c = corpus::parse_case(failure.mesh, "stored case");
   const auto pair = c ? pair_told(failure.explanation, c.value()) : std::nullopt;
   if (!pair) return words;
