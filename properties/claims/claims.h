@@ -56,6 +56,17 @@ enum class Tried : std::uint8_t {
   by_second_run,     // of the same case
 };
 
+// What a detector does that breaks a claim. One change may mend all that do the same.
+enum class Deed : std::uint8_t { loses, reports, stops, differs, ends };
+constexpr auto names_of(Deed) {
+  using enum Deed;
+  return std::to_array<Named<Deed>>({{loses, "lose a contact"},
+                                     {reports, "report what is not there, or too early"},
+                                     {stops, "stop before they have to"},
+                                     {differs, "answer otherwise when asked again"},
+                                     {ends, "end without an answer"}});
+}
+
 // All that there is to know of a claim: who judges it, leaves it out or speaks of it reads it here.
 struct ClaimRow {
   Claim value;
@@ -63,6 +74,7 @@ struct ClaimRow {
   std::uint32_t bit;  // of assay_description::claims; 0: nobody claims it from outside
   About about;
   Tried tried;
+  Deed deed;
   // How a step breaks it. Two runs alone break `deterministic` (judged_run.h), and nothing breaks
   // times_unique.
   Shown (*shown_by)(const StepDiff&) = [](const StepDiff&) { return Shown(); };
@@ -76,29 +88,30 @@ constexpr auto names_of(Claim) {
   using enum Claim;
   using enum About;
   using enum Tried;
+  using enum Deed;
   using C = const Contract&;
   using D = const StepDiff&;
   constexpr auto without_pairs = [](C c, bool) {
     return c.reports_pairs ? "" : "the detector reports no pairs";
   };
   return std::to_array<ClaimRow>({
-      {free_sound, "free-sound", ASSAY_CLAIM_FREE_SOUND, answers, by_contact,
+      {free_sound, "free-sound", ASSAY_CLAIM_FREE_SOUND, answers, by_contact, loses,
        [](D d) { return if_so(d.answered_free, "answered free", d.first_contact); }},
-      {not_late, "not-late", ASSAY_CLAIM_NOT_LATE, times, by_contact,
+      {not_late, "not-late", ASSAY_CLAIM_NOT_LATE, times, by_contact, loses,
        [](D d) { return if_so(d.late_first, "late", d.first_contact); }},
-      {first_time, "first-time", ASSAY_CLAIM_FIRST_TIME, times, by_stated_time,
+      {first_time, "first-time", ASSAY_CLAIM_FIRST_TIME, times, by_stated_time, loses,
        [](D d) {  // an oracle that was stopped knows no exact first time
          return if_so(d.first && d.late_first, "late", d.first_contact) |
                 if_so(d.first && d.early_first, "early", d.first_contact);
        },
        [](C c, bool) { return c.margin > 0 ? "the contract has a margin" : ""; }},
-      {first_pairs, "first-pairs", ASSAY_CLAIM_FIRST_PAIRS, pairs, by_contact,
+      {first_pairs, "first-pairs", ASSAY_CLAIM_FIRST_PAIRS, pairs, by_contact, loses,
        [](D d) { return d.is_without_excuse ? if_any("missing pair", d.missing) : Shown(); },
        without_pairs},
-      {all_pairs, "all-pairs", ASSAY_CLAIM_ALL_PAIRS, pairs, by_contact,
+      {all_pairs, "all-pairs", ASSAY_CLAIM_ALL_PAIRS, pairs, by_contact, loses,
        [](D d) { return if_any("missing pair", d.missing) | if_any("late pair", d.late); },
        without_pairs},
-      {no_spurious, "no-spurious", ASSAY_CLAIM_NO_SPURIOUS, answers, by_step,
+      {no_spurious, "no-spurious", ASSAY_CLAIM_NO_SPURIOUS, answers, by_step, reports,
        [](D d) {
          const auto pair =
              d.spurious.empty() ? Shown() : Shown{"spurious pair", d.spurious.front().pair};
@@ -110,24 +123,24 @@ constexpr auto names_of(Claim) {
          return c.judges_alarms(of_queries) ? ""
                                             : "the contract has a margin, and tests neighbours";
        }},
-      {deterministic, "deterministic", ASSAY_CLAIM_DETERMINISTIC, runs, by_second_run},
-      {total, "total", ASSAY_CLAIM_TOTAL, runs, by_step,
+      {deterministic, "deterministic", ASSAY_CLAIM_DETERMINISTIC, runs, by_second_run, differs},
+      {total, "total", ASSAY_CLAIM_TOTAL, runs, by_step, ends,
        [](D d) { return if_so(d.owes_answer, d.refused ? name_of(Outcome::refused) : "error"); }},
-      {candidates, "candidates", ASSAY_CLAIM_CANDIDATES, broad_phase, by_candidates,
+      {candidates, "candidates", ASSAY_CLAIM_CANDIDATES, broad_phase, by_candidates, loses,
        [](D d) { return if_any("missing candidate", d.missing_candidates); }},
-      {commit_free, "commit-free", ASSAY_CLAIM_COMMIT_FREE, limits, by_contact_ahead,
+      {commit_free, "commit-free", ASSAY_CLAIM_COMMIT_FREE, limits, by_contact_ahead, loses,
        [](D d) {
          return d.limit && d.limit->hit ? Shown{"contact on the way", *d.limit->hit} : Shown();
        }},
-      {path_free, "path-free", ASSAY_CLAIM_PATH_FREE, limits, by_contact_ahead,
+      {path_free, "path-free", ASSAY_CLAIM_PATH_FREE, limits, by_contact_ahead, loses,
        [](D d) { return if_so(d.limit && d.limit->too_far, "share too large", d.first_contact); }},
-      {progress, "progress", ASSAY_CLAIM_PROGRESS, limits, by_contact_ahead,
+      {progress, "progress", ASSAY_CLAIM_PROGRESS, limits, by_contact_ahead, stops,
        [](D d) {
          return if_so(d.limit && d.limit->too_short, "share too small", d.first_contact);
        }},
-      {whole, "whole-when-safe", ASSAY_CLAIM_WHOLE, limits, by_free_way,
+      {whole, "whole-when-safe", ASSAY_CLAIM_WHOLE, limits, by_free_way, stops,
        [](D d) { return if_so(d.limit && d.limit->is_cut, "free step cut", d.first_contact); }},
-      {times_unique, "times-unique", 0, times, by_contact},
+      {times_unique, "times-unique", 0, times, by_contact, loses},
   });
 }
 inline constexpr auto claim_rows = names_of(Claim());

@@ -12,7 +12,6 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <string_view>
 
 #include "corpus/cases/case_file.h"
 #include "detector/mesh/enum_names.h"
@@ -149,51 +148,32 @@ std::vector<std::vector<Words>> contacts_that_hold(const RunFindings& findings, 
   return held;
 }
 
-// What a signature tells, but for a law before it and the stage of the built-in detector: that of
-// "free-sound: answered free at pair search, edge-edge, t inside" is "answered free" and
-// "edge-edge, t inside".
+// What a signature tells, but for a law before it: that of "free-sound: answered free at pair
+// search, edge-edge, t inside" tells of the contact "edge-edge, t inside".
 struct Told {
+  std::optional<Claim> claim;  // nothing: a law alone is broken
   std::string kind, contact;
 };
 
 Told told_by(const std::string& signature) {
   const auto colon = signature.find(": ");
-  if (colon == std::string::npos) return {};  // a law alone
-  const auto said = signature.substr(colon + 2);
-  const auto comma = std::min(said.find(", "), said.size());
-  const auto kind = said.substr(0, comma);
-  return {kind.substr(0, kind.find(" at ")), said.substr(std::min(comma + 2, said.size()))};
+  if (colon == std::string::npos) return {};
+  const auto law = signature.rfind(", ", colon);
+  const auto claim = law == std::string::npos ? 0 : law + 2;
+  const auto kind = signature.substr(colon + 2);
+  const auto comma = std::min(kind.find(", "), kind.size());
+  return {from_name<Claim>(signature.substr(claim, colon - claim)), kind.substr(0, comma),
+          kind.substr(std::min(comma + 2, kind.size()))};
 }
-
-constexpr std::string_view loses = "lose a contact",
-                           reports = "report what is not there, or too early",
-                           stops = "stop before they have to",
-                           differs = "answer otherwise when asked again";
 
 // What failures of this kind do.
 std::string deed_of(const StoredFailure& failure) {
-  constexpr std::array<std::array<std::string_view, 2>, 15> deeds = {
-      {{"answered free", loses},
-       {"late", loses},
-       {"missing pair", loses},
-       {"late pair", loses},
-       {"missing candidate", loses},
-       {"contact on the way", loses},
-       {"share too large", loses},
-       {"answered collision", reports},
-       {"spurious pair", reports},
-       {"early", reports},
-       {"early pair", reports},
-       {"early alarm", reports},
-       {"share too small", stops},
-       {"free step cut", stops},
-       {"two runs differ", differs}}};
-  const auto kind = told_by(failure.signature).kind;
-  if (failure.flaky) return std::string(differs);
-  for (const auto& [word, deed] : deeds) {
-    if (kind == word) return std::string(deed);
-  }
-  return kind.empty() ? "break a law" : "end without an answer";
+  const auto told = told_by(failure.signature);
+  if (failure.flaky) return name_of(Deed::differs);
+  if (!told.claim) return "break a law";
+  // A first time is wrong in two ways.
+  const bool is_early = told.kind.starts_with("early");
+  return name_of(is_early ? Deed::reports : row_of(*told.claim).deed);
 }
 
 // The two triangles that the explanation names; nothing if they are none of the mesh.
@@ -315,7 +295,7 @@ class Sorter {
   }
 
   FailureGroup group_of(const LostKinds& kinds) const {
-    FailureGroup group{std::string(loses), {}, {}, "", held_.size(), held_.size()};
+    FailureGroup group{name_of(Deed::loses), {}, {}, "", held_.size(), held_.size()};
     for (const auto& kind : kinds) group.kinds.push_back(kind.signature);
     const Traits shared = common(kinds);
     const auto cases = cases_of(kinds, 0);
@@ -403,7 +383,7 @@ std::vector<FailureGroup> failure_groups(const RunFindings& findings) {
   std::vector<const StoredFailure*> lost;
   for (const auto* kind : kinds) {
     const auto deed = deed_of(*kind);
-    if (deed == loses) {
+    if (deed == name_of(Deed::loses)) {
       lost.push_back(kind);
       continue;
     }
