@@ -145,7 +145,7 @@ Expected<Kind> kind_of(const std::vector<std::string>& inputs, const BodyWords& 
   for (std::size_t i = 0; i < files.size(); ++i) {
     const auto start = corpus::read_start(log_name(files[i]).file, 1);
     if (!start && files.size() == 1) return start.error();
-    if (are_logs && (!start || start.value().empty())) found[i] = InputKind::log;
+    if (are_logs && !start) found[i] = InputKind::log;
     if (found[i] == InputKind::answers)
       return Problem{fmt::format(
           "{} is a table of answers, which stands beside frames: assay check FRAME... --answers {}",
