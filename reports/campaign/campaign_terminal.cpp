@@ -116,12 +116,9 @@ class CampaignTerminal : public properties::CampaignObserver {
     std::fflush(stdout);
   }
 
-  void on_search(const properties::SearchProgress& state) override {
-    progress_->show(fmt::format("{}/{} lanes, {} cases, {} with a defect", state.lanes,
-                                state.planned, state.cases, state.defects));
+  void on_progress(const std::string& text, std::uint64_t done, std::uint64_t left) override {
+    progress_->show(text + rest_text(done, left, seconds_since(phase_began_)));
   }
-
-  void on_shrinking(const std::string& signature) override { progress_->show(signature); }
 
   void on_failures_shrunk(const properties::KeptFailures& kept) override {
     progress_.reset();
@@ -139,23 +136,6 @@ class CampaignTerminal : public properties::CampaignObserver {
     progress_.reset();
     if (!written_) return;
     written_ = write_slow_cases(cases, out_);
-  }
-
-  void on_hunt(const properties::HuntProgress& state) override {
-    const auto seeds = static_cast<std::uint64_t>(state.seeds);
-    const auto done = static_cast<std::uint64_t>(state.seed - 1) * state.most_cases + state.cases;
-    progress_->show(
-        fmt::format("seed {} of {}: {} cases, {} of {} planted faults still hidden{}", state.seed,
-                    state.seeds, state.cases, state.hidden, state.planted,
-                    rest_text(done, seeds * state.most_cases - done, seconds_since(phase_began_))));
-  }
-
-  void on_fault_shrunk(const std::string& fault) override {
-    progress_->show(fmt::format("{} shrunk", fault));
-  }
-
-  void on_world(const std::string& world) override {
-    progress_->show(fmt::format("{}: every motion of a tetrahedron on a small grid", world));
   }
 
   // Says whether every failing mesh could be written.

@@ -17,7 +17,9 @@ namespace {
 using properties::FaultProof;
 using properties::FaultStatus;
 using properties::GateState;
+using properties::JudgedSource;
 using properties::RunFindings;
+using properties::Source;
 using properties::StratumTally;
 
 std::string stratum_row(const RunFindings& findings, const properties::StratumPlan& stratum,
@@ -131,22 +133,19 @@ std::string tags_text(const properties::TrialCounts& counts) {
 
 // Nobody knows how close a plug-in came. Answers that differ in two forms of a case are allowed by
 // its claims.
-template <class Laws>
-std::string laws_of_plugin_text(const Laws& laws) {
-  std::string out = fmt::format("{:52} {:>9} {:>7} {:>7}\n", "law", "premise", "broken", "differs");
-  for (const auto& [law, tally] : laws)
-    out += fmt::format("{:52} {:>9} {:>7} {:>7}\n", law->name, tally.premise, tally.broken,
-                       tally.differs);
-  return out;
-}
-
 std::string laws_text(const RunFindings& findings) {
   const auto wanted = findings.laws_are_judged() ? findings.run.plan.law_premises : 0;
-  const auto laws = properties::laws_in(findings.tally.counts, findings.run.detector.built_in);
+  const bool built_in = findings.run.detector.built_in;
+  const auto laws = properties::laws_in(findings.tally.counts, built_in);
   if (laws.empty()) return "";
-  if (!findings.run.detector.built_in) return "\n" + laws_of_plugin_text(laws);
-  std::string out = fmt::format("\n{:52} {:>9} {:>7} {:>7}\n", "law", "premise", "close", "broken");
+  std::string out = fmt::format("\n{:52} {:>9} {:>7} {:>7}\n", "law", "premise",
+                                built_in ? "close" : "broken", built_in ? "broken" : "differs");
   for (const auto& [law, tally] : laws) {
+    if (!built_in) {
+      out += fmt::format("{:52} {:>9} {:>7} {:>7}\n", law->name, tally.premise, tally.broken,
+                         tally.differs);
+      continue;
+    }
     const double close = tally.premise ? 100.0 * static_cast<double>(tally.close) /
                                              static_cast<double>(tally.premise)
                                        : 0.0;
@@ -222,10 +221,10 @@ std::string shrinking_text(const RunFindings& findings) {
 
 // What the search found; empty if none was asked for.
 std::string search_text(const RunFindings& findings) {
-  const auto [lanes, planned, cases, defects, open, causes] = findings.searched();
-  if (lanes == 0) return "";
-  return fmt::format("search: {} cases, {} with a defect, {} causes in the archives\n", cases,
-                     defects, causes);
+  const auto sum = findings.evidence.sum_of(Source::search);
+  if (sum.planned == 0) return "";
+  return fmt::format("search: {} cases, {} with a defect, {} causes in the archives\n", sum.cases,
+                     sum.defects, sum.causes.size());
 }
 
 std::string worlds_text(const RunFindings& findings) {
@@ -298,17 +297,15 @@ std::string verdict_text(const RunFindings& findings, const properties::Judgemen
   if (judgement.exit_code == exit_defect || judgement.exit_code == exit_unsound)
     std::transform(word.begin(), word.end(), word.begin(),
                    [](char c) { return c == '-' ? ' ' : static_cast<char>(std::toupper(c)); });
-  std::uint64_t differing = 0, wrong_steps = 0;
-  for (const auto& one : findings.evidence.repeated) {
-    differing += one.broken ? 1 : 0;
-    for (const auto& step : one.judged) wrong_steps += step.holds ? 0 : 1;
-  }
+  const auto& evidence = findings.evidence;
+  const auto differing = std::ranges::count(evidence.sources, true, &JudgedSource::broken);
   std::string out = fmt::format("{}: {} trials with a defect, {} undecided, {} laws broken", word,
                                 findings.tally.with_defect(), findings.tally.open(),
                                 properties::broken_laws(findings.tally.counts));
   if (differing) out += fmt::format(", {} larger meshes on which runs differ", differing);
-  if (wrong_steps) out += fmt::format(", {} wrong steps of larger meshes", wrong_steps);
-  if (const auto defects = findings.searched().defects)
+  if (const auto wrong_steps = evidence.sum_of(Source::repeated).defects)
+    out += fmt::format(", {} wrong steps of larger meshes", wrong_steps);
+  if (const auto defects = evidence.sum_of(Source::search).defects)
     out += fmt::format(", {} cases of the search with a defect", defects);
   return out;
 }

@@ -123,7 +123,7 @@ constexpr std::size_t kinds_shown = 10;
 // The shrunk ones first, and the least odd of these. The first of each signature stands for it.
 std::vector<StoredFailure> in_order(std::vector<StoredFailure> failures) {
   std::stable_sort(failures.begin(), failures.end(), [](const auto& a, const auto& b) {
-    return properties::LeastOddFirst()(a.signature, b.signature);
+    return properties::LeastOddFirst()(a.signature(), b.signature());
   });
   std::stable_partition(failures.begin(), failures.end(),
                         [](const auto& failure) { return !failure.smallest.empty(); });
@@ -132,10 +132,6 @@ std::vector<StoredFailure> in_order(std::vector<StoredFailure> failures) {
 
 std::string smallest_size(const StoredFailure& failure) {
   return size_of_mesh(failure.smallest.empty() ? failure.mesh : failure.smallest);
-}
-
-std::string claim_of(const StoredFailure& failure) {
-  return failure.signature.substr(0, failure.signature.find(':'));
 }
 
 std::size_t triangles_of(const StoredFailure& failure) {
@@ -157,8 +153,8 @@ std::string paragraph(const StoredFailure& failure, const std::string& times,
   const auto file = failure_file(failure, is_shrunk);
   return fmt::format(
       "\nDEFECT {} ({}), met {}\n  {}\n  case {}: {}\n  picture {}\n  replay: {}\n{}",
-      failure.signature, failure.configuration, times, shown_explanation(failure), failure.id,
-      sizes_text(failure), picture_file(absolute_path(out / file)),
+      failure.signature(), failure.shown_configuration(), times, failure.shown_explanation(),
+      failure.id(), sizes_text(failure), picture_file(absolute_path(out / file)),
       line_to_paste(replay_words(out, file, detector)), printed_text(failure.printed));
 }
 
@@ -175,12 +171,12 @@ Expected<void> write_failures(const properties::KeptFailures& kept,
   for (const auto& failure : failures) {
     const auto file_of = [&](bool smallest) { return out / failure_file(failure, smallest); };
     BOOST_OUTCOME_TRY(write_meshes(failure, file_of));
-    if (!told.insert(failure.signature).second) continue;
-    BOOST_OUTCOME_TRY(write_picture(scenes, failure, file_of, failure.signature));
+    if (!told.insert(failure.signature()).second) continue;
+    BOOST_OUTCOME_TRY(write_picture(scenes, failure, file_of, failure.signature()));
     kinds.push_back(&failure);
   }
   const auto met = [&](const StoredFailure& failure) {
-    const auto count = kept.times_met.find(failure.signature);
+    const auto count = kept.times_met.find(failure.signature());
     return count == kept.times_met.end() ? 1 : count->second;
   };
   const auto& first =
@@ -197,20 +193,21 @@ Expected<void> write_failures(const properties::KeptFailures& kept,
   const auto smaller = [&](const auto* a, const auto* b) { return triangles[a] < triangles[b]; };
   std::stable_sort(kinds.begin(), kinds.end(), smaller);
   // The smallest of each claim comes first, so that no broken claim is among the rest.
-  std::set<std::string> claims = {claim_of(first)};
+  std::set<std::string> claims = {first.broken()};
   std::set<const StoredFailure*> first_of_a_claim;
   for (const auto* kind : kinds) {
-    if (claims.insert(claim_of(*kind)).second) first_of_a_claim.insert(kind);
+    if (claims.insert(kind->broken()).second) first_of_a_claim.insert(kind);
   }
   std::stable_partition(kinds.begin(), kinds.end(),
                         [&](const auto* kind) { return first_of_a_claim.contains(kind); });
   const auto shown = std::min(kinds.size(), kinds_shown - 1);
   std::stable_sort(kinds.begin(), kinds.begin() + static_cast<std::ptrdiff_t>(shown), smaller);
   for (const auto* kind : std::span(kinds).first(shown)) {
-    const auto& [name, configuration] = std::tie(kind->signature, kind->configuration);
-    text += fmt::format("DEFECT {}{}, met {}: {}\n", name,
-                        configuration == first.configuration ? "" : " (" + configuration + ")",
-                        properties::times_text(met(*kind)), smallest_size(*kind));
+    const auto configuration = kind->shown_configuration();
+    text +=
+        fmt::format("DEFECT {}{}, met {}: {}\n", kind->signature(),
+                    configuration == first.shown_configuration() ? "" : " (" + configuration + ")",
+                    properties::times_text(met(*kind)), smallest_size(*kind));
   }
   std::uint64_t times = 0;
   for (const auto* kind : std::span(kinds).subspan(shown)) times += met(*kind);
@@ -243,13 +240,13 @@ std::string failures_text(const properties::RunFindings& findings) {
   std::set<std::string> told;
   const auto failures = in_order(findings.failures);
   for (const auto& shown : failures) {
-    if (!told.insert(shown.signature).second) continue;
+    if (!told.insert(shown.signature()).second) continue;
     out += paragraph(shown, properties::times_text(findings.met_count(shown)), findings.folder,
                      detector_of(findings));
     for (const auto& other : failures) {
-      if (&other != &shown && other.signature == shown.signature)
-        out +=
-            fmt::format("  also {} ({}): {}\n", other.id, other.configuration, other.explanation);
+      if (&other != &shown && other.signature() == shown.signature())
+        out += fmt::format("  also {} ({}): {}\n", other.id(), other.shown_configuration(),
+                           other.explanation);
     }
   }
   return failures.empty() ? "no failures\n" : out;

@@ -9,6 +9,7 @@
 #include "properties/campaign/ledger/step_measures.h"
 #include "properties/campaign/plan.h"
 #include "properties/campaign/trials/case_tally.h"
+#include "properties/campaign/trials/trials.h"
 #include "properties/judging/case_check.h"
 #include "properties/judging/exam.h"
 #include "properties/queries/listed_queries.h"
@@ -23,10 +24,11 @@ namespace assay::reports {
 namespace {
 
 using detector::Culling;
-using properties::CorpusRow;
+using properties::JudgedSource;
 using properties::Outcome;
+using properties::Source;
 
-void count_extremes(CorpusRow& row, const corpus::Case& c,
+void count_extremes(JudgedSource& row, const corpus::Case& c,
                     const std::vector<oracle::StepJudgement>& truth, bool has_contact) {
   const auto extremes = properties::extremes_of(c, truth);
   row.extremes.include(extremes);
@@ -34,22 +36,15 @@ void count_extremes(CorpusRow& row, const corpus::Case& c,
     row.triangles_in_contact = std::max(row.triangles_in_contact, extremes.triangles);
 }
 
-void count(CorpusRow& row, const oracle::StepJudgement& step) {
+void count(JudgedSource& row, const oracle::StepJudgement& step) {
   ++row.steps;
   row.collisions += step.pairs.empty() ? 0 : 1;
   row.pairs += step.pairs.size();
 }
 
-CorpusRow row_of(const std::string& input, const std::string& configuration) {
-  CorpusRow row;
-  row.input = input;
-  row.configuration = configuration;
-  return row;
-}
-
 // Compares the built-in detector with the expected facts of the cases, in one culling.
-CorpusRow check_facts(const std::vector<corpus::Case>& cases, Culling culling, int jobs) {
-  CorpusRow row = row_of("curated cases", properties::name_of(culling));
+JudgedSource check_facts(const std::vector<corpus::Case>& cases, Culling culling, int jobs) {
+  JudgedSource row{.input = "curated cases", .configuration = properties::name_of(culling)};
   for (const auto& c : cases) {
     const auto report = properties::check_case(c, culling, jobs);
     ++row.cases;
@@ -81,77 +76,99 @@ properties::WorkerLimits limits_of(const properties::CampaignRequest& request) {
 // may take long, and nothing is certified any more.
 constexpr int most_hung_cases = 3;
 
-// Runs cases through the worker, and makes a row for each configuration.
-class JudgedRows {
+constexpr const char* row_format = "{:<18} {:<18} {:>6} {:>6} {:>11} {:>7} {:>8}\n";
+
+// Judges one input after another, and prints what each comes to.
+class CorpusCheck {
  public:
-  // `hung` counts the cases of the corpus in which the detector hung. It goes on from those before
-  // these rows.
-  JudgedRows(const properties::CampaignRequest& request, const std::string& input,
-             const OnCorpusFailure& on_failure, int& hung, const std::string& before_id = "")
-      : request_(request),
-        on_failure_(on_failure),
-        before_id_(before_id),
-        worker_(request.worker, request.plugin, limits_of(request)),
-        hung_(hung) {
-    for (const auto& configuration : request.detector.configurations)
-      rows_.push_back(row_of(input, configuration.name));
+  CorpusCheck(const properties::CampaignRequest& request, JudgedCorpus& judged)
+      : request_(request), judged_(judged) {}
+
+  // Runs the cases of an input through a worker, and makes a row for each configuration.
+  void judge(const std::string& input, const std::vector<corpus::Case>& cases,
+             Source source = Source::corpus) {
+    properties::WorkerProcess worker(request_.worker, request_.plugin, limits_of(request_));
+    std::vector<JudgedSource> rows;
+    for (const auto& configuration : request_.detector.configurations)
+      rows.push_back({.source = source, .input = input, .configuration = configuration.name});
+    for (const auto& c : cases) {
+      // Input that has to be refused is not valid, so the detector claims nothing of it.
+      if (c.expected.answer != detector::Answer::error) judge(c, worker, rows);
+    }
+    add(std::move(rows));
   }
 
-  void add(const corpus::Case& c) {
+  // Adds the rows of an input. If all configurations came to the same, and to nothing that has to
+  // be told, they share one line.
+  void add(std::vector<JudgedSource> rows) {
+    judged_.rows.insert(judged_.rows.end(), rows.begin(), rows.end());
+    const auto counts = [](const JudgedSource& row) {
+      return std::tuple(row.cases, row.steps, row.collisions, row.pairs, row.defects,
+                        row.open.size() + row.failed.size());
+    };
+    const bool share_one =
+        rows.size() > 1 && rows.front().open.empty() && rows.front().failed.empty() &&
+        std::ranges::all_of(rows, [&](const auto& row) { return counts(row) == counts(rows[0]); });
+    if (share_one) {
+      rows.front().configuration = fmt::format("each of {}", rows.size());
+      rows.resize(1);
+    }
+    for (const auto& row : rows) {
+      fmt::print(row_format, row.input, row.configuration, row.cases, row.steps, row.collisions,
+                 row.pairs, row.defects);
+      for (const auto* list : {&row.open, &row.failed}) {
+        for (const auto& one : *list) fmt::print("  {}: {}\n", one.id, one.what);
+      }
+    }
+    std::fflush(stdout);
+  }
+
+ private:
+  void judge(const corpus::Case& c, properties::WorkerProcess& worker,
+             std::vector<JudgedSource>& rows) {
+    const auto source = rows.front().source;
+    const auto id = (source == Source::own ? "own/" : "") + c.id;
     const auto seen = properties::contracted(c, request_.detector.contract);
-    for (auto& row : rows_) ++(seen ? row.cases : row.left_out);
+    for (auto& row : rows) ++(seen ? row.cases : row.left_out);
     if (!seen) return;  // the case is beyond the contract
     if (hung_ >= most_hung_cases) {
-      for (auto& row : rows_)
-        row.open.push_back(
-            {before_id_ + c.id, "", fmt::format("not run: it hung in {} cases before", hung_)});
+      for (auto& row : rows)
+        row.open.push_back({id, "", fmt::format("not run: it hung in {} cases before", hung_)});
       return;
     }
     const auto& configurations = request_.detector.configurations;
     const auto examined = properties::examine({.detector = request_.detector,
                                                .configurations = configurations,
-                                               .worker = &worker_,
+                                               .worker = &worker,
                                                .oracle_jobs = request_.jobs,
                                                .needs_an_answer = true},
                                               *seen);
     hung_ += std::any_of(examined.runs.begin(), examined.runs.end(),
                          [](const auto& run) { return run.end == properties::RunEnd::hung; });
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      for (const auto& step : examined.truth) count(rows_[i], step);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      for (const auto& step : examined.truth) count(rows[i], step);
       const auto& verdict = examined.trials[i];
       if (!verdict.steps.empty() && verdict.outcome != Outcome::refused)
-        count_extremes(rows_[i], *seen, examined.truth,
+        count_extremes(rows[i], *seen, examined.truth,
                        properties::has_judged_contact(verdict.steps));
       if (verdict.outcome == Outcome::holds || verdict.outcome == Outcome::refused) continue;
-      const auto& failure = verdict.failure;
-      rows_[i].defects += failure ? 1 : 0;
-      if (!failure) {
-        rows_[i].open.push_back(
-            {before_id_ + c.id, "", "no verdict: " + examined.runs[i].explanation});
-      } else {
-        rows_[i].failed.push_back({before_id_ + c.id, failure->signature(), failure->explanation});
-        on_failure_({std::string(properties::corpus_in_id) + before_id_ + c.id,
-                     configurations[i].name,
-                     failure->signature(),
-                     failure->explanation,
-                     corpus::case_text(*seen),
-                     {},
-                     false,
-                     examined.runs[i].printed});
+      if (!verdict.failure) {
+        rows[i].open.push_back({id, "", "no verdict: " + examined.runs[i].explanation});
+        continue;
       }
+      ++rows[i].defects;
+      auto& failure = judged_.failures.emplace_back(
+          properties::stored_failure(source, *seen, configurations[i], request_.detector,
+                                     *verdict.failure, false, examined.runs[i].printed));
+      failure.case_id = id;
+      failure.mesh = corpus::case_text(*seen);
+      rows[i].failed.push_back({id, failure.signature(), failure.explanation});
     }
   }
-  void tell(const OnCorpusRow& on_row) const {
-    for (const auto& row : rows_) on_row(row);
-  }
 
- private:
   const properties::CampaignRequest& request_;
-  const OnCorpusFailure& on_failure_;
-  const std::string before_id_;
-  properties::WorkerProcess worker_;
-  int& hung_;
-  std::vector<CorpusRow> rows_;
+  JudgedCorpus& judged_;
+  int hung_ = 0;  // cases in which the detector hung
 };
 
 // Makes a scene small enough to be judged in a few seconds, in as many frames as the scene needs.
@@ -166,25 +183,45 @@ corpus::Expected<corpus::Case> case_of_scene(const corpus::SceneInfo& scene) {
   return c;
 }
 
-// Checks the named queries of the self-test, and those of the corpus.
-Expected<void> check_queries(const properties::CampaignRequest& request,
-                             const std::filesystem::path& corpus, const OnCorpusRow& on_row,
-                             const OnCorpusFailure& on_failure) {
-  int hung = 0;
-  JudgedRows named(request, "named queries", on_failure, hung);
-  std::uint64_t place = 0;
-  for (const auto& one : properties::rung_cases())
-    named.add(properties::case_of_query(one.query, fmt::format("named-query-{}", place++)));
-  named.tell(on_row);
+// Judges the named queries of the self-test, and those of the corpus.
+Expected<void> judge_queries(const std::filesystem::path& corpus, CorpusCheck check) {
+  std::vector<corpus::Case> cases;
+  const auto take = [&](const auto& list, const char* name) {
+    cases.clear();
+    for (const auto& one : list)
+      cases.push_back(
+          properties::case_of_query(one.query, fmt::format("{}-{}", name, cases.size())));
+  };
+  take(properties::rung_cases(), "named-query");
+  check.judge("named queries", cases);
   const auto file = corpus / ".." / "queries" / "example_vf.csv";
   BOOST_OUTCOME_TRY(queries, corpus::read_queries(file));
-  JudgedRows labelled(request, file.filename().string(), on_failure, hung);
-  place = 0;
-  for (const auto& one : queries) {
-    labelled.add(properties::case_of_query(one.query, fmt::format("example-vf-{}", place++)));
-  }
-  labelled.tell(on_row);
+  take(queries, "example-vf");
+  check.judge(file.filename().string(), cases);
   return outcome::success();
+}
+
+Expected<void> judge_shipped(const properties::CampaignRequest& request,
+                             const std::filesystem::path& corpus, JudgedCorpus& judged) {
+  if (request.detector.of_queries) return judge_queries(corpus, {request, judged});
+  BOOST_OUTCOME_TRY(files, corpus::case_files(corpus));
+  BOOST_OUTCOME_TRY(cases, read_cases(files));
+  CorpusCheck check(request, judged);
+  if (request.detector.built_in) {
+    std::vector<JudgedSource> rows;
+    for (const auto culling : all_values<Culling>) {
+      if (culling != Culling::none) rows.push_back(check_facts(cases, culling, request.jobs));
+    }
+    check.add(std::move(rows));
+  } else {
+    check.judge("curated cases", cases);
+  }
+  for (const auto& scene : corpus::scenes()) {
+    BOOST_OUTCOME_TRY(c, case_of_scene(scene));
+    check.judge(std::string(scene.name), {c});
+  }
+  if (request.detector.query_claims == properties::Claims()) return outcome::success();
+  return judge_queries(corpus, {request, judged});
 }
 
 using detector::Arithmetic;
@@ -217,78 +254,18 @@ SpeedFigure figure_of(std::string_view name, const corpus::Sequence& step, const
 
 }  // namespace
 
-Expected<void> check_corpus(const properties::CampaignRequest& request,
-                            const std::filesystem::path& corpus, const OnCorpusRow& on_row,
-                            const OnCorpusFailure& on_failure) {
-  if (request.detector.of_queries) return check_queries(request, corpus, on_row, on_failure);
-  BOOST_OUTCOME_TRY(files, corpus::case_files(corpus));
-  BOOST_OUTCOME_TRY(cases, read_cases(files));
-  int hung = 0;
-  if (request.detector.built_in) {
-    for (const auto culling : all_values<Culling>) {
-      if (culling != Culling::none) on_row(check_facts(cases, culling, request.jobs));
-    }
-  } else {
-    JudgedRows judged(request, "curated cases", on_failure, hung);
-    for (const auto& c : cases) {
-      // Input that has to be refused is not valid, so the detector claims nothing of it.
-      if (c.expected.answer != detector::Answer::error) judged.add(c);
-    }
-    judged.tell(on_row);
+Expected<JudgedCorpus> judge_corpus(const properties::CampaignRequest& request,
+                                    const std::filesystem::path& shipped) {
+  JudgedCorpus judged;
+  fmt::print(row_format, "input", "configuration", "cases", "steps", "collisions", "pairs",
+             "defects");
+  if (!shipped.empty()) {
+    BOOST_OUTCOME_TRY(judge_shipped(request, shipped, judged));
   }
-  for (const auto& scene : corpus::scenes()) {
-    BOOST_OUTCOME_TRY(c, case_of_scene(scene));
-    JudgedRows judged(request, std::string(scene.name), on_failure, hung);
-    judged.add(c);
-    judged.tell(on_row);
-  }
-  if (request.detector.query_claims == properties::Claims()) return outcome::success();
-  return check_queries(request, corpus, on_row, on_failure);
-}
-
-void check_own_cases(const properties::CampaignRequest& request, const OnCorpusRow& on_row,
-                     const OnCorpusFailure& on_failure) {
-  if (!request.own_cases) return;
-  int hung = 0;
-  JudgedRows judged(request, properties::own_cases_input, on_failure, hung,
-                    properties::own_cases_in_id);
-  for (const auto& c : request.own_cases->cases) {
-    if (c.expected.answer != detector::Answer::error) judged.add(c);
-  }
-  judged.tell(on_row);
-}
-
-CorpusTable::CorpusTable() {
-  fmt::print("{:<18} {:<18} {:>6} {:>6} {:>11} {:>7} {:>8}\n", "input", "configuration", "cases",
-             "steps", "collisions", "pairs", "defects");
-}
-
-void CorpusTable::add(const CorpusRow& row) {
-  if (!rows_.empty() && rows_.front().input != row.input) end();
-  rows_.push_back(row);
-}
-
-void CorpusTable::end() {
-  const auto counts = [](const CorpusRow& row) {
-    return std::tuple(row.cases, row.steps, row.collisions, row.pairs, row.defects,
-                      row.open.size() + row.failed.size());
-  };
-  const bool share_one =
-      rows_.size() > 1 && rows_.front().open.empty() && rows_.front().failed.empty() &&
-      std::all_of(rows_.begin(), rows_.end(),
-                  [&](const auto& row) { return counts(row) == counts(rows_.front()); });
-  if (share_one) {
-    rows_.front().configuration = fmt::format("each of {}", rows_.size());
-    rows_.resize(1);
-  }
-  for (const auto& row : rows_) {
-    fmt::print("{:<18} {:<18} {:>6} {:>6} {:>11} {:>7} {:>8}\n", row.input, row.configuration,
-               row.cases, row.steps, row.collisions, row.pairs, row.defects);
-    for (const auto& open : row.open) fmt::print("  {}: {}\n", open.id, open.what);
-    for (const auto& failed : row.failed) fmt::print("  {}: {}\n", failed.id, failed.what);
-  }
-  std::fflush(stdout);
-  rows_.clear();
+  if (request.own_cases)
+    CorpusCheck(request, judged).judge(name_of(Source::own), request.own_cases->cases, Source::own);
+  fmt::print("\n");
+  return judged;
 }
 
 void measure_speed(const OnSpeedFigure& on_figure) {

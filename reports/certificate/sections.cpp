@@ -1,9 +1,12 @@
-#include "reports/certificate/sections.h"
+#include <fmt/format.h>
 
-#include <set>
+#include <algorithm>
+#include <initializer_list>
+#include <nlohmann/json.hpp>
 
 #include "corpus/cases/case_file.h"
 #include "corpus/digest.h"
+#include "corpus/json_fields.h"
 #include "properties/campaign/gates/failure_groups.h"
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/gates/not_judged.h"
@@ -16,14 +19,32 @@
 #include "properties/reducer/mesh_size.h"
 #include "properties/worker/plugin/query_case.h"
 #include "reports/campaign/failure_text.h"
+#include "reports/certificate/statement.h"
 #include "reports/steps/measures_text.h"
+#include "reports/terminal/words.h"
 
 namespace assay::reports {
+
+// Each function renders a part of the findings or gates: a part of a certificate's predicate
+// (schema assay-certificate/7, reports/certificate/README.md).
 
 namespace {
 
 using Json = nlohmann::ordered_json;
 using properties::RunFindings;
+using properties::Source;
+
+template <class List, class Make>
+Json each(const List& list, const Make& make) {
+  Json rows = Json::array();
+  for (const auto& one : list) rows.push_back(make(one));
+  return rows;
+}
+
+template <class T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
 
 Json bounds_json(const RunFindings& findings, const properties::StratumPlan& stratum) {
   Json list = Json::array();
@@ -45,30 +66,10 @@ Json bounds_json(const RunFindings& findings, const properties::StratumPlan& str
 
 // A row [from, to, count] for each power of two, and [0, 0, count] for those that are 0.
 Json histogram(const std::map<int, std::uint64_t>& counts) {
-  Json list = Json::array();
-  for (const auto& [log2, count] : counts) {
-    const std::uint64_t lo = log2 < 0 ? 0 : std::uint64_t{1} << log2;
-    list.push_back({lo, log2 < 0 ? 0 : 2 * lo - 1, count});
-  }
-  return list;
-}
-
-Json distributions_json(const properties::Tally& tally) {
-  Json list = Json::array();
-  for (const auto& [family, stratum] : tally.strata) {
-    list.push_back({{"family", family},
-                    {"triangles", histogram(stratum.sizes)},
-                    {"pairs", histogram(stratum.contacts)}});
-  }
-  return list;
-}
-
-Json set_pairs_json(const properties::TrialCounts& counts) {
-  Json list = Json::array();
-  for (const auto& [sets, count] : counts.set_pairs)
-    list.push_back(
-        {{"sets", sets}, {"contacts", count.contacts}, {"first_contacts", count.first_contacts}});
-  return list;
+  return each(counts, [](const auto& one) -> Json {
+    const std::uint64_t lo = one.first < 0 ? 0 : std::uint64_t{1} << one.first;
+    return {lo, one.first < 0 ? 0 : 2 * lo - 1, one.second};
+  });
 }
 
 // What the row of a piece of evidence says of it, under the keys of
@@ -80,11 +81,16 @@ Json facts_of(const T& evidence) {
   return facts;
 }
 
-template <class T>
-Json facts_of_each(const std::vector<T>& list) {
-  Json rows;  // null if there is none
-  for (const auto& row : list) rows.push_back(facts_of(row));
-  return rows;
+// These facts of each input of a source; null if there is none.
+Json inputs_json(const RunFindings& findings, Source source,
+                 std::initializer_list<const char*> names) {
+  Json inputs;
+  for (const auto& row : findings.evidence.rows_of(source)) {
+    const auto facts = facts_of(row);
+    Json& input = inputs.emplace_back();
+    for (const char* name : names) input[name] = facts[name];
+  }
+  return inputs;
 }
 
 template <class T>
@@ -94,44 +100,28 @@ Json named(const char* key, const std::string& name, const T& evidence) {
   return json;
 }
 
-Json number_or_null(const std::optional<std::uint64_t>& number) {
-  return number ? Json(*number) : Json(nullptr);
+Json canary_json(const properties::Canary& canary) {
+  return {{"fault", canary.fault}, {"found_after", or_null(canary.found_after)}};
 }
 
-Json canaries_json(const RunFindings& findings) {
-  Json list = Json::array();
-  for (const auto& canary : findings.evidence.canaries)
-    list.push_back({{"fault", canary.fault}, {"found_after", number_or_null(canary.found_after)}});
-  return list;
+Json fault_json(const properties::FaultProof& proof) {
+  Json fault = named("fault", proof.fault, proof);
+  const auto* registered = properties::find_fault(proof.fault);
+  fault["about"] = registered ? Json(registered->about) : Json(nullptr);
+  fault["found"] = proof.found();
+  fault["found_at_random"] = proof.found_at_random();
+  fault["median_cases"] = or_null(proof.median());
+  return fault;
 }
 
-Json faults_json(const RunFindings& findings) {
-  Json list = Json::array();
-  for (const auto& proof : findings.evidence.faults) {
-    Json fault = named("fault", proof.fault, proof);
-    const auto* registered = properties::find_fault(proof.fault);
-    fault["about"] = registered ? Json(registered->about) : Json(nullptr);
-    fault["found"] = proof.found();
-    fault["found_at_random"] = proof.found_at_random();
-    fault["median_cases"] = number_or_null(proof.median());
-    list.push_back(std::move(fault));
-  }
-  return list;
-}
-
-Json worlds_json(const RunFindings& findings) {
-  Json list = Json::array();
-  for (const auto& world : findings.evidence.worlds) {
-    // If the time ended a world, the numbers of classes and motions stand among the times only.
-    const bool is_settled = world.complete || world.counterexample;
-    list.push_back(
-        {{"world", world.world},
-         {"complete", world.complete},
-         {"classes", is_settled ? Json(world.classes) : Json(nullptr)},
-         {"motions", is_settled ? Json(world.motions) : Json(nullptr)},
-         {"counterexample", world.counterexample ? Json(*world.counterexample) : Json(nullptr)}});
-  }
-  return list;
+Json world_json(const properties::World& world) {
+  // If the time ended a world, the numbers of classes and motions stand among the times only.
+  const bool is_settled = world.complete || world.counterexample;
+  return {{"world", world.world},
+          {"complete", world.complete},
+          {"classes", is_settled ? Json(world.classes) : Json(nullptr)},
+          {"motions", is_settled ? Json(world.motions) : Json(nullptr)},
+          {"counterexample", or_null(world.counterexample)}};
 }
 
 Json size_json(const std::string& text) {
@@ -143,30 +133,35 @@ Json size_json(const std::string& text) {
   return json;
 }
 
-}  // namespace
-
+// What the cases were: sizes, contacts by view sets, tags.
 Json cases_json(const RunFindings& findings) {
-  Json tags = Json::object();
-  for (const auto& [tag, count] : findings.tally.counts.tags) tags[tag] = count;
-  return {{"distributions", distributions_json(findings.tally)},
-          {"set_pairs", set_pairs_json(findings.tally.counts)},
-          {"tags", std::move(tags)}};
+  const auto& [strata, counts] = std::tie(findings.tally.strata, findings.tally.counts);
+  const auto distribution = [](const auto& of) -> Json {
+    return {{"family", of.first},
+            {"triangles", histogram(of.second.sizes)},
+            {"pairs", histogram(of.second.contacts)}};
+  };
+  const auto set_pair = [](const auto& of) -> Json {
+    return {{"sets", of.first},
+            {"contacts", of.second.contacts},
+            {"first_contacts", of.second.first_contacts}};
+  };
+  return {{"distributions", each(strata, distribution)},
+          {"set_pairs", each(counts.set_pairs, set_pair)},
+          {"tags", counts.tags}};
 }
 
+// One {gate, asks, state, verdict, exit_code, reasons} for each gate, in their order.
 Json gates_json(const properties::Judgement& judgement) {
-  Json list = Json::array();
-  for (const auto& result : judgement.gates) {
+  return each(judgement.gates, [](const auto& result) -> Json {
     const auto& rule = properties::rule_of(result.gate);
-    list.push_back({{"gate", rule.name},
-                    {"asks", rule.asks},
-                    {"state", name_of(result.state)},
-                    {"verdict", rule.verdict},
-                    {"exit_code", rule.exit_code},
-                    {"reasons", result.reasons}});
-  }
-  return list;
+    return {
+        {"gate", rule.name},       {"asks", rule.asks},           {"state", name_of(result.state)},
+        {"verdict", rule.verdict}, {"exit_code", rule.exit_code}, {"reasons", result.reasons}};
+  });
 }
 
+// How many bounds hold together, the risk of each, and what they speak of.
 Json confidence_json(const RunFindings& findings) {
   return {{"family", properties::family_confidence},
           {"bounds", number_of_bounds(findings.run)},
@@ -179,6 +174,8 @@ Json confidence_json(const RunFindings& findings) {
            "on which a claim does not hold"}};
 }
 
+// One object for each stratum: planned, trials, discards, distinct cases, steps, and one bound for
+// each configuration.
 Json strata_json(const RunFindings& findings) {
   Json list = Json::array();
   for (const auto& stratum : findings.run.plan.strata) {
@@ -204,6 +201,8 @@ Json strata_json(const RunFindings& findings) {
   return list;
 }
 
+// One object for each law: how often its premise held, how often it was close, and how often it
+// was broken; null for a plug-in.
 Json laws_json(const RunFindings& findings) {
   const auto& plan = findings.run.plan;
   const bool built_in = findings.run.detector.built_in;
@@ -211,14 +210,13 @@ Json laws_json(const RunFindings& findings) {
   if (plan.laws_every == 0 || plan.strata.empty() || laws.empty()) return nullptr;
   Json list = Json::array();
   for (const auto& [law, tally] : laws) {
-    Json by_culling = Json::array();
-    for (const auto& [culling, premise] : properties::premises_by_culling(tally, *law)) {
-      by_culling.push_back({{"culling", culling}, {"premises", premise}});
-    }
+    const auto premise = [](const auto& one) -> Json {
+      return {{"culling", one.first}, {"premises", one.second}};
+    };
     list.push_back({{"law", law->name},
                     {"number", law->number},
                     {"premises", tally.premise},
-                    {"by_culling", std::move(by_culling)},
+                    {"by_culling", each(properties::premises_by_culling(tally, *law), premise)},
                     {"close", tally.close},
                     {"broken", tally.broken},
                     {"differs", tally.differs}});
@@ -227,115 +225,129 @@ Json laws_json(const RunFindings& findings) {
           {"laws", std::move(list)}};
 }
 
+// One {claim, reason} for each claim of which the verdict says nothing.
 Json not_judged_json(const RunFindings& findings) {
-  Json list = Json::array();
-  for (const auto& [claim, reason] : properties::not_judged(findings))
-    list.push_back({{"claim", claim}, {"reason", reason}});
-  return list;
+  return each(properties::not_judged(findings), [](const auto& one) -> Json {
+    return {{"claim", one.claim}, {"reason", one.reason}};
+  });
 }
 
+// One {claim, triangles} for each claim that was judged: the size of the largest mesh that tried
+// it.
 Json judged_up_to_json(const RunFindings& findings) {
-  Json list = Json::array();
-  for (const auto& [claim, triangles] : properties::judged_sizes(findings))
-    list.push_back({{"claim", claim}, {"triangles", triangles}});
-  return list;
+  return each(properties::judged_sizes(findings), [](const auto& one) -> Json {
+    return {{"claim", one.claim}, {"triangles", one.triangles}};
+  });
 }
 
+// The largest of each extreme that was tried, and how many trials have a relation; null for a run
+// of queries alone.
 Json tried_json(const RunFindings& findings) {
   if (properties::asks_queries_alone(findings.run.plan)) return nullptr;
   return {{"largest", properties::json_of_fields<Json>(properties::largest_tried(findings))},
           {"relations", findings.tally.counts.measures.relation_trials}};
 }
 
+// The canaries, the planted faults and the proved worlds.
 Json power_json(const RunFindings& findings) {
   const auto& taken = findings.evidence.power;
-  return {{"canaries", canaries_json(findings)},
+  return {{"canaries", each(findings.evidence.canaries, canary_json)},
           {"taken_from", taken.empty() ? Json(nullptr) : facts_of(taken.front())},
           {"planted", findings.planted()},
           {"found", findings.found()},
           {"found_at_random", findings.found_at_random()},
           {"found_by_curated_case_alone", findings.found() - findings.found_at_random()},
-          {"faults", faults_json(findings)},
-          {"worlds", worlds_json(findings)}};
+          {"faults", each(findings.evidence.faults, fault_json)},
+          {"worlds", each(findings.evidence.worlds, world_json)}};
 }
 
+// Null if no self-test was run.
 Json self_test_json(const RunFindings& findings) {
-  if (findings.evidence.self_test.empty()) return nullptr;
-  Json families = Json::array();
-  std::uint64_t queries = 0, contradictions = 0;
-  bool complete = true;
-  for (const auto& row : findings.evidence.self_test) {
-    queries += row.queries;
-    contradictions += row.contradictions;
-    complete &= row.complete;
-    families.push_back(named("family", row.family, row));
-  }
-  return {{"queries", queries},
-          {"contradictions", contradictions},
-          {"complete", complete},
+  Json families;
+  for (const auto& row : findings.evidence.rows_of(Source::self_test))
+    families.push_back({{"family", row.input},
+                        {"complete", row.complete},
+                        {"contacts", row.collisions},
+                        {"contradictions", row.defects},
+                        {"open", row.undecided},
+                        {"queries", row.cases}});
+  if (families.is_null()) return nullptr;
+  const auto sum = findings.evidence.sum_of(Source::self_test);
+  return {{"queries", sum.cases},
+          {"contradictions", sum.defects},
+          {"complete", sum.complete},
           {"families", std::move(families)}};
 }
 
-Json corpus_json(const RunFindings& findings) { return facts_of_each(findings.evidence.corpus); }
-
-Json repeated_json(const RunFindings& findings) {
-  return facts_of_each(findings.evidence.repeated);
+Json corpus_json(const RunFindings& findings) {
+  return inputs_json(findings, Source::corpus,
+                     {"cases", "collisions", "configuration", "defects", "extremes", "failed",
+                      "input", "left_out", "open", "pairs", "steps", "triangles_in_contact"});
 }
 
+// One object for each large mesh that was put to a plug-in again and again; null if none was.
+Json repeated_json(const RunFindings& findings) {
+  return inputs_json(findings, Source::repeated,
+                     {"broken", "configuration", "extremes", "input", "judged", "runs", "steps",
+                      "threads", "triangles", "what"});
+}
+
+// How many cases the search asked, and what it found; null if the campaign has none.
 Json search_json(const RunFindings& findings) {
   const auto planned = findings.shares_of(findings.run.plan.search);
   if (planned == 0) return nullptr;
-  const auto [lanes, asked, cases, defects, open, causes] = findings.searched();
-  std::set<std::string> words;
-  for (const auto& lane : findings.evidence.search)
-    words.insert(lane.causes.begin(), lane.causes.end());
-  std::uint64_t found = 0;
-  for (const auto* failure : findings.kinds()) found += is_of_search(*failure) ? 1 : 0;
-  return {{"planned", planned}, {"lanes", lanes}, {"cases", cases},
-          {"defects", defects}, {"found", found}, {"causes", words}};
+  const auto sum = findings.evidence.sum_of(Source::search);
+  return {{"planned", planned},
+          {"lanes", findings.evidence.rows_of(Source::search).size()},
+          {"cases", sum.cases},
+          {"defects", sum.defects},
+          {"found", std::ranges::count(findings.kinds(), Source::search,
+                                       &properties::StoredFailure::source)},
+          {"causes", sum.causes}};
 }
 
+// What differs from one run to the next: times, and trials that somebody disturbed.
 Json times_json(const RunFindings& findings) {
   const auto& [issued, speed] = std::tie(findings.evidence.issued, findings.evidence.speed);
-  Json figures = Json::array(), strata = Json::array(), worlds = Json::array(),
-       files = Json::array();
-  for (const auto& figure : speed) figures.push_back(named("what", figure.name, figure));
-  for (const auto& [family, tally] : findings.tally.strata)
-    strata.push_back({{"family", family},
-                      {"oracle_us", tally.oracle_us},
-                      {"detector_us", tally.detector_us},
-                      {"disturbed", tally.disturbed}});
-  for (const auto& world : findings.evidence.worlds)
-    worlds.push_back({{"world", world.world},
-                      {"classes", world.classes},
-                      {"all", world.all},
-                      {"motions", world.motions}});
+  const bool is_issued = issued && !issued->at.empty();
+  const auto figure = [](const auto& of) { return named("what", of.name, of); };
+  const auto stratum = [](const auto& of) -> Json {
+    return {{"family", of.first},
+            {"oracle_us", of.second.oracle_us},
+            {"detector_us", of.second.detector_us},
+            {"disturbed", of.second.disturbed}};
+  };
+  const auto world = [](const auto& of) -> Json {
+    return {{"world", of.world}, {"classes", of.classes}, {"all", of.all}, {"motions", of.motions}};
+  };
   // The digests of the stores stand here, because stores hold times, and so their bytes differ
   // from run to run.
-  for (const auto& file : findings.files)
-    files.push_back({{"name", file.name}, {"sha256", file.sha256}});
-  return {{"issued", issued ? Json(issued->at) : Json(nullptr)},
-          {"seconds", issued ? Json(issued->seconds) : Json(nullptr)},
-          {"speed", std::move(figures)},
-          {"strata", std::move(strata)},
+  const auto file = [](const auto& of) -> Json {
+    return {{"name", of.name}, {"sha256", of.sha256}};
+  };
+  return {{"issued", is_issued ? Json(issued->at) : Json(nullptr)},
+          {"seconds", is_issued ? Json(issued->seconds) : Json(nullptr)},
+          {"speed", each(speed, figure)},
+          {"strata", each(findings.tally.strata, stratum)},
           {"near_the_limit", findings.tally.near_limit.size()},
-          {"worlds", std::move(worlds)},
-          {"files", std::move(files)}};
+          {"worlds", each(findings.evidence.worlds, world)},
+          {"files", each(findings.files, file)}};
 }
 
+// One object for each signature of a defect or of a broken law, with the line that replays it.
 Json failures_json(const RunFindings& findings) {
   Json list = Json::array();
   for (const auto* failure : findings.kinds()) {
     const bool is_shrunk = !failure->smallest.empty();
     const auto name = properties::failure_file(*failure, is_shrunk);
     const auto& mesh = is_shrunk ? failure->smallest : failure->mesh;
-    list.push_back({{"signature", failure->signature},
-                    {"claim", failure->signature.substr(0, failure->signature.find(':'))},
-                    {"configuration", failure->configuration},
+    list.push_back({{"signature", failure->signature()},
+                    {"claim", failure->broken()},
+                    {"configuration", failure->shown_configuration()},
                     {"met", findings.met_count(*failure)},
                     {"flaky", failure->flaky},
-                    {"what", shown_explanation(*failure)},
-                    {"case", failure->id},
+                    {"what", failure->shown_explanation()},
+                    {"case", failure->id()},
                     {"before", size_json(failure->mesh)},
                     {"after", is_shrunk ? size_json(failure->smallest) : Json(nullptr)},
                     {"file", name.generic_string()},
@@ -345,14 +357,128 @@ Json failures_json(const RunFindings& findings) {
   return list;
 }
 
+// Those signatures by groups (properties/campaign/gates/failure_groups.h).
 Json failure_groups_json(const RunFindings& findings) {
-  Json list = Json::array();
   const auto kinds = findings.kinds().size();
-  for (const auto& group : properties::failure_groups(findings))
-    list.push_back({{"what", properties::text_of(group, kinds)},
-                    {"kinds", group.kinds},
-                    {"smallest", group.smallest}});
-  return list;
+  return each(properties::failure_groups(findings), [&](const auto& group) -> Json {
+    return {{"what", properties::text_of(group, kinds)},
+            {"kinds", group.kinds},
+            {"smallest", group.smallest}};
+  });
+}
+
+// The isolation that held for everything, in every run.
+Json isolation_json(const RunFindings& findings) {
+  if (findings.run.detector.built_in) return nullptr;
+  const auto& told = findings.evidence.isolation;
+  const auto is_behind_bubblewrap = [](const properties::PluginIsolation& run) {
+    return run.got == name_of(properties::Isolation::bubblewrap);
+  };
+  return text_of(!told.empty() && std::all_of(told.begin(), told.end(), is_behind_bubblewrap)
+                     ? properties::Isolation::bubblewrap
+                     : properties::Isolation::limits);
+}
+
+Json versions_json(const RunFindings& findings) {
+  const auto& versions = findings.evidence.versions;
+  if (!versions) return nullptr;
+  return {{"assay", versions->assay},
+          {"commit", or_null(versions->commit)},
+          {"libraries", versions->libraries}};
+}
+
+Json digests_json(const RunFindings& findings, const std::string& campaign) {
+  const auto& versions = findings.evidence.versions;
+  Json json = json_of(findings.run.digests);
+  json["corpus"] = versions ? Json(versions->corpus) : Json(nullptr);
+  json["campaign"] = campaign;
+  json["rows"] = findings.rows;
+  return json;
+}
+
+std::string share_text(const properties::RunPart& part) { return fmt::format("1/{}", part.shares); }
+
+Json campaign_json(const RunFindings& findings, const properties::CampaignPlan& plan) {
+  const auto part_json = [](const auto& part) -> Json {
+    return {{"seed", part.seed}, {"share", share_text(part)}, {"rows", part.rows}};
+  };
+  return {{"name", plan.name},
+          {"seed", findings.parts.front().seed},
+          {"is_default_seed",
+           std::any_of(findings.parts.begin(), findings.parts.end(),
+                       [](const auto& part) { return part.seed == properties::default_seed; })},
+          {"plan", Json::parse(plan_text(plan))},
+          {"parts", each(findings.parts, part_json)},
+          {"is_whole", findings.is_whole()},
+          {"planted_faults", findings.run.planted_faults}};
+}
+
+Json replay_json(const RunFindings& findings) {
+  const auto& paths = findings.evidence.issued;
+  if (!paths) return Json::array();
+  std::string folders =
+      paths->own_cases.empty() ? "" : fmt::format(" --corpus {}", shell_word(paths->own_cases));
+  auto words = detector_of(findings);
+  words.library = paths->detector;
+  if (!paths->data.empty()) folders += fmt::format(" --data {}", shell_word(paths->data));
+  Json lines = Json::array();
+  for (const auto& part : findings.parts)
+    lines.push_back(fmt::format("assay {} --campaign {} --seed {}{}{} --out AGAIN{}",
+                                part.shares == 1 ? "certify" : "run --share " + share_text(part),
+                                properties::campaign_file("").string(), part.seed,
+                                detector_words(words), folders,
+                                findings.parts.size() == 1 ? "" : fmt::format("/{}", part.seed)));
+  if (findings.parts.size() > 1) lines.push_back("assay verify AGAIN/* --out AGAIN-ALL");
+  lines.push_back(fmt::format("assay verify {}", properties::certificate_file("").string()));
+  return lines;
+}
+
+// Tells paths for readers of other machines, and replaces what is not UTF-8, such as in the name of
+// a folder. The result is what will be read back from the file.
+Json for_any_reader(const RunFindings& findings, Json predicate) {
+  ToldPaths(findings).tell_in(predicate);
+  return Json::parse(corpus::json_text(predicate));
+}
+
+}  // namespace
+
+Json make_predicate(const RunFindings& findings, const properties::Judgement& judgement,
+                    const properties::CampaignPlan& plan, const std::string& campaign_digest) {
+  Json problems = Json::array();
+  for (const auto& problem : findings.evidence.problems) {
+    if (!problem.what.empty()) problems.push_back(problem.what);
+  }
+  return for_any_reader(
+      findings,
+      {{"schema", certificate_schema},
+       {"verdict", judgement.verdict},
+       {"exit_code", judgement.exit_code},
+       {"failed_gate",
+        judgement.failed ? Json(properties::rule_of(*judgement.failed).name) : Json(nullptr)},
+       {"gates", gates_json(judgement)},
+       {"detector", json_of(findings.run.detector)},
+       {"not_judged", not_judged_json(findings)},
+       {"judged_up_to", judged_up_to_json(findings)},
+       {"tried", tried_json(findings)},
+       {"left_out_families", properties::left_out_families(findings)},
+       {"isolation", isolation_json(findings)},
+       {"versions", versions_json(findings)},
+       {"campaign", campaign_json(findings, plan)},
+       {"confidence", confidence_json(findings)},
+       {"strata", strata_json(findings)},
+       {"cases", cases_json(findings)},
+       {"laws", laws_json(findings)},
+       {"power", power_json(findings)},
+       {"harness_problems", std::move(problems)},
+       {"self_test", self_test_json(findings)},
+       {"corpus", corpus_json(findings)},
+       {"repeated", repeated_json(findings)},
+       {"search", search_json(findings)},
+       {"failures", failures_json(findings)},
+       {"failure_groups", failure_groups_json(findings)},
+       {"replay", replay_json(findings)},
+       {"digests", digests_json(findings, campaign_digest)},
+       {"times", times_json(findings)}});
 }
 
 }  // namespace assay::reports

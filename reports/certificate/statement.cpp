@@ -13,12 +13,10 @@
 #include "corpus/files.h"
 #include "corpus/json_fields.h"
 #include "properties/campaign/gates/findings.h"
-#include "properties/campaign/gates/not_judged.h"
 #include "properties/campaign/ledger/run_folder.h"
 #include "reports/campaign/campaign_terminal.h"
 #include "reports/campaign/campaign_text.h"
 #include "reports/campaign/failure_text.h"
-#include "reports/certificate/sections.h"
 #include "reports/certificate/summary.h"
 #include "reports/terminal/text_file.h"
 #include "reports/terminal/words.h"
@@ -37,17 +35,13 @@ bool is_plan_of(const RunFindings& findings, const properties::CampaignPlan& pla
   return plan_text(bound) == plan_text(findings.run.plan);
 }
 
-template <class T>
-Json or_null(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-
 // The subject is the library of a plug-in. For the built-in detector it is the program that holds
 // and runs it.
 Json subject_json(const RunFindings& findings) {
   const auto& run = findings.run;
   Json digest;
-  digest["sha256"] = or_null(run.detector.built_in ? run.digests.worker : run.digests.plugin);
+  const auto& sha256 = run.detector.built_in ? run.digests.worker : run.digests.plugin;
+  digest["sha256"] = sha256 ? Json(*sha256) : Json();
   // The commit is stated for the built-in detector only, because only the owner of a plug-in knows
   // that of the plug-in. Changed files have no commit.
   constexpr std::size_t digits = 40;
@@ -55,79 +49,6 @@ Json subject_json(const RunFindings& findings) {
   if (run.detector.built_in && versions && versions->commit && versions->commit->size() == digits)
     digest["gitCommit"] = *versions->commit;
   return Json::array({{{"name", run.detector.name}, {"digest", std::move(digest)}}});
-}
-
-// The isolation that held for everything, in every run.
-Json isolation_json(const RunFindings& findings) {
-  if (findings.run.detector.built_in) return nullptr;
-  const auto& told = findings.evidence.isolation;
-  const auto is_behind_bubblewrap = [](const properties::PluginIsolation& run) {
-    return run.got == name_of(properties::Isolation::bubblewrap);
-  };
-  return text_of(!told.empty() && std::all_of(told.begin(), told.end(), is_behind_bubblewrap)
-                     ? properties::Isolation::bubblewrap
-                     : properties::Isolation::limits);
-}
-
-Json versions_json(const RunFindings& findings) {
-  const auto& versions = findings.evidence.versions;
-  if (!versions) return nullptr;
-  return {{"assay", versions->assay},
-          {"commit", or_null(versions->commit)},
-          {"libraries", versions->libraries}};
-}
-
-Json digests_json(const RunFindings& findings, const std::string& campaign) {
-  const auto& inputs = findings.evidence.inputs;
-  Json json = json_of(findings.run.digests);
-  json["corpus"] = inputs ? Json(inputs->corpus) : Json(nullptr);
-  json["campaign"] = campaign;
-  json["rows"] = findings.rows;
-  return json;
-}
-
-std::string share_text(const properties::RunPart& part) { return fmt::format("1/{}", part.shares); }
-
-Json campaign_json(const RunFindings& findings, const properties::CampaignPlan& plan) {
-  Json parts = Json::array();
-  for (const auto& part : findings.parts)
-    parts.push_back({{"seed", part.seed}, {"share", share_text(part)}, {"rows", part.rows}});
-  return {{"name", plan.name},
-          {"seed", findings.parts.front().seed},
-          {"is_default_seed",
-           std::any_of(findings.parts.begin(), findings.parts.end(),
-                       [](const auto& part) { return part.seed == properties::default_seed; })},
-          {"plan", Json::parse(plan_text(plan))},
-          {"parts", std::move(parts)},
-          {"is_whole", findings.is_whole()},
-          {"planted_faults", findings.run.planted_faults}};
-}
-
-Json replay_json(const RunFindings& findings) {
-  const auto& paths = findings.evidence.paths;
-  if (!paths) return Json::array();
-  std::string folders =
-      paths->own_cases.empty() ? "" : fmt::format(" --corpus {}", shell_word(paths->own_cases));
-  auto words = detector_of(findings);
-  words.library = paths->detector;
-  if (!paths->data.empty()) folders += fmt::format(" --data {}", shell_word(paths->data));
-  Json lines = Json::array();
-  for (const auto& part : findings.parts)
-    lines.push_back(fmt::format("assay {} --campaign {} --seed {}{}{} --out AGAIN{}",
-                                part.shares == 1 ? "certify" : "run --share " + share_text(part),
-                                properties::campaign_file("").string(), part.seed,
-                                detector_words(words), folders,
-                                findings.parts.size() == 1 ? "" : fmt::format("/{}", part.seed)));
-  if (findings.parts.size() > 1) lines.push_back("assay verify AGAIN/* --out AGAIN-ALL");
-  lines.push_back(fmt::format("assay verify {}", properties::certificate_file("").string()));
-  return lines;
-}
-
-// Tells paths for readers of other machines, and replaces what is not UTF-8, such as in the name of
-// a folder. The result is what will be read back from the file.
-Json for_any_reader(const RunFindings& findings, Json predicate) {
-  ToldPaths(findings).tell_in(predicate);
-  return Json::parse(corpus::json_text(predicate));
 }
 
 void replace_all(std::string& text, const std::string& what, const std::string& by) {
@@ -173,45 +94,6 @@ Expected<properties::RunFindings> copied(const Copies& copies, const std::filesy
 
 }  // namespace
 
-Json make_predicate(const RunFindings& findings, const properties::Judgement& judgement,
-                    const properties::CampaignPlan& plan, const std::string& campaign_digest) {
-  Json problems = Json::array();
-  for (const auto& problem : findings.evidence.problems) {
-    if (!problem.what.empty()) problems.push_back(problem.what);
-  }
-  return for_any_reader(
-      findings,
-      {{"schema", certificate_schema},
-       {"verdict", judgement.verdict},
-       {"exit_code", judgement.exit_code},
-       {"failed_gate",
-        judgement.failed ? Json(properties::rule_of(*judgement.failed).name) : Json(nullptr)},
-       {"gates", gates_json(judgement)},
-       {"detector", json_of(findings.run.detector)},
-       {"not_judged", not_judged_json(findings)},
-       {"judged_up_to", judged_up_to_json(findings)},
-       {"tried", tried_json(findings)},
-       {"left_out_families", properties::left_out_families(findings)},
-       {"isolation", isolation_json(findings)},
-       {"versions", versions_json(findings)},
-       {"campaign", campaign_json(findings, plan)},
-       {"confidence", confidence_json(findings)},
-       {"strata", strata_json(findings)},
-       {"cases", cases_json(findings)},
-       {"laws", laws_json(findings)},
-       {"power", power_json(findings)},
-       {"harness_problems", std::move(problems)},
-       {"self_test", self_test_json(findings)},
-       {"corpus", corpus_json(findings)},
-       {"repeated", repeated_json(findings)},
-       {"search", search_json(findings)},
-       {"failures", failures_json(findings)},
-       {"failure_groups", failure_groups_json(findings)},
-       {"replay", replay_json(findings)},
-       {"digests", digests_json(findings, campaign_digest)},
-       {"times", times_json(findings)}});
-}
-
 properties::Expected<Json> make_statement(const std::filesystem::path& folder) {
   BOOST_OUTCOME_TRY(findings, properties::read_findings(folder));
   return make_statement(findings);
@@ -237,7 +119,7 @@ properties::Expected<Json> make_statement(const RunFindings& findings) {
 std::string statement_text(const Json& statement) { return corpus::json_text(statement, 1) + "\n"; }
 
 ToldPaths::ToldPaths(const properties::RunFindings& findings) {
-  const auto& stored = findings.evidence.paths;
+  const auto& stored = findings.evidence.issued;
   const auto folder = stored ? stored->out : findings.folder.string();
   const std::filesystem::path whole = absolute_path(std::filesystem::path(folder) / "");
   if (!folder.empty() && whole != whole.root_path()) folder_ = whole.string();
@@ -317,7 +199,8 @@ Expected<int> judge_together(const std::vector<std::string>& folders, const std:
   std::vector<properties::StoredFailure> failures;
   std::set<std::pair<std::string, std::string>> names;
   for (const auto& failure : found.failures) {
-    if (names.emplace(failure.id, failure.configuration).second) failures.push_back(failure);
+    if (names.emplace(failure.id(), failure.shown_configuration()).second)
+      failures.push_back(failure);
   }
   std::string text;
   BOOST_OUTCOME_TRY(write_failures({failures, found.times_met}, out, detector_of(found), text));

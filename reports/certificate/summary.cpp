@@ -290,9 +290,9 @@ std::string xml_of(const Suite& suite) {
 std::string met_text(const Json& failure) {
   const auto trials = count(failure["met"]);
   const auto id = failure["case"].get<std::string>();
-  return trials > 0                                   ? "met " + properties::times_text(trials)
-         : id.starts_with(properties::searched_in_id) ? "found by the search alone"
-                                                      : "met in the corpus alone";
+  return trials > 0                  ? "met " + properties::times_text(trials)
+         : id.starts_with("search/") ? "found by the search alone"
+                                     : "met in the corpus alone";
 }
 
 std::string summary_text(const Json& p, const std::string& begun) {

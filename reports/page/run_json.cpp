@@ -162,9 +162,9 @@ Json scene_json(const CaseScene& scene, const corpus::Case& stored) {
 
 Json other_json(const properties::RunFindings& run, const properties::StoredFailure& failure) {
   const auto file = properties::failure_file(failure, !failure.smallest.empty());
-  return {{"id", failure.id},
-          {"configuration", failure.configuration},
-          {"what", shown_explanation(failure)},
+  return {{"id", failure.id()},
+          {"configuration", failure.shown_configuration()},
+          {"what", failure.shown_explanation()},
           {"replay", "assay " + replay_words("", file, detector_of(run))}};
 }
 
@@ -175,14 +175,14 @@ std::string show(Json& json, SceneMaker& scenes, const properties::StoredFailure
   if (!mesh) return mesh.error().message;
   if (mesh.value().triangles.rows() > most_shown_triangles)
     return "the mesh is too large to be shown: shrink it first";
-  const auto scene = scenes.scene_of(mesh.value(), failure.configuration);
+  const auto scene = scenes.scene_of(mesh.value(), failure.shown_configuration());
   if (!scene) return "a coordinate is beyond the detector's contract";
   if (scene->failure) {
     json["stage"] = scene->failure->stage.empty() ? Json() : Json(scene->failure->stage);
     json["now"] = scene->failure->explanation;
   }
   json["scene"] = scene_json(*scene, mesh.value());
-  json["svg"] = mesh_svg(*scene, failure.signature);
+  json["svg"] = mesh_svg(*scene, failure.signature());
   return "";
 }
 
@@ -244,7 +244,7 @@ Json failure_scenes(const properties::RunFindings& findings) {
     const auto not_shown = show(json, scenes, *kind);
     if (!not_shown.empty()) json["not_shown"] = not_shown;
     for (const auto& failure : findings.failures) {
-      if (failure.signature == kind->signature && &failure != kind)
+      if (failure.signature() == kind->signature() && &failure != kind)
         json["others"].push_back(other_json(findings, failure));
     }
     list.push_back(std::move(json));

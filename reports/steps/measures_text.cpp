@@ -52,16 +52,12 @@ std::vector<std::string> pairs_left_out(const properties::Contract& contract) {
 }
 
 // Tells on what the claim `deterministic` was tried besides the trials.
-std::string repeated_text(const std::vector<properties::Repetition>& repeated) {
+std::string repeated_text(const properties::EvidenceFacts& evidence) {
+  const auto repeated = evidence.rows_of(properties::Source::repeated);
+  const auto sum = evidence.sum_of(properties::Source::repeated);
   if (repeated.empty()) return "";
-  std::uint64_t most = 0, steps = 0, differing = 0, judged = 0, wrong = 0;
   std::string lines;
   for (const auto& one : repeated) {
-    most = std::max(most, one.triangles);
-    steps += one.steps;
-    differing += one.broken ? 1 : 0;
-    judged += one.judged.size();
-    for (const auto& step : one.judged) wrong += step.holds ? 0 : 1;
     if (!one.what.empty())
       lines += fmt::format("  {} {}: {}\n", one.broken ? "DIFFERS" : "not compared", one.input,
                            one.what);
@@ -69,7 +65,9 @@ std::string repeated_text(const std::vector<properties::Repetition>& repeated) {
   return fmt::format(
       "on larger meshes: {} sequences of up to {} triangles, {} steps; {} differ from run to run; "
       "{} judged, {} wrong\n{}",
-      repeated.size(), most, steps, differing, judged, wrong, lines);
+      repeated.size(), sum.triangles, sum.steps,
+      std::ranges::count(repeated, true, &properties::JudgedSource::broken), sum.cases, sum.defects,
+      lines);
 }
 
 // How a limiter used what was possible; empty for none.
@@ -220,7 +218,7 @@ std::string measures_text(const properties::RunFindings& findings) {
         "that, "
         "these were misses\n",
         all.left_out_misses, joined(pairs_left_out(findings.run.detector.contract), ", "));
-  out += limits_text(all.errors.limits) + repeated_text(findings.evidence.repeated);
+  out += limits_text(all.errors.limits) + repeated_text(findings.evidence);
   for (const auto& [claim, reason] : properties::not_judged(findings))
     out += fmt::format("not judged: {}, for {}\n", claim, reason);
   return out;

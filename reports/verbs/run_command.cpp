@@ -47,80 +47,55 @@ class Certification {
   // Returns the exit code of the verdict, or of what kept it from being reached.
   Expected<int> run() {
     BOOST_OUTCOME_TRY(write_text_file(properties::campaign_file(out_).string(), campaign_text()));
-    store_subject();
-    BOOST_OUTCOME_TRY(run_corpus());
-    BOOST_OUTCOME_TRY(forget_corpus_failures());
-    fmt::print("\n");
+    BOOST_OUTCOME_TRY(store_subject());
+    BOOST_OUTCOME_TRY(corpus, judge_corpus(request_, corpus_ / "curated"));
+    BOOST_OUTCOME_TRY(properties::keep_corpus(store_, corpus.rows, corpus.failures,
+                                              properties::KeepMeshes::later));
     BOOST_OUTCOME_TRY(run_on_terminal(request_, store_, words_.out));
-    BOOST_OUTCOME_TRY(show_corpus_failures());
-    run_self_test();
-    if (request_.detector.built_in) run_speed();
+    BOOST_OUTCOME_TRY(show_corpus_failures(corpus.failures));
+    BOOST_OUTCOME_TRY(run_self_test());
+    if (request_.detector.built_in) {
+      BOOST_OUTCOME_TRY(run_speed());
+    }
     return issue();
   }
 
  private:
   std::string campaign_text() const { return properties::plan_text(request_.plan) + "\n"; }
 
-  void store_subject() {
+  Expected<void> store_subject() {
     const auto commit = commit_text();
-    checks_.keep(properties::Versions{
-        ASSAY_VERSION, commit.empty() ? std::nullopt : std::optional(commit), version_text()});
-    checks_.keep(properties::Paths{absolute_path(words_.out),
-                                   absolute_path(words_.detector.library),
-                                   absolute_path(words_.own_cases), absolute_path(words_.data)});
-    checks_.keep(input_digests());
-    checks_.keep(properties::asked_of_a_certificate());
+    BOOST_OUTCOME_TRY(store_.keep(to_row(
+        properties::Versions{ASSAY_VERSION, commit.empty() ? std::nullopt : std::optional(commit),
+                             version_text(), digest_of_cases()})));
+    BOOST_OUTCOME_TRY(store_.keep(to_row(issued_)));
+    return store_.keep(to_row(properties::asked_of_a_certificate()));
   }
 
   // If the owner gives cases, their digest is taken together with that of the shipped ones.
-  properties::InputDigests input_digests() const {
+  std::string digest_of_cases() const {
     const auto files = corpus::case_files(corpus_ / "curated");
     const auto cases =
         digest_of_files(files ? files.value() : std::vector<std::filesystem::path>());
-    return {request_.own_cases ? corpus::sha256_of(cases + request_.own_cases->digest) : cases};
+    return request_.own_cases ? corpus::sha256_of(cases + request_.own_cases->digest) : cases;
   }
 
-  Expected<void> run_corpus() {
-    CorpusTable table;
-    checks_.drop(properties::CorpusRow::kind);
-    const auto on_row = [&](const properties::CorpusRow& row) {
-      table.add(row);
-      checks_.keep(row);
-    };
-    const auto on_failure = [&](const auto& failure) { corpus_failures_.push_back(failure); };
-    auto done = check_corpus(request_, corpus_ / "curated", on_row, on_failure);
-    if (done) check_own_cases(request_, on_row, on_failure);
-    table.end();
-    return done;
-  }
-
-  // Removes failures of an earlier call that the corpus does not show any more.
-  Expected<void> forget_corpus_failures() {
-    std::set<std::string> signatures;
-    for (const auto& failure : corpus_failures_) signatures.insert(failure.signature);
-    checks_.keep_corpus_failures(signatures);
-    if (const auto& problem = checks_.problem()) return *problem;
-    return outcome::success();
-  }
-
-  Expected<void> show_corpus_failures() {
-    if (corpus_failures_.empty()) return outcome::success();
-    {
-      PlainProgress progress("shrinking");
-      properties::keep_corpus_failures(request_, corpus_failures_, checks_,
-                                       [&](const std::string& text) { progress.show(text); });
-    }
-    BOOST_OUTCOME_TRY(kept, checks_.corpus_failures());
+  Expected<void> show_corpus_failures(const std::vector<properties::StoredFailure>& failures) {
+    if (failures.empty()) return outcome::success();
+    PlainProgress progress("shrinking");
+    BOOST_OUTCOME_TRY(kept, properties::shrink_corpus_failures(
+                                request_, failures, store_,
+                                [&](const std::string& text) { progress.show(text); }));
+    progress.finish();
     std::string text;
     const auto written = write_failures(kept, out_, words_.detector, text);
     fmt::print("{}", text);
     return written;
   }
 
-  void run_self_test() {
-    checks_.drop(properties::SelfTestRow::kind);
+  Expected<void> run_self_test() {
     const auto queries = request_.plan.policy.self_test_queries;
-    if (queries == 0) return;
+    if (queries == 0) return outcome::success();
     properties::SelfTestOptions options;
     options.queries = queries;
     options.jobs = request_.jobs;
@@ -129,31 +104,42 @@ class Certification {
       if (family->indices(queries) == 0) continue;
       const auto result = properties::run_family(*family, options, [](std::uint64_t) {});
       const auto& tally = result.tally;
-      checks_.keep(properties::SelfTestRow{family->name(), tally.queries, tally.contacts,
-                                           tally.contradictions, tally.open, result.complete});
+      BOOST_OUTCOME_TRY(
+          store_.keep(to_row(properties::JudgedSource{.source = properties::Source::self_test,
+                                                      .input = family->name(),
+                                                      .cases = tally.queries,
+                                                      .collisions = tally.contacts,
+                                                      .defects = tally.contradictions,
+                                                      .undecided = tally.open,
+                                                      .complete = result.complete})));
       all += tally;
     }
     fmt::print("\nself-test of the oracle: {} contradictions in {} queries\n", all.contradictions,
                all.queries);
     std::fflush(stdout);
+    return outcome::success();
   }
 
-  void run_speed() {
-    checks_.drop(properties::SpeedFigure::kind);
-    checks_.drop(properties::Issued::kind);
+  Expected<void> run_speed() {
+    std::vector<properties::SpeedFigure> figures;
     fmt::print("\n{:<24} {:>9} {:>19}\n", "speed (a ratio)", "median", "interval");
     measure_speed([&](const properties::SpeedFigure& figure) {
       fmt::print("{:<24} {:>9.4f} {:>19}\n", figure.name, figure.median,
                  fmt::format("[{:.4f}, {:.4f}]", figure.lo, figure.hi));
       std::fflush(stdout);
-      checks_.keep(figure);
+      figures.push_back(figure);
     });
+    for (const auto& figure : figures) {
+      BOOST_OUTCOME_TRY(store_.keep(to_row(figure)));
+    }
+    return outcome::success();
   }
 
   Expected<int> issue() {
     const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
-    checks_.keep(properties::Issued{properties::time_in_utc(), seconds});
-    if (const auto& problem = checks_.problem()) return *problem;
+    issued_.at = properties::time_in_utc();
+    issued_.seconds = seconds;
+    BOOST_OUTCOME_TRY(store_.keep(to_row(issued_)));
     BOOST_OUTCOME_TRY(store_.seal());
     BOOST_OUTCOME_TRY(findings, properties::read_findings(out_));
     return issue_certificate(findings, campaign_text(), fmt::format(" in {:.0f} s", seconds));
@@ -164,8 +150,8 @@ class Certification {
   const std::filesystem::path out_;
   const std::filesystem::path corpus_;
   properties::Store store_;
-  properties::Checks checks_{store_};
-  std::vector<properties::StoredFailure> corpus_failures_;
+  properties::Issued issued_{absolute_path(words_.out), absolute_path(words_.detector.library),
+                             absolute_path(words_.own_cases), absolute_path(words_.data)};
   const Clock::time_point begin_;
 };
 
@@ -217,28 +203,14 @@ Expected<int> conclude(const properties::CampaignRequest& request,
   return judgement.exit_code;
 }
 
-// Runs the cases of the owner.
-Expected<void> run_own_cases(const properties::CampaignRequest& request, properties::Store& store) {
-  if (!request.own_cases) return outcome::success();
-  std::vector<properties::CorpusRow> rows;
-  std::vector<properties::StoredFailure> failures;
-  CorpusTable table;
-  check_own_cases(
-      request,
-      [&](const auto& row) {
-        table.add(row);
-        rows.push_back(row);
-      },
-      [&](const auto& failure) { failures.push_back(failure); });
-  table.end();
-  fmt::print("\n");
-  return properties::keep_own_cases(store, rows, failures);
-}
-
 // Runs what is left, and reads the whole of it.
 Expected<properties::RunFindings> run_rest(const properties::CampaignRequest& request,
                                            properties::Store& store, const std::string& out) {
-  BOOST_OUTCOME_TRY(run_own_cases(request, store));
+  if (request.own_cases) {
+    BOOST_OUTCOME_TRY(own, judge_corpus(request, ""));
+    BOOST_OUTCOME_TRY(
+        properties::keep_corpus(store, own.rows, own.failures, properties::KeepMeshes::now));
+  }
   BOOST_OUTCOME_TRY(run_on_terminal(request, store, out));
   return properties::read_findings(out);
 }

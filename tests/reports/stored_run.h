@@ -10,6 +10,7 @@
 #include "properties/worker/worker_process.h"
 #include "tests/curated_cases.h"
 #include "tests/meshes.h"
+#include "tests/properties/campaign/good_findings.h"
 #include "tests/test.h"
 
 namespace assay::tests {
@@ -77,8 +78,11 @@ struct RunToStore {
   RunToStore& fail(const corpus::Case& c, const std::string& signature,
                    const std::string& explanation) {
     const auto text = corpus::case_text(c);
-    failures.push_back({"tiny:1:broken:" + std::to_string(failures.size()), "view-point", signature,
-                        explanation, text, text});
+    auto& failure = failures.emplace_back(
+        properties::test::failure(signature, "tiny:1:broken:" + std::to_string(failures.size())));
+    failure.configuration = "view-point";
+    failure.explanation = explanation;
+    failure.mesh = failure.smallest = text;
     return *this;
   }
   RunToStore& meet_canary(std::optional<std::uint64_t> found_after) {
@@ -97,14 +101,16 @@ struct RunToStore {
     if (!begun.empty()) made->set_note("begun", begun);
     for (const auto& found : evidence) made->set(found);
     // Every defect was met as the first failure.
-    const auto signature = failures.empty() ? "all-pairs: missing" : failures[0].signature;
+    auto first = failures.empty() ? properties::test::failure("all-pairs: missing") : failures[0];
+    first.mesh.clear();
     for (const auto& trial : trials) {
-      std::vector<properties::MetFailure> met;
+      std::vector<properties::StoredFailure> met;
+      first.case_id = trial.id;
       for (std::size_t i = 0; i < trial.outcomes.size(); ++i) {
-        if (trial.outcomes[i] == 'D')
-          met.push_back({request.detector.configurations[i].name, signature});
+        first.configuration = request.detector.configurations[i].name;
+        if (trial.outcomes[i] == 'D') met.push_back(first);
       }
-      made->add(trial, {}, met);
+      made->add(trial, met);
     }
     for (const auto& failure : failures) made->add(failure);
     return folder;

@@ -148,32 +148,14 @@ std::vector<std::vector<Words>> contacts_that_hold(const RunFindings& findings, 
   return held;
 }
 
-// What a signature tells, but for a law before it: that of "free-sound: answered free at pair
-// search, edge-edge, t inside" tells of the contact "edge-edge, t inside".
-struct Told {
-  std::optional<Claim> claim;  // nothing: a law alone is broken
-  std::string kind, contact;
-};
-
-Told told_by(const std::string& signature) {
-  const auto colon = signature.find(": ");
-  if (colon == std::string::npos) return {};
-  const auto law = signature.rfind(", ", colon);
-  const auto claim = law == std::string::npos ? 0 : law + 2;
-  const auto kind = signature.substr(colon + 2);
-  const auto comma = std::min(kind.find(", "), kind.size());
-  return {from_name<Claim>(signature.substr(claim, colon - claim)), kind.substr(0, comma),
-          kind.substr(std::min(comma + 2, kind.size()))};
-}
-
 // What failures of this kind do.
 std::string deed_of(const StoredFailure& failure) {
-  const auto told = told_by(failure.signature);
+  const auto claim = from_name<Claim>(failure.claim);
   if (failure.flaky) return name_of(Deed::differs);
-  if (!told.claim) return "break a law";
+  if (!claim) return "break a law";
   // A first time is wrong in two ways.
-  const bool is_early = told.kind.starts_with("early");
-  return name_of(is_early ? Deed::reports : row_of(*told.claim).deed);
+  const bool is_early = failure.kind.starts_with("early");
+  return name_of(is_early ? Deed::reports : row_of(*claim).deed);
 }
 
 // The two triangles that the explanation names; nothing if they are none of the mesh.
@@ -196,7 +178,7 @@ std::optional<detector::TrianglePair> pair_told(const std::string& explanation,
 // What a signature leaves out is then not known: that of the built-in detector tells no cause.
 Words traits_of(const StoredFailure& failure, const Contract& contract) {
   constexpr Eigen::Index most_triangles = 1000;
-  Words words = words_in(told_by(failure.signature).contact);
+  Words words = words_in(failure.contact);
   const auto c = corpus::parse_case(failure.mesh, "stored case");
   const auto pair = c ? pair_told(failure.explanation, c.value()) : std::nullopt;
   if (!pair) return words;
@@ -357,11 +339,11 @@ std::vector<FailureGroup> groups_of_lost(const RunFindings& findings,
   LostKinds lost;
   for (const auto* kind : kinds) {
     auto& one = lost.emplace_back();
-    one.signature = kind->signature;
+    one.signature = kind->signature();
     for (const auto& failure : findings.failures) {
-      if (failure.signature != kind->signature) continue;
+      if (failure.signature() != one.signature) continue;
       one.traits &= traits_in(traits_of(failure, findings.run.detector.contract), true);
-      one.cases.insert(failure.id);
+      one.cases.insert(failure.id());
     }
   }
   std::vector<std::vector<Traits>> held;
@@ -389,14 +371,14 @@ std::vector<FailureGroup> failure_groups(const RunFindings& findings) {
     }
     auto group = std::ranges::find(groups, deed, &FailureGroup::does);
     if (group == groups.end()) group = groups.insert(group, {deed, {}, {}, ""});
-    group->kinds.push_back(kind->signature);
+    group->kinds.push_back(kind->signature());
   }
   for (auto& group : groups_of_lost(findings, lost)) groups.push_back(std::move(group));
   std::map<std::string, MeshSize> sizes;
   for (const auto* kind : kinds) {
     const auto& mesh = kind->smallest.empty() ? kind->mesh : kind->smallest;
     if (const auto c = corpus::parse_case(mesh, "stored case"))
-      sizes[kind->signature] = size_of(c.value());
+      sizes[kind->signature()] = size_of(c.value());
   }
   const auto is_smaller = [&](const std::string& a, const std::string& b) {
     return sizes.contains(a) && (!sizes.contains(b) || sizes[a] < sizes[b]);

@@ -22,8 +22,8 @@ constexpr double near_share = 1. / 3;
 
 bool is_before(const StoredFailure& a, const StoredFailure& b) {
   const auto key = [](const StoredFailure& f) {
-    return std::tuple(oddity_of(f.signature), f.signature, f.smallest.empty(), f.smallest.size(),
-                      f.id, f.configuration);
+    return std::tuple(oddity_of(f.signature()), f.signature(), f.smallest.empty(),
+                      f.smallest.size(), f.id(), f.shown_configuration());
   };
   return key(a) < key(b);
 }
@@ -34,7 +34,7 @@ class Reader {
 
   RunFindings read() {
     for (const auto& file : value_or_throw(stored_runs(found_.folder))) add(file);
-    if (found_.evidence.paths) found_.library = found_.evidence.paths->detector;
+    if (found_.evidence.issued) found_.library = found_.evidence.issued->detector;
     std::sort(found_.failures.begin(), found_.failures.end(), is_before);
     std::sort(found_.parts.begin(), found_.parts.end(),
               [](const auto& a, const auto& b) { return a.seed < b.seed; });
@@ -95,7 +95,8 @@ class Reader {
       add_row(row);
     });
     store.for_each(met_kind, [&](const Row& row) {
-      ++found_.times_met[met_signature_of(row)];
+      ++found_.times_met[text_in(row, "signature")];
+      found_.claims_broken += text_in(row, "law").empty() ? 1 : 0;
       add_row(row);
     });
     store.for_each(failure_kind, [&](const Row& row) {
@@ -184,28 +185,28 @@ const StratumTally& RunFindings::tally_of(const StratumPlan& stratum) const {
 std::vector<const StoredFailure*> RunFindings::kinds() const {
   std::vector<const StoredFailure*> list;
   for (const auto& failure : failures) {
-    if (list.empty() || list.back()->signature != failure.signature)
-      list.push_back(example_of(failure.signature));
+    if (list.empty() || list.back()->signature() != failure.signature())
+      list.push_back(example_of(failure.signature()));
   }
   std::stable_sort(list.begin(), list.end(), [](const auto* a, const auto* b) {
-    return oddity_of(a->signature) < oddity_of(b->signature);
+    return oddity_of(a->signature()) < oddity_of(b->signature());
   });
   return list;
 }
 
 std::uint64_t RunFindings::met_count(const StoredFailure& failure) const {
-  const auto found = times_met.find(failure.signature);
+  const auto found = times_met.find(failure.signature());
   return found == times_met.end() ? 0 : found->second;
 }
 
 const StoredFailure* RunFindings::example_of(const std::string& signature) const {
   // What its own case shows comes first, then what a trial or the search has met.
   const auto rank = [](const StoredFailure& failure) {
-    return std::pair(failure.flaky, failure.id.starts_with(corpus_in_id));
+    return std::pair(failure.flaky, failure.is_of_corpus());
   };
   const StoredFailure* shown = nullptr;
   for (const auto& failure : failures) {
-    if (failure.signature == signature && (!shown || rank(failure) < rank(*shown)))
+    if (failure.signature() == signature && (!shown || rank(failure) < rank(*shown)))
       shown = &failure;
   }
   return shown;
@@ -224,7 +225,8 @@ bool RunFindings::laws_are_judged() const {
 
 bool RunFindings::has_more_to_do() const {
   const auto& faults = evidence.faults;
-  return tally.trials() < planned() || searched().planned < shares_of(run.plan.search) ||
+  return tally.trials() < planned() ||
+         evidence.sum_of(Source::search).planned < shares_of(run.plan.search) ||
          std::any_of(faults.begin(), faults.end(),
                      [&](const auto& proof) { return proof.time_over; });
 }
@@ -238,21 +240,6 @@ std::uint64_t RunFindings::found() const {
 std::uint64_t RunFindings::found_at_random() const {
   return count_planted(evidence.faults,
                        [](const FaultProof& proof) { return proof.found_at_random(); });
-}
-
-RunFindings::SearchCount RunFindings::searched() const {
-  SearchCount count;
-  std::set<std::string> causes;
-  for (const auto& lane : evidence.search) {
-    ++count.lanes;
-    count.planned += lane.planned;
-    count.cases += lane.cases;
-    count.defects += lane.defects;
-    count.open += lane.open;
-    causes.insert(lane.causes.begin(), lane.causes.end());
-  }
-  count.causes = causes.size();
-  return count;
 }
 
 std::vector<BoundDetector::Configuration> configurations_in(const BoundDetector& detector,

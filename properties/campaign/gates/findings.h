@@ -33,7 +33,8 @@ struct RunFindings {
   std::vector<StoreFile> files;  // by name
   std::vector<RunPart> parts;    // by seed; one of a run that is judged by itself
   Tally tally;
-  Counts times_met;  // how often each signature of a failure was met
+  Counts times_met;                 // how often each signature of a failure was met
+  std::uint64_t claims_broken = 0;  // how often one was met that breaks no law
   // Ordered by signature; within one signature the shrunk ones first, then the shorter, then by
   // id.
   std::vector<StoredFailure> failures;
@@ -76,13 +77,6 @@ struct RunFindings {
   // How many planted faults were tried, how many were found, and how many of these by random cases.
   // The others were found by their curated case alone.
   std::uint64_t planted() const, found() const, found_at_random() const;
-  // How many cases the search asked, with a defect, without a verdict, and how many causes its
-  // archives hold together.
-  // `planned`: how many cases its lanes were to ask.
-  struct SearchCount {
-    std::uint64_t lanes = 0, planned = 0, cases = 0, defects = 0, open = 0, causes = 0;
-  };
-  SearchCount searched() const;
 };
 
 // Reads the stores of a folder into findings. This is done here and nowhere else.

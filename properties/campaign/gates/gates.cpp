@@ -47,14 +47,13 @@ void check_power(const RunFindings& f, Lines& lines) {
 
 // Checks that every defect of a trial was stored as a failure.
 void check_tallies(const RunFindings& f, Lines& lines) {
-  std::uint64_t defects = 0, met = 0;
+  std::uint64_t defects = 0;
   for (const auto& [family, stratum] : f.tally.strata) {
     for (const auto& outcomes : stratum.by_configuration) defects += outcomes.defects;
   }
-  for (const auto& [signature, count] : f.times_met)
-    met += signature.starts_with(law_in_signature) ? 0 : count;
-  if (defects != met)
-    lines.push_back(fmt::format("{} defects in the trials, {} failures are stored", defects, met));
+  if (defects != f.claims_broken)
+    lines.push_back(
+        fmt::format("{} defects in the trials, {} failures are stored", defects, f.claims_broken));
 }
 
 void check_faults(const RunFindings& f, Lines& lines) {
@@ -115,9 +114,9 @@ void check_repetitions(const RunFindings& f, Lines& lines) {
   if (!configurations.empty() && claims_named(configurations[0].claims).has_any(claims_on_limits)) {
     for (const auto kind : all_values<WalkKind>) wanted.push_back(name_of_walk(kind));
   }
-  const auto done = std::count_if(wanted.begin(), wanted.end(), [&](const std::string& name) {
-    return std::any_of(f.evidence.repeated.begin(), f.evidence.repeated.end(),
-                       [&](const Repetition& one) { return one.input == name; });
+  const auto rows = f.evidence.rows_of(Source::repeated);
+  const auto done = std::ranges::count_if(wanted, [&](const std::string& name) {
+    return std::ranges::find(rows, name, &JudgedSource::input) != rows.end();
   });
   if (static_cast<std::size_t>(done) < wanted.size())
     lines.push_back(fmt::format("{} of {} scenes were repeated", done, wanted.size()));
@@ -126,12 +125,14 @@ void check_repetitions(const RunFindings& f, Lines& lines) {
 // Checks that the search asked all of its cases.
 void check_search(const RunFindings& f, Lines& lines) {
   const auto planned = f.shares_of(f.run.plan.search);
-  const auto [lanes, done, cases, defects, open, causes] = f.searched();
-  if (done < planned)
-    lines.push_back(fmt::format("the search came to lanes of {} of {} cases", done, planned));
-  if (planned > 0 && done == planned && cases == 0)
+  const auto done = f.evidence.sum_of(Source::search);
+  if (done.planned < planned)
+    lines.push_back(
+        fmt::format("the search came to lanes of {} of {} cases", done.planned, planned));
+  if (planned > 0 && done.planned == planned && done.cases == 0)
     lines.push_back("the contract takes no case of the search");
-  if (open > 0) lines.push_back(fmt::format("{} cases of the search have no verdict", open));
+  if (done.undecided > 0)
+    lines.push_back(fmt::format("{} cases of the search have no verdict", done.undecided));
 }
 
 GateFindings check_harness(const RunFindings& f, const Asked& asked) {
@@ -146,8 +147,7 @@ GateFindings check_harness(const RunFindings& f, const Asked& asked) {
       lines.push_back(std::move(line));
   }
   check_tallies(f, lines);
-  std::uint64_t contradictions = 0;
-  for (const auto& row : f.evidence.self_test) contradictions += row.contradictions;
+  const auto contradictions = f.evidence.sum_of(Source::self_test).defects;
   if (asked.certificate && contradictions > 0)
     lines.push_back(fmt::format("the self-test met {} contradictions", contradictions));
   if (f.evidence.canaries.empty()) found.not_judged = "no canary was met";
@@ -156,12 +156,13 @@ GateFindings check_harness(const RunFindings& f, const Asked& asked) {
 
 GateFindings check_corpus(const RunFindings& f, const Asked&) {
   GateFindings found;
-  for (const auto& row : f.evidence.corpus) {
+  const auto rows = f.evidence.rows_of(Source::corpus);
+  for (const auto& row : rows) {
     for (const auto& failed : row.failed)
       found.against.push_back(
           fmt::format("{} ({}): {}", failed.id, row.configuration, failed.what));
   }
-  if (f.evidence.corpus.empty()) found.not_judged = "the corpus was not run";
+  if (rows.empty()) found.not_judged = "the corpus was not run";
   return found;
 }
 
@@ -172,17 +173,17 @@ GateFindings check_claims(const RunFindings& f, const Asked&) {
   std::set<std::string, LeastOddFirst> signatures;
   for (const auto& [signature, count] : f.times_met) signatures.insert(signature);
   for (const auto& failure : f.failures) {
-    if (!failure.id.starts_with(corpus_in_id)) signatures.insert(failure.signature);
+    if (!failure.is_of_corpus()) signatures.insert(failure.signature());
   }
   for (const auto& signature : signatures) {
     const auto* shown = f.example_of(signature);
     const auto met = f.times_met.find(signature);
-    const bool by_search = met == f.times_met.end() && shown && is_of_search(*shown);
-    found.against.push_back(
-        fmt::format("{}, {}; {}", signature,
-                    by_search ? "found by the search"
-                              : "met " + times_text(met == f.times_met.end() ? 0 : met->second),
-                    shown ? shown->id + " (" + shown->configuration + ")" : "no mesh is stored"));
+    const bool by_search = met == f.times_met.end() && shown && shown->source == Source::search;
+    found.against.push_back(fmt::format(
+        "{}, {}; {}", signature,
+        by_search ? "found by the search"
+                  : "met " + times_text(met == f.times_met.end() ? 0 : met->second),
+        shown ? shown->id() + " (" + shown->shown_configuration() + ")" : "no mesh is stored"));
   }
   for (const auto& world : f.evidence.worlds) {
     if (world.counterexample)
@@ -209,16 +210,16 @@ GateFindings check_complete(const RunFindings& f, const Asked& asked) {
   check_faults(f, lines);
   check_repetitions(f, lines);
   check_search(f, lines);
-  for (const auto& row : f.evidence.corpus) {
+  const auto corpus = f.evidence.rows_of(Source::corpus);
+  for (const auto& row : corpus) {
     for (const auto& open : row.open)
       lines.push_back(fmt::format("{} ({}): {}", open.id, row.configuration, open.what));
   }
   if (!asked.certificate) return found;
-  if (f.evidence.corpus.empty()) lines.push_back("the corpus was not run");
-  const auto& self_test = f.evidence.self_test;
-  const bool was_cut = std::any_of(self_test.begin(), self_test.end(),
-                                   [](const auto& row) { return !row.complete; });
-  if (f.run.plan.policy.self_test_queries > 0 && (self_test.empty() || was_cut))
+  if (corpus.empty()) lines.push_back("the corpus was not run");
+  const bool was_run = !f.evidence.rows_of(Source::self_test).empty() &&
+                       f.evidence.sum_of(Source::self_test).complete;
+  if (f.run.plan.policy.self_test_queries > 0 && !was_run)
     lines.push_back("the self-test was not run to its end");
   return found;
 }
@@ -304,9 +305,7 @@ Asked asked_of_a_run() { return {{"harness", "claims", "complete", "bounds"}, fa
 
 Asked asked_of_a_run(const RunFindings& findings) {
   Asked asked = asked_of_a_run();
-  const auto& rows = findings.evidence.corpus;
-  if (std::any_of(rows.begin(), rows.end(),
-                  [](const CorpusRow& row) { return row.input == own_cases_input; }))
+  if (!findings.evidence.rows_of(Source::own).empty())
     asked.gates.emplace_back(rule_of(Gate::corpus).name);
   return asked;
 }

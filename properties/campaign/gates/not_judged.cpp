@@ -117,16 +117,10 @@ Largest largest_of(const RunFindings& findings, Claim claim) {
     grow(largest.repeated, stratum.triangles_repeated);
   }
   if (!is_claimed_in(findings, "", claim)) return largest;
-  for (const auto& row : findings.evidence.corpus) {
+  for (const auto& row : findings.evidence.sources) {
     grow(largest.judged, row.extremes.triangles);
     grow(largest.in_contact, row.triangles_in_contact);
-  }
-  for (const auto& one : findings.evidence.repeated) {
-    if (one.runs > 1) grow(largest.repeated, one.triangles);
-    for (const auto& step : one.judged) {
-      grow(largest.judged, one.triangles);
-      if (step.contacts > 0) grow(largest.in_contact, one.triangles);
-    }
+    if (row.runs > 1) grow(largest.repeated, row.triangles);
   }
   return largest;
 }
@@ -163,8 +157,7 @@ std::vector<JudgedSize> judged_sizes(const RunFindings& findings) {
 
 Extremes largest_tried(const RunFindings& findings) {
   Extremes largest = findings.tally.counts.extremes;
-  for (const auto& row : findings.evidence.corpus) largest.include(row.extremes);
-  for (const auto& one : findings.evidence.repeated) largest.include(one.extremes);
+  for (const auto& row : findings.evidence.sources) largest.include(row.extremes);
   return largest;
 }
 

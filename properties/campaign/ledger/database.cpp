@@ -112,8 +112,8 @@ using Json = nlohmann::json;
 // The kinds of rows, and their fields that may differ between two runs of one campaign.
 constexpr std::pair<std::string_view, const char*> passing_fields[] = {
     {trial_kind, "oracle_us"}, {trial_kind, "detector_us"}, {trial_kind, "slowest_us"},
-    {trial_kind, "disturbed"}, {failure_kind, "smallest"},  {failure_kind, "printed"},
-    {note_kind, "value"},
+    {trial_kind, "disturbed"}, {failure_kind, "smallest"},  {failure_kind, "smallest_explanation"},
+    {failure_kind, "printed"}, {note_kind, "value"},
 };
 
 // STRICT lets a look at the whole file see a text that became something else.

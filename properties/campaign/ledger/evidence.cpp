@@ -20,20 +20,15 @@ ASSAY_FIELDS(PowerSource, campaign, detector, seed, program, worker, generator, 
 ASSAY_FIELDS(World, world, classes, motions, all, collisions, complete, counterexample)
 ASSAY_FIELDS(PluginIsolation, asked, got)
 ASSAY_FIELDS(SlowCase, id, configuration, undecided, seconds, limit, mesh, smallest)
-ASSAY_FIELDS(Repetition::Judged, step, contacts, holds)
-ASSAY_FIELDS(Repetition, input, configuration, triangles, steps, runs, threads, what, broken,
-             judged, extremes)
-ASSAY_FIELDS(SearchedLane, lane, planned, cases, defects, open, causes)
 ASSAY_FIELDS(Asked, gates, certificate)
-ASSAY_FIELDS(Versions, assay, commit, libraries)
-ASSAY_FIELDS(Paths, out, detector, own_cases, data)
-ASSAY_FIELDS(InputDigests, corpus)
-ASSAY_FIELDS(CorpusRow::Failed, id, signature, what)
-ASSAY_FIELDS(CorpusRow, input, configuration, cases, left_out, steps, collisions, pairs, defects,
-             failed, open, extremes, triangles_in_contact)
-ASSAY_FIELDS(SelfTestRow, family, queries, contacts, contradictions, open, complete)
+ASSAY_FIELDS(Versions, assay, commit, libraries, corpus)
+ASSAY_FIELDS(JudgedSource::Failed, id, signature, what)
+ASSAY_FIELDS(JudgedSource::Step, step, contacts, holds)
+ASSAY_FIELDS(JudgedSource, source, input, configuration, planned, cases, left_out, steps,
+             collisions, pairs, defects, undecided, complete, failed, open, extremes,
+             triangles_in_contact, triangles, runs, threads, what, broken, judged, causes)
 ASSAY_FIELDS(SpeedFigure, name, median, lo, hi, samples)
-ASSAY_FIELDS(Issued, at, seconds)
+ASSAY_FIELDS(Issued, out, detector, own_cases, data, at, seconds)
 
 namespace {
 
@@ -128,8 +123,8 @@ Row to_row(const AnyEvidence& evidence) {
 
 void EvidenceFacts::take(const Row& row) {
   const auto is_taken = [&](auto&... lists) { return (takes(lists, row) || ...); };
-  if (!is_taken(canaries, problems, faults, power, worlds, asked, versions, paths, isolation, slow,
-                repeated, search, inputs, corpus, self_test, speed, issued))
+  if (!is_taken(canaries, problems, faults, power, worlds, asked, versions, isolation, slow,
+                sources, speed, issued))
     throw StoreProblem(fmt::format("no run stores {}", row_name(row)));
 }
 
@@ -157,31 +152,12 @@ void join(std::optional<T>& only, const std::optional<T>& other) {
   if (!only) only = other;
 }
 
-void join_faults(std::vector<FaultProof>& list, const std::vector<FaultProof>& more,
-                 bool are_taken_over) {
-  for (const auto& proof : more) {
-    const auto known = std::find_if(list.begin(), list.end(),
-                                    [&](const auto& other) { return other.fault == proof.fault; });
-    if (known == list.end()) {
-      list.push_back(proof);
-    } else if (!are_taken_over) {
-      known->add(proof);
-    } else if (to_row(*known) != to_row(proof)) {
-      throw StoreProblem(fmt::format("two runs took over different proofs of {}", proof.fault));
-    }
-  }
-}
-
-// A world is the same in every run: the one that came farthest counts.
-void join_worlds(std::vector<World>& list, const std::vector<World>& more) {
-  for (const auto& world : more) {
-    const auto known = std::find_if(list.begin(), list.end(),
-                                    [&](const auto& other) { return other.world == world.world; });
-    if (known == list.end()) {
-      list.push_back(world);
-    } else if (known->progress() < world.progress()) {
-      *known = world;
-    }
+// Of one key both say something: `meet` makes the first of it.
+template <class T, class Meet>
+void merge(std::vector<T>& list, const std::vector<T>& more, const Meet& meet) {
+  for (const auto& one : more) {
+    const auto known = std::ranges::find(list, one.key(), &T::key);
+    known == list.end() ? list.push_back(one) : meet(*known, one);
   }
 }
 
@@ -198,30 +174,61 @@ void EvidenceFacts::add(EvidenceFacts other) {
     power.clear();
   }
   if (!planted(*this) || other.power.empty()) {
-    join_faults(faults, other.faults, !power.empty() && !other.power.empty());
+    const bool are_taken_over = !power.empty() && !other.power.empty();
+    merge(faults, other.faults, [&](FaultProof& known, const FaultProof& proof) {
+      if (!are_taken_over) {
+        known.add(proof);
+      } else if (to_row(known) != to_row(proof)) {
+        throw StoreProblem(fmt::format("two runs took over different proofs of {}", proof.fault));
+      }
+    });
     append_new(power, other.power);
   }
   if (power.size() > 1)
     throw StoreProblem("two runs took over proofs of planted faults from different runs");
-  join_worlds(worlds, other.worlds);
-  append_new(corpus, other.corpus);
-  append_new(self_test, other.self_test);
+  // A world is the same in every run: the one that came farthest counts.
+  merge(worlds, other.worlds, [](World& known, const World& world) {
+    if (known.progress() < world.progress()) known = world;
+  });
+  for (const auto& row : other.sources) {
+    const bool has_seed = row.source == Source::repeated || row.source == Source::search;
+    has_seed ? sources.push_back(row) : append_new(sources, {row});
+  }
   append(canaries, other.canaries);
   append(problems, other.problems);
   append(isolation, other.isolation);
   append(slow, other.slow);
-  append(repeated, other.repeated);
-  append(search, other.search);
   append(speed, other.speed);
   join(asked, other.asked);
   join(versions, other.versions);
-  join(inputs, other.inputs);
-  if (!paths) paths = other.paths;
   if (!issued) {
     issued = other.issued;
   } else if (other.issued) {
-    issued = {std::max(issued->at, other.issued->at), issued->seconds + other.issued->seconds};
+    issued->at = std::max(issued->at, other.issued->at);
+    issued->seconds += other.issued->seconds;
   }
+}
+
+std::vector<JudgedSource> EvidenceFacts::rows_of(Source source) const {
+  std::vector<JudgedSource> rows;
+  for (const auto& row : sources) {
+    const bool is_part = row.source == Source::own && source == Source::corpus;
+    if (row.source == source || is_part) rows.push_back(row);
+  }
+  return rows;
+}
+
+JudgedSource EvidenceFacts::sum_of(Source source) const {
+  JudgedSource sum{.source = source};
+  for (const auto& row : rows_of(source)) {
+    for (const auto count : {&JudgedSource::planned, &JudgedSource::cases, &JudgedSource::steps,
+                             &JudgedSource::defects, &JudgedSource::undecided})
+      sum.*count += row.*count;
+    sum.triangles = std::max(sum.triangles, row.triangles);
+    sum.complete &= row.complete;
+    sum.causes.insert(row.causes.begin(), row.causes.end());
+  }
+  return sum;
 }
 
 EvidenceFacts facts_in(const Store& store) {

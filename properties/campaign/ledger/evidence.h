@@ -2,11 +2,12 @@
 // that turn it into a row of the ledger and back. Each struct states its kind; what it has of
 // key() and progress() goes into the row.
 //
-// Two runs of one campaign have equal rows, unless the kind `may_differ`: times (SpeedFigure,
-// Issued), Paths, a World, which its limit of time may end early, and a SlowCase.
+// Two runs of one campaign have equal rows, unless the kind `may_differ`: times and paths
+// (SpeedFigure, Issued), a World, which its limit of time may end early, and a SlowCase.
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -119,43 +120,11 @@ struct SlowCase {
   double limit = 0;        // the limit of a case, in seconds
   // Case files as text. `smallest` takes at least twice the limit; it is empty if no such case is
   // known.
-  std::string mesh, smallest;
+  std::string mesh, smallest{};
   std::string key() const { return id + ", " + configuration; }
   // A shrunk mesh counts as farther than none, and of two shrunk meshes the shorter counts as
   // farther.
   std::uint64_t progress() const;
-};
-
-// A large mesh that was put to a plug-in, several times where it claims to be deterministic, to try
-// its claims on more than the trials.
-struct Repetition {
-  static constexpr const char* kind = "repeated";
-  // A step that the oracle judged. `contacts`: pairs in contact that the contract does not leave
-  // out.
-  struct Judged {
-    std::uint64_t step = 0, contacts = 0;  // the step's place, from 1
-    bool holds = false;
-  };
-  std::string input, configuration;
-  std::uint64_t triangles = 0, steps = 0;
-  std::uint64_t runs = 0;              // runs that ended by themselves
-  std::vector<std::uint64_t> threads;  // how many it might use, run by run
-  std::string what;                    // how two runs differ, or one ended early
-  bool broken = false;                 // `what` breaks a claim
-  std::vector<Judged> judged{};
-  Extremes extremes{};  // of the judged steps, each with those before it
-  std::string key() const { return input + ", " + configuration; }
-};
-
-// What one lane of the search came to (phases/phases.h). Only whole lanes are stored.
-struct SearchedLane {
-  static constexpr const char* kind = "search";
-  std::string lane;           // its number, from 1, with leading zeros
-  std::uint64_t planned = 0;  // how many cases it was to ask
-  // Cases that were asked, those with a defect, and those without a verdict.
-  std::uint64_t cases = 0, defects = 0, open = 0;
-  std::vector<std::string> causes;  // of the hardest cases that its archive holds (cause.h)
-  const std::string& key() const { return lane; }
 };
 
 // What a verb asked of a run.
@@ -165,55 +134,57 @@ struct Asked {
   bool certificate = false;        // a certificate is to be issued: every gate is asked for
 };
 
-// What issued a certificate: versions of the program and of its libraries.
+// What issued a certificate: versions of the program and of its libraries, and its cases.
 struct Versions {
   static constexpr const char* kind = "versions";
   std::string assay;
   std::optional<std::string> commit;
   std::string libraries;
-};
-struct Paths {
-  static constexpr const char* kind = "paths";
-  static constexpr bool may_differ = true;
-  std::string out, detector;
-  std::string own_cases{};  // empty: none
-  std::string data{};       // folder of the public sequences; empty: none
-};
-struct InputDigests {
-  static constexpr const char* kind = "inputs";
-  std::string corpus;  // SHA-256 over names and bytes of all cases, own cases too
+  std::string corpus{};  // SHA-256 over names and bytes of all cases, own cases too
 };
 
-// The name of the input that the owner's own cases are, and what their ids begin with.
-inline constexpr const char* own_cases_input = "own cases";
-inline constexpr const char* own_cases_in_id = "own/";
-
-// What one input came to in one configuration. An input is a part of the shipped corpus, a scene,
-// or the owner's cases.
-struct CorpusRow {
-  static constexpr const char* kind = "corpus";
+// What one input came to in one configuration. The input is a part of the shipped corpus, a scene,
+// or the owner's cases; a large mesh that was put to a plug-in, several times where it claims to be
+// deterministic, to try its claims on more than the trials; a lane of the search; or a family of
+// queries of the self-test. Each says of these what it has.
+struct JudgedSource {
+  static constexpr const char* kind = "judged";
   struct Failed {
     std::string id, signature, what;
   };
+  // A step of a large mesh that the oracle judged. `contacts`: pairs in contact that the contract
+  // does not leave out.
+  struct Step {
+    std::uint64_t step = 0, contacts = 0;  // the step's place, from 1
+    bool holds = false;
+  };
+  Source source = Source::corpus;
+  // Of a lane its number, from 1, with leading zeros, and no configuration. Only whole lanes are
+  // stored.
+  std::string input{}, configuration{};
+  std::uint64_t planned = 0;  // of a lane: how many cases it was to ask
+  // Cases that were judged (of a large mesh its steps), those that break a claim or contradict the
+  // oracle, and, of a lane and of queries, those without a verdict.
+  std::uint64_t cases = 0, left_out = 0, steps = 0, collisions = 0, pairs = 0;
+  std::uint64_t defects = 0, undecided = 0;
+  bool complete = true;  // all queries of the family were asked
   // `failed` lists the cases that do not hold, `open` those without an answer, of which nothing is
   // known.
-  std::string input, configuration;
-  std::uint64_t cases = 0, left_out = 0, steps = 0, collisions = 0, pairs = 0, defects = 0;
-  std::vector<Failed> failed, open;
+  std::vector<Failed> failed{}, open{};
   // Of the cases of which a step was judged; and the largest mesh with a contact that the contract
   // does not leave out.
   Extremes extremes{};
   std::uint64_t triangles_in_contact = 0;
-  std::string key() const { return input + ", " + configuration; }
-};
+  // Of a large mesh.
+  std::uint64_t triangles = 0;
+  std::uint64_t runs = 0;                // runs that ended by themselves
+  std::vector<std::uint64_t> threads{};  // how many it might use, run by run
+  std::string what{};                    // how two runs differ, or one ended early
+  bool broken = false;                   // `what` breaks a claim
+  std::vector<Step> judged{};
+  std::set<std::string> causes{};  // of the hardest cases of a lane's archive (cause.h)
 
-// What one family of queries of the self-test came to.
-struct SelfTestRow {
-  static constexpr const char* kind = "self-test";
-  std::string family;
-  std::uint64_t queries = 0, contacts = 0, contradictions = 0, open = 0;
-  bool complete = false;
-  const std::string& key() const { return family; }
+  std::string key() const { return input + ", " + configuration + ", " + name_of(source); }
 };
 
 // A ratio of the times of two things that were run in turn.
@@ -226,11 +197,14 @@ struct SpeedFigure {
   const std::string& key() const { return name; }
 };
 
-// When a certificate was issued, and how long that took.
+// Where a certificate was issued, and when, and how long that took.
 struct Issued {
   static constexpr const char* kind = "issued";
   static constexpr bool may_differ = true;
-  std::string at;  // UTC, 2026-01-31T12:00:00Z
+  std::string out, detector{};
+  std::string own_cases{};  // empty: none
+  std::string data{};       // folder of the public sequences; empty: none
+  std::string at{};         // UTC, 2026-01-31T12:00:00Z; empty: it is not issued yet
   double seconds = 0;
 };
 
@@ -244,16 +218,15 @@ struct EvidenceFacts {
   std::vector<World> worlds;
   std::optional<Asked> asked;
   std::optional<Versions> versions;
-  std::optional<Paths> paths;
   std::vector<PluginIsolation> isolation;
   std::vector<SlowCase> slow;
-  std::vector<Repetition> repeated;
-  std::vector<SearchedLane> search;
-  std::optional<InputDigests> inputs;
-  std::vector<CorpusRow> corpus;
-  std::vector<SelfTestRow> self_test;
+  std::vector<JudgedSource> sources;
   std::vector<SpeedFigure> speed;
   std::optional<Issued> issued;
+
+  // The inputs of a source, and their sums. The owner's cases are a part of the corpus.
+  std::vector<JudgedSource> rows_of(Source source) const;
+  JudgedSource sum_of(Source source) const;
 
   // Throws StoreProblem on a row that no run stores.
   void take(const Row& row);
@@ -265,9 +238,8 @@ struct EvidenceFacts {
 EvidenceFacts facts_in(const Store& store);
 
 using AnyEvidence =
-    std::variant<Canary, HarnessProblem, FaultProof, PowerSource, World, Asked, Versions, Paths,
-                 PluginIsolation, SlowCase, Repetition, SearchedLane, InputDigests, CorpusRow,
-                 SelfTestRow, SpeedFigure, Issued>;
+    std::variant<Canary, HarnessProblem, FaultProof, PowerSource, World, Asked, Versions,
+                 PluginIsolation, SlowCase, JudgedSource, SpeedFigure, Issued>;
 Row to_row(const AnyEvidence& evidence);
 
 // Whether two runs of one campaign may differ in this row, which is one of evidence.

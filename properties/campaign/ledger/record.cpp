@@ -11,8 +11,8 @@ namespace assay::properties {
 
 ASSAY_FIELDS(LawCount, premise, close, broken, differs, by_culling)
 ASSAY_FIELDS(SetPairCount, contacts, first_contacts)
-ASSAY_FIELDS(StoredFailure, id, configuration, signature, explanation, mesh, smallest, flaky,
-             printed)
+ASSAY_FIELDS(StoredFailure, source, case_id, configuration, law, claim, kind, contact, explanation,
+             mesh, smallest, smallest_explanation, flaky, printed)
 
 // What the row of a trial keeps. Its key says the rest.
 template <class Archive>
@@ -27,6 +27,10 @@ void fields(Archive& archive, TrialRecord& x) {
 namespace {
 
 using Json = nlohmann::json;
+
+std::string key_of(const StoredFailure& failure) {
+  return failure.id() + ", " + failure.shown_configuration();
+}
 
 template <class Sums>
 void add(Sums& sums, const Sums& more) {
@@ -80,13 +84,25 @@ std::string about_text(const std::string& signature, const std::string& explanat
   return signature + "; " + explanation;
 }
 
-std::string shown_explanation(const StoredFailure& failure) {
-  if (failure.flaky) return failure.explanation + needs_what_came_before;
-  if (failure.smallest.empty()) return failure.explanation;
-  const auto smallest = corpus::parse_case(failure.smallest, "stored failure");
-  const auto head = about_text(failure.signature, "");
-  const bool tells = smallest && smallest.value().about.starts_with(head);
-  return tells ? smallest.value().about.substr(head.size()) : failure.explanation;
+std::string StoredFailure::id() const {
+  return (is_of_corpus() ? "corpus/" : source == Source::repeated ? "repeated/" : "") + case_id;
+}
+
+std::string StoredFailure::broken() const {
+  return law.empty() ? claim : "law " + law + (claim.empty() ? "" : ", " + claim);
+}
+
+std::string StoredFailure::signature() const {
+  return broken() + (kind.empty() ? "" : ": " + kind) + (contact.empty() ? "" : ", " + contact);
+}
+
+std::string StoredFailure::shown_configuration() const {
+  return configuration + (law.empty() ? "" : ", law " + law);
+}
+
+std::string StoredFailure::shown_explanation() const {
+  if (flaky) return explanation + needs_what_came_before;
+  return smallest_explanation.empty() ? explanation : smallest_explanation;
 }
 
 Row to_row(const TrialRecord& record) {
@@ -106,8 +122,13 @@ TrialRecord trial_of(const Row& row) {
 }
 
 Row to_row(const StoredFailure& failure) {
-  return {std::string(failure_kind), failure.id + ", " + failure.configuration, 0,
+  return {std::string(failure_kind), key_of(failure), 0,
           corpus::json_text(json_of_fields<Json>(failure))};
+}
+
+Row met_row(const StoredFailure& failure) {
+  const Json fields = {{"law", failure.law}, {"signature", failure.signature()}};
+  return {std::string(met_kind), key_of(failure), 0, corpus::json_text(fields)};
 }
 
 StoredFailure failure_of(const Row& row) {
@@ -115,12 +136,5 @@ StoredFailure failure_of(const Row& row) {
   read_fields_of(row, failure);
   return failure;
 }
-
-Row to_row(const std::string& trial_id, const MetFailure& failure) {
-  return {std::string(met_kind), trial_id + ", " + failure.configuration, 0,
-          corpus::json_text(Json{{"signature", failure.signature}})};
-}
-
-std::string met_signature_of(const Row& row) { return text_in(row, "signature"); }
 
 }  // namespace assay::properties

@@ -84,58 +84,62 @@ char letter_of(Outcome outcome);
 // Of a configuration that was not run: culling none on large meshes.
 inline constexpr char not_run = '-';
 
-// A defect with its mesh. `mesh` and `smallest` are case files (assay-case/1) as text.
-struct StoredFailure {
-  std::string id;  // id of the trial
-  std::string configuration, signature, explanation;
-  std::string mesh;
-  std::string smallest;      // empty: the mesh was not shrunk
-  bool flaky = false;        // its case alone, in a new process, comes to something else
-  std::string printed = {};  // by the plug-in as it failed; may differ between runs
-};
-
-// The signature of a broken law is "law L3_...", and its `configuration` is "view-point, law
-// L3_...", because one case may break both a law and a claim in the same configuration.
-inline constexpr std::string_view law_in_signature = "law ", law_in_configuration = ", law ";
-
-// The id of a failure that the shipped corpus shows is this and the name of its case. No trial's
-// id begins so: the name of a campaign has no '/'.
-inline constexpr std::string_view corpus_in_id = "corpus/";
-
-// The id of a failure that a large mesh shows, on which two runs differ, begins with this.
-inline constexpr std::string_view repeated_in_id = "repeated/";
-
-// And that of a failure that the search found (phases/phases.h).
-inline constexpr std::string_view searched_in_id = "search/";
-inline bool is_of_search(const StoredFailure& failure) {
-  return failure.id.starts_with(searched_in_id);
+// Where the cases come from that a campaign judges.
+enum class Source : std::uint8_t { trial, corpus, own, repeated, search, self_test };
+constexpr auto names_of(Source) {
+  using enum Source;
+  return std::to_array<Named<Source>>({{trial, "trial"},
+                                       {corpus, "corpus"},
+                                       {own, "own cases"},
+                                       {repeated, "repeated"},
+                                       {search, "search"},
+                                       {self_test, "self-test"}});
 }
+
+// A defect, with its mesh if that is kept. `mesh` and `smallest` are case files (assay-case/1) as
+// text.
+struct StoredFailure {
+  Source source = Source::trial;
+  std::string case_id, configuration;
+  std::string law{};  // that is broken; empty: a claim alone is
+  // What fails: the word of the claim, how it is broken and at which stage, and the feature and
+  // cause of the contact. Empty if a law alone is broken.
+  std::string claim{}, kind{}, contact{};
+  std::string explanation{};
+  std::string mesh{};                  // empty: it was met, and is not kept
+  std::string smallest{};              // empty: the mesh was not shrunk
+  std::string smallest_explanation{};  // of `smallest`; empty: the explanation is of both
+  bool flaky = false;                  // its case alone, in a new process, comes to something else
+  std::string printed{};               // by the plug-in as it failed; may differ between runs
+
+  // As people see them. The id is "corpus/NAME" for the corpus, shipped or of the owner, and
+  // "repeated/NAME" for a large mesh; no trial's id begins so, because the name of a campaign has
+  // no '/'. A broken law stands in both others, "law L3_..." and "view-point, law L3_...", because
+  // one case may break both a law and a claim in the same configuration.
+  std::string id() const, signature() const, shown_configuration() const;
+  std::string broken() const;  // law and claim, with which the signature begins
+  // The explanation of the smallest mesh, if there is one. Of a flaky failure, which is not shrunk,
+  // it says what that means.
+  std::string shown_explanation() const;
+  bool is_of_corpus() const { return source == Source::corpus || source == Source::own; }
+};
 
 // What is said behind the explanation of a failure that its own case does not show.
 inline constexpr const char* needs_what_came_before =
     "; asked again by itself, it comes to something else: what fails may need what the process did "
     "before, and a replay may hold";
 
-// `about_text` is what the case file of a failure says of itself: "all-pairs: missing pair,
-// edge-edge; triangles 0 and 1 meet at t = 0.5". `shown_explanation` reads it back: it returns the
-// part after the signature, from the smallest mesh if there is one. Of a flaky failure, which is
-// not shrunk, it says what that means.
+// What the case file of a failure says of itself: "all-pairs: missing pair, edge-edge; triangles 0
+// and 1 meet at t = 0.5".
 std::string about_text(const std::string& signature, const std::string& explanation);
-std::string shown_explanation(const StoredFailure& failure);
-
-// That a trial failed with this signature in this configuration. It is stored for every failure,
-// while the mesh is kept for a few of them only.
-struct MetFailure {
-  std::string configuration, signature;  // as of StoredFailure
-};
 
 // The rows of these, and what a row says; the latter throws StoreProblem if no run stores such a
-// row.
+// row. `met_row` says that a trial failed so. It is stored for every failure, while the mesh is
+// kept for a few of them only.
 Row to_row(const TrialRecord& record);
 Row to_row(const StoredFailure& failure);
-Row to_row(const std::string& trial_id, const MetFailure& failure);
+Row met_row(const StoredFailure& failure);
 TrialRecord trial_of(const Row& row);
 StoredFailure failure_of(const Row& row);
-std::string met_signature_of(const Row& row);
 
 }  // namespace assay::properties

@@ -58,7 +58,7 @@ void note_begin(Store& store) {
 }
 
 std::filesystem::path failure_file(const StoredFailure& failure, bool smallest) {
-  std::string stem = fmt::format("{}-{}", failure.id, failure.configuration);
+  std::string stem = fmt::format("{}-{}", failure.id(), failure.shown_configuration());
   std::erase(stem, ',');
   for (char& c : stem) {
     const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.';
@@ -66,28 +66,6 @@ std::filesystem::path failure_file(const StoredFailure& failure, bool smallest) 
   }
   return std::filesystem::path("failures") /
          (stem + (smallest ? "-smallest.json" : "-original.json"));
-}
-
-void Checks::drop(std::string_view kind) {
-  update([&](Store& store) { store.drop(kind); });
-}
-
-void Checks::keep_corpus_failures(const std::set<std::string>& signatures) {
-  update([&](Store& store) { store.keep_corpus_failures(signatures); });
-}
-
-Expected<KeptFailures> Checks::corpus_failures() const {
-  if (problem_) return *problem_;
-  auto kept = store_.kept_failures();
-  if (kept)
-    std::erase_if(kept.value().list,
-                  [](const auto& failure) { return !failure.id.starts_with(corpus_in_id); });
-  return kept;
-}
-
-void Checks::update(const std::function<void(Store&)>& work) {
-  if (problem_) return;
-  if (const auto done = catch_store_problem([&] { work(store_); }); !done) problem_ = done.error();
 }
 
 }  // namespace assay::properties

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -49,36 +47,5 @@ std::string time_in_utc();
 // The file of a failure below OUT, the same in every run that finds the failure:
 // failures/tiny-1-broken-3-bvh-smallest.json.
 std::filesystem::path failure_file(const StoredFailure& failure, bool smallest);
-
-// Stores what `assay certify` finds out by itself beside the trials, as soon as it is known.
-//
-// It is used like an output stream: after the first problem nothing more is stored. Whoever writes
-// asks problem() before starting work that would then be in vain.
-class Checks {
- public:
-  explicit Checks(Store& store) : store_(store) {}
-
-  // Stores a struct of evidence.h.
-  template <class T>
-  void keep(const T& evidence) {
-    update([&](Store& store) { store.set(to_row(evidence)); });
-  }
-  // Removes what an earlier run stored of a kind (its `kind`), before the same work is done again.
-  void drop(std::string_view kind);
-  // Removes the stored failures of the corpus whose signature is not in the set.
-  void keep_corpus_failures(const std::set<std::string>& signatures);
-  // The stored failures of the corpus, or the first problem.
-  Expected<KeptFailures> corpus_failures() const;
-
-  // Does work that may throw StoreProblem, unless there was a problem before. For campaign/ alone.
-  void update(const std::function<void(Store&)>& work);
-
-  // The first problem, if any.
-  const std::optional<Problem>& problem() const { return problem_; }
-
- private:
-  Store& store_;
-  std::optional<Problem> problem_;
-};
 
 }  // namespace assay::properties

@@ -147,12 +147,12 @@ void Store::drop(std::string_view kind) {
   for (const auto& row : rows) parts_->remove(row);
 }
 
-void Store::add(const TrialRecord& record, const std::vector<StoredFailure>& kept,
-                const std::vector<MetFailure>& met) {
-  std::vector<Row> rows;
-  for (const auto& failure : kept) rows.push_back(to_row(failure));
-  for (const auto& failure : met) rows.push_back(to_row(record.id, failure));
-  rows.push_back(to_row(record));
+void Store::add(const TrialRecord& record, const std::vector<StoredFailure>& failures) {
+  std::vector<Row> rows = {to_row(record)};
+  for (const auto& failure : failures) {
+    rows.push_back(met_row(failure));
+    if (!failure.mesh.empty()) rows.push_back(to_row(failure));
+  }
   parts_->db.run("BEGIN IMMEDIATE");
   try {
     for (const auto& row : rows) put_row(parts_->db, row);
@@ -169,7 +169,7 @@ void Store::add(const TrialRecord& record, const std::vector<StoredFailure>& kep
 
 void Store::keep_corpus_failures(const std::set<std::string>& signatures) {
   for (const auto& failure : failures()) {
-    if (failure.id.starts_with(corpus_in_id) && !signatures.contains(failure.signature))
+    if (failure.is_of_corpus() && !signatures.contains(failure.signature()))
       parts_->remove(to_row(failure));
   }
 }
@@ -208,15 +208,17 @@ std::vector<StoredFailure> Store::failures() const {
   std::vector<StoredFailure> list;
   for_each(failure_kind, [&](const Row& row) { list.push_back(failure_of(row)); });
   std::sort(list.begin(), list.end(), [](const StoredFailure& a, const StoredFailure& b) {
-    return std::tie(a.signature, a.id, a.configuration) <
-           std::tie(b.signature, b.id, b.configuration);
+    const auto key = [](const StoredFailure& f) {
+      return std::tuple(f.signature(), f.id(), f.shown_configuration());
+    };
+    return key(a) < key(b);
   });
   return list;
 }
 
 Counts Store::signatures() const {
   Counts counts;
-  for_each(met_kind, [&](const Row& row) { ++counts[met_signature_of(row)]; });
+  for_each(met_kind, [&](const Row& row) { ++counts[text_in(row, "signature")]; });
   return counts;
 }
 

@@ -43,6 +43,9 @@ class Store {
   ~Store();
 
   Expected<KeptFailures> kept_failures() const;
+  Expected<void> keep(const Row& row) {
+    return catch_store_problem([&] { set(row); });
+  }
   // Makes the file stand alone: nothing beside it belongs to it any more, and reading it leaves
   // its bytes as they are.
   Expected<void> seal();
@@ -56,10 +59,9 @@ class Store {
   void set(const Row& row);
   // Removes all rows of a kind.
   void drop(std::string_view kind);
-  // Adds a trial with what it showed, all of it or nothing. `kept` are the failures that are
-  // stored with their mesh, `met` are all failures.
-  void add(const TrialRecord& record, const std::vector<StoredFailure>& kept = {},
-           const std::vector<MetFailure>& met = {});
+  // Adds a trial with its failures, all of it or nothing. All failures were met; those that have
+  // their mesh are kept.
+  void add(const TrialRecord& record, const std::vector<StoredFailure>& failures = {});
   void add(const StoredFailure& failure) { set(to_row(failure)); }
   // Removes the stored failures of the corpus whose signature is not in the set.
   void keep_corpus_failures(const std::set<std::string>& signatures);

@@ -97,16 +97,21 @@ class Hunt {
     for (std::uint64_t begin = 0; begin < hunt_.cases && !is_cut_; begin += chunk) {
       const std::uint64_t end = std::min(hunt_.cases, begin + chunk);
       run_chunk(seed, begin, end, found);
-      HuntProgress state{seed, hunt_.seeds, end, hunt_.cases, 0, 0};
+      std::size_t hidden = 0, planted = 0;
       for (std::size_t f = 0; f < found.size(); ++f) {
         if (results_[f].fault->status != FaultStatus::planted) continue;
-        ++state.planted;
-        state.hidden += found[f] ? 0 : 1;
+        ++planted;
+        hidden += found[f] ? 0 : 1;
       }
-      if (progress_) progress_(state);
+      const auto seeds = static_cast<std::uint64_t>(hunt_.seeds);
+      const auto done = static_cast<std::uint64_t>(seed - 1) * hunt_.cases + end;
+      if (progress_)
+        progress_(fmt::format("seed {} of {}: {} cases, {} of {} planted faults still hidden", seed,
+                              seeds, end, hidden, planted),
+                  done, seeds * hunt_.cases - done);
       // Equivalent and open faults are not expected to be found, but they must have been tried on
       // a fair share of the cases too.
-      if (state.hidden == 0 && end >= hunt_.cases / 4) break;
+      if (hidden == 0 && end >= hunt_.cases / 4) break;
     }
     for (std::size_t f = 0; f < results_.size(); ++f) {
       results_[f].proof.needed.push_back(found[f] ? std::optional(*found[f] + 1) : std::nullopt);

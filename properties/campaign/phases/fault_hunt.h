@@ -30,14 +30,8 @@ struct FaultHunt {
   std::filesystem::path curated;  // folder of the curated cases; empty: not tried
 };
 
-// How far a hunt is. Under seed number `seed` of `seeds`, `cases` of at most `most_cases` were
-// judged, and `hidden` of the `planted` faults have not shown yet.
-struct HuntProgress {
-  int seed = 0, seeds = 0;
-  std::uint64_t cases = 0, most_cases = 0;
-  std::size_t hidden = 0, planted = 0;
-};
-using OnHunt = std::function<void(const HuntProgress&)>;
+// How far a hunt is, in words, and how many cases are done and left.
+using OnHunt = std::function<void(const std::string&, std::uint64_t done, std::uint64_t left)>;
 
 // Hunts for all registered faults. One judgement of a case by the oracle serves all faults. A
 // fault that is found under a seed leaves the round of that seed; equivalent and open faults stay

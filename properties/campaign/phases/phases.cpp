@@ -46,13 +46,11 @@ class CampaignRun {
     const bool complete = judge_trials();
     if (complete && request_.plugin) {
       observer_.on_phase("repetitions");
-      repeat_large_meshes(request_, store_, after(1),
-                          [&](const std::string& input) { observer_.on_shrinking(input); });
+      repeat_large_meshes(request_, store_, after(1), progress_);
     }
     if (complete && request_.plan.search > 0) {
       observer_.on_phase("search");
-      search_share(request_, corpus_, store_, after(faults_share),
-                   [&](const SearchProgress& state) { observer_.on_search(state); });
+      search_share(request_, corpus_, store_, after(faults_share), progress_);
     }
     observer_.on_phase("shrinking");
     shrink(complete);
@@ -60,7 +58,7 @@ class CampaignRun {
     observer_.on_phase("slow cases");
     keep_slow_cases(request_, store_, shrinking_of_one,
                     complete ? earlier(after(1), shrinking_seconds(request_.plan)) : Clock::now(),
-                    [&](const std::string& id) { observer_.on_shrinking("slow case " + id); });
+                    [&](const std::string& id) { progress_("slow case " + id); });
     observer_.on_slow_cases(stored().slow);
     if (request_.power) take_power();
     if (!complete) return;
@@ -107,7 +105,7 @@ class CampaignRun {
     const double kept = all == 0 ? most : std::min(most, (1 - trials_share) * all);
     shrink_failures(request_, store_, shrinking_of_one,
                     complete ? earlier(after(1), most) : deadline_in(Clock::now(), kept),
-                    [&](const std::string& signature) { observer_.on_shrinking(signature); });
+                    progress_);
   }
 
   // The evidence that an earlier call of this run stored.
@@ -139,11 +137,12 @@ class CampaignRun {
     const FaultHunt hunt{plan.name,        request_.seed,
                          plan.fault_seeds, share_of(plan.fault_cases, request_.shares),
                          request_.jobs,    corpus_};
-    auto results =
-        hunt_faults(hunt, after(faults_share), [&](const auto& p) { observer_.on_hunt(p); });
+    auto results = hunt_faults(
+        hunt, after(faults_share),
+        [&](const auto& text, auto done, auto left) { observer_.on_progress(text, done, left); });
     if (plan.shrink_faults)
       shrink_faults(results, shrinking_of_one, request_.jobs, after(1),
-                    [&](const std::string& fault) { observer_.on_fault_shrunk(fault); });
+                    [&](const std::string& fault) { progress_(fault + " shrunk"); });
     for (const auto& result : results) store_.set(to_row(result.proof));
   }
 
@@ -152,7 +151,7 @@ class CampaignRun {
     for (const auto& world : tetrahedron_worlds()) {
       const double left = std::chrono::duration<double>(end - Clock::now()).count();
       if (left <= 0) break;
-      observer_.on_world(world.name);
+      progress_(fmt::format("{}: every motion of a tetrahedron on a small grid", world.name));
       const auto result = prove(world, {request_.jobs, left, {}});
       store_.set(
           to_row(World{world.name, result.classes, result.motions, result.all, result.collisions,
@@ -165,6 +164,9 @@ class CampaignRun {
   const std::filesystem::path& corpus_;
   Store& store_;
   CampaignObserver& observer_;
+  const std::function<void(const std::string&)> progress_ = [this](const std::string& text) {
+    observer_.on_progress(text, 0, 0);
+  };
   const RunDeadline begin_ = Clock::now();
 };
 
@@ -189,11 +191,11 @@ namespace {
 // length of its text.
 void add_smallest(const std::vector<StoredFailure>& failures, Store& store) {
   std::set<std::string> told;
-  for (const auto& stored : store.failures()) told.insert(stored.signature);
+  for (const auto& stored : store.failures()) told.insert(stored.signature());
   std::map<std::string, const StoredFailure*> smallest;
   for (const auto& failure : failures) {
-    if (told.contains(failure.signature)) continue;
-    const auto*& best = smallest[failure.signature];
+    if (told.contains(failure.signature())) continue;
+    const auto*& best = smallest[failure.signature()];
     if (!best || failure.mesh.size() < best->mesh.size()) best = &failure;
   }
   for (const auto& [signature, failure] : smallest) store.add(*failure);
@@ -201,22 +203,28 @@ void add_smallest(const std::vector<StoredFailure>& failures, Store& store) {
 
 }  // namespace
 
-void keep_corpus_failures(const CampaignRequest& request,
-                          const std::vector<StoredFailure>& failures, Checks& checks,
-                          const std::function<void(const std::string&)>& progress) {
-  checks.update([&](Store& store) {
+Expected<KeptFailures> shrink_corpus_failures(
+    const CampaignRequest& request, const std::vector<StoredFailure>& failures, Store& store,
+    const std::function<void(const std::string&)>& progress) {
+  return catch_store_problem([&] {
     add_smallest(failures, store);
     shrink_failures(request, store, shrinking_of_one,
                     deadline_in(std::chrono::steady_clock::now(), shrinking_seconds(request.plan)),
                     progress);
+    auto kept = value_or_throw(store.kept_failures());
+    std::erase_if(kept.list, [](const auto& failure) { return !failure.is_of_corpus(); });
+    return kept;
   });
 }
 
-Expected<void> keep_own_cases(Store& store, const std::vector<CorpusRow>& rows,
-                              const std::vector<StoredFailure>& failures) {
+Expected<void> keep_corpus(Store& store, const std::vector<JudgedSource>& rows,
+                           const std::vector<StoredFailure>& failures, KeepMeshes when) {
   return catch_store_problem([&] {
     for (const auto& row : rows) store.set(to_row(row));
-    add_smallest(failures, store);
+    std::set<std::string> signatures;
+    for (const auto& failure : failures) signatures.insert(failure.signature());
+    store.keep_corpus_failures(signatures);
+    if (when == KeepMeshes::now) add_smallest(failures, store);
   });
 }
 

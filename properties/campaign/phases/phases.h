@@ -25,11 +25,6 @@ namespace assay::properties {
 // The search of a campaign (search/search.h): after the trials, in lanes that share nothing, each
 // in a thread with a worker process of its own (search.cpp).
 
-// Of this run; the lanes that an earlier call stored are among them.
-struct SearchProgress {
-  std::uint64_t lanes = 0, planned = 0, cases = 0, defects = 0;
-};
-
 // Examines the cases of a lane. The exam must outlive it. Throws StoreProblem if there is no
 // worker.
 ExamineCases examine_in_lane(const Exam& exam);
@@ -41,7 +36,7 @@ ExamineCases examine_in_lane(const Exam& exam);
 // `progress` is called from one thread at a time. Throws StoreProblem; so it is for campaign/
 // alone.
 void search_share(const CampaignRequest& request, const std::filesystem::path& corpus, Store& store,
-                  RunDeadline deadline, const std::function<void(const SearchProgress&)>& progress);
+                  RunDeadline deadline, const std::function<void(const std::string&)>& progress);
 
 // Is told what a campaign does, in the order of its phases. Each function may be called from
 // another thread than the caller's, but by one thread at a time.
@@ -56,16 +51,12 @@ class CampaignObserver {
   virtual void on_canary(const Canary&) {}
   virtual void on_trial(const TrialProgress&) {}
   virtual void on_trials(const TrialsEnd&) {}
-  virtual void on_search(const SearchProgress&) {}
-  // What is being shrunk or repeated now.
-  virtual void on_shrinking(const std::string& /*signature*/) {}
+  // What the phase is at; and, if it can be counted, how much of it is done, and how much is left.
+  virtual void on_progress(const std::string&, std::uint64_t /*done*/, std::uint64_t /*left*/) {}
   // All trials and their failures are stored now; faults and worlds are still to come.
   virtual void on_failures_shrunk(const KeptFailures&) {}
   // The cases on which the detector takes longest, as they were kept.
   virtual void on_slow_cases(const std::vector<SlowCase>&) {}
-  virtual void on_hunt(const HuntProgress&) {}
-  virtual void on_fault_shrunk(const std::string& /*fault*/) {}
-  virtual void on_world(const std::string& /*world*/) {}
 };
 
 // Does what the store does not hold yet: the trials, the shrinking of what failed, and the planted
@@ -91,15 +82,17 @@ double shrinking_seconds(const CampaignPlan& plan);
 // together the share of the plan's time that is kept for shrinking. REQUIRES failures in the order
 // of the corpus. What an earlier call stored stays. `progress` is called with the signature that is
 // being shrunk.
-void keep_corpus_failures(const CampaignRequest& request,
-                          const std::vector<StoredFailure>& failures, Checks& checks,
-                          const std::function<void(const std::string&)>& progress);
+// Returns the stored failures of the corpus.
+Expected<KeptFailures> shrink_corpus_failures(
+    const CampaignRequest& request, const std::vector<StoredFailure>& failures, Store& store,
+    const std::function<void(const std::string&)>& progress);
 
-// Stores what the user's own cases (`--corpus DIR`) showed in a run: the rows, and the smallest
-// mesh of each signature, which is shrunk with the failures of the trials. A store belongs to one
-// set of cases, so a second call finds its rows there and changes nothing.
-Expected<void> keep_own_cases(Store& store, const std::vector<CorpusRow>& rows,
-                              const std::vector<StoredFailure>& failures);
+// Stores the rows of the corpus, and removes the failures of an earlier call that it does not show
+// any more. In a run the smallest mesh of each signature is stored now, and shrunk with the
+// failures of the trials; in a certificate shrink_corpus_failures does that later.
+enum class KeepMeshes : std::uint8_t { now, later };
+Expected<void> keep_corpus(Store& store, const std::vector<JudgedSource>& rows,
+                           const std::vector<StoredFailure>& failures, KeepMeshes when);
 
 // Makes and judges stored trials once more, and compares the results with what is stored.
 

@@ -94,7 +94,7 @@ corpus::Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triang
                             std::uint64_t seed, int form) {
   constexpr int least_frames = 6, most_frames = 18, most_copies = 6;
   const std::string name = name_of_form(scene, form);
-  Random random(fmt::format("{}{}:{}", repeated_in_id, seed, name));
+  Random random(fmt::format("repeated/{}:{}", seed, name));
   corpus::SceneOptions options;
   int copies = 1;
   options.size = static_cast<int>(triangles);
@@ -129,7 +129,7 @@ corpus::Case long_sequence(std::uint64_t seed) {
   constexpr double most_drift = 0.08;
   corpus::Case c;
   c.id = name_of_long_sequence;
-  Random random(fmt::format("{}{}:{}", repeated_in_id, seed, c.id));
+  Random random(fmt::format("repeated/{}:{}", seed, c.id));
   const auto name = meeting[random.below(static_cast<int>(std::size(meeting)))];
   corpus::SceneOptions options;
   options.size = random.between(least_size, most_size);
@@ -283,10 +283,10 @@ class Repetitions {
   // the cause is that of each failure by itself.
   void put(const corpus::Case& c, JudgedSteps judged, const char* special) {
     special_ = special;
-    Repetition row;
-    row.input = c.id;
-    row.configuration = configuration().name;
-    row.triangles = static_cast<std::uint64_t>(c.triangles.rows());
+    JudgedSource row{.source = Source::repeated,
+                     .input = c.id,
+                     .configuration = configuration().name,
+                     .triangles = static_cast<std::uint64_t>(c.triangles.rows())};
     const auto seen = contracted(c, contract());
     if (!seen) {
       row.what = "beyond the contract";
@@ -327,7 +327,7 @@ class Repetitions {
     return run.end == RunEnd::beyond_capacity;
   }
 
-  void run_all(const corpus::Case& c, JudgedSteps steps, Repetition& row) {
+  void run_all(const corpus::Case& c, JudgedSteps steps, JudgedSource& row) {
     const auto& claims = request_.detector.claims;
     std::optional<CaseRun> first;
     for (std::size_t place = 0; place < threads_.size(); ++place) {
@@ -370,7 +370,7 @@ class Repetitions {
   }
 
   void judge_steps(const corpus::Case& c, const std::vector<std::size_t>& places,
-                   const CaseRun& run, Repetition& row) {
+                   const CaseRun& run, JudgedSource& row) {
     const bool is_small = c.triangles.rows() <= largest_small_mesh;
     std::map<std::string, int> kept;
     for (const auto s : places) {
@@ -389,8 +389,11 @@ class Repetitions {
       // Without a verdict nothing is known of this size.
       if (judged.outcome != Outcome::holds && judged.outcome != Outcome::defect) continue;
       const auto facts = truth_of(alone, truth[0], contract());
-      row.judged.push_back(
-          {s + 1, facts.starts_near ? 0 : facts.pairs.size(), judged.outcome == Outcome::holds});
+      const bool holds = judged.outcome == Outcome::holds;
+      row.judged.push_back({s + 1, facts.starts_near ? 0 : facts.pairs.size(), holds});
+      ++row.cases;
+      row.defects += holds ? 0 : 1;
+      if (row.judged.back().contacts > 0) row.triangles_in_contact = row.triangles;
       row.extremes.pairs = std::max<std::uint64_t>(row.extremes.pairs, truth[0].pairs.size());
       if (!judged.failure) continue;
       auto failure = *judged.failure;
@@ -415,16 +418,16 @@ class Repetitions {
 
   void add(const std::string& id, const corpus::Case& shown, const Failure& failure,
            const std::string& printed, bool flaky = false) {
-    auto stored =
-        stored_failure(shown, configuration(), request_.detector, failure, false, printed);
-    stored.id = fmt::format("{}{}", repeated_in_id, id);
+    auto stored = stored_failure(Source::repeated, shown, configuration(), request_.detector,
+                                 failure, false, printed);
+    stored.case_id = id;
     stored.flaky = flaky;
     store_.add(stored);
   }
 
   // Tells of a run that differs from the first one, or that ended in a way that breaks a claim.
   void tell(const corpus::Case& c, const CaseRun& first, const CaseRun& run,
-            const JudgedRun& judged, Repetition& row) {
+            const JudgedRun& judged, JudgedSource& row) {
     row.broken = judged.outcome == Outcome::defect;
     const auto s = differing_step(first, run);
     row.what = !s ? fmt::format("{}: {}", name_of(run.end), run.explanation)
@@ -471,13 +474,11 @@ void repeat_large_meshes(const CampaignRequest& request, Store& store, RunDeadli
                          const std::function<void(const std::string&)>& progress) {
   const auto& detector = request.detector;
   if (!is_repeated(request.plan, detector.built_in)) return;
-  const EvidenceFacts stored = facts_in(store);
+  const auto stored = facts_in(store).rows_of(Source::repeated);
   Repetitions repetitions(request, store);
   const auto put = [&](const std::string& input, JudgedSteps judged, const auto& make,
                        const char* special = "large mesh") {
-    const bool is_stored =
-        std::any_of(stored.repeated.begin(), stored.repeated.end(),
-                    [&](const Repetition& known) { return known.input == input; });
+    const bool is_stored = std::ranges::find(stored, input, &JudgedSource::input) != stored.end();
     if (is_stored || std::chrono::steady_clock::now() >= deadline) return;
     if (progress) progress(input);
     repetitions.put(make(), judged, special);

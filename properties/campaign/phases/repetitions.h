@@ -50,11 +50,11 @@ corpus::Case long_sequence(std::uint64_t seed);
 // Puts every scene of the corpus, as the seed draws it, the long sequence, and the request's other
 // sequences to the plug-in: with each of repeated_threads if it asks how many it may use, else
 // three times; once if it does not claim to be deterministic. Each run has a process of its own but
-// for the last, which is a second run in the process of the run before it. Stores a Repetition for
-// each mesh that is not stored yet. If an answer differs from that of the first run, or a run ends
-// in a way that breaks a claimed `total`, that is a failure of the run, whose mesh is the step that
-// differs. A run that hangs is reported and breaks nothing; after three such meshes no further one
-// is run.
+// for the last, which is a second run in the process of the run before it. Stores a JudgedSource
+// for each mesh that is not stored yet. If an answer differs from that of the first run, or a run
+// ends in a way that breaks a claimed `total`, that is a failure of the run, whose mesh is the step
+// that differs. A run that hangs is reported and breaks nothing; after three such meshes no further
+// one is run.
 //
 // Of each scene the oracle judges two steps by the first run: the one with the fewest contacts
 // that the contract does not leave out, and the first without any, in so far as there are such. It

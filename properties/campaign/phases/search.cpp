@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <mutex>
 #include <optional>
 
@@ -25,7 +26,7 @@ SourcesAsked sources_asked(const CampaignRequest& request, const std::filesystem
 class ShareSearch {
  public:
   ShareSearch(const CampaignRequest& request, const std::filesystem::path& corpus, Store& store,
-              RunDeadline deadline, const std::function<void(const SearchProgress&)>& progress)
+              RunDeadline deadline, const std::function<void(const std::string&)>& progress)
       : request_(request),
         store_(store),
         deadline_(deadline),
@@ -36,50 +37,38 @@ class ShareSearch {
                },
                request.detector.built_in} {
     const EvidenceFacts stored = facts_in(store);
-    for (const auto& lane : stored.search) {
-      stored_.insert(lane.lane);
+    for (const auto& lane : stored.rows_of(Source::search)) {
+      stored_.insert(lane.input);
       count(lane);
     }
-    state_.planned = search_lanes(cases_);
   }
 
-  void run() {
+  void run() try {
     in_threads(request_.jobs, [this] { work(); });
-    if (problem_) throw StoreProblem(*problem_);
+  } catch (const std::bad_alloc&) {
+    throw StoreProblem("not enough memory for the search");
+  } catch (const std::system_error& failure) {
+    throw StoreProblem(failure.what());
   }
 
  private:
-  void work() {
-    // If something goes wrong in one thread, all of them end.
-    try {
-      WorkerProcess worker(request_.worker, request_.plugin, request_.worker_limits());
-      const Exam exam{request_.detector, request_.detector.configurations, &worker};
-      const auto examine = examine_in_lane(exam);
-      while (const auto lane = next_lane()) {
-        const SearchLane searched{fmt::format("{}{}:{}:{}", searched_in_id, request_.plan.name,
-                                              request_.seed, name_of_lane(*lane)),
-                                  cases_of_lane(cases_, *lane)};
-        const auto result = search(searched, space_, examine, [this] { return is_over(); });
-        keep(*lane, result, exam);
-      }
-    } catch (const StoreProblem& failure) {
-      end_by(failure.problem());
-    } catch (const std::bad_alloc&) {
-      end_by(Problem{"not enough memory for the search"});
-    } catch (const std::system_error& failure) {
-      end_by(Problem{failure.what()});
+  void work() try {
+    WorkerProcess worker(request_.worker, request_.plugin, request_.worker_limits());
+    const Exam exam{request_.detector, request_.detector.configurations, &worker};
+    const auto examine = examine_in_lane(exam);
+    while (const auto lane = next_lane()) {
+      const SearchLane searched{
+          fmt::format("search/{}:{}:{}", request_.plan.name, request_.seed, name_of_lane(*lane)),
+          cases_of_lane(cases_, *lane)};
+      const auto result = search(searched, space_, examine, [this] { return is_over(); });
+      keep(*lane, result, exam);
     }
+  } catch (...) {
+    is_broken_ = true;
+    throw;
   }
 
-  void end_by(Problem problem) {
-    const std::lock_guard lock(mutex_);
-    problem_ = std::move(problem);
-  }
-
-  bool is_over() {
-    const std::lock_guard lock(mutex_);
-    return problem_ || std::chrono::steady_clock::now() >= deadline_;
-  }
+  bool is_over() const { return is_broken_ || std::chrono::steady_clock::now() >= deadline_; }
 
   std::optional<std::uint64_t> next_lane() {
     if (is_over()) return std::nullopt;
@@ -90,10 +79,10 @@ class ShareSearch {
     return std::nullopt;
   }
 
-  void count(const SearchedLane& lane) {
-    ++state_.lanes;
-    state_.cases += lane.cases;
-    state_.defects += lane.defects;
+  void count(const JudgedSource& lane) {
+    ++lanes_;
+    judged_ += lane.cases;
+    defects_ += lane.defects;
   }
 
   // A defect as it is stored: if the case, run again by itself, has other answers, it is flaky.
@@ -101,35 +90,42 @@ class ShareSearch {
     const auto alone = run_alone(exam, found.c, found.configuration);
     throw_if_not_run(alone);
     const bool flaky = !same_answers(found.run, alone);
-    return stored_failure(found.c, exam.configurations[found.configuration], exam.detector,
-                          found.failure, flaky, found.run.printed);
+    return stored_failure(Source::search, found.c, exam.configurations[found.configuration],
+                          exam.detector, found.failure, flaky, found.run.printed);
   }
 
   void keep(std::uint64_t number, const LaneResult& result, const Exam& exam) {
     std::vector<StoredFailure> failures;
     for (const auto& found : result.found) failures.push_back(stored_of(found, exam));
-    const SearchedLane lane{name_of_lane(number), cases_of_lane(cases_, number),
-                            result.cases,         result.defects,
-                            result.open,          {result.causes.begin(), result.causes.end()}};
+    const JudgedSource lane{.source = Source::search,
+                            .input = name_of_lane(number),
+                            .planned = cases_of_lane(cases_, number),
+                            .cases = result.cases,
+                            .defects = result.defects,
+                            .undecided = result.open,
+                            .causes = {result.causes.begin(), result.causes.end()}};
     const std::lock_guard lock(mutex_);
     for (const auto& failure : failures) store_.add(failure);
     if (!result.complete) return;  // it is searched again, and finds the same and more
     store_.set(to_row(lane));
     count(lane);
-    if (progress_) progress_(state_);
+    if (progress_)
+      progress_(fmt::format("{}/{} lanes, {} cases, {} with a defect", lanes_, search_lanes(cases_),
+                            judged_, defects_));
   }
 
   const CampaignRequest& request_;
   const std::uint64_t cases_ = share_of(request_.plan.search, request_.shares);
   Store& store_;
   const RunDeadline deadline_;
-  const std::function<void(const SearchProgress&)>& progress_;
+  const std::function<void(const std::string&)>& progress_;
   const SearchSpace space_;
   std::set<std::string> stored_;
   std::mutex mutex_;
   std::uint64_t next_ = 0;
-  SearchProgress state_;
-  std::optional<Problem> problem_;
+  // Of this run; the lanes that an earlier call stored are among them.
+  std::uint64_t lanes_ = 0, judged_ = 0, defects_ = 0;
+  std::atomic<bool> is_broken_ = false;  // something went wrong in one thread: all of them end
 };
 
 }  // namespace
@@ -143,8 +139,7 @@ ExamineCases examine_in_lane(const Exam& exam) {
 }
 
 void search_share(const CampaignRequest& request, const std::filesystem::path& corpus, Store& store,
-                  RunDeadline deadline,
-                  const std::function<void(const SearchProgress&)>& progress) {
+                  RunDeadline deadline, const std::function<void(const std::string&)>& progress) {
   ShareSearch(request, corpus, store, deadline, progress).run();
 }
 

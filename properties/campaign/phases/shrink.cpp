@@ -63,7 +63,7 @@ constexpr double most_seconds_of_a_large_mesh = 20;
 // The key of the note which says that the shrinking of this failure had all the time that it may
 // have.
 std::string done_note(const StoredFailure& failure) {
-  return fmt::format("shrunk {} {}", failure.id, failure.configuration);
+  return fmt::format("shrunk {} {}", failure.id(), failure.shown_configuration());
 }
 
 // The configurations as they were given to this case: if it vouches for a clean start, so do they.
@@ -77,17 +77,15 @@ std::vector<Configuration> configurations_of(const corpus::Case& failing,
   return vouched ? with_clean_start(std::move(all)) : all;
 }
 
-// The text `about` of a shrunk case, which names its own triangles and times. The signature stays
+// The explanation of a shrunk case, which names its own triangles and times. The signature stays
 // that of the failure, though the cause of a case that was cut from a large mesh may be another.
-std::string about_shrunk(const StoredFailure& failure, const Finding& finding,
-                         std::size_t fails_from = 0) {
-  const auto text = about_text(failure.signature, finding.explanation);
-  return fails_from == 0 ? text : text + "; " + fails_from_text(fails_from);
+std::string explanation_of(const Finding& finding, std::size_t fails_from = 0) {
+  return finding.explanation + (fails_from == 0 ? "" : "; " + fails_from_text(fails_from));
 }
 
 // How long a failure may be shrunk. The time grows with the triangles of the mesh, from 10,000 on.
 double seconds_for(const StoredFailure& failure, const corpus::Case& failing, double usual) {
-  if (failure.id.starts_with(repeated_in_id)) return std::min(usual, most_seconds_of_a_large_mesh);
+  if (failure.source == Source::repeated) return std::min(usual, most_seconds_of_a_large_mesh);
   constexpr double most_times = 10;
   return usual * std::clamp(static_cast<double>(failing.triangles.rows()) / 10'000, 1., most_times);
 }
@@ -95,9 +93,7 @@ double seconds_for(const StoredFailure& failure, const corpus::Case& failing, do
 // Whether one run of the case alone has to show the failure: not if a law is broken, or if two runs
 // have to agree.
 bool may_be_asked_alone(const StoredFailure& failure, const CampaignRequest& request) {
-  const bool is_of_two_runs =
-      failure.signature.find(name_of(Claim::deterministic)) != std::string::npos;
-  return request.plugin && !is_of_two_runs;
+  return request.plugin && failure.claim != name_of(Claim::deterministic);
 }
 
 }  // namespace
@@ -114,27 +110,24 @@ void shrink_failures(const CampaignRequest& request, Store& store, const ReduceL
   for (auto& failure : failures) {
     const std::chrono::duration<double> left = deadline - std::chrono::steady_clock::now();
     if (left.count() <= 0) return;
-    auto& tried_of_kind = tried[failure.signature];
+    auto& tried_of_kind = tried[failure.signature()];
     if (store.note(done_note(failure))) tried_of_kind = most_tried;
     if (failure.flaky || tried_of_kind >= most_tried) continue;
     const auto& begin = failure.smallest.empty() ? failure.mesh : failure.smallest;
-    const auto failing = corpus::parse_case(begin, failure.id);
+    const auto failing = corpus::parse_case(begin, failure.id());
     if (!failing) continue;
     const auto configurations = configurations_of(failing.value(), request.detector);
-    // Without the name of the law that broke in it.
-    const auto name =
-        failure.configuration.substr(0, failure.configuration.find(law_in_configuration));
-    const auto configuration = std::find_if(configurations.begin(), configurations.end(),
-                                            [&](const Configuration& c) { return c.name == name; });
+    const auto configuration =
+        std::ranges::find(configurations, failure.configuration, &Configuration::name);
     if (configuration == configurations.end()) continue;
     const auto detector = request.detector.in(*configuration);
-    if (progress) progress(failure.signature);
+    if (progress) progress(failure.signature());
     // New ones, because a process that was asked much before may fail where they do not.
     WorkerProcess worker(request.worker, request.plugin, request.worker_limits()),
         last(request.worker, request.plugin, request.worker_limits());
     const auto shows = [&](const std::string& mesh, WorkerProcess& asked) {
       const auto judge = judge_of_detector(request.detector, *configuration, asked, request.jobs);
-      return judge(corpus::parse_case(mesh, failure.id).value()).has_value();
+      return judge(corpus::parse_case(mesh, failure.id()).value()).has_value();
     };
     const bool is_asked_alone = may_be_asked_alone(failure, request);
     if (is_asked_alone && !shows(failure.mesh, worker)) {
@@ -146,13 +139,14 @@ void shrink_failures(const CampaignRequest& request, Store& store, const ReduceL
     tried_of_kind = most_tried;
     const double most = seconds_for(failure, failing.value(), limits.seconds);
     const ReduceLimits bounded{std::min(most, left.count()), limits.calls};
-    const Law* law = failure.signature.starts_with(law_in_signature)
-                         ? law_named(failure.signature.substr(law_in_signature.size()))
-                         : nullptr;
-    const auto store_as_smallest = [&](const corpus::Case& better, const std::string& about) {
+    const Law* law = failure.claim.empty() ? law_named(failure.law) : nullptr;
+    const auto store_as_smallest = [&](const corpus::Case& better, const std::string& explanation) {
       // As the detector saw it: with coordinates that a contract of float32 has rounded.
       corpus::Case shown = contracted(better, detector.contract).value_or(better);
-      if (!about.empty()) shown.about = about;
+      if (!explanation.empty()) {
+        failure.smallest_explanation = explanation;
+        shown.about = about_text(failure.signature(), explanation);
+      }
       failure.smallest = corpus::case_text(shown);
       store.set_smallest(failure);
     };
@@ -161,7 +155,7 @@ void shrink_failures(const CampaignRequest& request, Store& store, const ReduceL
       const auto finding = law || is_large(better)
                                ? std::nullopt
                                : judge_of_detector(detector, *configuration, worker)(better);
-      store_as_smallest(better, finding ? about_shrunk(failure, *finding) : "");
+      store_as_smallest(better, finding ? explanation_of(*finding) : "");
     };
     const Reduction reduction =
         law ? reduce(failing.value(), judge_of_law(*law, *configuration), bounded, keep)
@@ -169,9 +163,9 @@ void shrink_failures(const CampaignRequest& request, Store& store, const ReduceL
                           request.jobs);
     if (is_large(reduction.smallest) && !law && !reduction.finding.signature.empty())
       store_as_smallest(reduction.smallest,
-                        about_shrunk(failure, reduction.finding, reduction.fails_from));
+                        explanation_of(reduction.finding, reduction.fails_from));
     if (is_asked_alone && !failure.smallest.empty() && !shows(failure.smallest, last))
-      failure.smallest.clear();
+      failure.smallest = failure.smallest_explanation = "";
     if (failure.smallest.empty()) {
       // Nothing smaller was found, so the mesh itself is the smallest.
       failure.smallest = failure.mesh;
@@ -233,39 +227,26 @@ namespace {
 // A trial is near its limit if it took at least this share of it.
 constexpr double near_share = 1. / 3;
 
-struct SlowTrial {
-  std::string id, family;
-  std::size_t configuration = 0;  // the first configuration that is undecided, or 0
-  bool is_undecided = false;
-  bool is_asleep = false;  // it slept: processor time cannot show that a smaller case is as slow
-  double seconds = 0;
-};
+double seconds_of(const TrialRecord& trial) { return 1e-6 * static_cast<double>(trial.slowest_us); }
 
-// Undecided trials come first, then the slower ones. Equal ones are ordered by their ids.
-bool is_before(const SlowTrial& a, const SlowTrial& b) {
-  if (a.is_undecided != b.is_undecided) return a.is_undecided;
-  if (a.seconds != b.seconds && !a.is_undecided) return a.seconds > b.seconds;
-  return a.id < b.id;
-}
-
-std::vector<SlowTrial> slowest_trials(const Store& store, double limit) {
-  std::vector<SlowTrial> list;
+// Undecided trials come first, then the slower ones. Equal ones are ordered by their ids. The limit
+// of large cases is another one.
+std::vector<TrialRecord> slowest_trials(const Store& store, double limit) {
+  std::vector<TrialRecord> list;
   store.for_each_trial([&](const TrialRecord& r) {
-    const auto undecided = r.outcomes.find(letter_of(Outcome::undecided));
-    const double seconds = 1e-6 * static_cast<double>(r.slowest_us);
-    const bool is_undecided = undecided != std::string::npos;
-    if (is_size_family(r.family)) return;  // their limit is another one
-    if (!is_undecided && seconds < near_share * limit) return;
-    list.push_back({r.id, r.family, is_undecided ? undecided : 0, is_undecided,
-                    seconds < 0.5 * limit, seconds});
+    const bool is_slow = r.has(Outcome::undecided) || seconds_of(r) >= near_share * limit;
+    if (is_slow && !is_size_family(r.family)) list.push_back(r);
   });
-  std::sort(list.begin(), list.end(), is_before);
+  std::ranges::sort(list, {}, [](const TrialRecord& r) {
+    const bool undecided = r.has(Outcome::undecided);
+    return std::tuple(!undecided, undecided ? 0 : -seconds_of(r), r.id);
+  });
   if (list.size() > slow_cases_kept) list.resize(slow_cases_kept);
   return list;
 }
 
 void keep_slow_case(const CampaignRequest& request, Store& store, const ReduceLimits& limits,
-                    RunDeadline deadline, const SlowTrial& trial, WorkerProcess& worker,
+                    RunDeadline deadline, const TrialRecord& trial, WorkerProcess& worker,
                     const std::function<void(const std::string&)>& progress) {
   const auto seconds_left = [&] {
     return std::chrono::duration<double>(deadline - std::chrono::steady_clock::now()).count();
@@ -276,20 +257,19 @@ void keep_slow_case(const CampaignRequest& request, Store& store, const ReduceLi
   if (family == known.end()) return;
   const auto planned = case_within(request.detector.contract, *family, trial.id);
   if (!planned.seen) return;
-  const auto& configuration = request.detector.configurations[trial.configuration];
-  SlowCase slow;
-  slow.id = trial.id;
-  slow.configuration = configuration.name;
-  slow.undecided = trial.is_undecided;
-  slow.seconds = trial.seconds;
-  slow.limit = request.plan.case_seconds;
-  slow.mesh = corpus::case_text(*planned.seen);
+  const bool undecided = trial.has(Outcome::undecided);
+  const auto first = undecided ? trial.outcomes.find(letter_of(Outcome::undecided)) : 0;
+  const auto& configuration = request.detector.configurations[first];
+  const double seconds = seconds_of(trial), limit = request.plan.case_seconds;
+  SlowCase slow{
+      trial.id, configuration.name, undecided, seconds, limit, corpus::case_text(*planned.seen)};
   store.set(to_row(slow));
-  if (!trial.is_undecided || trial.is_asleep || seconds_left() <= 0) return;
+  // Of one that slept, processor time cannot show that a smaller case is as slow.
+  const bool is_asleep = seconds < 0.5 * limit;
+  if (!undecided || is_asleep || seconds_left() <= 0) return;
   if (progress) progress(trial.id);
   const ReduceLimits bounded{std::min(limits.seconds, seconds_left()), limits.calls};
-  const auto judge =
-      judge_of_slowness(request.detector, configuration, worker, 2 * request.plan.case_seconds);
+  const auto judge = judge_of_slowness(request.detector, configuration, worker, 2 * limit);
   const auto reduction = reduce(*planned.seen, judge, bounded, [&](const corpus::Case& better) {
     slow.smallest = corpus::case_text(better);
     store.set(to_row(slow));
@@ -324,16 +304,12 @@ Judge judge_of_slowness(const DetectorUnderTest& detector, const Configuration& 
 void keep_slow_cases(const CampaignRequest& request, Store& store, const ReduceLimits& limits,
                      RunDeadline deadline,
                      const std::function<void(const std::string&)>& progress) {
-  const EvidenceFacts stored = facts_in(store);
-  const auto is_stored = [&](const SlowTrial& trial) {
-    return std::any_of(stored.slow.begin(), stored.slow.end(),
-                       [&](const SlowCase& slow) { return slow.id == trial.id; });
-  };
+  const auto stored = facts_in(store).slow;
   WorkerLimits patient = request.worker_limits();
   patient.seconds *= 2;
   WorkerProcess worker(request.worker, request.plugin, patient);
   for (const auto& trial : slowest_trials(store, request.plan.case_seconds)) {
-    if (!is_stored(trial))
+    if (std::ranges::find(stored, trial.id, &SlowCase::id) == stored.end())
       keep_slow_case(request, store, limits, deadline, trial, worker, progress);
   }
 }

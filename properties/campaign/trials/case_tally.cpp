@@ -173,7 +173,7 @@ Judge judge_of_law(const Law& law, const Configuration& configuration) {
                                1, [&](std::size_t) { return c.id; }, check)
                                .front();
     if (tally.broken == 0) return std::nullopt;
-    return Finding{fmt::format("{}{}", law_in_signature, law.name), {}, 0};
+    return Finding{fmt::format("law {}", law.name), {}, 0};
   };
 }
 
@@ -273,12 +273,10 @@ FormCheck check_in_form(const FormLaw& law, const corpus::Case& c, const CaseRun
   if (!judged.failure) return check;
   check.count.broken = 1;
   const Failure& failure = *judged.failure;
-  check.failure = stored_failure(*told, configuration, detector, failure, false, in_form.printed);
-  check.failure->id = c.id;
-  check.failure->configuration =
-      fmt::format("{}{}{}", configuration.name, law_in_configuration, law.law);
-  check.failure->signature =
-      fmt::format("{}{}, {}", law_in_signature, law.law, failure.signature());
+  check.failure = stored_failure(Source::trial, *told, configuration, detector, failure, false,
+                                 in_form.printed);
+  check.failure->case_id = c.id;
+  check.failure->law = law.law;
   check.failure->flaky = failure.claim == Claim::deterministic;
   return check;
 }

@@ -33,17 +33,22 @@ corpus::Case failing_case(const corpus::Case& c, const Configuration& configurat
   return out;
 }
 
-StoredFailure stored_failure(const corpus::Case& c, const Configuration& configuration,
-                             const DetectorUnderTest& detector, const Failure& failure, bool flaky,
-                             const std::string& printed) {
-  return {c.id,
-          configuration.name,
-          failure.signature() + (flaky ? " (flaky)" : ""),
-          failure.explanation,
-          corpus::case_text(failing_case(c, configuration, detector, failure)),
-          "",
-          flaky,
-          printed};
+StoredFailure stored_failure(Source source, const corpus::Case& c,
+                             const Configuration& configuration, const DetectorUnderTest& detector,
+                             const Failure& failure, bool flaky, const std::string& printed) {
+  const auto joint = failure.feature.empty() || failure.cause.empty() ? "" : ", ";
+  StoredFailure stored{.source = source,
+                       .case_id = c.id,
+                       .configuration = configuration.name,
+                       .claim = name_of(failure.claim),
+                       .kind = failure.kind + (failure.stage.empty() ? "" : " at " + failure.stage),
+                       .contact = failure.feature + joint + failure.cause,
+                       .explanation = failure.explanation,
+                       .mesh = corpus::case_text(failing_case(c, configuration, detector, failure)),
+                       .flaky = flaky,
+                       .printed = printed};
+  if (flaky) (stored.contact.empty() ? stored.kind : stored.contact) += " (flaky)";
+  return stored;
 }
 
 void throw_if_not_run(const Examined& examined) {
@@ -298,7 +303,7 @@ class Trials {
   // Counts what the trials met, keeps them, and empties the list.
   void finish(std::vector<Trial>& judged) {
     if (request_.detector.built_in) count_cases(judged);
-    for (const auto& trial : judged) keep(trial);
+    for (auto& trial : judged) keep(trial);
     judged.clear();
   }
 
@@ -355,10 +360,10 @@ class Trials {
     const auto alone = run_alone(exam_of(trial), trial.examined.c, i);
     throw_if_not_run(alone);
     note(trial.record, alone);
-    auto failure = stored_failure(trial.examined.c, configuration, *trial.detector, *judged.failure,
-                                  !same_answers(run, alone), trial.examined.printed(i));
-    failure.id = trial.record.id;
-    trial.failures.push_back(std::move(failure));
+    trial.failures.push_back(stored_failure(Source::trial, trial.examined.c, configuration,
+                                            *trial.detector, *judged.failure,
+                                            !same_answers(run, alone), trial.examined.printed(i)));
+    trial.failures.back().case_id = trial.record.id;
   }
 
   static std::size_t place_of(const Configuration& configuration,
@@ -415,29 +420,23 @@ class Trials {
         failing.options = configuration_text(configuration);
     }
     // The case keeps its id, because laws that choose at random, or look at some of the cases
-    // only, go by it. The configuration is extended by the law, because the key of the store is
-    // case and configuration, and a case may break both a law and a claim.
-    return {c.id,
-            fmt::format("{}{}{}", broken.configuration, law_in_configuration, broken.law),
-            fmt::format("{}{}", law_in_signature, broken.law),
-            broken.explanation,
-            corpus::case_text(failing),
-            "",
-            false};
+    // only, go by it.
+    return {.case_id = c.id,
+            .configuration = broken.configuration,
+            .law = broken.law,
+            .explanation = broken.explanation,
+            .mesh = corpus::case_text(failing)};
   }
 
-  void keep(const Trial& trial) {
+  void keep(Trial& trial) {
     const std::lock_guard lock(mutex_);
-    std::vector<StoredFailure> kept;
-    std::vector<MetFailure> met;
-    for (const auto& failure : trial.failures) {
-      met.push_back({failure.configuration, failure.signature});
+    for (auto& failure : trial.failures) {
       const std::uint64_t most = trial.planned->family->triangles > 0 ? 1 : meshes_kept;
-      if (met_[failure.signature]++ < most) kept.push_back(failure);
+      if (met_[failure.signature()]++ >= most) failure.mesh.clear();
     }
     // The trial and its failures are stored in one transaction, so that nothing is counted twice
     // when a killed run goes on.
-    store_.add(trial.record, kept, met);
+    store_.add(trial.record, trial.failures);
     ++end_.trials;
     ++state_.done;
     state_.planned = planned_.size();

@@ -46,9 +46,9 @@ corpus::Case failing_case(const corpus::Case& c, const Configuration& configurat
                           const DetectorUnderTest& detector, const Failure& failure);
 // The failure as it is stored, under the id of the case. One that a second run does not show is
 // flaky.
-StoredFailure stored_failure(const corpus::Case& c, const Configuration& configuration,
-                             const DetectorUnderTest& detector, const Failure& failure, bool flaky,
-                             const std::string& printed);
+StoredFailure stored_failure(Source source, const corpus::Case& c,
+                             const Configuration& configuration, const DetectorUnderTest& detector,
+                             const Failure& failure, bool flaky, const std::string& printed);
 
 // Both throw StoreProblem if there was no worker; so they are for campaign/ alone.
 void throw_if_not_run(const Examined& examined);

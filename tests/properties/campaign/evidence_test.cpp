@@ -63,20 +63,20 @@ TEST(Evidence, EveryKindSurvivesItsRow) {
   EXPECT_EQ(facts.faults.at(0).status, FaultStatus::open);
   expect_survives(PowerSource{"smoke", "built-in", 3, "p", "w", "g", "r"}, &EvidenceFacts::power);
   expect_survives(World{"square-2", 3, 4, 5, 1, false, "pairs differ"}, &EvidenceFacts::worlds);
-  const SearchedLane lane{"003", 500, 480, 2, 1, {"t at 1, moving, generic", "no contact"}};
-  expect_survives(lane, &EvidenceFacts::search);
   expect_survives(Asked{{"harness", "speed"}, true}, &EvidenceFacts::asked);
-  expect_survives(Versions{"0.2.0", std::nullopt, "CGAL 5.5.1"}, &EvidenceFacts::versions);
-  expect_survives(Paths{"out", "lib.so"}, &EvidenceFacts::paths);
-  expect_survives(InputDigests{"c"}, &EvidenceFacts::inputs);
-  const CorpusRow corpus{
-      "curated cases",   "bvh", 1, 2, 3, 4, 5, 6, {{"A1", "s", "w"}}, {{"A2", "", "no verdict"}},
-      {1, 2, 3, 4, 5, 6}};
-  expect_survives(corpus, &EvidenceFacts::corpus);
-  expect_survives(SelfTestRow{"line-3", 10, 3, 0, 1, true}, &EvidenceFacts::self_test);
+  expect_survives(Versions{"0.2.0", std::nullopt, "CGAL 5.5.1", "c"}, &EvidenceFacts::versions);
+  JudgedSource judged{Source::own, "input", "bvh", 1, 2, 3, 4, 5, 6, 7, 8, false};
+  judged.failed = {{"A1", "s", "w"}};
+  judged.open = {{"A2", "", "no verdict"}};
+  judged.extremes = {1, 2, 3, 4, 5, 6};
+  judged.threads = {1, 2};
+  judged.judged = {{1, 2, true}};
+  judged.causes = {"t at 1, moving, generic", "no contact"};
+  expect_survives(judged, &EvidenceFacts::sources);
   const SpeedFigure figure{"exact-over-double", 1.25, 1, 1.5, {1, 1.5}};
   expect_survives(figure, &EvidenceFacts::speed);
-  expect_survives(Issued{"2026-01-31T12:00:00Z", 4.5}, &EvidenceFacts::issued);
+  expect_survives(Issued{"out", "lib.so", "", "", "2026-01-31T12:00:00Z", 4.5},
+                  &EvidenceFacts::issued);
 }
 
 TEST(Evidence, WhatNoRunStoresIsRefused) {
@@ -146,21 +146,23 @@ TEST(Evidence, OfTwoRunsTheCasesOfAFaultAddUp) {
 
 TEST(Evidence, OfTwoRunsWhatBothDoAlikeCountsOnce) {
   EvidenceFacts sum;
-  sum.self_test = {{"line-3", 10, 3, 0, 1, true}};
+  sum.sources = {{.source = Source::self_test, .input = "line-3", .cases = 10},
+                 {.source = Source::search, .input = "001", .planned = 500, .cases = 480}};
   sum.worlds = {{"w", 5, 1, 1, 0, false, std::nullopt}};
   sum.canaries = {{"c", 7}};
   sum.versions = Versions{"1", std::nullopt, "l"};
   EvidenceFacts other = sum;
   other.worlds[0].classes = 9;
   sum.add(other);
-  EXPECT_EQ(sum.self_test.size(), 1u);
+  EXPECT_EQ(sum.rows_of(Source::self_test).size(), 1u);
+  EXPECT_EQ(sum.sum_of(Source::search).cases, 960u);
   EXPECT_EQ(sum.canaries.size(), 2u);
   ASSERT_EQ(sum.worlds.size(), 1u);
   EXPECT_EQ(sum.worlds[0].classes, 9u);
   // What they do not come to alike is not lost.
-  other.self_test[0].contradictions = 1;
+  other.sources[0].defects = 1;
   sum.add(other);
-  EXPECT_EQ(sum.self_test.size(), 2u);
+  EXPECT_EQ(sum.rows_of(Source::self_test).size(), 2u);
   other.versions->assay = "2";
   EXPECT_THROW(sum.add(other), StoreProblem);
 }
@@ -218,9 +220,14 @@ TEST(Records, SurviveTheirRows) {
   small.id = "q:1:broken:0";
   small.outcomes = "H";
   EXPECT_EQ(to_row(small).fields, R"({"outcomes":"H"})");
-  const StoredFailure failure{"quick:1:broken:12", "bvh", "s", "what", "mesh", "small", true, "p"};
-  EXPECT_EQ(to_row(failure_of(to_row(failure))), to_row(failure));
-  EXPECT_EQ(met_signature_of(to_row("quick:1:broken:12", {"bvh", "s"})), "s");
+  const StoredFailure failure{Source::own,    "A1",     "bvh",    "L3_X", "all-pairs",
+                              "missing pair", "t at 0", "what",   "m",    "small",
+                              "of it",        true,     "printed"};
+  const auto kept = to_row(failure);
+  EXPECT_EQ(to_row(failure_of(kept)), kept);
+  EXPECT_EQ(kept.key, "corpus/A1, bvh, law L3_X");
+  EXPECT_EQ(failure.signature(), "law L3_X, all-pairs: missing pair, t at 0");
+  EXPECT_EQ(met_row(failure).key, kept.key);
 }
 
 TEST(Records, ThatNoRunStoresAreRefused) {

@@ -9,7 +9,7 @@
 namespace assay::properties {
 namespace {
 
-using test::failure, test::good_findings, test::good_tally;
+using test::failure, test::forget, test::good_findings, test::good_tally;
 
 using Change = std::function<void(RunFindings&)>;
 
@@ -46,6 +46,7 @@ void add_defect(RunFindings& f, const std::string& signature = "free-sound: miss
   --outcomes.holds;
   ++outcomes.defects;
   ++f.times_met[signature];
+  ++f.claims_broken;
   f.failures.push_back(failure(signature));
 }
 
@@ -86,7 +87,7 @@ TEST(Gates, AllHoldOnAGoodRun) {
 
 TEST(Gates, WhatWasNotAskedForIsNotJudged) {
   const std::vector<Change> wrong = {[](auto& f) {
-    f.evidence.corpus[0].failed = {{"A1", "s", "w"}};
+    f.evidence.sources[0].failed = {{"A1", "s", "w"}};
     f.evidence.speed.clear();
   }};
   const auto run = judged_after(wrong, asked_of_a_run());
@@ -97,7 +98,7 @@ TEST(Gates, WhatWasNotAskedForIsNotJudged) {
     EXPECT_EQ(run.of(gate).reasons.size(), 1u);
   }
   // Nor does a run owe what only `certify` does.
-  EXPECT_EQ(judged_after({[](auto& f) { f.evidence.self_test.clear(); }}, asked_of_a_run()).verdict,
+  EXPECT_EQ(judged_after({[](auto& f) { forget(f, Source::self_test); }}, asked_of_a_run()).verdict,
             "holds");
   const auto nothing = judged_after({[](auto& f) { add_defect(f); }}, Asked{});
   EXPECT_EQ(nothing.verdict, "not judged");
@@ -112,12 +113,12 @@ TEST(Gates, AnUnsoundHarnessCertifiesNothing) {
       [](auto& f) {
         f.evidence.problems = {{"no worker", 0}};
       },
-      [](auto& f) { f.evidence.self_test[0].contradictions = 1; },
+      [](auto& f) { f.evidence.sources[1].defects = 1; },
       [](auto& f) { f.tally.counts.laws[std::string(laws()[0].name)].premise = 3; },
       [](auto& f) { f.tally.counts.laws[std::string(laws()[0].name)].close = 1; },
       // A defect without a failure that was stored, and the other way round.
       [](auto& f) { f.tally.strata["broken"].by_configuration[0].defects = 1; },
-      [](auto& f) { f.times_met["free-sound: missing"] = 1; }};
+      [](auto& f) { f.claims_broken = 1; }};
   for (std::size_t i = 0; i < unsound.size(); ++i) {
     SCOPED_TRACE(i);
     expect(judged_after({unsound[i]}), Gate::harness, "unsound-harness", 4);
@@ -153,8 +154,8 @@ TEST(Gates, WhatIsAbsentIsIncomplete) {
         f.parts = {{1, 2, "r"}};
       },
       [](auto& f) { f.evidence.faults.erase(f.evidence.faults.begin()); },
-      [](auto& f) { f.evidence.corpus.clear(); }, [](auto& f) { f.evidence.self_test.clear(); },
-      [](auto& f) { f.evidence.self_test[0].complete = false; },
+      [](auto& f) { forget(f, Source::corpus); }, [](auto& f) { forget(f, Source::self_test); },
+      [](auto& f) { f.evidence.sources[1].complete = false; },
       [](auto& f) {
         f.evidence.power = {{"other", "built-in", 1, "another program", "", "", ""}};
       },
@@ -162,7 +163,7 @@ TEST(Gates, WhatIsAbsentIsIncomplete) {
       [](auto& f) { f.evidence.faults[0].time_over = true; },
       [](auto& f) { f.evidence.faults[2].needed.clear(); },
       [](auto& f) {
-        f.evidence.corpus[0].open = {{"A1", "", "no verdict: no answer in 60 s"}};
+        f.evidence.sources[0].open = {{"A1", "", "no verdict: no answer in 60 s"}};
       },
       [](auto& f) { f.tally.strata["broken"].discards = 1; },
       [](auto& f) { f.tally.strata["broken"].disturbed = 1; },  // one of twenty
@@ -181,7 +182,7 @@ TEST(Gates, WhatIsAbsentIsIncomplete) {
 }
 
 TEST(Gates, ACaseOfTheCorpusThatFailsIsADefect) {
-  const Change failed = [](auto& f) { f.evidence.corpus[0].failed = {{"A1", "s", "w"}}; };
+  const Change failed = [](auto& f) { f.evidence.sources[0].failed = {{"A1", "s", "w"}}; };
   expect(judged_after({failed}), Gate::corpus, "defect", 1);
 }
 
@@ -267,17 +268,20 @@ TEST(Gates, ADefectGoesBeforeWhatIsMissing) {
 TEST(Gates, TheSearchAsksAllOfItsCases) {
   const Change planned = [](auto& f) { f.run.plan.search = 1000; };
   const auto lane = [](const char* name) {
-    return [name](auto& f) { f.evidence.search.push_back({name, 500, 500, 0, 0, {"generic"}}); };
+    return [name](auto& f) {
+      f.evidence.sources.push_back(
+          {.source = Source::search, .input = name, .planned = 500, .cases = 500});
+    };
   };
   expect_certified({planned, lane("001"), lane("002")});
   expect_incomplete(judged_after({planned, lane("001")}),
                     "the search came to lanes of 500 of 1000 cases");
-  const Change no_verdict = [](auto& f) { f.evidence.search.at(0).open = 3; };
+  const Change no_verdict = [](auto& f) { f.evidence.sources.back().undecided = 3; };
   EXPECT_EQ(
       judged_after({planned, lane("001"), lane("002"), no_verdict}).of(Gate::complete).reasons,
       std::vector<std::string>{"3 cases of the search have no verdict"});
   const Change none_taken = [](auto& f) {
-    for (auto& one : f.evidence.search) one.cases = 0;
+    for (auto& one : f.evidence.sources) one.cases = 0;
   };
   EXPECT_EQ(
       judged_after({planned, lane("001"), lane("002"), none_taken}).of(Gate::complete).reasons,
@@ -286,8 +290,8 @@ TEST(Gates, TheSearchAsksAllOfItsCases) {
 
 TEST(Gates, WhatTheSearchFindsIsADefect) {
   const Change found = [](auto& f) {
-    f.failures.push_back(
-        {"search/tiny:1:001:7", "bvh", "all-pairs: missing pair", "why", "{}", ""});
+    f.failures.push_back(failure("all-pairs: missing pair", "search/tiny:1:001:7"));
+    f.failures.back().source = Source::search;
   };
   const auto judged = judged_after({found});
   expect(judged, Gate::claims, "defect", 1);
@@ -302,7 +306,7 @@ TEST(Gates, APlugInIsGivenEverySceneAndALimiterEveryWalk) {
     f.run.plan.policy.repeated_triangles = 100;
   };
   const auto given = [](auto& f, const std::string& input) {
-    f.evidence.repeated.emplace_back().input = input;
+    f.evidence.sources.push_back({.source = Source::repeated, .input = input});
   };
   const Change scenes = [&](auto& f) {
     for (const auto& scene : corpus::scenes()) given(f, std::string(scene.name));
@@ -459,7 +463,7 @@ TEST(Gates, StrataOfSizesEnterNoCorrection) {
   with.tally.strata["size-1e4"].with_defect = 1;
   with.tally.strata["size-1e4"].by_configuration = {{9, 1, 0, 0}};
   with.failures = {failure("free-sound: answered free, large mesh", "tiny:1:size-1e4:3")};
-  with.times_met = {{"free-sound: answered free, large mesh", 1}};
+  with.times_met = {{"free-sound: answered free, large mesh", with.claims_broken = 1}};
   EXPECT_EQ(judge(with, asked_of_a_certificate()).verdict, "defect");
 }
 
@@ -489,7 +493,7 @@ TEST(Gates, TheFirstThatFailsNamesTheVerdict) {
                                        [](auto& f) { f.tally.strata["broken"].trials = 19; },
                                        [](auto& f) { f.evidence.worlds[0].counterexample = "c"; },
                                        [](auto& f) {
-                                         f.evidence.corpus[0].failed = {{"A", "s", "w"}};
+                                         f.evidence.sources[0].failed = {{"A", "s", "w"}};
                                        },
                                        [](auto& f) {
                                          f.evidence.problems = {{"p", 0}};
@@ -509,7 +513,7 @@ TEST(Gates, TheFirstThatFailsNamesTheVerdict) {
 // No store can have a certificate issued with a gate left out.
 TEST(Gates, ACertificateAsksForEveryGate) {
   const auto judgement =
-      judged_after({[](auto& f) { f.evidence.corpus.clear(); }}, Asked{{"harness"}, true});
+      judged_after({[](auto& f) { forget(f, Source::corpus); }}, Asked{{"harness"}, true});
   for (const auto& result : judgement.gates) {
     if (result.gate == Gate::corpus) continue;
     EXPECT_NE(result.state, GateState::not_judged) << rule_of(result.gate).name;

@@ -1,6 +1,7 @@
 // Findings of a run all of whose gates hold, for tests that break one of them.
 #pragma once
 
+#include <regex>
 #include <string>
 
 #include "properties/campaign/gates/gates.h"
@@ -20,9 +21,23 @@ inline FaultProof fault_proof(const std::string& name, FaultStatus status, bool 
   return proof;
 }
 
+// Of a trial, or of the corpus. The signature is "law L3_X, claim: kind, contact", or a part of it.
 inline StoredFailure failure(const std::string& signature,
                              const std::string& id = "tiny:1:broken:3") {
-  return {id, "bvh", signature, "a & b < c", "{}", "", false};
+  static const std::regex form("(?:law ([^,]*)(?:, |$))?([^:]*)(?:: ([^,]*))?(?:, (.*))?");
+  const std::string of_corpus = "corpus/";
+  const bool is_of_corpus = id.starts_with(of_corpus);
+  std::smatch part;
+  std::regex_match(signature, part, form);
+  return {.source = is_of_corpus ? Source::corpus : Source::trial,
+          .case_id = is_of_corpus ? id.substr(of_corpus.size()) : id,
+          .configuration = "bvh",
+          .law = part[1],
+          .claim = part[2],
+          .kind = part[3],
+          .contact = part[4],
+          .explanation = "a & b < c",
+          .mesh = "{}"};
 }
 
 // A tally of trials that hold in one configuration, each with a contact.
@@ -66,13 +81,16 @@ inline RunFindings good_findings() {
       fault_proof("a", FaultStatus::planted, true), fault_proof("b", FaultStatus::planted, true),
       fault_proof("e", FaultStatus::equivalent, false), fault_proof("o", FaultStatus::open, false)};
   f.evidence.worlds = {{"square-2", 1, 1, 1, 0, true, std::nullopt}};
-  f.evidence.self_test = {{"line", 10, 1, 0, 0, true}};
-  CorpusRow corpus;
-  corpus.input = "curated cases";
-  corpus.configuration = "bvh";
-  f.evidence.corpus = {corpus};
+  f.evidence.sources = {
+      {.source = Source::corpus, .input = "curated cases", .configuration = "bvh"},
+      {.source = Source::self_test, .input = "line", .cases = 10, .collisions = 1}};
   f.evidence.speed = {{"exact-over-double", 1.2, 1.1, 1.3, {}}};
   return f;
+}
+
+// As if the source had not been judged.
+inline void forget(RunFindings& f, Source source) {
+  std::erase_if(f.evidence.sources, [&](const auto& row) { return row.source == source; });
 }
 
 }  // namespace assay::properties::test

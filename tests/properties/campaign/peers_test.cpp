@@ -115,11 +115,11 @@ class Peers : public testing::Test {
     for (const auto& failure : peer_.failures) {
       for (const auto& text : {failure.mesh, failure.smallest}) {
         if (text.empty()) continue;
-        const auto c = corpus::parse_case(text, failure.id).value();
+        const auto c = corpus::parse_case(text, failure.id()).value();
         for (const auto& frame : c.frames) {
-          EXPECT_EQ(beyond_range(frame, edges_of(c), contract), "") << failure.id;
+          EXPECT_EQ(beyond_range(frame, edges_of(c), contract), "") << failure.id();
           if (contract.coordinates != Coordinates::float32) continue;
-          EXPECT_EQ(frame, contracted(frame, Coordinates::float32)) << failure.id;
+          EXPECT_EQ(frame, contracted(frame, Coordinates::float32)) << failure.id();
         }
       }
     }
@@ -164,14 +164,14 @@ class Peers : public testing::Test {
     std::set<std::string> shrunk;
     for (const auto& failure : peer_.failures) {
       if (failure.smallest.empty()) continue;
-      const auto before = cause_in(failure.mesh, failure.signature);
-      const auto after = cause_in(failure.smallest, failure.signature);
-      EXPECT_EQ(before, after) << failure.id;
+      const auto before = cause_in(failure.mesh, failure.signature());
+      const auto after = cause_in(failure.smallest, failure.signature());
+      EXPECT_EQ(before, after) << failure.id();
       EXPECT_FALSE(before.empty());
-      EXPECT_TRUE(failure.signature.ends_with(", " + before)) << failure.signature;
-      EXPECT_TRUE(shrunk.insert(failure.signature).second);
-      const auto whole = corpus::parse_case(failure.mesh, failure.id).value();
-      const auto small = corpus::parse_case(failure.smallest, failure.id).value();
+      EXPECT_TRUE(failure.signature().ends_with(", " + before)) << failure.signature();
+      EXPECT_TRUE(shrunk.insert(failure.signature()).second);
+      const auto whole = corpus::parse_case(failure.mesh, failure.id()).value();
+      const auto small = corpus::parse_case(failure.smallest, failure.id()).value();
       EXPECT_LE(small.triangles.rows(), whole.triangles.rows());
     }
     EXPECT_EQ(shrunk.size(), peer_.met.size()) << "each kind is shrunk once";

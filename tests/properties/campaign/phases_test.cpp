@@ -195,7 +195,7 @@ class SearchPhase : public testing::Test {
     std::vector<std::string> rows;
     for (const auto& row : store.evidence()) rows.push_back(row.key + row.fields);
     for (const auto& failure : store.failures())
-      rows.push_back(failure.id + failure.signature + failure.mesh);
+      rows.push_back(failure.id() + failure.signature() + failure.mesh);
     return rows;
   }
   const tests::Scratch scratch_;
@@ -206,18 +206,18 @@ TEST_F(SearchPhase, JobsAndInterruptionsDoNotChangeWhatIsFound) {
   auto whole = open(one, "whole");
   run(one, whole);
   const auto facts = facts_in(whole);
-  ASSERT_EQ(facts.search.size(), 3u);
-  EXPECT_EQ(facts.search[2].cases, 100u);
-  EXPECT_GT(facts.search[0].defects, 0u);
-  EXPECT_GT(facts.search[0].causes.size(), 5u);
+  ASSERT_EQ(facts.sources.size(), 3u);
+  EXPECT_EQ(facts.sources[2].cases, 100u);
+  EXPECT_GT(facts.sources[0].defects, 0u);
+  EXPECT_GT(facts.sources[0].causes.size(), 5u);
   const auto failures = whole.failures();
   ASSERT_FALSE(failures.empty());
-  for (const auto& failure : failures) EXPECT_TRUE(is_of_search(failure)) << failure.id;
+  for (const auto& failure : failures) EXPECT_EQ(failure.source, Source::search) << failure.id();
 
   const auto two = searching(2);
   auto shared = open(two, "shared");
   run(two, shared, std::chrono::steady_clock::now());  // the time is over: nothing is stored
-  EXPECT_TRUE(facts_in(shared).search.empty());
+  EXPECT_TRUE(facts_in(shared).sources.empty());
   run(two, shared);
   EXPECT_EQ(rows_of(shared), rows_of(whole));
   run(two, shared);  // nothing is left to do
@@ -228,7 +228,7 @@ TEST_F(SearchPhase, AShareAsksItsPartOfTheCases) {
   const auto request = searching(1, 2);
   auto store = open(request, "share");
   run(request, store);
-  const auto lanes = facts_in(store).search;
+  const auto lanes = facts_in(store).sources;
   ASSERT_EQ(lanes.size(), 2u);
   EXPECT_EQ(lanes[0].planned, 500u);
   EXPECT_EQ(lanes[1].planned, 50u);
@@ -246,10 +246,8 @@ TEST_F(SearchPhase, WhatItFindsIsShrunk) {
   const auto ran = run_campaign(request, curated_cases, store, noted);
   ASSERT_TRUE(ran) << ran.error().message;
   EXPECT_NE(std::find(noted.phases.begin(), noted.phases.end(), "search"), noted.phases.end());
-  const auto found = std::find_if(noted.failures.begin(), noted.failures.end(), is_of_search);
-  ASSERT_NE(found, noted.failures.end());
   const auto shrunk = std::any_of(noted.failures.begin(), noted.failures.end(), [](const auto& f) {
-    return is_of_search(f) && !f.smallest.empty();
+    return f.source == Source::search && !f.smallest.empty();
   });
   EXPECT_TRUE(shrunk);
 }

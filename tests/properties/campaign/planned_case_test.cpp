@@ -134,7 +134,7 @@ TEST(Questions, WhatFailsIsKeptWithItsQuestion) {
   for (const auto& failure : store.value().failures()) {
     if (failure.smallest.empty()) continue;
     found.insert(failure.configuration);
-    const auto c = corpus::parse_case(failure.smallest, failure.id);
+    const auto c = corpus::parse_case(failure.smallest, failure.id());
     ASSERT_TRUE(c);
     auto asked = read_configuration(c.value(), failure.configuration);
     ASSERT_TRUE(asked);
@@ -144,8 +144,8 @@ TEST(Questions, WhatFailsIsKeptWithItsQuestion) {
     const auto detector = request.detector.in(asked.value());
     WorkerProcess worker(request.worker, std::nullopt);
     const auto finding = judge_of_detector(detector, asked.value(), worker)(c.value());
-    ASSERT_TRUE(finding) << failure.signature;
-    EXPECT_EQ(finding->signature, failure.signature);
+    ASSERT_TRUE(finding) << failure.signature();
+    EXPECT_EQ(finding->signature, failure.signature());
   }
   EXPECT_EQ(found, (std::set<std::string>{"limits", "within"}));
 }
@@ -230,11 +230,11 @@ TEST(CleanStarts, OfATrialAreStoredWithItsFailures) {
   });
   std::map<bool, int> failures;
   for (const auto& failure : store->failures()) {
-    const auto c = corpus::parse_case(failure.mesh, failure.id);
+    const auto c = corpus::parse_case(failure.mesh, failure.id());
     ASSERT_TRUE(c) << c.error().message;
-    EXPECT_EQ(c.value().options.at("start"), vouched.at(failure.id) ? "clean" : "verified")
-        << failure.id << ' ' << failure.signature;
-    ++failures[vouched.at(failure.id)];
+    EXPECT_EQ(c.value().options.at("start"), vouched.at(failure.id()) ? "clean" : "verified")
+        << failure.id() << ' ' << failure.signature();
+    ++failures[vouched.at(failure.id())];
   }
   EXPECT_GT(failures[true], 0);
   EXPECT_GT(failures[false], 0);

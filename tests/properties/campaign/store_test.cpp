@@ -44,7 +44,14 @@ class Stores : public testing::Test {
     expect_refused(Store::read(path), path, words);
   }
   static StoredFailure failure(const std::string& id, const std::string& signature) {
-    return {id, "view-point", signature, "what", "mesh of " + id, "", false};
+    StoredFailure failure{.case_id = id, .configuration = "view-point", .claim = signature};
+    failure.mesh = "mesh of " + id;
+    return failure;
+  }
+  // A failure of trial i whose mesh is not kept.
+  static StoredFailure met(std::uint64_t i, const std::string& configuration,
+                           const std::string& signature) {
+    return {.case_id = record(i).id, .configuration = configuration, .claim = signature};
   }
   static TrialRecord record(std::uint64_t i) {
     return {"p:1:broken:" + std::to_string(i), "broken", i, "HD", 1, 2, 3, 4, 5, 6,
@@ -62,7 +69,7 @@ TEST_F(Stores, KeepWhatIsAdded) {
     store.add(shown);
     shown.smallest = "small";
     store.set_smallest(shown);
-    store.add(record(7), {}, {{"one", "s"}, {"two", "s"}, {"three", "t"}});
+    store.add(record(7), {met(7, "one", "s"), met(7, "two", "s"), met(7, "three", "t")});
     store.set_note("key", "old");
     store.set_note("key", "new");
   }
@@ -89,10 +96,10 @@ TEST_F(Stores, KeepWhatIsAdded) {
   EXPECT_FALSE(store.has_trial("p:1:broken:1"));
   const auto failures = store.failures();
   ASSERT_EQ(failures.size(), 2u);
-  EXPECT_EQ(failures[0].id, "a");
+  EXPECT_EQ(failures[0].id(), "a");
   EXPECT_EQ(failures[0].smallest, "small");
   EXPECT_TRUE(failures[0].flaky);
-  EXPECT_EQ(failures[1].id, "b");
+  EXPECT_EQ(failures[1].id(), "b");
   EXPECT_EQ(failures[1].mesh, "mesh of b");
   EXPECT_TRUE(failures[1].smallest.empty());
   EXPECT_FALSE(failures[1].flaky);
@@ -119,7 +126,7 @@ TEST_F(Stores, ATrialIsStoredWithItsFailuresOrNotAtAll) {
     const pid_t child = fork();
     if (child == 0) {
       Store store = open();
-      store.add(record(i), {failure("f" + std::to_string(i), "s")}, {{"one", "s"}, {"two", "s"}});
+      store.add(record(i), {failure("f" + std::to_string(i), "s"), met(i, "one", "s")});
       raise(SIGKILL);
     }
     int status = 0;
@@ -199,7 +206,7 @@ TEST_F(Stores, DamageThatIsMetLateIsAValueToo) {
   {
     Store store = open(R"({"schema": "assay-store/8"})");
     for (std::uint64_t i = 0; i < 400; ++i) {
-      store.add(record(i), {failure(record(i).id, "s")}, {{"one", "s"}});
+      store.add(record(i), {failure(record(i).id, "s")});
     }
   }
   const auto whole = Store::read(file).value().kept_failures();
@@ -239,8 +246,9 @@ class ChangedRows : public Stores {
   void fill() const {
     Store store = open(test_binding);
     for (std::uint64_t i = 0; i < 3; ++i) store.add(record(i));
-    store.add(record(3), {{record(3).id, "bvh", "s", "what", "mesh", "small", false}},
-              {{"bvh", "s"}});
+    auto shown = failure(record(3).id, "s");
+    shown.smallest = "small";
+    store.add(record(3), {shown});
     store.set({"canary", "c", 1, "{}"});
     store.set_note("key", "value");
     ASSERT_TRUE(store.seal());
@@ -265,7 +273,7 @@ class ChangedRows : public Stores {
       store.value().for_each_trial(
           [&](const TrialRecord& r) { all.push_back(to_row(r).key + to_row(r).fields); });
       for (const auto& f : store.value().failures())
-        all.push_back(f.id + f.configuration + f.signature + f.explanation + f.mesh + f.smallest);
+        all.push_back(to_row(f).key + to_row(f).fields);
       for (const auto& [signature, count] : store.value().signatures())
         all.push_back(signature + std::to_string(count));
       for (const auto& e : store.value().evidence())
@@ -399,26 +407,15 @@ TEST_F(FailingStore, EndsACampaignByAValue) {
   expect_told("shrinking");
 }
 
-TEST_F(FailingStore, IsNotedOnceByWhoeverStoresChecks) {
+TEST_F(FailingStore, IsAValueForWhoeverKeepsARow) {
   const auto request = test::request_of(4);
   auto opened = Store::open(store_file(scratch / ""), binding_of(request));
   ASSERT_TRUE(opened) << opened.error().message;
-  Checks checks(opened.value());
-  checks.keep(Paths{"out", ""});
-  ASSERT_FALSE(checks.problem());
-  ASSERT_TRUE(checks.corpus_failures());
+  ASSERT_TRUE(opened.value().keep(to_row(Issued{"out"})));
   drop_table(store_file(scratch / ""));
-  checks.keep(Paths{"out", ""});
-  ASSERT_TRUE(checks.problem());
-  EXPECT_TRUE(says(*checks.problem(), "no such table: ledger"));
-  const std::string first = checks.problem()->message;
-  // Nothing more is stored, and the first problem stays the one that is told.
-  bool was_called = false;
-  checks.update([&](Store&) { was_called = true; });
-  EXPECT_FALSE(was_called);
-  EXPECT_EQ(checks.problem()->message, first);
-  ASSERT_FALSE(checks.corpus_failures());
-  EXPECT_EQ(checks.corpus_failures().error().message, first);
+  const auto kept = opened.value().keep(to_row(Issued{"out"}));
+  ASSERT_FALSE(kept);
+  EXPECT_TRUE(says(kept.error(), "no such table: ledger"));
 }
 
 }  // namespace

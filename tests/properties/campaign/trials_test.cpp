@@ -177,32 +177,32 @@ TEST_F(Trials, AFaultIsFoundKeptThriceAndReplays) {
   Counts kept;
   std::uint64_t of_claims = 0, of_laws = 0;
   for (const auto& failure : store.failures()) {
-    ++kept[failure.signature];
+    ++kept[failure.signature()];
     EXPECT_FALSE(failure.flaky);
-    const auto c = corpus::parse_case(failure.mesh, failure.id);
+    const auto c = corpus::parse_case(failure.mesh, failure.id());
     ASSERT_TRUE(c) << c.error().message;
-    EXPECT_NE(c.value().source.find(failure.id), std::string::npos);
+    EXPECT_NE(c.value().source.find(failure.id()), std::string::npos);
     EXPECT_FALSE(c.value().options.empty());
     const auto& configuration = request.detector.configurations[0];
-    if (failure.signature.starts_with("law ")) {
+    if (failure.signature().starts_with("law ")) {
       ++of_laws;
-      EXPECT_EQ(c.value().id, failure.id);
-      const Law* law = law_named(failure.signature.substr(4));
+      EXPECT_EQ(c.value().id, failure.id());
+      const Law* law = law_named(failure.signature().substr(4));
       ASSERT_TRUE(law);
       const auto finding = judge_of_law(*law, configuration)(c.value());
-      ASSERT_TRUE(finding) << failure.id << failure.signature;
-      EXPECT_EQ(finding->signature, failure.signature);
+      ASSERT_TRUE(finding) << failure.id() << failure.signature();
+      EXPECT_EQ(finding->signature, failure.signature());
       EXPECT_NE(c.value().about.find(law->name), std::string::npos);
       continue;
     }
     ++of_claims;
     EXPECT_EQ(c.value().id.find(':'), std::string::npos);
     EXPECT_EQ(failure.configuration, "faulty");
-    EXPECT_NE(c.value().about.find(failure.signature), std::string::npos);
+    EXPECT_NE(c.value().about.find(failure.signature()), std::string::npos);
     WorkerProcess worker(ASSAY_WORKER, std::nullopt);
     const auto finding = judge_of_detector(request.detector, configuration, worker)(c.value());
-    ASSERT_TRUE(finding) << failure.id;
-    EXPECT_EQ(finding->signature, failure.signature);
+    ASSERT_TRUE(finding) << failure.id();
+    EXPECT_EQ(finding->signature, failure.signature());
   }
   EXPECT_GT(of_claims, 0u);
   EXPECT_GT(of_laws, 0u);
@@ -223,13 +223,14 @@ TEST_F(Trials, FailuresShrinkAndGoOnShrinking) {
   std::set<std::string> signatures, shrunk;
   std::map<std::string, std::size_t> triangles;
   for (const auto& failure : store.failures()) {
-    signatures.insert(failure.signature);
+    signatures.insert(failure.signature());
     if (failure.smallest.empty()) continue;
-    EXPECT_TRUE(shrunk.insert(failure.signature).second) << "shrunk twice: " << failure.signature;
+    EXPECT_TRUE(shrunk.insert(failure.signature()).second)
+        << "shrunk twice: " << failure.signature();
     const auto whole = corpus::parse_case(failure.mesh, "mesh").value();
     const auto small = corpus::parse_case(failure.smallest, "smallest").value();
     EXPECT_LE(small.triangles.rows(), whole.triangles.rows());
-    triangles[failure.signature] = static_cast<std::size_t>(small.triangles.rows());
+    triangles[failure.signature()] = static_cast<std::size_t>(small.triangles.rows());
   }
   EXPECT_EQ(shrunk, signatures);  // one each, of laws as of claims
   // Each had few calls only: the same again goes on from there, and never gets larger.
@@ -238,7 +239,7 @@ TEST_F(Trials, FailuresShrinkAndGoOnShrinking) {
   for (const auto& failure : store.failures()) {
     if (failure.smallest.empty()) continue;
     const auto small = corpus::parse_case(failure.smallest, "smallest").value();
-    const auto before = triangles.at(failure.signature);
+    const auto before = triangles.at(failure.signature());
     EXPECT_LE(static_cast<std::size_t>(small.triangles.rows()), before);
     smaller |= static_cast<std::size_t>(small.triangles.rows()) < before;
   }
@@ -275,7 +276,7 @@ TEST_F(Trials, AFailureOfAPlugInKeepsWhatItsPairSharesAndWhen) {
   for (const auto& failure : store.failures()) {
     if (failure.smallest.empty()) continue;
     const Shown whole = shown_by(failure.mesh);
-    EXPECT_EQ(shown_by(failure.smallest), whole) << failure.signature;
+    EXPECT_EQ(shown_by(failure.smallest), whole) << failure.signature();
     ++kinds[static_cast<std::size_t>(std::clamp(whole.first, 0, 2))];
   }
   for (const int kind : kinds) EXPECT_GT(kind, 0) << kinds[0] << ' ' << kinds[1] << ' ' << kinds[2];

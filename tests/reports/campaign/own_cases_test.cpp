@@ -26,9 +26,9 @@ TEST_F(OwnCases, HoldAndAreAGate) {
   add(colliding);
   expect_ended(judge("wrapped_builtin"), 0, {"\nown cases ", "\ncorpus     holds\n"});
   const auto findings = properties::read_findings(out).value();
-  ASSERT_EQ(findings.evidence.corpus.size(), 1u);
-  EXPECT_EQ(findings.evidence.corpus[0].cases, 1u);
-  EXPECT_GE(findings.evidence.corpus[0].collisions, 1u);
+  ASSERT_EQ(findings.evidence.sources.size(), 1u);
+  EXPECT_EQ(findings.evidence.sources[0].cases, 1u);
+  EXPECT_GE(findings.evidence.sources[0].collisions, 1u);
   // Without them the gate is not asked for.
   const auto plain = run_assay("run --campaign " + plan + " --out " + (scratch / "plain") +
                                " --detector " + plugin("wrapped_builtin"));
@@ -43,12 +43,13 @@ TEST_F(OwnCases, ThatFailAreADefectWithAMesh) {
     EXPECT_TRUE(contains(read_text(out + "/junit.xml"), "own/" + colliding));
   }
   const auto findings = properties::read_findings(out).value();
-  ASSERT_EQ(findings.evidence.corpus.size(), 1u);
-  ASSERT_EQ(findings.evidence.corpus[0].failed.size(), 1u);
-  const auto& failed = findings.evidence.corpus[0].failed[0];
+  ASSERT_EQ(findings.evidence.sources.size(), 1u);
+  ASSERT_EQ(findings.evidence.sources[0].failed.size(), 1u);
+  const auto& failed = findings.evidence.sources[0].failed[0];
   EXPECT_EQ(failed.id, "own/" + colliding);
   bool is_stored = false;
-  for (const auto& failure : findings.failures) is_stored |= failure.signature == failed.signature;
+  for (const auto& failure : findings.failures)
+    is_stored |= failure.signature() == failed.signature;
   EXPECT_TRUE(is_stored);
   // Another set of cases is another run.
   add("A1_winding2_allpositive");

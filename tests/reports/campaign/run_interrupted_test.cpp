@@ -36,7 +36,7 @@ class Interrupted : public testing::Test {
     properties::Counts kept;
     if (!store) return kept;
     for (const auto& failure : store.value().failures()) {
-      ++kept[failure.signature];
+      ++kept[failure.signature()];
       EXPECT_FALSE(failure.mesh.empty());
     }
     return kept;

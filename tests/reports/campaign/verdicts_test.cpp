@@ -92,8 +92,8 @@ class GeneratedFolder {
 
   void store_checks(const States& states) {
     auto checks = open(store_file(folder_), binding());
-    checks.set(to_row(SelfTestRow{"line", 10, 1, 0, 0, true}));
-    CorpusRow row{"curated cases", "bvh", 1, 0, 1, 0, 0, 0, {}, {}};
+    checks.set(to_row(JudgedSource{.source = Source::self_test, .input = "line", .cases = 10}));
+    JudgedSource row{.input = "curated cases", .configuration = "bvh", .cases = 1, .steps = 1};
     if (fails(states, Gate::corpus)) row.failed = {{"A1", "s", "a & b"}};
     checks.set(to_row(row));
     const double median = fails(states, Gate::speed) ? 1.4 : 1.2;
@@ -105,7 +105,7 @@ class GeneratedFolder {
     }
     asked.certificate = asked.gates.size() == gate_rules.size();
     checks.set(to_row(asked));
-    checks.set(to_row(Paths{folder_, ""}));
+    checks.set(to_row(Issued{folder_}));
     EXPECT_TRUE(checks.seal());
   }
 

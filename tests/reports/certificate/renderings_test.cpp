@@ -20,7 +20,7 @@ nlohmann::ordered_json judged(
 RunFindings with_a_defect() {
   auto findings = good_findings();
   findings.tally.strata["broken"].by_configuration[0] = {19, 1, 0, 0};
-  findings.times_met["free-sound: missing"] = 1;
+  findings.times_met["free-sound: missing"] = findings.claims_broken = 1;
   findings.failures = {failure("free-sound: missing")};
   return findings;
 }
@@ -92,7 +92,7 @@ TEST(Summary, ACertificateTellsItsDayAndARunThatOfItsBegin) {
   const auto predicate = judged(findings);
   EXPECT_TRUE(contains(summary_text(predicate, "2026-01-31T12:00:00Z"), " Begun 2026-01-31T12:00"));
   EXPECT_FALSE(contains(summary_text(predicate), "Begun"));
-  findings.evidence.issued = {"2026-02-01T12:00:00Z", 4};
+  findings.evidence.issued = properties::Issued{.out = "out", .at = "2026-02-01T12:00:00Z"};
   EXPECT_TRUE(contains(summary_text(judged(findings)), " Issued 2026-02-01T12:00:00Z."));
 }
 
@@ -116,8 +116,9 @@ TEST(Summary, NamesTheLargestThatWasTried) {
   for (auto& [family, stratum] : findings.tally.strata)
     stratum.triangles = stratum.triangles_in_contact = 200;
   findings.tally.counts.measures.relation_trials = 1;
-  findings.evidence.corpus[0].extremes = {2, 14, 1, 2, 1, 12};
-  findings.evidence.repeated.emplace_back().extremes = {1, 2, 0, 1, 812, 99};
+  findings.evidence.sources[0].extremes = {2, 14, 1, 2, 1, 12};
+  findings.evidence.sources.push_back(
+      {.source = properties::Source::repeated, .extremes = {1, 2, 0, 1, 812, 99}});
   const auto predicate = judged(findings);
   EXPECT_EQ(predicate["tried"].dump(),
             R"({"largest":{"steps_in_a_row":8,"valence":14,"bodies":1,"components":5,"pairs":812,)"

@@ -98,7 +98,7 @@ TEST_F(ForeignDetector, WhatItPrintsStandsWithItsFailuresAndNowhereElse) {
   const auto failures = properties::read_findings(out).value().failures;
   ASSERT_FALSE(failures.empty());
   for (const auto& failure : failures)
-    EXPECT_TRUE(contains(failure.printed, "line 2 of ?[31m")) << failure.id;
+    EXPECT_TRUE(contains(failure.printed, "line 2 of ?[31m")) << failure.id();
   EXPECT_TRUE(contains(run_assay("list failures " + out).out, "  it printed:\n"));
   expect_ended(run_assay(replay_lines(ran.out).front(),
                          "ASSAY_BY_CONTRACT='claims=131 miss-inside print=2' "),

@@ -121,7 +121,8 @@ TEST_F(Shares, WhoseFailuresHaveOneNameKeepTheSmallestMesh) {
     auto run = eighth(seed).judge("closed-generic", 2, 'H').judge("broken", 2, 'D');
     run.fail(seed == 1 ? "A1_winding2_allpositive" : "B1_one_vertex_own_nearest",
              "all-pairs: missing pair", "lost");
-    run.failures[0].id = "corpus/one";
+    run.failures[0].source = properties::Source::corpus;
+    run.failures[0].case_id = "one";
     folders += store(run, "share" + std::to_string(seed));
   }
   expect_ended(judge(folders), 1);
