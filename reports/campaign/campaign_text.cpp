@@ -20,42 +20,32 @@ using properties::GateState;
 using properties::JudgedSource;
 using properties::RunFindings;
 using properties::Source;
-using properties::StratumTally;
-
-std::string stratum_row(const RunFindings& findings, const properties::StratumPlan& stratum,
-                        std::size_t c, const std::string& name, std::size_t width) {
-  const auto& tally = findings.tally_of(stratum);
-  const auto& outcomes = tally.by_configuration[c];
-  const double seconds = 1e-6 * static_cast<double>(tally.oracle_us + tally.detector_us);
-  return fmt::format("{:24} {:{}} {:>7} {:>7} {:>7} {:>9} {:>9.2e} {:>9} {:>13}\n",
-                     c == 0 ? stratum.family : "", name, width, outcomes.trials(), outcomes.holds,
-                     outcomes.defects, outcomes.open(), bound_of(outcomes, stratum, findings.run),
-                     stratum.wanted_bound > 0 ? fmt::format("{:.0e}", stratum.wanted_bound) : "-",
-                     c == 0 && seconds > 0
-                         ? fmt::format("{:.0f}", static_cast<double>(tally.steps) / seconds)
-                         : "");
-}
 
 // A row for each family and configuration. If all configurations agree, they share one row.
 std::string strata_text(const RunFindings& findings) {
+  constexpr const char* row = "{:24} {:{}} {:>7} {:>7} {:>7} {:>9} {:>9} {:>9} {:>13}\n";
   // A plug-in's one configuration has its name, which may be long.
   std::size_t width = 18;
   for (const auto& configuration : findings.run.detector.configurations)
     width = std::max(width, configuration.name.size());
-  std::string out = fmt::format("{:24} {:{}} {:>7} {:>7} {:>7} {:>9} {:>9} {:>9} {:>13}\n",
-                                "stratum", "configuration", width, "n", "holds", "defects",
+  std::string out = fmt::format(row, "stratum", "configuration", width, "n", "holds", "defects",
                                 "undecided", "bound", "wanted", "steps/s/core");
   for (const auto& stratum : findings.run.plan.strata) {
-    const auto& all = findings.tally_of(stratum).by_configuration;
+    const auto& tally = findings.tally_of(stratum);
+    const auto& all = tally.by_configuration;
     const auto configurations = configurations_in(findings.run.detector, stratum.family);
     const bool all_same = configurations_agree(findings, stratum);
-    const std::size_t rows = all_same ? std::min<std::size_t>(all.size(), 1) : all.size();
-    for (std::size_t c = 0; c < rows; ++c)
-      out += stratum_row(findings, stratum, c,
-                         all_same && configurations.size() > 1
-                             ? fmt::format("each of {}", configurations.size())
-                             : configurations[c].name,
-                         width);
+    const double seconds = 1e-6 * static_cast<double>(tally.oracle_us + tally.detector_us);
+    for (std::size_t c = 0; c < (all_same ? std::min<std::size_t>(all.size(), 1) : all.size()); ++c)
+      out += fmt::format(
+          row, c == 0 ? stratum.family : "",
+          all_same && configurations.size() > 1 ? fmt::format("each of {}", configurations.size())
+                                                : configurations[c].name,
+          width, all[c].trials(), all[c].holds, all[c].defects, all[c].open(),
+          fmt::format("{:.2e}", bound_of(all[c], stratum, findings.run)),
+          stratum.wanted_bound > 0 ? fmt::format("{:.0e}", stratum.wanted_bound) : "-",
+          c == 0 && seconds > 0 ? fmt::format("{:.0f}", static_cast<double>(tally.steps) / seconds)
+                                : "");
   }
   return out;
 }

@@ -146,25 +146,21 @@ struct TestCase {
   TestState state;
   std::string why;  // of a test that holds, nobody asks
 };
+using Tests = std::vector<TestCase>;
 
-struct Suite {
-  std::string name;
-  std::vector<TestCase> cases;
-};
+TestState state_of(bool is_failed, bool is_skipped = false) {
+  return is_failed ? TestState::failed : is_skipped ? TestState::skipped : TestState::holds;
+}
 
-Suite gates_suite(const Json& p) {
-  Suite suite{"gates", {}};
+Tests gates_tests(const Json& p) {
+  Tests tests;
   for (const auto& gate : p["gates"]) {
-    std::string reasons;
-    for (const auto& reason : gate["reasons"]) reasons += text(reason) + "\n";
     const bool is_judged = gate["state"] != "not judged";
-    suite.cases.push_back({text(gate["gate"]),
-                           gate["state"] == "fails" ? TestState::failed
-                           : is_judged              ? TestState::holds
-                                                    : TestState::skipped,
-                           is_judged ? reasons : "not judged: " + reasons});
+    std::string reasons = is_judged ? "" : "not judged: ";
+    for (const auto& reason : gate["reasons"]) reasons += text(reason) + "\n";
+    tests.push_back({text(gate["gate"]), state_of(gate["state"] == "fails", !is_judged), reasons});
   }
-  return suite;
+  return tests;
 }
 
 bool gate_fails(const Json& p, std::string_view name) {
@@ -175,80 +171,72 @@ bool gate_fails(const Json& p, std::string_view name) {
 
 // A stratum fails for what makes a gate fail: its defects if the claims do not hold, and its bound
 // if the bounds are not met.
-Suite strata_suite(const Json& p) {
-  Suite suite{"strata", {}};
+Tests strata_tests(const Json& p) {
+  Tests tests;
   const bool claims_fail = gate_fails(p, "claims"), bounds_fail = gate_fails(p, "bounds");
   for (const auto& stratum : p["strata"]) {
     for (const auto& bound : stratum["bounds"]) {
-      const auto count = [&](const char* name) { return bound[name].get<std::uint64_t>(); };
+      const auto defects = count(bound["defects"]);
       const bool is_failed =
-          (claims_fail && count("defects") > 0) || (bounds_fail && !bound["met"].get<bool>());
+          (claims_fail && defects > 0) || (bounds_fail && !bound["met"].get<bool>());
       const auto counts = fmt::format(
-          "{} of {} trials hold, {} defects, {} undecided; bound {:.2e}", count("holds"),
-          count("n"), count("defects"), count("undecided"), bound["bound"].get<double>());
-      suite.cases.push_back({text(stratum["family"]) + ", " + text(bound["configuration"]),
-                             is_failed         ? TestState::failed
-                             : count("n") == 0 ? TestState::skipped
-                                               : TestState::holds,
-                             is_failed ? counts : "no trial"});
+          "{} of {} trials hold, {} defects, {} undecided; bound {:.2e}", count(bound["holds"]),
+          count(bound["n"]), defects, count(bound["undecided"]), bound["bound"].get<double>());
+      tests.push_back({text(stratum["family"]) + ", " + text(bound["configuration"]),
+                       state_of(is_failed, bound["n"] == 0), is_failed ? counts : "no trial"});
     }
   }
-  return suite;
+  return tests;
 }
 
-Suite laws_suite(const Json& p) {
-  Suite suite{"laws", {}};
-  if (p["laws"].is_null()) return suite;
+Tests laws_tests(const Json& p) {
+  Tests tests;
+  if (p["laws"].is_null()) return tests;
   for (const auto& law : p["laws"]["laws"]) {
-    const auto broken = law["broken"].get<std::uint64_t>();
-    suite.cases.push_back(
-        {text(law["law"]),
-         broken > 0             ? TestState::failed
-         : law["premises"] == 0 ? TestState::skipped
-                                : TestState::holds,
+    const auto broken = count(law["broken"]);
+    tests.push_back(
+        {text(law["law"]), state_of(broken > 0, law["premises"] == 0),
          broken > 0 ? fmt::format("broken in {} steps", broken) : "its premise never held"});
   }
-  return suite;
+  return tests;
 }
 
 // Planted faults have to be found, and equivalent ones must not be. The policy of the plan may ask
 // for less than all of them, so a fault that is not found fails only if the gate fails.
-TestCase test_of_fault(const Json& fault, bool harness_fails) {
-  const auto name = text(fault["fault"]);
-  const bool found = fault["found"].get<bool>();
-  if (fault["status"] == "planted" && !found)
-    return {
-        name,
-        harness_fails && !fault["time_over"].get<bool>() ? TestState::failed : TestState::skipped,
-        fmt::format("not found within {} cases", fault["cases"].get<std::uint64_t>())};
-  if (fault["status"] == "equivalent" && found)
-    return {name, TestState::failed, "found, but registered as equivalent"};
-  if (fault["status"] == "open" && !found)
-    return {name, TestState::skipped, "open: no case is known that shows it"};
-  return {name, TestState::holds, ""};
+Tests faults_tests(const Json& p) {
+  Tests tests;
+  const bool harness_fails = gate_fails(p, "harness");
+  for (const auto& fault : p["power"]["faults"]) {
+    const bool found = fault["found"].get<bool>(), was_tried = !fault["time_over"].get<bool>();
+    auto& test = tests.emplace_back(TestCase{text(fault["fault"]), TestState::holds, ""});
+    if (fault["status"] == "planted" && !found) {
+      test.state = state_of(harness_fails && was_tried, true);
+      test.why = fmt::format("not found within {} cases", count(fault["cases"]));
+    } else if (fault["status"] == "equivalent" && found) {
+      test.state = TestState::failed;
+      test.why = "found, but registered as equivalent";
+    } else if (fault["status"] == "open" && !found) {
+      test.state = TestState::skipped;
+      test.why = "open: no case is known that shows it";
+    }
+  }
+  return tests;
 }
 
-Suite faults_suite(const Json& p) {
-  Suite suite{"faults", {}};
-  for (const auto& fault : p["power"]["faults"])
-    suite.cases.push_back(test_of_fault(fault, gate_fails(p, "harness")));
-  return suite;
-}
-
-Suite corpus_suite(const Json& p) {
-  Suite suite{"corpus", {}};
+Tests corpus_tests(const Json& p) {
+  Tests tests;
   for (const auto& row : p["corpus"]) {
     std::string lines;
     for (const auto& line : row["failed"])
       lines += fmt::format("{}: {}\n", text(line["id"]), text(line["what"]));
-    suite.cases.push_back({text(row["input"]) + ", " + text(row["configuration"]),
-                           lines.empty() ? TestState::holds : TestState::failed, lines});
+    tests.push_back(
+        {text(row["input"]) + ", " + text(row["configuration"]), state_of(!lines.empty()), lines});
   }
-  return suite;
+  return tests;
 }
 
-Suite failures_suite(const Json& p) {
-  Suite suite{"failures", {}};
+Tests failures_tests(const Json& p) {
+  Tests tests;
   std::map<std::string, std::string> groups;
   for (const auto& group : p["failure_groups"]) {
     for (const auto& kind : group["kinds"]) groups[text(kind)] = text(group["what"]);
@@ -258,31 +246,29 @@ Suite failures_suite(const Json& p) {
     const auto line = fmt::format(
         "{} ({}), {}; {}\n{}", text(failure["what"]), text(failure["configuration"]),
         met_text(failure), text(failure["case"]), group.empty() ? "" : "group: " + group + "\n");
-    suite.cases.push_back({text(failure["signature"]), TestState::failed,
-                           line + "replay, in the folder of the run: " + text(failure["replay"])});
+    tests.push_back({text(failure["signature"]), TestState::failed,
+                     line + "replay, in the folder of the run: " + text(failure["replay"])});
   }
-  return suite;
+  return tests;
 }
 
-std::string xml_of(const Suite& suite) {
-  std::size_t failures = 0, others = 0;
+std::string suite_text(const char* name, const Tests& tests) {
+  if (tests.empty()) return "";
   std::string cases;
-  for (const auto& test : suite.cases) {
-    const auto head = fmt::format("    <testcase classname=\"assay.{}\" name=\"{}\"", suite.name,
-                                  xml_escaped(test.name));
-    if (test.state == TestState::holds) {
-      cases += head + "/>\n";
-      continue;
-    }
-    (test.state == TestState::failed ? failures : others) += 1;
+  for (const auto& test : tests) {
+    cases += fmt::format("    <testcase classname=\"assay.{}\" name=\"{}\"", name,
+                         xml_escaped(test.name));
     const char* element = test.state == TestState::failed ? "failure" : "skipped";
-    cases += fmt::format("{}>\n      <{} message=\"{}\">{}</{}>\n    </testcase>\n", head, element,
-                         xml_escaped(test.why.substr(0, test.why.find('\n'))),
-                         xml_escaped(test.why), element);
+    cases += test.state == TestState::holds
+                 ? "/>\n"
+                 : fmt::format(">\n      <{} message=\"{}\">{}</{}>\n    </testcase>\n", element,
+                               xml_escaped(test.why.substr(0, test.why.find('\n'))),
+                               xml_escaped(test.why), element);
   }
   return fmt::format(
       "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n{}  </testsuite>\n",
-      suite.name, suite.cases.size(), failures, others, cases);
+      name, tests.size(), std::ranges::count(tests, TestState::failed, &TestCase::state),
+      std::ranges::count(tests, TestState::skipped, &TestCase::state), cases);
 }
 
 }  // namespace
@@ -366,14 +352,12 @@ std::string xml_escaped(const std::string& text) {
   return replaced(text, written);
 }
 
-std::string junit_text(const Json& predicate) {
-  std::string out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"assay\">\n";
-  for (const auto make :
-       {gates_suite, strata_suite, laws_suite, faults_suite, corpus_suite, failures_suite}) {
-    const Suite suite = make(predicate);
-    if (!suite.cases.empty()) out += xml_of(suite);
-  }
-  return out + "</testsuites>\n";
+std::string junit_text(const Json& p) {
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"assay\">\n" +
+         suite_text("gates", gates_tests(p)) + suite_text("strata", strata_tests(p)) +
+         suite_text("laws", laws_tests(p)) + suite_text("faults", faults_tests(p)) +
+         suite_text("corpus", corpus_tests(p)) + suite_text("failures", failures_tests(p)) +
+         "</testsuites>\n";
 }
 
 }  // namespace assay::reports
