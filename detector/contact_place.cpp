@@ -1,5 +1,5 @@
 // Bounds, with u = 2^-53. Places are scaled by a power of two, so that the largest coordinate M of
-// both triangles at both ends is in [0.5, 1).
+// both triangles at both ends is in [0.5, 1), or below if it is less than 2^-1000 unscaled.
 // - A place at t, (1 - t) x0 + t x1, is off by at most 4 u; a sum of three weighted places by at
 //   most 8 u, and its difference from the point, as computed, by at most 10 u. `error` is that
 //   difference and 16 u. What the place is computed from plays no part in it.
@@ -98,7 +98,8 @@ class Places {
                             motion.vertices_t1.row(v).cwiseAbs().maxCoeff()});
       }
     }
-    if (largest > 0) exponent_ = std::ilogb(largest) + 1;
+    if (largest > 0) exponent_ = std::max(std::ilogb(largest) + 1, least_exponent);
+    scale_ = std::ldexp(1, -exponent_);
   }
 
   int exponent() const { return exponent_; }
@@ -118,14 +119,15 @@ class Places {
   }
 
  private:
-  Vector3 scaled(const Point& x) const {
-    return {std::ldexp(x[0], -exponent_), std::ldexp(x[1], -exponent_),
-            std::ldexp(x[2], -exponent_)};
-  }
+  // Exact, but for what falls below the normal numbers.
+  Vector3 scaled(const Point& x) const { return {scale_ * x[0], scale_ * x[1], scale_ * x[2]}; }
+
+  static constexpr int least_exponent = -1000;  // 2^1000 is a double, and 2^1074 is none
 
   const SteppedMesh& motion_;
   const double t_;
   int exponent_ = 0;
+  double scale_ = 1;  // 2^-exponent_
 };
 
 void set_normal(const Places::Edge& u, const Places::Edge& v, ContactPlace& place) {
