@@ -271,12 +271,13 @@ std::string findings_text(const RunFindings& findings) {
 std::string gates_text(const properties::Judgement& judgement) {
   std::string out = fmt::format("{:<10} {}\n", "gate", "outcome");
   constexpr std::size_t most = 5;
-  for (const auto& [gate, state, reasons] : judgement.gates) {
+  for (const auto& [gate, state, reasons, remedy] : judgement.gates) {
     out += fmt::format("{:<10} {}\n", properties::rule_of(gate).name,
                        state == GateState::fails ? "FAILS" : name_of(state));
     for (std::size_t i = 0; i < std::min(most, reasons.size()); ++i)
       out += fmt::format("  {}\n", reasons[i]);
     if (reasons.size() > most) out += fmt::format("  and {} more\n", reasons.size() - most);
+    if (!remedy.empty()) out += fmt::format("  {}\n", remedy);
   }
   return out;
 }

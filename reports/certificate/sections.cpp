@@ -151,13 +151,14 @@ Json cases_json(const RunFindings& findings) {
           {"tags", counts.tags}};
 }
 
-// One {gate, asks, state, verdict, exit_code, reasons} for each gate, in their order.
+// One {gate, asks, state, verdict, exit_code, reasons, remedy} for each gate, in their order.
 Json gates_json(const properties::Judgement& judgement) {
   return each(judgement.gates, [](const auto& result) -> Json {
     const auto& rule = properties::rule_of(result.gate);
     return {
         {"gate", rule.name},       {"asks", rule.asks},           {"state", name_of(result.state)},
-        {"verdict", rule.verdict}, {"exit_code", rule.exit_code}, {"reasons", result.reasons}};
+        {"verdict", rule.verdict}, {"exit_code", rule.exit_code}, {"reasons", result.reasons},
+        {"remedy", result.remedy}};
   });
 }
 

@@ -18,14 +18,33 @@ namespace assay::properties {
 
 namespace {
 
+using Lines = std::vector<std::string>;
+
 // The lines that speak against a gate and, if there are none, the reason why it could not be
 // judged, if there is one.
 struct GateFindings {
-  std::vector<std::string> against;
+  Lines against;
   std::string not_judged;
+  Lines lasting = {};  // of the gate complete: those that stay when the same run goes on
+
+  void add_to_do(std::string line) { against.push_back(std::move(line)); }
+  void add_lasting(const std::string& line) {
+    against.push_back(line);
+    lasting.push_back(line);
+  }
 };
 
-using Lines = std::vector<std::string>;
+// What can be done about the reasons of the gate complete.
+std::string remedy_of(const GateFindings& found) {
+  const auto all = found.against.size(), lasting = found.lasting.size();
+  if (lasting == 0) return "the same command, run again, goes on with what is missing";
+  constexpr std::string_view other = "other seeds, a larger campaign or another contract may";
+  if (lasting == all)
+    return fmt::format("the same command, run again, mends none of this; {}", other);
+  return fmt::format(
+      "the same command, run again, goes on with what is missing, and does not mend: {}{}; {}",
+      found.lasting.front(), lasting == 1 ? "" : fmt::format(" (and {} more)", lasting - 1), other);
+}
 
 void check_power(const RunFindings& f, Lines& lines) {
   for (const auto& canary : f.evidence.canaries) {
@@ -56,56 +75,62 @@ void check_tallies(const RunFindings& f, Lines& lines) {
         fmt::format("{} defects in the trials, {} failures are stored", defects, f.claims_broken));
 }
 
-void check_faults(const RunFindings& f, Lines& lines) {
+void check_faults(const RunFindings& f, GateFindings& found) {
   const auto& plan = f.run.plan;
   if (plan.fault_cases == 0) return;
   const auto& build = f.run.digests;
   for (const auto& source : f.evidence.power) {
     if (source.program != build.program || source.worker != build.worker ||
         source.generator != build.generator)
-      lines.push_back("the planted faults were proved by another build");
+      found.add_lasting("the planted faults were proved by another build");
   }
   if (f.planted() != f.run.planted_faults)
-    lines.push_back(
+    found.add_to_do(
         fmt::format("{} of {} planted faults were tried", f.planted(), f.run.planted_faults));
   for (const auto& proof : f.evidence.faults) {
     if (f.is_whole() ? !proof.is_whole(plan) : proof.time_over)
-      lines.push_back(fmt::format("the time was over before {} had all of its cases", proof.fault));
+      found.add_to_do(fmt::format("the time was over before {} had all of its cases", proof.fault));
   }
 }
 
-void check_trials(const RunFindings& f, const Asked& asked, Lines& lines) {
+void check_trials(const RunFindings& f, const Asked& asked, GateFindings& found) {
   for (const auto& stratum : f.run.plan.strata) {
     const auto& tally = f.tally_of(stratum);
     const auto planned = f.planned(stratum);
     if (tally.trials != planned) {
-      lines.push_back(fmt::format("{}: {} of {} trials", stratum.family, tally.trials, planned));
+      found.add_to_do(fmt::format("{}: {} of {} trials", stratum.family, tally.trials, planned));
     } else if (tally.discards > 0 && !f.is_left_out(stratum)) {
-      lines.push_back(
+      found.add_lasting(
           fmt::format("{}: for {} of {} trials no case was drawn that the contract takes",
                       stratum.family, tally.discards, planned));
     }
   }
-  if (asked.certificate && f.planned() == 0) lines.push_back("the campaign plans no trial");
+  if (asked.certificate && f.planned() == 0) found.add_lasting("the campaign plans no trial");
   if (f.planned() > 0 && f.tally.judged() == 0 && f.tally.trials() == f.planned())
-    lines.push_back("no case was judged: the contract or the detector takes none of any family");
+    found.add_lasting("no case was judged: the contract or the detector takes none of any family");
   if (asked.certificate && f.tally.judged() > 0 && f.run.detector.query_claims.empty() &&
       judged_claims(f).empty())
-    lines.push_back("no claim of the detector was judged");
+    found.add_lasting("no claim of the detector was judged");
   // A share of a campaign may have too few contacts.
-  for (auto& line : f.is_whole() ? lacks_of_contacts(f, asked.certificate) : Lines())
-    lines.push_back(std::move(line));
+  for (const auto& line : f.is_whole() ? lacks_of_contacts(f, asked.certificate) : Lines()) {
+    // What is still to come may hold contacts.
+    if (f.has_more_to_do()) {
+      found.add_to_do(line);
+    } else {
+      found.add_lasting(line);
+    }
+  }
   // Asked of a whole campaign: one share of it may have run on a machine short of memory.
   constexpr std::uint64_t most_disturbed = 100;  // at most one trial in this many
   const auto disturbed = f.tally.disturbed(), trials = f.tally.trials();
   if (f.is_whole() && most_disturbed * disturbed > trials)
-    lines.push_back(
+    found.add_lasting(
         fmt::format("{} of {} trials were disturbed from outside, 1 % may be", disturbed, trials));
 }
 
 // Checks that a plug-in was given every scene at the plan's size, the long sequence, and the walks
 // of a limiter.
-void check_repetitions(const RunFindings& f, Lines& lines) {
+void check_repetitions(const RunFindings& f, GateFindings& found) {
   if (!is_repeated(f.run.plan, f.run.detector.built_in)) return;
   std::vector<std::string> wanted;
   for (const auto& scene : corpus::scenes()) wanted.emplace_back(scene.name);
@@ -119,20 +144,20 @@ void check_repetitions(const RunFindings& f, Lines& lines) {
     return std::ranges::find(rows, name, &JudgedSource::input) != rows.end();
   });
   if (static_cast<std::size_t>(done) < wanted.size())
-    lines.push_back(fmt::format("{} of {} scenes were repeated", done, wanted.size()));
+    found.add_to_do(fmt::format("{} of {} scenes were repeated", done, wanted.size()));
 }
 
 // Checks that the search asked all of its cases.
-void check_search(const RunFindings& f, Lines& lines) {
+void check_search(const RunFindings& f, GateFindings& found) {
   const auto planned = f.shares_of(f.run.plan.search);
   const auto done = f.evidence.sum_of(Source::search);
   if (done.planned < planned)
-    lines.push_back(
+    found.add_to_do(
         fmt::format("the search came to lanes of {} of {} cases", done.planned, planned));
   if (planned > 0 && done.planned == planned && done.cases == 0)
-    lines.push_back("the contract takes no case of the search");
+    found.add_lasting("the contract takes no case of the search");
   if (done.undecided > 0)
-    lines.push_back(fmt::format("{} cases of the search have no verdict", done.undecided));
+    found.add_lasting(fmt::format("{} cases of the search have no verdict", done.undecided));
 }
 
 GateFindings check_harness(const RunFindings& f, const Asked& asked) {
@@ -195,32 +220,31 @@ GateFindings check_claims(const RunFindings& f, const Asked&) {
 
 GateFindings check_complete(const RunFindings& f, const Asked& asked) {
   GateFindings found;
-  auto& lines = found.against;
   if (!f.is_whole()) {
     std::vector<std::string> shares;
     for (const auto& part : f.parts)
       shares.push_back(fmt::format("1/{} under seed {}", part.shares, part.seed));
-    lines.push_back(fmt::format(
+    found.add_lasting(fmt::format(
         "a whole campaign is more than the shares that are there: {}; shares 1/N need N "
         "seeds that follow one another",
         fmt::join(shares, ", ")));
   }
-  check_trials(f, asked, lines);
-  if (f.evidence.canaries.empty()) lines.push_back("no canary was met");
-  check_faults(f, lines);
-  check_repetitions(f, lines);
-  check_search(f, lines);
+  check_trials(f, asked, found);
+  if (f.evidence.canaries.empty()) found.add_to_do("no canary was met");
+  check_faults(f, found);
+  check_repetitions(f, found);
+  check_search(f, found);
   const auto corpus = f.evidence.rows_of(Source::corpus);
   for (const auto& row : corpus) {
     for (const auto& open : row.open)
-      lines.push_back(fmt::format("{} ({}): {}", open.id, row.configuration, open.what));
+      found.add_lasting(fmt::format("{} ({}): {}", open.id, row.configuration, open.what));
   }
   if (!asked.certificate) return found;
-  if (corpus.empty()) lines.push_back("the corpus was not run");
+  if (corpus.empty()) found.add_to_do("the corpus was not run");
   const bool was_run = !f.evidence.rows_of(Source::self_test).empty() &&
                        f.evidence.sum_of(Source::self_test).complete;
   if (f.run.plan.policy.self_test_queries > 0 && !was_run)
-    lines.push_back("the self-test was not run to its end");
+    found.add_to_do("the self-test was not run to its end");
   return found;
 }
 
@@ -287,7 +311,8 @@ GateResult result_of(Gate gate, const RunFindings& findings, const Asked& asked)
   if (!is_asked(rule_of(gate), asked))
     return {gate, GateState::not_judged, {"it was not asked for"}};
   auto found = checks[static_cast<std::size_t>(gate)](findings, asked);
-  if (!found.against.empty()) return {gate, GateState::fails, std::move(found.against)};
+  if (!found.against.empty())
+    return {gate, GateState::fails, found.against, gate == Gate::complete ? remedy_of(found) : ""};
   if (found.not_judged.empty()) return {gate, GateState::holds, {}};
   return {gate, GateState::not_judged, {std::move(found.not_judged)}};
 }

@@ -63,6 +63,9 @@ struct GateResult {
   GateState state = GateState::holds;
   // Why the gate fails or was not judged, one line for each reason. Empty if it holds.
   std::vector<std::string> reasons;
+  // Of the gate complete: which of its reasons end when the same run goes on, and which do not, in
+  // a sentence. Empty for other gates, and if it holds.
+  std::string remedy = {};
 };
 
 // What each verb asks for. `assay run`: harness, claims, complete and bounds, and also corpus if

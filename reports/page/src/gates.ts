@@ -39,6 +39,9 @@ export function gates(f: Findings, names: string[], address: (place: string) => 
     const all = lines.map((line) => html("span", { class: "reason" }, ...linked(line)));
     return all.length <= few ? all : [...all.slice(0, few), folded(`${all.length - few} more`, ...all.slice(few))];
   };
+  // What is missing, and what no further run of the same mends.
+  const remedy = (gate: Gate): HTMLElement[] =>
+    gate.remedy === "" ? [] : [html("span", { class: "reason" }, `${capital(gate.remedy)}.`)];
   return section(
     "gates",
     "Gates",
@@ -55,7 +58,7 @@ export function gates(f: Findings, names: string[], address: (place: string) => 
           html("span", { class: "state" }, gate.state),
           gate.state === "not judged"
             ? html("span", {}, `${[sentence(gate), gate.reasons.join("; ")].filter((part) => part).join(": ")}.`)
-            : html("span", {}, sentence(gate), ...reasons(gate.reasons)),
+            : html("span", {}, sentence(gate), ...reasons(gate.reasons), ...remedy(gate)),
         ),
       ),
     ),

@@ -288,6 +288,29 @@ TEST(Gates, TheSearchAsksAllOfItsCases) {
       std::vector<std::string>{"the contract takes no case of the search"});
 }
 
+TEST(Gates, CompleteSaysWhichOfItsReasonsEndWhenTheRunGoesOn) {
+  const Change planned = [](auto& f) { f.run.plan.search = 1000; };
+  const auto remedy = [&](std::uint64_t cases, std::uint64_t open) {
+    const Change searched = [&](auto& f) {
+      f.evidence.sources.push_back({.source = Source::search,
+                                    .input = "001",
+                                    .planned = cases,
+                                    .cases = cases,
+                                    .undecided = open});
+    };
+    return judged_after({planned, searched}).of(Gate::complete).remedy;
+  };
+  EXPECT_EQ(remedy(1000, 0), "");
+  EXPECT_EQ(remedy(500, 0), "the same command, run again, goes on with what is missing");
+  EXPECT_EQ(remedy(1000, 3),
+            "the same command, run again, mends none of this; other seeds, a larger campaign or "
+            "another contract may");
+  EXPECT_EQ(
+      remedy(500, 3),
+      "the same command, run again, goes on with what is missing, and does not mend: 3 cases "
+      "of the search have no verdict; other seeds, a larger campaign or another contract may");
+}
+
 TEST(Gates, WhatTheSearchFindsIsADefect) {
   const Change found = [](auto& f) {
     f.failures.push_back(failure("all-pairs: missing pair", "search/tiny:1:001:7"));

@@ -150,6 +150,7 @@ void expect_gate(const Json& gate, const GateResult& result, const std::string& 
   EXPECT_EQ(gate["gate"], rule_of(result.gate).name) << where;
   EXPECT_EQ(gate["state"], name_of(result.state)) << where;
   EXPECT_EQ(gate["reasons"], Json(result.reasons)) << where;
+  EXPECT_EQ(gate["remedy"], result.remedy) << where;
 }
 
 // `run` asks for four of the gates.
@@ -202,6 +203,12 @@ void expect_agreement(const RunFindings& findings, const std::string& folder,
     for (const auto& reason : result.reasons) {
       EXPECT_TRUE(contains(test, reports::xml_escaped(reason))) << test;
       EXPECT_TRUE(contains(terminal, "  " + reason + "\n")) << terminal;
+    }
+    EXPECT_TRUE(contains(test, result.remedy) || result.state != GateState::fails) << test;
+    EXPECT_EQ(result.remedy.empty(), result.state != GateState::fails || name != "complete");
+    if (!result.remedy.empty()) {
+      EXPECT_TRUE(contains(terminal, "  " + result.remedy + "\n")) << terminal;
+      EXPECT_TRUE(contains(summary, "; " + result.remedy + " |")) << summary;
     }
     const auto row = "| " + name + " | " +
                      (result.state == GateState::fails ? "**fails**" : name_of(result.state));
