@@ -341,6 +341,8 @@ Expected<void> StepLog::begin() {
   if (!record) {
     std::string start;
     const bool is_log = read(0, mark_of_log.size(), start) && start == mark_of_log;
+    if (start.starts_with("\x1f\x8b"))
+      return problem_in(path_, "it is packed, and a log is read where it lies: gunzip it first");
     return problem_in(path_, is_log ? "its first record is damaged, so it is not known of which "
                                       "mesh and detector it is"
                                     : "it is no log of steps");

@@ -52,12 +52,12 @@ constexpr KindWords kinds[] = {{frames, "frames", "FRAME..."},
                                {a_log, "a log", "LOG"},
                                {queries, "queries", "QUERIES.csv"}};
 
-// Of which kinds these options are, and which others they do not go with there. An option that
-// means another thing elsewhere stands in a row for each.
+// Of which kinds these options are, which others they do not go with there, and one without which
+// they would mean nothing. An option that means another thing elsewhere stands in a row for each.
 struct OptionRow {
   std::string options;
   unsigned kinds;
-  std::string without = {};
+  std::string without = {}, beside = {};
 };
 
 const std::vector<OptionRow>& option_rows() {
@@ -75,13 +75,17 @@ const std::vector<OptionRow>& option_rows() {
       {" --detector ", a_log},
       {" --detector ", queries, " --method "},
       {" --answers ", meshes, built_in},
-      {built_in + "--adjacency --ply ", meshes},
+      {built_in + "--ply ", meshes},
+      {" --adjacency ", meshes, {}, " --answers "},
       {" --no-oracle ", meshes, " --second-opinion "},
       {" --second-opinion --jobs --time --memory --fail-on-collision --keep ", steps},
       {" --separation ", meshes, of_steps},
       {" --separation ", queries},
       {" --offset ", bodies, of_steps + "--separation "},
-      {" --isolation --threads --json ", all}};
+      {" --isolation ", all, {}, " --detector "},
+      {" --threads ", meshes},
+      {" --threads ", a_log | queries, {}, " --detector "},
+      {" --json ", all}};
   return rows;
 }
 
@@ -113,6 +117,12 @@ Expected<void> refuse_options(Kind kind, const std::string& file,
           fmt::format("{}is of {}, and this is {} ({}): leave it out, or assay check {} {}",
                       name_in(word).substr(1), joined(corpus::names_among(takers), " or "),
                       found[0].name, file, takers[0].input, word)};
+    const auto is_beside = [&](const std::string& other) {
+      return holds(taken->beside, name_in(other));
+    };
+    if (!taken->beside.empty() && std::ranges::none_of(given, is_beside))
+      return Problem{fmt::format("{}means nothing without{}(assay check --help lists options)",
+                                 name_in(word).substr(1), taken->beside)};
     for (const auto& other : given) {
       if (holds(taken->without, name_in(other)))
         return Problem{fmt::format("{} and{}do not go together (assay check --help lists options)",
@@ -220,7 +230,12 @@ Expected<int> check_steps(Kind kind, const CheckRequest& request, std::string& s
   const std::filesystem::path ply(question.ply_file);
   if (!ply.empty() && ply.extension() != ".ply")
     return Problem{ply.string() + ": --ply writes PLY, and a name ends with .ply"};
-  BOOST_OUTCOME_TRY(input, read_input(kind, request, question));
+  auto read = read_input(kind, request, question);
+  if (!read) {
+    if (is_log) suites += junit_suite_of_problem(request.inputs.front(), read.error().message);
+    return read.error();
+  }
+  auto& input = read.value();
   question.wants_report = !request.json_file.empty();
   question.announced_file = request.json_file;
   question.again = this_command(PastedIn::any_folder);
@@ -261,8 +276,8 @@ Expected<int> check_logs(const CheckRequest& request, std::string& suites) {
   std::vector<std::string> files;
   for (const auto& word : request.inputs) files.push_back(log_name(word).file);
   BOOST_OUTCOME_TRY(may_write({request.junit_file}, files));
-  constexpr std::array from_best = {exit_holds, exit_collision, exit_undecided,
-                                    exit_usage, exit_defect,    exit_unsound};
+  constexpr std::array from_best = {exit_holds,  exit_collision, exit_undecided,
+                                    exit_defect, exit_unsound,   exit_usage};
   auto worst = from_best.begin();
   for (std::size_t i = 0; i < request.inputs.size(); ++i) {
     const auto& word = request.inputs[i];
@@ -290,6 +305,11 @@ Expected<int> run_check(const CheckRequest& request) {
       request.given()));
   if (kind == a_log && !request.question.detector.library.empty() && request.keeping.folder.empty())
     return Problem{"--detector asks again about what is kept: --keep says where"};
+  if (const auto& which = request.selection;
+      kind == a_log && (which.share < 1 || which.from > 1) &&
+      std::ranges::any_of(request.inputs,
+                          [](const auto& word) { return log_name(word).step.has_value(); }))
+    return Problem{"LOG#N is one step, and --share and --from choose among all: name one of both"};
   if (kind == queries) {
     auto asked = request.queries;
     asked.files = request.inputs;

@@ -21,8 +21,8 @@ std::size_t count_lines(const std::string& path) {
 // that is asked for is allowed. Detectors of others count apart; `scripts` are those of all rooms.
 TEST(Budget, NoRoomGrows) {
   const std::map<std::string, std::size_t> budgets = {
-      {"detector", 15621},   {"oracle", 6244},   {"corpus", 5437}, {"corpus/peers", 857},
-      {"properties", 27299}, {"reports", 14217}, {"tests", 45850}, {"scripts", 10486}};
+      {"detector", 15621},   {"oracle", 6244},   {"corpus", 5439}, {"corpus/peers", 857},
+      {"properties", 27321}, {"reports", 14241}, {"tests", 45899}, {"scripts", 10488}};
   std::map<std::string, std::size_t> lines;
   for (const auto* room : rooms) {
     for (const auto& file : files_below(room)) {

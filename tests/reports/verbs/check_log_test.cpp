@@ -311,15 +311,23 @@ TEST_F(CheckLog, SeveralLogsAreJudgedWhateverOneIs) {
   const auto log = record(with_a_miss()), empty = scratch_.write("empty.log", "");
   expect_ended("check " + (scratch_ / "absent.log") + " " + log + " " + empty + " " + log +
                    " --keep " + out + " --junit " + xml,
-               1);
+               2);
   for (const char* folder : {"/2-steps.log", "/4-steps.log"})
     EXPECT_TRUE(std::filesystem::exists(out + folder)) << folder;
   const auto suites = read_text(xml);
   const auto problem = suites.find("<error message=");
   EXPECT_NE(problem, std::string::npos);
   EXPECT_NE(suites.find("<error message=", problem + 1), std::string::npos);
+  // Of one log that cannot be read the file tells as much.
+  const auto bytes = read_text(log), one = scratch_ / "one.xml";
+  auto spoilt = bytes;
+  spoilt[spoilt.find("begin")] = 'B';
+  const auto damaged = scratch_.write("damaged.log", spoilt);
+  expect_refused("check " + damaged + " --junit " + one, "its first record is damaged");
+  EXPECT_NE(read_text(one).find("<error message="), std::string::npos);
+  expect_refused("check " + scratch_.write("packed.log", "\x1f\x8b\b more") + "#1",
+                 "gunzip it first");
   // No log is written over, and what each would refuse is refused once.
-  const auto bytes = read_text(log);
   expect_refused("check " + log + " " + log + " --junit " + log, log);
   EXPECT_EQ(read_text(log), bytes);
   expect_refused(
