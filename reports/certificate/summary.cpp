@@ -39,7 +39,7 @@ std::string gates_text(const Json& p) {
     const auto& reasons = gate["reasons"];
     std::string why = reasons.empty() ? "" : cell(reasons[0]);
     if (reasons.size() > 1) why += fmt::format(" (and {} more)", reasons.size() - 1);
-    if (gate["remedy"] != "") why += "; " + cell(gate["remedy"]);
+    if (gate.contains("remedy")) why += "; " + cell(gate["remedy"]);
     out += fmt::format("| {} | {} | {} |\n", cell(gate["gate"]),
                        gate["state"] == "fails" ? "**fails**" : cell(gate["state"]), why);
   }
@@ -159,7 +159,7 @@ Tests gates_tests(const Json& p) {
     const bool is_judged = gate["state"] != "not judged";
     std::string reasons = is_judged ? "" : "not judged: ";
     for (const auto& reason : gate["reasons"]) reasons += text(reason) + "\n";
-    if (gate["remedy"] != "") reasons += text(gate["remedy"]) + "\n";
+    if (gate.contains("remedy")) reasons += text(gate["remedy"]) + "\n";
     tests.push_back({text(gate["gate"]), state_of(gate["state"] == "fails", !is_judged), reasons});
   }
   return tests;

@@ -41,7 +41,7 @@ export function gates(f: Findings, names: string[], address: (place: string) => 
   };
   // What is missing, and what no further run of the same mends.
   const remedy = (gate: Gate): HTMLElement[] =>
-    gate.remedy === "" ? [] : [html("span", { class: "reason" }, `${capital(gate.remedy)}.`)];
+    gate.remedy === undefined ? [] : [html("span", { class: "reason" }, `${capital(gate.remedy)}.`)];
   return section(
     "gates",
     "Gates",

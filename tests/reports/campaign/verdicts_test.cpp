@@ -150,7 +150,7 @@ void expect_gate(const Json& gate, const GateResult& result, const std::string& 
   EXPECT_EQ(gate["gate"], rule_of(result.gate).name) << where;
   EXPECT_EQ(gate["state"], name_of(result.state)) << where;
   EXPECT_EQ(gate["reasons"], Json(result.reasons)) << where;
-  EXPECT_EQ(gate["remedy"], result.remedy) << where;
+  EXPECT_EQ(gate.value("remedy", ""), result.remedy) << where;
 }
 
 // `run` asks for four of the gates.
