@@ -156,10 +156,11 @@ Json cases_json(const RunFindings& findings) {
 Json gates_json(const properties::Judgement& judgement) {
   return each(judgement.gates, [](const auto& result) -> Json {
     const auto& rule = properties::rule_of(result.gate);
-    return {
+    Json gate = {
         {"gate", rule.name},       {"asks", rule.asks},           {"state", name_of(result.state)},
-        {"verdict", rule.verdict}, {"exit_code", rule.exit_code}, {"reasons", result.reasons},
-        {"remedy", result.remedy}};
+        {"verdict", rule.verdict}, {"exit_code", rule.exit_code}, {"reasons", result.reasons}};
+    if (!result.remedy.empty()) gate["remedy"] = result.remedy;
+    return gate;
   });
 }
 
