@@ -4,8 +4,12 @@ import { chromium } from "playwright-core";
 const drawnByProcessor = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 const without3d = ["--disable-3d-apis"];
 
+// A busy machine takes its time; what hangs is ended by the test's own limit.
+const patience = 20 * 60 * 1000;
+
 export const launch = ({ webgl = true } = {}) =>
   chromium.launch({
+    timeout: patience,
     executablePath: process.env.ASSAY_CHROMIUM ?? "/usr/bin/chromium",
     args: ["--no-sandbox", ...(webgl ? drawnByProcessor : without3d)],
   });
@@ -17,6 +21,7 @@ export async function openIn(browser, file, { scheme = "light", width = 1280 } =
     permissions: ["clipboard-read", "clipboard-write"],
     reducedMotion: "reduce",
   });
+  context.setDefaultTimeout(patience);
   const page = await context.newPage();
   const seen = { requests: [], problems: [] };
   page.on("request", (request) => {
@@ -33,7 +38,12 @@ export async function openIn(browser, file, { scheme = "light", width = 1280 } =
 // The same in a browser of its own.
 export async function open(file, options = {}) {
   const browser = await launch(options);
-  return { ...(await openIn(browser, file, options)), close: () => browser.close() };
+  try {
+    return { ...(await openIn(browser, file, options)), close: () => browser.close() };
+  } catch (error) {
+    await browser.close(); // else the process would not end
+    throw error;
+  }
 }
 
 // What the viewer shows now.
