@@ -151,8 +151,8 @@ Json cases_json(const RunFindings& findings) {
           {"tags", counts.tags}};
 }
 
-// One {gate, asks, state, verdict, exit_code, reasons} for each gate, in their order; a remedy beside
-// them where there is one.
+// One {gate, asks, state, verdict, exit_code, reasons} for each gate, in their order; where there
+// is one, a remedy too.
 Json gates_json(const properties::Judgement& judgement) {
   return each(judgement.gates, [](const auto& result) -> Json {
     const auto& rule = properties::rule_of(result.gate);
