@@ -16,6 +16,9 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "properties/words.h"
@@ -33,6 +36,36 @@ class NamedFields {
   }
 };
 
+// Sums of such types: of numbers, of whatever has +=, and of maps key by key.
+
+template <class T>
+void add_to(T& sum, const T& addend) {
+  sum += addend;
+}
+template <class Key, class T, class Less>
+void add_to(std::map<Key, T, Less>& sum, const std::map<Key, T, Less>& addend) {
+  for (const auto& [key, more] : addend) sum[key] += more;
+}
+
+template <class Visit>
+struct EachField : NamedFields<EachField<Visit>> {
+  explicit EachField(Visit with) : visit(std::move(with)) {}
+  void field(std::string_view, auto& item) { visit(item); }
+  void may(std::string_view, auto& item) { visit(item); }
+  Visit visit;
+};
+
+template <class T>
+T& add_fields(T& sum, const T& addend) {
+  std::vector<const void*> addends;  // one by one of the same type as the fields of the sum
+  EachField collect([&](auto& item) { addends.push_back(&item); });
+  fields(collect, const_cast<T&>(addend));  // is only read
+  auto next = addends.begin();
+  EachField add([&]<class F>(F& item) { add_to(item, *static_cast<const F*>(*next++)); });
+  fields(add, sum);
+  return sum;
+}
+
 // Such types as JSON objects, and back. An enum is written as its word, and read by its list of
 // words; what is not there is null.
 
@@ -40,119 +73,97 @@ class NamedFields {
 // be missing when it is read.
 enum class Zeros : std::uint8_t { stay, left_out };
 
-template <class Json, Zeros zeros>
-class JsonWriter : public NamedFields<JsonWriter<Json, zeros>> {
+// A reader throws the exceptions of nlohmann::json if a field is not there, or is of another type.
+template <class Json, Zeros zeros, bool reads>
+class JsonFields : public NamedFields<JsonFields<Json, zeros, reads>> {
+  using Given = std::conditional_t<reads, const Json, Json>;
+
  public:
-  explicit JsonWriter(Json& object) : object_(object) { object_ = Json::object(); }
+  explicit JsonFields(Given& object) : object_(object) {
+    if constexpr (!reads) object_ = Json::object();
+  }
 
   template <class T>
-  void field(std::string_view name, T& item) {
-    if constexpr (zeros == Zeros::left_out) {
-      if (item == T{}) return;
+  void field(const std::string& name, T& item) {
+    if constexpr (reads) {
+      // at() throws if this is no object; contains() would take that for one without fields.
+      if (zeros == Zeros::stay || !object_.is_object() || object_.contains(name))
+        pass(object_.at(name), item);
+    } else {
+      if constexpr (zeros == Zeros::left_out) {
+        if (item == T{}) return;
+      }
+      pass(object_[name], item);
     }
-    put(object_[std::string(name)], item);
   }
   // An object that is there as a whole, or left out if it says nothing.
   template <class T>
   void may(const char* name, T& item) {
-    if (item == T{}) return;
-    JsonWriter<Json, Zeros::stay> whole(object_[name]);
+    if constexpr (reads) item = {};
+    if (reads ? !object_.contains(name) : item == T{}) return;
+    JsonFields<Json, Zeros::stay, reads> whole(reads ? object_.at(name) : object_[name]);
     fields(whole, item);
   }
 
  private:
   template <class T>
-  static void put(Json& json, T& item) {
-    if constexpr (requires(JsonWriter & inner) { fields(inner, item); }) {
-      JsonWriter inner(json);
+  static void pass(Given& json, T& item) {
+    if constexpr (requires(JsonFields & inner) { fields(inner, item); }) {
+      JsonFields inner(json);
       fields(inner, item);
-    } else if constexpr (Listed<T>) {
-      json = name_of(item);
-    } else {
-      json = item;
-    }
-  }
-  template <class T>
-  static void put(Json& json, std::optional<T>& item) {
-    if (item) put(json, *item);
-  }
-  template <class T>
-  static void put(Json& json, std::vector<T>& items) {
-    json = Json::array();
-    for (auto& item : items) put(json.emplace_back(), item);
-  }
-  template <class T, class Less>
-  static void put(Json& json, std::map<std::string, T, Less>& items) {
-    json = Json::object();
-    for (auto& [key, item] : items) put(json[key], item);
-  }
-
-  Json& object_;
-};
-
-// Throws the exceptions of nlohmann::json if a field is not there, or is of another type.
-template <class Json, Zeros zeros>
-class JsonReader : public NamedFields<JsonReader<Json, zeros>> {
- public:
-  explicit JsonReader(const Json& object) : object_(object) {}
-
-  template <class T>
-  void field(std::string_view name, T& item) {
-    const std::string key(name);
-    // at() throws if this is no object; contains() would take that for one without fields.
-    if (zeros == Zeros::stay || !object_.is_object() || object_.contains(key))
-      get(object_.at(key), item);
-  }
-  template <class T>
-  void may(const char* name, T& item) {
-    item = {};
-    if (!object_.contains(name)) return;
-    JsonReader<Json, Zeros::stay> whole(object_.at(name));
-    fields(whole, item);
-  }
-
- private:
-  template <class T>
-  static void get(const Json& json, T& item) {
-    if constexpr (requires(JsonReader & inner) { fields(inner, item); }) {
-      JsonReader inner(json);
-      fields(inner, item);
-    } else if constexpr (Listed<T>) {
+    } else if constexpr (Listed<T> && reads) {
       const auto& word = json.template get_ref<const std::string&>();
       const auto named = from_name<T>(word);
       if (!named)
         throw Json::other_error::create(502, "\"" + word + "\" is none of: " + all_names<T>(),
                                         &json);
       item = *named;
-    } else {
+    } else if constexpr (Listed<T>) {
+      json = name_of(item);
+    } else if constexpr (reads) {
       json.get_to(item);
+    } else {
+      json = item;
     }
   }
   template <class T>
-  static void get(const Json& json, std::optional<T>& item) {
-    item.reset();
-    if (!json.is_null()) get(json, item.emplace());
+  static void pass(Given& json, std::optional<T>& item) {
+    if constexpr (reads) {
+      item.reset();
+      if (!json.is_null()) item.emplace();
+    }
+    if (item) pass(json, *item);
   }
   template <class T>
-  static void get(const Json& json, std::vector<T>& items) {
-    items.clear();
-    for (const auto& one : json.template get_ref<const typename Json::array_t&>())
-      get(one, items.emplace_back());
+  static void pass(Given& json, std::vector<T>& items) {
+    if constexpr (reads) {
+      items.clear();
+      for (const auto& one : json.template get_ref<const typename Json::array_t&>())
+        pass(one, items.emplace_back());
+    } else {
+      json = Json::array();
+      for (auto& item : items) pass(json.emplace_back(), item);
+    }
   }
   template <class T, class Less>
-  static void get(const Json& json, std::map<std::string, T, Less>& items) {
-    items.clear();
-    for (const auto& [key, one] : json.template get_ref<const typename Json::object_t&>())
-      get(one, items[key]);
+  static void pass(Given& json, std::map<std::string, T, Less>& items) {
+    if constexpr (reads) {
+      items.clear();
+      for (const auto& [key, one] : json.template get_ref<const typename Json::object_t&>())
+        pass(one, items[key]);
+    } else {
+      json = Json::object();
+      for (auto& [key, item] : items) pass(json[key], item);
+    }
   }
 
-  const Json& object_;
+  Given& object_;
 };
 
 template <class Json, Zeros zeros = Zeros::stay, class T>
 Json json_of_fields(const T& x) {
   Json json;
-  JsonWriter<Json, zeros> writer(json);
+  JsonFields<Json, zeros, false> writer(json);
   // A writer does not change the object; `fields` takes it not const because readers use it too.
   fields(writer, const_cast<T&>(x));
   return json;
@@ -160,7 +171,7 @@ Json json_of_fields(const T& x) {
 
 template <class Json, Zeros zeros = Zeros::stay, class T>
 void read_fields(const Json& json, T& x) {
-  JsonReader<Json, zeros> reader(json);
+  JsonFields<Json, zeros, true> reader(json);
   fields(reader, x);
 }
 

@@ -63,32 +63,13 @@ TimesOff& TimesOff::operator+=(const TimesOff& other) {
   steps += other.steps;
   worst_share = std::max(worst_share, other.worst_share);
   worst_ulps = std::max(worst_ulps, other.worst_ulps);
-  for (const auto& [share, count] : other.shares) shares[share] += count;
+  add_to(shares, other.shares);
   return *this;
 }
 
-StepErrors& StepErrors::operator+=(const StepErrors& other) {
-  for (const auto member :
-       {&StepErrors::steps, &StepErrors::undecided, &StepErrors::free, &StepErrors::contact,
-        &StepErrors::missed, &StepErrors::false_alarms, &StepErrors::unsafe, &StepErrors::alarming,
-        &StepErrors::missing, &StepErrors::spurious}) {
-    this->*member += other.*member;
-  }
-  late += other.late;
-  early += other.early;
-  limits += other.limits;
-  return *this;
-}
+StepErrors& StepErrors::operator+=(const StepErrors& other) { return add_fields(*this, other); }
 
-LimitUse& LimitUse::operator+=(const LimitUse& other) {
-  free += other.free;
-  cut += other.cut;
-  contact += other.contact;
-  unused += other.unused;
-  excused += other.excused;
-  for (const auto& [cause, count] : other.stalls) stalls[cause] += count;
-  return *this;
-}
+LimitUse& LimitUse::operator+=(const LimitUse& other) { return add_fields(*this, other); }
 
 LimitUse use_of(const LimitDiff& limit) {
   LimitUse use;

@@ -43,148 +43,112 @@ inline constexpr bool travels_as_bytes =
               detector::StepCounts, detector::StepTimes, corpus::CaseStep,
               std::array<std::int32_t, 2>, detector::VertexAndFace, detector::TwoEdges>;
 
-class WireWriter : public NamedFields<WireWriter> {
+// Writes or reads what a message holds. Names are for other archives; the two ends of a message are
+// built from the same list. A message that is too short, or states more than it holds, is not
+// complete() and leaves the rest untouched: the other end was damaged by the code that it ran.
+template <bool reads>
+class Wire : public NamedFields<Wire<reads>> {
  public:
-  // Names are for other archives; the two ends of a message are built from the same list.
+  Wire() = default;
+  explicit Wire(const std::string& bytes) : next_(bytes.data()), left_(bytes.size()) {}
+
   template <class T>
   void field(std::string_view, T& item) {
-    put(item);
+    pass(item);
   }
-  std::string take() { return std::move(bytes_); }
-
- private:
-  template <class T>
-  void put(T& item) {
-    if constexpr (travels_as_bytes<std::remove_const_t<T>>) {
-      put_bytes(&item, sizeof item);
-    } else {
-      fields(*this, item);
-    }
-  }
-  void put(std::string& text) { put_array(text.data(), text.size()); }
-  template <class T>
-  void put(std::vector<T>& items) {
-    if constexpr (travels_as_bytes<T>) {
-      put_array(items.data(), items.size());
-    } else {
-      put_size(items.size());
-      for (auto& item : items) put(item);
-    }
-  }
-  // As a vector of them, without a copy. A writer does not change what it is given.
-  template <class T>
-  void put(std::span<const T>& items) {
-    put_size(items.size());
-    for (const auto& item : items) put(const_cast<T&>(item));
-  }
-  template <class T>
-  void put(std::optional<T>& item) {
-    bool is_there = item.has_value();
-    put(is_there);
-    if (item) put(*item);
-  }
-  // Rows x 3.
-  template <class T>
-  void put(Eigen::Matrix<T, Eigen::Dynamic, 3, Eigen::RowMajor>& rows) {
-    put_array(rows.data(), static_cast<std::size_t>(rows.size()));
-  }
-  template <class T>
-  void put_array(const T* items, std::size_t count) {
-    put_size(count);
-    put_bytes(items, count * sizeof(T));
-  }
-  void put_size(std::size_t size) {
-    auto count = static_cast<std::uint64_t>(size);
-    put(count);
-  }
-  void put_bytes(const void* data, std::size_t size) {
-    if (size) bytes_.append(static_cast<const char*>(data), size);
-  }
-
-  std::string bytes_;
-};
-
-// Reads what a WireWriter wrote. A message that is too short, or states more than it holds, makes
-// ok() false and leaves the rest untouched: the other end was damaged by the code that it ran.
-class WireReader : public NamedFields<WireReader> {
- public:
-  explicit WireReader(const std::string& bytes) : next_(bytes.data()), left_(bytes.size()) {}
-  template <class T>
-  void field(std::string_view, T& item) {
-    get(item);
-  }
-  bool ok() const { return ok_; }
+  std::string take() { return std::move(written_); }
   // The whole message was read, and nothing is left.
   bool complete() const { return ok_ && left_ == 0; }
 
  private:
   template <class T>
-  void get(T& item) {
+  void pass(T& item) {
     if constexpr (std::is_same_v<T, bool>) {
-      get_up_to(item, std::uint8_t{1});
+      pass_up_to(item, std::uint8_t{1});
     } else if constexpr (std::is_enum_v<T>) {
-      get_up_to(item, static_cast<std::underlying_type_t<T>>(last_value<T>));
+      pass_up_to(item, static_cast<std::underlying_type_t<T>>(last_value<T>));
     } else if constexpr (travels_as_bytes<T>) {
-      get_bytes(&item, sizeof item);
+      pass_bytes(&item, sizeof item);
     } else {
       fields(*this, item);
     }
   }
   // A byte that is no valid bool, or no value of the enum, is never stored in one.
   template <class T, class Number>
-  void get_up_to(T& item, Number last) {
-    Number number = 0;
-    get_bytes(&number, sizeof number);
-    ok_ = ok_ && 0 <= number && number <= last;
-    if (ok_) item = static_cast<T>(number);
+  void pass_up_to(T& item, Number last) {
+    Number number = reads ? Number{0} : static_cast<Number>(item);
+    pass_bytes(&number, sizeof number);
+    if constexpr (reads) {
+      ok_ = ok_ && 0 <= number && number <= last;
+      if (ok_) item = static_cast<T>(number);
+    }
   }
-  void get(std::string& text) {
-    text.resize(get_count(1));
-    get_bytes(text.data(), text.size());
+  void pass(std::string& text) {
+    if (const auto count = pass_count(text.size(), 1); reads) text.resize(count);
+    pass_bytes(text.data(), text.size());
   }
   template <class T>
-  void get(std::vector<T>& items) {
+  void pass(std::vector<T>& items) {
+    const auto count = pass_count(items.size(), travels_as_bytes<T> ? sizeof(T) : 1);
     if constexpr (travels_as_bytes<T>) {
-      items.resize(get_count(sizeof(T)));
-      get_bytes(items.data(), items.size() * sizeof(T));
+      if constexpr (reads) items.resize(count);
+      pass_bytes(items.data(), count * sizeof(T));
     } else {
       // Items are made one by one. Each takes bytes of the message, so that a large count alone
       // takes no memory.
-      items.clear();
-      for (std::size_t left = get_count(1); left > 0 && ok_; --left) get(items.emplace_back());
+      if constexpr (reads) items.clear();
+      for (std::size_t i = 0; i < count && ok_; ++i) {
+        if constexpr (reads) items.emplace_back();
+        pass(items[i]);
+      }
     }
   }
+  // Writes them as a vector, without a copy. A writer does not change what it is given.
   template <class T>
-  void get(std::optional<T>& item) {
-    bool is_there = false;
-    get(is_there);
-    item.reset();
-    if (is_there && ok_) get(item.emplace());
+  requires(!reads) void pass(std::span<const T>& items) {
+    pass_count(items.size(), 1);
+    for (const auto& item : items) pass(const_cast<T&>(item));
   }
   template <class T>
-  void get(Eigen::Matrix<T, Eigen::Dynamic, 3, Eigen::RowMajor>& rows) {
-    const std::size_t count = get_count(sizeof(T));
-    rows.resize(static_cast<Eigen::Index>(count / 3), 3);
-    get_bytes(rows.data(), count / 3 * 3 * sizeof(T));
+  void pass(std::optional<T>& item) {
+    bool is_there = item.has_value();
+    pass(is_there);
+    if constexpr (reads) {
+      item.reset();
+      if (is_there && ok_) item.emplace();
+    }
+    if (item) pass(*item);
   }
-  // Reads a number of items that have at least `size` bytes each; 0 if the message cannot hold
-  // them.
-  std::size_t get_count(std::size_t size) {
-    std::uint64_t count = 0;
-    get(count);
-    if (count > left_ / size) ok_ = false;
+  // Rows x 3.
+  template <class T>
+  void pass(Eigen::Matrix<T, Eigen::Dynamic, 3, Eigen::RowMajor>& rows) {
+    const auto count = pass_count(static_cast<std::size_t>(rows.size()), sizeof(T)) / 3 * 3;
+    if constexpr (reads) rows.resize(static_cast<Eigen::Index>(count / 3), 3);
+    pass_bytes(rows.data(), count * sizeof(T));
+  }
+  // The number of items that have at least `size` bytes each; 0 if the message cannot hold those
+  // that it states.
+  std::size_t pass_count(std::size_t of_items, std::size_t size) {
+    auto count = static_cast<std::uint64_t>(of_items);
+    pass_bytes(&count, sizeof count);
+    if constexpr (reads) ok_ = ok_ && count <= left_ / size;
     return ok_ ? static_cast<std::size_t>(count) : 0;
   }
-  void get_bytes(void* data, std::size_t size) {
-    ok_ = ok_ && size <= left_;
+  void pass_bytes(void* data, std::size_t size) {
+    ok_ = ok_ && (!reads || size <= left_);
     if (!ok_ || size == 0) return;
-    std::memcpy(data, next_, size);
-    next_ += size;
-    left_ -= size;
+    if constexpr (reads) {
+      std::memcpy(data, next_, size);
+      next_ += size;
+      left_ -= size;
+    } else {
+      written_.append(static_cast<const char*>(data), size);
+    }
   }
 
-  const char* next_;
-  std::size_t left_;
+  std::string written_;
+  const char* next_ = nullptr;
+  std::size_t left_ = 0;
   bool ok_ = true;
 };
 
@@ -192,11 +156,11 @@ class WireReader : public NamedFields<WireReader> {
 // named here.
 
 // The relation that counts is the case's, and travels with it.
-template <class Wire>
-void fields(Wire& wire, detector::Options& options) {
+template <class Archive>
+void fields(Archive& archive, detector::Options& options) {
   auto& [culling, start, pairs, arithmetic, threads, counted, separation] = options;
-  wire("culling", culling, "start", start, "pairs", pairs, "arithmetic", arithmetic, "threads",
-       threads, "separation", separation);
+  archive("culling", culling, "start", start, "pairs", pairs, "arithmetic", arithmetic, "threads",
+          threads, "separation", separation);
 }
 ASSAY_FIELDS(detector::Problem, error, message)
 ASSAY_FIELDS(detector::StepResult, answer, problem, first, pairs, view_positive, view_negative,
@@ -205,14 +169,14 @@ ASSAY_FIELDS(detector::StepResult, answer, problem, first, pairs, view_positive,
 ASSAY_FIELDS(RunTimes, create, steps, peak_bytes)
 ASSAY_FIELDS(LimitAnswer, share, positions)
 
-template <class Wire>
-void fields(Wire& wire, CaseRun& run) {
+template <class Archive>
+void fields(Archive& archive, CaseRun& run) {
   // The last three are the host's to say.
   auto& [end, explanation, steps, candidates, limits, errors, over_capacity, has_answers, times,
          disturbances, processor_seconds, printed] = run;
-  wire("end", end, "explanation", explanation, "steps", steps, "candidates", candidates, "limits",
-       limits, "errors", errors, "over_capacity", over_capacity, "has_answers", has_answers,
-       "times", times);
+  archive("end", end, "explanation", explanation, "steps", steps, "candidates", candidates,
+          "limits", limits, "errors", errors, "over_capacity", over_capacity, "has_answers",
+          has_answers, "times", times);
 }
 
 ASSAY_FIELDS(Configuration, name, options, fault, is_timed, asks_limits)
@@ -221,22 +185,22 @@ ASSAY_FIELDS(detector::CountedPairs, level, body, apart, rings, rest_distance, r
              vertex_faces, edge_pairs)
 
 // Only what a detector may know travels, and never the expected facts.
-template <class Wire>
-void fields(Wire& wire, corpus::CaseRelation& relation) {
-  wire("pairs", relation.pairs);
+template <class Archive>
+void fields(Archive& archive, corpus::CaseRelation& relation) {
+  archive("pairs", relation.pairs);
 }
-template <class Wire>
-void fields(Wire& wire, corpus::Case& c) {
+template <class Archive>
+void fields(Archive& archive, corpus::Case& c) {
   std::string query = query_word(c);
-  wire("id", c.id, "triangles", c.triangles, "frames", c.frames, "script", c.script, "view", c.view,
-       "counted", c.counted, "query", query);
+  archive("id", c.id, "triangles", c.triangles, "frames", c.frames, "script", c.script, "view",
+          c.view, "counted", c.counted, "query", query);
   if (query != query_word(c)) say_query(c, query);  // a writer changes nothing
 }
 
-template <class Wire>
-void fields(Wire& wire, Claims& claims) {
+template <class Archive>
+void fields(Archive& archive, Claims& claims) {
   std::uint32_t bits = claims.bits();
-  wire("bits", bits);
+  archive("bits", bits);
   claims = Claims::of_bits(bits);
 }
 
@@ -270,7 +234,7 @@ ASSAY_FIELDS(RunReply, number, place, run)
 
 template <class... T>
 std::string encode(const T&... messages) {
-  WireWriter writer;
+  Wire<false> writer;
   // A writer does not change the messages; the lists above are not const because readers use them
   // too.
   (writer.field("", const_cast<T&>(messages)), ...);
@@ -279,7 +243,7 @@ std::string encode(const T&... messages) {
 
 template <class T>
 bool decode(const std::string& bytes, T& message) {
-  WireReader reader(bytes);
+  Wire<true> reader(bytes);
   reader.field("", message);
   return reader.complete();
 }
@@ -290,9 +254,8 @@ constexpr std::uint64_t wire_version() {
   for (const std::size_t size :
        {sizeof(detector::Options), sizeof(detector::StepResult), sizeof(detector::PairContact),
         sizeof(detector::StepCounts), sizeof(detector::StepTimes), sizeof(Claims), sizeof(Contract),
-        sizeof(corpus::Case), sizeof(detector::CountedPairs)}) {
+        sizeof(corpus::Case), sizeof(detector::CountedPairs)})
     hash = hash * 1099511628211u + size;
-  }
   return hash;
 }
 

@@ -32,26 +32,12 @@ std::string key_of(const StoredFailure& failure) {
   return failure.id() + ", " + failure.shown_configuration();
 }
 
-template <class Sums>
-void add(Sums& sums, const Sums& more) {
-  for (const auto& [name, count] : more) sums[name] += count;
-}
-
 }  // namespace
 
-LawCount& LawCount::operator+=(const LawCount& other) {
-  premise += other.premise;
-  close += other.close;
-  broken += other.broken;
-  differs += other.differs;
-  add(by_culling, other.by_culling);
-  return *this;
-}
+LawCount& LawCount::operator+=(const LawCount& other) { return add_fields(*this, other); }
 
 SetPairCount& SetPairCount::operator+=(const SetPairCount& other) {
-  contacts += other.contacts;
-  first_contacts += other.first_contacts;
-  return *this;
+  return add_fields(*this, other);
 }
 
 void Extremes::include(const Extremes& other) {
@@ -61,9 +47,9 @@ void Extremes::include(const Extremes& other) {
 }
 
 TrialCounts& TrialCounts::operator+=(const TrialCounts& other) {
-  add(tags, other.tags);
-  add(set_pairs, other.set_pairs);
-  add(laws, other.laws);
+  add_to(tags, other.tags);
+  add_to(set_pairs, other.set_pairs);
+  add_to(laws, other.laws);
   measures += other.measures;
   extremes.include(other.extremes);
   return *this;

@@ -46,17 +46,7 @@ double ratio_of(std::uint64_t of, std::uint64_t in) {
 }  // namespace
 
 StepMeasures& StepMeasures::operator+=(const StepMeasures& other) {
-  errors += other.errors;
-  for (const auto member :
-       {&StepMeasures::free_squared, &StepMeasures::contact_squared, &StepMeasures::without_time,
-        &StepMeasures::unanswered, &StepMeasures::candidate_steps, &StepMeasures::candidates,
-        &StepMeasures::least_candidates, &StepMeasures::starts_near, &StepMeasures::redrawn,
-        &StepMeasures::steps_left_out, &StepMeasures::refused, &StepMeasures::left_out_misses,
-        &StepMeasures::contact_trials, &StepMeasures::repeated_trials,
-        &StepMeasures::relation_trials}) {
-    this->*member += other.*member;
-  }
-  return *this;
+  return add_fields(*this, other);
 }
 
 StepMeasures measures_of(std::span<const StepDiff> diffs,

@@ -14,11 +14,7 @@ using detector::Culling;
 using properties::Outcome;
 
 JudgedCounts& JudgedCounts::operator+=(const JudgedCounts& other) {
-  errors += other.errors;
-  left_out += other.left_out;
-  confirmed += other.confirmed;
-  timed_collisions += other.timed_collisions;
-  return *this;
+  return properties::add_fields(*this, other);
 }
 
 std::optional<Estimate> FamilyRow::over() const {

@@ -74,6 +74,7 @@ struct JudgedCounts {
 
   JudgedCounts& operator+=(const JudgedCounts& other);
 };
+ASSAY_FIELDS(JudgedCounts, errors, left_out, confirmed, timed_collisions)
 
 // A step whose answer was unsafe.
 struct UnsafeAnswer {
