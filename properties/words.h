@@ -1,9 +1,12 @@
 // The words of an enum, as a table in the order of its values, which count from 0; those of a
-// count; and words from outside, such as a plug-in's name, made safe to print anywhere.
+// count; whole numbers in words; and words from outside, such as a plug-in's name, made safe to
+// print anywhere.
 #pragma once
 
+#include <charconv>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -18,6 +21,15 @@ template <class Enum, std::size_t n>
 constexpr const char* word_of(const char* const (&words)[n], Enum value) {
   const auto place = static_cast<std::size_t>(value);
   return place < n ? words[place] : "unknown";
+}
+
+// A whole number that is written in digits alone and fits into T; nothing for other words.
+template <class T = std::uint64_t>
+std::optional<T> whole_number_of(std::string_view word) {
+  T number = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  const bool is_number = error == std::errc() && end == word.data() + word.size();
+  return is_number ? std::optional(number) : std::nullopt;
 }
 
 // "once" or "3 times".

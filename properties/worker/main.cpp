@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdio>
 #include <cstdlib>
 #include <new>
@@ -22,6 +21,7 @@
 #include <string_view>
 #include <vector>
 
+#include "properties/words.h"
 #include "properties/worker/channel.h"
 #include "properties/worker/messages.h"
 #include "properties/worker/plugin/plugin_host.h"
@@ -32,13 +32,6 @@ namespace {
 using namespace assay::properties;
 
 constexpr int exit_usage = 2;
-
-std::optional<std::uint64_t> number(std::string_view word) {
-  std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
-  return value;
-}
 
 // The limits that this process sets for itself before it loads a plug-in.
 
@@ -175,13 +168,14 @@ int main(int argc, char** argv) {
   const std::span<char*> words(argv, static_cast<std::size_t>(argc));
   constexpr std::size_t built_in = 4, with_plugin = 10;
   if (words.size() == built_in || words.size() == with_plugin) {
-    const auto channel = number(words[1]), host = number(words[2]), bytes = number(words[3]);
+    const auto channel = whole_number_of(words[1]), host = whole_number_of(words[2]),
+               bytes = whole_number_of(words[3]);
     if (channel && host && bytes && settle(*host)) {
       Channel to_host(static_cast<int>(*channel));
       if (words.size() == built_in)
         return limit_memory(*bytes) ? serve(std::move(to_host), nullptr) : exit_usage;
-      const auto threads = number(words[6]), variation = number(words[8]),
-                 asks_twice = number(words[9]);
+      const auto threads = whole_number_of(words[6]), variation = whole_number_of(words[8]),
+                 asks_twice = whole_number_of(words[9]);
       if (threads && variation && asks_twice) {
         vary(*variation);
         ::setenv("TMPDIR", words[5], 1);

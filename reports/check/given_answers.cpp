@@ -99,7 +99,7 @@ std::string read_row(std::string_view line, std::size_t steps, std::size_t& step
                      corpus::LoggedAnswer& answer) {
   const auto first = line.find(','), second = line.find(',', first + 1);
   if (second == std::string_view::npos) return "step,answer,time expected";
-  const auto number = whole_number_of<std::size_t>(std::string(line.substr(0, first)));
+  const auto number = whole_number_of<std::size_t>(line.substr(0, first));
   if (!number || *number < 1 || *number > steps)
     return fmt::format("a step from 1 to {} expected", steps);
   step = *number - 1;

@@ -9,18 +9,17 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "properties/campaign/request.h"
 #include "properties/judging/subject.h"
+#include "properties/words.h"
 #include "reports/terminal/work.h"
 
 namespace CLI {
@@ -158,14 +157,7 @@ VerbOption add_choice(Verb& verb, const std::string& name, Target& target, const
       .with(one_of(words, parse));
 }
 
-// A whole number that is written in digits alone and fits into T; nothing for other words.
-template <class T>
-std::optional<T> whole_number_of(const std::string& word) {
-  T number = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  const bool is_number = error == std::errc() && end == word.data() + word.size();
-  return is_number ? std::optional(number) : std::nullopt;
-}
+using properties::whole_number_of;
 
 // "3,17": two numbers, which may be equal. Nothing for other words.
 std::optional<std::array<std::int32_t, 2>> two_numbers(const std::string& word);

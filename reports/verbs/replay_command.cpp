@@ -58,7 +58,7 @@ std::optional<TrialName> trial_of(std::string_view id) {
     begin = end + 1;
   }
   if (parts.size() != 4 || parts[0].empty()) return std::nullopt;
-  const auto index = whole_number_of<std::uint64_t>(std::string(parts[3]));
+  const auto index = whole_number_of(parts[3]);
   const std::string seed(parts[1].substr(0, parts[1].find('.')));
   if (!index || seed.empty() || seed.find_first_not_of("0123456789") != std::string::npos)
     return std::nullopt;

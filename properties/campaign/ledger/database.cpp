@@ -8,11 +8,11 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 
 #include "corpus/digest.h"
 #include "properties/campaign/ledger/row_fields.h"
+#include "properties/words.h"
 
 namespace assay::properties {
 
@@ -135,11 +135,9 @@ Row lasting(Row row) {
 }
 
 std::uint64_t number_of_text(const std::string& text) {
-  std::uint64_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size())
-    throw StoreProblem(fmt::format("'{}' stands where a number belongs", text));
-  return number;
+  const auto number = whole_number_of(text);
+  if (!number) throw StoreProblem(fmt::format("'{}' stands where a number belongs", text));
+  return *number;
 }
 
 std::string row_hash(const Row& row) {
