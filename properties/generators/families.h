@@ -22,6 +22,7 @@
 namespace assay::properties {
 
 class Random;
+struct AskedQuery;
 struct GeneratedCase;
 
 struct Family {
@@ -31,6 +32,10 @@ struct Family {
   bool degenerate = false;  // exact coincidences are frequent: the oracle needs dear rungs
   GeneratedCase (*make)(Random&, std::string id);
   std::uint64_t triangles = 0;  // of every case, about; 0: few, as above
+  // Of a family of queries (queries/query_families.h): query `index` of `seed`, made from these two
+  // alone. It is a vertex-face query for even indices, an edge-edge query for odd ones.
+  AskedQuery (*query)(std::uint64_t seed, std::uint64_t index) = nullptr;
+  int one_in = 1;  // one for each `one_in` of "query-small-int": the dearer, the fewer
 };
 
 // The strata's families in a fixed order.

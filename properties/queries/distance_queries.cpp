@@ -1,14 +1,9 @@
-#include "properties/queries/distance_queries.h"
-
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string_view>
+#include <string>
 
 #include "properties/generators/draft.h"
-#include "properties/queries/query_checks.h"
 #include "properties/queries/query_families.h"
 #include "properties/random.h"
 
@@ -19,23 +14,15 @@ namespace {
 using detector::MovingPoint;
 using detector::Separation;
 
-// The query of another generator of elementary queries.
-Query motion_of(std::string_view generator, std::uint64_t seed, std::uint64_t index) {
-  const auto all = query_generators();
-  return std::ranges::find(all, generator, &QueryGenerator::name)->make(seed, index).query;
+// The query of a family of contacts, asked for a distance.
+AskedQuery asked_of(const std::string& family, std::uint64_t seed, std::uint64_t index,
+                    const Separation& distance = {}) {
+  return {find_family("query-" + family)->query(seed, index).query, {}, distance};
 }
 
-void scale(DistanceQuery& q, int exponent) {
-  for (MovingPoint& p : q.motion.points) {
-    for (Point* x : {&p.t0, &p.t1}) {
-      for (double& c : *x) c = std::ldexp(c, exponent);
-    }
-  }
-  for (double* d : {&q.distance.first, &q.distance.second}) *d = std::ldexp(*d, exponent);
-}
-
-Point sum(const Point& a, const Point& b, double share = 1) {
-  return {a[0] + share * b[0], a[1] + share * b[1], a[2] + share * b[2]};
+void scale(AskedQuery& q, int exponent) {
+  for_each_coordinate(q.query, [&](double& c, std::size_t) { c = std::ldexp(c, exponent); });
+  for (double* d : {&q.within->first, &q.within->second}) *d = std::ldexp(*d, exponent);
 }
 
 // A vector of integers whose length is an integer too.
@@ -73,12 +60,12 @@ class Touch {
 
   Touch(Random& random, std::uint64_t index, Feet feet)
       : random_(random), across_(whole_vector(random)), time_(random.below(9) / 8.0) {
-    query_.motion.first_group = index % 2 == 0 ? 1 : 2;
-    query_.distance = {across_.length, 0};
-    const Point foot = integer_point(random, 4), other = sum(foot, across_.w);
+    query_.query.first_group = index % 2 == 0 ? 1 : 2;
+    query_.within = Separation{across_.length, 0};
+    const Point foot = integer_point(random, 4), other = foot + across_.w;
     // Parallel edges, or a face that has become a segment along them, lie along this.
     along_ = tangent();
-    if (query_.motion.first_group == 1) {
+    if (query_.query.first_group == 1) {
       at_[0] = foot;
       place_face(other, feet);
     } else {
@@ -91,29 +78,29 @@ class Touch {
   void at(double time) { time_ = time; }
 
   // Each point has a velocity of its own.
-  DistanceQuery moving_freely(int reach) {
+  AskedQuery moving_freely(int reach) {
     return moved([&](std::size_t) { return integer_point(random_, reach); });
   }
   // The groups go towards each other, and each point along the planes of the slab besides.
-  DistanceQuery approaching() {
+  AskedQuery approaching() {
     const double speed = random_.between(1, 3);
     return moved([&](std::size_t i) {
-      const Point toward = {speed * across_.w[0], speed * across_.w[1], speed * across_.w[2]};
-      const bool is_first = query_.motion.in_first_group(static_cast<int>(i));
-      return sum(random_.one_in(2) ? tangent() : Point{}, toward, is_first ? 1 : -1);
+      const Point toward = speed * across_.w;
+      const bool is_first = query_.query.in_first_group(static_cast<int>(i));
+      return (random_.one_in(2) ? tangent() : Point{}) + (is_first ? 1 : -1) * toward;
     });
   }
   // The distance does not change at the time of the touch, to first order. If `rigid`, each group
   // keeps its shape.
-  DistanceQuery sliding(bool rigid) {
+  AskedQuery sliding(bool rigid) {
     const Point drift = integer_point(random_, 3);
     const std::array<Point, 2> own = {tangent(), tangent()};
     return moved([&](std::size_t i) {
-      const bool is_first = query_.motion.in_first_group(static_cast<int>(i));
-      return sum(drift, rigid ? own[is_first ? 0 : 1] : tangent());
+      const bool is_first = query_.query.in_first_group(static_cast<int>(i));
+      return drift + (rigid ? own[is_first ? 0 : 1] : tangent());
     });
   }
-  DistanceQuery at_rest() {
+  AskedQuery at_rest() {
     return moved([](std::size_t) { return Point{}; });
   }
 
@@ -122,20 +109,20 @@ class Touch {
   // Not on the inner side of the plane at which it is; side 1 is that of the second feature.
   Point outward(double side) {
     const Point p = integer_point(random_, 6);
-    return sum({}, p, dot(p, across_.w) * side < 0 ? -1 : 1);
+    return Point{} + (dot(p, across_.w) * side < 0 ? -1 : 1) * p;
   }
 
   void place_edge(std::size_t i, const Point& foot, double side, Feet feet) {
     const int kind = feet == Feet::at_ends ? 0 : feet == Feet::of_collapsed ? 2 : random_.below(4);
     if (kind == 0) {  // the foot is an end
       at_[i] = foot;
-      at_[i + 1] = sum(foot, random_.one_in(4) ? tangent() : outward(side));
+      at_[i + 1] = foot + (random_.one_in(4) ? tangent() : outward(side));
     } else if (kind == 3 || (feet == Feet::of_collapsed && random_.one_in(4))) {  // no length
       at_[i] = at_[i + 1] = foot;
     } else {
       const Point way = kind == 2 ? along_ : tangent();
-      at_[i] = sum(foot, way);
-      at_[i + 1] = sum(foot, way, -random_.between(0, 3));
+      at_[i] = foot + way;
+      at_[i + 1] = foot + -random_.between(0, 3) * way;
     }
   }
 
@@ -145,22 +132,23 @@ class Touch {
                                                   : random_.below(4);
     const Point a = tangent(), b = tangent();
     std::array<Point, 3> from;
-    if (kind == 0) from = {Point{}, outward(1), outward(1)};                       // a corner
-    if (kind == 1) from = {a, sum({}, a, -random_.between(0, 3)), outward(1)};     // on an edge
-    if (kind == 2) from = {a, b, sum(sum({}, a, -1), b, -random_.between(1, 3))};  // inside
-    if (kind == 3) from = {along_, sum({}, along_, -1), sum({}, along_, random_.between(-3, 3))};
+    if (kind == 0) from = {Point{}, outward(1), outward(1)};                      // a corner
+    if (kind == 1) from = {a, Point{} + -random_.between(0, 3) * a, outward(1)};  // on an edge
+    if (kind == 2) from = {a, b, Point{} + -1 * a + -random_.between(1, 3) * b};  // inside
+    if (kind == 3)
+      from = {along_, Point{} + -1 * along_, Point{} + random_.between(-3, 3) * along_};
     if (kind == 4) from = {};  // a point
     const auto turned = static_cast<std::size_t>(random_.below(3));
-    for (std::size_t i = 0; i < 3; ++i) at_[1 + (i + turned) % 3] = sum(foot, from[i]);
+    for (std::size_t i = 0; i < 3; ++i) at_[1 + (i + turned) % 3] = foot + from[i];
   }
 
   template <class Velocity>
-  DistanceQuery moved(const Velocity& velocity_of) {
+  AskedQuery moved(const Velocity& velocity_of) {
     for (std::size_t i = 0; i < 4; ++i) {
       const Point velocity = velocity_of(i);
-      query_.motion.points[i] = {sum(at_[i], velocity, -time_), sum(at_[i], velocity, 1 - time_)};
+      query_.query.points[i] = {at_[i] + -time_ * velocity, at_[i] + (1 - time_) * velocity};
     }
-    query_.near_at = time_;
+    query_.met_at = time_;
     return query_;
   }
 
@@ -169,82 +157,69 @@ class Touch {
   double time_;
   Point along_{};
   std::array<Point, 4> at_{};
-  DistanceQuery query_;
+  AskedQuery query_;
 };
 
-DistanceQuery any_touch(Random& random, std::uint64_t index) {
+AskedQuery any_touch(Random& random, std::uint64_t index) {
   Touch touch(random, index, Touch::Feet::anywhere);
-  switch (random.below(4)) {
-    case 0:
-      return touch.moving_freely(8);
-    case 1:
-      return touch.approaching();
-    case 2:
-      return touch.sliding(random.one_in(2));
-    default:
-      return touch.at_rest();
-  }
+  const int kind = random.below(4);
+  if (kind == 0) return touch.moving_freely(8);
+  if (kind == 1) return touch.approaching();
+  return kind == 2 ? touch.sliding(random.one_in(2)) : touch.at_rest();
 }
 
 // Multiples of 2^-30.
-DistanceQuery in_a_cube(std::uint64_t seed, std::uint64_t index) {
+AskedQuery in_a_cube(std::uint64_t seed, std::uint64_t index) {
   Random random(~seed, index);
   const int halvings = random.below(8);
-  return {motion_of("generic", seed, index), {std::ldexp(random.unit(), -halvings), 0}, {}};
+  return asked_of("generic", seed, index, {std::ldexp(random.unit(), -halvings), 0});
 }
 
 // Distances of whole numbers and their parts, and roots of whole numbers as doubles, which are next
 // to distances that there are.
 Separation small_distance(Random& random) {
   const double whole = random.between(0, 12);
-  switch (random.below(4)) {
-    case 0:
-      return {whole, 0};
-    case 1:
-      return {std::sqrt(whole), 0};
-    case 2:
-      return {whole / 8, 0};
-    default:
-      return {static_cast<double>(random.between(0, 3)), random.between(0, 3) / 4.0};
-  }
+  const int kind = random.below(4);
+  if (kind == 3) return {static_cast<double>(random.between(0, 3)), random.between(0, 3) / 4.0};
+  return {kind == 0 ? whole : kind == 1 ? std::sqrt(whole) : whole / 8, 0};
 }
 
-DistanceQuery of_small_integers(std::uint64_t seed, std::uint64_t index) {
+AskedQuery of_small_integers(std::uint64_t seed, std::uint64_t index) {
   Random random(~seed, index);
-  return {motion_of("small-int", seed, index), small_distance(random), {}};
+  return asked_of("small-int", seed, index, small_distance(random));
 }
 
 // Parallel at one end of the step, at both, or throughout, at any distance; the ends of half of
 // them come close.
-DistanceQuery parallel_edges(std::uint64_t seed, std::uint64_t index) {
+AskedQuery parallel_edges(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
-  DistanceQuery q;
-  q.motion.first_group = 2;
+  AskedQuery q;
+  q.query.first_group = 2;
   const Point way = integer_point(random, 3);
   for (std::size_t i = 0; i < 4; i += 2) {
-    auto& a = q.motion.points[i];
-    auto& b = q.motion.points[i + 1];
+    auto& a = q.query.points[i];
+    auto& b = q.query.points[i + 1];
     a = {integer_point(random, 4), integer_point(random, 4)};
-    b = {sum(a.t0, way, random.between(-2, 2)), sum(a.t1, way, random.between(-2, 2))};
+    b = {a.t0 + random.between(-2, 2) * way, a.t1 + random.between(-2, 2) * way};
   }
-  if (random.one_in(2)) q.motion.points[3].t1 = integer_point(random, 4);
-  if (random.one_in(4)) q.motion.points[0].t0 = integer_point(random, 4);
-  q.distance = small_distance(random);
+  if (random.one_in(2)) q.query.points[3].t1 = integer_point(random, 4);
+  if (random.one_in(4)) q.query.points[0].t0 = integer_point(random, 4);
+  q.within = small_distance(random);
   return q;
 }
 
-DistanceQuery feet_at_ends(std::uint64_t seed, std::uint64_t index) {
+AskedQuery feet_at_ends(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Touch touch(random, index, Touch::Feet::at_ends);
   return random.one_in(2) ? touch.approaching() : touch.moving_freely(6);
 }
 
 // An edge or a face that is a segment or a point at one time of the step, or throughout.
-DistanceQuery collapsing(std::uint64_t seed, std::uint64_t index) {
+AskedQuery collapsing(std::uint64_t seed, std::uint64_t index) {
   Random random(~seed, index);
-  DistanceQuery q = {motion_of("small-int", seed, index), small_distance(random), {}};
-  auto& x = q.motion.points;
-  const auto group = static_cast<std::size_t>(q.motion.first_group);
+  AskedQuery q = asked_of("small-int", seed, index, small_distance(random));
+  auto& x = q.query.points;
+  const auto group = static_cast<std::size_t>(q.query.first_group);
   const MovingPoint& kept = x[group];
   const int where = random.below(4), first = random.one_in(2) ? static_cast<int>(group) + 1 : 3;
   for (auto i = static_cast<std::size_t>(first); i < 4; ++i) {
@@ -252,62 +227,61 @@ DistanceQuery collapsing(std::uint64_t seed, std::uint64_t index) {
     if (where == 1) x[i].t1 = kept.t1;
     if (where == 2) x[i] = kept;
     // In the middle: the way from the kept point turns about.
-    if (where == 3) x[i].t1 = sum(kept.t1, sum(kept.t0, x[i].t0, -1));
+    if (where == 3) x[i].t1 = kept.t1 + (kept.t0 + -1 * x[i].t0);
   }
   return q;
 }
 
 // The cross product of two edges vanishes when the distance is d for the first time, or so.
-DistanceQuery no_normal(std::uint64_t seed, std::uint64_t index) {
+AskedQuery no_normal(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Touch touch(random, index, Touch::Feet::of_collapsed);
   return random.one_in(3) ? touch.moving_freely(4) : touch.approaching();
 }
 
-DistanceQuery tangent(std::uint64_t seed, std::uint64_t index) {
+AskedQuery tangent(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Touch touch(random, index, Touch::Feet::anywhere);
   return touch.sliding(random.one_in(2));
 }
 
-DistanceQuery at_rest(std::uint64_t seed, std::uint64_t index) {
+AskedQuery at_rest(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
-  DistanceQuery q = Touch(random, index, Touch::Feet::anywhere).at_rest();
+  AskedQuery q = Touch(random, index, Touch::Feet::anywhere).at_rest();
   if (random.one_in(3)) {
     const int exponent = random.between(-1074, -40);
-    q.distance.second = std::ldexp(random.one_in(2) ? 1 : -1, exponent);
-    if (q.distance.second < 0) q.near_at.reset();
+    q.within->second = std::ldexp(random.one_in(2) ? 1 : -1, exponent);
+    if (q.within->second < 0) q.met_at.reset();
   }
   return q;
 }
 
-DistanceQuery no_distance(std::uint64_t seed, std::uint64_t index) {
+AskedQuery no_distance(std::uint64_t seed, std::uint64_t index) {
   Random random(~seed, index);
   constexpr std::array from = {"constructed", "small-int", "ulp", "generic"};
-  return {motion_of(from[static_cast<std::size_t>(random.below(4))], seed, index), {}, {}};
+  return asked_of(one_of(random, from), seed, index);
 }
 
-DistanceQuery huge_distance(std::uint64_t seed, std::uint64_t index) {
+AskedQuery huge_distance(std::uint64_t seed, std::uint64_t index) {
   Random random(~seed, index);
-  DistanceQuery q = {motion_of(random.one_in(2) ? "small-int" : "exponents", seed, index), {}, {}};
+  AskedQuery q = asked_of(random.one_in(2) ? "small-int" : "exponents", seed, index);
   const int exponent = random.between(3, 1022);
-  q.distance = {std::ldexp(1 + random.unit(), exponent), 0};
-  if (random.one_in(2)) q.distance.second = q.distance.first;
+  q.within->first = std::ldexp(1 + random.unit(), exponent);
+  if (random.one_in(2)) q.within->second = q.within->first;
   return q;
 }
 
 // The smallest numbers: in the coordinates and d, or in one of them.
-DistanceQuery of_denormals(std::uint64_t seed, std::uint64_t index) {
+AskedQuery of_denormals(std::uint64_t seed, std::uint64_t index) {
   Random random(~seed, index);
   constexpr int least_exponent = -1074;
   if (random.one_in(3)) {
     const int exponent = random.one_in(2) ? least_exponent : -2;
-    return {
-        motion_of("denormals", seed, index), {std::ldexp(random.between(0, 9), exponent), 0}, {}};
+    return asked_of("denormals", seed, index, {std::ldexp(random.between(0, 9), exponent), 0});
   }
-  DistanceQuery q = any_touch(random, index);
+  AskedQuery q = any_touch(random, index);
   if (random.one_in(3)) {
-    q.distance.second = std::ldexp(random.between(0, 3), least_exponent);
+    q.within->second = std::ldexp(random.between(0, 3), least_exponent);
     return q;
   }
   scale(q, 3);  // eighths become integers
@@ -315,10 +289,10 @@ DistanceQuery of_denormals(std::uint64_t seed, std::uint64_t index) {
   return q;
 }
 
-DistanceQuery all_doubles(std::uint64_t seed, std::uint64_t index) {
+AskedQuery all_doubles(std::uint64_t seed, std::uint64_t index) {
   Random random(~seed, index);
   if (random.one_in(2)) {
-    DistanceQuery q = any_touch(random, index);
+    AskedQuery q = any_touch(random, index);
     scale(q, random.between(-1070, 1000));
     return q;
   }
@@ -326,90 +300,71 @@ DistanceQuery all_doubles(std::uint64_t seed, std::uint64_t index) {
     const int exponent = random.between(-1074, 1020);
     return std::ldexp(random.unit(), exponent);
   };
-  const Query motion =
-      random.one_in(2) ? extreme_contact(seed, index) : motion_of("exponents", seed, index);
-  return {motion, {any(), random.one_in(3) ? any() : 0}, {}};
+  const auto* family = random.one_in(2) ? "extreme" : "exponents";
+  return asked_of(family, seed, index, {any(), random.one_in(3) ? any() : 0});
 }
 
 // d, or one coordinate, a few units in the last place beside an exact touch.
-DistanceQuery beside(std::uint64_t seed, std::uint64_t index) {
+AskedQuery beside(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
-  DistanceQuery q = any_touch(random, index);
+  AskedQuery q = any_touch(random, index);
   const int bits = random.between(49, 56);
   const double ulp = std::ldexp(random.one_in(2) ? 1 : -1, -bits);
   if (random.one_in(2)) {
-    q.distance.second = ulp * random.between(1, 4);
-    if (q.distance.second < 0) q.near_at.reset();
+    q.within->second = ulp * random.between(1, 4);
+    if (q.within->second < 0) q.met_at.reset();
   } else {
-    auto& p = q.motion.points[static_cast<std::size_t>(random.below(4))];
+    auto& p = q.query.points[static_cast<std::size_t>(random.below(4))];
     double& c = (random.one_in(2) ? p.t0 : p.t1)[static_cast<std::size_t>(random.below(3))];
     c += c == 0 ? ulp : std::nextafter(c, c + ulp) - c;
-    q.near_at.reset();
+    q.met_at.reset();
   }
   return q;
 }
 
 // They are within d for a short time only.
-DistanceQuery just_inside(std::uint64_t seed, std::uint64_t index) {
+AskedQuery just_inside(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Touch touch(random, index, Touch::Feet::anywhere);
-  DistanceQuery q = touch.sliding(random.one_in(2));
-  q.distance.second = std::ldexp(1, -random.between(10, 100));
+  AskedQuery q = touch.sliding(random.one_in(2));
+  q.within->second = std::ldexp(1, -random.between(10, 100));
   return q;
 }
 
-DistanceQuery starting_at_d(std::uint64_t seed, std::uint64_t index) {
+AskedQuery starting_at_d(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Touch touch(random, index, Touch::Feet::anywhere);
   touch.at(0);
-  DistanceQuery q = random.one_in(2) ? touch.moving_freely(6) : touch.sliding(random.one_in(2));
+  AskedQuery q = random.one_in(2) ? touch.moving_freely(6) : touch.sliding(random.one_in(2));
   if (random.one_in(4)) {
-    q.distance.second = -std::ldexp(1, -random.between(20, 1074));
-    q.near_at.reset();
+    q.within->second = -std::ldexp(1, -random.between(20, 1074));
+    q.met_at.reset();
   }
   return q;
 }
 
-constexpr double generic_open = 0.02, near_degenerate_open = 0.5;
-
-constexpr std::array all_families = {
-    DistanceFamily{"distance-generic", "uniform in a cube", in_a_cube, generic_open, 1},
-    DistanceFamily{"distance-small-int", "integers within 1..4, d a whole number or a root",
-                   of_small_integers, near_degenerate_open, 1},
-    DistanceFamily{"distance-parallel", "edges parallel at an end of the step, or throughout",
-                   parallel_edges, near_degenerate_open, 5},
-    DistanceFamily{"distance-ends", "at d with feet at corners and ends of edges", feet_at_ends,
-                   near_degenerate_open, 5},
-    DistanceFamily{"distance-collapsing", "features that become segments or points", collapsing,
-                   near_degenerate_open, 5},
-    DistanceFamily{"distance-no-normal", "at d just where a normal vanishes", no_normal,
-                   near_degenerate_open, 5},
-    DistanceFamily{"distance-tangent", "at d without crossing it, or sliding along it", tangent,
-                   near_degenerate_open, 5},
-    DistanceFamily{"distance-at-rest", "nothing moves, at d or next to it", at_rest,
-                   near_degenerate_open, 5},
-    DistanceFamily{"distance-zero", "d = 0: contacts", no_distance, near_degenerate_open, 5},
-    DistanceFamily{"distance-huge", "d up to the sum of the two greatest doubles", huge_distance,
-                   near_degenerate_open, 10},
-    DistanceFamily{"distance-denormals", "5e-324 in coordinates, in d, or in both", of_denormals,
-                   near_degenerate_open, 20},
-    DistanceFamily{"distance-all-doubles", "exponents over all doubles", all_doubles,
-                   near_degenerate_open, 100},
-    DistanceFamily{"distance-ulp", "a few units in the last place beside d", beside,
-                   near_degenerate_open, 10},
-    DistanceFamily{"distance-inside", "within d for a short time", just_inside,
-                   near_degenerate_open, 10},
-    DistanceFamily{"distance-start", "at d, or just outside, at t=0", starting_at_d,
-                   near_degenerate_open, 5},
+constexpr Family distance_table[] = {
+    family_of<in_a_cube>("distance-generic", "uniform in a cube", 1),
+    family_of<of_small_integers>("distance-small-int",
+                                 "integers within 1..4, d a whole number or a root", 1),
+    family_of<parallel_edges>("distance-parallel",
+                              "edges parallel at an end of the step, or throughout", 5),
+    family_of<feet_at_ends>("distance-ends", "at d with feet at corners and ends of edges", 5),
+    family_of<collapsing>("distance-collapsing", "features that become segments or points", 5),
+    family_of<no_normal>("distance-no-normal", "at d just where a normal vanishes", 5),
+    family_of<tangent>("distance-tangent", "at d without crossing it, or sliding along it", 5),
+    family_of<at_rest>("distance-at-rest", "nothing moves, at d or next to it", 5),
+    family_of<no_distance>("distance-zero", "d = 0: contacts", 5),
+    family_of<huge_distance>("distance-huge", "d up to the sum of the two greatest doubles", 10),
+    family_of<of_denormals>("distance-denormals", "5e-324 in coordinates, in d, or in both", 20),
+    family_of<all_doubles>("distance-all-doubles", "exponents over all doubles", 100),
+    family_of<beside>("distance-ulp", "a few units in the last place beside d", 10),
+    family_of<just_inside>("distance-inside", "within d for a short time", 10),
+    family_of<starting_at_d>("distance-start", "at d, or just outside, at t=0", 5),
 };
 
 }  // namespace
 
-std::span<const DistanceFamily> distance_families() { return all_families; }
-
-std::string exact_text(const DistanceQuery& query) {
-  return fmt::format("distance {:a} + {:a}\n", query.distance.first, query.distance.second) +
-         exact_text(query.motion);
-}
+std::span<const Family> distance_families() { return distance_table; }
 
 }  // namespace assay::properties

@@ -97,7 +97,9 @@ void roots_next_to_one(Random& random, std::span<MovingPoint> points) {
   if (random.one_in(2)) points[1].t1[0] = power(least_exponent, 0);
 }
 
-void make_points(Random& random, std::span<MovingPoint> points) {
+}  // namespace
+
+void make_extreme(Random& random, std::span<MovingPoint> points) {
   ExtremeNumbers numbers(random);
   for (MovingPoint& p : points) {
     for (double& c : p.t0) c = numbers.next();
@@ -107,22 +109,12 @@ void make_points(Random& random, std::span<MovingPoint> points) {
   if (random.one_in(16)) roots_next_to_one(random, points);
 }
 
-}  // namespace
-
-detector::FourPoints extreme_contact(std::uint64_t seed, std::uint64_t index) {
+AskedQuery extreme_contact(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
-  detector::FourPoints query;
+  Query query;
   query.first_group = index % 2 == 0 ? 1 : 2;
-  make_points(random, query.points);
-  return query;
-}
-
-ViewQuery extreme_view(std::uint64_t seed, std::uint64_t index) {
-  Random random(~seed, index);
-  std::array<MovingPoint, 5> points;
-  make_points(random, points);
-  if (index % 2 == 0) points[4] = points[3];
-  return {{points[0], points[1], points[2]}, {points[3], points[4]}};
+  make_extreme(random, query.points);
+  return {query};
 }
 
 }  // namespace assay::properties

@@ -1,5 +1,3 @@
-#include "properties/queries/query_checks.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,15 +6,19 @@
 #include <exception>
 #include <utility>
 
+#include "oracle/distance/feature_distance.h"
+#include "oracle/referee/static_check.h"
+#include "properties/queries/query_methods.h"
+
 namespace assay::properties {
 
 namespace {
 
+using detector::Decision;
 using detector::MovingPoint;
 using detector::Point;
 using detector::TimeEnclosure;
 using detector::Want;
-using oracle::ContactAnswer;
 
 // Changes of a query under which the oracle's answer, and mostly its first time, are known.
 
@@ -25,17 +27,17 @@ using oracle::ContactAnswer;
 using Broken = std::optional<std::string>;
 struct Invariance {
   const char* name;
-  Broken (*broken)(const Query& query, const ContactAnswer& answer, std::uint64_t pick);
+  Broken (*broken)(const Query& query, const MethodAnswer& answer, std::uint64_t pick);
 };
 
-Broken compare_answers(const Query& changed, const ContactAnswer& expected) {
-  const ContactAnswer answer = oracle::contact_of(changed, Want::first_time);
-  if (answer.contact != expected.contact) return "another answer";
-  if (answer.contact && answer.first != expected.first) return "another first time";
+Broken compare_answers(const Query& changed, const MethodAnswer& expected) {
+  const MethodAnswer answer = oracle_answer({changed}, Want::first_time);
+  if (answer.decision != expected.decision) return "another answer";
+  if (answer.first != expected.first) return "another first time";
   return "";
 }
 
-Broken order_of_points(const Query& query, const ContactAnswer& answer, std::uint64_t pick) {
+Broken order_of_points(const Query& query, const MethodAnswer& answer, std::uint64_t pick) {
   Query q = query;
   auto& x = q.points;
   if (q.first_group == 1) {
@@ -52,7 +54,7 @@ Broken order_of_points(const Query& query, const ContactAnswer& answer, std::uin
   return compare_answers(q, answer);
 }
 
-Broken axes(const Query& query, const ContactAnswer& answer, std::uint64_t pick) {
+Broken axes(const Query& query, const MethodAnswer& answer, std::uint64_t pick) {
   std::array<std::size_t, 3> order = {0, 1, 2};
   for (std::uint64_t i = pick % 6; i > 0; --i) std::next_permutation(order.begin(), order.end());
   const std::uint64_t mirrored = pick / 6 % 8;
@@ -72,17 +74,12 @@ Broken axes(const Query& query, const ContactAnswer& answer, std::uint64_t pick)
 // Changes every coordinate. Returns false if one change is not exact.
 template <class Change>
 bool change_exactly(Query& q, const Change& change) {
-  for (MovingPoint& p : q.points) {
-    for (Point* end : {&p.t0, &p.t1}) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        if (!change((*end)[k], k)) return false;
-      }
-    }
-  }
-  return true;
+  bool exact = true;
+  for_each_coordinate(q, [&](double& c, std::size_t k) { exact = exact && change(c, k); });
+  return exact;
 }
 
-Broken powers_of_two(const Query& query, const ContactAnswer& answer, std::uint64_t pick) {
+Broken powers_of_two(const Query& query, const MethodAnswer& answer, std::uint64_t pick) {
   constexpr std::array exponents = {-900, -300, -60, -1, 1, 7, 60, 290, 900};
   const int exponent = exponents[pick % exponents.size()];
   Query q = query;
@@ -105,7 +102,7 @@ bool adds_exactly(double a, double b, double& sum) {
   return (a - a_used) + (b - b_used) == 0;
 }
 
-Broken translation(const Query& query, const ContactAnswer& answer, std::uint64_t pick) {
+Broken translation(const Query& query, const MethodAnswer& answer, std::uint64_t pick) {
   constexpr std::array steps = {1.0, -3.0, 0x1p-3, 0x1p20, -0x1p45, 0x1p-60};
   Point by;
   for (double& c : by) {
@@ -119,14 +116,14 @@ Broken translation(const Query& query, const ContactAnswer& answer, std::uint64_
   return compare_answers(q, answer);
 }
 
-Broken time_reversed(const Query& query, const ContactAnswer& answer, std::uint64_t) {
+Broken time_reversed(const Query& query, const MethodAnswer& answer, std::uint64_t) {
   Query q = query;
   for (MovingPoint& p : q.points) std::swap(p.t0, p.t1);
-  const ContactAnswer back = oracle::contact_of(q, Want::first_time);
-  if (back.contact != answer.contact) return "another answer";
+  const MethodAnswer back = oracle_answer({q}, Want::first_time);
+  if (back.decision != answer.decision) return "another answer";
   // The first time of the reversed query is 1 - (last time), and the last time is not before the
   // first.
-  if (back.contact && answer.first.lo + back.first.lo > 1) return "last contact before the first";
+  if (back.first && answer.first->lo + back.first->lo > 1) return "last contact before the first";
   return "";
 }
 
@@ -139,7 +136,7 @@ bool same_in_second_half(const TimeEnclosure& whole, const TimeEnclosure& half) 
   return lo <= half.lo && half.hi <= hi;
 }
 
-Broken halves(const Query& query, const ContactAnswer& answer, std::uint64_t) {
+Broken halves(const Query& query, const MethodAnswer& answer, std::uint64_t) {
   Query first = query, second = query;
   for (std::size_t i = 0; i < 4; ++i) {
     const MovingPoint& p = query.points[i];
@@ -150,20 +147,20 @@ Broken halves(const Query& query, const ContactAnswer& answer, std::uint64_t) {
       first.points[i].t1[k] = second.points[i].t0[k] = std::ldexp(middle, -1);
     }
   }
-  const ContactAnswer early = oracle::contact_of(first, Want::first_time);
-  const ContactAnswer late = early.contact ? early : oracle::contact_of(second, Want::first_time);
-  if (late.contact != answer.contact) return "the halves answer otherwise";
-  if (!answer.contact) return "";
-  if (early.contact) {
+  const MethodAnswer early = oracle_answer({first}, Want::first_time);
+  const MethodAnswer late = early.first ? early : oracle_answer({second}, Want::first_time);
+  if (late.decision != answer.decision) return "the halves answer otherwise";
+  if (!answer.first) return "";
+  const TimeEnclosure& t = *answer.first;
+  if (early.first) {
     constexpr double doubling_is_exact_from = 0x1p-1000;
-    const TimeEnclosure& t = answer.first;
     if (t.lo < doubling_is_exact_from && t.lo != t.hi) return "";
-    if (early.first.lo != 2 * t.lo || early.first.hi != 2 * t.hi) {
+    if (early.first->lo != 2 * t.lo || early.first->hi != 2 * t.hi) {
       return "another time in the first half";
     }
     return "";
   }
-  if (answer.first.lo < 0.5 || !same_in_second_half(answer.first, late.first)) {
+  if (t.lo < 0.5 || !same_in_second_half(t, *late.first)) {
     return "another time in the second half";
   }
   return "";
@@ -178,72 +175,110 @@ constexpr std::array invariances = {
 };
 
 std::string text(const TimeEnclosure& t) { return fmt::format("[{:a}, {:a}]", t.lo, t.hi); }
-
-std::string text(const MethodAnswer& answer) {
-  if (answer.decision == detector::Decision::open) return "cannot tell";
-  if (answer.decision == detector::Decision::no) return "no contact";
-  return answer.first ? "contact at " + text(*answer.first) : "contact";
+std::string text(const oracle::RationalTime& t) {
+  return fmt::format("{}/{}", t.numerator, t.denominator);
 }
 
-MethodAnswer as_method(const ContactAnswer& answer) {
-  if (!answer.contact) return {detector::Decision::no, {}};
-  return {detector::Decision::yes, answer.first};
+std::string text(const MethodAnswer& answer, const AskedQuery& asked) {
+  const auto& proof = answer.proof;
+  const std::string met = asked.within ? "near" : "contact";
+  if (answer.decision == Decision::open)
+    return proof ? "cannot tell, not near up to " + text(proof->after) : "cannot tell";
+  if (answer.decision == Decision::no) return asked.within ? "never near" : "no contact";
+  if (proof) return fmt::format("near in ({}, {}]", text(proof->after), text(proof->by));
+  return answer.first ? met + " at " + text(*answer.first) : met;
 }
 
-bool contradicts(const MethodAnswer& a, const MethodAnswer& b) {
-  if (a.decision == detector::Decision::open || b.decision == detector::Decision::open)
-    return false;
-  return a.decision != b.decision || (a.first && b.first && *a.first != *b.first);
+// Whether the first time is 0, as the referee has proved.
+bool is_at_start(const oracle::DistanceVerdict& proof) {
+  return proof.within == Decision::yes && proof.by.numerator == 0;
 }
 
-std::optional<std::string> first_contradiction(const GeneratedQuery& made, std::uint64_t pick,
-                                               QueryTally& tally) {
-  const Query& query = made.query;
-  const auto timed = oracle::contact_of(query, Want::first_time);
-  const MethodAnswer expected = as_method(timed);
-  tally.contacts += timed.contact ? 1 : 0;
-  tally.rungs.add(timed.rung);
-  if (made.contact_at && (!timed.contact || timed.first.lo > *made.contact_at)) {
-    return fmt::format("oracle: {}, but made to meet at {:a}", text(expected), *made.contact_at);
+// Whether the enclosed time, lo itself or one strictly between lo and hi, surely lies outside of
+// what is proved.
+bool is_outside(const TimeEnclosure& time, const oracle::DistanceVerdict& proof) {
+  const int end = oracle::compare(proof.by, time.lo);
+  const bool is_after =
+      proof.within == Decision::yes && (end < 0 || (end == 0 && time.lo < time.hi));
+  return is_after || (!is_at_start(proof) && oracle::compare(proof.after, time.hi) >= 0);
+}
+
+bool misses(const MethodAnswer& answer, double met_at) {
+  return answer.decision == Decision::no || (answer.first && answer.first->lo > met_at) ||
+         (answer.proof && !is_at_start(*answer.proof) &&
+          oracle::compare(answer.proof->after, met_at) >= 0);
+}
+
+std::optional<std::string> not_as_known(const AskedQuery& asked) {
+  const auto& known = asked.known;
+  if (!known) return {};
+  for (const auto want : {Want::yes_no, Want::first_time}) {
+    const auto answer = oracle_answer(asked, want);
+    if (answer.decision != known->decision || (answer.first && answer.first != known->first))
+      return fmt::format("`{}`: not the answer or time that is known", asked.name);
+    const auto name_of = [](int rung) {
+      return method_of("oracle")->rungs[static_cast<std::size_t>(rung)];
+    };
+    if (answer.rung != known->rung)
+      return fmt::format("`{}`: rung {} decided, {} must", asked.name, name_of(answer.rung),
+                         name_of(known->rung));
   }
+  return {};
+}
+
+std::optional<std::string> first_contradiction(const AskedQuery& asked, std::uint64_t pick,
+                                               QueryTally& tally,
+                                               std::span<const QueryMethod> methods) {
+  const MethodAnswer of_oracle = oracle_answer(asked, Want::first_time);
+  tally.contacts += of_oracle.decision == Decision::yes ? 1 : 0;
+  tally.rungs.add(static_cast<oracle::Rung>(of_oracle.rung));
+  const auto oracle_text = [&] {
+    return "oracle: " + text(of_oracle, asked) +
+           (asked.met_at ? fmt::format("; made to meet at {:a}", *asked.met_at) : "");
+  };
+  if (contradicts(of_oracle, of_oracle, asked)) return oracle_text();
+  const auto checks = asked.within ? QueryChecks::distances : QueryChecks::contacts;
   bool open = false;
-  for (const QueryMethod& method : query_methods()) {
-    const MethodAnswer answer = method.answer(query);
-    open = open || answer.decision == detector::Decision::open;
-    if (contradicts(answer, expected)) {
-      return fmt::format("{}: {}; oracle: {}", method.name, text(answer), text(expected));
-    }
+  for (const QueryMethod& method : methods) {
+    if (method.checks != checks || pick % static_cast<std::uint64_t>(method.one_in) != 0) continue;
+    const MethodAnswer answer = method.answer(asked);
+    open = open || (method.is_referee && answer.decision == Decision::open);
+    if (contradicts(answer, of_oracle, asked))
+      return fmt::format("{}: {}; {}", method.name, text(answer, asked), oracle_text());
   }
   tally.open += open ? 1 : 0;
+  if (asked.within) return {};
   for (std::size_t i = 0; i < invariances.size(); ++i) {
     const Invariance& law = invariances[(pick + i) % invariances.size()];
-    const auto broken = law.broken(query, timed, pick / invariances.size());
+    const auto broken = law.broken(asked.query, of_oracle, pick / invariances.size());
     if (!broken) continue;
     ++tally.invariances;
     if (broken->empty()) break;
     return fmt::format("oracle breaks the invariance `{}`: {}", law.name, *broken);
   }
-  return {};
+  return not_as_known(asked);
 }
 
 }  // namespace
 
-QueryTally& QueryTally::operator+=(const QueryTally& other) {
-  queries += other.queries;
-  contacts += other.contacts;
-  contradictions += other.contradictions;
-  open += other.open;
-  invariances += other.invariances;
-  rungs += other.rungs;
-  return *this;
+bool contradicts(const MethodAnswer& answer, const MethodAnswer& of_oracle,
+                 const AskedQuery& asked) {
+  const bool are_decided =
+      answer.decision != Decision::open && of_oracle.decision != Decision::open;
+  return (are_decided && answer.decision != of_oracle.decision) ||
+         (answer.first && of_oracle.first && answer.first != of_oracle.first) ||
+         (answer.proof && of_oracle.first && is_outside(*of_oracle.first, *answer.proof)) ||
+         (asked.met_at && misses(answer, *asked.met_at));
 }
 
-std::optional<std::string> check_query(const GeneratedQuery& made, std::uint64_t pick,
-                                       QueryTally& tally) {
+QueryTally& QueryTally::operator+=(const QueryTally& other) { return add_fields(*this, other); }
+
+std::optional<std::string> check_query(const AskedQuery& asked, std::uint64_t pick,
+                                       QueryTally& tally, std::span<const QueryMethod> methods) {
   ++tally.queries;
   std::optional<std::string> wrong;
   try {
-    wrong = first_contradiction(made, pick, tally);
+    wrong = first_contradiction(asked, pick, tally, methods);
   } catch (const std::exception& thrown) {
     wrong = fmt::format("a method threw: {}", thrown.what());
   }
@@ -251,21 +286,31 @@ std::optional<std::string> check_query(const GeneratedQuery& made, std::uint64_t
   return wrong;
 }
 
-std::string exact_text(const Query& query) {
-  std::string out = query.first_group == 1 ? "vertex-face: vertex, then three corners\n"
-                                           : "edge-edge: two ends, then two ends\n";
-  for (const auto& p : query.points) {
-    out += fmt::format("  t=0 ({:a}, {:a}, {:a})  t=1 ({:a}, {:a}, {:a})\n", p.t0[0], p.t0[1],
-                       p.t0[2], p.t1[0], p.t1[1], p.t1[2]);
-  }
+std::string exact_text(const MovingPoint& path) {
+  const auto& [x, y] = path;
+  return fmt::format("t=0 ({:a}, {:a}, {:a})  t=1 ({:a}, {:a}, {:a})", x[0], x[1], x[2], y[0], y[1],
+                     y[2]);
+}
+
+std::string exact_text(const AskedQuery& asked) {
+  std::string out = asked.name.empty() ? "" : asked.name + "\n";
+  if (const auto& d = asked.within)
+    out += fmt::format("distance {:a} + {:a}\n", d->first, d->second);
+  out += asked.query.first_group == 1 ? "vertex-face: vertex, then three corners\n"
+                                      : "edge-edge: two ends, then two ends\n";
+  for (const auto& path : asked.query.points) out += "  " + exact_text(path) + "\n";
   return out;
 }
 
-std::string answers_text(const Query& query) {
-  std::string out = fmt::format("oracle, timed: {}\n",
-                                text(as_method(oracle::contact_of(query, Want::first_time))));
+std::string answers_text(const AskedQuery& asked) {
+  const auto of_oracle = text(oracle_answer(asked, Want::first_time), asked);
+  if (asked.within)
+    return fmt::format("oracle: {}\nleast distance: {:a}\n", of_oracle,
+                       oracle::least_distance(asked.query));
+  std::string out = fmt::format("oracle, timed: {}\n", of_oracle);
   for (const QueryMethod& method : query_methods()) {
-    out += fmt::format("{}: {}\n", method.name, text(method.answer(query)));
+    if (method.checks == QueryChecks::contacts)
+      out += fmt::format("{}: {}\n", method.name, text(method.answer(asked), asked));
   }
   return out;
 }

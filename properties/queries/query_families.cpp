@@ -3,67 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <deque>
-#include <string>
-#include <vector>
 
 #include "properties/generators/everyday.h"
 #include "properties/random.h"
-#include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
-
-namespace {
-
-// The place of a query in its generator's sequence is drawn too, because even and odd places are
-// of the two kinds.
-template <std::size_t generator>
-GeneratedCase make_query(Random& random, std::string id) {
-  const std::uint64_t seed = random.next();
-  const std::uint64_t index = random.next();
-  const auto made = query_generators()[generator].make(seed, index);
-  return {case_of_query(made.query, std::move(id)), {}};
-}
-
-// Generators that are asked for less often than one in so many are dear.
-constexpr int dear = 100;
-
-GeneratedCase make_extreme(Random& random, std::string id) {
-  const std::uint64_t seed = random.next();
-  const std::uint64_t index = random.next();
-  return {case_of_query(extreme_contact(seed, index), std::move(id)), {}};
-}
-
-struct QueryFamilies {
-  std::deque<std::string> names;
-  std::vector<Family> list;
-
-  void add(std::string_view name, std::string_view about,
-           GeneratedCase (*make)(Random&, std::string)) {
-    names.push_back("query-" + std::string(name));
-    list.push_back({names.back(), about, false, true, make});
-  }
-
-  template <std::size_t... generator>
-  void add_generators(std::index_sequence<generator...>) {
-    (add(query_generators()[generator].name, query_generators()[generator].about,
-         make_query<generator>),
-     ...);
-  }
-
-  QueryFamilies() {
-    add_generators(std::make_index_sequence<query_generator_count>());
-    add("extreme", "exponents over all doubles, denormals, few mantissas, mostly degenerate",
-        make_extreme);
-  }
-};
-
-}  // namespace
-
-std::span<const Family> query_families() {
-  static const QueryFamilies families;
-  return families.list;
-}
 
 const Family* find_family(std::string_view name) {
   for (const auto known :
@@ -75,16 +19,13 @@ const Family* find_family(std::string_view name) {
 }
 
 bool is_query_family(std::string_view name) {
-  const auto known = query_families();
-  return std::ranges::find(known, name, &Family::name) != known.end();
+  const auto* family = find_family(name);
+  return family && family->query;
 }
 
 bool is_dear_query_family(std::string_view name) {
-  const auto is_dear = [&](const QueryGenerator& generator) {
-    return generator.one_in >= dear && name.ends_with(generator.name);
-  };
-  return name == query_families().back().name ||
-         std::any_of(query_generators().begin(), query_generators().end(), is_dear);
+  constexpr int dear = 100;
+  return is_query_family(name) && find_family(name)->one_in >= dear;
 }
 
 namespace {
@@ -96,15 +37,6 @@ Query empty_query(std::uint64_t index) {
   Query q{};
   q.first_group = index % 2 == 0 ? 1 : 2;
   return q;
-}
-
-// Calls change(coordinate) for all 24 coordinates, in a fixed order.
-template <class Change>
-void for_each_coordinate(Query& q, const Change& change) {
-  for (MovingPoint& p : q.points) {
-    for (double& c : p.t0) change(c);
-    for (double& c : p.t1) change(c);
-  }
 }
 
 double& any_coordinate(Random& random, Query& q) {
@@ -152,14 +84,14 @@ Query small_integers(Random& random, std::uint64_t index) {
   return q;
 }
 
-GeneratedQuery small_int(std::uint64_t seed, std::uint64_t index) {
+AskedQuery small_int(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
-  return {small_integers(random, index), {}};
+  return {small_integers(random, index)};
 }
 
 // Constructs a contact at a dyadic time: the two hulls are drawn through one point there, and the
 // velocities are free. All numbers are small dyadics, so the contact is exact.
-GeneratedQuery constructed(std::uint64_t seed, std::uint64_t index) {
+AskedQuery constructed(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Query q = empty_query(index);
   constexpr int integer_reach = 4, fastest = 8;
@@ -197,20 +129,20 @@ GeneratedQuery constructed(std::uint64_t seed, std::uint64_t index) {
 
 // Changes one to three coordinates of an exact contact or a small-integer query to a neighbouring
 // double. A coordinate 0 is changed by one unit of the last place of 1.
-GeneratedQuery ulp_neighbours(std::uint64_t seed, std::uint64_t index) {
+AskedQuery ulp_neighbours(std::uint64_t seed, std::uint64_t index) {
   Random random(~seed, index);
   Query q = random.below(2) == 0 ? constructed(seed, index).query : small_integers(random, index);
   for (int changes = random.between(1, 3); changes > 0; --changes) {
     double& c = any_coordinate(random, q);
     c = units_beyond(c, 1, random.below(2) == 0 ? 1 : -1);
   }
-  return {q, {}};
+  return {q};
 }
 
-GeneratedQuery far_from_origin(std::uint64_t seed, std::uint64_t index) {
+AskedQuery far_from_origin(std::uint64_t seed, std::uint64_t index) {
   Random random(~seed, index);
-  GeneratedQuery made = random.below(2) == 0 ? constructed(seed, index)
-                                             : GeneratedQuery{small_integers(random, index), {}};
+  AskedQuery made =
+      random.below(2) == 0 ? constructed(seed, index) : AskedQuery{small_integers(random, index)};
   // Up to 2^50 integers stay exact. The eighths and smaller parts of a constructed contact may be
   // rounded.
   std::array<double, 3> offset;
@@ -219,17 +151,12 @@ GeneratedQuery far_from_origin(std::uint64_t seed, std::uint64_t index) {
     const double far = std::ldexp(random.below(2) == 0 ? 1 : -1, exponent);
     c = far + random.below(1000);
   }
-  for (MovingPoint& p : made.query.points) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      p.t0[k] += offset[k];
-      p.t1[k] += offset[k];
-    }
-  }
-  made.contact_at.reset();
+  for_each_coordinate(made.query, [&](double& c, std::size_t k) { c += offset[k]; });
+  made.met_at.reset();
   return made;
 }
 
-GeneratedQuery mixed_scales(std::uint64_t seed, std::uint64_t index) {
+AskedQuery mixed_scales(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Query q = small_integers(random, index);
   const bool by_point = random.below(2) == 0;
@@ -242,59 +169,59 @@ GeneratedQuery mixed_scales(std::uint64_t seed, std::uint64_t index) {
       }
     }
   }
-  return {q, {}};
+  return {q};
 }
 
-GeneratedQuery dyadics(std::uint64_t seed, std::uint64_t index) {
+AskedQuery dyadics(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Query q = empty_query(index);
-  for_each_coordinate(q, [&](double& c) {
+  for_each_coordinate(q, [&](double& c, std::size_t) {
     const int bits = random.below(11);
     c = std::ldexp(random.between(-(1 << bits), 1 << bits), -bits);
   });
-  return {q, {}};
+  return {q};
 }
 
 // Makes the smallest numbers, alone or among small integers.
-GeneratedQuery denormals(std::uint64_t seed, std::uint64_t index) {
+AskedQuery denormals(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Query q = small_integers(random, index);
   constexpr int subnormal_exponent = -1074;
   const int kind = random.below(3);
   if (kind == 0) {
-    for_each_coordinate(q, [](double& c) { c = std::ldexp(c, subnormal_exponent); });
+    for_each_coordinate(q, [](double& c, std::size_t) { c = std::ldexp(c, subnormal_exponent); });
   } else {
     for (int changes = kind == 1 ? 1 : random.between(2, 8); changes > 0; --changes) {
       double& c = any_coordinate(random, q);
       c = std::ldexp(random.between(-3, 3), subnormal_exponent);
     }
   }
-  return {q, {}};
+  return {q};
 }
 
-GeneratedQuery exponents(std::uint64_t seed, std::uint64_t index) {
+AskedQuery exponents(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Query q = empty_query(index);
   const bool small = random.below(2) == 0;
-  for_each_coordinate(q, [&](double& c) {
+  for_each_coordinate(q, [&](double& c, std::size_t) {
     const double mantissa = small ? random.between(-2, 2) : random.full_mantissa();
     c = std::ldexp(mantissa, random.between(-1074, 1022));
   });
   if (random.below(3) == 0) q.points[3] = q.points[static_cast<std::size_t>(random.below(3))];
-  return {q, {}};
+  return {q};
 }
 
-GeneratedQuery generic(std::uint64_t seed, std::uint64_t index) {
+AskedQuery generic(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Query q = empty_query(index);
-  for_each_coordinate(q, [&](double& c) { c = random.full_mantissa(); });
-  return {q, {}};
+  for_each_coordinate(q, [&](double& c, std::size_t) { c = random.full_mantissa(); });
+  return {q};
 }
 
 // The first group lands on the second one where the step ends: both are at one level there, or at
 // any angle; or some units of the last place beyond, or short of it. Some pass within the step, and
 // some leave. One in six is generic.
-GeneratedQuery everyday(std::uint64_t seed, std::uint64_t index) {
+AskedQuery everyday(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Query q = empty_query(index);
   const auto first_group = static_cast<std::size_t>(q.first_group);
@@ -355,31 +282,34 @@ GeneratedQuery everyday(std::uint64_t seed, std::uint64_t index) {
     auto& p = q.points[i];
     p.t1 = when == 0 ? p.t0 + 1 / share * (end[i] - p.t0) : end[i];
     if (when == 1) std::swap(p.t0, p.t1);
-    // Written differently, -0 would be another query.
-    for (double& c : p.t0) c += 0.0;
-    for (double& c : p.t1) c += 0.0;
   }
-  return {q, {}};
+  // Written differently, -0 would be another query.
+  for_each_coordinate(q, [](double& c, std::size_t) { c += 0.0; });
+  return {q};
 }
 
-constexpr std::array generators = {
-    QueryGenerator{"small-int", "integers within 1..4, planar and collinear too", small_int, 1},
-    QueryGenerator{"constructed", "exact contacts at a known time of eighths", constructed, 5},
-    QueryGenerator{"ulp", "neighbouring doubles of exact contacts", ulp_neighbours, 5},
-    QueryGenerator{"far", "moved by 2^30 to 2^50", far_from_origin, 10},
-    QueryGenerator{"mixed-scales", "small integers times 2^-30 to 2^30", mixed_scales, 20},
-    QueryGenerator{"dyadics", "fractions of up to 10 bits", dyadics, 10},
-    QueryGenerator{"denormals", "5e-324 alone or among small integers", denormals, 200},
-    QueryGenerator{"exponents", "exponents over all doubles", exponents, 1000},
-    QueryGenerator{"generic", "uniform in a cube", generic, 5},
-    QueryGenerator{"everyday", "numbers as programs make them; ends on a feature or beside it",
-                   everyday, 5},
+constexpr Family contact_table[] = {
+    family_of<small_int>("query-small-int", "integers within 1..4, planar and collinear too", 1),
+    family_of<constructed>("query-constructed", "exact contacts at a known time of eighths", 5),
+    family_of<ulp_neighbours>("query-ulp", "neighbouring doubles of exact contacts", 5),
+    family_of<far_from_origin>("query-far", "moved by 2^30 to 2^50", 10),
+    family_of<mixed_scales>("query-mixed-scales", "small integers times 2^-30 to 2^30", 20),
+    family_of<dyadics>("query-dyadics", "fractions of up to 10 bits", 10),
+    family_of<denormals>("query-denormals", "5e-324 alone or among small integers", 200),
+    family_of<exponents>("query-exponents", "exponents over all doubles", 1000),
+    family_of<generic>("query-generic", "uniform in a cube", 5),
+    family_of<everyday>("query-everyday",
+                        "numbers as programs make them; ends on a feature or beside it", 5),
+    family_of<extreme_contact>(
+        "query-extreme", "exponents over all doubles, denormals, few mantissas, mostly degenerate",
+        1000),
 };
-
-static_assert(generators.size() == query_generator_count);
 
 }  // namespace
 
-std::span<const QueryGenerator> query_generators() { return generators; }
+std::span<const Family> query_families() { return contact_table; }
+std::span<const Family> self_test_queries() {
+  return query_families().first(std::size(contact_table) - 1);
+}
 
 }  // namespace assay::properties

@@ -1,44 +1,32 @@
-// Random elementary queries, and the same as families of cases (query_case.h), which are the strata
-// of a campaign of queries.
+// Families of random elementary queries (generators/families.h): generic, degenerate, just beside
+// degenerate, and with everyday numbers. Those of contact are the strata of a campaign of queries.
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
+#include <utility>
 
-#include "detector/view/view_filter.h"
+#include "properties/generators/draft.h"
 #include "properties/generators/families.h"
 #include "properties/queries/query_methods.h"
+#include "properties/random.h"
+#include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
 
-// The generators: generic, degenerate, just beside degenerate, and with everyday numbers.
-//
-// Query `index` of `seed` is made from a hash of both alone, so any query can be made again on any
-// machine. It is a vertex-face query for even indices, an edge-edge query for odd ones.
-
-struct GeneratedQuery {
-  Query query;
-  std::optional<double> contact_at;  // a time of contact, if the construction knows one
-};
-
-struct QueryGenerator {
-  const char* name;
-  const char* about;
-  GeneratedQuery (*make)(std::uint64_t seed, std::uint64_t index);
-  int one_in;  // one for each `one_in` of small-int: the dearer, the fewer
-};
-
-inline constexpr std::size_t query_generator_count = 10;
-// All generators; small-int comes first.
-std::span<const QueryGenerator> query_generators();
-
-// One family for each generator, "query-small-int" and so on, and "query-extreme", the last one.
-// make_case (families.h) makes their cases, each from its id alone.
+// Queries of contact: "query-small-int" comes first, "query-extreme" last.
 std::span<const Family> query_families();
+// Those of the self-test: all but "query-extreme".
+std::span<const Family> self_test_queries();
 
-// The family of this name, be it of meshes or of queries; null if there is none.
+// Queries of distance: do a moving vertex and face, or two moving edges, come within d of each
+// other, and when first? "distance-generic" comes first. The family of parallel edges has edges
+// alone. No campaign asks them.
+std::span<const Family> distance_families();
+
+// The family of this name, be it of meshes or of contacts of queries; null if there is none.
 const Family* find_family(std::string_view name);
 bool is_query_family(std::string_view name);
 // Whether its exponents are those of all doubles: the oracle takes a hundred times as long. Of
@@ -53,15 +41,22 @@ bool is_dear_query_family(std::string_view name);
 // Most are degenerate, because doubles settle the others: few mantissas, many zeros, points that
 // coincide or stay, everything in one plane or on one line, roots next to 1 that many bits tell
 // apart (see roots_next_to_one), denormals beside ordinary numbers, neighbouring doubles.
+AskedQuery extreme_contact(std::uint64_t seed, std::uint64_t index);
+// The points of such a query.
+void make_extreme(Random& random, std::span<detector::MovingPoint> points);
 
-// A vertex-face query for even indices, an edge-edge query for odd ones.
-detector::FourPoints extreme_contact(std::uint64_t seed, std::uint64_t index);
+// The query as a case. Its place is drawn too, because even and odd places are of two kinds.
+template <AskedQuery (*query)(std::uint64_t seed, std::uint64_t index)>
+GeneratedCase case_of_drawn(Random& random, std::string id) {
+  const std::uint64_t seed = random.next();
+  const std::uint64_t index = random.next();
+  return {case_of_query(query(seed, index).query, std::move(id)), {}};
+}
 
-struct ViewQuery {
-  detector::MovingTriangle triangle;
-  detector::ViewPrimitive primitive;
-};
-// Seen from a point for even indices, from a line for odd ones.
-ViewQuery extreme_view(std::uint64_t seed, std::uint64_t index);
+// A row of such a family.
+template <AskedQuery (*query)(std::uint64_t seed, std::uint64_t index)>
+constexpr Family family_of(std::string_view name, std::string_view about, int one_in) {
+  return {name, about, false, true, case_of_drawn<query>, 0, query, one_in};
+}
 
 }  // namespace assay::properties

@@ -1,115 +1,158 @@
 #include "properties/queries/query_methods.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
 #include "detector/contact/contact_exact.h"
 #include "detector/contact/elementary.h"
 #include "detector/distance/nearness.h"
 #include "oracle/distance/feature_distance.h"
 #include "oracle/referee/referee.h"
-#include "properties/queries/distance_queries.h"
 
 namespace assay::properties {
 namespace {
 
 using detector::Arithmetic;
+using detector::Decision;
 using detector::Want;
 
-detector::Decision decision(bool contact) {
-  return contact ? detector::Decision::yes : detector::Decision::no;
+template <class Rung>
+MethodAnswer answer_of(bool is_met, const detector::TimeEnclosure& first, Rung rung, Want want) {
+  MethodAnswer answer{is_met ? Decision::yes : Decision::no, {}, static_cast<int>(rung)};
+  if (is_met && want == Want::first_time) answer.first = first;
+  return answer;
 }
 
-// The answer with its time, if there is a contact.
-MethodAnswer timed(bool contact, const detector::TimeEnclosure& time) {
-  if (!contact) return {detector::Decision::no, {}};
-  return {detector::Decision::yes, time};
+MethodAnswer oracle_yes_no(const AskedQuery& asked) { return oracle_answer(asked, Want::yes_no); }
+
+MethodAnswer algebraic_kernel(const AskedQuery& asked) {
+  const auto first = oracle::first_time_by_kernel(asked.query);
+  return {first ? Decision::yes : Decision::no, first};
 }
 
-MethodAnswer oracle_yes_no(const Query& query) {
-  const auto answer = oracle::contact_of(query, Want::yes_no);
-  return {decision(answer.contact), {}, static_cast<int>(answer.rung)};
+template <Arithmetic arithmetic, Want want = Want::yes_no>
+MethodAnswer by_detector(const AskedQuery& asked) {
+  const double d = asked.within ? asked.within->first : 0;
+  const auto answer = d == 0 ? detector::test_contact(asked.query, want, arithmetic)
+                             : detector::test_near(asked.query, d, want);
+  return answer_of(answer.contact, answer.time, answer.rung, want);
 }
 
-MethodAnswer algebraic_kernel(const Query& query) {
-  const auto first = oracle::first_time_by_kernel(query);
-  return {decision(first.has_value()), first};
+MethodAnswer detector_integers(const AskedQuery& asked) {
+  const auto answer = detector::exact_contact(asked.query);
+  return answer_of(answer.contact, answer.time, answer.rung, Want::first_time);
 }
 
-template <Arithmetic arithmetic>
-MethodAnswer detector_yes_no(const Query& query) {
-  const auto answer = detector::test_contact(query, Want::yes_no, arithmetic);
-  return {decision(answer.contact), {}, static_cast<int>(answer.rung)};
+oracle::DistanceVerdict ask_distance_referee(const AskedQuery& asked,
+                                             const oracle::DistanceRefereeOptions& options) {
+  const auto& x = asked.query.points;
+  if (asked.query.first_group == 2)
+    return oracle::distance_referee(detector::EdgeEdge{{x[0], x[1]}, {x[2], x[3]}}, *asked.within,
+                                    options);
+  return oracle::distance_referee(detector::VertexFace{x[0], {x[1], x[2], x[3]}}, *asked.within,
+                                  options);
 }
 
-MethodAnswer detector_timed(const Query& query) {
-  const auto answer = detector::test_contact(query, Want::first_time);
-  return timed(answer.contact, answer.time);
+// Of a distance no time is asked for, so that any bracket of it will do.
+MethodAnswer referee(const AskedQuery& asked) {
+  if (!asked.within) return {oracle::referee(asked.query)};
+  return {ask_distance_referee(asked, {.bits = 0}).within};
 }
-
-MethodAnswer detector_integers(const Query& query) {
-  const auto answer = detector::exact_contact(query);
-  return timed(answer.contact, answer.time);
-}
-
-MethodAnswer referee(const Query& query) { return {oracle::referee(query), {}}; }
 
 // The limits are small, because a query that is not settled soon is mostly a touch, which no
 // amount of work settles.
-MethodAnswer second_referee(const Query& query) { return {oracle::referee(query, {60, 100}), {}}; }
-
-MethodAnswer oracle_within(const Query& query, double d) {
-  const auto answer = oracle::first_time_within(query, {d, 0}, Want::yes_no);
-  return {decision(answer.near), {}, static_cast<int>(answer.rung)};
+MethodAnswer second_referee(const AskedQuery& asked) {
+  return {oracle::referee(asked.query, {60, 100})};
 }
 
-// No time is asked for, so that any bracket of it will do.
-MethodAnswer referee_within(const Query& query, double d) {
-  return {ask_distance_referee({query, {d, 0}, {}}, {.bits = 0}).within, {}};
+MethodAnswer distance_referee(const AskedQuery& asked) {
+  const auto verdict = ask_distance_referee(asked, {});
+  return {.decision = verdict.within, .proof = verdict};
 }
 
-MethodAnswer detector_within(const Query& query, double d) {
-  if (d == 0) return detector_yes_no<Arithmetic::exact>(query);
-  const auto answer = detector::test_near(query, d, Want::yes_no);
-  return {decision(answer.contact), {}, static_cast<int>(answer.rung)};
+// What comes within 0 is in contact.
+MethodAnswer contact_at_no_distance(const AskedQuery& asked) {
+  if (asked.within->first != -asked.within->second) return {};
+  return oracle_answer({asked.query}, Want::first_time);
+}
+
+// The least distance is the least double that the features come within.
+MethodAnswer least_distance(const AskedQuery& asked) {
+  const double least = oracle::least_distance(asked.query);
+  const auto is_within = [&](double distance) {
+    return oracle::first_time_within(asked.query, {distance, 0}, Want::yes_no).near;
+  };
+  if (std::isfinite(least) && !is_within(least))
+    throw std::logic_error("farther apart than the least distance");
+  if (least > 0 && is_within(std::nextafter(least, 0.0)))
+    throw std::logic_error("nearer than the least distance");
+  // The sum is rounded, so only what lies beyond the rounding tells.
+  const double sum = asked.within->first + asked.within->second;
+  if (least > std::nextafter(sum, std::numeric_limits<double>::infinity())) return {Decision::no};
+  if (std::isfinite(sum) && least < std::nextafter(sum, 0.0)) return {Decision::yes};
+  return {};
 }
 
 constexpr QueryMethod methods[] = {
-    {"oracle, yes or no", oracle_yes_no},
-    {"algebraic kernel", algebraic_kernel},
-    {"detector, yes or no", detector_yes_no<Arithmetic::exact>},
-    {"detector, timed", detector_timed},
-    {"detector, integers alone", detector_integers},
-    {"second referee", second_referee},
-};
-
-constexpr QueryMethod named[] = {
-    {.name = "oracle",
+    {.name = "oracle, yes or no",
      .answer = oracle_yes_no,
-     .rungs = {"axis", "interval", "quadratic", "", ""},
-     .within = oracle_within},
-    {.name = "referee", .answer = referee, .is_referee = true, .within = referee_within},
-    {.name = "detector-exact",
-     .answer = detector_yes_no<Arithmetic::exact>,
-     .rungs = {"axis", "filter", "fixed", "unbounded", ""},
-     .within = detector_within},
-    {"detector-bounded",
-     detector_yes_no<Arithmetic::bounded>,
-     {"axis", "filter", "", "", "open"},
-     {Claim::free_sound}},
-    {"detector-double",
-     detector_yes_no<Arithmetic::double_precision>,
-     {"axis", "filter", "", "", ""},
-     {}},
-    {"detector-float",
-     detector_yes_no<Arithmetic::single_precision>,
-     {"axis", "filter", "", "", ""},
-     {}},
+     .checks = QueryChecks::contacts,
+     .word = "oracle",
+     .knows_distance = true,
+     .rungs = {"axis", "interval", "quadratic", "", ""}},
+    {.name = "referee",
+     .answer = referee,
+     .is_referee = true,
+     .word = "referee",
+     .knows_distance = true},
+    {"algebraic kernel", algebraic_kernel, QueryChecks::contacts},
+    {.name = "detector, yes or no",
+     .answer = by_detector<Arithmetic::exact>,
+     .checks = QueryChecks::contacts,
+     .word = "detector-exact",
+     .knows_distance = true,
+     .rungs = {"axis", "filter", "fixed", "unbounded", ""}},
+    {"detector, timed", by_detector<Arithmetic::exact, Want::first_time>, QueryChecks::contacts},
+    {"detector, integers alone", detector_integers, QueryChecks::contacts},
+    {"second referee", second_referee, QueryChecks::contacts, 1, true},
+    {.name = "bounded arithmetic",
+     .answer = by_detector<Arithmetic::bounded>,
+     .word = "detector-bounded",
+     .rungs = {"axis", "filter", "", "", "open"},
+     .claims = {Claim::free_sound}},
+    {.name = "plain doubles",
+     .answer = by_detector<Arithmetic::double_precision>,
+     .word = "detector-double",
+     .rungs = {"axis", "filter", "", "", ""},
+     .claims = {}},
+    {.name = "plain floats",
+     .answer = by_detector<Arithmetic::single_precision>,
+     .word = "detector-float",
+     .rungs = {"axis", "filter", "", "", ""},
+     .claims = {}},
+    {"distance referee", distance_referee, QueryChecks::distances, 1, true},
+    {"contact", contact_at_no_distance, QueryChecks::distances},
+    {"least distance", least_distance, QueryChecks::distances, 16},
 };
 
 }  // namespace
 
-std::span<const QueryMethod> query_methods() { return methods; }
+MethodAnswer oracle_answer(const AskedQuery& asked, Want want) {
+  if (asked.within) {
+    const auto answer = oracle::first_time_within(asked.query, *asked.within, want);
+    return answer_of(answer.near, answer.first, answer.rung, want);
+  }
+  const auto answer = oracle::contact_of(asked.query, want);
+  return answer_of(answer.contact, answer.first, answer.rung, want);
+}
 
-std::span<const QueryMethod> named_methods() { return named; }
-const QueryMethod& oracle_method() { return named[0]; }
-const QueryMethod& detector_method() { return named[2]; }
+std::span<const QueryMethod> query_methods() { return methods; }
+const QueryMethod* method_of(std::string_view word) {
+  const auto found = std::ranges::find_if(
+      methods, [&](const QueryMethod& method) { return method.word && method.word == word; });
+  return found == std::end(methods) ? nullptr : found;
+}
 
 }  // namespace assay::properties

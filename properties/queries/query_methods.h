@@ -1,14 +1,19 @@
-// A list of the methods that answer an elementary query of contact, and some of distance. They must
-// all agree.
+// What is asked of an elementary query, contact or distance; a list of the methods that answer,
+// which must all agree; and the check that they do.
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 
 #include "detector/mesh/step_types.h"
 #include "oracle/query/contact.h"
+#include "oracle/referee/distance_referee.h"
 #include "properties/claims/claims.h"
+#include "properties/fields.h"
 
 namespace assay::properties {
 
@@ -17,32 +22,97 @@ using Query = detector::FourPoints;
 
 struct MethodAnswer {
   detector::Decision decision = detector::Decision::open;  // open: the method cannot tell
-  std::optional<detector::TimeEnclosure> first;            // set if the method answers with a time
+  std::optional<detector::TimeEnclosure> first = {};       // set if the method answers with a time
   int rung = 0;                                            // which of the method's rungs decided
+  // Of the distance referee alone: between which times the first one lies.
+  std::optional<oracle::DistanceVerdict> proof = {};
 };
+
+// A query, what is asked of it, and what is known of the answer.
+struct AskedQuery {
+  Query query;
+  std::optional<double> met_at = {};  // a time at which the answer is yes, where one is known
+  // Whether, and when first, the features come within this distance. Absent: whether they meet.
+  std::optional<detector::Separation> within = {};
+  // Of a query that is listed: its name, and the answer that the oracle must give by this rung.
+  std::string name = {};
+  std::optional<MethodAnswer> known = {};
+};
+
+// The queries of the self-test that a method must answer as the oracle does.
+enum class QueryChecks : std::uint8_t { nothing, contacts, distances };
 
 struct QueryMethod {
   const char* name;
-  MethodAnswer (*answer)(const Query& query);
+  MethodAnswer (*answer)(const AskedQuery& asked);
+  QueryChecks checks = QueryChecks::nothing;
+  int one_in = 1;              // of so many of these queries one is put to the method
+  bool is_referee = false;     // leaves open what it cannot prove
+  const char* word = nullptr;  // by which a user may ask it (method_of)
+  bool knows_distance = false;
   std::array<const char*, 5> rungs = {"", "", "", "", ""};  // their names; "" for none
   // Of free-sound and no-spurious. Bounded arithmetic may raise false alarms; plain doubles and
   // floats promise nothing.
   Claims claims = {Claim::free_sound, Claim::no_spurious};
-  bool is_referee = false;
-  // Whether the features come within d, finite and >= 0; null if the method knows no distance.
-  MethodAnswer (*within)(const Query& query, double d) = nullptr;
 };
 
-// All methods but the oracle's timed answer, with which they are compared: the oracle asked for
-// yes or no, CGAL's algebraic kernel without the oracle's rungs, the detector's ladder (yes or no,
-// and timed), the detector's integers alone, and the second referee, which has no times and leaves
-// touches open.
+// The oracle's answer, with the first time if that is wanted.
+MethodAnswer oracle_answer(const AskedQuery& asked, detector::Want want);
+
+// All methods. The self-test holds against the oracle's timed answer: the oracle asked for yes or
+// no, CGAL's algebraic kernel without the oracle's rungs, the detector's ladder (yes or no, and
+// timed), the detector's integers alone, and the second referee, which has no times and leaves
+// touches open. Of queries of distance: the distance referee, the oracle's contacts where the
+// distance is 0, and its least distance, which is at most the distance where the answer is yes.
 std::span<const QueryMethod> query_methods();
 
-// Those that a user may ask by name, each for yes or no: the oracle, its referee with all the work
-// that it may do, and the detector's ladder in each arithmetic.
-std::span<const QueryMethod> named_methods();
-const QueryMethod& oracle_method();
-const QueryMethod& detector_method();  // in exact arithmetic
+// The method that a user may ask by this word, for yes or no: the oracle, its referee with all the
+// work that it may do, or the detector's ladder in some arithmetic. Null if there is none.
+const QueryMethod* method_of(std::string_view word);
+
+// Puts one query to the methods and tries one invariance, and tells what contradicts what.
+
+// What a family of queries came to.
+struct QueryTally {
+  std::uint64_t queries = 0;
+  std::uint64_t contacts = 0;  // or within the distance
+  std::uint64_t contradictions = 0;
+  std::uint64_t open = 0;         // a referee could not tell
+  std::uint64_t invariances = 0;  // changes of a query that could be applied
+  oracle::RungCounts rungs;       // the rungs of the oracle's timed answer
+  QueryTally& operator+=(const QueryTally& other);
+};
+ASSAY_FIELDS(QueryTally, queries, contacts, contradictions, open, invariances, rungs)
+
+// Compares every method that checks such queries, and for contacts the invariance that `pick`
+// chooses (or the next one that can be applied), with the oracle's timed answer: verdicts are
+// equal, times are equal in every bit or within what is proved, a time that is known is not missed,
+// and a listed query has its known answer by its rung. Returns what contradicts, or nothing. The
+// dearest part is the algebraic kernel.
+std::optional<std::string> check_query(const AskedQuery& asked, std::uint64_t pick,
+                                       QueryTally& tally,
+                                       std::span<const QueryMethod> methods = query_methods());
+
+// Whether the answer contradicts that of the oracle, or the time that is known. One that is open
+// does too, if it proves that the first time is elsewhere.
+bool contradicts(const MethodAnswer& answer, const MethodAnswer& of_oracle,
+                 const AskedQuery& asked);
+
+// The question, the kind and all coordinates as hexadecimal doubles, one point a line.
+std::string exact_text(const AskedQuery& asked);
+std::string exact_text(const detector::MovingPoint& path);
+// "contact at [0x1p-1, 0x1p-1]": the answers of the oracle and of all methods, one a line. Of a
+// distance: that of the oracle, and the least distance.
+std::string answers_text(const AskedQuery& asked);
+
+// Calls change(coordinate, axis) for all 24 coordinates, in a fixed order.
+template <class Change>
+void for_each_coordinate(Query& query, const Change& change) {
+  for (auto& point : query.points) {
+    for (auto* end : {&point.t0, &point.t1}) {
+      for (std::size_t axis = 0; axis < 3; ++axis) change((*end)[axis], axis);
+    }
+  }
+}
 
 }  // namespace assay::properties

@@ -4,25 +4,24 @@
 
 #include <algorithm>
 #include <atomic>
-#include <charconv>
+#include <boost/outcome/try.hpp>
 #include <chrono>
-#include <cmath>
 #include <exception>
 #include <iterator>
-#include <limits>
 #include <mutex>
 #include <string_view>
 
+#include "corpus/cases/case_file.h"
+#include "corpus/json_fields.h"
 #include "detector/detector.h"
-#include "oracle/distance/feature_distance.h"
 #include "oracle/mesh/step.h"
-#include "properties/generators/draft.h"
 #include "properties/judging/agreement.h"
-#include "properties/queries/distance_queries.h"
-#include "properties/queries/listed_queries.h"
+#include "properties/queries/query_families.h"
+#include "properties/queries/small_world.h"
 #include "properties/random.h"
 #include "properties/threads.h"
-#include "properties/worlds/small_steps.h"
+#include "properties/words.h"
+#include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
 
@@ -30,13 +29,6 @@ namespace {
 
 constexpr std::uint64_t indices_at_once = 64;  // indices that a thread takes at once
 constexpr std::size_t failures_kept = 5;
-
-std::optional<std::uint64_t> whole_number(std::string_view text) {
-  std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return {};
-  return value;
-}
 
 }  // namespace
 
@@ -53,9 +45,8 @@ FamilyResult run_family(const SelfTestFamily& family, const SelfTestOptions& opt
     const std::lock_guard lock(mutex);
     result.tally += found.tally;
     auto& kept = result.failures;
-    std::move(found.failures.begin(), found.failures.end(), std::back_inserter(kept));
-    std::sort(kept.begin(), kept.end(),
-              [](const auto& a, const auto& b) { return a.index < b.index; });
+    std::ranges::move(found.failures, std::back_inserter(kept));
+    std::ranges::sort(kept, {}, &SelfTestFailure::index);
     if (kept.size() > failures_kept) kept.resize(failures_kept);
     done += count;
     if (progress) progress(done);
@@ -75,7 +66,6 @@ FamilyResult run_family(const SelfTestFamily& family, const SelfTestOptions& opt
         auto wrong = family.check(options.seed, index, found.tally);
         if (!wrong) continue;
         found.failures.push_back({index, std::move(*wrong)});
-        stopped = stopped || options.stop_at_contradiction;
       }
       merge(found, index - begin);
     }
@@ -85,174 +75,64 @@ FamilyResult run_family(const SelfTestFamily& family, const SelfTestOptions& opt
   return result;
 }
 
-std::optional<SelfTestCase> self_test_case(const std::string& name) {
+std::optional<SelfTestCase> self_test_case(const std::vector<SelfTestFamily>& families,
+                                           const std::string& name) {
   const auto last = name.rfind(':');
   if (last == std::string::npos || last == 0) return {};
   const auto middle = name.rfind(':', last - 1);
   if (middle == std::string::npos) return {};
   const std::string_view all = name;
-  const auto seed = whole_number(all.substr(middle + 1, last - middle - 1));
-  const auto index = whole_number(all.substr(last + 1));
-  if (!seed || !index) return {};
-  for (const auto& family : self_test_families()) {
-    if (family->name() == all.substr(0, middle)) return SelfTestCase{family.get(), *seed, *index};
-  }
-  return {};
-}
-
-std::optional<std::string> SelfTestFamily::check(std::uint64_t seed, std::uint64_t index,
-                                                 QueryTally& tally) const {
-  const auto made = at(seed, index);
-  if (!made) return {};
-  return check_query(*made, Random(~seed, index).next(), tally);
-}
-
-std::string SelfTestFamily::text(std::uint64_t seed, std::uint64_t index) const {
-  const auto made = at(seed, index);
-  return made ? exact_text(made->query) + answers_text(made->query)
-              : "no query at this place: an equal one stands elsewhere\n";
+  const auto seed = whole_number_of(all.substr(middle + 1, last - middle - 1));
+  const auto index = whole_number_of(all.substr(last + 1));
+  const auto family = std::ranges::find(families, all.substr(0, middle), &SelfTestFamily::name);
+  if (!seed || !index || family == families.end()) return {};
+  return SelfTestCase{&*family, *seed, *index};
 }
 
 namespace {
 
-class RungFamily final : public SelfTestFamily {
- public:
-  RungFamily() : SelfTestFamily("rungs", "named queries, each with the rung that must decide it") {}
-  std::uint64_t indices(std::uint64_t) const override { return rung_cases().size(); }
-
-  std::optional<GeneratedQuery> at(std::uint64_t, std::uint64_t index) const override {
-    return GeneratedQuery{named_at(index).query, {}};
-  }
-
-  std::optional<std::string> check(std::uint64_t seed, std::uint64_t index,
-                                   QueryTally& tally) const override {
-    if (auto wrong = SelfTestFamily::check(seed, index, tally)) return wrong;
-    const RungCase& named = named_at(index);
-    for (const auto want : {detector::Want::yes_no, detector::Want::first_time}) {
-      const auto answer = oracle::contact_of(named.query, want);
-      if (answer.contact != named.contact ||
-          (named.contact && want == detector::Want::first_time && answer.first != named.first)) {
-        ++tally.contradictions;
-        return fmt::format("`{}`: not the answer or time that is known", named.name);
-      }
-      if (answer.rung == named.rung) continue;
-      ++tally.contradictions;
-      return fmt::format("`{}`: rung {} decided, {} must", named.name, name_of(answer.rung),
-                         name_of(named.rung));
-    }
-    return {};
-  }
-
-  std::string text(std::uint64_t seed, std::uint64_t index) const override {
-    return fmt::format("{}\n{}", named_at(index).name, SelfTestFamily::text(seed, index));
-  }
-
- private:
-  static const RungCase& named_at(std::uint64_t index) {
-    return rung_cases()[index % rung_cases().size()];
-  }
-};
-
-class WorldFamily final : public SelfTestFamily {
- public:
-  // The world is left out if fewer than `from` queries are asked for.
-  WorldFamily(std::string name, std::string about, const SmallWorld& world, std::uint64_t from)
-      : SelfTestFamily(std::move(name), std::move(about)), world_(world), from_(from) {}
-  std::uint64_t indices(std::uint64_t queries) const override {
-    return queries >= from_ ? world_.places() : 0;
-  }
-
-  std::optional<GeneratedQuery> at(std::uint64_t, std::uint64_t index) const override {
-    const auto query = world_.at(index);
-    return query ? std::optional(GeneratedQuery{*query, {}}) : std::nullopt;
-  }
-
- private:
-  SmallWorld world_;
-  std::uint64_t from_;
-};
-
-class RandomFamily final : public SelfTestFamily {
- public:
-  explicit RandomFamily(const QueryGenerator& generator)
-      : SelfTestFamily(generator.name, generator.about), generator_(generator) {}
-  std::uint64_t indices(std::uint64_t queries) const override {
-    const auto one_in = static_cast<std::uint64_t>(generator_.one_in);
-    return (queries + one_in - 1) / one_in;
-  }
-
-  std::optional<GeneratedQuery> at(std::uint64_t seed, std::uint64_t index) const override {
-    return generator_.make(seed, index);
-  }
-
- private:
-  QueryGenerator generator_;
-};
-
 // Whole steps of small meshes. They exercise features, spreading and piercing, which single
 // queries do not. The detector tests every pair.
-class StepFamily final : public SelfTestFamily {
- public:
-  using Make = SmallStep (*)(std::uint64_t seed, std::uint64_t index);
-  StepFamily(std::string name, std::string about, Make make)
-      : SelfTestFamily(std::move(name), std::move(about)), make_(make) {}
-  std::uint64_t indices(std::uint64_t queries) const override { return (queries + 19) / 20; }
-  std::optional<GeneratedQuery> at(std::uint64_t, std::uint64_t) const override { return {}; }
 
-  std::optional<std::string> check(std::uint64_t seed, std::uint64_t index,
-                                   QueryTally& tally) const override {
-    ++tally.queries;
-    try {
-      const SmallStep step = make_(seed, index);
-      const auto judged = oracle::judge_step({step.x_t0, step.x_t1}, step.triangles, {});
-      tally.contacts += judged.answer == detector::Answer::collision ? 1 : 0;
-      tally.rungs += judged.rungs;
-      const auto found = detect(step);
-      if (compare(found, judged, claims_of({})).outcome == Outcome::holds) return {};
-    } catch (const std::exception& thrown) {
-      ++tally.contradictions;
-      return fmt::format("threw: {}", thrown.what());
-    }
-    ++tally.contradictions;
-    return "pairs or times of the oracle's step and the detector's differ";
+detector::StepResult detect(const SmallStep& step) {
+  auto made = detector::Detector::create(
+      step.triangles, step.x_t0,
+      {detector::Culling::none, detector::Start::verified, detector::Pairs::all});
+  return made.value().step(step.x_t0, step.x_t1, {});
+}
+
+oracle::StepJudgement judge(const SmallStep& step) {
+  return oracle::judge_step({step.x_t0, step.x_t1}, step.triangles, {});
+}
+
+std::optional<std::string> check_step(const SmallStep& step, QueryTally& tally) {
+  const auto judged = judge(step);
+  tally.contacts += judged.answer == detector::Answer::collision ? 1 : 0;
+  tally.rungs += judged.rungs;
+  if (compare(detect(step), judged, claims_of({})).outcome == Outcome::holds) return {};
+  return "pairs or times of the oracle's step and the detector's differ";
+}
+
+std::string pairs_text(const char* who, const std::vector<detector::PairContact>& pairs) {
+  std::string out = fmt::format("{}: {} pairs\n", who, pairs.size());
+  for (const auto& p : pairs) {
+    out += fmt::format("  {} {} at [{:a}, {:a}], {}\n", p.pair.a, p.pair.b, p.time.lo, p.time.hi,
+                       name_of(p.feature.kind));
   }
+  return out;
+}
 
-  std::string text(std::uint64_t seed, std::uint64_t index) const override {
-    const SmallStep step = make_(seed, index);
-    const auto judged = oracle::judge_step({step.x_t0, step.x_t1}, step.triangles, {});
-    const auto found = detect(step);
-    std::string out = step.family + "\n";
-    for (Eigen::Index v = 0; v < step.x_t0.rows(); ++v) {
-      out += fmt::format("  vertex {}: t=0 ({:a}, {:a}, {:a})  t=1 ({:a}, {:a}, {:a})\n", v,
-                         step.x_t0(v, 0), step.x_t0(v, 1), step.x_t0(v, 2), step.x_t1(v, 0),
-                         step.x_t1(v, 1), step.x_t1(v, 2));
-    }
-    for (Eigen::Index t = 0; t < step.triangles.rows(); ++t) {
-      out += fmt::format("  triangle {}: {} {} {}\n", t, step.triangles(t, 0), step.triangles(t, 1),
-                         step.triangles(t, 2));
-    }
-    return out + pairs_text("oracle", judged.pairs) + pairs_text("detector", found.pairs);
+std::string step_text(const SmallStep& step) {
+  std::string out = step.family + "\n";
+  const detector::SteppedMesh motion{step.x_t0, step.x_t1};
+  for (int v = 0; v < static_cast<int>(step.x_t0.rows()); ++v)
+    out += fmt::format("  vertex {}: {}\n", v, exact_text(motion.path(v)));
+  for (Eigen::Index t = 0; t < step.triangles.rows(); ++t) {
+    out += fmt::format("  triangle {}: {} {} {}\n", t, step.triangles(t, 0), step.triangles(t, 1),
+                       step.triangles(t, 2));
   }
-
- private:
-  static detector::StepResult detect(const SmallStep& step) {
-    auto made = detector::Detector::create(
-        step.triangles, step.x_t0,
-        {detector::Culling::none, detector::Start::verified, detector::Pairs::all});
-    return made.value().step(step.x_t0, step.x_t1, {});
-  }
-
-  static std::string pairs_text(const char* who, const std::vector<detector::PairContact>& pairs) {
-    std::string out = fmt::format("{}: {} pairs\n", who, pairs.size());
-    for (const auto& p : pairs) {
-      out += fmt::format("  {} {} at [{:a}, {:a}], {}\n", p.pair.a, p.pair.b, p.time.lo, p.time.hi,
-                         name_of(p.feature.kind));
-    }
-    return out;
-  }
-
-  Make make_;
-};
+  return out + pairs_text("oracle", judge(step).pairs) + pairs_text("detector", detect(step).pairs);
+}
 
 // The first step of a small mesh with everyday numbers.
 SmallStep everyday_step(std::uint64_t seed, std::uint64_t index) {
@@ -261,119 +141,107 @@ SmallStep everyday_step(std::uint64_t seed, std::uint64_t index) {
   return {name, c.triangles, c.frames[0], c.frames[1], {}, {}};
 }
 
-// Queries of distance (distance_queries.h), asked of the oracle and of the distance referee. Where
-// d is 0 the contact oracle has to agree in every bit. For some of them the least distance is asked
-// for, too: it comes within d just where the query does.
-class DistanceFamilyCheck final : public SelfTestFamily {
- public:
-  explicit DistanceFamilyCheck(const DistanceFamily& family)
-      : SelfTestFamily(family.name, family.about), family_(family) {}
-  // A query of distance takes longer than one of contact, so there are fewer.
-  std::uint64_t indices(std::uint64_t queries) const override {
-    const auto one_in = static_cast<std::uint64_t>(4 * family_.one_in);
-    return (queries + one_in - 1) / one_in;
-  }
-  std::optional<GeneratedQuery> at(std::uint64_t, std::uint64_t) const override { return {}; }
-
-  std::optional<std::string> check(std::uint64_t seed, std::uint64_t index,
-                                   QueryTally& tally) const override {
-    const DistanceQuery query = family_.make(seed, index);
-    const auto d = query.distance;
-    oracle::FirstNear answer;
-    DistanceTally found;
-    auto wrong = check_distance(
-        query,
-        [&](const DistanceQuery& q) {
-          answer = oracle::first_time_within(q.motion, d);
-          return DistanceAnswer{answer.near, answer.first};
-        },
-        found);
-    ++tally.queries;
-    tally.contacts += answer.near ? 1 : 0;
-    tally.open += found.open;
-    tally.rungs.add(answer.rung);
-    if (!wrong && d.first == -d.second) wrong = against_contact(query.motion, answer);
-    if (!wrong && Random(~seed, index).next() % least_asked_one_in == 0)
-      wrong = against_least(query.motion, d, answer);
-    tally.contradictions += wrong ? 1 : 0;
-    return wrong;
-  }
-
-  std::string text(std::uint64_t seed, std::uint64_t index) const override {
-    const DistanceQuery query = family_.make(seed, index);
-    const auto answer = oracle::first_time_within(query.motion, query.distance);
-    return exact_text(query) +
-           (answer.near
-                ? fmt::format("oracle: near at [{:a}, {:a}]\n", answer.first.lo, answer.first.hi)
-                : "oracle: never near\n") +
-           fmt::format("least distance: {:a}\n", oracle::least_distance(query.motion));
-  }
-
- private:
-  static constexpr std::uint64_t least_asked_one_in = 16;
-
-  static std::optional<std::string> against_contact(const Query& motion,
-                                                    const oracle::FirstNear& answer) {
-    const auto contact = oracle::contact_of(motion, detector::Want::first_time);
-    if (contact.contact == answer.near && (!answer.near || contact.first == answer.first))
-      return {};
-    return "within 0 is not the same as in contact";
-  }
-
-  // The least distance is the least double that the features come within.
-  static std::optional<std::string> against_least(const Query& motion,
-                                                  const detector::Separation& d,
-                                                  const oracle::FirstNear& answer) {
-    const double least = oracle::least_distance(motion);
-    const auto is_within = [&](double distance) {
-      return oracle::first_time_within(motion, {distance, 0}, detector::Want::yes_no).near;
-    };
-    if (std::isfinite(least) && !is_within(least)) return "farther apart than the least distance";
-    if (least > 0 && is_within(std::nextafter(least, 0.0))) return "nearer than the least distance";
-    // The sum is rounded, so only what lies beyond the rounding is compared.
-    const double sum = d.first + d.second;
-    if (answer.near ? least > std::nextafter(sum, std::numeric_limits<double>::infinity())
-                    : std::isfinite(sum) && least < std::nextafter(sum, 0.0))
-      return "the least distance does not fit the answer";
-    return {};
-  }
-
-  DistanceFamily family_;
-};
-
 }  // namespace
 
-const std::vector<std::unique_ptr<const SelfTestFamily>>& self_test_families() {
-  static const auto families = [] {
-    std::vector<std::unique_ptr<const SelfTestFamily>> all;
-    const auto world = [&](const char* name, const char* about, int side, int dimensions,
-                           WorldMotion motion, std::uint64_t from) {
-      all.push_back(
-          std::make_unique<WorldFamily>(name, about, SmallWorld(side, dimensions, motion), from));
-    };
-    using enum WorldMotion;
-    all.push_back(std::make_unique<RungFamily>());
-    world("line-3", "all queries on {-1,0,1}", 3, 1, every_point_moves, 0);
-    world("plane-2", "all queries on {0,1}^2", 2, 2, every_point_moves, 0);
-    world("plane-3-one", "all on {-1,0,1}^2, at most one point moves", 3, 2, one_point_moves, 0);
-    all.push_back(std::make_unique<StepFamily>(
-        "steps", "pair sets of small meshes, detector without culling", make_small_step));
-    all.push_back(std::make_unique<StepFamily>(
-        "steps-everyday", "the same of meshes with everyday numbers", everyday_step));
-    for (const QueryGenerator& generator : query_generators()) {
-      all.push_back(std::make_unique<RandomFamily>(generator));
-    }
-    for (const DistanceFamily& family : distance_families()) {
-      all.push_back(std::make_unique<DistanceFamilyCheck>(family));
-    }
-    world("line-4", "all queries on {0,1,2,3}", 4, 1, every_point_moves, 20'000);
-    world("cube-2", "all queries on {0,1}^3", 2, 3, every_point_moves, 100'000);
-    world("cube-3-one", "all on {-1,0,1}^3, at most one point moves", 3, 3, one_point_moves,
-          300'000);
-    world("plane-3", "all queries on {-1,0,1}^2", 3, 2, every_point_moves, 2'000'000);
-    return all;
-  }();
-  return families;
+std::uint64_t SelfTestFamily::indices(std::uint64_t queries) const {
+  if (one_in > 0) return (queries + one_in - 1) / one_in;
+  return queries >= from ? listed : 0;
+}
+
+std::optional<AskedQuery> SelfTestFamily::contact(std::uint64_t seed, std::uint64_t index) const {
+  auto asked = query ? query(seed, index) : std::nullopt;
+  return asked && !asked->within ? asked : std::nullopt;
+}
+
+std::optional<std::string> SelfTestFamily::check(std::uint64_t seed, std::uint64_t index,
+                                                 QueryTally& tally) const {
+  if (!step) {
+    const auto asked = query(seed, index);
+    return asked ? check_query(*asked, Random(~seed, index).next(), tally) : std::nullopt;
+  }
+  ++tally.queries;
+  std::optional<std::string> wrong;
+  try {
+    wrong = check_step(step(seed, index), tally);
+  } catch (const std::exception& thrown) {
+    wrong = fmt::format("threw: {}", thrown.what());
+  }
+  tally.contradictions += wrong ? 1 : 0;
+  return wrong;
+}
+
+std::string SelfTestFamily::text(std::uint64_t seed, std::uint64_t index) const {
+  if (step) return step_text(step(seed, index));
+  const auto asked = query(seed, index);
+  return asked ? exact_text(*asked) + answers_text(*asked)
+               : "no query at this place: an equal one stands elsewhere\n";
+}
+
+Expected<std::vector<AskedQuery>> named_queries(const std::filesystem::path& corpus) {
+  const auto& rungs = method_of("oracle")->rungs;
+  std::vector<AskedQuery> list;
+  BOOST_OUTCOME_TRY(files, corpus::case_files(corpus / "queries" / "named"));
+  for (const auto& file : files) {
+    BOOST_OUTCOME_TRY(c, corpus::read_case(file));
+    BOOST_OUTCOME_TRY(pending, corpus::parse_json(c.pending, file));
+    BOOST_OUTCOME_TRY(field, corpus::JsonField(pending, file).at("rung"));
+    BOOST_OUTCOME_TRY(word, field.text());
+    const auto query = query_of(c);
+    const auto rung = std::ranges::find(rungs, word) - rungs.begin();
+    if (!query || word.empty() || rung == std::ssize(rungs) || c.expected.steps.empty())
+      return corpus::problem_in(file, "no query whose answer and rung are known");
+    const auto& step = c.expected.steps[0];
+    const bool is_met = step.answer == detector::Answer::collision;
+    list.push_back({.query = *query,
+                    .name = c.about,
+                    .known = MethodAnswer{is_met ? detector::Decision::yes : detector::Decision::no,
+                                          step.first_time, static_cast<int>(rung)}});
+  }
+  return list;
+}
+
+Expected<std::vector<SelfTestFamily>> self_test_families(const std::filesystem::path& corpus) {
+  using enum WorldMotion;
+  std::vector<SelfTestFamily> all;
+  const auto listed = [&](const char* name, const char* about, std::uint64_t count,
+                          std::uint64_t from, auto at) {
+    all.push_back(
+        {name, about, count, from, 0, [at](std::uint64_t, std::uint64_t i) { return at(i); }});
+  };
+  const auto world = [&](const char* name, const char* about, const SmallWorld& of,
+                         std::uint64_t from) {
+    listed(name, about, of.places(), from, [of](std::uint64_t place) {
+      const auto query = of.at(place);
+      return query ? std::optional(AskedQuery{*query}) : std::nullopt;
+    });
+  };
+  const auto random = [&](std::string_view name, const Family& family, int one_in) {
+    all.push_back({std::string(name), std::string(family.about), 0, 0,
+                   static_cast<std::uint64_t>(one_in), family.query});
+  };
+  const auto steps = [&](const char* name, const char* about, auto step) {
+    all.push_back({name, about, 0, 0, 20, {}, step});
+  };
+  BOOST_OUTCOME_TRY(named, named_queries(corpus));
+  listed("rungs", "named queries, each with the rung that must decide it", named.size(), 0,
+         [named](std::uint64_t i) {
+           return i < named.size() ? std::optional(named[i]) : std::nullopt;
+         });
+  world("line-3", "all queries on {-1,0,1}", {3, 1, every_point_moves}, 0);
+  world("plane-2", "all queries on {0,1}^2", {2, 2, every_point_moves}, 0);
+  world("plane-3-one", "all on {-1,0,1}^2, at most one point moves", {3, 2, one_point_moves}, 0);
+  steps("steps", "pair sets of small meshes, detector without culling", make_small_step);
+  steps("steps-everyday", "the same of meshes with everyday numbers", everyday_step);
+  for (const Family& family : self_test_queries())
+    random(family.name.substr(std::string_view("query-").size()), family, family.one_in);
+  // A query of distance takes longer than one of contact, so there are fewer.
+  for (const Family& family : distance_families()) random(family.name, family, 4 * family.one_in);
+  world("line-4", "all queries on {0,1,2,3}", {4, 1, every_point_moves}, 20'000);
+  world("cube-2", "all queries on {0,1}^3", {2, 3, every_point_moves}, 100'000);
+  world("cube-3-one", "all on {-1,0,1}^3, at most one point moves", {3, 3, one_point_moves},
+        300'000);
+  world("plane-3", "all queries on {-1,0,1}^2", {3, 2, every_point_moves}, 2'000'000);
+  return all;
 }
 
 }  // namespace assay::properties

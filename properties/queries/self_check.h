@@ -2,54 +2,55 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "properties/queries/query_checks.h"
+#include "properties/problem.h"
+#include "properties/queries/query_methods.h"
+#include "properties/worlds/small_steps.h"
 
 namespace assay::properties {
 
-// What the self-test consists of: families of cases, each case made alone from its index.
+// What the self-test consists of: families of cases, each case made alone from its seed and index.
+struct SelfTestFamily {
+  std::string name, about;
+  // All of a listed family are checked, if at least `from` random small-integer queries are asked
+  // for; of a random one, one for each `one_in` of them.
+  std::uint64_t listed = 0, from = 0, one_in = 0;
+  // The query of a case; nothing for some indices of a small world, which hold no case.
+  std::function<std::optional<AskedQuery>(std::uint64_t seed, std::uint64_t index)> query;
+  // A family of whole steps has this in its place.
+  SmallStep (*step)(std::uint64_t seed, std::uint64_t index) = nullptr;
 
-class SelfTestFamily {
- public:
-  SelfTestFamily(std::string name, std::string about)
-      : name_(std::move(name)), about_(std::move(about)) {}
-  virtual ~SelfTestFamily() = default;
-  SelfTestFamily(const SelfTestFamily&) = delete;
-  SelfTestFamily& operator=(const SelfTestFamily&) = delete;
-
-  const std::string& name() const { return name_; }
-  const std::string& about() const { return about_; }
   // How many indices to check if `queries` random small-integer queries are asked for.
-  virtual std::uint64_t indices(std::uint64_t queries) const = 0;
-  // The query of the case, by seed and index; nothing for whole steps and queries of distance, and
-  // for some indices of a small world, which hold no case.
-  virtual std::optional<GeneratedQuery> at(std::uint64_t seed, std::uint64_t index) const = 0;
+  std::uint64_t indices(std::uint64_t queries) const;
+  // The query of contact of the case, if it is one.
+  std::optional<AskedQuery> contact(std::uint64_t seed, std::uint64_t index) const;
   // Checks a case. Returns what is wrong with it, or nothing.
-  virtual std::optional<std::string> check(std::uint64_t seed, std::uint64_t index,
-                                           QueryTally& tally) const;
+  std::optional<std::string> check(std::uint64_t seed, std::uint64_t index,
+                                   QueryTally& tally) const;
   // The case with its exact numbers, and what each method says of it.
-  virtual std::string text(std::uint64_t seed, std::uint64_t index) const;
-
- private:
-  std::string name_, about_;
+  std::string text(std::uint64_t seed, std::uint64_t index) const;
 };
 
-// All families, the cheap and most telling ones first: named queries with the rung that must
-// decide them, small worlds, whole small steps, random queries, then the larger worlds (only if
-// many queries are asked for).
-const std::vector<std::unique_ptr<const SelfTestFamily>>& self_test_families();
+// The named queries of a corpus, each with its answer, its first time, and the rung of the oracle
+// that must decide it. The rung is checked because a rung that left its share to the next one would
+// still answer rightly, only more slowly. Fails if a file cannot be read.
+Expected<std::vector<AskedQuery>> named_queries(const std::filesystem::path& corpus);
+
+// All families, the cheap and most telling ones first: the named queries of the corpus, small
+// worlds, whole small steps, random queries, then the larger worlds (only if many queries are asked
+// for).
+Expected<std::vector<SelfTestFamily>> self_test_families(const std::filesystem::path& corpus);
 
 struct SelfTestOptions {
   std::uint64_t seed = 1;
   std::uint64_t queries = 20'000;  // random small-integer queries; sets the size of the others too
   int jobs = 1;                    // threads; counts and failures do not depend on it
   std::function<bool()> stop;      // asked between cases, from any thread; may be empty
-  bool stop_at_contradiction = false;
 };
 
 struct SelfTestFailure {
@@ -73,6 +74,7 @@ struct SelfTestCase {
   const SelfTestFamily* family = nullptr;
   std::uint64_t seed = 0, index = 0;
 };
-std::optional<SelfTestCase> self_test_case(const std::string& name);
+std::optional<SelfTestCase> self_test_case(const std::vector<SelfTestFamily>& families,
+                                           const std::string& name);
 
 }  // namespace assay::properties

@@ -39,10 +39,6 @@ Expected<std::vector<corpus::Case>> public_sequences(const std::string& folder) 
   return Problem{problem.what()};
 }
 
-double seconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
 // Gives "; about 40 s left", for example, at the rate so far. Gives nothing before there is a
 // rate.
 std::string rest_text(std::uint64_t done, std::uint64_t left, double seconds) {

@@ -12,7 +12,7 @@
 #include "properties/campaign/trials/trials.h"
 #include "properties/judging/case_check.h"
 #include "properties/judging/exam.h"
-#include "properties/queries/listed_queries.h"
+#include "properties/queries/self_check.h"
 #include "properties/worker/plugin/query_case.h"
 #include "properties/worker/worker_process.h"
 #include "reports/bench/cases.h"
@@ -192,9 +192,10 @@ Expected<void> judge_queries(const std::filesystem::path& corpus, CorpusCheck ch
       cases.push_back(
           properties::case_of_query(one.query, fmt::format("{}-{}", name, cases.size())));
   };
-  take(properties::rung_cases(), "named-query");
+  BOOST_OUTCOME_TRY(named, properties::named_queries(corpus));
+  take(named, "named-query");
   check.judge("named queries", cases);
-  const auto file = corpus / ".." / "queries" / "example_vf.csv";
+  const auto file = corpus / "queries" / "example_vf.csv";
   BOOST_OUTCOME_TRY(queries, corpus::read_queries(file));
   take(queries, "example-vf");
   check.judge(file.filename().string(), cases);
@@ -204,7 +205,7 @@ Expected<void> judge_queries(const std::filesystem::path& corpus, CorpusCheck ch
 Expected<void> judge_shipped(const properties::CampaignRequest& request,
                              const std::filesystem::path& corpus, JudgedCorpus& judged) {
   if (request.detector.of_queries) return judge_queries(corpus, {request, judged});
-  BOOST_OUTCOME_TRY(files, corpus::case_files(corpus));
+  BOOST_OUTCOME_TRY(files, corpus::case_files(corpus / "curated"));
   BOOST_OUTCOME_TRY(cases, read_cases(files));
   CorpusCheck check(request, judged);
   if (request.detector.built_in) {

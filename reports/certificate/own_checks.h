@@ -19,12 +19,12 @@ struct JudgedCorpus {
   std::vector<properties::StoredFailure> failures;
 };
 
-// Runs the curated cases of the folder `shipped`, and the scenes, which are built into the program,
-// unless it is empty; then the cases that the user added to the campaign (`--corpus DIR`). Prints
-// what each input comes to. In curated cases the built-in detector is held to the expected facts,
-// with every culling, and a plug-in to the oracle under its claims. In scenes, and in the user's
-// cases, whose ids begin with "own/", both are held to the oracle, whose judgement of a case serves
-// all configurations. Fails if the corpus cannot be read.
+// Runs the curated cases and queries of the corpus `shipped`, and the scenes, which are built into
+// the program, unless it is empty; then the cases that the user added to the campaign
+// (`--corpus DIR`). Prints what each input comes to. In curated cases the built-in detector is held
+// to the expected facts, with every culling, and a plug-in to the oracle under its claims. In
+// scenes, and in the user's cases, whose ids begin with "own/", both are held to the oracle, whose
+// judgement of a case serves all configurations. Fails if the corpus cannot be read.
 Expected<JudgedCorpus> judge_corpus(const properties::CampaignRequest& request,
                                     const std::filesystem::path& shipped);
 

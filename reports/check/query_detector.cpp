@@ -70,13 +70,16 @@ Expected<std::vector<JudgedQuery>> QueryDetector::judge(
         ++defects_;
         ++broken_[properties::name_of(failure->claim)];
         const auto signature = failure->signature();
-        if (met_[signature]++ == 0) {
+        auto shown = std::ranges::find(shown_, signature, &BrokenQuery::signature);
+        if (shown == shown_.end()) {
           const bool is_alone_too =
               shown_.size() >= most_shown || answers_alone(queries[all.size()], one.run);
-          shown_.push_back({name, signature,
-                            properties::printable(failure->explanation) +
-                                (is_alone_too ? "" : properties::needs_what_came_before)});
+          shown =
+              shown_.insert(shown, {signature, 0, name,
+                                    properties::printable(failure->explanation) +
+                                        (is_alone_too ? "" : properties::needs_what_came_before)});
         }
+        ++shown->met;
       }
       all.push_back(std::move(one));
     }
@@ -93,7 +96,7 @@ std::string QueryDetector::text() const {
   for (std::size_t i = 0; i < std::min(most_shown, shown_.size()); ++i) {
     const auto& one = shown_[i];
     out += fmt::format("DEFECT {}, met {}\n  {}: {}\n", one.signature,
-                       properties::times_text(met_.at(one.signature)), one.name, one.explanation);
+                       properties::times_text(one.met), one.query, one.what);
   }
   if (shown_.size() > most_shown)
     out += fmt::format("... {} signatures more\n", shown_.size() - most_shown);
@@ -108,20 +111,15 @@ std::string QueryDetector::text() const {
 }
 
 nlohmann::ordered_json QueryDetector::to_json() const {
-  nlohmann::ordered_json broken = nlohmann::ordered_json::object();
-  for (const auto& [claim, count] : broken_) broken[claim] = count;
-  nlohmann::ordered_json failures = nlohmann::ordered_json::array();
-  for (const auto& one : shown_)
-    failures.push_back({{"signature", one.signature},
-                        {"met", met_.at(one.signature)},
-                        {"query", one.name},
-                        {"what", one.explanation}});
+  auto failures = nlohmann::ordered_json::array();
+  for (const auto& [signature, met, query, what] : shown_)
+    failures.push_back({{"signature", signature}, {"met", met}, {"query", query}, {"what", what}});
   return {{"judged", judged_},
           {"left_out", left_out_},
           {"undecided", undecided_},
           {"not_asked", not_asked_},
           {"measures", measures_json(measures_)},
-          {"broken", std::move(broken)},
+          {"broken", broken_},
           {"failures", std::move(failures)}};
 }
 

@@ -27,11 +27,12 @@ struct JudgedQuery {
   properties::JudgedTrial verdict;
 };
 
-// A query that broke a claim.
+// The first query that broke a claim in some way.
 struct BrokenQuery {
-  std::string name;       // "FILE query 12", "ulp:1:7"
-  std::string signature;  // signature of the failure
-  std::string explanation;
+  std::string signature;  // of the failure
+  std::uint64_t met = 0;  // how many queries had it
+  std::string query;      // "FILE query 12", "ulp:1:7"
+  std::string what;       // explains it
 };
 
 class QueryDetector {
@@ -74,8 +75,7 @@ class QueryDetector {
   std::uint64_t crashes_ = 0;
   std::uint64_t judged_ = 0, left_out_ = 0, undecided_ = 0, not_asked_ = 0, defects_ = 0;
   std::map<std::string, std::uint64_t> broken_;  // how many queries broke each claim
-  std::vector<BrokenQuery> shown_;               // the first of each signature
-  std::map<std::string, std::uint64_t> met_;     // how many queries had each signature
+  std::vector<BrokenQuery> shown_;               // one for each signature
 };
 
 }  // namespace assay::reports

@@ -146,8 +146,7 @@ void Progress::phase(std::string name) {
 
 void Progress::tick() {
   if (!line_.is_due()) return;
-  const std::chrono::duration<double> elapsed = Clock::now() - begin_;
-  line_.show(fmt::format("{} {:.0f} s", phase_, elapsed.count()));
+  line_.show(fmt::format("{} {:.0f} s", phase_, seconds_since(begin_)));
 }
 
 }  // namespace assay::reports

@@ -88,6 +88,11 @@ class Limits {
   bool is_out_of_memory_ = false;
 };
 
+// On the wall clock.
+inline double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
 template <class Answer>
 struct Timed {
   Answer answer;
@@ -104,8 +109,7 @@ auto timed(Limits& limits, const Ask& ask) {
   } catch (const std::bad_alloc&) {
     limits.memory_failed();
   }
-  timed.milliseconds =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  timed.milliseconds = 1e3 * seconds_since(begin);
   return timed;
 }
 

@@ -7,14 +7,17 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
-#include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "corpus/queries/query_csv.h"
 #include "detector/contact/contact_exact.h"
+#include "properties/fields.h"
 #include "properties/queries/query_methods.h"
 #include "reports/check/query_detector.h"
 #include "reports/estimate.h"
@@ -23,23 +26,42 @@
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {
-namespace {
 
 // A query whose answer differs from its label, or the referee's from the oracle's.
-struct Difference {
+struct QueryDifference {
   std::string file;
-  std::size_t index = 0;
-  bool answer = false;
+  std::size_t query = 0;  // in the file
+  bool answer = false, label = false;
   bool label_disputed = false;  // the label is in doubt, not the method
   std::optional<double> separation;
 };
+ASSAY_FIELDS(QueryDifference, file, query, answer, label, label_disputed, separation)
+
+// The report, schema assay-queries/1.
+struct QueryReport {
+  std::string schema = "assay-queries/1", version = version_text(), method;
+  std::vector<std::string> files;
+  std::optional<std::vector<double>> separation;  // the least and the greatest
+  std::uint64_t count = 0, yes = 0, unlabelled = 0;
+  std::uint64_t false_positives = 0, false_negatives = 0, disputed_labels = 0;
+  std::vector<QueryDifference> differences;
+  double mean_us = 0, median_us = 0, p99_us = 0, p999_us = 0, max_us = 0;
+  std::uint64_t open = 0;  // neither yes nor a difference
+  std::uint64_t contradictions = 0;
+  std::optional<std::map<std::string, std::uint64_t>> rungs;  // of a method that has some
+};
+ASSAY_FIELDS(QueryReport, schema, version, method, files, separation, count, yes, unlabelled,
+             false_positives, false_negatives, disputed_labels, differences, mean_us, median_us,
+             p99_us, p999_us, max_us, open, contradictions, rungs)
+
+namespace {
 
 using detector::Decision;
 
-properties::MethodAnswer ask(const properties::QueryMethod& method,
-                             const corpus::LabelledQuery& asked) {
-  return asked.separation ? method.within(asked.query, *asked.separation)
-                          : method.answer(asked.query);
+properties::AskedQuery asked(const corpus::LabelledQuery& given) {
+  properties::AskedQuery asked{given.query};
+  if (given.separation) asked.within = detector::Separation{*given.separation, 0};
+  return asked;
 }
 
 // " within 0.1", or nothing of a query of contact.
@@ -49,37 +71,43 @@ std::string within_text(const std::optional<double>& separation) {
 
 // Whether the label of a query that is coplanar throughout is in doubt, because another exact
 // method gives the same answer as this one (such labels were never checked by their makers).
-bool is_label_disputed(const properties::QueryMethod& method, const properties::Query& query,
+bool is_label_disputed(const properties::QueryMethod& method, const properties::AskedQuery& asked,
                        Decision answer) {
-  const auto& oracle = properties::oracle_method();
-  const auto& other = &method == &oracle ? properties::detector_method() : oracle;
-  return detector::coplanar_throughout(query) && other.answer(query).decision == answer;
+  const auto* oracle = properties::method_of("oracle");
+  const auto* other = &method == oracle ? properties::method_of("detector-exact") : oracle;
+  return detector::coplanar_throughout(asked.query) && other->answer(asked).decision == answer;
 }
 
 class QueryScore {
  public:
-  explicit QueryScore(const properties::QueryMethod& method)
-      : method_(&method), name_(method.name) {}
+  QueryScore(const properties::QueryMethod& method, std::vector<std::string> files)
+      : QueryScore(std::string(method.word), std::move(files)) {
+    method_ = &method;
+  }
   // The score of a plug-in. Its answers are added by add_answer.
-  explicit QueryScore(std::string name) : name_(std::move(name)) {}
+  QueryScore(std::string name, std::vector<std::string> files) {
+    report_.method = std::move(name);
+    report_.files = std::move(files);
+  }
 
   // Answers and times each query of a file, one by one. REQUIRES a method that knows distance, if a
   // query has a separation.
   void add(const std::string& file, const std::vector<corpus::LabelledQuery>& queries) {
     for (std::size_t i = 0; i < queries.size(); ++i) {
       const auto& [query, truth, separation] = queries[i];
+      const auto question = asked(queries[i]);
       const auto begin = std::chrono::steady_clock::now();
-      const auto [decision, first, rung] = ask(*method_, queries[i]);
-      const std::chrono::duration<double, std::micro> took =
-          std::chrono::steady_clock::now() - begin;
-      Answered answered{decision == Decision::yes, truth, separation, false, took.count()};
+      const auto [decision, first, rung, proof] = method_->answer(question);
+      Answered answered{decision == Decision::yes, truth, separation, false,
+                        1e6 * seconds_since(begin)};
       answered.open = decision == Decision::open;
       answered.rung = rung;
       if (!answered.open) {
-        answered.contradicted = method_->is_referee &&
-                                ask(properties::oracle_method(), queries[i]).decision != decision;
+        answered.contradicted =
+            method_->is_referee &&
+            properties::method_of("oracle")->answer(question).decision != decision;
         answered.label_disputed = truth && *truth != answered.contact && !separation &&
-                                  is_label_disputed(*method_, query, decision);
+                                  is_label_disputed(*method_, question, decision);
       }
       add_answer(file, i, answered);
     }
@@ -96,107 +124,91 @@ class QueryScore {
     int rung = 0;               // MethodAnswer::rung
   };
   void add_answer(const std::string& file, std::size_t index, const Answered& answered) {
+    const bool contact = answered.contact;
+    const QueryDifference difference{
+        file, index, contact, !contact, answered.label_disputed, answered.separation};
     microseconds_.push_back(answered.microseconds);
-    unlabelled_ += answered.truth ? 0 : 1;
-    open_ += answered.open ? 1 : 0;
+    ++report_.count;
+    report_.unlabelled += answered.truth ? 0 : 1;
+    report_.open += answered.open ? 1 : 0;
     if (const auto& d = answered.separation) {
       ++of_distance_;
-      least_ = std::min(least_, *d);
-      greatest_ = std::max(greatest_, *d);
+      auto& range = report_.separation;
+      range = range ? std::vector{std::min((*range)[0], *d), std::max((*range)[1], *d)}
+                    : std::vector{*d, *d};
     }
     if (answered.open) return;
-    const bool contact = answered.contact;
-    yes_ += contact ? 1 : 0;
-    if (answered.contradicted)
-      contradictions_.push_back({file, index, contact, false, answered.separation});
+    report_.yes += contact ? 1 : 0;
+    if (answered.contradicted) contradictions_.push_back(difference);
     ++rungs_[static_cast<std::size_t>(answered.rung)];
     if (!answered.truth || *answered.truth == contact) return;
-    differences_.push_back({file, index, contact, answered.label_disputed, answered.separation});
-    if (!answered.label_disputed) ++(contact ? false_positives_ : false_negatives_);
+    report_.differences.push_back(difference);
+    ++(answered.label_disputed ? report_.disputed_labels
+       : contact               ? report_.false_positives
+                               : report_.false_negatives);
+  }
+
+  QueryReport report() const {
+    QueryReport report = report_;
+    report.contradictions = contradictions_.size();
+    for (std::size_t r = 0; method_ && r < rungs_.size(); ++r) {
+      const char* name = method_->rungs[r];
+      if (!*name) continue;
+      if (!report.rungs) report.rungs.emplace();
+      (*report.rungs)[name] = rungs_[r];
+    }
+    if (microseconds_.empty()) return report;
+    for (const double t : microseconds_) report.mean_us += t;
+    report.mean_us /= static_cast<double>(report.count);
+    const auto at = [&](double share) { return quantile(microseconds_, share); };
+    report.median_us = at(0.5);
+    report.p99_us = at(0.99);
+    report.p999_us = at(0.999);
+    report.max_us = at(1);
+    return report;
   }
 
   // Prints to stdout: counts, differences from the truth, microseconds, rungs.
   void print() const {
     constexpr std::size_t most_listed = 50;
+    const QueryReport r = report();
     std::string of_distance;
-    if (of_distance_ > 0)
-      of_distance = fmt::format(" ({}{}{})", of_distance_, within_text(least_),
-                                least_ < greatest_ ? fmt::format(" to {}", greatest_) : "");
-    fmt::print("{}: {} queries{}, {} yes, {} without a label{}\n", name_, count(), of_distance,
-               yes_, unlabelled_,
+    if (const auto& range = r.separation)
+      of_distance =
+          fmt::format(" ({}{}{})", of_distance_, within_text(range->front()),
+                      range->front() < range->back() ? fmt::format(" to {}", range->back()) : "");
+    fmt::print("{}: {} queries{}, {} yes, {} without a label{}\n", r.method, r.count, of_distance,
+               r.yes, r.unlabelled,
                method_ && method_->is_referee
-                   ? fmt::format(", {} open, {} contradictions", open_, contradictions_.size())
+                   ? fmt::format(", {} open, {} contradictions", r.open, r.contradictions)
                    : "");
     for (const auto& d : contradictions_) {
-      fmt::print("  CONTRADICTION: {} query {}{}: referee {}, oracle {}\n", d.file, d.index,
-                 within_text(d.separation), d.answer, !d.answer);
+      fmt::print("  CONTRADICTION: {} query {}{}: referee {}, oracle {}\n", d.file, d.query,
+                 within_text(d.separation), d.answer, d.label);
     }
     fmt::print(
         "differences from the truth: {} false positives, {} false negatives, {} disputed labels\n",
-        false_positives_, false_negatives_, disputed());
-    std::size_t listed = 0;
-    for (const auto& d : differences_) {
-      if (listed++ == most_listed) {
-        fmt::print("  ... {} more\n", differences_.size() - most_listed);
-        break;
-      }
-      fmt::print("  {} query {}{}: answer {}, label {}{}\n", d.file, d.index,
-                 within_text(d.separation), d.answer, !d.answer,
+        r.false_positives, r.false_negatives, r.disputed_labels);
+    for (const auto& d :
+         std::span(r.differences).first(std::min(most_listed, r.differences.size()))) {
+      fmt::print("  {} query {}{}: answer {}, label {}{}\n", d.file, d.query,
+                 within_text(d.separation), d.answer, d.label,
                  !d.label_disputed ? ""
                  : method_ ? "; coplanar throughout, both exact methods agree against the label"
                            : "; the oracle agrees against the label");
     }
+    if (r.differences.size() > most_listed)
+      fmt::print("  ... {} more\n", r.differences.size() - most_listed);
     fmt::print("us a query: mean {:.2f}, median {:.2f}, p99 {:.2f}, p99.9 {:.2f}, max {:.2f}\n",
-               mean(), quantile(0.5), quantile(0.99), quantile(0.999), quantile(1));
-    if (!method_ || !*method_->rungs[0]) return;
-    const auto& rungs = method_->rungs;
-    std::string text;
-    for (std::size_t r = 0; r < rungs.size(); ++r) {
-      if (!*rungs[r]) continue;
-      text += fmt::format(
-          "{}{} {:.1f} %", r == 0 ? "rungs: " : ", ", rungs[r],
-          count() ? 100.0 * static_cast<double>(rungs_[r]) / static_cast<double>(count()) : 0.0);
+               r.mean_us, r.median_us, r.p99_us, r.p999_us, r.max_us);
+    if (!r.rungs) return;
+    const char* before = "rungs: ";
+    for (const auto& [name, decided] : *r.rungs) {
+      const double share =
+          r.count ? 100.0 * static_cast<double>(decided) / static_cast<double>(r.count) : 0.0;
+      fmt::print("{}{} {:.1f} %", std::exchange(before, ", "), name, share);
     }
-    fmt::print("{}\n", text);
-  }
-
-  // The report, schema assay-queries/1.
-  nlohmann::ordered_json to_json(const std::vector<std::string>& files) const {
-    using Json = nlohmann::ordered_json;
-    Json differences = Json::array();
-    for (const auto& d : differences_) {
-      differences.push_back({{"file", d.file},
-                             {"query", d.index},
-                             {"answer", d.answer},
-                             {"label", !d.answer},
-                             {"label_disputed", d.label_disputed},
-                             {"separation", d.separation ? Json(*d.separation) : Json()}});
-    }
-    Json rungs;
-    for (std::size_t r = 0; method_ && r < rungs_.size(); ++r) {
-      const char* name = method_->rungs[r];
-      if (*name) rungs[name] = rungs_[r];
-    }
-    return {{"schema", "assay-queries/1"},
-            {"version", version_text()},
-            {"method", name_},
-            {"files", files},
-            {"separation", of_distance_ > 0 ? Json{least_, greatest_} : Json()},
-            {"count", count()},
-            {"yes", yes_},
-            {"unlabelled", unlabelled_},
-            {"false_positives", false_positives_},
-            {"false_negatives", false_negatives_},
-            {"disputed_labels", disputed()},
-            {"differences", differences},
-            {"mean_us", mean()},
-            {"median_us", quantile(0.5)},
-            {"p99_us", quantile(0.99)},
-            {"p999_us", quantile(0.999)},
-            {"max_us", quantile(1)},
-            {"open", open_},
-            {"contradictions", contradictions_.size()},
-            {"rungs", rungs}};
+    fmt::print("\n");
   }
 
   // The referee contradicts the oracle.
@@ -204,40 +216,28 @@ class QueryScore {
   // An answer differs from its truth in a way that the method claims to avoid. A plug-in is judged
   // by its claims instead (check/query_detector.h).
   bool is_wrong() const {
-    return method_ &&
-           ((false_positives_ > 0 && method_->claims.has(properties::Claim::no_spurious)) ||
-            (false_negatives_ > 0 && method_->claims.has(properties::Claim::free_sound)));
+    using properties::Claim;
+    return method_ && ((report_.false_positives > 0 && method_->claims.has(Claim::no_spurious)) ||
+                       (report_.false_negatives > 0 && method_->claims.has(Claim::free_sound)));
   }
 
  private:
-  std::size_t count() const { return microseconds_.size(); }
-  std::size_t disputed() const { return differences_.size() - false_positives_ - false_negatives_; }
-  double mean() const {
-    double sum = 0;
-    for (const double t : microseconds_) sum += t;
-    return count() ? sum / static_cast<double>(count()) : 0;
-  }
-
-  double quantile(double share) const {
-    return microseconds_.empty() ? 0 : reports::quantile(microseconds_, share);
-  }
-
   const properties::QueryMethod* method_ = nullptr;  // null for a plug-in
-  std::string name_;
+  QueryReport report_;                               // of the answers that were added
   std::vector<double> microseconds_;
-  std::size_t yes_ = 0, unlabelled_ = 0, false_positives_ = 0, false_negatives_ = 0;
-  std::array<std::size_t, 5> rungs_ = {};
-  std::size_t open_ = 0;  // neither yes nor a difference
-  // Of the queries that were asked with a separation: how many, the least and the greatest.
-  std::size_t of_distance_ = 0;
-  double least_ = std::numeric_limits<double>::infinity(), greatest_ = 0;
-  std::vector<Difference> differences_, contradictions_;
+  std::array<std::uint64_t, 5> rungs_ = {};
+  std::size_t of_distance_ = 0;  // queries that were asked with a separation
+  std::vector<QueryDifference> contradictions_;
 };
 
 using QuerySet = std::vector<corpus::LabelledQuery>;
 
-Expected<void> write_report(const std::string& file, const nlohmann::ordered_json& report) {
+// `detector`: what the plug-in's answers came to, or null.
+Expected<void> write_report(const std::string& file, const QueryScore& score,
+                            const nlohmann::ordered_json& detector) {
   if (file.empty()) return outcome::success();
+  auto report = properties::json_of_fields<nlohmann::ordered_json>(score.report());
+  report["detector"] = detector;
   const auto written = write_json_file(file, report);
   if (written) fmt::print("wrote {}\n", file);
   return written;
@@ -278,31 +278,29 @@ Expected<int> check_plugin(const QueryQuestion& question, const std::vector<Quer
   }
   fmt::print("{}\n", detector.title());
   std::fflush(stdout);
-  QueryScore score(detector.name());
+  QueryScore score(detector.name(), question.files);
   for (std::size_t i = 0; i < sets.size(); ++i) {
     BOOST_OUTCOME_TRY(ask_plugin(detector, question.files[i], sets[i], score));
   }
   score.print();
   fmt::print("{}", detector.text());
-  auto report = score.to_json(question.files);
-  report["detector"] = detector.to_json();
-  BOOST_OUTCOME_TRY(write_report(question.json_file, report));
+  BOOST_OUTCOME_TRY(write_report(question.json_file, score, detector.to_json()));
   return detector.exit_code();
 }
 
 // The problem of a method that knows no distance, if some query has a separation.
 Expected<void> check_method(const QueryQuestion& question, const std::vector<QuerySet>& sets) {
-  if (question.method->within) return outcome::success();
+  if (question.method->knows_distance) return outcome::success();
   for (std::size_t i = 0; i < sets.size(); ++i) {
     const auto asks = std::find_if(sets[i].begin(), sets[i].end(),
                                    [](const auto& query) { return query.separation.has_value(); });
     if (asks == sets[i].end()) continue;
     std::vector<const char*> others;
-    for (const auto& method : properties::named_methods()) {
-      if (method.within) others.push_back(method.name);
+    for (const auto& method : properties::query_methods()) {
+      if (method.knows_distance) others.push_back(method.word);
     }
     return Problem{fmt::format("{} query {}: --method {} knows no separation; these do: {}",
-                               question.files[i], asks - sets[i].begin(), question.method->name,
+                               question.files[i], asks - sets[i].begin(), question.method->word,
                                joined(others, ", "))};
   }
   return outcome::success();
@@ -331,12 +329,10 @@ Expected<int> check_queries(const QueryQuestion& question) {
   }
   if (!question.detector.library.empty()) return check_plugin(question, sets);
   BOOST_OUTCOME_TRY(check_method(question, sets));
-  QueryScore score(*question.method);
+  QueryScore score(*question.method, question.files);
   for (std::size_t i = 0; i < sets.size(); ++i) score.add(question.files[i], sets[i]);
   score.print();
-  auto report = score.to_json(question.files);
-  report["detector"] = nullptr;
-  BOOST_OUTCOME_TRY(write_report(question.json_file, report));
+  BOOST_OUTCOME_TRY(write_report(question.json_file, score, nullptr));
   if (score.is_unsound()) return exit_unsound;
   return score.is_wrong() ? exit_defect : exit_holds;
 }
@@ -344,12 +340,12 @@ Expected<int> check_queries(const QueryQuestion& question) {
 void add_query_options(Verb& verb, QueryQuestion& question) {
   verb.add("--truth FILE", question.truths, "Labels (.json), one file for each query file");
   std::vector<const char*> words;
-  for (const auto& method : properties::named_methods()) words.push_back(method.name);
-  const auto parse = [](std::string_view word) -> std::optional<const properties::QueryMethod*> {
-    for (const auto& method : properties::named_methods()) {
-      if (word == method.name) return &method;
-    }
-    return std::nullopt;
+  for (const auto& method : properties::query_methods()) {
+    if (method.word) words.push_back(method.word);
+  }
+  const auto parse = [](std::string_view word) {
+    const auto* method = properties::method_of(word);
+    return method ? std::optional(method) : std::nullopt;
   };
   add_choice(verb, "--method", question.method, joined(words, ", "), parse,
              "Who answers queries (default oracle)");

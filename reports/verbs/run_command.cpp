@@ -48,7 +48,7 @@ class Certification {
   Expected<int> run() {
     BOOST_OUTCOME_TRY(write_text_file(properties::campaign_file(out_).string(), campaign_text()));
     BOOST_OUTCOME_TRY(store_subject());
-    BOOST_OUTCOME_TRY(corpus, judge_corpus(request_, corpus_ / "curated"));
+    BOOST_OUTCOME_TRY(corpus, judge_corpus(request_, corpus_));
     BOOST_OUTCOME_TRY(properties::keep_corpus(store_, corpus.rows, corpus.failures,
                                               properties::KeepMeshes::later));
     BOOST_OUTCOME_TRY(run_on_terminal(request_, store_, words_.out));
@@ -96,17 +96,18 @@ class Certification {
   Expected<void> run_self_test() {
     const auto queries = request_.plan.policy.self_test_queries;
     if (queries == 0) return outcome::success();
+    BOOST_OUTCOME_TRY(families, properties::self_test_families(corpus_));
     properties::SelfTestOptions options;
     options.queries = queries;
     options.jobs = request_.jobs;
     properties::QueryTally all;
-    for (const auto& family : properties::self_test_families()) {
-      if (family->indices(queries) == 0) continue;
-      const auto result = properties::run_family(*family, options, [](std::uint64_t) {});
+    for (const auto& family : families) {
+      if (family.indices(queries) == 0) continue;
+      const auto result = properties::run_family(family, options, [](std::uint64_t) {});
       const auto& tally = result.tally;
       BOOST_OUTCOME_TRY(
           store_.keep(to_row(properties::JudgedSource{.source = properties::Source::self_test,
-                                                      .input = family->name(),
+                                                      .input = family.name,
                                                       .cases = tally.queries,
                                                       .collisions = tally.contacts,
                                                       .defects = tally.contradictions,
@@ -136,7 +137,7 @@ class Certification {
   }
 
   Expected<int> issue() {
-    const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
+    const double seconds = seconds_since(begin_);
     issued_.at = properties::time_in_utc();
     issued_.seconds = seconds;
     BOOST_OUTCOME_TRY(store_.keep(to_row(issued_)));
@@ -231,8 +232,7 @@ Expected<int> run_campaign(const CampaignWords& words) {
     problem.message += go_on;
     return problem;
   }
-  const std::chrono::duration<double> took = Clock::now() - begin;
-  return conclude(request, findings.value(), out, took.count());
+  return conclude(request, findings.value(), out, seconds_since(begin));
 }
 
 // The 8 of "1/8"; nothing for other words.

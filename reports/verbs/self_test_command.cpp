@@ -2,14 +2,16 @@
 // plug-in on these families.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "properties/queries/self_check.h"
+#include "reports/campaign/case_folders.h"
 #include "reports/check/query_detector.h"
 #include "reports/steps/step_report.h"
 #include "reports/terminal/option_words.h"
@@ -29,9 +31,9 @@ struct SelfTestRequest {
   std::string replay;      // "family:seed:index"; empty: the whole self-test
 };
 
-using properties::FamilyResult;
 using properties::QueryTally;
 using properties::SelfTestFamily;
+using Families = std::vector<SelfTestFamily>;
 using Clock = std::chrono::steady_clock;
 
 double share_of(std::uint64_t part, std::uint64_t whole) {
@@ -46,149 +48,131 @@ void print_row(const std::string& name, const QueryTally& t, double seconds) {
   std::fflush(stdout);
 }
 
-void print_failures(const SelfTestFamily& family, std::uint64_t seed, const FamilyResult& result) {
+void print_failures(const SelfTestFamily& family, std::uint64_t seed,
+                    const properties::FamilyResult& result) {
   for (const auto& failure : result.failures) {
     fmt::print("contradiction: {}\n{}replay: {}\n", failure.contradiction,
                family.text(seed, failure.index),
                line_to_paste(
-                   fmt::format("self-test --replay {}:{}:{}", family.name(), seed, failure.index)));
+                   fmt::format("self-test --replay {}:{}:{}", family.name, seed, failure.index)));
   }
   if (result.tally.contradictions > result.failures.size()) {
     fmt::print("{} contradictions in {}, the first {} printed\n", result.tally.contradictions,
-               family.name(), result.failures.size());
+               family.name, result.failures.size());
   }
 }
 
-Expected<int> replay(const SelfTestRequest& request) {
-  const auto named = properties::self_test_case(request.replay);
-  if (!named)
-    return Problem{
-        fmt::format("'{}' is no case of the self-test (family:seed:index)", request.replay)};
-  fmt::print("{}", named->family->text(named->seed, named->index));
-  QueryTally tally;
-  const auto wrong = named->family->check(named->seed, named->index, tally);
-  fmt::print("{}\n", wrong ? "contradiction: " + *wrong : "no contradiction");
-  return wrong ? exit_unsound : exit_holds;
-}
-
-void announce(const SelfTestRequest& request) {
+void announce(const Families& families, const SelfTestRequest& request) {
   fmt::print(
       "oracle against its referees: {} random small-integer queries, the other families by it; "
       "seed {}, {} jobs; writes no file; until {}\n",
       request.queries, request.seed, request.jobs,
       request.time_limit ? fmt::format("done, or {:.0f} s from now", *request.time_limit) : "done");
-  for (const auto& family : properties::self_test_families()) {
-    if (family->indices(request.queries) > 0) {
-      fmt::print("  {:<22}{}\n", family->name(), family->about());
-    } else {
-      fmt::print("  {:<22}left out: more --queries wanted for {}\n", family->name(),
-                 family->about());
-    }
+  for (const auto& family : families) {
+    fmt::print("  {:<22}{}{}\n", family.name,
+               family.indices(request.queries) > 0 ? "" : "left out: more --queries wanted for ",
+               family.about);
   }
   fmt::print("{:<22}{:>10}{:>10}{:>16}{:>8}{:>9}{:>12}{:>13}{:>9}\n", "family", "queries",
              "contacts", "contradictions", "open", "axis %", "interval %", "quadratic %", "s");
   std::fflush(stdout);
 }
 
-// The self-test's families of queries, put to the query of a plug-in.
+// One case again. Without a plug-in all methods are asked.
+Expected<int> replay(const Families& families, const SelfTestRequest& request,
+                     QueryDetector* plugin) {
+  const auto named = properties::self_test_case(families, request.replay);
+  const auto asked = named ? named->family->contact(named->seed, named->index) : std::nullopt;
+  if (!named || (plugin && !asked))
+    return Problem{fmt::format("'{}' is no {} of the self-test (family:seed:index)", request.replay,
+                               plugin ? "query" : "case")};
+  fmt::print("{}", named->family->text(named->seed, named->index));
+  if (!plugin) {
+    QueryTally tally;
+    const auto wrong = named->family->check(named->seed, named->index, tally);
+    fmt::print("{}\n", wrong ? "contradiction: " + *wrong : "no contradiction");
+    return wrong ? exit_unsound : exit_holds;
+  }
+  BOOST_OUTCOME_TRY(judged, plugin->judge({asked->query}, {request.replay}));
+  const auto& run = judged[0].run;
+  if (!run.steps.empty()) {
+    const auto& step = run.steps[0];
+    fmt::print("plug-in: {}{}{}\n", properties::name_of(step.answer),
+               step.answer == detector::Answer::collision ? " at t = " + time_text(step.first) : "",
+               run.explanation.empty() ? "" : " (" + run.explanation + ")");
+  }
+  fmt::print("{}", plugin->text());
+  return plugin->exit_code();
+}
 
-using properties::Outcome;
+// The self-test's families of queries, put to the query of a plug-in.
 
 constexpr const char* family_row = "{:<14}{:>10}{:>10}{:>10}{:>10}{:>11}{:>9}\n";
 
-// The counts of one family.
+// What came of one family: contradictions are defects, and open ones are undecided.
 struct FamilyCount {
-  std::uint64_t queries = 0, contacts = 0, left_out = 0, defects = 0, undecided = 0;
+  QueryTally tally;
+  std::uint64_t left_out = 0;
   std::string first_failure;  // the name of the query in the self-test
 };
 
-void count_query(FamilyCount& count, const JudgedQuery& one, const std::string& name) {
-  ++count.queries;
-  count.contacts += one.contact ? 1 : 0;
-  count.left_out += one.is_within ? 0 : 1;
-  count.defects += one.verdict.failure ? 1 : 0;
-  const auto outcome = one.verdict.outcome;
-  const bool is_open = outcome != Outcome::holds && outcome != Outcome::defect;
-  count.undecided += one.is_within && is_open ? 1 : 0;
-  if (one.verdict.failure && count.first_failure.empty()) count.first_failure = name;
-}
-
-class PluginSelfTest {
- public:
-  PluginSelfTest(QueryDetector& detector, const SelfTestRequest& request)
-      : detector_(detector), request_(request) {}
-
-  Expected<FamilyCount> run(const SelfTestFamily& family) {
-    FamilyCount count;
-    const std::uint64_t end = family.indices(request_.queries);
-    for (std::uint64_t index = 0; index < end && !is_over();) {
-      std::vector<detector::FourPoints> queries;
-      std::vector<std::string> names;
-      for (; index < end && queries.size() < at_once; ++index) {
-        const auto made = family.at(request_.seed, index);
-        if (!made) continue;
-        queries.push_back(made->query);
-        names.push_back(fmt::format("{}:{}:{}", family.name(), request_.seed, index));
-      }
-      BOOST_OUTCOME_TRY(judged, detector_.judge(queries, names));
-      for (std::size_t i = 0; i < queries.size(); ++i) count_query(count, judged[i], names[i]);
+// Asks the queries of contact until the time is over.
+Expected<FamilyCount> ask_family(QueryDetector& detector, const SelfTestFamily& family,
+                                 const SelfTestRequest& request,
+                                 const std::function<bool()>& is_over) {
+  using properties::Outcome;
+  constexpr std::size_t at_once = 4096;
+  FamilyCount count;
+  const std::uint64_t end = family.indices(request.queries);
+  for (std::uint64_t index = 0; index < end && !is_over();) {
+    std::vector<detector::FourPoints> queries;
+    std::vector<std::string> names;
+    for (; index < end && queries.size() < at_once; ++index) {
+      const auto asked = family.contact(request.seed, index);
+      if (!asked) continue;
+      queries.push_back(asked->query);
+      names.push_back(fmt::format("{}:{}:{}", family.name, request.seed, index));
     }
-    return count;
+    BOOST_OUTCOME_TRY(judged, detector.judge(queries, names));
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      const auto& one = judged[i];
+      const bool is_defect = one.verdict.failure.has_value();
+      const auto outcome = one.verdict.outcome;
+      const bool is_open = outcome != Outcome::holds && outcome != Outcome::defect;
+      ++count.tally.queries;
+      count.tally.contacts += one.contact ? 1 : 0;
+      count.tally.contradictions += is_defect ? 1 : 0;
+      count.tally.open += one.is_within && is_open ? 1 : 0;
+      count.left_out += one.is_within ? 0 : 1;
+      if (is_defect && count.first_failure.empty()) count.first_failure = names[i];
+    }
   }
-
-  // Whether the time that the user gave is over.
-  bool is_over() {
-    was_over_ |= request_.time_limit && seconds() >= *request_.time_limit;
-    return was_over_;
-  }
-  bool was_over() const { return was_over_; }
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
-
- private:
-  static constexpr std::size_t at_once = 4096;
-  QueryDetector& detector_;
-  const SelfTestRequest& request_;
-  const Clock::time_point begin_ = Clock::now();
-  bool was_over_ = false;
-};
-
-Expected<int> replay_query(QueryDetector& detector, const SelfTestRequest& request) {
-  const auto named = properties::self_test_case(request.replay);
-  const auto made = named ? named->family->at(named->seed, named->index) : std::nullopt;
-  if (!made)
-    return Problem{
-        fmt::format("'{}' is no query of the self-test (family:seed:index)", request.replay)};
-  fmt::print("{}", named->family->text(named->seed, named->index));
-  BOOST_OUTCOME_TRY(judged, detector.judge({made->query}, {request.replay}));
-  const auto& one = judged[0];
-  if (!one.run.steps.empty()) {
-    const auto& step = one.run.steps[0];
-    fmt::print("plug-in: {}{}{}\n", properties::name_of(step.answer),
-               step.answer == detector::Answer::collision ? " at t = " + time_text(step.first) : "",
-               one.run.explanation.empty() ? "" : " (" + one.run.explanation + ")");
-  }
-  fmt::print("{}", detector.text());
-  return detector.exit_code();
+  return count;
 }
 
 // Prints a line for each family, then what the plug-in does whatever it claims, and the claims
 // that it breaks. Whole steps are left out. Returns the exit code of the verdict: 1 if a claim is
 // broken, 3 if the time was over.
-Expected<int> self_test_of_plugin(const SelfTestRequest& request) {
+Expected<int> self_test_of_plugin(const Families& families, const SelfTestRequest& request) {
   BOOST_OUTCOME_TRY(detector, QueryDetector::open(request.detector));
-  if (!request.replay.empty()) return replay_query(detector, request);
+  if (!request.replay.empty()) return replay(families, request, &detector);
   fmt::print("{}\n", detector.title());
   fmt::print(family_row, "family", "queries", "contacts", "left out", "defects", "undecided", "s");
   std::fflush(stdout);
-  PluginSelfTest test(detector, request);
+  const auto begin = Clock::now();
+  bool was_over = false;
+  const auto is_over = [&] {
+    return was_over |= request.time_limit && seconds_since(begin) >= *request.time_limit;
+  };
   std::vector<std::string> replays;
-  for (const auto& family : properties::self_test_families()) {
-    if (family->indices(request.queries) == 0 || test.is_over()) continue;
-    const double begin = test.seconds();
-    BOOST_OUTCOME_TRY(count, test.run(*family));
-    if (count.queries == 0) continue;
-    fmt::print(family_row, family->name(), count.queries, count.contacts, count.left_out,
-               count.defects, count.undecided, fmt::format("{:.1f}", test.seconds() - begin));
+  for (const auto& family : families) {
+    const auto family_began = Clock::now();
+    BOOST_OUTCOME_TRY(count, ask_family(detector, family, request, is_over));
+    const auto& tally = count.tally;
+    if (tally.queries == 0) continue;
+    fmt::print(family_row, family.name, tally.queries, tally.contacts, count.left_out,
+               tally.contradictions, tally.open,
+               fmt::format("{:.1f}", seconds_since(family_began)));
     std::fflush(stdout);
     if (!count.first_failure.empty()) replays.push_back(count.first_failure);
   }
@@ -196,38 +180,39 @@ Expected<int> self_test_of_plugin(const SelfTestRequest& request) {
   for (const auto& name : replays)
     fmt::print("replay: {}\n",
                line_to_paste("self-test --replay " + name + detector_words(request.detector)));
-  if (test.was_over()) fmt::print("stopped at the time limit\n");
+  if (was_over) fmt::print("stopped at the time limit\n");
   const int code = detector.exit_code();
-  return code == exit_holds && test.was_over() ? exit_undecided : code;
+  return code == exit_holds && was_over ? exit_undecided : code;
 }
 
 Expected<int> run_self_test(const SelfTestRequest& request) {
-  if (!request.detector.library.empty()) return self_test_of_plugin(request);
-  if (!request.replay.empty()) return replay(request);
-  announce(request);
+  BOOST_OUTCOME_TRY(corpus, shipped_corpus());
+  BOOST_OUTCOME_TRY(families, properties::self_test_families(corpus));
+  if (!request.detector.library.empty()) return self_test_of_plugin(families, request);
+  if (!request.replay.empty()) return replay(families, request, nullptr);
+  announce(families, request);
 
   const auto begin = Clock::now();
-  const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
-  properties::SelfTestOptions options{request.seed, request.queries, request.jobs, {}, false};
+  properties::SelfTestOptions options{request.seed, request.queries, request.jobs, {}};
   if (request.time_limit) {
-    options.stop = [&, limit = *request.time_limit] { return elapsed() >= limit; };
+    options.stop = [&, limit = *request.time_limit] { return seconds_since(begin) >= limit; };
   }
   Progress progress("self-test", std::chrono::seconds(30));
   QueryTally total;
   bool complete = true;
-  for (const auto& family : properties::self_test_families()) {
-    const std::uint64_t indices = family->indices(request.queries);
+  for (const auto& family : families) {
+    const std::uint64_t indices = family.indices(request.queries);
     if (indices == 0) continue;
-    const auto result = properties::run_family(*family, options, [&](std::uint64_t done) {
-      progress.phase(fmt::format("{} {:.0f} %", family->name(), share_of(done, indices)));
+    const auto result = properties::run_family(family, options, [&](std::uint64_t done) {
+      progress.phase(fmt::format("{} {:.0f} %", family.name, share_of(done, indices)));
     });
     progress.finish();
-    print_row(family->name(), result.tally, result.seconds);
-    print_failures(*family, request.seed, result);
+    print_row(family.name, result.tally, result.seconds);
+    print_failures(family, request.seed, result);
     total += result.tally;
     complete = complete && result.complete;
   }
-  print_row("all", total, elapsed());
+  print_row("all", total, seconds_since(begin));
   fmt::print("{} invariances of these queries checked\n", total.invariances);
   if (total.contradictions > 0) {
     fmt::print("self-test: {} contradictions; the oracle or a referee is wrong\n",

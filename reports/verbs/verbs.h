@@ -28,7 +28,7 @@ AddedVerb add_verify(CLI::App& app);
 struct QueryQuestion {
   std::vector<std::string> files;
   std::vector<std::string> truths;  // none, or one for each file
-  const properties::QueryMethod* method = &properties::oracle_method();
+  const properties::QueryMethod* method = properties::method_of("oracle");
   std::optional<double> separation;  // of the queries whose rows say none
   DetectorWords detector;
   std::string json_file;

@@ -8,6 +8,7 @@
 #include "detector/view/view_signs.h"
 #include "oracle/query/contact.h"
 #include "properties/queries/query_families.h"
+#include "properties/random.h"
 #include "reports/bench/sweep.h"
 #include "reports/estimate.h"
 #include "tests/bench/step_parts.h"
@@ -47,7 +48,7 @@ std::vector<FourPoints> simulation_queries(benchmark::State& state) {
 std::vector<FourPoints> extreme_queries(benchmark::State&) {
   std::vector<FourPoints> queries;
   for (int i = 0; i < sized(20'000); ++i)
-    queries.push_back(properties::extreme_contact(1, static_cast<std::uint64_t>(i)));
+    queries.push_back(properties::extreme_contact(1, static_cast<std::uint64_t>(i)).query);
   return queries;
 }
 
@@ -124,15 +125,19 @@ void show_tail(benchmark::State& state, Time time) {
 }
 
 double contact_ns(std::uint64_t index) {
-  const auto query = properties::extreme_contact(1, index);
+  const auto query = properties::extreme_contact(1, index).query;
   return reports::ns_of([&] { benchmark::DoNotOptimize(test_contact(query, Want::first_time)); });
 }
 
+// Seen from a point for even indices, from a line for odd ones.
 double view_ns(std::uint64_t index) {
-  const auto query = properties::extreme_view(1, index);
+  properties::Random random(~std::uint64_t{1}, index);
+  std::array<MovingPoint, 5> x;
+  properties::make_extreme(random, x);
+  const MovingTriangle triangle{x[0], x[1], x[2]};
+  const ViewPrimitive primitive{x[3], x[index % 2 == 0 ? 3 : 4]};
   ViewCounts counts;
-  return reports::ns_of(
-      [&] { benchmark::DoNotOptimize(view_sign(query.triangle, query.primitive, counts)); });
+  return reports::ns_of([&] { benchmark::DoNotOptimize(view_sign(triangle, primitive, counts)); });
 }
 
 const bool are_added = [] {

@@ -118,11 +118,10 @@ int write(int argc, char** argv) {
       add(properties::make_case(family, id).c);
     }
   }
-  const auto generators = properties::query_generators();
   for (std::uint64_t i = 0; i < count(4, 8000); ++i) {
-    for (const auto& generator : generators) {
-      if (i % static_cast<std::uint64_t>(generator.one_in) != 0) continue;
-      const auto query = generator.make(seed, i).query;
+    for (const auto& family : properties::self_test_queries()) {
+      if (i % static_cast<std::uint64_t>(family.one_in) != 0) continue;
+      const auto query = family.query(seed, i).query;
       const auto answer = oracle::contact_of(query, detector::Want::first_time);
       facts.queries.push_back({query, answer.contact, answer.first});
     }

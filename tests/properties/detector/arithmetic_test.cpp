@@ -55,7 +55,7 @@ void judge(const Query& query, QueryScore& score) {
   ASSERT_GE(timed.time.hi, truth.first.hi) << "the interval ends before the contact";
 }
 
-void print(const char* name, const QueryScore& s) {
+void print(std::string_view name, const QueryScore& s) {
   fmt::print(
       "{:13} {:7} queries, {:6} contacts; false alarms: bounded {}, double {}, float {}; misses: "
       "double {}, float {}; bounded: {} certain, {} of them within 1e-9\n",
@@ -67,10 +67,10 @@ TEST(ArithmeticQueries, BoundedNeverMissesAndIsNeverLate) {
   constexpr std::uint64_t seed = 20113, small_integers = 120'000;
   std::uint64_t queries = 0;
   Wrong doubles, floats;
-  for (const auto& family : query_generators()) {
+  for (const auto& family : self_test_queries()) {
     QueryScore score;
     for (std::uint64_t i = 0; i < small_integers / static_cast<std::uint64_t>(family.one_in); ++i) {
-      ASSERT_NO_FATAL_FAILURE(judge(family.make(seed, i).query, score))
+      ASSERT_NO_FATAL_FAILURE(judge(family.query(seed, i).query, score))
           << family.name << ", seed " << seed << ", query " << i;
     }
     print(family.name, score);

@@ -349,11 +349,11 @@ TEST(EverydayNumbers, StepsEndInContactWhereDisplacementsAreRounded) {
 }
 
 TEST(EverydayNumbers, QueriesEndInContactWhereDisplacementsAreRounded) {
-  const auto& everyday = query_generators().back();
+  const auto& everyday = self_test_queries().back();
   constexpr std::uint64_t queries = 2000;
   int at_end = 0, level = 0, contacts = 0;
   for (std::uint64_t i = 0; i < queries; ++i) {
-    const auto q = everyday.make(1, i).query;
+    const auto q = everyday.query(1, i).query;
     const auto answer = oracle::contact_of(q, detector::Want::first_time);
     if (!answer.contact) continue;
     ++contacts;

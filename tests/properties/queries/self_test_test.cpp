@@ -2,11 +2,11 @@
 // of the constructed families hold, results do not depend on the number of threads.
 #include <fmt/format.h>
 
-#include "detector/contact/elementary.h"
-#include "oracle/query/contact.h"
-#include "oracle/referee/referee.h"
-#include "properties/queries/listed_queries.h"
+#include "corpus/cases/case_file.h"
+#include "corpus/files.h"
+#include "properties/queries/query_families.h"
 #include "properties/queries/self_check.h"
+#include "properties/queries/small_world.h"
 #include "tests/oracle/query/query_kinds.h"
 #include "tests/test.h"
 
@@ -141,25 +141,55 @@ TEST(SmallWorld, CubeHoldsAsManyAsBurnsideSays) {
 }
 
 TEST(Generators, EveryQueryCanBeMadeAlone) {
-  for (const QueryGenerator& generator : query_generators()) {
+  for (const Family& family : query_families()) {
     for (std::uint64_t index = 0; index < 20; ++index) {
-      EXPECT_EQ(exact_text(generator.make(5, index).query),
-                exact_text(generator.make(5, index).query));
-      EXPECT_NE(exact_text(generator.make(5, index).query),
-                exact_text(generator.make(6, index).query));
-      EXPECT_EQ(generator.make(5, index).query.first_group, index % 2 == 0 ? 1 : 2);
+      EXPECT_EQ(exact_text(family.query(5, index)), exact_text(family.query(5, index)));
+      EXPECT_NE(exact_text(family.query(5, index)), exact_text(family.query(6, index)));
+      EXPECT_EQ(family.query(5, index).query.first_group, index % 2 == 0 ? 1 : 2);
     }
   }
 }
 
+const std::string corpus_folder = ASSAY_SOURCE_DIR "/corpus";
+
+const std::vector<SelfTestFamily>& all_families() {
+  static const auto families = self_test_families(corpus_folder).value();
+  return families;
+}
+
+TEST(SelfTest, NamedQueriesAreCasesInTheirCanonicalForm) {
+  EXPECT_EQ(named_queries(corpus_folder).value().size(), 16u);
+  const auto files = corpus::case_files(corpus_folder + "/queries/named").value();
+  for (const auto& file : files) {
+    const auto c = corpus::read_case(file).value();
+    EXPECT_EQ(file.stem(), c.id);
+    EXPECT_EQ(corpus::read_bytes(file).value(), corpus::case_text(c));
+  }
+  EXPECT_FALSE(named_queries("no such folder"));
+}
+
+// An answer or a rung that is not the oracle's own is told.
+TEST(SelfTest, NamedQueriesAreHeldToWhatIsKnown) {
+  const auto named = named_queries(corpus_folder).value();
+  for (auto asked : named) {
+    QueryTally tally;
+    EXPECT_EQ(check_query(asked, 0, tally).value_or(""), "");
+    asked.known->rung = (asked.known->rung + 1) % 3;
+    EXPECT_TRUE(says(check_query(asked, 0, tally).value_or(""), "must"));
+    asked.known->decision = detector::Decision::open;
+    EXPECT_TRUE(says(check_query(asked, 0, tally).value_or(""), "not the answer"));
+    EXPECT_EQ(tally.contradictions, 2u);
+  }
+}
+
 TEST(SelfTest, ResultDoesNotDependOnJobs) {
-  for (const auto& family : self_test_families()) {
-    if (family->name() != "small-int" && family->name() != "steps") continue;
+  for (const auto& family : all_families()) {
+    if (family.name != "small-int" && family.name != "steps") continue;
     SelfTestOptions options;
     options.queries = 400;
-    const auto one = run_family(*family, options, {});
+    const auto one = run_family(family, options, {});
     options.jobs = 3;
-    const auto three = run_family(*family, options, {});
+    const auto three = run_family(family, options, {});
     EXPECT_TRUE(one.complete && three.complete);
     EXPECT_EQ(one.tally.queries, three.tally.queries);
     EXPECT_EQ(one.tally.contacts, three.tally.contacts);
@@ -169,69 +199,42 @@ TEST(SelfTest, ResultDoesNotDependOnJobs) {
 }
 
 TEST(SelfTest, CasesHaveNames) {
-  const auto named = self_test_case("small-int:7:123");
+  const auto named = self_test_case(all_families(), "small-int:7:123");
   ASSERT_TRUE(named);
-  EXPECT_EQ(named->family->name(), "small-int");
+  EXPECT_EQ(named->family->name, "small-int");
   EXPECT_EQ(named->seed, 7u);
   EXPECT_EQ(named->index, 123u);
   for (const char* wrong : {"", "small-int", "small-int:7", "small-int:7:", "small-int:x:1",
                             "small-int:7:-1", "no-family:1:1", ":1:1", "small-int:7:1 "}) {
-    EXPECT_FALSE(self_test_case(wrong)) << wrong;
+    EXPECT_FALSE(self_test_case(all_families(), wrong)) << wrong;
   }
 }
 
 // Three methods that share no arithmetic answer the same queries: the oracle's rungs, the referee,
 // and the detector's elementary test.
 
-using detector::Decision, detector::Want, oracle::test::QueryKind;
-
-struct Verdicts {
-  oracle::ContactAnswer oracle;
-  detector::ContactResult detector;
-  detector::Decision referee;
-};
-
-template <class Query>
-Verdicts judge(const Query& query, oracle::ContactAnswer answer) {
-  return {answer, detector::test_contact(detector::four_points(query), Want::first_time),
-          oracle::referee(query)};
-}
-
-Verdicts judge(const oracle::test::Points& x, int first_group) {
-  if (first_group == 1) {
-    const auto query = oracle::test::vertex_face(x);
-    return judge(query, oracle::vertex_face_contact(query, Want::first_time));
-  }
-  const auto query = oracle::test::edge_edge(x);
-  return judge(query, oracle::edge_edge_contact(query, Want::first_time));
-}
+using oracle::test::QueryKind;
 
 TEST(ThreeMethods, AgreeOnEveryKindOfQuery) {
   constexpr int queries_of_a_kind = 3000;
+  const QueryMethod methods[] = {
+      *std::ranges::find(query_methods(), std::string_view("detector, timed"), &QueryMethod::name),
+      {"referee", method_of("referee")->answer, QueryChecks::contacts, 1, true}};
   for (int k = 0; k < oracle::test::query_kinds; ++k) {
     const auto kind = static_cast<QueryKind>(k);
     const std::uint64_t of_kind = 71 + static_cast<std::uint64_t>(k);
     oracle::test::Random random(of_kind);
-    int contacts = 0, open = 0;
+    QueryTally tally;
     for (int i = 0; i < queries_of_a_kind; ++i) {
       const int first_group = 1 + i % 2;
-      const Verdicts v = judge(random_query(random, kind, first_group), first_group);
-      contacts += v.oracle.contact ? 1 : 0;
-      open += v.referee == detector::Decision::open ? 1 : 0;
-      ASSERT_EQ(v.detector.contact, v.oracle.contact)
-          << name_of(kind) << ", seed " << of_kind << ", query " << i;
-      if (v.oracle.contact) {
-        ASSERT_EQ(v.detector.time, v.oracle.first)
-            << name_of(kind) << ", seed " << of_kind << ", query " << i;
-      }
-      if (v.referee == detector::Decision::open) continue;
-      ASSERT_EQ(v.referee == detector::Decision::yes, v.oracle.contact)
+      const AskedQuery asked{{random_query(random, kind, first_group), first_group}};
+      ASSERT_EQ(check_query(asked, static_cast<std::uint64_t>(i), tally, methods).value_or(""), "")
           << name_of(kind) << ", seed " << of_kind << ", query " << i;
     }
-    const double share = static_cast<double>(open) / queries_of_a_kind;
+    const double share = static_cast<double>(tally.open) / queries_of_a_kind;
     fmt::print("{:22} seed {}: {} queries, {} contact, open {:.2f} %\n", name_of(kind), of_kind,
-               queries_of_a_kind, contacts, 100 * share);
-    EXPECT_GT(contacts, 0) << name_of(kind);
+               queries_of_a_kind, tally.contacts, 100 * share);
+    EXPECT_GT(tally.contacts, 0u) << name_of(kind);
     if (kind == QueryKind::generic || kind == QueryKind::mesh_like) {
       EXPECT_LE(share, 0.05);
     }

@@ -12,8 +12,7 @@
 #include "oracle/query/contact_events.h"
 #include "oracle/query/times/algebraic_times.h"
 #include "oracle/referee/second_opinion.h"
-#include "properties/queries/distance_queries.h"
-#include "properties/queries/query_checks.h"
+#include "properties/queries/query_methods.h"
 #include "properties/random.h"
 #include "tests/test.h"
 
@@ -87,11 +86,15 @@ const char* word_of(bool meets, bool passes) {
   return !meets ? "free" : passes ? "collision" : "acceptable";
 }
 
-void prove_contact(const FourPoints& query, const Json& one) {
+void check_by_all(const AskedQuery& asked, const Json& one) {
   QueryTally tally;
-  const auto wrong = check_query({query, {}}, Random::hash(one["id"].get<std::string>()), tally);
+  const auto wrong = check_query(asked, Random::hash(one["id"].get<std::string>()), tally);
   EXPECT_EQ(wrong.value_or(""), "");
   EXPECT_EQ(tally.open > 0, is_referee_open(one));
+}
+
+void prove_contact(const FourPoints& query, const Json& one) {
+  check_by_all({query}, one);
   const auto answer = oracle::contact_of(query, detector::Want::first_time);
   EXPECT_EQ(one["result"], word_of(answer.contact, answer.contact && passes(query)));
   EXPECT_EQ(first_time(one), answer.contact ? std::optional(answer.first) : std::nullopt);
@@ -99,13 +102,7 @@ void prove_contact(const FourPoints& query, const Json& one) {
 
 void prove_distance(const FourPoints& query, const Json& one) {
   const double d = one["distance"];
-  DistanceTally tally;
-  const auto by_oracle = [](const DistanceQuery& asked) {
-    const auto near = oracle::first_time_within(asked.motion, asked.distance);
-    return DistanceAnswer{near.near, near.first};
-  };
-  EXPECT_EQ(check_distance({query, {d, 0}, {}}, by_oracle, tally).value_or(""), "");
-  EXPECT_EQ(tally.open > 0, is_referee_open(one));
+  check_by_all({query, {}, detector::Separation{d, 0}}, one);
   const auto near = oracle::first_time_within(query, {d, 0});
   const auto less = oracle::first_time_within(query, {d, -d * 0x1p-60}, detector::Want::yes_no);
   EXPECT_EQ(one["result"], word_of(near.near, less.near));

@@ -9,7 +9,7 @@ namespace {
 
 using detector::FourPoints;
 
-FourPoints generic(std::uint64_t i) { return query_generators()[8].make(5, i).query; }
+FourPoints generic(std::uint64_t i) { return query_families()[8].query(5, i).query; }
 
 // The volume of the four points at this time over that of a cube of their largest coordinate.
 double relative_volume(const FourPoints& q, double time) {
@@ -172,9 +172,9 @@ TEST(Gap, GoesByTheDistanceThatIsAskedAbout) {
 
 // Every share is one, for every query of every family.
 TEST(Gap, IsAShareForEveryQuery) {
-  for (const auto& family : query_generators()) {
+  for (const auto& family : self_test_queries()) {
     for (std::uint64_t i = 0; i < 100; ++i) {
-      const Gap gap = gap_of(family.make(7, i).query, 0.5);
+      const Gap gap = gap_of(family.query(7, i).query, 0.5);
       for (const double share : gap.share) {
         ASSERT_GE(share, 0) << family.name << " " << i;
         ASSERT_LE(share, 1) << family.name << " " << i;

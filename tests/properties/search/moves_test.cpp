@@ -58,9 +58,9 @@ TEST(Moves, OfFeaturesLeaveAQueryAQuery) {
     for (std::uint64_t i = 0; i < 40; ++i) {
       Random random("queries:" + std::to_string(i));
       Candidate made =
-          candidate_of(case_of_query(query_generators()[0].make(3, i).query, "q"), random);
+          candidate_of(case_of_query(query_families()[0].query(3, i).query, "q"), random);
       const Candidate other =
-          candidate_of(case_of_query(query_generators()[0].make(3, i + 2).query, "q"), random);
+          candidate_of(case_of_query(query_families()[0].query(3, i + 2).query, "q"), random);
       move.make(random, made, {contract, &other});
       EXPECT_TRUE(query_of(made.c)) << move.name << " " << i;
     }
@@ -70,7 +70,7 @@ TEST(Moves, OfFeaturesLeaveAQueryAQuery) {
 TEST(Moves, ATetrahedronIsClosedAndClean) {
   int clean = 0;
   for (std::uint64_t i = 0; i < 40; ++i) {
-    const auto query = query_generators()[8].make(9, i).query;
+    const auto query = query_families()[8].query(9, i).query;
     const auto c = tetrahedron(query, "tetrahedron");
     ASSERT_TRUE(is_valid(c)) << i;
     ASSERT_TRUE(oracle::closes(c.triangles, detector::Triangles(0, 3))) << i;
@@ -87,7 +87,7 @@ TEST(Moves, ATetrahedronIsClosedAndClean) {
 TEST(Moves, TwoTrianglesHoldTheFeaturesOfTheQuery) {
   for (std::uint64_t i = 0; i < 40; ++i) {
     Random random("pair:" + std::to_string(i));
-    const auto query = query_generators()[1].make(9, i).query;
+    const auto query = query_families()[1].query(9, i).query;
     const auto c = two_triangles(query, random, "pair");
     ASSERT_TRUE(is_valid(c)) << i;
     const Focus focus{0, {0, 1, 2, 3}, query.first_group, 0, {}, {}};
@@ -109,7 +109,7 @@ TEST(Moves, APathOfFloatsStaysOne) {
     for (std::uint64_t i = 0; i < 40; ++i) {
       Random random("floats:" + std::to_string(i));
       Candidate made =
-          candidate_of(case_of_query(query_generators()[0].make(3, i).query, "q"), random);
+          candidate_of(case_of_query(query_families()[0].query(3, i).query, "q"), random);
       move.make(random, made, {contract, nullptr});
       for (const auto& frame : made.c.frames)
         EXPECT_EQ(contracted(frame, Coordinates::float32), frame) << move.name << " " << i;
@@ -191,7 +191,7 @@ TEST(SeenAlike, L3_IsLessInACleanClosedMesh) {
   double most = 0;
   for (std::uint64_t i = 0; i < 200; ++i) {
     Random random(fmt::format("alike:{}", i));
-    auto c = tetrahedron(query_generators()[8].make(9, i).query, "tetrahedron");
+    auto c = tetrahedron(query_families()[8].query(9, i).query, "tetrahedron");
     const auto truth = judge_case(c, Contract{});
     if (truth[0].pairs.empty() || truth[0].first.lo == 0) continue;
     ++met;
@@ -254,7 +254,7 @@ TEST(SeenAlike, NestedShellsMeetAlongARay) {
   constexpr int all = 100;
   for (std::uint64_t i = 0; i < all; ++i) {
     Random random(fmt::format("nested:{}", i));
-    Candidate made{tetrahedron(query_generators()[8].make(9, i).query, "tetrahedron"), {}};
+    Candidate made{tetrahedron(query_families()[8].query(9, i).query, "tetrahedron"), {}};
     nest(random, made, {contract});
     pass_by_ray(random, made, {contract});
     const auto truth = judge_case(made.c, contract);

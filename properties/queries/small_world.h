@@ -1,36 +1,17 @@
-// Elementary queries that are listed, not drawn.
+// Small worlds of elementary queries, enumerated completely: all queries whose points lie on a tiny
+// grid at t=0 and t=1, one of each class under the symmetries that change neither the answer nor
+// the time. These are the order of the vertices in a group, the order of the two edges, axes
+// exchanged, and axes mirrored.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "properties/queries/query_methods.h"
 
 namespace assay::properties {
-
-// Named queries, each with the answer, the first time, and the rung of the oracle that must decide
-// it. The rung is checked because a rung that left its share to the next one would still answer
-// rightly, only more slowly.
-
-struct RungCase {
-  const char* name;
-  Query query;
-  bool contact;
-  oracle::Rung rung;
-  detector::TimeEnclosure first;
-};
-
-std::span<const RungCase> rung_cases();
-
-const char* name_of(oracle::Rung rung);
-
-// Small worlds, enumerated completely: all queries whose points lie on a tiny grid at t=0 and t=1,
-// one of each class under the symmetries that change neither the answer nor the time. These are
-// the order of the vertices in a group, the order of the two edges, axes exchanged, and axes
-// mirrored.
 
 enum class WorldMotion : std::uint8_t { every_point_moves, one_point_moves };
 
