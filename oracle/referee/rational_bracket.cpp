@@ -161,11 +161,8 @@ class Bracket {
 
 }  // namespace
 
-bool meet_between(const detector::VertexFace& query, double lo, double hi) {
-  return Bracket(four_points(query), lo, hi).holds_contact();
-}
-bool meet_between(const detector::EdgeEdge& query, double lo, double hi) {
-  return Bracket(four_points(query), lo, hi).holds_contact();
+bool meet_between(const detector::FourPoints& query, double lo, double hi) {
+  return Bracket(query, lo, hi).holds_contact();
 }
 
 }  // namespace assay::oracle

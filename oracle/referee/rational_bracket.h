@@ -16,7 +16,6 @@ namespace assay::oracle {
 // hulls meet. False says nothing: features that are coplanar throughout, or that meet at an end of
 // an edge at a time that is no fraction, are not proved. REQUIRES finite coordinates and 0 <= lo <
 // hi <= 1. Some ms.
-bool meet_between(const detector::VertexFace& query, double lo, double hi);
-bool meet_between(const detector::EdgeEdge& query, double lo, double hi);
+bool meet_between(const detector::FourPoints& query, double lo, double hi);
 
 }  // namespace assay::oracle

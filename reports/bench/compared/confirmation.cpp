@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <variant>
 #include <vector>
 
 #include "oracle/referee/rational_bracket.h"
@@ -12,8 +11,7 @@
 namespace assay::reports {
 namespace {
 
-using detector::FeatureKind;
-using detector::PairContact;
+using detector::FeatureKind, detector::PairContact;
 
 // The time that lies this many eighths of the way from a double to the next, if 62 bits can hold
 // it.
@@ -47,16 +45,19 @@ oracle::RationalTime simplest_between(double lo, double hi) {
   return {p1, std::max<std::int64_t>(q1, 1)};
 }
 
-class StepWitness {
- public:
-  StepWitness(const corpus::Case& c, const corpus::CaseStep& step, bool takes_triangles)
-      : c_(c), motion_{start_of(c, step), end_of(c, step)}, takes_triangles_(takes_triangles) {}
+struct StepWitness {
+  const detector::SteppedMesh motion;
+  const detector::TrianglesView triangles;
+  bool takes_triangles;
 
   // Whether the features of the contact, or its triangles, meet at some time before `told`. If no
   // time was told, whether they meet at all.
   bool meets_before(const PairContact& contact, std::optional<double> told) const {
     const double end = told.value_or(1), first = contact.time.hi;
-    if (by_referee(contact.feature, told ? std::nextafter(end, 0.) : 1)) return true;
+    const double until = told ? std::nextafter(end, 0.) : 1;
+    const auto query = query_of(contact.feature);
+    if (query && until > 0 && oracle::referee(*query, {.until = until}) == detector::Decision::yes)
+      return true;
     std::vector<oracle::StaticTime> times = {contact.time.lo, first};
     for (const double share : {1. / 1024, 1. / 16, 1. / 2})
       times.emplace_back(first + (end - first) * share);
@@ -73,72 +74,44 @@ class StepWitness {
       if (told && oracle::compare(time, *told) >= 0) return false;
       return meet_at(contact, time);
     });
-    return is_seen || by_bracket(contact.feature, std::nextafter(contact.time.lo, 0.), end);
+    const double from = std::nextafter(contact.time.lo, 0.);
+    return is_seen || (query && from >= 0 && from < end && oracle::meet_between(*query, from, end));
   }
-
- private:
-  detector::MovingPoint path(std::int32_t v) const { return motion_.path(v); }
-
-  using Query = std::variant<detector::VertexFace, detector::EdgeEdge>;
 
   // Returns nothing for a contact of whole triangles.
-  std::optional<Query> query_of(const detector::Feature& feature) const {
-    const auto& v = feature.vertices;
-    if (feature.kind == FeatureKind::vertex_face)
-      return detector::VertexFace{path(v[0]), {path(v[1]), path(v[2]), path(v[3])}};
-    if (feature.kind == FeatureKind::edge_edge)
-      return detector::EdgeEdge{{path(v[0]), path(v[1])}, {path(v[2]), path(v[3])}};
-    return std::nullopt;
-  }
-
-  // Whether the referee proves a contact of these features up to a time.
-  bool by_referee(const detector::Feature& feature, double until) const {
-    const auto query = query_of(feature);
-    if (!query || until <= 0) return false;
-    const oracle::RefereeOptions options{.until = until};
-    return std::visit([&](const auto& q) { return oracle::referee(q, options); }, *query) ==
-           detector::Decision::yes;
-  }
-
-  // Whether the bracket proves a contact of these features between two times.
-  bool by_bracket(const detector::Feature& feature, double from, double until) const {
-    const auto query = query_of(feature);
-    if (!query || from < 0 || from >= until) return false;
-    return std::visit([&](const auto& q) { return oracle::meet_between(q, from, until); }, *query);
+  std::optional<detector::FourPoints> query_of(const detector::Feature& feature) const {
+    if (feature.kind != FeatureKind::vertex_face && feature.kind != FeatureKind::edge_edge)
+      return std::nullopt;
+    const auto path = [&](std::size_t i) { return motion.path(feature.vertices[i]); };
+    return detector::FourPoints{{path(0), path(1), path(2), path(3)},
+                                feature.kind == FeatureKind::vertex_face ? 1 : 2};
   }
 
   // Asks whether the triangles meet at this time, if triangles are taken, or else whether the
   // features do. A feature is given as a triangle too, which may be a point or a segment.
   bool meet_at(const PairContact& contact, const oracle::StaticTime& time) const {
-    if (takes_triangles_ && oracle::triangles_meet(motion_, c_.triangles, contact.pair, time))
+    if (takes_triangles && oracle::triangles_meet(motion, triangles, contact.pair, time))
       return true;
+    if (!query_of(contact.feature)) return false;
     const auto& v = contact.feature.vertices;
+    const std::size_t of_face = contact.feature.kind == FeatureKind::vertex_face ? 1 : 0;
     detector::Triangles two(2, 3);
-    if (contact.feature.kind == FeatureKind::vertex_face) {
-      two << v[0], v[0], v[0], v[1], v[2], v[3];
-    } else if (contact.feature.kind == FeatureKind::edge_edge) {
-      two << v[0], v[1], v[1], v[2], v[3], v[3];
-    } else {
-      return false;
-    }
-    return oracle::triangles_meet(motion_, two, {0, 1}, time);
+    two << v[0], v[1 - of_face], v[1 - of_face], v[2 - of_face], v[3 - of_face], v[3];
+    return oracle::triangles_meet(motion, two, {0, 1}, time);
   }
-
-  const corpus::Case& c_;
-  const detector::SteppedMesh motion_;
-  bool takes_triangles_;
 };
 
 }  // namespace
 
 bool is_confirmed(const corpus::Case& c, std::size_t s, const properties::StepDiff& diff,
                   const detector::StepResult& result, const properties::Contract& contract) {
-  const StepWitness witness(c, corpus::steps_of(c)[s],
-                            contract.features == properties::TestedFeatures::both);
-  if (diff.answered_free)
-    return diff.first_contact && witness.meets_before(*diff.first_contact, std::nullopt);
-  if (diff.late_first)
-    return diff.first_contact && witness.meets_before(*diff.first_contact, result.first.lo);
+  const auto step = corpus::steps_of(c)[s];
+  const StepWitness witness{{start_of(c, step), end_of(c, step)},
+                            c.triangles,
+                            contract.features == properties::TestedFeatures::both};
+  const auto told = diff.answered_free ? std::nullopt : std::optional(result.first.lo);
+  if (diff.answered_free || diff.late_first)
+    return diff.first_contact && witness.meets_before(*diff.first_contact, told);
   return std::any_of(diff.missing.begin(), diff.missing.end(), [&](const PairContact& pair) {
     return witness.meets_before(pair, std::nullopt);
   });
