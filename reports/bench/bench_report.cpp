@@ -5,20 +5,15 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "properties/words.h"
-
 namespace assay::reports {
 
 using Json = nlohmann::ordered_json;
 
-RowOutcome BenchRow::outcome() const {
-  if (!measured) return RowOutcome::no_data;
-  if (!wanted) return RowOutcome::not_judged;
+const char* BenchRow::outcome() const {
+  if (!measured) return "no data";
+  if (!wanted) return "-";
   const double x = measured->value, bound = wanted->bound;
-  const bool holds = wanted->sense == Wanted::Sense::at_most    ? x <= bound
-                     : wanted->sense == Wanted::Sense::at_least ? x >= bound
-                                                                : x < bound;
-  return holds ? RowOutcome::holds : RowOutcome::fails;
+  return (wanted->is_most ? x <= bound : x >= bound) ? "holds" : "fails";
 }
 
 void BenchReport::add(std::string label, std::string unit, Estimate measured,
@@ -34,31 +29,29 @@ void BenchReport::add_left_out(std::string label, std::string why) {
   rows.push_back({std::move(label), {}, {}, {}, std::move(why)});
 }
 
-const char* name_of(RowOutcome outcome) {
-  return properties::word_of({"holds", "fails", "-", "no data"}, outcome);
-}
-
 std::string text_of(const Wanted& wanted) {
-  return fmt::format("{} {:g}", properties::word_of({"<=", ">=", "<"}, wanted.sense), wanted.bound);
+  return fmt::format("{} {:g}", wanted.is_most ? "<=" : ">=", wanted.bound);
 }
 
 std::string text_of(const properties::TimesOff& off) {
   return off.steps == 0 ? "0" : fmt::format("{}: {:.1g}", off.steps, off.worst_share);
 }
 
-std::string table_line(std::span<const int> widths, const std::vector<std::string>& words,
-                       int gap) {
-  std::string line;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const bool is_last = i + 1 == words.size();
-    const auto width = static_cast<std::size_t>(std::abs(widths[i]));
-    const std::string fill(width - std::min(width, words[i].size()), ' ');
-    if (widths[i] >= 0) line += fill;
-    line += words[i];
-    if (widths[i] < 0 && !is_last) line += fill;
-    if (!is_last) line.append(static_cast<std::size_t>(gap), ' ');
-  }
-  return line + "\n";
+std::string table_text(const std::vector<std::vector<Column>>& rows, int gap) {
+  std::string text;
+  const auto add_line = [&](const std::vector<Column>& row, std::string Column::*word) {
+    for (const auto& column : row) {
+      if (&column == &row.back() && (column.*word).empty()) break;
+      if (&column != &row.front()) text.append(static_cast<std::size_t>(gap), ' ');
+      const auto width = static_cast<std::size_t>(std::abs(column.width));
+      const std::string fill(width - std::min(width, (column.*word).size()), ' ');
+      text += column.width < 0 ? column.*word + fill : fill + column.*word;
+    }
+    text += "\n";
+  };
+  if (!rows.empty()) add_line(rows[0], &Column::heading);
+  for (const auto& row : rows) add_line(row, &Column::word);
+  return text;
 }
 
 namespace {
@@ -73,22 +66,19 @@ std::string measured_text(const BenchRow& row) {
 }
 
 std::string rows_text(const std::vector<BenchRow>& rows) {
-  if (rows.empty()) return "";
   std::size_t widest = 4, measured = 8;
   for (const auto& row : rows) {
     widest = std::max(widest, row.label.size());
     measured = std::max(measured, measured_text(row).size());
   }
-  const int widths[] = {-static_cast<int>(widest), -static_cast<int>(measured), -10, -1};
-  std::string text = table_line(widths, {"what", "measured", "wanted", "outcome"}, 2);
-  for (const auto& row : rows) {
-    const std::string note = row.note.empty() ? "" : "  " + row.note;
-    text += table_line(widths,
-                       {row.label, measured_text(row), row.wanted ? text_of(*row.wanted) : "-",
-                        name_of(row.outcome()) + note},
-                       2);
-  }
-  return text;
+  std::vector<std::vector<Column>> table;
+  for (const auto& row : rows)
+    table.push_back({{"what", -static_cast<int>(widest), row.label},
+                     {"measured", -static_cast<int>(measured), measured_text(row)},
+                     {"wanted", -10, row.wanted ? text_of(*row.wanted) : "-"},
+                     {"outcome", 0, row.outcome()},
+                     {"", 0, row.note}});
+  return table_text(table, 2);
 }
 
 }  // namespace
@@ -110,8 +100,7 @@ Json to_json(const BenchReport& report, const std::string& version) {
   for (const auto& row : report.rows) {
     const auto wanted = row.wanted ? std::optional(text_of(*row.wanted)) : std::nullopt;
     rows.push_back(json_object("what", row.label, "unit", row.unit, "measured", row.measured,
-                               "wanted", wanted, "outcome", name_of(row.outcome()), "note",
-                               row.note));
+                               "wanted", wanted, "outcome", row.outcome(), "note", row.note));
   }
   Json json = json_object("schema", "assay-bench/2", "version", version, "suite", report.suite,
                           "rows", rows);
@@ -162,10 +151,6 @@ void add_values(const std::string& name, const Json& value, std::vector<std::str
 }
 
 }  // namespace
-
-void BenchReport::add_figure(std::string_view field, Json object) {
-  figures[std::string(field)].push_back(std::move(object));
-}
 
 void BenchReport::add_sample(const Json& object) {
   Values values;

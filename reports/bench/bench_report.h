@@ -6,7 +6,6 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,11 +23,11 @@ namespace assay::reports {
 
 // What a row is held against.
 struct Wanted {
-  enum class Sense : unsigned char { at_most, at_least } sense = Sense::at_most;
-  double bound = 0;
+  bool is_most;  // else it is the least
+  double bound;
 };
-constexpr Wanted at_most(double bound) { return {Wanted::Sense::at_most, bound}; }
-constexpr Wanted at_least(double bound) { return {Wanted::Sense::at_least, bound}; }
+constexpr Wanted at_most(double bound) { return {true, bound}; }
+constexpr Wanted at_least(double bound) { return {false, bound}; }
 inline std::optional<Wanted> wanted_if(bool condition, Wanted wanted) {
   return condition ? std::optional(wanted) : std::nullopt;
 }
@@ -51,8 +50,6 @@ inline constexpr Wanted two_threads_gain = at_least(1.8);
 
 }  // namespace wanted
 
-enum class RowOutcome : unsigned char { holds, fails, not_judged, no_data };
-
 struct BenchRow {
   std::string label;
   std::string unit;                  // "ns", "times", "%", ...; may be empty
@@ -60,33 +57,29 @@ struct BenchRow {
   std::optional<Wanted> wanted;      // none: for information
   std::string note;                  // may be empty
 
-  // Decided by the median alone. The interval shows how far that can be trusted.
-  RowOutcome outcome() const;
+  // "holds", "fails", "no data", or "-" if nothing is wanted. Decided by the median alone; the
+  // interval shows how far that can be trusted.
+  const char* outcome() const;
 };
 
 struct BenchReport {
-  BenchReport() = default;
-  explicit BenchReport(std::string name) : suite(std::move(name)) {}
-
-  std::string suite;
-  std::vector<BenchRow> rows;
+  std::string suite = {};
+  std::vector<BenchRow> rows = {};
   // One line for each wrong answer. Any of them fails the run, because times are noisy but answers
   // are not.
-  std::vector<std::string> wrong_answers;
-  std::string above, below;  // tables of the suite, above and below the rows
+  std::vector<std::string> wrong_answers = {};
+  std::string above = {}, below = {};  // tables of the suite, above and below the rows
   // The fields that the suite adds to the JSON, by name: lists of objects, but for `detector`.
-  std::map<std::string, nlohmann::ordered_json, std::less<>> figures;
+  std::map<std::string, nlohmann::ordered_json, std::less<>> figures = {};
   // The suite's own CSV: the names of its columns, and its lines with the number of columns that
   // each has; the others of a line are empty. No lines: the CSV is of the samples of the rows.
-  std::vector<std::string> columns;
-  std::vector<std::pair<std::size_t, std::string>> samples;
+  std::vector<std::string> columns = {};
+  std::vector<std::pair<std::size_t, std::string>> samples = {};
 
   void add(std::string label, std::string unit, Estimate measured,
            std::optional<Wanted> wanted = std::nullopt, std::string note = {});
   // Adds a row that says that the folder or file `missing` is not there.
   void add_no_data(std::string label, const std::string& missing);
-  // Adds an object to a field of the JSON.
-  void add_figure(std::string_view field, nlohmann::ordered_json object);
   // Adds a line to `samples`. A field that is an object itself has a column for each of its own
   // fields ("late_steps"). Numbers of a list are separated by blanks; other lists are left out.
   void add_sample(const nlohmann::ordered_json& object);
@@ -94,14 +87,20 @@ struct BenchReport {
   void add_left_out(std::string label, std::string why);
 };
 
-const char* name_of(RowOutcome outcome);
 std::string text_of(const Wanted& wanted);
 
-// One line of a table of words. Each word but the last fills its column, whose words end at the
-// right, or begin at the left if the width is below 0. `gap` blanks are between columns. REQUIRES
-// as many widths as words.
-std::string table_line(std::span<const int> widths, const std::vector<std::string>& words,
-                       int gap = 1);
+// A word of a table, the heading of its column, and the width that it fills. A word ends at the
+// right of its column, or begins at the left if the width is below 0. The last column has width 0
+// or above; where its word is empty, the line ends before it.
+struct Column {
+  std::string heading;
+  int width;
+  std::string word;
+};
+
+// The headings of the first row, and all rows, a line each, with `gap` blanks between columns.
+// Nothing without rows.
+std::string table_text(const std::vector<std::vector<Column>>& rows, int gap = 1);
 
 // "2: 0.01": in how many steps first times are off, and by which share of a step at worst.
 std::string text_of(const properties::TimesOff& off);
@@ -117,19 +116,14 @@ std::string csv_of(const BenchReport& report);
 // {median, interval, samples}
 void to_json(nlohmann::ordered_json& json, const Estimate& estimate);
 
-template <class T>
-nlohmann::ordered_json json_value(const T& value) {
-  return value;
-}
-template <class T>
-nlohmann::ordered_json json_value(const std::optional<T>& value) {
-  return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
-}
-
 // An object with these fields: a name and its value in turn. What is not there is null.
 template <class T, class... Rest>
 nlohmann::ordered_json json_object(const char* name, const T& value, const Rest&... rest) {
-  nlohmann::ordered_json json = {{name, json_value(value)}};
+  nlohmann::ordered_json json;
+  if constexpr (requires { value.has_value(); })
+    json[name] = value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
+  else
+    json[name] = value;
   if constexpr (sizeof...(rest) > 0) json.update(json_object(rest...));
   return json;
 }

@@ -7,15 +7,20 @@
 
 #include "corpus/hard/hard_families.h"
 #include "corpus/scenes/scenes.h"
+#include "detector/detector.h"
 #include "properties/campaign/trials/planned_case.h"
 #include "properties/generators/draft.h"
 #include "properties/generators/families.h"
-#include "reports/bench/sweep.h"
 
 namespace assay::reports {
-namespace {
 
 using namespace detector;
+
+corpus::Sequence bench_scene(const std::string& name, int triangles, int frames) {
+  return corpus::make_scene(name, {triangles, frames, {}}).value();
+}
+
+namespace {
 
 double mean_edge_length(const Triangles& triangles, const Positions& x) {
   double sum = 0;
@@ -27,49 +32,42 @@ double mean_edge_length(const Triangles& triangles, const Positions& x) {
   return sum / (3 * static_cast<double>(triangles.rows()));
 }
 
-template <class T>
-T used(corpus::Expected<T> read) {
-  if (!read) throw UnusableData(read.error().message);
-  return std::move(read.value());
+// The first step with a contact, and what the detector says of it; one beyond the last if there is
+// none.
+std::pair<std::size_t, StepResult> first_collision(const corpus::Sequence& sequence,
+                                                   const Options& options,
+                                                   const std::string& name) {
+  auto detector = made(Detector::create(sequence.triangles, sequence.frames[0], options), name);
+  std::size_t step = 0;
+  StepResult result;
+  for (; step + 1 < sequence.frames.size(); ++step) {
+    result = detector.evaluate(sequence.frames[step], sequence.frames[step + 1]);
+    if (result.answer == Answer::collision) break;
+  }
+  return {step, std::move(result)};
 }
 
 }  // namespace
 
-corpus::Sequence bench_scene(const std::string& name, int triangles, int frames) {
-  return corpus::make_scene(name, {triangles, frames, {}}).value();
-}
-
 std::optional<corpus::Sequence> step_at_first_contact(const std::string& name, int triangles) {
   constexpr int frames = 41;
   const auto scene = bench_scene(name, triangles, frames);
-  Options options = bench_options(Culling::view_point);
-  options.pairs = Pairs::first;
-  auto detector = made(Detector::create(scene.triangles, scene.frames[0], options), name);
-  for (std::size_t f = 0; f + 1 < scene.frames.size(); ++f) {
-    const Positions &x0 = scene.frames[f], &x1 = scene.frames[f + 1];
-    const StepResult result = detector.evaluate(x0, x1);
-    if (result.answer != Answer::collision) continue;
-    const double fastest = (x1 - x0).rowwise().norm().maxCoeff();
-    const double half = 0.5 * mean_edge_length(scene.triangles, x0) / fastest;
-    const double begin = std::max(0.0, result.first.lo - half), end = result.first.hi + half;
-    const Positions a = x0 + begin * (x1 - x0), b = x0 + end * (x1 - x0);
-    return corpus::Sequence{scene.triangles, {a, b}};
-  }
-  return std::nullopt;
+  const auto [f, result] =
+      first_collision(scene, {Culling::view_point, Start::clean, Pairs::first}, name);
+  if (f + 1 == scene.frames.size()) return std::nullopt;
+  const Positions &x0 = scene.frames[f], &x1 = scene.frames[f + 1];
+  const double fastest = (x1 - x0).rowwise().norm().maxCoeff();
+  const double half = 0.5 * mean_edge_length(scene.triangles, x0) / fastest;
+  const double begin = std::max(0.0, result.first.lo - half), end = result.first.hi + half;
+  const Positions a = x0 + begin * (x1 - x0), b = x0 + end * (x1 - x0);
+  return corpus::Sequence{scene.triangles, {a, b}};
 }
 
 corpus::Sequence around_first_contact(const corpus::Sequence& sequence) {
   constexpr std::size_t before = 3, after = 2;
-  auto detector = made(Detector::create(sequence.triangles, sequence.frames[0],
-                                        {Culling::bvh, Start::verified, Pairs::first}),
-                       "scene");
   const std::size_t steps = sequence.frames.size() - 1;
-  std::size_t first = 0;
-  while (first < steps &&
-         detector.evaluate(sequence.frames[first], sequence.frames[first + 1]).answer !=
-             Answer::collision) {
-    ++first;
-  }
+  const auto first =
+      first_collision(sequence, {Culling::bvh, Start::verified, Pairs::first}, "scene").first;
   const std::size_t begin = first > before && first < steps ? first - before : 0;
   const std::size_t end = std::min(steps, begin + before + after);
   return {sequence.triangles,
@@ -77,68 +75,51 @@ corpus::Sequence around_first_contact(const corpus::Sequence& sequence) {
            sequence.frames.begin() + static_cast<std::ptrdiff_t>(end) + 1}};
 }
 
+TimedCase timed_case(const std::string& id, corpus::Sequence sequence, Start start) {
+  TimedCase out{{}, start};
+  out.c.id = id;
+  out.c.triangles = std::move(sequence.triangles);
+  out.c.frames = std::move(sequence.frames);
+  return out;
+}
+
 namespace {
 
 struct PublicFiles {
   const char *name, *pattern;  // of the files of its frames
   int first, last;
-  bool starts_clean;
+  Start start;
 };
 constexpr PublicFiles public_files[] = {
-    {"rod-twist", "scalable-ccd/rod-twist/frames/{}.ply", 3036, 3037, true},
-    {"thick-cloth", "ipc-toolkit/thick-cloth/t{}.ply", 0, 1, false},
-    {"kick", "codim-ipc-kick/shell{}.obj.gz", 56, 62, false}};
-constexpr const char* bunny = "ipc-toolkit/bunny.ply";
-
-bool is_there(const std::filesystem::path& file) {
-  std::error_code ignored;
-  return std::filesystem::exists(file, ignored);
-}
+    {"rod-twist", "scalable-ccd/rod-twist/frames/{}.ply", 3036, 3037, Start::clean},
+    {"thick-cloth", "ipc-toolkit/thick-cloth/t{}.ply", 0, 1, Start::verified},
+    {"kick", "codim-ipc-kick/shell{}.obj.gz", 56, 62, Start::verified}};
 
 }  // namespace
 
-std::optional<RealSequence> real_sequence(const BenchSettings& settings, const std::string& name,
-                                          std::vector<std::string>& missing) {
-  const auto& data = *std::find_if(std::begin(public_files), std::end(public_files),
-                                   [&](const auto& one) { return one.name == name; });
-  std::vector<std::filesystem::path> files;
-  for (int f = data.first; f <= data.last; ++f) {
-    files.emplace_back(settings.file(fmt::format(fmt::runtime(data.pattern), f)));
-    if (is_there(files.back())) continue;
-    missing.push_back(files.back().string());
-    return std::nullopt;
-  }
-  return RealSequence{name, used(corpus::read_sequence(files)), data.starts_clean};
-}
-
-std::vector<RealSequence> real_sequences(const BenchSettings& settings,
-                                         std::vector<std::string>& missing) {
-  std::vector<RealSequence> list;
+std::vector<TimedCase> real_sequences(const BenchSettings& settings,
+                                      std::vector<std::string>& missing) {
+  // The first file that is not there is named.
+  const auto is_there = [&](const std::filesystem::path& file) {
+    std::error_code ignored;
+    const bool exists = std::filesystem::exists(file, ignored);
+    if (!exists) missing.push_back(file.string());
+    return exists;
+  };
+  std::vector<TimedCase> list;
   for (const auto& data : public_files) {
-    if (auto real = real_sequence(settings, data.name, missing)) list.push_back(std::move(*real));
+    std::vector<std::filesystem::path> files;
+    for (int f = data.first; f <= data.last; ++f)
+      files.emplace_back(settings.data + "/" + fmt::format(fmt::runtime(data.pattern), f));
+    if (std::all_of(files.begin(), files.end(), is_there))
+      list.push_back(timed_case(data.name, made(corpus::read_sequence(files)), data.start));
   }
-  if (auto bent = bent_bunny(settings)) {
-    list.push_back({"bunny-bent", std::move(*bent), true});
-  } else {
-    missing.push_back(settings.file(bunny));
-  }
-  return list;
-}
-
-std::optional<corpus::Sequence> bent_bunny(const BenchSettings& settings) {
-  const auto file = settings.file(bunny);
-  if (!is_there(file)) return std::nullopt;
   constexpr int frames = 6;
-  return used(corpus::make_scene("bend", {0, frames, used(corpus::read_mesh(file))}));
-}
-
-TimedCase timed_case(const std::string& id, corpus::Sequence sequence, Start start) {
-  TimedCase out;
-  out.c.id = id;
-  out.c.triangles = std::move(sequence.triangles);
-  out.c.frames = std::move(sequence.frames);
-  out.start = start;
-  return out;
+  if (const auto bunny = settings.data + "/ipc-toolkit/bunny.ply"; is_there(bunny))
+    list.push_back(timed_case(
+        "bunny-bent", made(corpus::make_scene("bend", {0, frames, made(corpus::read_mesh(bunny))})),
+        Start::clean));
+  return list;
 }
 
 std::vector<CaseFamily> scene_families(const BenchSettings& settings) {
@@ -159,8 +140,9 @@ std::vector<CaseFamily> real_families(const BenchSettings& settings,
                                       std::vector<std::string>& missing) {
   std::vector<CaseFamily> list;
   for (auto& real : real_sequences(settings, missing)) {
-    const std::vector cases = {timed_case(real.name, std::move(real.frames), real.start())};
-    list.push_back({real.name, "real", settings.rounds(3), [cases] { return cases; }});
+    const auto name = real.c.id;
+    list.push_back({name, "real", settings.rounds(3),
+                    [cases = std::vector{std::move(real)}] { return cases; }});
   }
   return list;
 }

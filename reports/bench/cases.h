@@ -1,17 +1,46 @@
 // The meshes that suites run: scenes of corpus/, the public data, and all families of cases.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "corpus/cases/case_file.h"
 #include "corpus/formats/sequence_reader.h"
 #include "detector/options.h"
-#include "reports/bench/suites.h"
 
 namespace assay::reports {
+
+struct BenchSettings {
+  std::string data;  // the folder of the public data; rows say what is not there
+  double scale = 1;  // factor of mesh sizes, query counts and rounds; tests take less
+  // Of comparisons: the folder of the plug-ins, the processor seconds that a sequence may take, and
+  // the threads of the oracle.
+  std::string peers = {};
+  double case_seconds = 60;
+  int jobs = 1;
+
+  bool is_quick() const { return scale < 1; }
+  // Scaled, at least 320.
+  int triangles(int full) const { return std::max(320, static_cast<int>(full * scale)); }
+  // Scaled, at least 2.
+  int rounds(int full) const { return std::max(2, static_cast<int>(full * std::min(1.0, scale))); }
+};
+
+// A file of the public data is there but cannot be used. The text is one line.
+struct UnusableData : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// The value. Throws UnusableData, with this name before the problem, if there is none.
+template <class Expected>
+auto made(Expected expected, const std::string& name = "") {
+  if (!expected) throw UnusableData((name.empty() ? "" : name + ": ") + expected.error().message);
+  return std::move(expected.value());
+}
 
 // A scene of corpus/. It cannot fail, because names and sizes are those of the benches.
 corpus::Sequence bench_scene(const std::string& name, int triangles, int frames);
@@ -26,40 +55,27 @@ std::optional<corpus::Sequence> step_at_first_contact(const std::string& scene, 
 // from there on. If there is no contact: the first five.
 corpus::Sequence around_first_contact(const corpus::Sequence& sequence);
 
-// The deforming meshes of the public data. All functions below throw UnusableData for a file that
-// is there and cannot be used.
-struct RealSequence {
-  std::string name;
-  corpus::Sequence frames;
-  bool starts_clean = false;  // closed, and without contact at the first frame
-
-  detector::Start start() const {
-    return starts_clean ? detector::Start::clean : detector::Start::verified;
-  }
-};
-
-// rod-twist, thick-cloth, kick, and the bunny as scene `bend` bends it. Data that is not there is
-// left out and named in `missing`.
-std::vector<RealSequence> real_sequences(const BenchSettings& settings,
-                                         std::vector<std::string>& missing);
-// One of the first three. If it is not there, its first file that is missing is named.
-std::optional<RealSequence> real_sequence(const BenchSettings& settings, const std::string& name,
-                                          std::vector<std::string>& missing);
-
-// The bunny as it is bent into a ring in five steps; nothing if it is not there.
-std::optional<corpus::Sequence> bent_bunny(const BenchSettings& settings);
-
 // A case, and what is known of its start.
 struct TimedCase {
   corpus::Case c;
   detector::Start start = detector::Start::verified;
+  // Subjects in this process play it with this culling, if it is stated, in place of their own.
+  std::optional<detector::Culling> culling = {};
 };
 TimedCase timed_case(const std::string& id, corpus::Sequence sequence, detector::Start start);
 
+// The deforming meshes of the public data: rod-twist, thick-cloth, kick, and bunny-bent, the bunny
+// as scene `bend` bends it into a ring in five steps. The start is clean if the mesh is closed and
+// without contact at the first frame. Data that is not there is left out, and its first file that
+// is missing is named. Throws UnusableData for a file that is there and cannot be used, as the
+// functions below do.
+std::vector<TimedCase> real_sequences(const BenchSettings& settings,
+                                      std::vector<std::string>& missing);
+
 struct CaseFamily {
   std::string name;
-  std::string kind;  // scene, generated, hard, real
-  int rounds = 5;
+  std::string kind;                               // scene, generated, hard, real
+  int rounds = 5;                                 // 0: it is judged, and not timed
   std::function<std::vector<TimedCase>()> cases;  // made when they are run
 
   bool is_large() const { return kind == "scene" || kind == "real"; }

@@ -5,19 +5,19 @@
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <numeric>
 
-#include "detector/detector.h"
 #include "properties/worker/case_run.h"
-#include "reports/bench/suites.h"
+#include "reports/bench/cases.h"
 
 namespace assay::reports {
 
-double ns_of(const std::function<void()>& work) {
-  const auto now = [] {
+namespace {
+
+double ns_by(clockid_t clock, const std::function<void()>& work) {
+  const auto now = [&] {
     timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    clock_gettime(clock, &time);
     return 1e9 * static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec);
   };
   const double begin = now();
@@ -25,85 +25,37 @@ double ns_of(const std::function<void()>& work) {
   return now() - begin;
 }
 
-double wall_ns_of(const std::function<void()>& work) {
-  const auto begin = std::chrono::steady_clock::now();
-  work();
-  const std::chrono::duration<double, std::nano> taken = std::chrono::steady_clock::now() - begin;
-  return taken.count();
-}
+}  // namespace
 
-std::vector<std::vector<double>> interleave(int rounds,
-                                            const std::vector<Measurement>& measurements) {
-  const std::size_t count = measurements.size();
-  for (const auto& measure : measurements) measure();
-  std::vector<std::vector<double>> samples(count);
-  for (int round = 0; round < rounds; ++round) {
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::size_t i = round % 2 == 0 ? k : count - 1 - k;
-      samples[i].push_back(measurements[i]());
-    }
-  }
-  return samples;
-}
-
-namespace {
+double ns_of(const std::function<void()>& work) { return ns_by(CLOCK_THREAD_CPUTIME_ID, work); }
+double wall_ns_of(const std::function<void()>& work) { return ns_by(CLOCK_MONOTONIC, work); }
 
 using namespace detector;
 
-// The hash FNV-1a, over 64-bit words.
-class Hash {
- public:
-  void add(std::uint64_t word) { value_ = (value_ ^ word) * 0x100000001b3u; }
-  void add(double x) { add(std::bit_cast<std::uint64_t>(x)); }
-  std::uint64_t value() const { return value_; }
-
- private:
-  std::uint64_t value_ = 0xcbf29ce484222325u;
-};
-
-}  // namespace
-
 std::uint64_t result_hash(const StepResult& result) {
-  Hash hash;
-  hash.add(static_cast<std::uint64_t>(result.answer));
-  hash.add(result.first.lo);
-  hash.add(result.first.hi);
-  for (const auto& contact : result.pairs) {
-    hash.add(static_cast<std::uint64_t>(contact.pair.a));
-    hash.add(static_cast<std::uint64_t>(contact.pair.b));
-    hash.add(contact.time.lo);
-    hash.add(contact.time.hi);
-    hash.add(static_cast<std::uint64_t>(contact.feature.kind));
-    for (const auto v : contact.feature.vertices) hash.add(static_cast<std::uint64_t>(v));
+  std::uint64_t hash = first_hash;
+  const auto add = [&](const auto&... items) {
+    const auto add_one = [&](const auto& item) {
+      if constexpr (std::is_same_v<decltype(item), const double&>)
+        hash = hashed(hash, std::bit_cast<std::uint64_t>(item));
+      else
+        hash = hashed(hash, static_cast<std::uint64_t>(item));
+    };
+    (add_one(items), ...);
+  };
+  add(result.answer, result.first.lo, result.first.hi);
+  for (const auto& [pair, time, feature] : result.pairs) {
+    add(pair.a, pair.b, time.lo, time.hi, feature.kind);
+    for (const auto v : feature.vertices) add(v);
   }
-  for (const std::uint64_t count :
-       {std::uint64_t{result.view_positive}, std::uint64_t{result.view_negative},
-        std::uint64_t{result.view_zero}, std::uint64_t{result.against_all},
-        result.counts.search.box_tests, result.counts.search.child_counts,
-        result.counts.search.skipped, result.counts.search.contour_tests,
-        result.counts.search.candidate_pairs, result.counts.narrow.elementary_tests,
-        result.counts.narrow.rungs.by_integers(), result.counts.view.lanes,
-        result.counts.view.filter, result.counts.view.exact, result.counts.closure_rounds}) {
-    hash.add(count);
-  }
-  for (const auto sign : result.signs) hash.add(static_cast<std::uint64_t>(sign));
-  return hash.value();
-}
-
-Options bench_options(Culling culling, Arithmetic arithmetic) {
-  return {culling, Start::clean, Pairs::all, arithmetic};
-}
-
-Options options_of_sequence(Culling culling, Start start, std::uint32_t threads) {
-  Options options = bench_options(culling);
-  options.start = start;
-  options.threads = threads;
-  return options;
-}
-
-Detector made(Expected<Detector> detector, const std::string& name) {
-  if (!detector) throw UnusableData(name + ": " + detector.error().message);
-  return std::move(detector.value());
+  const auto& counts = result.counts;
+  add(result.view_positive, result.view_negative, result.view_zero, result.against_all,
+      counts.search.box_tests, counts.search.child_counts, counts.search.skipped,
+      counts.search.contour_tests, counts.search.candidate_pairs, counts.narrow.elementary_tests,
+      counts.narrow.rungs.by_integers(), counts.view.lanes, counts.view.filter, counts.view.exact,
+      counts.closure_rounds);
+  for (const auto sign : result.signs) add(sign);
+  return hash;
 }
 
 namespace {
@@ -114,15 +66,17 @@ double sum_ms(const properties::RunTimes& times) {
   return ms_a_second * std::accumulate(times.steps.begin(), times.steps.end(), 0.);
 }
 
-properties::CaseRun run_here(const corpus::Case& c, const Options& options, const SweepPlan& plan) {
+properties::CaseRun run_here(const corpus::Case& c, const SweptSubject& subject,
+                             const SweepPlan& plan) {
   constexpr double seconds_a_ns = 1e-9;
   properties::CaseRun run;
   properties::RunTimes times;
-  std::optional<Expected<properties::CasePlayer>> player;
-  times.create =
-      seconds_a_ns * plan.clock([&] { player.emplace(properties::CasePlayer::make(c, options)); });
-  if (!*player) throw UnusableData(c.id + ": " + player->error().message);
-  auto& steps = player->value();
+  const auto& options = subject.configuration.options;
+  std::optional<properties::CasePlayer> player;
+  times.create = seconds_a_ns * plan.clock([&] {
+    player = made(properties::CasePlayer::make(c, options, subject.stages(options)), c.id);
+  });
+  auto& steps = *player;
   for (std::size_t s = 0; s < steps.steps(); ++s) {
     StepResult result;
     if (plan.is_warm) steps.look(s);
@@ -136,24 +90,24 @@ properties::CaseRun run_here(const corpus::Case& c, const Options& options, cons
   return run;
 }
 
-}  // namespace
-
-std::vector<double> SweptRuns::sums() const {
-  std::vector<double> ms;
-  for (const auto& times : samples) ms.push_back(sum_ms(times));
-  return ms;
+// Of each round what `ms` takes of its times.
+template <class Ms>
+std::vector<double> each(const SweptRuns& runs, const Ms& ms) {
+  std::vector<double> list;
+  for (const auto& times : runs.samples) list.push_back(ms(times));
+  return list;
 }
 
+}  // namespace
+
+std::vector<double> SweptRuns::sums() const { return each(*this, sum_ms); }
+
 std::vector<double> SweptRuns::of_step(std::size_t step) const {
-  std::vector<double> ms;
-  for (const auto& times : samples) ms.push_back(ms_a_second * times.steps[step]);
-  return ms;
+  return each(*this, [&](const auto& times) { return ms_a_second * times.steps[step]; });
 }
 
 std::vector<double> SweptRuns::create_ms() const {
-  std::vector<double> ms;
-  for (const auto& times : samples) ms.push_back(ms_a_second * times.create);
-  return ms;
+  return each(*this, [](const auto& times) { return ms_a_second * times.create; });
 }
 
 std::vector<SweptRuns> sweep(const corpus::Case& c, std::span<const SweptSubject> subjects,
@@ -163,38 +117,31 @@ std::vector<SweptRuns> sweep(const corpus::Case& c, std::span<const SweptSubject
   std::vector<double> first_ms(subjects.size(), HUGE_VAL);
   const auto run_once = [&](std::size_t i) {
     plan.tick();
-    const auto& [worker, configuration] = subjects[i];
+    const auto& subject = subjects[i];
     auto& of = runs[i];
-    if (!of.ended.empty()) return 0.;
-    if (of.is_once) {
-      of.samples.push_back(*of.first->times);
-      return 0.;
-    }
+    if (!of.ended.empty()) return;
+    if (of.is_once) return of.samples.push_back(*of.first->times);
     const double least = *std::min_element(first_ms.begin(), first_ms.end());
-    if (of.first && of.samples.size() >= rounds_of_far_off && first_ms[i] > plan.far_off * least)
-      return 0.;
-    auto run = worker ? std::move(worker->run(c, {&configuration, 1}).front())
-                      : run_here(c, configuration.options, plan);
+    if (of.samples.size() >= rounds_of_far_off && first_ms[i] > plan.far_off * least) return;
+    auto run = subject.worker
+                   ? std::move(subject.worker->run(c, {&subject.configuration, 1}).front())
+                   : run_here(c, subject, plan);
     if (run.end != properties::RunEnd::completed || !run.times) {
       of.ended = fmt::format("{}: {}", name_of(run.end), run.explanation);
-      if (!of.first) of.first = std::move(run);
-      return 0.;
-    }
-    if (of.first) {
+    } else if (of.first) {
       of.has_differing_runs |= !same_answers(run, *of.first);
       of.samples.push_back(std::move(*run.times));
-      return 0.;
+    } else {
+      first_ms[i] = sum_ms(*run.times);
+      of.is_once = std::any_of(run.times->steps.begin(), run.times->steps.end(),
+                               [&](double seconds) { return seconds > plan.longest_repeated; });
     }
-    first_ms[i] = sum_ms(*run.times);
-    of.is_once = std::any_of(run.times->steps.begin(), run.times->steps.end(),
-                             [&](double seconds) { return seconds > plan.longest_repeated; });
-    of.first = std::move(run);
-    return 0.;
+    if (!of.first) of.first = std::move(run);
   };
-  std::vector<Measurement> measurements;
-  for (std::size_t i = 0; i < subjects.size(); ++i)
-    measurements.push_back([&, i] { return run_once(i); });
-  interleave(plan.rounds, measurements);
+  for (int round = -1; round < plan.rounds; ++round) {
+    for (std::size_t k = 0; k < subjects.size(); ++k)
+      run_once(round % 2 == 1 ? subjects.size() - 1 - k : k);
+  }
   return runs;
 }
 

@@ -12,12 +12,9 @@
 #include <vector>
 
 #include "corpus/cases/case_file.h"
-#include "corpus/formats/sequence_reader.h"
-#include "detector/detector.h"
-#include "detector/options.h"
+#include "detector/step/stages.h"
 #include "detector/step_result.h"
 #include "properties/worker/worker_process.h"
-#include "reports/bench/bench_report.h"
 
 namespace assay::reports {
 
@@ -27,34 +24,26 @@ double ns_of(const std::function<void()>& work);
 // The same by the clock on the wall, for work in several threads.
 double wall_ns_of(const std::function<void()>& work);
 
-// Makes `rounds` rounds of all measurements, in forward and backward order by turns, after one
-// round that is thrown away, so that what is compared was measured side by side, in one run. Each
-// measurement returns what it measured: samples[i][round] for measurement i.
-using Measurement = std::function<double()>;
-std::vector<std::vector<double>> interleave(int rounds,
-                                            const std::vector<Measurement>& measurements);
+// The hash FNV-1a, over 64-bit words.
+inline constexpr std::uint64_t first_hash = 0xcbf29ce484222325u;
+constexpr std::uint64_t hashed(std::uint64_t hash, std::uint64_t word) {
+  return (hash ^ word) * 0x100000001b3u;
+}
 
 // A hash of everything in a result that depends neither on time nor on the searches before the
 // step (as the counts of marking do).
 std::uint64_t result_hash(const detector::StepResult& result);
 
-// The options of the benches: the caller vouches for the start, and all pairs are asked for.
-detector::Options bench_options(detector::Culling culling,
-                                detector::Arithmetic arithmetic = detector::Arithmetic::exact);
-
-// The same for a sequence with this start, played with so many threads.
-detector::Options options_of_sequence(detector::Culling culling, detector::Start start,
-                                      std::uint32_t threads);
-
-// The detector. Throws UnusableData, with this name, if the mesh was refused.
-detector::Detector made(detector::Expected<detector::Detector> detector, const std::string& name);
-
 // How a case is played and timed.
 using Clock = double(const std::function<void()>& work);  // ns_of, wall_ns_of
 
+// The stages of a detector in this process; a test may replace some.
+using MakeStages = std::function<detector::Stages(const detector::Options&)>;
+
 struct SweptSubject {
-  properties::WorkerProcess* worker = nullptr;  // null: the built-in detector in this process
-  properties::Configuration configuration;      // is_timed is set
+  properties::WorkerProcess* worker = nullptr;    // null: the built-in detector in this process
+  properties::Configuration configuration;        // is_timed is set
+  MakeStages stages = detector::standard_stages;  // in this process
 };
 
 struct SweepPlan {
@@ -79,13 +68,15 @@ struct SweptRuns {
   bool is_once = false;  // the first run is the only one, and stands for every round
   bool has_differing_runs = false;
 
-  std::vector<double> sums() const;  // ms of all steps, one for each round
+  // In ms, one for each round.
+  std::vector<double> sums() const;
   std::vector<double> of_step(std::size_t step) const;
   std::vector<double> create_ms() const;
 };
 
-// Runs the case rounds + 1 times by each subject, in turn, a whole case each time; the first round
-// is judged and not timed. The times of a worker are those of its own clock, with all of its
+// Runs the case rounds + 1 times by each subject, in turn, a whole case each time: forward, and
+// then forward and backward by turns, so that what is compared was measured side by side. The first
+// round is judged and not timed. The times of a worker are those of its own clock, with all of its
 // threads. A subject whose run did not complete is not run again. Throws UnusableData if the
 // detector in this process refuses the mesh, or a step of it is an error.
 std::vector<SweptRuns> sweep(const corpus::Case& c, std::span<const SweptSubject> subjects,

@@ -31,7 +31,7 @@ Expected<std::vector<corpus::Case>> public_sequences(const std::string& folder) 
   std::vector<std::string> missing;
   std::vector<corpus::Case> cases;
   for (auto& real : real_sequences(BenchSettings{folder}, missing))
-    cases.push_back(timed_case(real.name, std::move(real.frames), real.start()).c);
+    cases.push_back(std::move(real.c));
   if (cases.empty())
     return Problem{fmt::format("{}: none of the public sequences is there", folder)};
   return cases;

@@ -18,6 +18,7 @@
 #include "reports/bench/cases.h"
 #include "reports/bench/sweep.h"
 #include "reports/campaign/case_folders.h"
+#include "reports/estimate.h"
 
 namespace assay::reports {
 
@@ -225,32 +226,20 @@ Expected<void> judge_shipped(const properties::CampaignRequest& request,
   return judge_queries(corpus, {request, judged});
 }
 
-using detector::Arithmetic;
 using detector::Options;
 using properties::SpeedFigure;
 
 constexpr int rounds = 9;
 
 // The time of the last step by the first options over that by the second, measured in turn.
-SpeedFigure figure_of(std::string_view name, const corpus::Sequence& step, const Options& measured,
+SpeedFigure figure_of(std::string_view name, const corpus::Sequence& steps, const Options& measured,
                       const Options& beside) {
-  const auto& frames = step.frames;
-  const auto at_last_step = [&](const Options& options) {
-    auto built_in = made(detector::Detector::create(step.triangles, frames[0], options), "");
-    for (std::size_t f = 0; f + 2 < frames.size(); ++f) built_in.step(frames[f], frames[f + 1]);
-    return built_in;
-  };
-  auto one = at_last_step(measured), other = at_last_step(beside);
-  const auto time = [&](detector::Detector& built_in) {
-    detector::StepResult result;
-    const double ns =
-        ns_of([&] { result = built_in.evaluate(*std::prev(frames.end(), 2), frames.back()); });
-    if (result.answer == detector::Answer::error) throw UnusableData(result.problem->message);
-    return ns;
-  };
-  const auto samples = interleave(rounds, {[&] { return time(one); }, [&] { return time(other); }});
-  const Estimate ratio = ratio_of(samples[0], samples[1]);
-  return {std::string(name), ratio.value, ratio.lo, ratio.hi, ratio.samples};
+  const auto timed = timed_case(std::string(name), steps, detector::Start::clean);
+  const SweptSubject subjects[] = {{nullptr, {"", measured}}, {nullptr, {"", beside}}};
+  const auto runs = sweep(timed.c, subjects, {.rounds = rounds, .is_warm = true});
+  const auto last = steps.frames.size() - 2;
+  const Estimate ratio = ratio_of(runs[0].of_step(last), runs[1].of_step(last));
+  return {timed.c.id, ratio.value, ratio.lo, ratio.hi, ratio.samples};
 }
 
 }  // namespace
@@ -271,13 +260,15 @@ Expected<JudgedCorpus> judge_corpus(const properties::CampaignRequest& request,
 
 void measure_speed(const OnSpeedFigure& on_figure) {
   constexpr int free_triangles = 20'480, search_triangles = 4'000, frames = 3;
-  const auto exact = bench_options(Culling::automatic), bvh = bench_options(Culling::bvh);
+  constexpr auto clean = detector::Start::clean;
+  const Options exact = {Culling::automatic, clean}, bvh = {Culling::bvh, clean};
   const auto sphere = bench_scene("breathing-sphere", free_triangles, frames);
   on_figure(figure_of(properties::speed_figures[0], sphere, exact, bvh));
   // This scene is most like rod-twist, for whose step the limit is stated.
   const auto twist = bench_scene("twist", search_triangles, frames);
-  on_figure(figure_of(properties::speed_figures[2], twist, exact,
-                      bench_options(Culling::automatic, Arithmetic::double_precision)));
+  auto in_doubles = exact;
+  in_doubles.arithmetic = detector::Arithmetic::double_precision;
+  on_figure(figure_of(properties::speed_figures[2], twist, exact, in_doubles));
   const auto contact = step_at_first_contact("pinching-torus", search_triangles);
   if (contact) on_figure(figure_of(properties::speed_figures[1], *contact, exact, bvh));
 }

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "corpus/problem.h"
-#include "reports/bench/suites.h"
+#include "reports/bench/compared/comparison.h"
 #include "reports/terminal/option_words.h"
 #include "reports/terminal/text_file.h"
 #include "reports/terminal/words.h"
@@ -63,17 +63,14 @@ Expected<int> run_bench(const BenchRequest& request) try {
   BOOST_OUTCOME_TRY(report, measure(request));
   fmt::print("suite {}, data {}\n", report.suite, request.settings.data);
   fmt::print("{}", text_of(report));
-  const auto write = [](const std::string& file, const std::string& text) -> Expected<void> {
-    if (file.empty()) return outcome::success();
+  const auto json =
+      to_json(report, version_text()).dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
+  for (const auto& [file, text] :
+       {std::pair(request.json_file, json + "\n"), std::pair(request.csv_file, csv_of(report))}) {
+    if (file.empty()) continue;
     BOOST_OUTCOME_TRY(write_text_file(file, text));
     fmt::print("wrote {}\n", file);
-    return outcome::success();
-  };
-  const auto json = to_json(report, version_text());
-  BOOST_OUTCOME_TRY(
-      write(request.json_file,
-            json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"));
-  BOOST_OUTCOME_TRY(write(request.csv_file, csv_of(report)));
+  }
   return report.wrong_answers.empty() ? exit_holds : exit_defect;
 } catch (const UnusableData& problem) {
   return Problem{problem.what()};

@@ -36,8 +36,8 @@ std::vector<FourPoints> candidates_of(const std::string& step, benchmark::State&
 std::vector<FourPoints> simulation_queries(benchmark::State& state) {
   std::vector<FourPoints> queries;
   for (const char* name : {"3036ee", "3036vf"}) {
-    const auto read = corpus::read_queries(
-        settings().file(std::string("scalable-ccd/rod-twist/queries/") + name + ".csv"));
+    const auto read =
+        corpus::read_queries(settings().data + "/scalable-ccd/rod-twist/queries/" + name + ".csv");
     if (!read) continue;
     for (const auto& query : read.value()) queries.push_back(query.query);
   }

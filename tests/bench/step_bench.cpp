@@ -83,7 +83,7 @@ void step_by(benchmark::State& state, const char* name, const Options& options) 
 
 void step_with_skipping(benchmark::State& state, const char* name, TreeSearch::Skipping skipping) {
   if (!step_named(name)) return state.SkipWithError(why_absent(name));
-  const auto options = reports::bench_options(Culling::view_point);
+  const auto options = bench_options(Culling::view_point);
   auto stages = standard_stages(options);
   stages.pair_search = std::make_shared<TreeSearch>(skipping);
   step_once(state, step_named(name), options, stages);
@@ -214,7 +214,7 @@ std::vector<TriangleType> types_of(const StepResult& result) {
 // Steps that search, and the marking of the same steps alone.
 void mark(benchmark::State& state, const char* name, bool alone) {
   const auto scene = reports::bench_scene(name, sized(20'000), 41);
-  const auto options = reports::bench_options(Culling::view_point);
+  const auto options = bench_options(Culling::view_point);
   std::vector<std::vector<TriangleType>> types;
   double steps_s = 0;
   for (auto _ : state) {
@@ -246,9 +246,9 @@ void mark(benchmark::State& state, const char* name, bool alone) {
 void look_at_nodes(benchmark::State& state, const char* name, bool at_boxes) {
   const auto& step = step_named(name);
   if (!step) return state.SkipWithError(why_absent(name));
-  auto detector = Detector::create(step->triangles, step->frames[0],
-                                   reports::bench_options(Culling::view_point))
-                      .value();
+  auto detector =
+      Detector::create(step->triangles, step->frames[0], bench_options(Culling::view_point))
+          .value();
   const auto types = types_of(detector.evaluate(step->frames[0], step->frames[1]));
   const auto& mesh = detector.topology();
   BoundingVolumeTree tree(mesh, step->frames[0]);
@@ -313,11 +313,10 @@ void add_parts_of_steps() {
         [](StepParts& parts) { benchmark::DoNotOptimize(parts.compare_again()); });
     for (const auto culling : all_values<Culling>) {
       if (culling != Culling::none)
-        add("step/" + std::string(name_of(culling)) + of, step_by, name,
-            reports::bench_options(culling));
+        add("step/" + std::string(name_of(culling)) + of, step_by, name, bench_options(culling));
     }
     add("step/view-point-in-doubles" + of, step_by, name,
-        reports::bench_options(Culling::view_point, Arithmetic::double_precision));
+        bench_options(Culling::view_point, Arithmetic::double_precision));
     add("skipping/on" + of, step_with_skipping, name, TreeSearch::Skipping::on);
     add("skipping/off" + of, step_with_skipping, name, TreeSearch::Skipping::off);
     add("look/box_test" + of, look_at_nodes, name, true);
@@ -351,7 +350,7 @@ void add_sizes() {
   }
   for (const int size : growing_sizes) {
     const auto of = "/" + std::to_string(size);
-    const auto views = reports::bench_options(Culling::view_point);
+    const auto views = bench_options(Culling::view_point);
     for (const auto& [name, make] :
          {std::pair("free_step", &free_step), std::pair("step_with_contacts", &contact_step)}) {
       add("growth/" + std::string(name) + of, [=, make = make](auto& state) {

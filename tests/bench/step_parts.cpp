@@ -39,8 +39,10 @@ const std::optional<corpus::Sequence>& step_named(const std::string& name) {
   const int triangles = sized(20'000);
   if (name.starts_with("rod-twist")) {
     std::vector<std::string> unused;
-    if (auto rods = reports::real_sequence(settings(), "rod-twist", unused))
-      step = std::move(rods->frames);
+    for (auto& real : reports::real_sequences(settings(), unused)) {
+      if (real.c.id == "rod-twist")
+        step = corpus::Sequence{std::move(real.c.triangles), std::move(real.c.frames)};
+    }
   }
   if (name == "rod-twist-shortened" && step)
     step->frames[1] = step->frames[0] + hardly * (step->frames[1] - step->frames[0]);

@@ -22,6 +22,12 @@ int sized(int full);
 // The settings of the product's benches: data of ASSAY_DATA, the same scale.
 reports::BenchSettings settings();
 
+// The caller vouches for the start, and all pairs are asked for.
+inline detector::Options bench_options(
+    detector::Culling culling, detector::Arithmetic arithmetic = detector::Arithmetic::exact) {
+  return {culling, detector::Start::clean, detector::Pairs::all, arithmetic};
+}
+
 // Two of the frames of a scene: the step from frame `step` on.
 corpus::Sequence bench_step(const std::string& name, int triangles, int frames, std::size_t step);
 

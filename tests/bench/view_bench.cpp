@@ -4,7 +4,6 @@
 #include "detector/mesh/for_all.h"
 #include "detector/view/view_lanes.h"
 #include "detector/view/view_signs.h"
-#include "reports/bench/sweep.h"
 #include "tests/bench/step_parts.h"
 
 namespace assay::tests {
@@ -50,7 +49,7 @@ void look(benchmark::State& state, const Scene& scene, InstructionSet set) {
   const auto step = bench_step(scene.name, sized(full_size), scene.frames, scene.step);
   const auto mesh = make_topology(step.triangles, step.frames[0].rows());
   const auto primitives =
-      Detector::create(step.triangles, step.frames[0], reports::bench_options(scene.culling))
+      Detector::create(step.triangles, step.frames[0], bench_options(scene.culling))
           .value()
           .evaluate(step.frames[0], step.frames[1])
           .primitives;
@@ -69,9 +68,9 @@ corpus::Sequence sphere() { return reports::bench_scene("breathing-sphere", size
 // The first step is committed, the next one timed.
 void step_freely(benchmark::State& state, Culling culling, std::uint32_t threads) {
   const auto scene = sphere();
-  auto detector = Detector::create(scene.triangles, scene.frames[0],
-                                   reports::options_of_sequence(culling, Start::clean, threads))
-                      .value();
+  auto options = bench_options(culling);
+  options.threads = threads;
+  auto detector = Detector::create(scene.triangles, scene.frames[0], options).value();
   detector.step(scene.frames[0], scene.frames[1]);
   StepResult result;
   for (auto _ : state) result = detector.evaluate(scene.frames[1], scene.frames[2]);

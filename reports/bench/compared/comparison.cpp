@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "properties/campaign/ledger/step_measures.h"
 #include "properties/judging/contracted_case.h"
@@ -10,10 +11,11 @@
 
 namespace assay::reports {
 
-using detector::Culling;
-using properties::Outcome;
+using detector::Culling, properties::Outcome;
 
 JudgedCounts& JudgedCounts::operator+=(const JudgedCounts& other) {
+  slow += other.slow;
+  ended += other.ended;
   return properties::add_fields(*this, other);
 }
 
@@ -63,55 +65,49 @@ void add(std::vector<double>& sums, const std::vector<double>& values) {
 
 }  // namespace
 
-Comparison::Comparison(const std::vector<BenchSubject>& subjects, const ComparisonLimits& limits,
-                       BenchReport& report, std::function<void()> tick)
-    : subjects_(subjects), limits_(limits), report_(report), tick_(std::move(tick)) {
-  for (std::size_t i = 0; i < subjects.size(); ++i) {
-    if (subjects[i].is_here) continue;
-    workers_.emplace(std::pair(i, false), subjects[i].make_worker(limits.small_seconds));
-    workers_.emplace(std::pair(i, true), subjects[i].make_worker(limits.large_seconds));
-  }
+Comparison::Comparison(const std::vector<BenchSubject>& subjects, ComparisonPlan plan,
+                       BenchReport& report, const BenchProgress& progress)
+    : subjects_(subjects), plan_(std::move(plan)), report_(report), progress_(progress) {
+  for (const auto& subject : subjects)
+    workers_.push_back(
+        {subject.make_worker(plan_.small_seconds), subject.make_worker(plan_.large_seconds)});
 }
 
-std::vector<Comparison::Group> Comparison::groups_of(const corpus::Case& c) const {
+std::vector<Comparison::Group> Comparison::groups_of(const corpus::Case& c,
+                                                     std::vector<FamilyRow>& rows) const {
   std::vector<Group> groups;
   const auto planned = corpus::steps_of(c).size();
   for (std::size_t i = 0; i < subjects_.size(); ++i) {
     if (!takes_part(subjects_[i], c)) continue;
+    ++rows[i].cases;
+    rows[i].triangles_of_case = static_cast<std::uint64_t>(c.triangles.rows());
     const auto& contract = subjects_[i].contract_of_steps();
     auto seen = properties::contracted(c, contract);
+    const auto left_out = planned - (seen ? corpus::steps_of(*seen).size() : 0);
+    rows[i].counts.left_out += left_out;
     if (!seen) continue;
     const auto same = std::find_if(groups.begin(), groups.end(), [&](const Group& group) {
       return asks_alike(group.contract, contract) && same_steps(group.c, *seen);
     });
     if (same != groups.end()) {
       same->subjects.push_back(i);
-      continue;
+    } else {
+      groups.push_back({std::move(*seen), contract, {i}, left_out});
     }
-    const auto left_out = planned - corpus::steps_of(*seen).size();
-    groups.push_back({std::move(*seen), contract, {i}, left_out});
   }
   return groups;
 }
 
-void Comparison::run(const CaseFamily& family) {
-  std::vector<FamilyRow> rows;
-  for (const auto& subject : subjects_) rows.push_back({subject.name, family.name, family.kind});
-  for (const auto& timed : family.cases()) {
-    const auto groups = groups_of(timed.c);
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (!takes_part(subjects_[i], timed.c)) continue;
-      ++rows[i].cases;
-      rows[i].triangles_of_case = static_cast<std::uint64_t>(timed.c.triangles.rows());
-      const bool is_taken = std::any_of(groups.begin(), groups.end(), [&](const Group& group) {
-        return std::count(group.subjects.begin(), group.subjects.end(), i) > 0;
-      });
-      if (!is_taken) rows[i].counts.left_out += corpus::steps_of(timed.c).size();
+void Comparison::run(const std::vector<CaseFamily>& families) {
+  for (const auto& family : families) {
+    progress_.phase(family.name);
+    std::vector<FamilyRow> rows;
+    for (const auto& subject : subjects_) rows.push_back({subject.name, family.name, family.kind});
+    for (const auto& timed : family.cases()) {
+      for (const auto& group : groups_of(timed.c, rows)) run_group(family, timed, group, rows);
     }
-    for (const auto& group : groups) run_group(family, timed, group, rows);
-  }
-  for (auto& row : rows) {
-    if (row.cases > 0) rows_.push_back(std::move(row));
+    std::erase_if(rows, [](const FamilyRow& row) { return row.cases == 0; });
+    std::move(rows.begin(), rows.end(), std::back_inserter(rows_));
   }
 }
 
@@ -120,80 +116,94 @@ void Comparison::run_group(const CaseFamily& family, const TimedCase& timed, con
   const bool has_reference = group.subjects.front() == 0;
   std::vector<std::size_t> places = group.subjects;
   if (!has_reference) places.insert(places.begin(), 0);
-  std::vector<SweptSubject> swept;
+  PlayedCase played{group.c};
   for (const std::size_t i : places) {
-    auto options = subjects_[i].options;
+    const auto& subject = subjects_[i];
+    auto options = subject.options;
     // A gap in the sequence makes a new start, and nobody says that it is clean.
-    options.start = group.left_out == 0 && subjects_[i].is_vouched_for ? timed.start
-                                                                       : detector::Start::verified;
-    const auto worker = workers_.find(std::pair(i, family.is_large()));
-    swept.push_back({worker == workers_.end() ? nullptr : &worker->second,
-                     {subjects_[i].name, options, {}, true}});
+    options.start =
+        group.left_out == 0 && subject.is_vouched_for ? timed.start : detector::Start::verified;
+    options.culling = timed.culling.value_or(options.culling);
+    auto& worker = workers_[i][family.is_large() ? 1 : 0];
+    played.subjects.push_back(
+        {subject.is_here ? nullptr : &worker, {subject.name, options, {}, true}, subject.stages});
   }
-  const auto runs = sweep(group.c, swept,
-                          {.rounds = family.rounds,
-                           .is_warm = true,
-                           .longest_repeated = limits_.longest_repeated,
-                           .tick = tick_});
-  tick_();
-  const auto truth = properties::judge_case(group.c, group.contract, limits_.jobs);
+  auto plan = plan_.sweep;
+  plan.rounds = family.rounds;
+  plan.tick = progress_.tick;
+  played.runs = sweep(group.c, played.subjects, plan);
+  progress_.tick();
+  if (plan_.is_judged) played.truth = properties::judge_case(group.c, group.contract, plan_.jobs);
+  played.verdicts.resize(places.size());
+  const auto& reference = played.runs.front();
   for (std::size_t k = has_reference ? 0 : 1; k < places.size(); ++k) {
     auto& row = rows[places[k]];
-    row.slow += runs[k].is_once ? 1 : 0;
-    row.ended += runs[k].ended.empty() ? 0 : 1;
-    if (row.first_end.empty() && !runs[k].ended.empty())
-      row.first_end = timed.c.id + ": " + runs[k].ended;
-    row.counts.left_out += group.left_out;
-    judge(group.c, runs[k], truth, subjects_[places[k]], row);
-    if (!runs[k].ended.empty() || !runs[0].ended.empty()) continue;
+    const auto& runs = played.runs[k];
+    row.counts.slow += runs.is_once ? 1 : 0;
+    row.counts.ended += runs.ended.empty() ? 0 : 1;
+    if (row.first_end.empty() && !runs.ended.empty())
+      row.first_end = timed.c.id + ": " + runs.ended;
+    if (plan_.is_judged) played.verdicts[k] = judge(played, runs, subjects_[places[k]], row);
+    if (!runs.ended.empty() || !reference.ended.empty()) continue;
     ++row.cases_timed;
-    row.steps_timed += truth.size();
-    add(row.ms, runs[k].sums());
-    add(row.reference_ms, runs[0].sums());
-    add(row.create_ms, runs[k].create_ms());
-    add(row.reference_create_ms, runs[0].create_ms());
+    row.steps_timed += played.truth.size();
+    add(row.ms, runs.sums());
+    add(row.reference_ms, reference.sums());
+    add(row.create_ms, runs.create_ms());
+    add(row.reference_create_ms, reference.create_ms());
   }
+  plan_.on_case(played);
 }
 
-JudgedCounts counts_of(const BenchSubject& subject, const corpus::Case& seen,
-                       const properties::CaseRun& run,
-                       const std::vector<oracle::StepJudgement>& truth,
-                       std::vector<UnsafeAnswer>* unsafe,
-                       std::vector<properties::StepErrors>* of_steps) {
-  JudgedCounts counts;
-  const auto verdict = judge_run(seen, run, truth, subject.counted, subject.detector.contract);
+PlayedCase::Verdict Comparison::judge(const PlayedCase& played, const SweptRuns& runs,
+                                      const BenchSubject& subject, FamilyRow& row) {
+  const auto& c = played.c;
+  const auto& run = *runs.first;
+  const auto& claims = subject.detector.claims;
+  const auto& contract = subject.detector.contract;
+  const auto counted = judge_run(c, run, played.truth, subject.counted, contract),
+             own = judge_run(c, run, played.truth, claims, contract);
+  PlayedCase::Verdict verdict{{}, counted.outcome, own.outcome};
   // A run that broke off has no steps.
-  if (verdict.steps.empty()) counts.errors.steps = counts.errors.undecided = truth.size();
-  for (std::size_t s = 0; s < verdict.steps.size(); ++s) {
-    const auto& diff = verdict.steps[s];
+  if (counted.steps.empty()) verdict.errors.steps = verdict.errors.undecided = played.truth.size();
+  const auto triangles = static_cast<std::uint64_t>(c.triangles.rows());
+  for (std::size_t s = 0; s < counted.steps.size(); ++s) {
+    const auto& diff = counted.steps[s];
     const auto& result = run.steps[s];
     const auto errors = errors_of(diff);
-    counts.errors += errors;
-    if (of_steps) of_steps->push_back(errors);
+    verdict.errors += errors;
     const bool is_timed = result.first.lo > 0 || result.first.hi < 1;
-    counts.timed_collisions += result.answer == detector::Answer::collision && is_timed ? 1 : 0;
-    if (errors.unsafe == 0 || !unsafe) continue;
-    const bool confirmed = is_confirmed(seen, s, diff, result, subject.detector.contract);
-    counts.confirmed += confirmed ? 1 : 0;
-    const char* defect = diff.answered_free ? "missed" : diff.late_first ? "late" : "pairs missing";
-    unsafe->push_back({subject.name, seen.id, s, defect, confirmed});
+    row.counts.timed_collisions += result.answer == detector::Answer::collision && is_timed ? 1 : 0;
+    if (errors.unsafe > 0 && !subject.is_here) {
+      const bool confirmed = is_confirmed(c, s, diff, result, contract);
+      row.counts.confirmed += confirmed ? 1 : 0;
+      unsafe_.push_back({subject.name, c.id, s,
+                         diff.answered_free ? "missed"
+                         : diff.late_first  ? "late"
+                                            : "pairs missing",
+                         confirmed});
+    }
+    const auto hash = result_hash(result);
+    const auto& search = result.counts.search;
+    const auto& narrow = result.counts.narrow;
+    ++row.steps;
+    row.triangles += triangles;
+    row.hash = hashed(row.hash, hash);
+    row.box_tests += search.box_tests;
+    row.candidates += search.candidate_pairs;
+    row.elementary_tests += narrow.elementary_tests;
+    report_.add_sample(json_object(
+        "family", row.family, "kind", row.kind, "case", c.id, "step", s + 1, "triangles", triangles,
+        "subject", subject.name, "hash", fmt::format("{:016x}", hash), "box_tests",
+        search.box_tests, "candidates", search.candidate_pairs, "elementary_tests",
+        narrow.elementary_tests, "errors", errors, "ms", runs.of_step(s)));
   }
-  return counts;
-}
-
-void Comparison::judge(const corpus::Case& c, const SweptRuns& runs,
-                       const std::vector<oracle::StepJudgement>& truth, const BenchSubject& subject,
-                       FamilyRow& row) {
-  const auto& run = *runs.first;
-  std::vector<properties::StepErrors> errors;
-  row.counts += counts_of(subject, c, run, truth, subject.is_here ? nullptr : &unsafe_, &errors);
-  const auto own = judge_run(c, run, truth, subject.detector.claims, subject.detector.contract);
+  row.counts.errors += verdict.errors;
+  auto broken = own.broken;
+  if (runs.has_differing_runs && claims.has(properties::Claim::deterministic))
+    broken.push_back(properties::Claim::deterministic);
   std::vector<std::string> complaints;
-  for (const auto claim : own.broken)
-    complaints.push_back(fmt::format("breaks {}", name_of(claim)));
-  const auto deterministic = properties::Claim::deterministic;
-  if (runs.has_differing_runs && subject.detector.claims.has(deterministic))
-    complaints.push_back(fmt::format("breaks {}", name_of(deterministic)));
+  for (const auto claim : broken) complaints.push_back(fmt::format("breaks {}", name_of(claim)));
   if (subject.detector.built_in && complaints.empty() && own.outcome != Outcome::holds)
     complaints.push_back(fmt::format("is {}", name_of(own.outcome)));
   const auto place = c.id == row.family ? c.id : fmt::format("{}, case {}", row.family, c.id);
@@ -203,23 +213,27 @@ void Comparison::judge(const corpus::Case& c, const SweptRuns& runs,
     if (std::find(row.broken.begin(), row.broken.end(), complaint) == row.broken.end())
       row.broken.push_back(complaint);
   }
-  const auto triangles = static_cast<std::uint64_t>(c.triangles.rows());
-  for (std::size_t s = 0; s < errors.size(); ++s) {
-    const auto hash = result_hash(run.steps[s]);
-    const auto& search = run.steps[s].counts.search;
-    const auto& narrow = run.steps[s].counts.narrow;
-    ++row.steps;
-    row.triangles += triangles;
-    row.hash = (row.hash ^ hash) * 0x100000001b3u;
-    row.box_tests += search.box_tests;
-    row.candidates += search.candidate_pairs;
-    row.elementary_tests += narrow.elementary_tests;
-    report_.add_sample(json_object(
-        "family", row.family, "kind", row.kind, "case", c.id, "step", s + 1, "triangles", triangles,
-        "subject", subject.name, "hash", fmt::format("{:016x}", hash), "box_tests",
-        search.box_tests, "candidates", search.candidate_pairs, "elementary_tests",
-        narrow.elementary_tests, "errors", errors[s], "ms", runs.of_step(s)));
-  }
+  return verdict;
+}
+
+namespace {
+
+// Marks the subjects in this process that no other one beats in speed and error at once, of those
+// that are asked for the same pairs.
+void mark_pareto_line(std::vector<SubjectRow>& rows, ShareOfSteps SubjectRow::*error) {
+  const auto takes_part = [](const SubjectRow& row) {
+    return row.subject->is_here && row.over && row.subject->options.culling != Culling::none;
+  };
+  const auto place = [&](const SubjectRow& row) {
+    return std::tuple(row.over->value, (row.*error).share, &row);
+  };
+  const auto is_beaten = [&](const SubjectRow& row) {
+    return std::any_of(rows.begin(), rows.end(), [&](const SubjectRow& other) {
+      return takes_part(other) && other.subject->options.pairs == row.subject->options.pairs &&
+             place(other) < place(row) && (other.*error).share <= (row.*error).share;
+    });
+  };
+  for (auto& row : rows) (row.*error).on_pareto_line = takes_part(row) && !is_beaten(row);
 }
 
 ShareOfSteps share_of(std::size_t part, std::size_t all) {
@@ -229,30 +243,6 @@ ShareOfSteps share_of(std::size_t part, std::size_t all) {
   out.hi = properties::upper_bound(part, all, risk_of_a_side);
   out.lo = 1 - properties::upper_bound(all - part, all, risk_of_a_side);
   return out;
-}
-
-namespace {
-
-// Marks the subjects in this process with these pairs that no other one beats in speed and error at
-// once: fastest first, each with a smaller share of errors than all that are faster.
-void mark_pareto_line(std::vector<SubjectRow>& rows, detector::Pairs pairs,
-                      ShareOfSteps SubjectRow::*error) {
-  std::vector<SubjectRow*> sorted;
-  for (auto& row : rows) {
-    if (row.subject->is_here && row.over && row.subject->options.pairs == pairs &&
-        row.subject->options.culling != Culling::none)
-      sorted.push_back(&row);
-  }
-  std::sort(sorted.begin(), sorted.end(), [error](const auto* a, const auto* b) {
-    return std::pair(a->over->value, (a->*error).share) <
-           std::pair(b->over->value, (b->*error).share);
-  });
-  double least = 2;
-  for (auto* row : sorted) {
-    auto& share = row->*error;
-    share.on_pareto_line = share.share < least;
-    least = std::min(least, share.share);
-  }
 }
 
 }  // namespace
@@ -268,8 +258,6 @@ std::vector<SubjectRow> by_subject(std::span<const FamilyRow> families,
       if (family.subject != subject.name) continue;
       has_part = true;
       row.counts += family.counts;
-      row.slow += family.slow;
-      row.ended += family.ended;
       if (const auto time = family.over()) over.push_back(time->value);
       if (const auto create = family.create_over()) create_over.push_back(*create);
     }
@@ -283,10 +271,8 @@ std::vector<SubjectRow> by_subject(std::span<const FamilyRow> families,
     row.alarming = share_of(row.counts.errors.alarming, row.counts.errors.steps);
     rows.push_back(std::move(row));
   }
-  for (const auto pairs : all_values<detector::Pairs>) {
-    mark_pareto_line(rows, pairs, &SubjectRow::unsafe);
-    mark_pareto_line(rows, pairs, &SubjectRow::alarming);
-  }
+  mark_pareto_line(rows, &SubjectRow::unsafe);
+  mark_pareto_line(rows, &SubjectRow::alarming);
   return rows;
 }
 

@@ -1,19 +1,24 @@
-// Subjects on families of cases: each case is played by each subject in turn and judged by the
-// oracle, and times stand beside errors, summed by family and by subject.
+// Subjects over sources of cases: each case is played by each subject in turn and judged by the
+// oracle, and times stand beside errors, summed by family and by subject. All suites of `assay
+// bench` are calls of it. Each takes at most five minutes at its default size on one core, all of
+// them together twenty.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "corpus/hard/hard_families.h"
 #include "detector/options.h"
 #include "oracle/mesh/step.h"
 #include "properties/judging/step_errors.h"
 #include "properties/judging/subject.h"
+#include "properties/laws/metamorphic/forms.h"
+#include "reports/bench/bench_report.h"
 #include "reports/bench/cases.h"
 #include "reports/bench/sweep.h"
 #include "reports/estimate.h"
@@ -26,8 +31,9 @@ struct BenchSubject : properties::Subject {
   std::string name = {};
   detector::Options options = {};  // of the built-in detector; the start is the case's
   bool is_here = false;            // it runs in this process
-  bool is_vouched_for = true;      // nobody verifies the start of a case that is known to be clean
-  bool must_hold = true;           // a claim that it breaks is a wrong answer of the suite
+  MakeStages stages = detector::standard_stages;  // in this process
+  bool is_vouched_for = true;  // nobody verifies the start of a case that is known to be clean
+  bool must_hold = true;       // a claim that it breaks is a wrong answer of the suite
   // The claims by which its errors are counted. Every form of the built-in detector is asked for
   // what exact arithmetic claims, so that the errors of all forms are seen: otherwise doubles,
   // which claim no pair, could miss none. A plug-in is asked for what it claims.
@@ -71,10 +77,18 @@ struct JudgedCounts {
   std::uint64_t left_out = 0;          // steps that it does not take
   std::uint64_t confirmed = 0;         // of the unsafe ones: without the oracle (is_confirmed)
   std::uint64_t timed_collisions = 0;  // collisions with another first time than [0, 1]
+  std::uint64_t slow = 0;              // cases run once, because a step took so long
+  std::uint64_t ended = 0;             // cases whose run ended early
 
   JudgedCounts& operator+=(const JudgedCounts& other);
 };
-ASSAY_FIELDS(JudgedCounts, errors, left_out, confirmed, timed_collisions)
+template <class Archive>
+void fields(Archive& archive, JudgedCounts& counts) {
+  // The last two are said of a row.
+  auto& [errors, left_out, confirmed, timed_collisions, slow, ended] = counts;
+  archive("errors", errors, "left_out", left_out, "confirmed", confirmed, "timed_collisions",
+          timed_collisions);
+}
 
 // A step whose answer was unsafe.
 struct UnsafeAnswer {
@@ -91,14 +105,12 @@ struct FamilyRow {
   std::uint64_t triangles_of_case = 0;     // of the last one
   std::uint64_t steps = 0, triangles = 0;  // sums over all steps that have results
   std::uint64_t box_tests = 0, candidates = 0, elementary_tests = 0;
-  std::uint64_t hash = 0xcbf29ce484222325u;  // over the results of all steps, in order
+  std::uint64_t hash = first_hash;  // over the results of all steps, in order
   // Sums over the cases that were timed, one sample for each round: the time of the subject, and
   // that of the reference, the first subject, on the same steps.
   std::vector<double> ms = {}, reference_ms = {}, create_ms = {}, reference_create_ms = {};
   std::uint64_t cases = 0, cases_timed = 0, steps_timed = 0;
-  std::uint64_t slow = 0;                // cases run once, because a step took so long
-  std::uint64_t ended = 0;               // cases whose run ended early
-  std::string first_end = {};            // how the first of these ended
+  std::string first_end = {};            // how the first ended that ended early
   std::vector<std::string> broken = {};  // claims, each once
 
   std::optional<Estimate> over() const;  // over the reference, round by round
@@ -110,7 +122,6 @@ struct ShareOfSteps {
   double share = 0, lo = 0, hi = 0;
   bool on_pareto_line = false;  // nothing else is as fast and better
 };
-ShareOfSteps share_of(std::size_t part, std::size_t all);
 
 // One subject on everything.
 struct SubjectRow {
@@ -120,7 +131,6 @@ struct SubjectRow {
   std::optional<double> create_over = {};  // median of families
   std::uint64_t families = 0;              // that have times
   JudgedCounts counts = {};
-  std::uint64_t slow = 0, ended = 0;
   ShareOfSteps unsafe = {}, alarming = {};  // of the judged steps
   std::optional<double> bytes_a_triangle = {};
 };
@@ -131,11 +141,35 @@ struct SubjectRow {
 std::vector<SubjectRow> by_subject(std::span<const FamilyRow> families,
                                    const std::vector<BenchSubject>& subjects);
 
-struct ComparisonLimits {
-  double small_seconds = 10;    // processor time of a worker's run of a generated or hard case
-  double large_seconds = 60;    // of a scene or a public sequence
-  double longest_repeated = 5;  // seconds: a case with a longer step is run once
-  int jobs = 1;                 // threads of the oracle
+// A case that subjects have played who are asked the same question.
+struct PlayedCase {
+  const corpus::Case& c;  // as the contract of the subjects has it
+  std::vector<SweptSubject> subjects = {};
+  std::vector<SweptRuns> runs = {};
+  // If anything is judged: what the oracle says of each step; and by subject, the errors of the
+  // first run, and its outcome by the claims by which these are counted, and by its own.
+  std::vector<oracle::StepJudgement> truth = {};
+  struct Verdict {
+    properties::StepErrors errors = {};
+    properties::Outcome counted = properties::Outcome::holds, own = properties::Outcome::holds;
+  };
+  std::vector<Verdict> verdicts = {};
+};
+
+struct ComparisonPlan {
+  SweepPlan sweep = {};       // the rounds are those of the families
+  double small_seconds = 10;  // processor time of a worker's run of a generated or hard case
+  double large_seconds = 60;  // of a scene or a public sequence
+  int jobs = 1;               // threads of the oracle
+  bool is_judged = true;      // else cases are played and timed alone
+  // What a suite does with each case beside what all have.
+  std::function<void(const PlayedCase&)> on_case = [](const PlayedCase&) {};
+};
+
+// What a suite tells while it runs: what it turns to, and that it is alive. `tick` is called often.
+struct BenchProgress {
+  std::function<void(const std::string& name)> phase = [](const std::string&) {};
+  std::function<void()> tick = [] {};
 };
 
 // The first subject is the reference.
@@ -143,44 +177,37 @@ class Comparison {
  public:
   // The references must outlive this object. Wrong answers, and a line of the CSV for each step
   // and subject, go into the report.
-  Comparison(
-      const std::vector<BenchSubject>& subjects, const ComparisonLimits& limits,
-      BenchReport& report, std::function<void()> tick = [] {});
+  Comparison(const std::vector<BenchSubject>& subjects, ComparisonPlan plan, BenchReport& report,
+             const BenchProgress& progress = {});
 
-  // Runs all cases of the family, and adds a row for each subject that had one. A subject is given
-  // the steps that its contract takes, and the reference is given the same. If steps were left
-  // out, nobody vouches for the start of the others. Culling none takes part up to 64 triangles.
-  // The times of a run that ended early count for nothing, and its steps are undecided.
-  void run(const CaseFamily& family);
+  // Runs all cases of the families, and adds a row for each family and subject that had one. A
+  // subject is given the steps that its contract takes, and the reference is given the same. If
+  // steps were left out, nobody vouches for the start of the others. Culling none takes part up to
+  // 64 triangles. The times of a run that ended early count for nothing, and its steps are
+  // undecided.
+  void run(const std::vector<CaseFamily>& families);
 
   const std::vector<FamilyRow>& rows() const { return rows_; }
   const std::vector<UnsafeAnswer>& unsafe() const { return unsafe_; }
+  std::vector<SubjectRow> subjects() const { return by_subject(rows_, subjects_); }
 
  private:
   struct Group;
-  std::vector<Group> groups_of(const corpus::Case& c) const;
+  std::vector<Group> groups_of(const corpus::Case& c, std::vector<FamilyRow>& rows) const;
   void run_group(const CaseFamily& family, const TimedCase& timed, const Group& group,
                  std::vector<FamilyRow>& rows);
-  void judge(const corpus::Case& c, const SweptRuns& runs,
-             const std::vector<oracle::StepJudgement>& truth, const BenchSubject& subject,
-             FamilyRow& row);
+  PlayedCase::Verdict judge(const PlayedCase& played, const SweptRuns& runs,
+                            const BenchSubject& subject, FamilyRow& row);
 
   const std::vector<BenchSubject>& subjects_;
-  const ComparisonLimits limits_;
+  const ComparisonPlan plan_;
   BenchReport& report_;
-  const std::function<void()> tick_;
-  std::map<std::pair<std::size_t, bool>, properties::WorkerProcess> workers_;  // if not here
+  const BenchProgress progress_;
+  // By subject: for small cases, and for large ones. They are started where they are needed.
+  std::vector<std::array<properties::WorkerProcess, 2>> workers_;
   std::vector<FamilyRow> rows_;
   std::vector<UnsafeAnswer> unsafe_;
 };
-
-// The counts of one case. `seen` is the case as the contract has it, `run` the first of its runs.
-// Adds to `unsafe`, if it is given, and confirms what is unsafe. Adds the errors of each step.
-JudgedCounts counts_of(const BenchSubject& subject, const corpus::Case& seen,
-                       const properties::CaseRun& run,
-                       const std::vector<oracle::StepJudgement>& truth,
-                       std::vector<UnsafeAnswer>* unsafe,
-                       std::vector<properties::StepErrors>* of_steps = nullptr);
 
 // Whether another method shows that step s has a contact that was missed or met too late, or one
 // of the pairs that are missing. If any time of the step will do, this is the referee (a proof
@@ -202,5 +229,46 @@ std::string remarks_text(const Comparison& comparison, std::span<const AbsentPee
 // Adds `subjects`, `families` and `unsafe_answers`.
 void add_figures(std::span<const SubjectRow> rows, const Comparison& comparison,
                  BenchReport& report);
+
+// The suites.
+
+using RunSuite = BenchReport(const BenchSettings& settings, const BenchProgress& progress);
+
+// Where each arithmetic breaks, in the corpus's hard families.
+RunSuite stability_suite;
+// Every arithmetic, culling and kind of pairs on the same steps: time, and error against the
+// oracle.
+RunSuite speed_error_suite;
+// Whole sequences by each culling and by several threads: what the default costs beside the best
+// choice.
+RunSuite sequences_suite;
+// Those detectors of others that are there, beside the built-in one: time and error.
+RunSuite peers_suite;
+
+// Times a plug-in beside the built-in detector, on the same steps of scenes and public sequences:
+// each in a worker of its own, in turn, a whole sequence each time. The built-in detector answers
+// what the plug-in claims. A claim that either breaks is a wrong answer. With a scale below 1,
+// public sequences of more than 10,000 triangles are left out. REQUIRES a plug-in that has steps.
+// `limits.seconds` of it is the processor time that one run of a sequence may take.
+BenchReport detector_suite(const BenchSettings& settings, const properties::Subject& plugin,
+                           const BenchProgress& progress);
+
+// Suite `stability` over any families and subjects in this process, so that tests can hand in wrong
+// ones. The rows are family by family and subject by subject. These are wrong answers: an exact
+// subject that is wrong, a bounded one that is refuted, and an oracle that contradicts a
+// construction.
+BenchReport stability_of(std::span<const corpus::HardFamily> families,
+                         const std::vector<BenchSubject>& subjects, const BenchSettings& settings,
+                         const BenchProgress& progress);
+// exact, bounded, double, float: each plays a case with the culling and the view primitive that it
+// states, or else with view-point.
+std::vector<BenchSubject> all_arithmetics();
+
+// Changes of a hard case that must not change its answer, by their names: permutation (of vertices,
+// triangles, first corners), mirror (with all triangles turned, so that outside stays outside),
+// power of two (up or down, by the case's id), and translation (as far as it can be exact). The
+// case's view primitive is changed with it, and its facts stay as they were. There is no form if a
+// coordinate would be rounded.
+std::span<const std::pair<const char*, properties::MakeForm>> case_changes();
 
 }  // namespace assay::reports

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "properties/worker/worker_process.h"
 #include "reports/bench/compared/comparison.h"
 
 namespace assay::reports {
 
-using detector::Arithmetic;
-using detector::Culling;
-using detector::Pairs;
+using detector::Arithmetic, detector::Culling, detector::Pairs;
 
 properties::WorkerProcess BenchSubject::make_worker(double seconds) const {
   return {worker, plugin, {.seconds = seconds}};
@@ -21,22 +20,21 @@ BenchSubject variant_of(Arithmetic arithmetic, Culling culling, Pairs pairs) {
   subject.name = fmt::format("{} {} {}", name_of(arithmetic), name_of(culling), name_of(pairs));
   subject.options = {culling, detector::Start::verified, pairs, arithmetic};
   subject.is_here = true;
-  subject.detector.built_in = true;
   subject.detector.claims = properties::claims_of(subject.options);
   subject.counted = properties::claims_of({.pairs = pairs});
   return subject;
 }
 
 std::vector<BenchSubject> all_variants() {
-  auto variants = std::vector{variant_of(Arithmetic::exact, Culling::bvh, Pairs::all)};
+  std::vector<BenchSubject> variants;
   for (const auto arithmetic : all_values<Arithmetic>) {
     for (const auto culling : all_values<Culling>) {
-      for (const auto pairs : all_values<Pairs>) {
-        auto variant = variant_of(arithmetic, culling, pairs);
-        if (variant.name != variants.front().name) variants.push_back(std::move(variant));
-      }
+      for (const auto pairs : all_values<Pairs>)
+        variants.push_back(variant_of(arithmetic, culling, pairs));
     }
   }
+  std::stable_partition(variants.begin(), variants.end(),
+                        [](const auto& variant) { return variant.name == "exact bvh all"; });
   return variants;
 }
 
@@ -46,7 +44,6 @@ BenchSubject built_in_in_worker(const detector::Options& options) {
   subject.name =
       fmt::format("built-in, {}, {}", name_of(options.arithmetic), name_of(options.culling));
   subject.options = options;
-  subject.detector.built_in = true;
   subject.detector.claims = properties::claims_of(options);
   subject.detector.contract = properties::contract_of(options);
   subject.counted = properties::claims_of({}).only(properties::claims_from_outside);
@@ -55,25 +52,23 @@ BenchSubject built_in_in_worker(const detector::Options& options) {
 
 namespace {
 
-// The detectors for which corpus/peers has adapters, and what each is built with.
-struct KnownPeer {
-  const char *file, *needs;
-};
+// The detectors for which corpus/peers has adapters, and why each may not be there.
 constexpr const char* of_tight_inclusion =
     "Tight-Inclusion was not found when it was built (corpus/peers/README.md)";
 constexpr const char* of_ipc_toolkit =
     "the IPC Toolkit was not found when it was built (corpus/peers/README.md)";
-constexpr KnownPeer known_peers[] = {{"cubic_double", nullptr},
-                                     {"cubic_float", nullptr},
-                                     {"cubic_eigen", "libeigen3-dev was not there"},
-                                     {"sampled_1", nullptr},
-                                     {"sampled_10", nullptr},
-                                     {"sampled_100", nullptr},
-                                     {"fcl_elementary", "libfcl-dev was not there"},
-                                     {"bullet_bernstein", "libbullet-dev was not there"},
-                                     {"tight_inclusion", of_tight_inclusion},
-                                     {"ipc_tight_inclusion", of_ipc_toolkit},
-                                     {"ipc_additive", of_ipc_toolkit}};
+constexpr std::pair<const char*, const char*> known_peers[] = {
+    {"cubic_double", nullptr},
+    {"cubic_float", nullptr},
+    {"cubic_eigen", "libeigen3-dev was not there"},
+    {"sampled_1", nullptr},
+    {"sampled_10", nullptr},
+    {"sampled_100", nullptr},
+    {"fcl_elementary", "libfcl-dev was not there"},
+    {"bullet_bernstein", "libbullet-dev was not there"},
+    {"tight_inclusion", of_tight_inclusion},
+    {"ipc_tight_inclusion", of_ipc_toolkit},
+    {"ipc_additive", of_ipc_toolkit}};
 
 void add_library(const std::filesystem::path& file, Peers& peers) {
   auto opened = properties::Subject::open(properties::worker_program(), file.string(),
@@ -100,7 +95,7 @@ void add_library(const std::filesystem::path& file, Peers& peers) {
 // Known detectors stand in the order of their list. Others stand behind them, by name.
 std::size_t place_of(const std::filesystem::path& file) {
   const auto* known = std::find_if(std::begin(known_peers), std::end(known_peers),
-                                   [&](const KnownPeer& peer) { return file.stem() == peer.file; });
+                                   [&](const auto& peer) { return file.stem() == peer.first; });
   return static_cast<std::size_t>(known - std::begin(known_peers));
 }
 
@@ -114,20 +109,17 @@ Peers find_peers(const std::string& folder) {
       peers.subjects.push_back(
           built_in_in_worker({culling, detector::Start::verified, Pairs::all, arithmetic}));
   }
-  std::vector<std::filesystem::path> files;
+  std::set<std::pair<std::size_t, std::filesystem::path>> files;
   std::error_code unreadable;
   for (const auto& entry : std::filesystem::directory_iterator(folder, unreadable)) {
-    if (entry.path().extension() == ".so") files.push_back(entry.path());
+    if (entry.path().extension() == ".so") files.emplace(place_of(entry.path()), entry.path());
   }
-  std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) {
-    return std::pair(place_of(a), a) < std::pair(place_of(b), b);
-  });
-  for (const auto& file : files) add_library(file, peers);
-  for (const auto& [file, needs] : known_peers) {
-    const bool is_there = std::any_of(
-        files.begin(), files.end(), [name = file](const auto& one) { return one.stem() == name; });
-    if (is_there) continue;
-    peers.absent.push_back({file, needs ? needs : fmt::format("{}.so is not in {}", file, folder)});
+  for (const auto& [place, file] : files) add_library(file, peers);
+  for (const auto& [name, needs] : known_peers) {
+    if (std::any_of(files.begin(), files.end(),
+                    [stem = name](const auto& file) { return file.second.stem() == stem; }))
+      continue;
+    peers.absent.push_back({name, needs ? needs : fmt::format("{}.so is not in {}", name, folder)});
   }
   return peers;
 }

@@ -20,62 +20,55 @@ std::string time_text(const properties::TimesOff& off) {
 }
 
 // A column is shown of subjects in this process, of those in workers, or of both.
-struct Column {
-  const char* heading;
-  int width;
-  bool is_of_here = true, is_of_workers = true;
-};
-constexpr Column columns[] = {{"answer", -7, false},
-                              {"time", -19},
-                              {"unsafe", 9},
-                              {"alarming", 9, true, false},
-                              {"missed", 7},
-                              {"alarms", 7},
-                              {"missing", 8, true, false},
-                              {"spurious", 9, true, false},
-                              {"  late", -27, true, false},
-                              {"early", -1, true, false},
-                              {"late", 10, false},
-                              {"early", 10, false},
-                              {"undecided", 10, false},
-                              {"slow", 5, false},
-                              {"steps", 6, false},
-                              {"create", 7, false},
-                              {"bytes", 6, false}};
+enum class Of : unsigned char { both, here, workers };
 
-// In the order of columns. A star stands on the Pareto line, and a count in brackets where the
-// detector promised nothing about it.
-std::vector<std::string> words_of(const SubjectRow& row) {
+// A star stands on the Pareto line, and a count in brackets where the detector promised nothing
+// about it.
+std::vector<Column> columns_of(const SubjectRow& row, const std::string& heading,
+                               bool has_workers) {
   const auto& e = row.counts.errors;
   const auto& subject = *row.subject;
+  const auto text = [](std::uint64_t count) { return std::to_string(count); };
   const auto starred = [&](std::uint64_t count, const ShareOfSteps& share) {
-    return fmt::format("{}{}", count, share.on_pareto_line ? " *" : subject.is_here ? "  " : "");
+    return text(count) + (share.on_pareto_line ? " *" : subject.is_here ? "  " : "");
   };
   const auto asked = [&](std::uint64_t count, const std::string& words) {
     return count == 0 || subject.counted.has(properties::Claim::free_sound) ? words
                                                                             : "(" + words + ")";
   };
-  const bool tells_time = row.answers.find("time") != std::string::npos,
-             tells_pairs = row.answers.find("pairs") != std::string::npos;
-  return {fmt::format("a{}{}", tells_time ? " t" : "  ", tells_pairs ? " p" : ""),
-          row.over
-              ? fmt::format("{:.2f} [{:.2f}, {:.2f}]", row.over->value, row.over->lo, row.over->hi)
-              : "-",
-          asked(e.unsafe, starred(e.unsafe, row.unsafe)),
-          starred(e.alarming, row.alarming),
-          asked(e.missed, std::to_string(e.missed)),
-          std::to_string(e.false_alarms),
-          std::to_string(e.missing),
-          std::to_string(e.spurious),
-          "  " + time_text(e.late),
-          time_text(e.early),
-          text_of(e.late),
-          text_of(e.early),
-          std::to_string(e.undecided),
-          std::to_string(row.slow),
-          std::to_string(e.steps),
-          row.create_over ? fmt::format("{:.2g}", *row.create_over) : "-",
-          row.bytes_a_triangle ? fmt::format("{:.0f}", *row.bytes_a_triangle) : "-"};
+  const auto answers = [&](const char* what, const char* mark, const char* otherwise) {
+    return row.answers.find(what) != std::string::npos ? mark : otherwise;
+  };
+  const auto over = row.over.value_or(Estimate());
+  const std::pair<Of, Column> all[] = {
+      {Of::both, {heading, has_workers ? -37 : -29, subject.name}},
+      {Of::workers,
+       {"answer", -7,
+        fmt::format("a{}{}", answers("time", " t", "  "), answers("pairs", " p", ""))}},
+      {Of::both,
+       {"time", -19,
+        row.over ? fmt::format("{:.2f} [{:.2f}, {:.2f}]", over.value, over.lo, over.hi) : "-"}},
+      {Of::both, {"unsafe", 9, asked(e.unsafe, starred(e.unsafe, row.unsafe))}},
+      {Of::here, {"alarming", 9, starred(e.alarming, row.alarming)}},
+      {Of::both, {"missed", 7, asked(e.missed, text(e.missed))}},
+      {Of::both, {"alarms", 7, text(e.false_alarms)}},
+      {Of::here, {"missing", 8, text(e.missing)}},
+      {Of::here, {"spurious", 9, text(e.spurious)}},
+      {Of::here, {"  late", -27, "  " + time_text(e.late)}},
+      {Of::here, {"early", 0, time_text(e.early)}},
+      {Of::workers, {"late", 10, text_of(e.late)}},
+      {Of::workers, {"early", 10, text_of(e.early)}},
+      {Of::workers, {"undecided", 10, text(e.undecided)}},
+      {Of::workers, {"slow", 5, text(row.counts.slow)}},
+      {Of::workers, {"steps", 6, text(e.steps)}},
+      {Of::workers, {"create", 7, row.create_over ? fmt::format("{:.2g}", *row.create_over) : "-"}},
+      {Of::workers,
+       {"bytes", 6, row.bytes_a_triangle ? fmt::format("{:.0f}", *row.bytes_a_triangle) : "-"}}};
+  std::vector<Column> shown;
+  for (const auto& [of, column] : all) {
+    if (of != (has_workers ? Of::here : Of::workers)) shown.push_back(column);
+  }
+  return shown;
 }
 
 }  // namespace
@@ -83,21 +76,9 @@ std::vector<std::string> words_of(const SubjectRow& row) {
 std::string subjects_text(std::span<const SubjectRow> rows, const std::string& heading) {
   const bool has_workers =
       std::any_of(rows.begin(), rows.end(), [](const auto& row) { return !row.subject->is_here; });
-  std::string text;
-  const auto add_line = [&](const std::string& name, const std::vector<std::string>& all) {
-    std::vector<int> widths = {has_workers ? -37 : -29};
-    std::vector<std::string> words = {name};
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      if (!(has_workers ? columns[i].is_of_workers : columns[i].is_of_here)) continue;
-      widths.push_back(columns[i].width);
-      words.push_back(all[i]);
-    }
-    text += table_line(widths, words, 0);
-  };
-  std::vector<std::string> headings;
-  for (const auto& column : columns) headings.emplace_back(column.heading);
-  add_line(heading, headings);
-  for (const auto& row : rows) add_line(row.subject->name, words_of(row));
+  std::vector<std::vector<Column>> table;
+  for (const auto& row : rows) table.push_back(columns_of(row, heading, has_workers));
+  auto text = table_text(table, 0);
   if (!has_workers) return text;
   JudgedCounts of[2];  // of peers, of the built-in detector
   for (const auto& row : rows) of[row.subject->detector.built_in ? 1 : 0] += row.counts;
@@ -115,9 +96,9 @@ std::string subjects_text(std::span<const SubjectRow> rows, const std::string& h
 std::string remarks_text(const Comparison& comparison, std::span<const AbsentPeer> absent) {
   std::string text;
   for (const auto& row : comparison.rows()) {
-    if (row.ended > 0)
+    if (row.counts.ended > 0)
       text += fmt::format("ended early: {}, {}: {} of {} cases, first {}\n", row.subject,
-                          row.family, row.ended, row.cases, row.first_end);
+                          row.family, row.counts.ended, row.cases, row.first_end);
   }
   for (const auto& [name, why] : absent) text += fmt::format("absent: {}: {}\n", name, why);
   for (const auto& one : comparison.unsafe()) {
@@ -144,15 +125,15 @@ Json json_of(const ShareOfSteps& share) {
 
 Json json_of(const SubjectRow& row) {
   const auto& subject = *row.subject;
-  return json_object("subject", subject.name, "version", subject.description.version, "is_built_in",
-                     subject.detector.built_in, "arithmetic", name_of(subject.options.arithmetic),
-                     "culling", name_of(subject.options.culling), "pairs",
-                     name_of(subject.options.pairs), "claims", words_of(subject.detector.claims),
-                     "contract", phrases_of(subject.detector.contract), "answers", row.answers,
-                     "time_over_reference", row.over, "create_over_reference", row.create_over,
-                     "families_timed", row.families, "slow", row.slow, "ended_early", row.ended,
-                     "bytes_a_triangle", row.bytes_a_triangle, "unsafe", json_of(row.unsafe),
-                     "alarming", json_of(row.alarming), "counts", json_of(row.counts));
+  return json_object(
+      "subject", subject.name, "version", subject.description.version, "is_built_in",
+      subject.detector.built_in, "arithmetic", name_of(subject.options.arithmetic), "culling",
+      name_of(subject.options.culling), "pairs", name_of(subject.options.pairs), "claims",
+      words_of(subject.detector.claims), "contract", phrases_of(subject.detector.contract),
+      "answers", row.answers, "time_over_reference", row.over, "create_over_reference",
+      row.create_over, "families_timed", row.families, "slow", row.counts.slow, "ended_early",
+      row.counts.ended, "bytes_a_triangle", row.bytes_a_triangle, "unsafe", json_of(row.unsafe),
+      "alarming", json_of(row.alarming), "counts", json_of(row.counts));
 }
 
 std::optional<Estimate> each(const std::vector<double>& sums, std::uint64_t count) {
@@ -167,21 +148,21 @@ Json json_of(const FamilyRow& f) {
                      f.elementary_tests, "ms_a_step", each(f.ms, f.steps_timed),
                      "time_over_reference", f.over(), "create_ms", each(f.create_ms, f.cases_timed),
                      "create_over_reference", f.create_over(), "cases", f.cases, "cases_timed",
-                     f.cases_timed, "slow", f.slow, "ended_early", f.ended, "first_end",
-                     f.first_end.empty() ? std::nullopt : std::optional(f.first_end), "broken",
-                     f.broken, "counts", json_of(f.counts));
+                     f.cases_timed, "slow", f.counts.slow, "ended_early", f.counts.ended,
+                     "first_end", f.first_end.empty() ? std::nullopt : std::optional(f.first_end),
+                     "broken", f.broken, "counts", json_of(f.counts));
 }
 
 }  // namespace
 
 void add_figures(std::span<const SubjectRow> rows, const Comparison& comparison,
                  BenchReport& report) {
-  for (const auto& row : rows) report.add_figure("subjects", json_of(row));
-  for (const auto& row : comparison.rows()) report.add_figure("families", json_of(row));
+  for (const auto& row : rows) report.figures["subjects"].push_back(json_of(row));
+  for (const auto& row : comparison.rows()) report.figures["families"].push_back(json_of(row));
   for (const auto& one : comparison.unsafe())
-    report.add_figure("unsafe_answers",
-                      json_object("subject", one.subject, "case", one.case_id, "step", one.step + 1,
-                                  "what", one.defect, "confirmed", one.is_confirmed));
+    report.figures["unsafe_answers"].push_back(
+        json_object("subject", one.subject, "case", one.case_id, "step", one.step + 1, "what",
+                    one.defect, "confirmed", one.is_confirmed));
 }
 
 }  // namespace assay::reports

@@ -1,7 +1,6 @@
 // `assay bench`: its statistics on known numbers, its suites at a hundredth of their size, and the
 // verb as a user runs it.
-#include "reports/bench/cases.h"
-#include "reports/bench/sweep.h"
+#include "reports/bench/compared/comparison.h"
 #include "tests/reports/program.h"
 
 namespace assay::reports {
@@ -42,22 +41,26 @@ TEST(Estimate, QuantilesAreNearestRank) {
   EXPECT_EQ(quantile({7}, 0.999), 7);
 }
 
-TEST(Interleave, RoundsRunForwardAndBackward) {
+TEST(Sweep, RoundsRunForwardAndBackward) {
   std::string order;
-  const auto samples = interleave(2, {[&] {
-                                        order += 'a';
-                                        return 1.;
-                                      },
-                                      [&] {
-                                        order += 'b';
-                                        return 2.;
-                                      }});
+  const auto subject = [&](char name) {
+    return SweptSubject{nullptr, {}, [&order, name](const detector::Options& options) {
+                          order += name;
+                          return detector::standard_stages(options);
+                        }};
+  };
+  const auto timed = timed_case("", bench_scene("bend", 320, 3), detector::Start::verified);
+  const SweptSubject subjects[] = {subject('a'), subject('b')};
+  const auto runs = sweep(timed.c, subjects, {.rounds = 2});
   EXPECT_EQ(order,
             "ab"
             "ab"
-            "ba");  // the first is thrown away
-  EXPECT_EQ(samples[0], std::vector<double>(2, 1.));
-  EXPECT_EQ(samples[1], std::vector<double>(2, 2.));
+            "ba");  // the first is judged
+  for (const auto& of_subject : runs) {
+    EXPECT_EQ(of_subject.samples.size(), 2u);
+    EXPECT_EQ(of_subject.of_step(1).size(), 2u);
+    EXPECT_FALSE(of_subject.has_differing_runs);
+  }
 }
 
 TEST(BenchRow, OutcomeIsThatOfTheMedian) {
@@ -69,21 +72,22 @@ TEST(BenchRow, OutcomeIsThatOfTheMedian) {
   report.add_no_data("e", "nowhere");
   const char* wanted[] = {"holds", "fails", "fails", "-", "no data"};
   for (std::size_t i = 0; i < report.rows.size(); ++i) {
-    EXPECT_STREQ(name_of(report.rows[i].outcome()), wanted[i]);
+    EXPECT_STREQ(report.rows[i].outcome(), wanted[i]);
   }
   EXPECT_NE(text_of(report).find("nowhere is not there"), std::string::npos);
 }
 
 TEST(BenchReport, TablesHaveTheirColumns) {
-  const int widths[] = {-5, 4, -1};
-  EXPECT_EQ(table_line(widths, {"ab", "12", "end"}), "ab      12 end\n");
-  EXPECT_EQ(table_line(widths, {"ab", "12", "end"}, 0), "ab     12end\n");
+  const std::vector<Column> row = {{"a", -5, "ab"}, {"bcdef", 4, "12"}, {"", 0, "end "}};
+  EXPECT_EQ(table_text({row}), "a     bcdef\nab      12 end \n");
+  EXPECT_EQ(table_text({row, row}, 0), "a    bcdef\nab     12end \nab     12end \n");
+  EXPECT_EQ(table_text({}), "");
 }
 
 // A field that is an object has a column for each of its fields, and a line that lacks one has an
 // empty field there.
 TEST(BenchReport, SamplesAreLinesOfFields) {
-  BenchReport report("some");
+  BenchReport report{"some"};
   report.add("a, b", "us", median_of({2, 1}));
   EXPECT_EQ(csv_of(report),
             "suite,what,unit,sample,value\nsome,\"a, b\",\"us\",1,2\n"

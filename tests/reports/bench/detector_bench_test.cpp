@@ -1,6 +1,6 @@
 // `assay bench --detector`: plug-ins whose answers are known, on small scenes, and the verb.
 #include "corpus/scenes/scenes.h"
-#include "reports/bench/suites.h"
+#include "reports/bench/compared/comparison.h"
 #include "tests/reports/program.h"
 
 namespace assay::reports {

@@ -3,7 +3,6 @@
 #include "corpus/scenes/scenes.h"
 #include "oracle/referee/distance_referee.h"
 #include "properties/judging/case_check.h"
-#include "properties/judging/contracted_case.h"
 #include "properties/judging/judged_run.h"
 #include "reports/bench/compared/comparison.h"
 #include "tests/reports/program.h"
@@ -39,7 +38,7 @@ CaseFamily two_steps(const std::string& kind) {
 
 struct SmallRun {
   Peers peers;
-  BenchReport report = BenchReport("peers");
+  BenchReport report = {"peers"};
   std::vector<FamilyRow> families;
   std::vector<UnsafeAnswer> answers;
   std::vector<SubjectRow> rows;
@@ -50,7 +49,7 @@ struct SmallRun {
     put_peers(scratch, names);
     peers = find_peers(scratch / "");
     Comparison comparison(peers.subjects, {.small_seconds = .2, .large_seconds = .2}, report);
-    comparison.run(two_steps("generated"));
+    comparison.run({two_steps("generated")});
     families = comparison.rows();
     answers = comparison.unsafe();
     rows = by_subject(families, peers.subjects);
@@ -94,10 +93,10 @@ TEST(PeersBench, OneThatHangsOrCrashesEndsNothingElse) {
   const SmallRun run({"hang", "crash", "always_free", "query_alone"});
   EXPECT_TRUE(run.report.wrong_answers.empty());
   std::uint64_t ended = 0;
-  for (const auto& row : run.rows) ended += row.ended;
+  for (const auto& row : run.rows) ended += row.counts.ended;
   EXPECT_GE(ended, 2u) << "the hanging one ends early in each case";
   for (const auto& row : run.rows) {
-    if (row.ended < 2) continue;
+    if (row.counts.ended < 2) continue;
     EXPECT_EQ(row.counts.errors.undecided, 2u) << row.subject->name;
     EXPECT_FALSE(row.over) << row.subject->name;
   }
@@ -212,18 +211,22 @@ TEST(PeersBench, EachPeerThatIsPresentMissesItsStoredMesh) {
   const auto expect_missed = [&](const BenchSubject& subject, const fs::path& file) {
     if (!fs::exists(file)) return;
     ++present;
-    const auto c = corpus::read_case(file.string()).value();
-    const auto seen = properties::contracted(c, subject.detector.contract);
-    ASSERT_TRUE(seen) << subject.name;
-    auto worker = subject.process();
-    const properties::Configuration configuration = {subject.name, {}, {}, true};
-    const auto run = worker.run(*seen, {&configuration, 1}).front();
-    std::vector<UnsafeAnswer> answers;
-    const auto counts = counts_of(
-        subject, *seen, run, properties::judge_case(*seen, subject.detector.contract), &answers);
+    const std::vector<TimedCase> cases = {{corpus::read_case(file.string()).value()}};
+    std::uint64_t peak_bytes = 0;
+    ComparisonPlan plan;
+    plan.on_case = [&](const PlayedCase& played) {
+      peak_bytes = played.runs[0].first->times->peak_bytes;
+    };
+    const std::vector subjects = {subject};
+    BenchReport report;
+    Comparison comparison(subjects, plan, report);
+    comparison.run({{"stored", "hard", 0, [&] { return cases; }}});
+    ASSERT_EQ(comparison.rows().size(), 1u);
+    const auto& counts = comparison.rows()[0].counts;
+    EXPECT_EQ(counts.left_out, 0u) << subject.name;
     EXPECT_EQ(counts.errors.missed, 1u) << subject.name;
     EXPECT_EQ(counts.confirmed, 1u) << subject.name;
-    EXPECT_GT(run.times->peak_bytes, 100'000u) << subject.name;
+    EXPECT_GT(peak_bytes, 100'000u) << subject.name;
   };
   for (const auto& subject : peers.subjects) {
     if (subject.detector.built_in) continue;

@@ -1,10 +1,11 @@
 // Suite `stability`: right arithmetic is shown as right, and arithmetic that is wrong on purpose as
 // wrong in the way that it is.
-#include "reports/bench/stability/stability.h"
-
 #include <nlohmann/json.hpp>
 
 #include "detector/step/stages.h"
+#include "properties/judging/case_options.h"
+#include "properties/judging/judged_run.h"
+#include "reports/bench/compared/comparison.h"
 #include "tests/reports/json_schema.h"
 #include "tests/test.h"
 
@@ -22,30 +23,36 @@ constexpr double tests_scale = 0.01;
 
 struct Measured {
   BenchReport report;
-  std::vector<StabilityCell> cells;
 
-  StabilityCell total() const {
-    FamilyStability sum;
-    sum.cells = cells;
-    return sum.total();
+  nlohmann::json cells() const { return to_json(report, "version")["heat"]; }
+  // The sum of a count over all cells: "right", "errors/missed".
+  std::uint64_t sum(const std::string& count) const {
+    std::uint64_t all = 0;
+    for (const auto& cell : cells())
+      all += cell.at(nlohmann::json::json_pointer("/" + count)).get<std::uint64_t>();
+    return all;
   }
 };
 
-Measured report_of(std::string_view family, const StabilitySubject& subject) {
-  Measured out;
-  out.report = stability_of({&family_named(family), 1}, {&subject, 1}, {"/nowhere", tests_scale},
-                            {}, &out.cells);
-  return out;
+Measured report_of(std::string_view family, const BenchSubject& subject) {
+  return {stability_of({&family_named(family), 1}, {subject}, {"/nowhere", tests_scale}, {})};
+}
+
+BenchSubject wrong(detector::Arithmetic arithmetic, MakeStages stages) {
+  auto subject = variant_of(arithmetic, detector::Culling::view_point, detector::Pairs::all);
+  subject.name = "wrong";
+  subject.stages = std::move(stages);
+  return subject;
 }
 
 // Exact stages, but for one.
 template <class Elementary>
-StabilitySubject with_elementary(detector::Arithmetic arithmetic) {
-  return {"wrong", arithmetic, [](const detector::Options& options) {
-            auto stages = detector::standard_stages(options);
-            stages.elementary = std::make_shared<Elementary>();
-            return stages;
-          }};
+BenchSubject with_elementary(detector::Arithmetic arithmetic) {
+  return wrong(arithmetic, [](const detector::Options& options) {
+    auto stages = detector::standard_stages(options);
+    stages.elementary = std::make_shared<Elementary>();
+    return stages;
+  });
 }
 
 const BenchRow& row_that_starts(const BenchReport& report, const std::string& start) {
@@ -63,13 +70,16 @@ class ForgetsTheEnd : public detector::ElementaryTest {
 TEST(Stability, AMissAtTheEndIsAMiss) {
   const auto done =
       report_of("contact-at-end", with_elementary<ForgetsTheEnd>(detector::Arithmetic::exact));
-  EXPECT_EQ(row_that_starts(done.report, "contact-at-end, wrong: wrong").outcome(),
-            RowOutcome::fails);
+  const auto& row = row_that_starts(done.report, "contact-at-end, wrong: wrong");
+  EXPECT_STREQ(row.outcome(), "fails");
+  // It breaks at the first strength that is not all right.
+  EXPECT_NE(row.note.find(" 0 (touching), right at 2^"), std::string::npos) << row.note;
   EXPECT_FALSE(done.report.wrong_answers.empty());
   // Only what touches at t=1 is lost.
-  for (const auto& cell : done.cells) {
-    EXPECT_EQ(cell.errors.missed, cell.touches ? cell.errors.steps : 0) << cell.strength;
-    EXPECT_EQ(cell.errors.alarming, 0u);
+  for (const auto& cell : done.cells()) {
+    const auto& errors = cell["errors"];
+    EXPECT_EQ(errors["missed"], cell["exponent"].is_null() ? errors["steps"].get<int>() : 0);
+    EXPECT_EQ(errors["alarming"], 0);
   }
 }
 
@@ -83,16 +93,23 @@ class ComesLate : public detector::ElementaryTest {
 
 TEST(Stability, ALateTimeIsLateAndMeasured) {
   const auto done = report_of("grazing", with_elementary<ComesLate>(detector::Arithmetic::bounded));
-  const auto all = done.total();
-  EXPECT_GT(all.errors.late.steps, 0u);
-  EXPECT_EQ(all.errors.unsafe, all.errors.late.steps);
-  EXPECT_EQ(all.errors.missed, 0u);
-  EXPECT_EQ(all.right, all.cases);
-  EXPECT_LT(all.exactly_right, all.cases);
-  EXPECT_GT(all.refuted, 0);
+  const auto late = done.sum("errors/late/steps");
+  EXPECT_GT(late, 0u);
+  EXPECT_EQ(done.sum("errors/unsafe"), late);
+  EXPECT_EQ(done.sum("errors/missed"), 0u);
+  EXPECT_EQ(done.sum("right"), done.sum("cases"));
+  EXPECT_LT(done.sum("exactly_right"), done.sum("cases"));
+  const auto& refuted = row_that_starts(done.report, "grazing, wrong: missed, late");
+  EXPECT_STREQ(refuted.outcome(), "fails");
+  EXPECT_NE(row_that_starts(done.report, "grazing, wrong: right").note.find("never wrong"),
+            std::string::npos);
   // All first times are 1/2, where an ulp is 2^-53.
-  EXPECT_EQ(all.errors.late.worst_share, 0x1p-10);
-  EXPECT_EQ(all.errors.late.worst_ulps, 0x1p-10 / 0x1p-53);
+  for (const auto& cell : done.cells()) {
+    const auto& off = cell["errors"]["late"];
+    if (off["steps"] == 0) continue;
+    EXPECT_EQ(off["worst_share"], 0x1p-10);
+    EXPECT_EQ(off["worst_ulps"], 0x1p-10 / 0x1p-53);
+  }
   EXPECT_FALSE(done.report.wrong_answers.empty());
 }
 
@@ -107,10 +124,9 @@ class SeesTooMuch : public detector::ElementaryTest {
 TEST(Stability, FalseAlarmsAreAlarming) {
   const auto done =
       report_of("short-steps", with_elementary<SeesTooMuch>(detector::Arithmetic::exact));
-  const auto errors = done.total().errors;
-  EXPECT_GT(errors.alarming, 0u);
-  EXPECT_GT(errors.early.steps, 0u);
-  EXPECT_EQ(errors.missed, 0u);
+  EXPECT_GT(done.sum("errors/alarming"), 0u);
+  EXPECT_GT(done.sum("errors/early/steps"), 0u);
+  EXPECT_EQ(done.sum("errors/missed"), 0u);
   EXPECT_FALSE(done.report.wrong_answers.empty());
 }
 
@@ -129,17 +145,15 @@ class CallsZeroPositive : public detector::ViewClassifier {
 };
 
 TEST(Stability, AWrongViewSignIsWrong) {
-  const StabilitySubject subject{"wrong", detector::Arithmetic::bounded,
-                                 [](const detector::Options& options) {
-                                   auto stages = detector::standard_stages(options);
-                                   stages.classifier = std::make_shared<CallsZeroPositive>();
-                                   return stages;
-                                 }};
+  const auto subject = wrong(detector::Arithmetic::bounded, [](const detector::Options& options) {
+    auto stages = detector::standard_stages(options);
+    stages.classifier = std::make_shared<CallsZeroPositive>();
+    return stages;
+  });
   for (const auto* family : {"view-touches-zero", "view-on-surface", "view-line-ends"}) {
     const auto done = report_of(family, subject);
-    const auto all = done.total();
-    EXPECT_GT(all.wrong_signs, 0) << family;
-    EXPECT_LT(all.right, all.cases) << family;
+    EXPECT_GT(done.sum("wrong_signs"), 0u) << family;
+    EXPECT_LT(done.sum("right"), done.sum("cases")) << family;
     EXPECT_FALSE(done.report.wrong_answers.empty()) << family;
   }
 }
@@ -172,69 +186,65 @@ TEST(Stability, ChangesChangeNothing) {
     if (family.name == "coplanar") continue;
     for (int variant = 0; variant < family.kinds; ++variant) {
       const auto c = corpus::hard_case(family, family.strongest / 2, variant);
-      const auto exact = all_arithmetics()[0];
-      const auto original = run_hard_case(c, exact);
-      for (const auto& change : case_changes()) {
+      const auto run = [](const corpus::Case& one) {
+        auto options = properties::options_of(one);
+        if (!one.options.contains("culling")) options.culling = detector::Culling::view_point;
+        const SweptSubject exact{nullptr, {"exact", options}};
+        return sweep(one, {&exact, 1}, {.rounds = 0})[0].first->steps[0];
+      };
+      const auto original = run(c);
+      for (const auto& [name, make] : case_changes()) {
         ++cases;
-        const auto other = change.make(c);
+        const auto other = make(c);
         if (!other) continue;
         ++changed;
-        EXPECT_FALSE(other->changed.frames == c.frames) << c.id << ", " << change.name;
-        EXPECT_TRUE(same_but_for_numbering(original, run_hard_case(other->changed, exact),
-                                           other->triangle, true))
-            << c.id << ", " << change.name;
-        HardTruth truth(other->changed);
-        EXPECT_EQ(truth.judgement().answer, original.answer) << c.id << ", " << change.name;
+        EXPECT_FALSE(other->c.frames == c.frames) << c.id << ", " << name;
+        EXPECT_EQ(properties::difference_in_form(original, *other, run(other->c)), "")
+            << c.id << ", " << name;
+        EXPECT_EQ(properties::judge_case(other->c)[0].answer, original.answer)
+            << c.id << ", " << name;
       }
     }
   }
   EXPECT_GT(changed, 0.9 * cases);
 }
 
-TEST(Stability, BreaksAtTheFirstStrengthThatIsNotAllRight) {
-  FamilyStability found;
-  for (const int wrong : {0, 0, 1, 0, 3}) {
-    StabilityCell cell;
-    cell.strength = static_cast<int>(found.cells.size()) * 5;
-    cell.cases = 4;
-    cell.right = 4 - wrong;
-    found.cells.push_back(cell);
-  }
-  EXPECT_EQ(found.breaks_at(), 10);
-  EXPECT_EQ(found.total().right, 16);
-  found.cells.resize(2);
-  EXPECT_FALSE(found.breaks_at());
-}
-
 TEST(Stability, ExactIsNeverWrongAndBoundedNeverMisses) {
-  std::vector<StabilityCell> cells;
-  const auto report = stability_of(corpus::hard_families(), all_arithmetics(),
-                                   {"/nowhere", tests_scale}, {}, &cells);
+  const auto report =
+      stability_of(corpus::hard_families(), all_arithmetics(), {"/nowhere", tests_scale}, {});
   EXPECT_TRUE(report.wrong_answers.empty()) << text_of(report);
   int exact_rows = 0, bounded_rows = 0;
   for (const auto& row : report.rows) {
-    EXPECT_NE(row.outcome(), RowOutcome::fails) << row.label;
-    exact_rows += row.label.ends_with(", exact: wrong") && row.outcome() == RowOutcome::holds;
-    bounded_rows += row.label.ends_with(", bounded: missed, late, wrong V+ or V-") &&
-                    row.outcome() == RowOutcome::holds;
+    EXPECT_STRNE(row.outcome(), "fails") << row.label;
+    const bool holds = row.outcome() == std::string("holds");
+    exact_rows += row.label.ends_with(", exact: wrong") && holds;
+    bounded_rows += row.label.ends_with(", bounded: missed, late, wrong V+ or V-") && holds;
   }
   EXPECT_EQ(exact_rows, 20);
   EXPECT_EQ(bounded_rows, 20);
+  const auto json = to_json(report, "version");
+  tests::expect_schema("bench", json);
   // The families are hard: the others break.
   std::map<std::string, int> wrong;
-  for (const auto& cell : cells) wrong[cell.arithmetic] += cell.cases - cell.right;
+  std::map<std::string, std::string> breaks;  // by the beginning of a row: the least such strength
+  for (const auto& cell : json["heat"]) {
+    const auto arithmetic = cell["arithmetic"].get<std::string>();
+    const int cases = cell["cases"], right = cell["right"];
+    EXPECT_GT(cases, 0);
+    EXPECT_EQ(cell["share_right"], static_cast<double>(right) / cases);
+    wrong[arithmetic] += cases - right;
+    const auto& exponent = cell["exponent"];
+    if (right < cases)
+      breaks.try_emplace(cell["family"].get<std::string>() + ", " + arithmetic + ": right",
+                         exponent.is_null() ? "0 (touching)" : "2^" + exponent.dump());
+  }
   EXPECT_EQ(wrong["exact"], 0);
   EXPECT_GT(wrong["bounded"], 0);
   EXPECT_GT(wrong["double"], 0);
   EXPECT_GT(wrong["float"], wrong["double"]);
-
-  const auto json = to_json(report, "version");
-  tests::expect_schema("bench", json);
-  ASSERT_EQ(json["heat"].size(), cells.size());
-  for (const auto& cell : json["heat"]) {
-    EXPECT_GT(cell["cases"], 0);
-    EXPECT_EQ(cell["share_right"].get<double>(),
-              cell["right"].get<double>() / cell["cases"].get<double>());
+  for (const auto& [start, knob] : breaks) {
+    const auto& note = row_that_starts(report, start).note;
+    EXPECT_LT(note.find(knob), note.find_first_of(",;", note.find('^') + 1)) << start << note;
   }
 }
 

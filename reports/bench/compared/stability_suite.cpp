@@ -1,0 +1,328 @@
+// Suite `stability` finds where each arithmetic breaks, in each family of hard cases of the
+// corpus: at all strengths, and in cases that are changed in ways that must not matter.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "detector/mesh/topology.h"
+#include "oracle/view/view_sign.h"
+#include "properties/judging/case_options.h"
+#include "reports/bench/compared/comparison.h"
+
+namespace assay::reports {
+namespace {
+
+using detector::Arithmetic, detector::ViewSign, properties::Outcome;
+
+// What came of one subject: in a case, in a family at one strength, which is a cell of the heat
+// map, or in a whole family.
+struct Cell {
+  // All arithmetics are asked for what exact arithmetic claims. A case is a step.
+  properties::StepErrors errors = {};
+  // The answer and the set of pairs are the oracle's, and if the case gives the view primitive, no
+  // triangle is V+ or V- that really is not. (The detector's own primitives may lie on the
+  // surface, which is not what the other families are about.)
+  std::uint64_t right = 0;
+  // In addition, every time is the enclosure of exact arithmetic and every sign is the oracle's.
+  std::uint64_t exactly_right = 0;
+  std::uint64_t refuted = 0;      // a claim of the arithmetic is broken, or a sign is wrong
+  std::uint64_t wrong_signs = 0;  // a triangle is V+ or V- that really is not
+  detector::ContactRungCounts rungs = {};  // of elementary tests that axis order did not settle
+  detector::ViewCounts views = {};
+  std::string first_wrong = {}, first_refuted = {};  // ids of cases; empty: none
+
+  Cell& operator+=(const Cell& other) {
+    for (const auto member :
+         {&Cell::right, &Cell::exactly_right, &Cell::refuted, &Cell::wrong_signs})
+      this->*member += other.*member;
+    errors += other.errors;
+    rungs += other.rungs;
+    views += other.views;
+    if (first_wrong.empty()) first_wrong = other.first_wrong;
+    if (first_refuted.empty()) first_refuted = other.first_refuted;
+    return *this;
+  }
+};
+
+// What was found in a family.
+struct Found {
+  const corpus::HardFamily& family;
+  const BenchSubject& subject;
+  std::map<int, Cell> cells = {};  // by strength
+
+  std::string label() const { return fmt::format("{}, {}", family.name, subject.name); }
+  Arithmetic arithmetic() const { return subject.options.arithmetic; }
+  Cell total() const {
+    Cell sum;
+    for (const auto& [strength, cell] : cells) sum += cell;
+    return sum;
+  }
+  // The least strength at which a case is not right; or the end.
+  auto breaks_at() const {
+    return std::find_if(cells.begin(), cells.end(),
+                        [](const auto& one) { return one.second.right < one.second.errors.steps; });
+  }
+};
+
+// How many answers stay the same under a change, of those cases in which the change is exact.
+struct Survival {
+  std::uint64_t changed = 0, same = 0;
+};
+using Survivals = std::vector<std::vector<Survival>>;  // [change][subject]
+
+// The exact signs as seen from these primitives, one for each component.
+std::vector<ViewSign> signs_from(const std::vector<detector::ViewPrimitive>& primitives,
+                                 const corpus::Case& c) {
+  const auto mesh = detector::make_topology(c.triangles, c.frames[0].rows());
+  std::vector<detector::ViewPrimitive> of_triangle;
+  for (const auto component : mesh.component_of_triangle)
+    of_triangle.push_back(primitives[static_cast<std::size_t>(component)]);
+  return oracle::view_signs({c.frames[0], c.frames[1]}, c.triangles, of_triangle, 1);
+}
+
+// Whether the oracle finds what the case was built for: answer, first time, view signs.
+bool agrees_with_construction(const corpus::Case& c, const oracle::StepJudgement& judgement) {
+  const auto& known = c.expected.steps.front();
+  const auto view = corpus::view_of_step(c, 0);
+  return judgement.answer == known.answer &&
+         (!known.first_time || judgement.first == *known.first_time) &&
+         (!known.view_signs || oracle::view_signs({c.frames[0], c.frames[1]}, c.triangles,
+                                                  {&*view, 1}, 1) == *known.view_signs);
+}
+
+Cell cell_of(const PlayedCase& played, std::size_t subject) {
+  const auto& [e, counted, own] = played.verdicts[subject];
+  const auto& result = played.runs[subject].first->steps[0];
+  bool has_all_signs = true, is_wrong = false;
+  if (!result.signs.empty()) {
+    const auto signs = signs_from(result.primitives, played.c);
+    for (std::size_t t = 0; t < signs.size(); ++t) {
+      has_all_signs &= result.signs[t] == signs[t];
+      is_wrong |= result.signs[t] != signs[t] && result.signs[t] != ViewSign::zero;
+    }
+  }
+  const bool finds_all = e.undecided + e.missed + e.missing + e.alarming == 0,
+             is_right = finds_all && !(is_wrong && played.c.view),
+             is_exact = is_right && has_all_signs && counted == Outcome::holds,
+             is_refuted = is_wrong || own != Outcome::holds;
+  Cell cell{
+      e, is_right, is_exact, is_refuted, is_wrong, result.counts.narrow.rungs, result.counts.view};
+  if (!is_exact) cell.first_wrong = played.c.id;
+  if (is_refuted) cell.first_refuted = played.c.id;
+  return cell;
+}
+
+// Plays the case in all changes.
+void add_changes(const PlayedCase& played, Survivals& survivals) {
+  // Crowds of more triangles than this take long, so they are run as they are and not changed.
+  constexpr Eigen::Index most_triangles_changed = 600;
+  if (played.c.triangles.rows() > most_triangles_changed) return;
+  for (std::size_t k = 0; k < survivals.size(); ++k) {
+    auto form = case_changes()[k].second(played.c);
+    if (!form) continue;
+    const auto runs = sweep(form->c, played.subjects, {.rounds = 0});
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      const auto& options = played.subjects[i].configuration.options;
+      form->same_times = options.arithmetic == Arithmetic::exact;
+      const auto difference = properties::difference_in_form(played.runs[i].first->steps[0], *form,
+                                                             runs[i].first->steps[0]);
+      ++survivals[k][i].changed;
+      survivals[k][i].same += difference.empty() ? 1 : 0;
+    }
+  }
+}
+
+double percent(std::uint64_t part, std::uint64_t whole) {
+  return whole > 0 ? 100 * static_cast<double>(part) / static_cast<double>(whole) : 100;
+}
+
+Estimate number(std::uint64_t count) { return exactly(static_cast<double>(count)); }
+
+std::string break_text(const Found& found) {
+  const auto& family = found.family;
+  const auto knob = [&](int strength) {
+    if (family.touches(strength)) return std::string("0 (touching)");
+    return fmt::format("2^{}{}{}", family.exponent(strength), family.unit.empty() ? "" : " ",
+                       family.unit);
+  };
+  const auto at = found.breaks_at();
+  if (at == found.cells.end())
+    return fmt::format("never wrong, {} to {}", family.knob, knob(family.last_strength()));
+  const auto text = fmt::format("{} {}", family.knob, knob(at->first));
+  return at == found.cells.begin()
+             ? "wrong at once, " + text
+             : fmt::format("{}, right at {}", text, knob(std::prev(at)->first));
+}
+
+// How far first times are off, at most and at the median.
+std::string time_text(const char* side, const properties::TimesOff& off) {
+  if (off.steps == 0) return "";
+  return fmt::format(
+      "; first time {} in {}: largest {:.1e} of the step ({:.1e} ulp), median {:.1e}", side,
+      off.steps, off.worst_share, off.worst_ulps, off.quantile(0.5));
+}
+
+nlohmann::ordered_json json_of(const Found& found, int strength, const Cell& cell) {
+  const auto& family = found.family;
+  const auto exponent =
+      family.touches(strength) ? std::nullopt : std::optional(family.exponent(strength));
+  const auto knob =
+      fmt::format("{}{}{}", family.knob, family.unit.empty() ? "" : ", ", family.unit);
+  const auto cases = cell.errors.steps;
+  return json_object("family", family.name, "arithmetic", found.subject.name, "strength", strength,
+                     "exponent", exponent, "knob", knob, "cases", cases, "right", cell.right,
+                     "share_right", static_cast<double>(cell.right) / static_cast<double>(cases),
+                     "exactly_right", cell.exactly_right, "wrong_signs", cell.wrong_signs, "errors",
+                     cell.errors);
+}
+
+void add_family_rows(const Found& found, BenchReport& report) {
+  const auto all = found.total();
+  const auto& e = all.errors;
+  const auto label = found.label();
+  const auto note = fmt::format(
+      "breaks: {}; of {} steps {} unsafe ({} missed, {} late), {} alarming, {} wrong V+ or V-{}{}",
+      break_text(found), e.steps, e.unsafe, e.missed, e.late.steps, e.alarming, all.wrong_signs,
+      time_text("late", e.late), time_text("early", e.early));
+  if (found.arithmetic() == Arithmetic::exact) {
+    report.add(label + ": wrong", "steps", number(e.steps - all.exactly_right), at_most(0), note);
+    if (!all.first_wrong.empty())
+      report.wrong_answers.push_back(label + ": first wrong in " + all.first_wrong);
+  } else {
+    if (found.arithmetic() == Arithmetic::bounded) {
+      report.add(label + ": missed, late, wrong V+ or V-", "steps", number(all.refuted),
+                 at_most(0));
+      if (!all.first_refuted.empty())
+        report.wrong_answers.push_back(label + ": missed or late in " + all.first_refuted);
+    }
+    report.add(label + ": right", "%", exactly(percent(all.right, e.steps)), {}, note);
+  }
+  for (const auto& [strength, cell] : found.cells) {
+    report.figures["heat"].push_back(json_of(found, strength, cell));
+    report.add_sample(report.figures["heat"].back());
+  }
+}
+
+// Adds which rung settled the elementary tests and the view tests of one family.
+void add_rung_rows(const Found& found, BenchReport& report) {
+  if (found.arithmetic() != Arithmetic::exact && found.arithmetic() != Arithmetic::bounded) return;
+  const auto all = found.total();
+  const auto& r = all.rungs;
+  const auto share = [&](std::uint64_t n) { return percent(n, r.total()); };
+  if (r.total() > 0) {
+    report.add(
+        found.label() + ": elementary tests settled by the filter", "%", exactly(share(r.filter)),
+        {},
+        fmt::format("of {}; axis {:.1f} %, fixed {:.1f} %, unbounded {:.1f} %, left open {:.1f} %",
+                    r.total(), share(r.axis), share(r.fixed), share(r.unbounded), share(r.open)));
+  }
+  const auto& v = all.views;
+  const auto views = v.lanes + v.filter + v.exact + v.open;
+  if (views > 0) {
+    report.add(found.label() + ": view tests settled by lanes or filter", "%",
+               exactly(percent(v.lanes + v.filter, views)), {},
+               fmt::format("of {}; integers {:.1f} %, left open {:.1f} %", views,
+                           percent(v.exact, views), percent(v.open, views)));
+  }
+}
+
+void add_survival_rows(const std::vector<BenchSubject>& subjects, const Survivals& survivals,
+                       BenchReport& report) {
+  for (std::size_t k = 0; k < survivals.size(); ++k) {
+    for (std::size_t i = 0; i < subjects.size(); ++i) {
+      const auto& [changed, same] = survivals[k][i];
+      const bool must = subjects[i].options.arithmetic == Arithmetic::exact;
+      const auto label =
+          fmt::format("answers that survive {}, {}", case_changes()[k].first, subjects[i].name);
+      report.add(
+          label, "%", exactly(percent(same, changed)), wanted_if(must, at_least(100)),
+          fmt::format("{} of {} changed steps{}", same, changed, must ? ", times included" : ""));
+      if (must && same < changed) report.wrong_answers.push_back(label + ": not all");
+    }
+  }
+}
+
+// All strengths, or some with --quick, the strongest and touching always. Those of larger meshes
+// are left out.
+bool takes_strength(const corpus::HardFamily& family, int strength, const BenchSettings& settings) {
+  constexpr int most_triangles = 5000, steps_when_quick = 4;
+  const int step = settings.is_quick() ? std::max(1, family.strongest / steps_when_quick) : 1;
+  if (strength < family.strongest && strength % step != 0) return false;
+  return corpus::hard_case(family, strength, 0).triangles.rows() <=
+         settings.triangles(most_triangles);
+}
+
+// All kinds of the family at one strength, in several rounds.
+CaseFamily cases_at(const corpus::HardFamily& family, int strength, bool is_quick) {
+  const int rounds = family.touches(strength) ? (is_quick ? 2 : 10) : (is_quick ? 1 : 2);
+  return {std::string(family.name), "hard", 0, [&family, strength, rounds] {
+            std::vector<TimedCase> cases;
+            for (int v = 0; v < rounds * family.kinds_at(strength); ++v) {
+              auto& timed = cases.emplace_back();
+              timed.c = corpus::hard_case(family, strength, v);
+              if (timed.c.options.contains("culling"))
+                timed.culling = properties::options_of(timed.c).culling;
+            }
+            return cases;
+          }};
+}
+
+}  // namespace
+
+std::vector<BenchSubject> all_arithmetics() {
+  std::vector<BenchSubject> subjects;
+  for (const auto arithmetic : all_values<Arithmetic>) {
+    subjects.push_back(variant_of(arithmetic, detector::Culling::view_point, detector::Pairs::all));
+    subjects.back().name = name_of(arithmetic);
+  }
+  return subjects;
+}
+
+BenchReport stability_of(std::span<const corpus::HardFamily> families,
+                         const std::vector<BenchSubject>& subjects, const BenchSettings& settings,
+                         const BenchProgress& progress) {
+  BenchReport report{"stability"}, of_comparison;
+  std::vector<std::vector<Found>> all;  // [family][subject]
+  Survivals survivals(case_changes().size(), std::vector<Survival>(subjects.size()));
+  int strength = 0;
+  ComparisonPlan plan;
+  plan.on_case = [&](const PlayedCase& played) {
+    for (std::size_t i = 0; i < subjects.size(); ++i)
+      all.back()[i].cells[strength] += cell_of(played, i);
+    add_changes(played, survivals);
+    if (!agrees_with_construction(played.c, played.truth[0]))
+      report.wrong_answers.push_back(played.c.id +
+                                     ": the oracle finds another answer than it was built for");
+  };
+  Comparison comparison(subjects, plan, of_comparison, progress);
+  for (const auto& family : families) {
+    auto& found = all.emplace_back();
+    for (const auto& subject : subjects) found.push_back({family, subject});
+    for (strength = 0; strength <= family.last_strength(); ++strength) {
+      if (takes_strength(family, strength, settings))
+        comparison.run({cases_at(family, strength, settings.is_quick())});
+    }
+    for (const auto& of_subject : found) add_family_rows(of_subject, report);
+  }
+  for (std::size_t i = 0; i < subjects.size(); ++i) {
+    std::vector<std::string_view> never_wrong;
+    for (const auto& found : all) {
+      if (found[i].breaks_at() == found[i].cells.end()) never_wrong.push_back(found[i].family.name);
+    }
+    report.add("families in which " + subjects[i].name + " is never wrong", "",
+               number(never_wrong.size()), {},
+               fmt::format("of {}: {}", all.size(), fmt::join(never_wrong, ", ")));
+  }
+  add_survival_rows(subjects, survivals, report);
+  for (const auto& found : all) {
+    for (const auto& of_subject : found) add_rung_rows(of_subject, report);
+  }
+  return report;
+}
+
+BenchReport stability_suite(const BenchSettings& settings, const BenchProgress& progress) {
+  return stability_of(corpus::hard_families(), all_arithmetics(), settings, progress);
+}
+
+}  // namespace assay::reports
