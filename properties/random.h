@@ -1,6 +1,7 @@
 // Integer-only random numbers, because the standard distributions differ between libraries.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <iterator>
 #include <string_view>
@@ -57,6 +58,13 @@ List shuffled(Random& random, List list) {
     std::swap(list[i - 1], list[other]);
   }
   return list;
+}
+
+// Begins each triangle at one of its corners.
+template <class Triangles>
+void begin_anywhere(Random& random, Triangles&& triangles) {
+  for (auto&& corners : triangles)
+    std::rotate(corners.begin(), corners.begin() + random.below(3), corners.end());
 }
 
 }  // namespace assay::properties

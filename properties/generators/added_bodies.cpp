@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "detector/mesh/for_all.h"
+#include "properties/changes/changes.h"
 #include "properties/generators/draft.h"
 #include "properties/worker/plugin/query_case.h"
 
@@ -14,6 +15,7 @@ namespace {
 
 using detector::MovingPoint;
 using detector::Point;
+using detector::Positions;
 
 // In a relation the vertices from `first` on are a body of their own, and at rest they are as at
 // the start. What was said of the case without them is dropped.
@@ -150,23 +152,19 @@ corpus::Case with_approach(corpus::Case c, double d, Random& random) {
   // The mesh moves, because the numbers of the approach have to stay exact.
   const double away = std::ldexp(1.0, std::ilogb(largest) + 6);
   const auto vertices = static_cast<std::int32_t>(c.frames.front().rows());
-  for (std::size_t f = 0; f < c.frames.size(); ++f) {
-    auto& frame = c.frames[f];
-    frame.conservativeResize(vertices + 6, 3);
+  for (auto& frame : c.frames) frame.array() += away;
+  const detector::Triangles two{{0, 1, 2}, {3, 4, 5}};
+  add_mesh(c, two, [&](std::size_t f) {
     const bool has_moved = static_cast<std::int32_t>(f) >= step.to;
+    Positions x(6, 3);
     for (int i = 0; i < 6; ++i) {
-      const MovingPoint& point =
-          i < 3 ? a[static_cast<std::size_t>(i)] : b[static_cast<std::size_t>(i - 3)];
-      const Point& x = has_moved ? point.t1 : point.t0;
-      for (int k = 0; k < 3; ++k) frame(vertices + i, k) = x[static_cast<std::size_t>(k)];
+      const auto& [t0, t1] = i < 3 ? a[at(i)] : b[at(i - 3)];
+      const Point& p = has_moved ? t1 : t0;
+      x.row(i) << p[0], p[1], p[2];
     }
-  }
+    return x;
+  });
   tell_of_added(c, vertices);
-  for (auto& frame : c.frames) frame.topRows(vertices).array() += away;
-  const Eigen::Index triangles = c.triangles.rows();
-  c.triangles.conservativeResize(triangles + 2, 3);
-  c.triangles.row(triangles) << vertices, vertices + 1, vertices + 2;
-  c.triangles.row(triangles + 1) << vertices + 3, vertices + 4, vertices + 5;
   return c;
 }
 
@@ -175,18 +173,17 @@ namespace {
 constexpr std::int32_t side = 112;  // vertices along each side of the sheet
 static_assert(std::size_t{side} * side > 3 * detector::shared_piece);
 
-std::int32_t vertex_of_sheet(std::int32_t i, std::int32_t j) { return side * i + j; }
-
-void add_triangles(std::int32_t first_vertex, detector::Triangles& triangles) {
-  Eigen::Index t = triangles.rows();
-  triangles.conservativeResize(t + Eigen::Index{2} * (side - 1) * (side - 1), 3);
+detector::Triangles triangles_of_sheet() {
+  detector::Triangles triangles(Eigen::Index{2} * (side - 1) * (side - 1), 3);
+  Eigen::Index t = 0;
   for (std::int32_t i = 0; i + 1 < side; ++i) {
     for (std::int32_t j = 0; j + 1 < side; ++j) {
-      const auto a = first_vertex + vertex_of_sheet(i, j), b = a + side;
+      const auto a = side * i + j, b = a + side;
       triangles.row(t++) << a, b, b + 1;
       triangles.row(t++) << a, b + 1, a + 1;
     }
   }
+  return triangles;
 }
 
 }  // namespace
@@ -201,18 +198,17 @@ std::optional<corpus::Case> with_far_body(corpus::Case c, double apart) {
   const double cell = std::ldexp(1, apart > 0 ? std::max(finest, std::ilogb(apart) + 2) : finest);
   const double start = cell * (std::ceil(std::ldexp(4, reach) / cell) + 4);
   const auto vertices = static_cast<std::int32_t>(c.frames.front().rows());
-  for (auto& frame : c.frames) {
+  add_mesh(c, triangles_of_sheet(), [&](std::size_t) {
     const double height = random.signed_unit();
-    frame.conservativeResize(vertices + side * side, 3);
+    Positions x(side * side, 3);
     for (std::int32_t i = 0; i < side; ++i) {
       for (std::int32_t j = 0; j < side; ++j) {
         const double u = i - side / 2, v = j - side / 2;
-        frame.row(vertices + vertex_of_sheet(i, j)) << start + cell * i, cell * v,
-            cell * (height + (u * u + v * v) / side);
+        x.row(side * i + j) << start + cell * i, cell * v, cell * (height + (u * u + v * v) / side);
       }
     }
-  }
-  add_triangles(vertices, c.triangles);
+    return x;
+  });
   tell_of_added(c, vertices);
   return c;
 }

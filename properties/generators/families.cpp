@@ -102,7 +102,7 @@ void move_freely(Random& random, Draft& draft, int steps, const Recipe& recipe) 
 
 void shuffle_faces(Random& random, Draft& draft) {
   draft.faces = shuffled(random, std::move(draft.faces));
-  for (auto& f : draft.faces) std::rotate(f.begin(), f.begin() + random.below(3), f.end());
+  begin_anywhere(random, draft.faces);
   draft.tag("order:shuffled");
 }
 

@@ -8,6 +8,7 @@
 #include "oracle/distance/feature_distance.h"
 #include "oracle/instant/instant.h"
 #include "oracle/mesh/pair_relation.h"
+#include "properties/changes/changes.h"
 #include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
@@ -117,52 +118,26 @@ bool ways_are_finite(const corpus::Case& c, const Contract& contract) {
   });
 }
 
-// From a list with an entry for each frame, takes the entries of these frames. An empty list stays
-// empty.
-template <class List>
-List entries_of(const List& list, const std::vector<std::int32_t>& frames) {
-  List out;
-  for (const auto frame : frames) {
-    const auto place = static_cast<std::size_t>(frame);
-    if (place < list.size()) out.push_back(list[place]);
-  }
-  return out;
-}
-
 }  // namespace
 
 corpus::Case with_steps(const corpus::Case& c, const std::vector<std::size_t>& places,
                         const Contract& contract) {
   const auto steps = corpus::steps_of(c);
   corpus::Case out = c;
-  out.script.clear();
   out.expected.steps.clear();
   if (out.expected.answer != detector::Answer::error) out.expected.answer.reset();
-  std::vector<std::int32_t> used;
-  std::map<std::int32_t, std::int32_t> renumbered;
-  const auto use = [&](std::int32_t frame) {
-    const auto [entry, is_new] =
-        renumbered.try_emplace(frame, static_cast<std::int32_t>(used.size()));
-    if (is_new) used.push_back(frame);
-    return entry->second;
-  };
-  if (contract.rest_distance > 0) use(0);
+  if (out.counted) out.counted->steps.clear();
+  Numbers frames;
+  std::vector<corpus::CaseStep> script;
+  if (contract.rest_distance > 0) frames.push_back(0);
   for (const std::size_t place : places) {
-    const auto from = use(steps[place].from);
-    out.script.push_back({from, use(steps[place].to), steps[place].commit});
+    script.push_back(steps[place]);
+    frames.insert(frames.end(), {steps[place].from, steps[place].to});
     if (place < c.expected.steps.size()) out.expected.steps.push_back(c.expected.steps[place]);
+    if (c.counted && place < c.counted->steps.size())
+      out.counted->steps.push_back(c.counted->steps[place]);
   }
-  out.frames = entries_of(c.frames, used);
-  if (out.counted) {
-    out.counted->steps.clear();
-    for (const std::size_t place : places) {
-      if (place < c.counted->steps.size()) out.counted->steps.push_back(c.counted->steps[place]);
-    }
-  }
-  if (c.view)
-    out.view = corpus::CaseView{entries_of(c.view->q0, used), entries_of(c.view->q1, used)};
-  if (c.ghosts) out.ghosts->apexes = entries_of(c.ghosts->apexes, used);
-  if (out.script == corpus::consecutive_steps(out.frames.size())) out.script.clear();
+  take_frames(out, frames, std::move(script));
   return out;
 }
 

@@ -98,28 +98,6 @@ Observation components_are_clean_by_themselves(CaseFacts& facts, std::size_t s) 
   return holds();
 }
 
-// Takes out one component. Vertices keep their numbers, but no triangle uses those of other
-// components.
-PinnedRun taken_out(const CaseFacts& facts, const PinnedRun& run, std::size_t component) {
-  const auto& mesh = facts.surface().mesh;
-  const auto& own = mesh.components[component];
-  PinnedRun alone{{}, run.frames, run.script, {0}, {}, {}, {}};
-  alone.triangles.resize(static_cast<Eigen::Index>(own.triangles.size()), 3);
-  for (std::size_t i = 0; i < own.triangles.size(); ++i) {
-    alone.triangles.row(static_cast<Eigen::Index>(i)) = run.triangles.row(own.triangles[i]);
-  }
-  alone.apexes.resize(run.script.size());
-  for (std::size_t l = 0; l < run.loops.size(); ++l) {
-    if (!std::binary_search(own.vertices.begin(), own.vertices.end(), run.loops[l][0])) continue;
-    alone.loops.push_back(run.loops[l]);
-    for (std::size_t s = 0; s < run.script.size(); ++s) {
-      alone.apexes[s].push_back(run.apexes[s][l]);
-    }
-  }
-  for (const auto& of_step : run.primitives) alone.primitives.push_back({of_step[component]});
-  return alone;
-}
-
 std::string difference_alone(const CaseFacts& facts, const detector::StepResult& among,
                              const detector::StepResult& alone, std::size_t component) {
   const auto& own = facts.surface().mesh.components[component].triangles;
@@ -156,7 +134,10 @@ void check_component_alone(CaseFacts& facts, LawTally& tally) {
   if (!run) return;
   Random random(facts.source().id);
   const auto component = static_cast<std::size_t>(random.below(static_cast<int>(components)));
-  const PinnedRun alone = taken_out(facts, *run, component);
+  // Vertices keep their numbers, but no triangle uses those of other components.
+  corpus::Case alone = *run;
+  alone.triangles =
+      run->triangles(facts.surface().mesh.components[component].triangles, Eigen::all).eval();
   auto player = PinnedPlayer::make(alone, options_with_views(facts), facts.stages_of());
   if (!player) return;
   const auto results = player->play();

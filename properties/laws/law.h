@@ -15,6 +15,7 @@
 namespace assay::properties {
 
 class CaseFacts;
+struct CaseChange;
 
 struct LawTally {
   std::uint64_t premise = 0;  // steps in which the premise held
@@ -41,6 +42,8 @@ struct Law {
   // The law is checked on one case in so many, because laws that run the case again are dear.
   int one_in = 1;
   MetUnder met_under = MetUnder::any_culling;
+  // The change that it is about, if any detector can be put the changed case; else null.
+  const CaseChange* change = nullptr;
 };
 
 // All laws in a fixed order: by number, then sets, claims, changes.

@@ -240,7 +240,7 @@ constexpr Law boundary_law_table[] = {
     {"L11_OrderOfHolesDoesNotMatter", "L11",
      "With the holes in another order (vertices numbered backwards, triangles listed backwards, "
      "apexes where they were) the same triangles are violated and dirty, and all else is the same.",
-     "nothing", check_change<holes_in_another_order>},
+     "nothing", check_change<changes::backwards>},
 };
 
 }  // namespace

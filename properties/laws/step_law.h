@@ -23,11 +23,9 @@ std::span<const Law> component_laws();       // L10
 std::span<const Law> boundary_laws();        // L11
 std::span<const Law> doubtful_input_laws();  // L12
 std::span<const Law> normal_cone_laws();     // L13
-std::span<const Law> change_laws();          // metamorphic: the mesh in another form
-std::span<const Law> repetition_laws();      // metamorphic: the same step in another way
+std::span<const Law> change_laws();          // L18; metamorphic: the mesh in another form
+std::span<const Law> repetition_laws();      // metamorphic: the same steps in another way
 std::span<const Law> question_laws();        // L16, L17, stops
-std::span<const Law> refinement_laws();      // L18
-std::span<const Law> form_of_steps_laws();   // metamorphic: the steps in another form
 std::span<const Law> option_laws();          // options, states and sizes in pairs
 
 // What a law observes: nothing if its premise does not hold; else what is wrong, as a text that is

@@ -7,6 +7,7 @@
 
 #include "detector/mesh/mesh_checks.h"
 #include "oracle/mesh/loops.h"
+#include "properties/changes/changes.h"
 
 namespace assay::properties {
 
@@ -14,12 +15,6 @@ namespace {
 
 using corpus::Case;
 using Corners = std::array<std::int32_t, 3>;
-
-bool all_finite(const std::vector<detector::Point>& points) {
-  return std::all_of(points.begin(), points.end(), [](const detector::Point& x) {
-    return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
-  });
-}
 
 detector::Triangles matrix_of(const std::vector<Corners>& triangles) {
   detector::Triangles matrix(static_cast<Eigen::Index>(triangles.size()), 3);
@@ -141,8 +136,9 @@ bool is_valid(const Case& c) {
   if (c.triangles.rows() == 0 || c.frames.empty() || corpus::steps_of(c).empty()) return false;
   const auto vertices = c.frames.front().rows();
   for (const auto& frame : c.frames) {
-    if (frame.rows() != vertices || !frame.allFinite()) return false;
+    if (frame.rows() != vertices) return false;
   }
+  if (!is_finite(c)) return false;
   for (const auto& step : c.script) {
     const auto frames = static_cast<std::int32_t>(c.frames.size());
     if (step.from < 0 || step.to < 0 || step.from >= frames || step.to >= frames) return false;
@@ -154,17 +150,15 @@ bool is_valid(const Case& c) {
     if (!seen.insert(key).second) return false;
   }
   if (c.view) {
-    const auto fits = [&](const std::vector<detector::Point>& places) {
-      return places.size() == c.frames.size() && all_finite(places);
-    };
-    if (!fits(c.view->q0) || (!c.view->q1.empty() && !fits(c.view->q1))) return false;
+    const auto &q0 = c.view->q0, &q1 = c.view->q1;
+    if (q0.size() != c.frames.size() || (!q1.empty() && q1.size() != q0.size())) return false;
   }
   if (c.counted && detector::check_counted_pairs(c.counted->pairs, c.triangles, vertices))
     return false;
   if (!c.ghosts) return true;
   if (c.ghosts->apexes.size() != c.frames.size()) return false;
   for (const auto& apexes : c.ghosts->apexes) {
-    if (apexes.size() != c.ghosts->apexes.front().size() || !all_finite(apexes)) return false;
+    if (apexes.size() != c.ghosts->apexes.front().size()) return false;
   }
   const auto limit = vertices + static_cast<Eigen::Index>(c.ghosts->apexes.front().size());
   return c.ghosts->triangles.size() == 0 ||
@@ -248,33 +242,10 @@ Case with_steps(const Case& c, const std::vector<corpus::CaseStep>& steps) {
   result.expected = {};
   if (result.counted) result.counted->steps.clear();
   result.pending = "{}";
-  std::vector<std::int32_t> number(c.frames.size(), -1);
-  for (const auto& step : steps) {
-    number[at(step.from)] = 0;
-    number[at(step.to)] = 0;
-  }
-  std::int32_t kept = 0;
-  for (auto& n : number) n = n < 0 ? -1 : kept++;
-  const auto select = [&](auto& rows) {
-    if (rows.size() != number.size()) return;
-    auto all = std::move(rows);
-    rows.clear();
-    for (std::size_t f = 0; f < number.size(); ++f) {
-      if (number[f] >= 0) rows.push_back(std::move(all[f]));
-    }
-  };
-  select(result.frames);
-  if (result.view) {
-    select(result.view->q0);
-    select(result.view->q1);
-  }
-  if (result.ghosts) select(result.ghosts->apexes);
-  result.script = steps;
-  for (auto& step : result.script) {
-    step.from = number[at(step.from)];
-    step.to = number[at(step.to)];
-  }
-  if (result.script == corpus::consecutive_steps(result.frames.size())) result.script.clear();
+  Numbers frames;
+  for (const auto& step : steps) frames.insert(frames.end(), {step.from, step.to});
+  std::sort(frames.begin(), frames.end());
+  take_frames(result, frames, steps);
   return result;
 }
 

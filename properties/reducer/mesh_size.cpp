@@ -7,19 +7,11 @@
 #include <cmath>
 #include <cstring>
 
-#include "properties/numbering.h"
+#include "properties/changes/changes.h"
 #include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
 namespace {
-
-std::uint64_t cost_of(const std::vector<detector::Point>& points) {
-  std::uint64_t sum = 0;
-  for (const auto& point : points) {
-    for (const double value : point) sum += number_cost(value);
-  }
-  return sum;
-}
 
 bool moves(const std::vector<detector::Point>& places) {
   for (const auto& place : places) {
@@ -68,21 +60,19 @@ MeshSize size_of(const corpus::Case& c) {
     }
   }
   size.view = rank_of(c.view);
-  for (const auto& frame : c.frames) {
-    for (Eigen::Index i = 0; i < frame.size(); ++i) size.numbers += number_cost(frame.data()[i]);
-  }
-  if (c.view) size.numbers += cost_of(c.view->q0) + cost_of(c.view->q1);
+  for (const double* x : numbers_along(c)) size.numbers += number_cost(*x);
   if (c.counted) {
     const auto& pairs = c.counted->pairs;
     size.relation = pairs.apart.size() + static_cast<std::size_t>(pairs.rings) +
                     (pairs.rest_distance > 0 ? 1 : 0) + pairs.triangle_pairs.size() +
                     pairs.vertex_faces.size() + pairs.edge_pairs.size();
-    if (pairs.rest != corpus::points_of(c.frames.front())) size.numbers += cost_of(pairs.rest);
+    if (pairs.rest != corpus::points_of(c.frames.front())) {
+      for (const auto& point : pairs.rest) {
+        for (const double value : point) size.numbers += number_cost(value);
+      }
+    }
   }
-  if (c.ghosts) {
-    size.ghosts = static_cast<std::size_t>(c.ghosts->triangles.rows());
-    for (const auto& frame : c.ghosts->apexes) size.numbers += cost_of(frame);
-  }
+  if (c.ghosts) size.ghosts = static_cast<std::size_t>(c.ghosts->triangles.rows());
   return size;
 }
 
@@ -140,33 +130,6 @@ std::vector<NumberGroup> number_groups(corpus::Case& c) {
                   [&](std::size_t f, std::size_t axis) { return &c.ghosts->apexes[f][a][axis]; });
   }
   return groups;
-}
-
-std::vector<double*> numbers_along(corpus::Case& c, int axis) {
-  std::vector<double*> numbers;
-  const auto wanted = [&](int k) { return axis < 0 || axis == k; };
-  const auto append = [&](std::vector<detector::Point>& points) {
-    for (auto& point : points) {
-      for (int k = 0; k < 3; ++k) {
-        if (wanted(k)) numbers.push_back(&point[at(k)]);
-      }
-    }
-  };
-  for (auto& frame : c.frames) {
-    for (Eigen::Index v = 0; v < frame.rows(); ++v) {
-      for (int k = 0; k < 3; ++k) {
-        if (wanted(k)) numbers.push_back(&frame(v, k));
-      }
-    }
-  }
-  if (c.view) {
-    append(c.view->q0);
-    append(c.view->q1);
-  }
-  if (c.ghosts) {
-    for (auto& apexes : c.ghosts->apexes) append(apexes);
-  }
-  return numbers;
 }
 
 double rounded_to_digits(double value, int digits) {

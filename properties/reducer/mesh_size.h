@@ -53,9 +53,6 @@ using NumberGroup = std::vector<double*>;
 // the apexes. Valid as long as the shape of `c` is not changed.
 std::vector<NumberGroup> number_groups(corpus::Case& c);
 
-// The coordinates along one axis, or along all (axis -1).
-std::vector<double*> numbers_along(corpus::Case& c, int axis);
-
 // Values of lower number_cost, the simplest first: small integers, then `value` with fewer digits.
 std::vector<double> simpler_values(double value);
 

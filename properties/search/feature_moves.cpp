@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "properties/changes/changes.h"
 #include "properties/generators/draft.h"
 #include "properties/random.h"
 #include "properties/search/degeneracy.h"
@@ -206,11 +207,7 @@ FourPoints of_few_bits(FourPoints q) {
   }
   if (!(size > 1e-300) || !(size < 1e300)) return q;
   const double unit = std::ldexp(1.0, std::ilogb(size) - 6);
-  for (auto& p : q.points) {
-    for (auto* end : {&p.t0, &p.t1}) {
-      for (double& x : *end) x = unit * std::round(x / unit);
-    }
-  }
+  for (double* x : numbers_of(q)) *x = unit * std::round(*x / unit);
   return q;
 }
 
@@ -277,8 +274,7 @@ void resize(Random& random, Candidate& made, const Contract& contract) {
   const int least =
       contract.least_nonzero > 0 ? std::ilogb(contract.least_nonzero) + 2 : most - widest;
   const int exponent = random.between(std::min(least, most), most) - std::ilogb(greatest);
-  for (auto& frame : made.c.frames)
-    frame = frame.unaryExpr([&](double x) { return std::ldexp(x, exponent); }).eval();
+  for (double* x : numbers_along(made.c)) *x = std::ldexp(*x, exponent);
 }
 
 void scale(Random& random, Candidate& made, const MoveContext& context) {
@@ -288,17 +284,8 @@ void scale(Random& random, Candidate& made, const MoveContext& context) {
   const int reach = random.one_in(3) ? 30 : 8;
   const int exponent = random.between(-reach, reach);
   const int kind = random.below(4);
-  for (auto& frame : made.c.frames) {
-    if (kind == 0) {
-      frame = frame.unaryExpr([&](double x) { return std::ldexp(x, exponent); }).eval();
-    } else if (kind == 1) {
-      const auto axis = frame.col(exponent & 1);
-      frame.col(exponent & 1) =
-          axis.unaryExpr([&](double x) { return std::ldexp(x, exponent); }).eval();
-    } else {
-      frame.array() += std::ldexp(1.0, exponent);
-    }
-  }
+  for (double* x : numbers_along(made.c, kind == 1 ? exponent & 1 : -1))
+    *x = kind > 1 ? *x + std::ldexp(1.0, exponent) : std::ldexp(*x, exponent);
 }
 
 // Lets points rest, or takes a step the other way.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "oracle/mesh/loops.h"
+#include "properties/changes/changes.h"
 #include "properties/generators/draft.h"
 #include "properties/random.h"
 #include "properties/reducer/case_edits.h"
@@ -39,17 +40,11 @@ void edit_mesh(Random& random, Candidate& made, const MoveContext&) {
   } else if (kind == 3) {
     edited = close_loops(made.c, static_cast<std::size_t>(random.below(3)));
   } else if (kind == 4) {  // a seam: the triangle once more, of vertices in the same places
-    const auto first = static_cast<std::int32_t>(vertex_count(edited));
-    for (auto& frame : edited.frames) {
-      frame.conservativeResize(first + 3, 3);
-      for (int k = 0; k < 3; ++k)
-        frame.row(first + k) = frame.row(one[static_cast<std::size_t>(k)]).eval();
-    }
-    triangles.push_back({first, first + 1, first + 2});
-    edited = with_triangles(edited, triangles);
+    add_mesh(edited, detector::Triangles{{0, 1, 2}},
+             [&](std::size_t f) { return detector::Positions(made.c.frames[f](one, Eigen::all)); });
+    edited = with_triangles(edited, triangles_of(edited));
   } else {
-    std::vector<std::int32_t> target(vertex_count(made.c));
-    for (std::size_t v = 0; v < target.size(); ++v) target[v] = static_cast<std::int32_t>(v);
+    Numbers target = in_order(vertex_count(made.c));
     const auto a = random.below(static_cast<int>(target.size()));
     const auto b = random.below(static_cast<int>(target.size()));
     target[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
@@ -68,21 +63,16 @@ void unite(Random& random, Candidate& made, const MoveContext& context) {
   if (says_query(other) || made.c.triangles.rows() + other.triangles.rows() > most_triangles)
     return;
   auto& c = made.c;
-  const auto vertices = static_cast<std::int32_t>(vertex_count(c));
   const double own = greatest_of(c), its = greatest_of(other);
   if (!(own > 0) || !(its > 0) || own > 1e290 || its > 1e290) return;
   const int away = random.one_in(2) ? 0 : random.between(-1, 2);
   const double size = std::ldexp(1.0, std::ilogb(own) - std::ilogb(its));
   const auto axis = random.below(3);
-  for (std::size_t f = 0; f < c.frames.size(); ++f) {
+  add_mesh(c, other.triangles, [&](std::size_t f) {
     detector::Positions put = size * other.frames[std::min(f, other.frames.size() - 1)];
     put.col(axis).array() += away * own;
-    c.frames[f].conservativeResize(vertices + put.rows(), 3);
-    c.frames[f].bottomRows(put.rows()) = put;
-  }
-  const auto rows = c.triangles.rows();
-  c.triangles.conservativeResize(rows + other.triangles.rows(), 3);
-  c.triangles.bottomRows(other.triangles.rows()) = other.triangles.array() + vertices;
+    return put;
+  });
   c.view.reset();
   c.expected = {};
   if (!is_valid(c)) made = *context.other;
@@ -91,7 +81,7 @@ void unite(Random& random, Candidate& made, const MoveContext& context) {
 void renumber(Random& random, Candidate& made, const MoveContext&) {
   if (!is_plain(made.c)) return;
   auto triangles = shuffled(random, triangles_of(made.c));
-  for (auto& t : triangles) std::rotate(t.begin(), t.begin() + random.below(3), t.end());
+  begin_anywhere(random, triangles);
   auto edited = with_triangles(made.c, triangles);
   if (edited.frames.front().rows() != made.c.frames.front().rows()) return;
   made.c = std::move(edited);

@@ -6,6 +6,7 @@
 
 #include "detector/mesh/topology.h"
 #include "oracle/distance/closest_places.h"
+#include "properties/changes/changes.h"
 #include "properties/random.h"
 #include "properties/worker/plugin/query_case.h"
 
@@ -154,13 +155,7 @@ detector::FourPoints query_at(const corpus::Case& c, const Focus& focus) {
 
 void set_query(corpus::Case& c, const Focus& focus, const detector::FourPoints& query) {
   const auto step = corpus::steps_of(c)[focus.step];
-  for (std::size_t i = 0; i < 4; ++i) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto k = static_cast<std::size_t>(axis);
-      c.frames[detector::at(step.from)](focus.vertices[i], axis) = query.points[i].t0[k];
-      c.frames[detector::at(step.to)](focus.vertices[i], axis) = query.points[i].t1[k];
-    }
-  }
+  for (std::size_t i = 0; i < 4; ++i) set_path(c, step, focus.vertices[i], query.points[i]);
 }
 
 detector::TrianglePair pair_in_focus(const corpus::Case& c, const Focus& focus) {

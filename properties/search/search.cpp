@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "properties/changes/changes.h"
 #include "properties/judging/cause.h"
 #include "properties/judging/contracted_case.h"
 #include "properties/random.h"
@@ -203,18 +204,6 @@ class Archive {
   std::set<std::string> causes_;
 };
 
-// Whether all is a number: moves may overflow.
-bool is_finite(const corpus::Case& c) {
-  const auto are_numbers = [](const std::vector<detector::Point>& points) {
-    return std::all_of(points.begin(), points.end(), [](const detector::Point& p) {
-      return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
-    });
-  };
-  if (c.view && !(are_numbers(c.view->q0) && are_numbers(c.view->q1))) return false;
-  return std::all_of(c.frames.begin(), c.frames.end(),
-                     [](const auto& frame) { return frame.allFinite(); });
-}
-
 class LaneSearch {
  public:
   LaneSearch(const SearchLane& lane, const SearchSpace& space)
@@ -257,7 +246,7 @@ class LaneSearch {
       Random random(id);
       corpus::Case made = draw(random, id);
       made.id = id;
-      if (made.frames.size() < 2 || !is_finite(made)) continue;
+      if (made.frames.size() < 2 || !is_finite(made)) continue;  // moves may overflow
       if (made.triangles.rows() > swarm_.most_triangles || made.frames.size() > swarm_.most_frames)
         continue;
       if (auto seen = contracted(made, space_.contract)) return seen;

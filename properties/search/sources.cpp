@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "corpus/hard/hard_families.h"
+#include "properties/changes/changes.h"
 #include "properties/generators/draft.h"
 #include "properties/generators/families.h"
 #include "properties/queries/query_families.h"
@@ -176,12 +177,7 @@ corpus::Case two_triangles(const detector::FourPoints& query, Random& random, st
   if (!(size > 0)) size = 1;
   const double unit = std::ldexp(1.0, std::clamp(std::ilogb(size), -1000, 1000));
   c.frames.assign(2, detector::Positions(vertices, 3));
-  const auto put = [&](int v, const detector::MovingPoint& p) {
-    for (int k = 0; k < 3; ++k) {
-      c.frames[0](v, k) = p.t0[static_cast<std::size_t>(k)];
-      c.frames[1](v, k) = p.t1[static_cast<std::size_t>(k)];
-    }
-  };
+  const auto put = [&](int v, const detector::MovingPoint& p) { set_path(c, {}, v, p); };
   for (int v = 0; v < 4; ++v) put(v, query.points[static_cast<std::size_t>(v)]);
   // A corner beside a point of its own feature, on the side away from the other feature.
   const auto corner = [&](std::size_t beside, double away) {

@@ -6,6 +6,7 @@
 
 #include "detector/boundary/boundary_handler.h"
 #include "oracle/mesh/loops.h"
+#include "properties/changes/changes.h"
 #include "properties/generators/draft.h"
 #include "properties/random.h"
 #include "properties/search/moves.h"
@@ -163,8 +164,8 @@ void onto_ghost(Random& random, Candidate& made, const MoveContext&) {
   const auto& loop = one_of(random, loops);
   const auto script = corpus::steps_of(c);
   const auto step = made.focus ? script[made.focus->step] : one_of(random, script);
-  auto& from = c.frames[detector::at(step.from)];
-  auto& to = c.frames[detector::at(step.to)];
+  const auto& from = c.frames[detector::at(step.from)];
+  const auto& to = c.frames[detector::at(step.to)];
   const auto k = static_cast<std::size_t>(random.below(static_cast<int>(loop.size())));
   const auto u = loop[k], v = loop[(k + 1) % loop.size()];
   const auto rule = one_of(random, detector::apex_rules);
@@ -182,10 +183,7 @@ void onto_ghost(Random& random, Candidate& made, const MoveContext&) {
     points.first_group = 2;
   }
   points = brought_together(random, points);
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    from(w, axis) = points.points[0].t0[static_cast<std::size_t>(axis)];
-    to(w, axis) = points.points[0].t1[static_cast<std::size_t>(axis)];
-  }
+  set_path(c, step, w, points.points[0]);
 }
 
 constexpr Move of_steps[] = {

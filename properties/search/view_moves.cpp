@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "detector/mesh/topology.h"
+#include "properties/changes/changes.h"
 #include "properties/generators/draft.h"
 #include "properties/random.h"
 #include "properties/search/degeneracy.h"
@@ -86,13 +87,8 @@ void look_aside(Random& random, Candidate& made, const MoveContext& context) {
   if (!moved) return;
   q[from] = moved->points[0].t0;
   q[to] = moved->points[0].t1;
-  for (int k = 0; k < 3; ++k) {
-    const auto& path = moved->points[static_cast<std::size_t>(k + 1)];
-    for (int axis = 0; axis < 3; ++axis) {
-      c.frames[from](c.triangles(triangle, k), axis) = path.t0[static_cast<std::size_t>(axis)];
-      c.frames[to](c.triangles(triangle, k), axis) = path.t1[static_cast<std::size_t>(axis)];
-    }
-  }
+  for (int k = 0; k < 3; ++k)
+    set_path(c, step, c.triangles(triangle, k), moved->points[detector::at(k + 1)]);
 }
 
 struct Side {

@@ -7,7 +7,7 @@
 
 #include "properties/generators/families.h"
 #include "properties/judging/case_options.h"
-#include "properties/laws/metamorphic/forms.h"
+#include "properties/laws/metamorphic/change_laws.h"
 
 namespace assay::properties {
 namespace {

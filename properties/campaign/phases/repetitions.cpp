@@ -14,8 +14,8 @@
 #include "properties/campaign/plan.h"
 #include "properties/campaign/trials/case_tally.h"
 #include "properties/campaign/trials/trials.h"
+#include "properties/changes/changes.h"
 #include "properties/judging/judged_run.h"
-#include "properties/numbering.h"
 #include "properties/random.h"
 
 namespace assay::properties {
@@ -26,25 +26,6 @@ constexpr std::size_t most_differing = 2;  // steps of a sequence
 constexpr int most_kept = 4;               // steps of a sequence, of each signature
 constexpr Eigen::Index largest_small_mesh = 600;
 
-// Gives the vertices other numbers, the triangles another order, and each of them another first
-// corner.
-void renumber(corpus::Case& c, Random& random) {
-  const auto vertices = shuffled(random, in_order(static_cast<std::size_t>(c.frames[0].rows())));
-  const auto places = shuffled(random, in_order(static_cast<std::size_t>(c.triangles.rows())));
-  for (auto& frame : c.frames) {
-    detector::Positions moved(frame.rows(), 3);
-    for (Eigen::Index v = 0; v < frame.rows(); ++v) moved.row(vertices[at(v)]) = frame.row(v);
-    frame = std::move(moved);
-  }
-  detector::Triangles moved(c.triangles.rows(), 3);
-  for (Eigen::Index t = 0; t < c.triangles.rows(); ++t) {
-    const int first = random.below(3);
-    for (int k = 0; k < 3; ++k)
-      moved(places[at(t)], k) = vertices[at(c.triangles(t, (first + k) % 3))];
-  }
-  c.triangles = std::move(moved);
-}
-
 // Between the largest of the trials and the wanted size, each doubling equally often.
 std::uint64_t drawn_size(Random& random, std::uint64_t most) {
   constexpr std::uint64_t largest_of_trials = 200;
@@ -53,21 +34,6 @@ std::uint64_t drawn_size(Random& random, std::uint64_t most) {
   while (least << (doublings + 1) < most) ++doublings;
   least <<= random.below(doublings + 1);
   return least + random.next() % (std::min(2 * least, most) - least + 1);
-}
-
-// Puts copies of the mesh side by side, so far apart that none meets another.
-void put_side_by_side(corpus::Case& c, int copies) {
-  double reach = 0;
-  for (const auto& frame : c.frames) reach = std::max(reach, frame.cwiseAbs().maxCoeff());
-  const auto vertices = c.frames[0].rows(), triangles = c.triangles.rows();
-  for (auto& frame : c.frames) {
-    frame = frame.replicate(copies, 1).eval();
-    for (int k = 1; k < copies; ++k)
-      frame.middleRows(k * vertices, vertices).col(0).array() += 4 * reach * k;
-  }
-  c.triangles = c.triangles.replicate(copies, 1).eval();
-  for (int k = 1; k < copies; ++k)
-    c.triangles.middleRows(k * triangles, triangles).array() += static_cast<int>(k * vertices);
 }
 
 // Entries between -most and most.
@@ -111,7 +77,7 @@ corpus::Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triang
   // A scene has a least size of its own.
   const auto fitting = static_cast<int>(triangles) / static_cast<int>(c.triangles.rows());
   put_side_by_side(c, std::max(1, std::min(copies, fitting)));
-  renumber(c, random);
+  c = renumbered(random, c);
   const auto map = drawn_map(random);
   for (auto& frame : c.frames) frame = (frame * map).eval();
   return c;
@@ -144,7 +110,7 @@ corpus::Case long_sequence(std::uint64_t seed) {
     const auto place = static_cast<std::size_t>(way - std::abs(way - f % (2 * way)));
     c.frames.emplace_back(made.frames[place] * (map + drift * f / steps));
   }
-  renumber(c, random);
+  c = renumbered(random, c);
   return c;
 }
 

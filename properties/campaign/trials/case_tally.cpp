@@ -242,10 +242,10 @@ std::string count_differences(const Form& form, const CaseRun& run, const CaseRu
 
 }  // namespace
 
-FormCheck check_in_form(const FormLaw& law, const corpus::Case& c, const CaseRun& run,
+FormCheck check_in_form(const Law& law, const corpus::Case& c, const CaseRun& run,
                         const DetectorUnderTest& detector, WorkerProcess& worker) {
   FormCheck check;
-  auto form = law.make(c);
+  auto form = form_of(*law.change, c);
   const auto told = form ? contracted(form->c, detector.contract) : std::nullopt;
   if (!told || corpus::steps_of(*told).size() != corpus::steps_of(form->c).size()) return check;
   // Answers can be set side by side if the contract has not rounded the form. Of lengths that the
@@ -253,7 +253,8 @@ FormCheck check_in_form(const FormLaw& law, const corpus::Case& c, const CaseRun
   const auto& contract = detector.contract;
   const bool states_lengths =
       contract.margin > 0 || contract.separation > 0 || contract.rest_distance > 0;
-  if (told->frames != form->c.frames || (states_lengths && !law.keeps_lengths)) form->step.clear();
+  if (told->frames != form->c.frames || (states_lengths && !law.change->keeps_lengths))
+    form->step.clear();
   const auto& configuration = detector.configurations.front();
   auto examined = examine({detector, {&configuration, 1}, &worker}, *told);
   throw_if_not_run(examined);
@@ -263,7 +264,7 @@ FormCheck check_in_form(const FormLaw& law, const corpus::Case& c, const CaseRun
   if (judged.outcome != Outcome::holds && judged.outcome != Outcome::defect) return check;
   const auto first_difference = count_differences(*form, run, in_form, check.count);
   check.count.premise = corpus::steps_of(c).size();
-  if (!judged.failure && check.count.differs > 0 && law.same_calls &&
+  if (!judged.failure && check.count.differs > 0 && law.change->same_calls &&
       detector.claims_on(c, configuration).has(Claim::deterministic)) {
     auto& failure = judged.failure.emplace();
     failure.claim = Claim::deterministic;
@@ -276,7 +277,7 @@ FormCheck check_in_form(const FormLaw& law, const corpus::Case& c, const CaseRun
   check.failure = stored_failure(Source::trial, *told, configuration, detector, failure, false,
                                  in_form.printed);
   check.failure->case_id = c.id;
-  check.failure->law = law.law;
+  check.failure->law = law.name;
   check.failure->flaky = failure.claim == Claim::deterministic;
   return check;
 }

@@ -14,7 +14,7 @@
 #include "properties/campaign/ledger/record.h"
 #include "properties/judging/trial.h"
 #include "properties/laws/law.h"
-#include "properties/laws/metamorphic/forms.h"
+#include "properties/laws/metamorphic/change_laws.h"
 #include "properties/reducer/reducer.h"
 #include "properties/worker/case_run.h"
 #include "properties/worker/worker_process.h"
@@ -73,7 +73,7 @@ std::vector<LawTally> check_in_copies(std::size_t count,
                                       const std::function<std::string(std::size_t)>& case_of,
                                       const std::function<LawTally(std::size_t)>& check);
 
-// Puts a case to a plug-in in other forms (laws/metamorphic/forms.h), and judges what it answers.
+// Puts a case to a plug-in in other forms (changes/changes.h), and judges what it answers.
 //
 // A law of a plug-in is broken if a claim holds in the case and not in its form: the form is judged
 // by the oracle like any case. A detector that claims to be deterministic breaks it also by other
@@ -90,8 +90,8 @@ struct FormCheck {
 // Runs the form of a case in the worker. Nothing is judged if it does not apply, if the contract
 // leaves some of its steps out, or if it runs out of time or memory. `run` is the run of the case.
 // Throws StoreProblem if there is no worker. REQUIRES a contracted case of meshes in which all
-// pairs count, and whose run holds.
-FormCheck check_in_form(const FormLaw& law, const corpus::Case& c, const CaseRun& run,
+// pairs count, and whose run holds, and a law about a change of such.
+FormCheck check_in_form(const Law& law, const corpus::Case& c, const CaseRun& run,
                         const DetectorUnderTest& detector, WorkerProcess& worker);
 
 // Whether cases of this detector are put to it in other forms, and this is such a case.

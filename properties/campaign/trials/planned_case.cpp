@@ -12,6 +12,7 @@
 #include "oracle/instant/layers.h"
 #include "oracle/mesh/loops.h"
 #include "properties/campaign/trials/case_tally.h"
+#include "properties/changes/changes.h"
 #include "properties/generators/added_bodies.h"
 #include "properties/generators/draft.h"
 #include "properties/judging/contracted_case.h"
@@ -52,13 +53,6 @@ int exponent_into_range(const corpus::Case& c, const Contract& contract) {
 double scaled(double x, int exponent) {
   const double y = std::ldexp(x, exponent);
   return std::ldexp(y, -exponent) == x ? y : 0;
-}
-
-template <class Places>
-void scale_all(Places& places, int exponent) {
-  for (auto& place : places) {
-    for (double& x : place) x = scaled(x, exponent);
-  }
 }
 
 // The length of most edges of a large mesh, and the longest side of a small one. A contract's
@@ -136,18 +130,13 @@ Shown shown_by(const corpus::Case& c, const Contract& contract) {
 corpus::Case brought_into_contract(corpus::Case c, const Contract& contract) {
   const int exponent = exponent_within(c, contract);
   if (exponent == 0 && !contract.has_range()) return c;
-  for (auto& frame : c.frames)
-    frame = frame.unaryExpr([&](double x) { return scaled(x, exponent); }).eval();
-  if (c.view) {
-    scale_all(c.view->q0, exponent);
-    scale_all(c.view->q1, exponent);
-  }
-  if (c.ghosts) {
-    for (auto& apexes : c.ghosts->apexes) scale_all(apexes, exponent);
-  }
+  for (double* x : numbers_along(c)) *x = scaled(*x, exponent);
   if (c.counted) {
-    scale_all(c.counted->pairs.rest, exponent);
-    c.counted->pairs.rest_distance = scaled(c.counted->pairs.rest_distance, exponent);
+    auto& pairs = c.counted->pairs;
+    for (auto& place : pairs.rest) {
+      for (double& x : place) x = scaled(x, exponent);
+    }
+    pairs.rest_distance = scaled(pairs.rest_distance, exponent);
   }
   return c;
 }

@@ -291,10 +291,10 @@ class Trials {
       if (!same_answers(run, *again)) ++threads.differs;
     }
     if (trial.record.outcomes.front() != letter_of(Outcome::holds)) return;
-    for (const auto& law : form_laws()) {
-      if (!is_given_in_form(law, trial.record.id)) continue;
+    for (const auto& law : laws()) {
+      if (!law.change || !is_given_in_form(law, trial.record.id)) continue;
       auto check = check_in_form(law, trial.examined.c, run, request_.detector, *trial.first);
-      if (check.count.premise > 0) counts[std::string(law.law)] += check.count;
+      if (check.count.premise > 0) counts[std::string(law.name)] += check.count;
       trial.record.disturbed += check.disturbances;
       if (check.failure) trial.failures.push_back(std::move(*check.failure));
     }

@@ -1,43 +1,46 @@
-// Metamorphic laws: a run that is changed in a way that must not matter gives the same results,
-// changed likewise.
+// Metamorphic laws: a case that is changed in a way that must not matter gives the same answers,
+// changed likewise. Of the built-in detector every bit is compared, in pinned runs. Laws that need
+// nothing of the inside of a detector are judged of plug-ins too: these are put the case in its
+// other form.
 #pragma once
 
-#include "properties/laws/metamorphic/pinned_run.h"
-#include "properties/laws/step_law.h"
+#include <string>
+#include <string_view>
+
+#include "detector/step_result.h"
+#include "properties/changes/changes.h"
+#include "properties/laws/law.h"
 
 namespace assay::properties {
 
-// Runs are rounded to coordinates of few bits, so that translations and midpoints are exact.
+// Whether the law is judged of a plug-in: if it is about a change of the case that any detector can
+// be put, or says that threads do not show, which the second runs of trials tell. No state is saved
+// and restored, because the interface of plug-ins has no such call.
+inline constexpr std::string_view threads_law = "Change_ThreadsDoNotShow";
+bool is_of_plugins(const Law& law);
 
-// The run with every coordinate of vertices, primitives and apexes rounded to a multiple of one
-// power of two: 2^-30 of the least power of two above them all (or the least denormal, if that is
-// greater).
-PinnedRun on_a_grid(PinnedRun run);
+// Whether the case is in the share of cases that a plug-in is given in the form of this law.
+bool is_given_in_form(const Law& law, std::string_view case_id);
 
-// The exponent of the least power of two above all coordinates.
-int exponent_above(const PinnedRun& run);
+// How the answer to a step of the form differs from that to the step of the case, both given by one
+// detector; empty if it does not. `pairs`: whether all pairs were asked for.
+std::string difference_in_form(const detector::StepResult& of_case, const Form& form,
+                               const detector::StepResult& of_form, bool pairs = true);
 
-// Applies `move` to every vertex, primitive and apex of every frame.
-void move_points(PinnedRun& run, const std::function<detector::Point(detector::Point)>& move);
-
-struct Change {
-  PinnedRun run;
-  std::vector<std::int32_t> triangle;  // by triangle: its index in the changed run
-  bool swaps_signs = false;            // V+ becomes V-; what rests on L5 is then not compared
-};
-
-// Makes the change; nothing if it does not apply. The case's id is the only source of randomness.
-using MakeChange = std::optional<Change> (*)(std::string_view, const PinnedRun&);
-
-// Compares the changed run with the given results. On a grid both sides are run anew, from
-// coordinates that are rounded so that sums and halves are exact (round_to_grid).
-void check_change(CaseFacts& facts, LawTally& tally, MakeChange make, bool on_grid);
-template <MakeChange make, bool on_grid = false>
+// Compares the pinned run of the case with that of its form, or, if the change is made on a grid,
+// that of the rounded case.
+void check_change(CaseFacts& facts, LawTally& tally, const CaseChange& change);
+template <const CaseChange& change>
 void check_change(CaseFacts& facts, LawTally& tally) {
-  check_change(facts, tally, make, on_grid);
+  check_change(facts, tally, change);
 }
 
-// L11: vertices and triangles in reverse order. Applies if there are two holes or more.
-std::optional<Change> holes_in_another_order(std::string_view id, const PinnedRun& run);
+// Plays the form through the built-in detector, which chooses for itself, and compares answers,
+// pairs and times.
+void check_form(CaseFacts& facts, LawTally& tally, const CaseChange& change);
+template <const CaseChange& change>
+void check_form(CaseFacts& facts, LawTally& tally) {
+  check_form(facts, tally, change);
+}
 
 }  // namespace assay::properties

@@ -1,8 +1,10 @@
 #include "properties/laws/metamorphic/pinned_run.h"
 
 #include <algorithm>
+#include <map>
 
 #include "detector/assembly.h"
+#include "oracle/mesh/loops.h"
 
 namespace assay::properties {
 
@@ -13,32 +15,24 @@ namespace {
 
 using EdgeSet = std::vector<std::array<std::int32_t, 2>>;
 
-// The edges are undirected and sorted, so they are the same for a loop that begins elsewhere or
-// runs backward.
-EdgeSet edges_of(const detector::Loop& loop) {
-  EdgeSet edges;
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    const auto u = loop[i], v = loop[(i + 1) % loop.size()];
-    edges.push_back({std::min(u, v), std::max(u, v)});
+// The edges of each hole by the number of its apex, of ghosts whose apexes are numbered from
+// `first` on. They are undirected and sorted, so they are the same for a hole that is walked from
+// elsewhere or backward.
+template <class Ghosts>
+std::map<std::int32_t, EdgeSet> holes_of(const Ghosts& ghosts, std::int32_t first) {
+  std::map<std::int32_t, EdgeSet> holes;
+  for (const auto& [u, v, apex] : ghosts) {
+    if (v < first) holes[apex - first].push_back({std::min(u, v), std::max(u, v)});
   }
-  std::sort(edges.begin(), edges.end());
-  return edges;
+  for (auto& [apex, edges] : holes) std::sort(edges.begin(), edges.end());
+  return holes;
 }
 
-// For each loop of a surface, its place among `wanted`. Each place is used once.
-std::optional<std::vector<std::size_t>> match(const std::vector<detector::Loop>& loops,
-                                              const std::vector<detector::Loop>& wanted) {
-  if (loops.size() != wanted.size()) return std::nullopt;
-  std::vector<EdgeSet> open;
-  for (const auto& loop : wanted) open.push_back(edges_of(loop));
-  std::vector<std::size_t> place;
-  for (const auto& loop : loops) {
-    const auto found = std::find(open.begin(), open.end(), edges_of(loop));
-    if (found == open.end()) return std::nullopt;
-    place.push_back(static_cast<std::size_t>(found - open.begin()));
-    found->clear();
-  }
-  return place;
+std::vector<std::array<std::int32_t, 3>> pinned_ghosts(const corpus::Case& run) {
+  std::vector<std::array<std::int32_t, 3>> ghosts;
+  for (const auto& ghost : run.ghosts->triangles.rowwise())
+    ghosts.push_back({ghost[0], ghost[1], ghost[2]});
+  return ghosts;
 }
 
 }  // namespace
@@ -87,32 +81,47 @@ detector::Options options_with_views(const CaseFacts& facts) {
   return options;
 }
 
-std::optional<PinnedRun> pinned_run(const CaseFacts& facts) {
+std::optional<corpus::Case> pinned_run(const CaseFacts& facts) {
   if (!facts.stages_of()) return std::nullopt;
-  PinnedRun run{
-      facts.source().triangles, facts.source().frames, {}, {}, {}, facts.surface().loops, {}};
-  for (const auto& component : facts.surface().mesh.components) {
-    run.seats.push_back(component.triangles.front());
+  const auto& surface = facts.surface();
+  corpus::Case run;
+  run.id = facts.source().id;
+  run.triangles = facts.source().triangles;
+  run.frames = {facts.source().frames.front()};
+  auto& [points, fans] = run.ghosts.emplace();
+  fans = oracle::ghost_triangles(surface.loops, surface.first_apex);
+  auto end = surface.first_apex + static_cast<std::int32_t>(surface.loops.size());
+  for (const auto& component : surface.mesh.components) {
+    fans.conservativeResize(fans.rows() + 1, 3);
+    fans.bottomRows(1) << component.vertices.front(), end, end + 1;
+    end += 2;
   }
   for (std::size_t s = 0; s < facts.steps(); ++s) {
     if (!facts.has_views(s)) return std::nullopt;
+    const auto& result = facts.result(s);
     // The other run, of view-line, would ask for layers where this one did not.
-    const auto& doubts = facts.result(s).doubts;
-    const bool any_dirty = std::any_of(doubts.begin(), doubts.end(), [](std::uint8_t marks) {
-      return (marks & detector::doubt::dirty) != 0;
-    });
+    const bool any_dirty =
+        std::any_of(result.doubts.begin(), result.doubts.end(),
+                    [](std::uint8_t marks) { return (marks & detector::doubt::dirty) != 0; });
     if (any_dirty && !facts.known_from(s) && facts.starts_by_view_alone()) return std::nullopt;
-    run.script.push_back(facts.script(s));
-    run.primitives.push_back(facts.result(s).primitives);
-    run.apexes.push_back(facts.result(s).apexes);
+    const auto from = static_cast<std::int32_t>(run.frames.size());
+    run.script.push_back({from, from + 1, facts.script(s).commit});
+    run.frames.insert(run.frames.end(), {facts.x_t0(s), facts.x_t1(s)});
+    for (const auto at_end : {&MovingPoint::t0, &MovingPoint::t1}) {
+      auto& of_frame = points.emplace_back();
+      for (const auto& apex : result.apexes) of_frame.push_back(apex.*at_end);
+      for (const auto& primitive : result.primitives)
+        of_frame.insert(of_frame.end(), {primitive.q0.*at_end, primitive.q1.*at_end});
+    }
   }
+  points.insert(points.begin(), std::vector(points.front()));
   return run;
 }
 
-PinnedPlayer::PinnedPlayer(const PinnedRun& run, std::shared_ptr<PinnedBoundary> boundary)
+PinnedPlayer::PinnedPlayer(const corpus::Case& run, std::shared_ptr<PinnedBoundary> boundary)
     : run_(&run), boundary_(std::move(boundary)) {}
 
-std::optional<PinnedPlayer> PinnedPlayer::make(const PinnedRun& run,
+std::optional<PinnedPlayer> PinnedPlayer::make(const corpus::Case& run,
                                                const detector::Options& options,
                                                const StagesOf& stages_of) {
   auto stages = stages_of(options);
@@ -125,14 +134,24 @@ std::optional<PinnedPlayer> PinnedPlayer::make(const PinnedRun& run,
     return player;
   }
   player.detector_ = std::move(made).value();
-  auto places = match(player.detector_->surface().loops, run.loops);
-  if (!places) return std::nullopt;
-  player.loop_of_apex_ = std::move(*places);
-  const auto& mesh = player.detector_->topology();
-  player.seat_of_component_.resize(mesh.components.size());
-  for (std::size_t c = 0; c < run.seats.size(); ++c) {
-    const auto component = mesh.component_of_triangle[at(run.seats[c])];
-    player.seat_of_component_[at(component)] = c;
+  const auto& surface = player.detector_->surface();
+  const auto pinned = pinned_ghosts(run);
+  auto holes = holes_of(pinned, surface.first_apex);
+  const std::span all(surface.all().triangles);
+  for (const auto& hole :
+       holes_of(all.subspan(surface.mesh.triangles.size()), surface.first_apex)) {
+    const auto same = std::find_if(holes.begin(), holes.end(),
+                                   [&](const auto& known) { return known.second == hole.second; });
+    if (same == holes.end()) return std::nullopt;
+    player.apex_of_loop_.push_back(same->first);
+    holes.erase(same);
+  }
+  player.view_of_component_.resize(surface.mesh.components.size());
+  for (const auto& [vertex, end, other_end] : pinned) {
+    const auto triangles = surface.mesh.vertex_triangles.row(vertex);
+    if (end < surface.first_apex || triangles.empty()) continue;
+    const auto component = surface.mesh.component_of_triangle[at(triangles.front())];
+    player.view_of_component_[at(component)] = end - surface.first_apex;
   }
   return player;
 }
@@ -149,10 +168,14 @@ StepResult PinnedPlayer::evaluate(std::size_t step, const detector::PositionsVie
     refused.problem = problem_;
     return refused;
   }
+  const auto& points = run_->ghosts->apexes;
+  const auto path = [&, &of_step = run_->script[step]](std::int32_t place) {
+    return MovingPoint{points[at(of_step.from)][at(place)], points[at(of_step.to)][at(place)]};
+  };
   std::vector<detector::ViewPrimitive> primitives;
-  for (const auto seat : seat_of_component_) primitives.push_back(run_->primitives[step][seat]);
+  for (const auto place : view_of_component_) primitives.push_back({path(place), path(place + 1)});
   boundary_->apexes.clear();
-  for (const auto loop : loop_of_apex_) boundary_->apexes.push_back(run_->apexes[step][loop]);
+  for (const auto place : apex_of_loop_) boundary_->apexes.push_back(path(place));
   return detector_->evaluate(x_t0, x_t1, primitives);
 }
 

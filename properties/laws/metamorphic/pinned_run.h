@@ -15,20 +15,15 @@
 
 namespace assay::properties {
 
-struct PinnedRun {
-  detector::Triangles triangles;
-  std::vector<detector::Positions> frames;
-  std::vector<corpus::CaseStep> script;
-  std::vector<std::int32_t> seats;                               // one triangle of each component
-  std::vector<std::vector<detector::ViewPrimitive>> primitives;  // [step][seat]
-  std::vector<detector::Loop> loops;                       // in any direction, from any vertex
-  std::vector<std::vector<detector::MovingPoint>> apexes;  // [step][loop]
-};
-
-// The run that gave the results of `facts`, pinned. Nothing if a step has no views, if view-auto
-// left something dirty at a new start that another culling would release by layers, or if no
-// detector can be made.
-std::optional<PinnedRun> pinned_run(const CaseFacts& facts);
+// The run that gave the results of `facts`, pinned, as a case. Nothing if a step has no views, if
+// view-auto left something dirty at a new start that another culling would release by layers, or if
+// no detector can be made.
+//
+// Each step has two frames of its own, after the first frame of the case, which shapes the tree.
+// What is pinned are the case's ghosts, so that it goes with the mesh in whatever changes that: a
+// fan for each hole, and for each component one triangle of a vertex and the two ends of its view
+// primitive.
+std::optional<corpus::Case> pinned_run(const CaseFacts& facts);
 
 // The options of the case, for a run of another mesh. view-auto decides by cost, for the mesh as a
 // whole, whether it uses its views. In a pinned run every step had views, and the other run shall
@@ -37,10 +32,10 @@ detector::Options options_with_views(const CaseFacts& facts);
 
 class PinnedPlayer {
  public:
-  // Nothing if the holes of the mesh are not those of the run (a boundary through repeated
+  // Nothing if the holes of the mesh are not among those of the run (a boundary through repeated
   // vertices may be split in several ways). A mesh that the detector refuses has a player too:
   // every step of it is that error. The run must outlive the player.
-  static std::optional<PinnedPlayer> make(const PinnedRun& run, const detector::Options& options,
+  static std::optional<PinnedPlayer> make(const corpus::Case& run, const detector::Options& options,
                                           const StagesOf& stages_of);
 
   detector::StepResult evaluate(std::size_t step);
@@ -55,13 +50,14 @@ class PinnedPlayer {
 
  private:
   class PinnedBoundary;
-  PinnedPlayer(const PinnedRun& run, std::shared_ptr<PinnedBoundary> boundary);
+  PinnedPlayer(const corpus::Case& run, std::shared_ptr<PinnedBoundary> boundary);
 
-  const PinnedRun* run_;
+  const corpus::Case* run_;
   std::optional<detector::Detector> detector_;  // or the problem of the mesh
   std::optional<detector::Problem> problem_;
   std::shared_ptr<PinnedBoundary> boundary_;
-  std::vector<std::size_t> seat_of_component_, loop_of_apex_;
+  // Places among the pinned points: of each loop's apex, of the first end of each component's view.
+  Numbers apex_of_loop_, view_of_component_;
 };
 
 }  // namespace assay::properties

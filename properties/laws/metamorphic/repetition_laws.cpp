@@ -2,11 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "detector/assembly.h"
 #include "detector/parallel/workers.h"
 #include "detector/state/step_state.h"
-#include "properties/laws/metamorphic/forms.h"
+#include "properties/laws/metamorphic/change_laws.h"
 #include "properties/laws/metamorphic/pinned_run.h"
 #include "properties/laws/step_law.h"
 #include "properties/random.h"
@@ -16,6 +17,75 @@ namespace assay::properties {
 namespace {
 
 using detector::StepResult;
+using detector::TimeEnclosure;
+
+// Whether time t of the whole step is time u of that half. Both 2t and, for t >= 1/2, 2t - 1 are
+// exact. A time that no double equals has a closer enclosure in the second half, which lies inside
+// of the one that is computed here.
+bool corresponds(const TimeEnclosure& t, const TimeEnclosure& u, int half) {
+  const TimeEnclosure wanted = {2 * t.lo - half, 2 * t.hi - half};
+  if (t.lo == t.hi) return u == wanted;
+  return wanted.lo <= u.lo && u.lo < u.hi && u.hi <= wanted.hi;
+}
+
+std::string compare_first(const StepResult& whole, const StepResult& first,
+                          const StepResult& second) {
+  const bool collides = whole.answer == detector::Answer::collision;
+  const int half = first.answer == detector::Answer::collision ? 0 : 1;
+  const StepResult& early = half == 0 ? first : second;
+  if (collides != (early.answer == detector::Answer::collision)) {
+    return collides ? "the halves are free" : "the whole is free";
+  }
+  if (collides && !corresponds(whole.first, early.first, half)) return "another first time";
+  return {};
+}
+
+std::string compare_pairs(const StepResult& whole, const StepResult& first,
+                          const StepResult& second) {
+  std::map<detector::TrianglePair, std::pair<int, TimeEnclosure>> in_halves;
+  for (const auto& contact : first.pairs) in_halves.try_emplace(contact.pair, 0, contact.time);
+  for (const auto& contact : second.pairs) in_halves.try_emplace(contact.pair, 1, contact.time);
+  for (const auto& [pair, time, feature] : whole.pairs) {
+    const int half = time.hi <= 0.5 ? 0 : 1;
+    const auto found = in_halves.extract(pair);
+    if (!found || found.mapped().first != half || !corresponds(time, found.mapped().second, half))
+      return fmt::format("({}, {}) is missing in its half, or has another time", pair.a, pair.b);
+  }
+  if (in_halves.empty()) return {};
+  const auto& pair = in_halves.begin()->first;
+  return fmt::format("({}, {}) is of a half alone", pair.a, pair.b);
+}
+
+// Compares every committed step of the case in two halves with the whole step, both rounded to a
+// grid, so that the middle places of vertices, primitives and apexes are exact. A pair of the whole
+// step is one of a half, at twice its time or at twice its time less one; and a pair of a half is
+// one of the whole.
+void check_halves(CaseFacts& facts, LawTally& tally) {
+  auto run = pinned_run(facts);
+  if (!run) return;
+  const auto whole = on_a_grid(std::move(*run));
+  const auto halved = changes::halves.of(whole);
+  if (!halved) return;
+  auto options = facts.options();
+  // The middle positions may be rounded, so nobody can vouch for a clean start there. The start is
+  // verified instead.
+  if (options.start == detector::Start::clean) options.start = detector::Start::verified;
+  auto player = PinnedPlayer::make(whole, options, facts.stages_of());
+  auto half_player = PinnedPlayer::make(halved->c, options, facts.stages_of());
+  if (!player || !half_player) return;
+  const auto results = player->play(), of_halves = half_player->play();
+  auto half = of_halves.begin();
+  for (std::size_t s = 0; s < facts.steps(); ++s) {
+    const auto& first = *half++;
+    if (!whole.script[s].commit) continue;
+    const auto& second = *half++;
+    std::string wrong = compare_first(results[s], first, second);
+    if (wrong.empty() && facts.options().pairs == detector::Pairs::all) {
+      wrong = compare_pairs(results[s], first, second);
+    }
+    note(facts, s, wrong, tally);
+  }
+}
 
 void check_repeated_call(CaseFacts& facts, LawTally& tally) {
   const auto run = pinned_run(facts);
@@ -199,8 +269,9 @@ void check_threads(CaseFacts& facts, LawTally& tally) {
 void check_equal_ends(CaseFacts& facts, LawTally& tally) {
   const auto run = pinned_run(facts);
   if (!run || facts.options().culling != detector::Culling::view_point) return;
-  for (const auto& of_step : run->primitives) {
-    const bool points = std::all_of(of_step.begin(), of_step.end(),
+  for (std::size_t s = 0; s < facts.steps(); ++s) {
+    const auto& primitives = facts.result(s).primitives;
+    const bool points = std::all_of(primitives.begin(), primitives.end(),
                                     [](const auto& primitive) { return primitive.is_point(); });
     if (!points) return;
   }
@@ -220,7 +291,7 @@ constexpr Law repetition_law_table[] = {
      "A step in two halves, the state carried (all coordinates rounded to a grid before, so that "
      "the middle is exact), has the pairs of the whole, each at its time; of first contacts the "
      "first time.",
-     "nothing", check_halves, one_case_in_16},
+     "nothing", check_halves, one_case_in_16, MetUnder::any_culling, &changes::halves},
     {"Change_EqualEndsAreAPoint", "change",
      "A segment whose ends coincide gives the result of the point, to the last bit.", "nothing",
      check_equal_ends, one_case_in_16},
@@ -229,7 +300,8 @@ constexpr Law repetition_law_table[] = {
      "nothing", check_repeated_call, one_case_in_16},
     {"Change_EvaluateChangesNothing", "change",
      "Steps that are evaluated and not committed leave no trace in the results that follow.",
-     "nothing", check_evaluate_changes_nothing, one_case_in_16},
+     "nothing", check_evaluate_changes_nothing, one_case_in_16, MetUnder::any_culling,
+     &changes::other_evaluations},
     {"Change_ResetStartsAnew", "change",
      "After a reset the first step gives the same bytes as it did at first.", "nothing",
      check_reset, one_case_in_16},
@@ -244,9 +316,18 @@ constexpr Law repetition_law_table[] = {
     {"Change_RestoredStateGoesOn", "change",
      "A state that went through bytes into another detector of the mesh, made from other positions "
      "and in the middle of another step, gives the results and the states that would have come, "
-     "and "
-     "no evaluation outlives it.",
+     "and no evaluation outlives it.",
      "nothing", check_restored_state, one_case_in_16},
+    {"Change_StepReversed", "change",
+     "A sequence played back, each step from its end to its start, has the pairs of each step, and "
+     "is free where it was free.",
+     "nothing", check_form<changes::played_back>, one_case_in_16, MetUnder::any_culling,
+     &changes::played_back},
+    {"Change_StepsBeforeDoNotShow", "change",
+     "Played after its own steps in another order, a sequence has the answers, pairs and times "
+     "that it has at first.",
+     "nothing", check_form<changes::other_steps_first>, one_case_in_16, MetUnder::any_culling,
+     &changes::other_steps_first},
 };
 
 }  // namespace

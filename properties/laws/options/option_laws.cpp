@@ -8,11 +8,11 @@
 
 #include "detector/assembly.h"
 #include "oracle/mesh/pair_relation.h"
+#include "properties/changes/changes.h"
 #include "properties/generators/added_bodies.h"
 #include "properties/judging/agreement.h"
 #include "properties/judging/contracted_case.h"
 #include "properties/judging/trial.h"
-#include "properties/laws/metamorphic/forms.h"
 #include "properties/laws/options/drawn_options.h"
 #include "properties/laws/step_law.h"
 #include "properties/random.h"
@@ -68,7 +68,7 @@ Posed posed(const CaseFacts& facts) {
   Posed p{facts.source(), {}, drawn_options(facts)};
   auto& d = p.drawn;
   Random random(Random::hash(p.judged.id), Random::hash("what is asked"));
-  auto scaled = d.is_scaled ? scaled_form(p.judged) : std::nullopt;
+  auto scaled = d.is_scaled ? form_of(changes::power_of_two, p.judged) : std::nullopt;
   d.is_scaled = scaled.has_value();
   if (scaled) p.judged = std::move(scaled->c);
   leave_out(d, random, facts, p.judged);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "properties/changes/changes.h"
 #include "properties/random.h"
 #include "properties/reducer/case_edits.h"
 #include "properties/reducer/mesh_size.h"
@@ -26,8 +27,7 @@ std::uint64_t call_budget(const MeshSize& size) {
 class Escape {
  public:
   explicit Escape(ReductionSearch& search) : search_(search), random_(0x5eed, search.calls()) {
-    Case c = search.best();
-    for (const double* x : numbers_along(c, -1)) largest_ = std::max(largest_, std::abs(*x));
+    largest_ = largest_along(search.best());
   }
 
   void run() {

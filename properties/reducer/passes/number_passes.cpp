@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "properties/numbering.h"
+#include "properties/changes/changes.h"
 #include "properties/random.h"
 #include "properties/reducer/case_edits.h"
 #include "properties/reducer/mesh_size.h"
@@ -13,22 +13,12 @@
 
 namespace assay::properties {
 
-namespace {
-
 using corpus::Case;
-
-double largest_magnitude(Case& c, int axis) {
-  double largest = 0;
-  for (const double* x : numbers_along(c, axis)) largest = std::max(largest, std::abs(*x));
-  return largest;
-}
-
-}  // namespace
 
 void translate(ReductionSearch& search) {
   constexpr std::size_t most_origins = 60;
   for (int axis = 0; axis < 3; ++axis) {
-    Case c = search.best();
+    const Case c = search.best();
     std::set<double> origins;
     for (const double* x : numbers_along(c, axis)) origins.insert(*x);
     std::size_t tried = 0;
@@ -45,8 +35,8 @@ void round_all(ReductionSearch& search) {
   // All axes are scaled alike, then each by itself. A linear map keeps contacts, and signs that
   // are seen from a point.
   for (int axis = -1; axis < 3; ++axis) {
-    Case c = search.best();
-    const double largest = largest_magnitude(c, axis);
+    const Case c = search.best();
+    const double largest = largest_along(c, axis);
     if (largest == 0) continue;
     // Integers up to each of these limits are tried. A proposal that is no smaller than now is not
     // judged.
@@ -114,24 +104,16 @@ namespace {
 
 // Numbers the vertices in the order in which the triangles name them.
 Case with_vertices_by_use(const Case& c) {
-  std::vector<std::int32_t> number(static_cast<std::size_t>(c.frames.front().rows()), -1);
-  std::int32_t used = 0;
+  Numbers number(vertex_count(c), -1), was;
+  const auto use = [&](std::int32_t v) {
+    if (number[at(v)] >= 0) return;
+    number[at(v)] = static_cast<std::int32_t>(was.size());
+    was.push_back(v);
+  };
+  for (const auto& corners : triangles_of(c)) std::for_each(corners.begin(), corners.end(), use);
+  for (const auto v : in_order(number.size())) use(v);  // of which no triangle is, if any
   Case ordered = c;
-  auto was = in_order(number.size());
-  for (Eigen::Index t = 0; t < c.triangles.rows(); ++t) {
-    for (int i = 0; i < 3; ++i) {
-      const auto old = c.triangles(t, i);
-      auto& n = number[static_cast<std::size_t>(old)];
-      if (n < 0) {
-        n = used++;
-        was[at(n)] = old;
-        for (std::size_t f = 0; f < c.frames.size(); ++f) {
-          ordered.frames[f].row(n) = c.frames[f].row(old);
-        }
-      }
-      ordered.triangles(t, i) = n;
-    }
-  }
+  renumber_vertices(ordered, number);
   if (c.counted)
     ordered.counted->pairs =
         carried_over(c.counted->pairs, c.triangles, ordered.triangles, {number, was});

@@ -1,6 +1,7 @@
 // Passes that drop steps, make the view primitive and the relation simpler, and let vertices rest
 // (passes.h).
 
+#include "properties/changes/changes.h"
 #include "properties/reducer/case_edits.h"
 #include "properties/reducer/passes/passes.h"
 #include "properties/reducer/search.h"
@@ -55,18 +56,8 @@ Places fixed(const Places& places, std::size_t frame) {
 // Moves everything so that `origin` comes to (0,0,0).
 Case moved(const Case& c, const detector::Point& origin) {
   Case result = c;
-  const auto move = [&](Places& places) {
-    for (auto& place : places) {
-      for (std::size_t k = 0; k < 3; ++k) place[k] -= origin[k];
-    }
-  };
-  for (auto& frame : result.frames) {
-    frame.rowwise() -= Eigen::RowVector3d(origin[0], origin[1], origin[2]);
-  }
-  move(result.view->q0);
-  move(result.view->q1);
-  if (result.ghosts) {
-    for (auto& apexes : result.ghosts->apexes) move(apexes);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (double* x : numbers_along(result, axis)) *x -= origin[at(axis)];
   }
   return result;
 }
