@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "properties/changes/changes.h"
 #include "properties/generators/draft.h"
 #include "properties/queries/query_families.h"
 #include "properties/random.h"
@@ -21,7 +22,7 @@ AskedQuery asked_of(const std::string& family, std::uint64_t seed, std::uint64_t
 }
 
 void scale(AskedQuery& q, int exponent) {
-  for_each_coordinate(q.query, [&](double& c, std::size_t) { c = std::ldexp(c, exponent); });
+  for (double* c : numbers_of(q.query)) *c = std::ldexp(*c, exponent);
   for (double* d : {&q.within->first, &q.within->second}) *d = std::ldexp(*d, exponent);
 }
 

@@ -8,6 +8,7 @@
 
 #include "oracle/distance/feature_distance.h"
 #include "oracle/referee/static_check.h"
+#include "properties/changes/changes.h"
 #include "properties/queries/query_methods.h"
 
 namespace assay::properties {
@@ -71,35 +72,14 @@ Broken axes(const Query& query, const MethodAnswer& answer, std::uint64_t pick) 
   return compare_answers(q, answer);
 }
 
-// Changes every coordinate. Returns false if one change is not exact.
-template <class Change>
-bool change_exactly(Query& q, const Change& change) {
-  bool exact = true;
-  for_each_coordinate(q, [&](double& c, std::size_t k) { exact = exact && change(c, k); });
-  return exact;
-}
-
 Broken powers_of_two(const Query& query, const MethodAnswer& answer, std::uint64_t pick) {
   constexpr std::array exponents = {-900, -300, -60, -1, 1, 7, 60, 290, 900};
   const int exponent = exponents[pick % exponents.size()];
   Query q = query;
-  const bool exact = change_exactly(q, [&](double& c, std::size_t) {
-    const double scaled = std::ldexp(c, exponent);
-    const bool same = std::isfinite(scaled) && std::ldexp(scaled, -exponent) == c;
-    c = scaled;
-    return same;
-  });
-  if (!exact) return {};
+  for (double* c : numbers_of(q)) {
+    if (!scales_exactly(*c, exponent)) return {};
+  }
   return compare_answers(q, answer);
-}
-
-// Whether a + b is a double; then `sum` is it. This is the TwoSum of Knuth, whose error term is
-// exact.
-bool adds_exactly(double a, double b, double& sum) {
-  sum = a + b;
-  if (!std::isfinite(sum)) return false;
-  const double b_used = sum - a, a_used = sum - b_used;
-  return (a - a_used) + (b - b_used) == 0;
 }
 
 Broken translation(const Query& query, const MethodAnswer& answer, std::uint64_t pick) {
@@ -110,8 +90,9 @@ Broken translation(const Query& query, const MethodAnswer& answer, std::uint64_t
     pick /= steps.size();
   }
   Query q = query;
-  if (!change_exactly(q, [&](double& c, std::size_t k) { return adds_exactly(c, by[k], c); })) {
-    return {};
+  const auto numbers = numbers_of(q);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (!adds_exactly(*numbers[i], by[i % 3], *numbers[i])) return {};
   }
   return compare_answers(q, answer);
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "properties/changes/changes.h"
 #include "properties/generators/everyday.h"
 #include "properties/random.h"
 
@@ -151,7 +152,8 @@ AskedQuery far_from_origin(std::uint64_t seed, std::uint64_t index) {
     const double far = std::ldexp(random.below(2) == 0 ? 1 : -1, exponent);
     c = far + random.below(1000);
   }
-  for_each_coordinate(made.query, [&](double& c, std::size_t k) { c += offset[k]; });
+  const auto numbers = numbers_of(made.query);
+  for (std::size_t i = 0; i < numbers.size(); ++i) *numbers[i] += offset[i % 3];
   made.met_at.reset();
   return made;
 }
@@ -175,10 +177,10 @@ AskedQuery mixed_scales(std::uint64_t seed, std::uint64_t index) {
 AskedQuery dyadics(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Query q = empty_query(index);
-  for_each_coordinate(q, [&](double& c, std::size_t) {
+  for (double* c : numbers_of(q)) {
     const int bits = random.below(11);
-    c = std::ldexp(random.between(-(1 << bits), 1 << bits), -bits);
-  });
+    *c = std::ldexp(random.between(-(1 << bits), 1 << bits), -bits);
+  }
   return {q};
 }
 
@@ -189,7 +191,7 @@ AskedQuery denormals(std::uint64_t seed, std::uint64_t index) {
   constexpr int subnormal_exponent = -1074;
   const int kind = random.below(3);
   if (kind == 0) {
-    for_each_coordinate(q, [](double& c, std::size_t) { c = std::ldexp(c, subnormal_exponent); });
+    for (double* c : numbers_of(q)) *c = std::ldexp(*c, subnormal_exponent);
   } else {
     for (int changes = kind == 1 ? 1 : random.between(2, 8); changes > 0; --changes) {
       double& c = any_coordinate(random, q);
@@ -203,10 +205,10 @@ AskedQuery exponents(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Query q = empty_query(index);
   const bool small = random.below(2) == 0;
-  for_each_coordinate(q, [&](double& c, std::size_t) {
+  for (double* c : numbers_of(q)) {
     const double mantissa = small ? random.between(-2, 2) : random.full_mantissa();
-    c = std::ldexp(mantissa, random.between(-1074, 1022));
-  });
+    *c = std::ldexp(mantissa, random.between(-1074, 1022));
+  }
   if (random.below(3) == 0) q.points[3] = q.points[static_cast<std::size_t>(random.below(3))];
   return {q};
 }
@@ -214,7 +216,7 @@ AskedQuery exponents(std::uint64_t seed, std::uint64_t index) {
 AskedQuery generic(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Query q = empty_query(index);
-  for_each_coordinate(q, [&](double& c, std::size_t) { c = random.full_mantissa(); });
+  for (double* c : numbers_of(q)) *c = random.full_mantissa();
   return {q};
 }
 
@@ -284,7 +286,7 @@ AskedQuery everyday(std::uint64_t seed, std::uint64_t index) {
     if (when == 1) std::swap(p.t0, p.t1);
   }
   // Written differently, -0 would be another query.
-  for_each_coordinate(q, [](double& c, std::size_t) { c += 0.0; });
+  for (double* c : numbers_of(q)) *c += 0.0;
   return {q};
 }
 

@@ -105,14 +105,4 @@ std::string exact_text(const detector::MovingPoint& path);
 // distance: that of the oracle, and the least distance.
 std::string answers_text(const AskedQuery& asked);
 
-// Calls change(coordinate, axis) for all 24 coordinates, in a fixed order.
-template <class Change>
-void for_each_coordinate(Query& query, const Change& change) {
-  for (auto& point : query.points) {
-    for (auto* end : {&point.t0, &point.t1}) {
-      for (std::size_t axis = 0; axis < 3; ++axis) change((*end)[axis], axis);
-    }
-  }
-}
-
 }  // namespace assay::properties
