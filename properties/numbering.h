@@ -1,12 +1,11 @@
-// Lists of the numbers of vertices or triangles: in order, shuffled, exchanged; and of the points
-// of a grid that is mapped onto itself.
+// Lists of the numbers of vertices or triangles, and of the points of a grid that is mapped onto
+// itself.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <functional>
 #include <numeric>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -23,18 +22,6 @@ inline Numbers in_order(std::size_t count) {
   Numbers numbers(count);
   std::iota(numbers.begin(), numbers.end(), 0);
   return numbers;
-}
-
-// The pairs after triangle t has become new_number[t], sorted.
-inline std::vector<detector::PairContact> renumbered(std::vector<detector::PairContact> pairs,
-                                                     std::span<const std::int32_t> new_number) {
-  for (auto& [pair, time, feature] : pairs) {
-    const auto a = new_number[at(pair.a)], b = new_number[at(pair.b)];
-    pair = {std::min(a, b), std::max(a, b)};
-  }
-  std::sort(pairs.begin(), pairs.end(),
-            [](const auto& a, const auto& b) { return a.pair < b.pair; });
-  return pairs;
 }
 
 // Grids of side^dimensions points, numbered along the first axis first, and the maps of a grid

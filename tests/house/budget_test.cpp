@@ -22,7 +22,7 @@ std::size_t count_lines(const std::string& path) {
 TEST(Budget, NoRoomGrows) {
   const std::map<std::string, std::size_t> budgets = {
       {"detector", 15621},   {"oracle", 6240},   {"corpus", 5439}, {"corpus/peers", 857},
-      {"properties", 26630}, {"reports", 13854}, {"tests", 46096}, {"scripts", 10488}};
+      {"properties", 26619}, {"reports", 13811}, {"tests", 46097}, {"scripts", 10488}};
   std::map<std::string, std::size_t> lines;
   for (const auto* room : rooms) {
     for (const auto& file : files_below(room)) {

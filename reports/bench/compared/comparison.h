@@ -15,9 +15,9 @@
 #include "corpus/hard/hard_families.h"
 #include "detector/options.h"
 #include "oracle/mesh/step.h"
+#include "properties/changes/changes.h"
 #include "properties/judging/step_errors.h"
 #include "properties/judging/subject.h"
-#include "properties/laws/metamorphic/forms.h"
 #include "reports/bench/bench_report.h"
 #include "reports/bench/cases.h"
 #include "reports/bench/sweep.h"
@@ -269,6 +269,7 @@ std::vector<BenchSubject> all_arithmetics();
 // power of two (up or down, by the case's id), and translation (as far as it can be exact). The
 // case's view primitive is changed with it, and its facts stay as they were. There is no form if a
 // coordinate would be rounded.
-std::span<const std::pair<const char*, properties::MakeForm>> case_changes();
+using MakeForm = std::optional<properties::Form> (*)(const corpus::Case&);
+std::span<const std::pair<const char*, MakeForm>> case_changes();
 
 }  // namespace assay::reports

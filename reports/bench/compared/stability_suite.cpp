@@ -8,6 +8,7 @@
 #include "detector/mesh/topology.h"
 #include "oracle/view/view_sign.h"
 #include "properties/judging/case_options.h"
+#include "properties/laws/metamorphic/change_laws.h"
 #include "reports/bench/compared/comparison.h"
 
 namespace assay::reports {
@@ -125,10 +126,12 @@ void add_changes(const PlayedCase& played, Survivals& survivals) {
     for (std::size_t i = 0; i < runs.size(); ++i) {
       const auto& options = played.subjects[i].configuration.options;
       form->same_times = options.arithmetic == Arithmetic::exact;
-      const auto difference = properties::difference_in_form(played.runs[i].first->steps[0], *form,
-                                                             runs[i].first->steps[0]);
+      const auto &before = played.runs[i].first->steps[0], &after = runs[i].first->steps[0];
+      const bool are_refused = before.problem && after.problem;
+      const bool is_same =
+          are_refused || properties::difference_in_form(before, *form, after).empty();
       ++survivals[k][i].changed;
-      survivals[k][i].same += difference.empty() ? 1 : 0;
+      survivals[k][i].same += is_same ? 1 : 0;
     }
   }
 }
