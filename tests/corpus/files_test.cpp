@@ -4,6 +4,7 @@
 
 #include <signal.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include "corpus/digest.h"
 #include "corpus/frame_order.h"
@@ -32,7 +33,8 @@ TEST(Digest, AgreesWithValuesInPrint) {
 }
 
 TEST(Digest, OfAFileIsThatOfItsBytes) {
-  const auto path = std::filesystem::temp_directory_path() / "assay-digest-test";
+  const auto path =
+      std::filesystem::temp_directory_path() / ("assay-digest-test-" + std::to_string(getpid()));
   std::ofstream(path, std::ios::binary) << std::string(1'000'000, 'a');
   const auto digest = sha256_of_file(path);
   std::filesystem::remove(path);
@@ -40,7 +42,7 @@ TEST(Digest, OfAFileIsThatOfItsBytes) {
   EXPECT_EQ(digest.value(), of_a_million);
   const auto none = sha256_of_file(path);
   ASSERT_FALSE(none);
-  EXPECT_TRUE(says(none.error(), "assay-digest-test: No such file"));
+  EXPECT_TRUE(says(none.error(), path.filename().string() + ": No such file"));
 }
 
 // Files written whole or not at all: by several at a time, and by who is killed.

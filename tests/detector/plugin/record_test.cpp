@@ -1,4 +1,5 @@
 // What the records of a log hold (detector/plugin/assay_record.h), read back record by record.
+#include <unistd.h>
 #include <zlib.h>
 
 #include <nlohmann/json.hpp>
@@ -108,7 +109,8 @@ class Recording : public testing::Test {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() /
       ("assay_record_" +
-       std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+       std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + "_" +
+       std::to_string(getpid()));
   const std::string path = folder / "steps.log";
   const std::vector<std::int32_t> triangles = {0, 1, 2, 2, 1, 3};
   const std::vector<double> rest = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0.1};
