@@ -162,7 +162,9 @@ Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView&
     return Problem{InputError::stopped, "stopped while the detector was created"};
   };
   if (pace.now()) return stopped();
-  Surface surface = stages.boundary->close_up(triangles, positions.rows(), pace);
+  Surface surface = uses_views(options.culling)
+                        ? stages.boundary->close_up(triangles, positions.rows(), pace)
+                        : surface_without_ghosts(triangles, positions.rows(), pace);
   if (pace.now()) return stopped();
   BoundingVolumeTree tree(surface.mesh, positions, &pace);
   if (pace.now()) return stopped();
@@ -317,6 +319,13 @@ std::optional<Problem> Detector::restore(const SavedState& saved) {
 
 const Topology& Detector::topology() const { return parts_->context.surface.mesh; }
 
-const Surface& Detector::surface() const { return parts_->context.surface; }
+const Surface& Detector::surface() const {
+  Surface& surface = parts_->context.surface;
+  if (surface.with_ghosts.triangles.empty()) {
+    PacedStop pace(never_stops, parts_->context.workers);
+    add_ghosts(surface, pace);
+  }
+  return surface;
+}
 
 }  // namespace assay::detector

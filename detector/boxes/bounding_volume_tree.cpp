@@ -3,23 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <numeric>
 #include <span>
 
-#include "detector/mesh/sort_by_key.h"
+#include "detector/mesh/for_all.h"
 
 namespace assay::detector {
 
 namespace {
-
-Point centre_of(const std::array<std::int32_t, 3>& triangle, const PositionsView& x) {
-  Point sum = {0, 0, 0};
-  for (std::size_t k = 0; k < 3; ++k) {
-    // A quarter of each corner: only the order matters, and the sum cannot overflow.
-    for (const auto v : triangle) sum[k] += 0.25 * x(v, static_cast<Eigen::Index>(k));
-  }
-  return sum;
-}
 
 // The longest side of the box with these corners. Halves: a side may be longer than the largest
 // double.
@@ -31,117 +23,60 @@ std::size_t longest_side(const Point& lo, const Point& hi) {
   return axis;
 }
 
-// The bits of a number that is not -0, in the order of numbers.
-std::uint64_t ordered_bits(double x) {
-  const auto bits = std::bit_cast<std::uint64_t>(x);
-  constexpr std::uint64_t sign = std::uint64_t{1} << 63;
-  return bits & sign ? ~bits : bits | sign;
-}
-
 }  // namespace
 
-// Splits ranges of triangles in halves and numbers the nodes. The triangles are sorted once along
-// each axis, and each split keeps all three orders. A node with m triangles has 2m - 2 nodes below
-// it, so each range knows the numbers of its nodes, and the workers share the ranges out.
+// Splits ranges of triangles in halves and numbers the nodes. What is split are spots: the centre
+// of a triangle in integers, on a grid over its component with 2^27 cells along the longest side,
+// and the triangle's number. A split finds the cell along one axis that holds the median by
+// counting, and brings the spots on both sides of it to the other of two lists. A node with m
+// triangles has 2m - 2 nodes below it, so each range knows the numbers of its nodes, and the
+// workers share the ranges out. Which spots come first does not depend on where they stood: those
+// of equal places are in the order of their numbers.
 struct BoundingVolumeTree::Builder {
   using Numbers = std::vector<std::int32_t>;
-  // The triangles of a node, by their places in the orders.
+  using Spot = std::array<std::int32_t, 4>;
+  using Spots = std::unique_ptr<Spot[]>;
+  // The triangles of a node, by their places in the lists.
   struct Range {
     std::int32_t node, below, component;  // below: the first of the nodes below it
-    std::size_t begin, end;
-    std::size_t size() const { return end - begin; }
+    std::uint32_t begin, end;
+    std::uint32_t list;  // that holds them
+    std::uint32_t size() const { return end - begin; }
   };
-  struct Place {
-    std::uint64_t key;
-    std::int32_t triangle;
-  };
-  struct Halves {
-    std::size_t axis;  // along which it is split
-    std::array<Range, 2> ranges;
-  };
+  using Halves = std::array<Range, 2>;
 
   BoundingVolumeTree& tree;
   const Topology& mesh;
+  const PositionsView& x;
   PacedStop* pace;
-  std::vector<Point> centres;     // by triangle
-  std::array<Numbers, 3> orders;  // component after component, each sorted along one axis
-  std::array<Numbers, 2> room;
-  std::vector<std::uint8_t> is_second;  // by triangle: which half of its range it is in
-  std::vector<std::size_t> first_of_component;
+  std::array<Spots, 2> lists;       // component after component
+  Numbers order;                    // the triangles in the order of the leaves
+  std::vector<Bounds> bounds;       // by component
+  std::uint32_t placed = 0;         // the triangles of the components that have their ranges
   std::vector<Range> large, small;  // that are still to be split
 
-  Builder(BoundingVolumeTree& grown, const Topology& of, PacedStop* asked)
-      : tree(grown), mesh(of), pace(asked) {}
-
-  bool run(const PositionsView& x) {
-    if (!find_centres(x)) return false;
-    std::vector<Place> places(centres.size()), other;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (!sort_along(axis, places, other)) return false;
-    }
-    places = other = {};  // gives their memory back
-    for (auto& numbers : room) numbers.resize(mesh.triangles.size());
-    is_second.resize(mesh.triangles.size());
-    return grow_over_components() && split_large() && grow_small();
+  bool run() {
+    order.resize(mesh.triangles.size());
+    for (auto& list : lists) list = std::make_unique_for_overwrite<Spot[]>(order.size());
+    return grow_over_components() && find_spots(large) && find_spots(small) && split_large() &&
+           grow_small();
   }
 
   bool has_to_end(std::uint64_t work) { return pace && pace->after(work); }
-
-  bool find_centres(const PositionsView& x) {
-    constexpr std::uint64_t work_of_centre = 3;
-    centres.resize(mesh.triangles.size());
-    return for_all_paced(centres.size(), work_of_centre, pace,
-                         [&](std::size_t t) { centres[t] = centre_of(mesh.triangles[t], x); });
-  }
-
-  // Those of equal centres are sorted by their numbers.
-  bool sort_along(std::size_t axis, std::vector<Place>& places, std::vector<Place>& other) {
-    constexpr std::uint64_t work_of_place = 1;
-    const auto take = [&](std::size_t t) {
-      places[t] = {ordered_bits(centres[t][axis]), static_cast<std::int32_t>(t)};
-    };
-    const auto key = [](const Place& place) { return place.key; };
-    const auto component = [&](const Place& place) {
-      return mesh.component_of_triangle[at(place.triangle)];
-    };
-    if (!for_all_paced(places.size(), work_of_place, pace, take) ||
-        !sort_by_key(places, other, ~std::uint64_t{0}, key, pace)) {
-      return false;
-    }
-    const std::size_t components = mesh.components.size();
-    if (components > 1 && !sort_by_key(places, other, components - 1, component, pace))
-      return false;
-    orders[axis].resize(places.size());
-    return for_all_paced(places.size(), work_of_place, pace,
-                         [&](std::size_t i) { orders[axis][i] = places[i].triangle; });
-  }
-
-  Point corner(const std::array<std::int32_t, 3>& triangles) const {
-    return {centres[at(triangles[0])][0], centres[at(triangles[1])][1],
-            centres[at(triangles[2])][2]};
-  }
-  Point least(const Range& range) const {
-    return corner({orders[0][range.begin], orders[1][range.begin], orders[2][range.begin]});
-  }
-  Point greatest(const Range& range) const {
-    return corner({orders[0][range.end - 1], orders[1][range.end - 1], orders[2][range.end - 1]});
-  }
 
   // Splits the components from each other.
   bool grow_over_components() {
     Numbers numbers(mesh.components.size());
     std::iota(numbers.begin(), numbers.end(), 0);
     std::vector<Point> middles;
-    first_of_component = {0};
     for (const auto& component : mesh.components) {
-      const std::size_t begin = first_of_component.back();
-      first_of_component.push_back(begin + component.triangles.size());
+      const auto vertex = [&](std::size_t i) { return point_of(x, component.vertices[i]); };
+      const auto& [lo, hi] =
+          bounds.emplace_back(bounds_of(component.vertices.size(), vertex, pace));
+      if (has_to_end(1)) return false;
       // The middle of the box; any place that tells components apart would do.
-      const Range range = {root, 1, 0, begin, first_of_component.back()};
-      const Point lo = least(range), hi = greatest(range);
       middles.push_back(
           {.5 * lo[0] + .5 * hi[0], .5 * lo[1] + .5 * hi[1], .5 * lo[2] + .5 * hi[2]});
-      if (has_to_end(1)) return false;
     }
     grow_over_components(root, 1, numbers, middles);
     return !has_to_end(1);
@@ -154,21 +89,17 @@ struct BoundingVolumeTree::Builder {
     if (numbers.size() == 1) {
       const auto component = numbers[0];
       tree.component_root_[at(component)] = node;
-      const Range range = {node, below, component, first_of_component[at(component)],
-                           first_of_component[at(component) + 1]};
-      add(range);
-      return below + 2 * static_cast<std::int32_t>(range.size()) - 2;
+      const auto count =
+          static_cast<std::uint32_t>(mesh.components[at(component)].triangles.size());
+      add({node, below, component, placed, placed + count, 0});
+      placed += count;
+      return below + 2 * static_cast<std::int32_t>(count) - 2;
     }
     tree.component_[at(node)] = mixed_components;
     constexpr std::uint64_t work_of_split = 8;
     if (has_to_end(work_of_split * numbers.size())) return below;
-    Point lo = middles[at(numbers[0])], hi = lo;
-    for (const auto c : numbers) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        lo[k] = std::min(lo[k], middles[at(c)][k]);
-        hi[k] = std::max(hi[k], middles[at(c)][k]);
-      }
-    }
+    const auto [lo, hi] = bounds_of(
+        numbers.size(), [&](std::size_t i) { return middles[at(numbers[i])]; }, nullptr);
     const std::size_t axis = longest_side(lo, hi), middle = numbers.size() / 2;
     std::nth_element(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(middle),
                      numbers.end(), [&](std::int32_t a, std::int32_t b) {
@@ -186,72 +117,140 @@ struct BoundingVolumeTree::Builder {
   }
 
   void add(const Range& range) {
-    constexpr std::size_t worth_sharing = 512;
+    constexpr std::size_t worth_sharing = 4096;
     (range.size() <= worth_sharing ? small : large).push_back(range);
   }
 
+  // Finds the spots of these ranges, each of a whole component. Sums of eighths do not overflow. In
+  // a component of a few units in the last place they are rounded by up to three times its size, so
+  // a place has up to 29 bits and a sign.
+  bool find_spots(const std::vector<Range>& ranges) const {
+    constexpr std::uint64_t work_of_spot = 3;
+    constexpr int cell_bits = 27, least_exponent = -990;
+    for (const auto& range : ranges) {
+      const auto& triangles = mesh.components[at(range.component)].triangles;
+      const auto& [lo, hi] = bounds[at(range.component)];
+      int exponent = least_exponent;
+      for (std::size_t k = 0; k < 3; ++k) {
+        int of_side = 0;
+        std::frexp(.375 * hi[k] - .375 * lo[k], &of_side);
+        exponent = std::max(exponent, of_side);
+      }
+      const double cells = std::ldexp(1.0, cell_bits - exponent);
+      const Point origin = {.375 * lo[0], .375 * lo[1], .375 * lo[2]};
+      const auto find = [&](std::size_t i) {
+        const auto t = triangles[i];
+        const auto& [u, v, w] = mesh.triangles[at(t)];
+        Spot spot = {0, 0, 0, t};
+        for (std::size_t k = 0; k < 3; ++k) {
+          const auto axis = static_cast<Eigen::Index>(k);
+          const double sum = .125 * x(u, axis) + .125 * x(v, axis) + .125 * x(w, axis);
+          spot[k] = static_cast<std::int32_t>((sum - origin[k]) * cells);
+        }
+        lists[0][range.begin + i] = spot;
+      };
+      if (!for_all_paced(triangles.size(), work_of_spot, pace, find)) return false;
+    }
+    return true;
+  }
+
   // Half of the triangles, as a whole number of wide nodes (WideTree) where there are enough.
-  static std::size_t half_of(std::size_t count) {
-    constexpr std::size_t wide = box_lanes::width;
+  static std::uint32_t half_of(std::uint32_t count) {
+    constexpr std::uint32_t wide = box_lanes::width;
     return count <= 2 * wide ? count / 2 : (count / 2 + wide / 2) / wide * wide;
   }
 
-  // Says which triangles are in which half. REQUIRES two triangles or more.
-  Halves mark_halves(const Range& range) {
-    const std::size_t axis = longest_side(least(range), greatest(range));
-    const std::size_t middle = range.begin + half_of(range.size());
-    const auto& order = orders[axis];
-    for (std::size_t i = range.begin; i < middle; ++i) is_second[at(order[i])] = 0;
-    for (std::size_t i = middle; i < range.end; ++i) is_second[at(order[i])] = 1;
-    const auto child = range.below, below = child + 2,
-               below_second = below + 2 * static_cast<std::int32_t>(middle - range.begin) - 2;
-    set_children(range.node, child);
-    return {axis,
-            {{{child, below, range.component, range.begin, middle},
-              {child + 1, below_second, range.component, middle, range.end}}}};
+  // The order along an axis.
+  static std::uint64_t place_along(const Spot& spot, std::size_t axis) {
+    constexpr std::int64_t lowest = 1 << 30;
+    return static_cast<std::uint64_t>(spot[axis] + lowest) << 32 |
+           static_cast<std::uint32_t>(spot[3]);
   }
 
-  // Brings the triangles of the first half to the front of one of the two orders along the other
-  // axes.
-  void divide(const Range& range, std::size_t axis, std::size_t other) {
-    auto& order = orders[(axis + 1 + other) % 3];
-    auto* first = order.data() + range.begin;
-    auto* const begin_of_second = room[other].data() + range.begin;
-    auto* second = begin_of_second;
-    for (std::size_t i = range.begin; i < range.end; ++i) {
-      // Written to both, without a branch, because nobody can foretell it.
-      const auto t = order[i];
-      const std::size_t goes_second = is_second[at(t)];
-      *first = *second = t;
-      first += 1 - goes_second;
-      second += goes_second;
+  // Splits a range in two. REQUIRES two triangles or more.
+  Halves split(const Range& range) {
+    const Spot* const from = lists[range.list].get() + range.begin;
+    Spot* const to = lists[1 - range.list].get() + range.begin;
+    const std::uint32_t count = range.size(), half = half_of(count);
+    Spot lo = from[0], hi = from[0];
+    for (std::size_t i = 1; i < count; ++i) {
+      for (std::size_t k = 0; k < 4; ++k) {
+        lo[k] = std::min(lo[k], from[i][k]);
+        hi[k] = std::max(hi[k], from[i][k]);
+      }
     }
-    std::copy(begin_of_second, second, first);
+    std::size_t axis = 0;
+    for (std::size_t k = 1; k < 3; ++k) {
+      if (hi[k] - lo[k] > hi[axis] - lo[axis]) axis = k;
+    }
+    if (count <= few) {
+      rank(from, to, count, axis);
+    } else {
+      divide(from, to, count, axis, half, lo[axis], hi[axis] - lo[axis]);
+    }
+    const auto child = range.below, below = child + 2,
+               below_second = below + 2 * static_cast<std::int32_t>(half) - 2;
+    tree.component_[at(range.node)] = range.component;
+    set_children(range.node, child);
+    const std::uint32_t middle = range.begin + half, list = 1 - range.list;
+    return {{{child, below, range.component, range.begin, middle, list},
+             {child + 1, below_second, range.component, middle, range.end, list}}};
   }
 
-  static constexpr std::uint64_t work_to_mark = 1, work_to_divide = 1, work_to_split = 3;
+  // Sorts a few spots along the axis: each goes to the place that says how many come before it.
+  static constexpr std::size_t few = 8;
+  static void rank(const Spot* from, Spot* to, std::size_t count, std::size_t axis) {
+    std::uint64_t places[few];
+    for (std::size_t i = 0; i < count; ++i) places[i] = place_along(from[i], axis);
+    for (std::size_t i = 0; i < count; ++i) {
+      std::size_t before = 0;
+      for (std::size_t j = 0; j < count; ++j) before += places[j] < places[i];
+      to[before] = from[i];
+    }
+  }
+
+  // Brings the first half to the front.
+  static void divide(const Spot* from, Spot* to, std::size_t count, std::size_t axis,
+                     std::size_t half, std::int32_t lo, std::int32_t side) {
+    constexpr int least_bits = 5, most_bits = 10;
+    const int bits = std::clamp(static_cast<int>(std::bit_width(count)), least_bits, most_bits);
+    const int shift = std::max(0, static_cast<int>(std::bit_width(unsigned(side))) - bits);
+    std::array<std::uint32_t, 1 << most_bits> counts;
+    std::fill_n(counts.begin(), std::size_t{1} << bits, 0);
+    const auto part_of = [&](std::size_t i) { return unsigned(from[i][axis] - lo) >> shift; };
+    for (std::size_t i = 0; i < count; ++i) ++counts[part_of(i)];
+    // The part that holds the last spot of the first half.
+    std::size_t before = 0;
+    unsigned part = 0;
+    while (before + counts[part] < half) before += counts[part++];
+    Spot* const middle = to + before;
+    Spot* const behind = middle + counts[part];
+    std::array<Spot*, 3> next = {to, middle, behind};  // below the part, in it, above
+    for (std::size_t i = 0; i < count; ++i) {
+      const unsigned p = part_of(i);
+      *next[std::size_t{p >= part} + std::size_t{p > part}]++ = from[i];
+    }
+    if (to + half == behind) return;
+    std::nth_element(middle, to + half, behind, [axis](const Spot& a, const Spot& b) {
+      return place_along(a, axis) < place_along(b, axis);
+    });
+  }
+
+  static constexpr std::uint64_t work_to_split = 3;
 
   // The workers split the large ranges, one size after the other.
   bool split_large() {
     std::vector<Halves> halves;
     while (!large.empty()) {
       halves.resize(large.size());
-      const auto mark = [&](std::size_t i, std::size_t, std::size_t) {
-        tree.component_[at(large[i].node)] = large[i].component;
-        halves[i] = mark_halves(large[i]);
-        return work_to_mark * large[i].size();
+      const auto split_one = [&](std::size_t i, std::size_t, std::size_t) {
+        halves[i] = split(large[i]);
+        return work_to_split * large[i].size();
       };
-      const auto divide_one = [&](std::size_t i, std::size_t, std::size_t) {
-        divide(large[i / 2], halves[i / 2].axis, i % 2);
-        return work_to_divide * large[i / 2].size();
-      };
-      if (!for_all_counted(large.size(), 1, pace, mark) ||
-          !for_all_counted(2 * large.size(), 1, pace, divide_one)) {
-        return false;
-      }
+      if (!for_all_counted(large.size(), 1, pace, split_one)) return false;
       large.clear();
       for (const auto& of_one : halves) {
-        for (const auto& range : of_one.ranges) add(range);
+        for (const auto& range : of_one) add(range);
       }
     }
     return true;
@@ -269,16 +268,16 @@ struct BoundingVolumeTree::Builder {
 
   // Returns the work that it took.
   std::uint64_t grow(const Range& range) {
-    tree.component_[at(range.node)] = range.component;
     if (range.size() == 1) {
-      const auto triangle = orders[0][range.begin];
+      const auto triangle = lists[range.list][range.begin][3];
+      tree.component_[at(range.node)] = range.component;
       tree.child_[at(range.node)] = ~triangle;
       tree.leaf_[at(triangle)] = range.node;
+      order[range.begin] = triangle;
       return 1;
     }
-    const Halves halves = mark_halves(range);
-    for (const std::size_t other : {0, 1}) divide(range, halves.axis, other);
-    return work_to_split * range.size() + grow(halves.ranges[0]) + grow(halves.ranges[1]);
+    const Halves halves = split(range);
+    return work_to_split * range.size() + grow(halves[0]) + grow(halves[1]);
   }
 };
 
@@ -290,9 +289,11 @@ BoundingVolumeTree::BoundingVolumeTree(const Topology& mesh, const PositionsView
   parent_.resize(mesh.triangles.size() - 1);
   leaf_.resize(mesh.triangles.size());
   component_root_.resize(mesh.components.size());
-  if (!Builder(*this, mesh, pace).run(x)) return;
+  Builder builder{*this, mesh, x, pace, {}, {}, {}, 0, {}, {}};
+  if (!builder.run()) return;
+  builder.lists = {};  // gives their memory back
   make_blocks();
-  wide_ = WideTree(*this, pace);
+  wide_ = WideTree(*this, builder.order, pace);
 }
 
 void BoundingVolumeTree::make_blocks() {

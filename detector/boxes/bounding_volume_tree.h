@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "detector/boxes/box_lanes.h"
@@ -32,7 +33,7 @@ inline MovingBox box_of(const BoxRows& rows, std::size_t i) {
     const float* const first = rows.first + row * rows.count + i;
     return FloatLanes{first[0], first[rows.count], first[2 * rows.count], 0};
   };
-  return {three(0), three(3), three(6), three(9)};
+  return {three(0), three(3), three(rows.end), three(rows.end + 3)};
 }
 
 // The bounding volume tree as a search reads it: with up to eight children a node, whose boxes lie
@@ -44,15 +45,17 @@ inline MovingBox box_of(const BoxRows& rows, std::size_t i) {
 // patches are found.
 //
 // The boxes of a node with n children are twelve rows of n floats: the three lower bounds at t=0,
-// the upper ones at t=0, and the same at t=1. Rows follow each other without gaps. So a mesh of
-// many small components takes no more room than a large one, and whoever reads eight floats from a
-// row may read some of the next row, or of the eight floats that follow the last one.
+// the upper ones at t=0, and the same at t=1, unless the mesh is at rest. Rows follow each other
+// without gaps. So a mesh of many small components takes no more room than a large one, and whoever
+// reads eight floats from a row may read some of the next row, or of the eight floats that follow
+// the last one.
 // Memory: 70 bytes a triangle, 55 of them boxes.
 class WideTree {
  public:
   WideTree() = default;
-  // If `pace` was stopped, the tree must not be used.
-  WideTree(const BoundingVolumeTree& binary, PacedStop* pace);
+  // order: the triangles as the leaves of the binary tree hold them, from its first child on. If
+  // `pace` was stopped, the tree must not be used.
+  WideTree(const BoundingVolumeTree& binary, std::span<const std::int32_t> order, PacedStop* pace);
 
   static constexpr std::int32_t root = 0;
   struct Node {
@@ -71,9 +74,9 @@ class WideTree {
   // The boxes of the last refit.
   BoxRows children(std::int32_t n) const {
     const Node& node = nodes_[at(n)];
-    return {boxes_.get() + box_lanes::rows * node.first_slot, node.count};
+    return {boxes_.get() + rows() * node.first_slot, node.count, end_};
   }
-  const float* box(std::int32_t n) const { return own_.get() + box_lanes::rows * at(n); }
+  const float* box(std::int32_t n) const { return own_.get() + rows() * at(n); }
 
   // Makes the boxes those of the triangles, each grown by this on all sides. False if `pace` was
   // stopped.
@@ -84,6 +87,7 @@ class WideTree {
     std::int32_t binary, child;
   };
   struct Builder;
+  std::size_t rows() const { return end_ + box_lanes::rows / 2; }
   void refit_node(std::int32_t n, const Topology& mesh, const RoundedPositions& points,
                   FloatLanes by);
 
@@ -92,6 +96,7 @@ class WideTree {
   std::vector<std::int32_t> binary_of_;  // by node
   std::vector<Slot> slots_;
   std::unique_ptr<float[]> boxes_, own_;  // the first refit writes them
+  std::size_t end_ = 0;                   // of a box, the first row of its bounds at t=1 (BoxRows)
   std::vector<std::int32_t> inner_;       // the nodes that hold nodes, ascending
 };
 
@@ -101,8 +106,8 @@ inline constexpr std::int32_t mixed_components = -1;
 class BoundingVolumeTree {
  public:
   // Splits the components, then the triangles of each, at the median of their centres along the
-  // longest side of the box of these centres. A leaf holds one triangle. O(M log M).
-  // If `pace` was stopped, the tree must not be used.
+  // longest side of the box of these centres; both are rounded to a billionth of the component. A
+  // leaf holds one triangle. O(M log M). If `pace` was stopped, the tree must not be used.
   BoundingVolumeTree(const Topology& mesh, const PositionsView& x, PacedStop* pace = nullptr);
 
   static constexpr std::int32_t root = 0;

@@ -34,17 +34,22 @@ ASSAY_INLINE std::uint32_t bits_of(const LaneMask& mask) {
 }
 
 // The boxes of b that the box is apart from: strictly ordered along an axis, in the same sense at
-// both ends of the step. The twelve bounds of the box are `stride` apart.
+// both ends of the step. The bounds of the box are `stride` apart.
+template <bool moves>
 ASSAY_INLINE std::uint32_t apart_from(const float* box, std::size_t stride, const BoxRows& b) {
   LaneMask apart = {};
   for (std::size_t k = 0; k < 3; ++k) {
-    Lanes lo_t0, hi_t0, lo_t1, hi_t1;
-    load(lo_t0, b.first + k * b.count);
-    load(hi_t0, b.first + (3 + k) * b.count);
-    load(lo_t1, b.first + (6 + k) * b.count);
-    load(hi_t1, b.first + (9 + k) * b.count);
-    apart |= (box[(3 + k) * stride] < lo_t0) & (box[(9 + k) * stride] < lo_t1);
-    apart |= (hi_t0 < box[k * stride]) & (hi_t1 < box[(6 + k) * stride]);
+    Lanes lo, hi;
+    load(lo, b.first + k * b.count);
+    load(hi, b.first + (3 + k) * b.count);
+    LaneMask below = box[(3 + k) * stride] < lo, above = hi < box[k * stride];
+    if (moves) {
+      load(lo, b.first + (6 + k) * b.count);
+      load(hi, b.first + (9 + k) * b.count);
+      below &= box[(9 + k) * stride] < lo;
+      above &= hi < box[(6 + k) * stride];
+    }
+    apart |= below | above;
   }
   return bits_of(apart);
 }
@@ -52,24 +57,31 @@ ASSAY_INLINE std::uint32_t apart_from(const float* box, std::size_t stride, cons
 ASSAY_INLINE std::uint32_t all_of(const BoxRows& b) { return (1u << b.count) - 1; }
 
 std::uint32_t compare_one_lanes(const float* box, const BoxRows& b) {
-  return all_of(b) & ~apart_from(box, 1, b);
+  return all_of(b) & ~(b.end ? apart_from<true>(box, 1, b) : apart_from<false>(box, 1, b));
 }
 
-std::uint32_t compare_all_lanes(const BoxRows& a, const float* box_of_a, const BoxRows& b,
-                                const float* box_of_b, LaneSets& sets) {
-  const std::uint32_t near_a = all_of(b) & ~apart_from(box_of_a, 1, b);
-  const std::uint32_t near_b = all_of(a) & ~apart_from(box_of_b, 1, a);
+template <bool moves>
+ASSAY_INLINE std::uint32_t compare_each(const BoxRows& a, const float* box_of_a, const BoxRows& b,
+                                        const float* box_of_b, LaneSets& sets) {
+  const std::uint32_t near_a = all_of(b) & ~apart_from<moves>(box_of_a, 1, b);
+  const std::uint32_t near_b = all_of(a) & ~apart_from<moves>(box_of_b, 1, a);
   std::uint32_t compared = static_cast<std::uint32_t>(a.count + b.count);
   for (std::size_t i = 0; i < a.count; ++i) {
     std::uint32_t asked = sets[i] & near_a;
     if (!(near_b >> i & 1)) asked = 0;
     if (asked) {
       compared += static_cast<std::uint32_t>(__builtin_popcount(asked));
-      asked &= ~apart_from(a.first + i, a.count, b);
+      asked &= ~apart_from<moves>(a.first + i, a.count, b);
     }
     sets[i] = static_cast<std::uint8_t>(asked);
   }
   return compared;
+}
+
+std::uint32_t compare_all_lanes(const BoxRows& a, const float* box_of_a, const BoxRows& b,
+                                const float* box_of_b, LaneSets& sets) {
+  return b.end ? compare_each<true>(a, box_of_a, b, box_of_b, sets)
+               : compare_each<false>(a, box_of_a, b, box_of_b, sets);
 }
 
 // The bounds of a feature, the upper ones with the margin.
@@ -95,9 +107,9 @@ ASSAY_INLINE bool meet_at_start(const FeatureLanes& a, const FeatureLanes& b) {
   return !some((a.hi_t0 < b.lo_t0) | (b.hi_t0 < a.lo_t0));
 }
 
-ASSAY_INLINE void corner(FeatureLanes& out, const float* at) {
+ASSAY_INLINE void corner(FeatureLanes& out, const float* at, std::size_t to_end) {
   load(out.lo_t0, at);
-  load(out.lo_t1, at + floats_of_corner / 2);
+  load(out.lo_t1, at + to_end);
   out.hi_t0 = out.lo_t0;
   out.hi_t1 = out.lo_t1;
 }
@@ -107,17 +119,19 @@ ASSAY_INLINE void grow(FeatureLanes& box, const Lanes& margin) {
   box.hi_t1 += margin;
 }
 
-ASSAY_INLINE void edge(FeatureLanes& out, const TriangleCorners& corners, std::size_t i) {
+ASSAY_INLINE void edge(FeatureLanes& out, const TriangleCorners& corners, std::size_t to_end,
+                       std::size_t i) {
   FeatureLanes p, q;
-  corner(p, corners[i == 2 ? 0 : i + 1]);
-  corner(q, corners[i == 0 ? 2 : i - 1]);
+  corner(p, corners[i == 2 ? 0 : i + 1], to_end);
+  corner(q, corners[i == 0 ? 2 : i - 1], to_end);
   join(out, p, q);
 }
 
-ASSAY_INLINE void face(FeatureLanes& out, const TriangleCorners& corners, const Lanes& margin) {
+ASSAY_INLINE void face(FeatureLanes& out, const TriangleCorners& corners, std::size_t to_end,
+                       const Lanes& margin) {
   FeatureLanes p;
-  edge(out, corners, 0);
-  corner(p, corners[0]);
+  edge(out, corners, to_end, 0);
+  corner(p, corners[0], to_end);
   join(out, out, p);
   grow(out, margin);
 }
@@ -127,12 +141,13 @@ ASSAY_INLINE std::size_t lowest(std::uint32_t bits) {
 }
 
 // Those of the corners asked for, as bits, that meet the face.
-ASSAY_INLINE std::uint32_t corners_that_meet(const TriangleCorners& corners, std::uint32_t asked,
-                                             const FeatureLanes& other, const Lanes& margin) {
+ASSAY_INLINE std::uint32_t corners_that_meet(const TriangleCorners& corners, std::size_t to_end,
+                                             std::uint32_t asked, const FeatureLanes& other,
+                                             const Lanes& margin) {
   std::uint32_t found = 0;
   for (; asked != 0; asked &= asked - 1) {
     FeatureLanes p;
-    corner(p, corners[lowest(asked)]);
+    corner(p, corners[lowest(asked)], to_end);
     grow(p, margin);
     if (meet(p, other)) found |= asked & -asked;
   }
@@ -140,23 +155,23 @@ ASSAY_INLINE std::uint32_t corners_that_meet(const TriangleCorners& corners, std
 }
 
 std::uint32_t compare_features_lanes(const TriangleCorners& a, const TriangleCorners& b,
-                                     const float* margin, std::uint32_t asked) {
+                                     std::size_t to_end, const float* margin, std::uint32_t asked) {
   Lanes by;
   load(by, margin);
   FeatureLanes face_a, face_b;
-  face(face_a, a, by);
-  face(face_b, b, by);
+  face(face_a, a, to_end, by);
+  face(face_b, b, to_end, by);
   if (!meet(face_a, face_b)) return 0;
   constexpr std::uint32_t three = 7;
-  std::uint32_t found = corners_that_meet(a, asked & three, face_b, by);
-  found |= corners_that_meet(b, asked >> 3 & three, face_a, by) << 3;
+  std::uint32_t found = corners_that_meet(a, to_end, asked & three, face_b, by);
+  found |= corners_that_meet(b, to_end, asked >> 3 & three, face_a, by) << 3;
   std::uint32_t edges = asked >> 6 & 511, starts_a = asked >> 15 & three, starts_b = asked >> 18;
   // The edges of b that some pair asks for, and that meet the face of a.
   std::uint32_t edges_b = (edges | edges >> 3 | edges >> 6) & three, left = edges_b | starts_b;
   FeatureLanes boxes_b[3];
   for (; left != 0; left &= left - 1) {
     const std::size_t j = lowest(left);
-    edge(boxes_b[j], b, j);
+    edge(boxes_b[j], b, to_end, j);
     grow(boxes_b[j], by);
     if (!meet(boxes_b[j], face_a)) {
       edges_b &= ~(1u << j);
@@ -168,7 +183,7 @@ std::uint32_t compare_features_lanes(const TriangleCorners& a, const TriangleCor
     std::uint32_t partners = edges >> (3 * i) & edges_b;
     if (!(partners | (starts_a >> i & 1))) continue;
     FeatureLanes box;
-    edge(box, a, i);
+    edge(box, a, to_end, i);
     grow(box, by);
     if (!meet(box, face_b)) continue;
     if (starts_a >> i & 1 && meet_at_start(box, face_b)) found |= feature_bits::edge_at_start(i);

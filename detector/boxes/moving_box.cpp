@@ -9,27 +9,12 @@ namespace assay::detector {
 
 FloatGrid::FloatGrid(const SteppedMesh& motion, PacedStop* pace) {
   if (motion.size() == 0) return;
-  constexpr std::uint64_t work_of_vertex = 1;
-  struct Bounds {
-    Point lo, hi;
+  const std::size_t ends = motion.is_at_rest() ? 1 : 2;
+  const auto place = [&](std::size_t i) {
+    const auto v = static_cast<std::int32_t>(i >> (ends - 1));
+    return (i & (ends - 1)) == 0 ? motion.start(v) : motion.end(v);
   };
-  const auto widen = [](Bounds& bounds, const Point& p) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      bounds.lo[k] = std::min(bounds.lo[k], p[k]);
-      bounds.hi[k] = std::max(bounds.hi[k], p[k]);
-    }
-  };
-  const auto widen_by_vertex = [&](Bounds& bounds, std::size_t v) {
-    for (const auto* x : {&motion.vertices_t0, &motion.vertices_t1})
-      widen(bounds, point_of(*x, static_cast<std::int32_t>(v)));
-  };
-  const auto join = [&](Bounds& bounds, const Bounds& other) {
-    widen(bounds, other.lo);
-    widen(bounds, other.hi);
-  };
-  const Bounds first = {motion.start(0), motion.start(0)};
-  const auto [lo, hi] = sum_over_all(static_cast<std::size_t>(motion.size()), work_of_vertex, pace,
-                                     first, widen_by_vertex, join);
+  const auto [lo, hi] = bounds_of(ends * static_cast<std::size_t>(motion.size()), place, pace);
   if (pace && pace->stopped()) return;
   for (std::size_t k = 0; k < 3; ++k) {
     // Halves first: neither sum nor difference overflows.
@@ -47,10 +32,13 @@ bool RoundedPositions::assign(const SteppedMesh& motion, PacedStop& pace) {
   constexpr std::uint64_t work_of_vertex = 3;
   grid_ = FloatGrid(motion, &pace);
   if (pace.stopped()) return false;
+  ends_ = motion.is_at_rest() ? 1 : 2;
   const auto count = static_cast<std::size_t>(motion.size());
-  points_ = std::make_unique_for_overwrite<RoundedPoint[]>(count);
+  points_ = std::make_unique_for_overwrite<FloatLanes[]>(ends_ * count);
   return for_all_paced(count, work_of_vertex, pace, [&](std::size_t v) {
-    points_[v] = grid_(motion, static_cast<std::int32_t>(v));
+    const auto [t0, t1] = grid_(motion, static_cast<std::int32_t>(v));
+    points_[ends_ * v] = t0;
+    points_[ends_ * v + ends_ - 1] = t1;
   });
 }
 

@@ -13,7 +13,7 @@
 #include <memory>
 #include <optional>
 
-#include "detector/mesh/paced_stop.h"
+#include "detector/mesh/for_all.h"
 #include "detector/mesh/types.h"
 #ifdef __SSE__
 #include <xmmintrin.h>
@@ -70,6 +70,27 @@ inline MovingBox grown(const MovingBox& box, FloatLanes by) {
   return {box.lo_t0 - by, box.hi_t0 + by, box.lo_t1 - by, box.hi_t1 + by};
 }
 
+struct Bounds {
+  Point lo, hi;
+};
+
+// Of the points point(0), ..., point(count - 1). REQUIRES one or more.
+template <class PointOf>
+Bounds bounds_of(std::size_t count, PointOf point, PacedStop* pace) {
+  const auto widen = [](Bounds& bounds, const Point& lo, const Point& hi) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      bounds.lo[k] = std::min(bounds.lo[k], lo[k]);
+      bounds.hi[k] = std::max(bounds.hi[k], hi[k]);
+    }
+  };
+  const auto add = [&](Bounds& bounds, std::size_t i) {
+    const Point p = point(i);
+    widen(bounds, p, p);
+  };
+  const auto join = [&](Bounds& bounds, const Bounds& other) { widen(bounds, other.lo, other.hi); };
+  return sum_over_all(count, 1, pace, Bounds{point(0), point(0)}, add, join);
+}
+
 // The functions f, by axis: f(x) = (x - centre) * scale, rounded to double twice and to float
 // once. Each of the three roundings keeps order. Finite doubles give floats or infinities, never
 // NaN. The centre lies between positions of the step, so the differences of these from it do not
@@ -90,7 +111,8 @@ class FloatGrid {
     return FloatLanes{f(0), f(1), f(2), 0};
   }
   RoundedPoint operator()(const SteppedMesh& motion, std::int32_t vertex) const {
-    return {(*this)(motion.vertices_t0, vertex), (*this)(motion.vertices_t1, vertex)};
+    const FloatLanes start = (*this)(motion.vertices_t0, vertex);
+    return {start, motion.is_at_rest() ? start : (*this)(motion.vertices_t1, vertex)};
   }
 
   // Margins in floats for a distance d, 0 for d = 0. Points that are ordered by more than margin(d)
@@ -131,7 +153,7 @@ class FloatGrid {
   double common_scale_ = 1;  // the least of the three
 };
 
-// All vertices of a step.
+// All vertices of a step; each once if it is at rest.
 class RoundedPositions {
  public:
   RoundedPositions() = default;
@@ -143,8 +165,10 @@ class RoundedPositions {
   bool assign(const SteppedMesh& motion, PacedStop& pace);
 
   const FloatGrid& grid() const { return grid_; }
-  const RoundedPoint& operator[](std::int32_t vertex) const {
-    return points_[static_cast<std::size_t>(vertex)];
+  bool are_at_rest() const { return ends_ == 1; }
+  RoundedPoint operator[](std::int32_t vertex) const {
+    const FloatLanes* const first = points_.get() + ends_ * at(vertex);
+    return {first[0], first[ends_ - 1]};
   }
   MovingBox box(const std::array<std::int32_t, 3>& triangle) const {
     return box_of((*this)[triangle[0]], (*this)[triangle[1]], (*this)[triangle[2]]);
@@ -152,7 +176,8 @@ class RoundedPositions {
 
  private:
   FloatGrid grid_;
-  std::unique_ptr<RoundedPoint[]> points_;
+  std::size_t ends_ = 2;  // the places kept of a vertex
+  std::unique_ptr<FloatLanes[]> points_;
 };
 
 // A step as far as a time `until`, for boxes that need to cover no more of it.

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "detector/mesh/for_all.h"
-#include "detector/mesh/sort_by_key.h"
+#include "detector/mesh/list_by_row.h"
 
 namespace assay::detector {
 namespace {
@@ -27,33 +27,37 @@ bool all_finite(const double* values, std::size_t count) {
 
 std::string at_triangle(Eigen::Index t) { return "triangle " + std::to_string(t); }
 
-struct SortedTriangle {
-  std::array<std::int32_t, 3> vertices;  // ascending
-  std::int32_t triangle;
-};
-
 Problem stopped_at_checks() { return {InputError::stopped, "stopped while the mesh was checked"}; }
 
+// Triangles with the same three vertices are among those of one lowest vertex.
 std::optional<Problem> find_same_vertices(const TrianglesView& triangles, std::size_t vertex_count,
                                           PacedStop& pace) {
-  constexpr std::uint64_t work_to_copy = 2;
-  std::vector<SortedTriangle> sorted(static_cast<std::size_t>(triangles.rows())), room;
-  const auto copy = [&](std::size_t i) {
+  const auto lowest_of = [&](std::size_t i) {
     const auto t = static_cast<Eigen::Index>(i);
-    sorted[i] = {{triangles(t, 0), triangles(t, 1), triangles(t, 2)}, static_cast<std::int32_t>(t)};
-    std::sort(sorted[i].vertices.begin(), sorted[i].vertices.end());
+    return std::array{std::min({triangles(t, 0), triangles(t, 1), triangles(t, 2)})};
   };
-  if (!for_all_paced(sorted.size(), work_to_copy, pace, copy)) return stopped_at_checks();
-  for (const std::size_t k : {2, 1, 0}) {
-    const auto vertex = [k](const SortedTriangle& entry) { return entry.vertices[k]; };
-    if (!sort_by_key(sorted, room, vertex_count, vertex, &pace)) return stopped_at_checks();
-  }
-  for (std::size_t i = 1; i < sorted.size(); ++i) {
-    const auto &a = sorted[i].vertices, &b = sorted[i - 1].vertices;
-    if (a[0] == b[0] && a[1] == b[1] && a[2] == b[2]) {
-      return Problem{InputError::same_vertices_twice,
-                     "triangles " + std::to_string(sorted[i - 1].triangle) + " and " +
-                         std::to_string(sorted[i].triangle) + " have the same three vertices"};
+  Incidence of_vertex;
+  if (!list_by_row(static_cast<std::size_t>(triangles.rows()), vertex_count, lowest_of, of_vertex,
+                   pace))
+    return stopped_at_checks();
+  std::vector<std::array<std::int32_t, 3>> others;  // the two other vertices, and the triangle
+  for (std::int32_t v = 0; at(v) < vertex_count; ++v) {
+    const auto row = of_vertex.row(v);
+    if (row.size() < 2) continue;
+    others.clear();
+    for (const auto t : row) {
+      const auto a = triangles(t, 0), b = triangles(t, 1), c = triangles(t, 2);
+      const auto highest = std::max({a, b, c});
+      others.push_back({a ^ b ^ c ^ v ^ highest, highest, t});
+    }
+    std::sort(others.begin(), others.end());
+    const auto same = std::adjacent_find(
+        others.begin(), others.end(),
+        [](const auto& p, const auto& q) { return p[0] == q[0] && p[1] == q[1]; });
+    if (same != others.end()) {
+      return Problem{InputError::same_vertices_twice, "triangles " + std::to_string(same[0][2]) +
+                                                          " and " + std::to_string(same[1][2]) +
+                                                          " have the same three vertices"};
     }
   }
   return std::nullopt;

@@ -33,7 +33,8 @@ struct Surface {
   // S, or empty if there are no loops. First come the mesh's triangles, then for each loop in turn
   // one ghost (v, u, apex) for each of its edges (u, v). The apex of loop l is vertex first_apex +
   // l. Components are those of M, in the same order; the ghosts of each stand after its own
-  // triangles.
+  // triangles. A detector of a culling without views has no use for it, and makes it when it is
+  // asked for its surface.
   Topology with_ghosts;
   std::int32_t first_apex = 0;  // the number of the mesh's vertices
 
@@ -46,5 +47,9 @@ struct Surface {
 Surface make_surface(const TrianglesView& triangles, Eigen::Index vertex_count);
 // The same with a pace. If `pace` was stopped the result is of no use.
 Surface make_surface(const TrianglesView& triangles, Eigen::Index vertex_count, PacedStop& pace);
+// In two parts.
+Surface surface_without_ghosts(const TrianglesView& triangles, Eigen::Index vertex_count,
+                               PacedStop& pace);
+void add_ghosts(Surface& surface, PacedStop& pace);
 
 }  // namespace assay::detector

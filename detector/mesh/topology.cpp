@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "detector/mesh/for_all.h"
-#include "detector/mesh/sort_by_key.h"
+#include "detector/mesh/list_by_row.h"
 
 namespace assay::detector {
 namespace {
@@ -13,93 +14,137 @@ namespace {
 // The work on a corner and on a triangle, in box tests.
 constexpr std::uint64_t work_of_corner = 2, work_of_triangle = 3 * work_of_corner;
 
-// Lists that are sorted by row, item after item: row_of(i) is the row of the item in place i, and
-// ascends. Sets where each row starts.
-template <class RowOf>
-bool set_starts(std::size_t rows, std::size_t items, RowOf row_of,
-                std::vector<std::int32_t>& starts, PacedStop& pace) {
-  starts.resize(rows + 1);
-  const auto fill = [&](std::size_t from, std::size_t to, std::size_t place) {
-    for (; from < to; ++from) starts[from] = static_cast<std::int32_t>(place);
-  };
-  const auto start = [&](std::size_t i) { fill(i == 0 ? 0 : row_of(i - 1) + 1, row_of(i) + 1, i); };
-  if (!for_all_paced(items, 1, pace, start)) return false;
-  fill(items == 0 ? 0 : row_of(items - 1) + 1, rows + 1, items);
-  return true;
-}
-
 // The triangles at each vertex, ascending.
 bool find_triangles_of_vertices(Topology& mesh, std::size_t vertex_count, PacedStop& pace) {
-  auto &starts = mesh.vertex_triangles.starts, &items = mesh.vertex_triangles.items;
-  const auto vertex = [&](std::int32_t corner) {
-    return mesh.triangles[at(corner / 3)][at(corner % 3)];
-  };
-  items.resize(3 * mesh.triangles.size());
-  std::vector<std::int32_t> room;
-  const auto number = [&](std::size_t i) { items[i] = static_cast<std::int32_t>(i); };
-  return for_all_paced(items.size(), 1, pace, number) &&
-         sort_by_key(items, room, vertex_count, vertex, &pace) &&
-         set_starts(
-             vertex_count, items.size(), [&](std::size_t i) { return at(vertex(items[i])); },
-             starts, pace) &&
-         for_all_paced(items.size(), 1, pace, [&](std::size_t i) { items[i] /= 3; });
+  const auto vertices = [&](std::size_t t) -> const auto& { return mesh.triangles[t]; };
+  return list_by_row(mesh.triangles.size(), vertex_count, vertices, mesh.vertex_triangles, pace);
 }
 
-// An edge of a triangle. Its corner fits into 31 bits, because meshes are limited for that
-// (mesh_checks.h).
-struct EdgeUse {
-  std::array<std::int32_t, 2> edge;  // ascending
-  std::int32_t corner;               // opposite to it: 3 times the triangle, and its place there
+// An edge of a triangle, among those of one lower vertex: its higher vertex, the corner opposite to
+// it (3 times the triangle, and the place there), whether the triangle passes it in descending
+// direction, and, once they are sorted, whether it is the first use of its edge. Corners have 31
+// bits, because meshes are limited for that (mesh_checks.h).
+using EdgeUse = std::uint64_t;
+
+namespace edge_use {
+constexpr int descending_bits = 1, vertex_shift = 32, first_shift = 63;
+constexpr EdgeUse of(std::int32_t higher, std::size_t corner, bool descends) {
+  return static_cast<EdgeUse>(higher) << vertex_shift |
+         static_cast<EdgeUse>(corner) << descending_bits | static_cast<EdgeUse>(descends);
+}
+constexpr bool descends(EdgeUse use) { return use & 1; }
+constexpr bool is_first(EdgeUse use) { return use >> first_shift; }
+constexpr auto corner(EdgeUse use) {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(use) >> descending_bits);
+}
+}  // namespace edge_use
+
+// The edges of some vertices to higher ones. Their uses are in the triangles around these vertices,
+// so they need no sort but that of the few uses at each vertex. Edges are numbered as they come.
+class EdgesOfVertices {
+ public:
+  EdgesOfVertices(Topology& mesh, std::int32_t begin, std::int32_t end) : mesh_(mesh) {
+    const auto& around = mesh.vertex_triangles;
+    uses_.reserve(at(around.starts[at(end)] - around.starts[at(begin)]));
+    for (auto v = begin; v < end; ++v) collect(v, around.row(v));
+  }
+
+  // The first numbers that these edges and their uses get; sets those that come after them.
+  void begin_at(std::size_t& edge, std::size_t& use) {
+    first_edge_ = static_cast<std::int32_t>(std::exchange(edge, edge + count_));
+    first_use_ = static_cast<std::int32_t>(std::exchange(use, use + uses_.size()));
+  }
+
+  void write() {
+    auto place = first_use_, edge = first_edge_ - 1;
+    std::int32_t surplus = 0;
+    const auto end_edge = [&] {
+      if (surplus != 0) unmatched.push_back({edge, surplus});
+      surplus = 0;
+    };
+    for (const auto use : uses_) {
+      const auto corner = edge_use::corner(use), t = corner / 3, i = corner % 3;
+      if (edge_use::is_first(use)) {
+        end_edge();
+        ++edge;
+        const auto& corners = mesh_.triangles[at(t)];
+        const auto u = corners[at(i == 2 ? 0 : i + 1)], v = corners[at(i == 0 ? 2 : i - 1)];
+        mesh_.edges[at(edge)] = {std::min(u, v), std::max(u, v)};
+        mesh_.edge_triangles.starts[at(edge)] = place;
+      }
+      surplus += edge_use::descends(use) ? -1 : 1;
+      mesh_.edge_triangles.items[at(place++)] = t;
+      mesh_.triangle_edges[at(t)][at(i)] = edge;
+    }
+    end_edge();
+  }
+
+  std::vector<UnmatchedEdge> unmatched;
+
+ private:
+  void collect(std::int32_t v, std::span<const std::int32_t> around) {
+    const auto first = static_cast<std::ptrdiff_t>(uses_.size());
+    for (const auto t : around) {
+      const auto& corners = mesh_.triangles[at(t)];
+      const std::size_t i = corners[0] == v ? 0 : corners[1] == v ? 1 : 2;
+      const std::size_t next = i == 2 ? 0 : i + 1, last = i == 0 ? 2 : i - 1;
+      if (corners[next] > v) uses_.push_back(edge_use::of(corners[next], 3 * at(t) + last, false));
+      if (corners[last] > v) uses_.push_back(edge_use::of(corners[last], 3 * at(t) + next, true));
+    }
+    std::sort(uses_.begin() + first, uses_.end());
+    EdgeUse before = 0;  // no edge has vertex 0 for its higher one
+    for (auto use = uses_.begin() + first; use != uses_.end(); ++use) {
+      const EdgeUse higher = *use >> edge_use::vertex_shift;
+      if (higher == std::exchange(before, higher)) continue;
+      *use |= EdgeUse{1} << edge_use::first_shift;
+      ++count_;
+    }
+  }
+
+  Topology& mesh_;
+  std::vector<EdgeUse> uses_;
+  std::size_t count_ = 0;
+  std::int32_t first_edge_ = 0, first_use_ = 0;
 };
 
+// In pieces, because so the uses of one that is written are still in the fastest cache. The workers
+// share some of these out at a time.
 bool make_edges(Topology& mesh, std::size_t vertex_count, PacedStop& pace) {
-  std::vector<EdgeUse> uses(3 * mesh.triangles.size()), room;
-  const auto use = [&](std::size_t t) {
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      const auto u = mesh.triangles[t][(corner + 1) % 3];
-      const auto v = mesh.triangles[t][(corner + 2) % 3];
-      uses[3 * t + corner] = {{std::min(u, v), std::max(u, v)},
-                              static_cast<std::int32_t>(3 * t + corner)};
-    }
-  };
-  if (!for_all_paced(mesh.triangles.size(), work_of_triangle, pace, use)) return false;
-  for (const std::size_t end : {1, 0}) {
-    const auto vertex = [end](const EdgeUse& of) { return of.edge[end]; };
-    if (!sort_by_key(uses, room, vertex_count, vertex, &pace)) return false;
-  }
-  room = {};
-  const auto is_new = [&](std::size_t i) {
-    return i == 0 || uses[i].edge[0] != uses[i - 1].edge[0] ||
-           uses[i].edge[1] != uses[i - 1].edge[1];
-  };
-  // Each piece numbers its edges from where those before it end.
-  constexpr std::size_t of_piece = 4096;
-  std::vector<std::size_t> first((uses.size() + of_piece - 1) / of_piece, 0);
-  const auto count = [&](std::size_t begin, std::size_t end, std::size_t) {
-    for (std::size_t i = begin; i < end; ++i) first[begin / of_piece] += is_new(i);
-  };
-  if (!for_all_pieces(uses.size(), of_piece, 1, &pace, count)) return false;
-  std::size_t edges = 0;
-  for (auto& of_piece_before : first) edges += std::exchange(of_piece_before, edges);
-  mesh.edges.resize(edges);
+  constexpr std::size_t of_piece = 512, pieces_of_worker = 8;
+  constexpr std::uint64_t work_of_vertex = 2 * work_of_triangle;
+  const std::size_t at_once =
+      of_piece * (has_workers(&pace) ? pieces_of_worker * pace.workers()->count() : 1);
+  const std::size_t uses = 3 * mesh.triangles.size();
   mesh.triangle_edges.resize(mesh.triangles.size());
-  mesh.edge_triangles.items.resize(uses.size());
-  mesh.edge_triangles.starts.resize(edges + 1);
-  mesh.edge_triangles.starts[edges] = static_cast<std::int32_t>(uses.size());
-  return for_all_pieces(uses.size(), of_piece, work_of_corner, &pace,
-                        [&](std::size_t begin, std::size_t end, std::size_t) {
-                          std::size_t next = first[begin / of_piece];
-                          for (std::size_t i = begin; i < end; ++i) {
-                            if (is_new(i)) {
-                              mesh.edges[next] = uses[i].edge;
-                              mesh.edge_triangles.starts[next++] = static_cast<std::int32_t>(i);
-                            }
-                            const auto corner = uses[i].corner;
-                            mesh.edge_triangles.items[i] = corner / 3;
-                            mesh.triangle_edges[at(corner / 3)][at(corner % 3)] =
-                                static_cast<std::int32_t>(next) - 1;
-                          }
-                        });
+  mesh.edge_triangles.items.resize(uses);
+  mesh.edges.reserve(uses / 2 + vertex_count / 16);  // a closed mesh has half as many
+  mesh.edge_triangles.starts.reserve(uses / 2 + vertex_count / 16 + 1);
+  std::vector<std::optional<EdgesOfVertices>> pieces(at_once / of_piece);
+  std::size_t edges = 0, placed = 0;
+  for (std::size_t first = 0; first < vertex_count; first += at_once) {
+    const std::size_t count = std::min(at_once, vertex_count - first);
+    const auto in_pieces = [&](auto body) {
+      return for_all_pieces(count, of_piece, work_of_vertex, &pace,
+                            [&](std::size_t begin, std::size_t end, std::size_t) {
+                              body(pieces[begin / of_piece], begin, end);
+                            });
+    };
+    if (!in_pieces([&](auto& piece, std::size_t begin, std::size_t end) {
+          piece.emplace(mesh, static_cast<std::int32_t>(first + begin),
+                        static_cast<std::int32_t>(first + end));
+        })) {
+      return false;
+    }
+    const auto used = std::span(pieces).first((count + of_piece - 1) / of_piece);
+    for (auto& piece : used) piece->begin_at(edges, placed);
+    mesh.edges.resize(edges);
+    mesh.edge_triangles.starts.resize(edges + 1);
+    if (!in_pieces([](auto& piece, std::size_t, std::size_t) { piece->write(); })) return false;
+    for (const auto& piece : used)
+      mesh.unmatched.insert(mesh.unmatched.end(), piece->unmatched.begin(), piece->unmatched.end());
+  }
+  mesh.edge_triangles.starts[edges] = static_cast<std::int32_t>(uses);
+  return true;
 }
 
 std::int32_t root_of(std::vector<std::int32_t>& parent, std::int32_t v) {
@@ -116,6 +161,7 @@ bool make_components(Topology& mesh, std::size_t vertex_count, PacedStop& pace) 
   const auto join = [&](std::size_t t) {
     const auto& corners = mesh.triangles[t];
     for (std::size_t corner = 1; corner < 3; ++corner) {
+      if (parent[at(corners[0])] == parent[at(corners[corner])]) continue;  // as mostly
       const auto a = root_of(parent, corners[0]), b = root_of(parent, corners[corner]);
       parent[at(std::max(a, b))] = std::min(a, b);
     }
@@ -127,24 +173,23 @@ bool make_components(Topology& mesh, std::size_t vertex_count, PacedStop& pace) 
     std::size_t vertices = 0, triangles = 0;
   };
   std::vector<Size> sizes;
-  const auto row = [&](std::size_t v) {
-    return mesh.vertex_triangles.row(static_cast<std::int32_t>(v));
-  };
-  const auto root = [&](std::int32_t v) { return at(root_of(parent, v)); };
   const auto number_vertex = [&](std::size_t v) {
-    if (row(v).empty()) return;
-    auto& c = number[root(static_cast<std::int32_t>(v))];
-    if (c < 0) {
-      c = static_cast<std::int32_t>(sizes.size());
+    const auto vertex = static_cast<std::int32_t>(v);
+    if (mesh.vertex_triangles.row(vertex).empty()) return;
+    const auto root = root_of(parent, vertex);  // the lowest, so it is numbered before the others
+    if (root == vertex) {
+      number[v] = static_cast<std::int32_t>(sizes.size());
       sizes.emplace_back();
     }
-    ++sizes[at(c)].vertices;
+    number[v] = number[at(root)];
+    ++sizes[at(number[v])].vertices;
   };
   if (!for_each_paced(vertex_count, work_of_triangle, pace, number_vertex)) return false;
   mesh.component_of_triangle.resize(mesh.triangles.size());
   const auto number_triangle = [&](std::size_t t) {
-    mesh.component_of_triangle[t] = number[root(mesh.triangles[t][0])];
-    ++sizes[at(mesh.component_of_triangle[t])].triangles;
+    const auto c = number[at(mesh.triangles[t][0])];
+    mesh.component_of_triangle[t] = c;
+    ++sizes[at(c)].triangles;
   };
   if (!for_each_paced(mesh.triangles.size(), work_of_triangle, pace, number_triangle)) return false;
   mesh.components.reserve(sizes.size());
@@ -154,9 +199,8 @@ bool make_components(Topology& mesh, std::size_t vertex_count, PacedStop& pace) 
     component.triangles.reserve(sizes[c].triangles);
   };
   const auto take_vertex = [&](std::size_t v) {
-    if (row(v).empty()) return;
-    const auto c = number[root(static_cast<std::int32_t>(v))];
-    mesh.components[at(c)].vertices.push_back(static_cast<std::int32_t>(v));
+    if (number[v] < 0) return;
+    mesh.components[at(number[v])].vertices.push_back(static_cast<std::int32_t>(v));
   };
   const auto take_triangle = [&](std::size_t t) {
     mesh.components[at(mesh.component_of_triangle[t])].triangles.push_back(
@@ -168,29 +212,15 @@ bool make_components(Topology& mesh, std::size_t vertex_count, PacedStop& pace) 
          for_each_paced(mesh.triangles.size(), work_of_triangle, pace, take_triangle);
 }
 
-bool find_cycles(Topology& mesh, PacedStop& pace) {
-  std::vector<std::int32_t> surplus;
-  if (!count_surplus(mesh, surplus, pace)) return false;
+void find_cycles(Topology& mesh) {
   for (auto& component : mesh.components) component.is_cycle = true;
-  return for_each_paced(surplus.size(), 1, pace, [&](std::size_t e) {
-    if (surplus[e] == 0) return;
-    const auto t = mesh.edge_triangles.row(static_cast<std::int32_t>(e)).front();
+  for (const auto& [edge, surplus] : mesh.unmatched) {
+    const auto t = mesh.edge_triangles.row(edge).front();
     mesh.components[at(mesh.component_of_triangle[at(t)])].is_cycle = false;
-  });
+  }
 }
 
 }  // namespace
-
-bool count_surplus(const Topology& mesh, std::vector<std::int32_t>& surplus, PacedStop& pace) {
-  surplus.assign(mesh.edges.size(), 0);
-  return for_each_paced(mesh.triangles.size(), work_of_triangle, pace, [&](std::size_t t) {
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      const auto u = mesh.triangles[t][(corner + 1) % 3];
-      const auto v = mesh.triangles[t][(corner + 2) % 3];
-      surplus[at(mesh.triangle_edges[t][corner])] += u < v ? 1 : -1;
-    }
-  });
-}
 
 Topology make_topology(const TrianglesView& triangles, Eigen::Index vertex_count) {
   PacedStop pace(never_stops);
@@ -207,9 +237,9 @@ Topology make_topology(const TrianglesView& triangles, Eigen::Index vertex_count
   };
   // Each function needs what those before it have made.
   if (for_all_paced(mesh.triangles.size(), work_of_corner, pace, copy) &&
-      make_edges(mesh, vertices, pace) && find_triangles_of_vertices(mesh, vertices, pace) &&
+      find_triangles_of_vertices(mesh, vertices, pace) && make_edges(mesh, vertices, pace) &&
       make_components(mesh, vertices, pace)) {
-    find_cycles(mesh, pace);
+    find_cycles(mesh);
   }
   return mesh;
 }

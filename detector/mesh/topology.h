@@ -30,12 +30,20 @@ struct Component {
   bool is_cycle = false;
 };
 
+// An edge that its triangles do not pass as often in one direction as in the other. Surplus: how
+// many pass it in ascending direction (from its lower vertex to the higher), less those that pass
+// it in descending direction.
+struct UnmatchedEdge {
+  std::int32_t edge, surplus;
+};
+
 struct Topology {
   std::vector<std::array<std::int32_t, 3>> triangles;
   std::vector<std::array<std::int32_t, 2>> edges;           // (u,v), u < v, ascending
   std::vector<std::array<std::int32_t, 3>> triangle_edges;  // edge opposite to corner i at place i
   Incidence vertex_triangles, edge_triangles;
-  std::vector<Component> components;  // ascending by their lowest vertices
+  std::vector<UnmatchedEdge> unmatched;  // ascending by edge
+  std::vector<Component> components;     // ascending by their lowest vertices
   std::vector<std::int32_t> component_of_triangle;
 };
 
@@ -43,10 +51,5 @@ struct Topology {
 Topology make_topology(const TrianglesView& triangles, Eigen::Index vertex_count);
 // The same with a pace. If `pace` was stopped the result is of no use.
 Topology make_topology(const TrianglesView& triangles, Eigen::Index vertex_count, PacedStop& pace);
-
-// Sets surplus[e], for each edge e, to the number of triangles that use it in ascending direction
-// (from its lower vertex to the higher) less the number of those that use it in descending
-// direction. False if `pace` was stopped.
-bool count_surplus(const Topology& mesh, std::vector<std::int32_t>& surplus, PacedStop& pace);
 
 }  // namespace assay::detector

@@ -44,6 +44,11 @@ struct SteppedMesh {
   Point start(std::int32_t vertex) const { return point_of(vertices_t0, vertex); }
   Point end(std::int32_t vertex) const { return point_of(vertices_t1, vertex); }
   MovingPoint path(std::int32_t vertex) const { return {start(vertex), end(vertex)}; }
+  // Whether both ends are one array: nothing moves.
+  bool is_at_rest() const {
+    return vertices_t0.data() == vertices_t1.data() && vertices_t0.rows() == vertices_t1.rows() &&
+           vertices_t0.outerStride() == vertices_t1.outerStride();
+  }
   // The same mesh at rest: every vertex stays where it is at t=0.
   SteppedMesh at_start() const { return {vertices_t0, vertices_t0}; }
 };

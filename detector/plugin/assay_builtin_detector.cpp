@@ -292,7 +292,7 @@ std::int32_t assay_builtin_place(const assay_handle* handle, const double* x_t0,
                                  std::uint64_t pair, assay_contact_place* place) {
   if (pair >= handle->result.pairs.size()) return 0;
   auto contact = handle->result.pairs[pair];
-  const auto& mesh = handle->detector.surface().mesh.triangles;
+  const auto& mesh = handle->detector.topology().triangles;
   Eigen::Matrix<std::int32_t, 2, 3, Eigen::RowMajor> two;
   for (int k = 0; k < 3; ++k) {
     two(0, k) = mesh[at(contact.pair.a)][static_cast<std::size_t>(k)];

@@ -109,6 +109,7 @@ bool CandidateSearch::search(const PairTables& tables, bool uses_proofs) {
     }
     until -= std::min(until, pairs.size());
     for (const auto& [a, b] : pairs) {
+      if (contacts_.are_proved_apart(a, b)) continue;
       // A clean triangle is in no contact with its own component at t=0.
       const bool may_pierce =
           (types[at(a)] == TriangleType::dirty && types[at(b)] == TriangleType::dirty) ||
@@ -126,7 +127,9 @@ bool CandidateSearch::search(const PairTables& tables, bool uses_proofs) {
 bool CandidateSearch::collect(bool uses_proofs) {
   const PairTables k = stages_.rule.candidates();
   contacts_.ask(AskedTypes::in_first_search(k));
-  return search(k, uses_proofs);
+  // Proofs of patches leave out the same pairs.
+  if (!uses_proofs || !stages_.search.has_proofs()) contacts_.prove_fans(&pace_);
+  return !pace_.stopped() && search(k, uses_proofs);
 }
 
 bool CandidateSearch::close() {

@@ -1,6 +1,7 @@
 #include "detector/search/feature_pairs.h"
 
 #include <bit>
+#include <utility>
 
 #include "detector/mesh/for_all.h"
 
@@ -82,7 +83,9 @@ Representatives::Representatives(const Topology& mesh, PacedStop* pace)
 // triangle finds out for itself whether it does, so the workers share the triangles out.
 bool Representatives::choose_all(const Topology& mesh, const std::vector<TriangleType>& types,
                                  PacedStop* pace) {
+  const bool one_type = are_of_one_type(types);
   const auto types_of = [&](std::span<const std::int32_t> holders) {
+    if (one_type) return holders.empty() ? TypeSet{0} : set_of(types[0]);
     TypeSet seen = 0;
     for (const auto t : holders) seen |= set_of(types[at(t)]);
     return seen;
@@ -105,10 +108,14 @@ bool Representatives::choose_all(const Topology& mesh, const std::vector<Triangl
   const auto of_triangle = [&](std::size_t t) {
     features_[t] = lowest_of(static_cast<std::int32_t>(t));
   };
-  return for_all_paced(vertex_types_.size(), work_of_vertex, pace, around_vertex) &&
-         for_all_paced(edge_types_.size(), work_of_edge, pace, around_edge) &&
-         for_all_paced(features_.size(), work_of_triangle, pace, of_triangle) &&
-         choose_between_types(mesh, types, pace);
+  const bool were_lowest = std::exchange(are_lowest_, false);
+  const bool is_done =
+      for_all_paced(vertex_types_.size(), work_of_vertex, pace, around_vertex) &&
+      for_all_paced(edge_types_.size(), work_of_edge, pace, around_edge) &&
+      (were_lowest || for_all_paced(features_.size(), work_of_triangle, pace, of_triangle)) &&
+      (one_type || choose_between_types(mesh, types, pace));
+  are_lowest_ = is_done && one_type;
+  return is_done;
 }
 
 // The few features between triangles of several types: one thread chooses for one after the other.
@@ -135,6 +142,7 @@ bool Representatives::update(const Topology& mesh, const std::vector<TriangleTyp
   // A vertex or an edge is chosen for once for each changed triangle that holds it. If many have
   // changed it is cheaper to choose everything anew, once.
   if (changed.size() > mesh.triangles.size() / 4) return choose_all(mesh, types, pace);
+  are_lowest_ = are_lowest_ && changed.empty();
   return for_each_paced(changed.size(), work_of_triangle, pace, [&](std::size_t i) {
     const auto t = changed[i];
     for (const auto v : mesh.triangles[at(t)]) {
@@ -166,8 +174,7 @@ void FeaturePairs::ask(const AskedTypes& asked) {
   asked_ = asked;
   // In a first search triangles of one type are all asked for, and each of their features has one
   // representative. In a closure types change from round to round.
-  const auto another_type = std::adjacent_find(types_.begin(), types_.end(), std::not_equal_to<>());
-  asks_by_types_ = another_type != types_.end() || !asked.within_before.is_empty();
+  asks_by_types_ = !are_of_one_type(types_) || !asked.within_before.is_empty();
 }
 
 bool FeaturePairs::takes(bool within, const Holder& first, const Holder& second) const {
@@ -187,12 +194,11 @@ void FeaturePairs::append(std::int32_t a, std::int32_t b, bool may_pierce,
   const bool within =
       asks_by_types_ && mesh_.component_of_triangle[at(a)] == mesh_.component_of_triangle[at(b)];
   if (within && asked_.within_before.holds(types_[at(a)], types_[at(b)])) return;
-  const TriangleCorners of_a = {points_[p[0]].floats(), points_[p[1]].floats(),
-                                points_[p[2]].floats()};
-  const TriangleCorners of_b = {points_[q[0]].floats(), points_[q[1]].floats(),
-                                points_[q[2]].floats()};
-  const std::uint32_t found =
-      kernels_.compare_features(of_a, of_b, points_.margin().floats(), asked);
+  const auto floats = [&](std::int32_t v) { return points_.start(v).floats(); };
+  const TriangleCorners of_a = {floats(p[0]), floats(p[1]), floats(p[2])};
+  const TriangleCorners of_b = {floats(q[0]), floats(q[1]), floats(q[2])};
+  const std::uint32_t found = kernels_.compare_features(of_a, of_b, points_.floats_to_end(),
+                                                        points_.margin().floats(), asked);
   if (found == 0) return;
   constexpr std::uint32_t three = 7, nine = 511;
   vertices_on_face(found & three, within, a, b, keys);
@@ -266,12 +272,15 @@ void FeaturePoints::assign(const SteppedMesh& motion, PacedStop* pace, double se
     margin_.diagonals = FloatLanes{along, along, along, along};
   }
   const auto count = static_cast<std::size_t>(motion.size());
-  if (!points_) points_ = std::make_unique_for_overwrite<FeaturePoint[]>(count);
+  const std::size_t ends = motion.is_at_rest() ? 1 : 2;
+  if (ends_ < ends) points_ = std::make_unique_for_overwrite<FeaturePoint[]>(ends * count);
+  ends_ = ends;
   for_all_paced(count, work_of_point, pace, [&](std::size_t v) {
     const auto vertex = static_cast<std::int32_t>(v);
     const RoundedPoint axes = grid(motion, vertex);
-    points_[v] = {axes.t0, diagonals(grid.scaled(motion.vertices_t0, vertex)), axes.t1,
-                  diagonals(grid.scaled(motion.vertices_t1, vertex))};
+    points_[ends * v] = {axes.t0, diagonals(grid.scaled(motion.vertices_t0, vertex))};
+    if (ends == 1) return;
+    points_[ends * v + 1] = {axes.t1, diagonals(grid.scaled(motion.vertices_t1, vertex))};
   });
 }
 

@@ -22,6 +22,7 @@
 #include "detector/mesh/step_types.h"
 #include "detector/mesh/topology.h"
 #include "detector/search/pair_rule.h"
+#include "detector/search/vertex_fans.h"
 
 namespace assay::detector {
 
@@ -81,6 +82,7 @@ class Representatives {
 
   std::vector<RepresentedFeatures> features_;  // by triangle
   std::vector<TypeSet> vertex_types_, edge_types_;
+  bool are_lowest_ = false;  // each feature has one representative, its lowest triangle
 };
 
 // A feature pair as one number: its kind, the index of its first feature (a vertex or an edge) and
@@ -131,13 +133,14 @@ struct alignas(32) FeatureMargin {
   FloatLanes axes = {0, 0, 0, 0}, diagonals = {least, least, least, least};
 };
 
-// A vertex over the step, in one cache line, as box_lanes.h reads it.
-struct alignas(64) FeaturePoint {
-  FloatLanes axes_t0, diagonals_t0, axes_t1, diagonals_t1;
+// A vertex at one end of the step, as box_lanes.h reads it.
+struct alignas(32) FeaturePoint {
+  FloatLanes axes, diagonals;
   const float* floats() const { return reinterpret_cast<const float*>(this); }
 };
 
-// All vertices of a step. Memory: 32 bytes a triangle.
+// All vertices of a step: both ends of each, one after the other, or one if the mesh is at rest.
+// Memory: 32 bytes a triangle, 16 at rest.
 class FeaturePoints {
  public:
   // If `pace` was stopped, they must not be used.
@@ -149,11 +152,13 @@ class FeaturePoints {
   void assign(const SteppedMesh& motion, PacedStop* pace, double separation);
   // By how much features have to be apart that are farther apart than the separation.
   const FeatureMargin& margin() const { return margin_; }
-  const FeaturePoint& operator[](std::int32_t vertex) const {
-    return points_[static_cast<std::size_t>(vertex)];
-  }
+  const FeaturePoint& start(std::int32_t vertex) const { return points_[ends_ * at(vertex)]; }
+  const FeaturePoint& end(std::int32_t vertex) const { return (&start(vertex))[ends_ - 1]; }
+  // How many floats after those of the start the ones of the end stand.
+  std::size_t floats_to_end() const { return (ends_ - 1) * floats_of_corner; }
 
  private:
+  std::size_t ends_ = 0;
   std::unique_ptr<FeaturePoint[]> points_;
   FeatureMargin margin_;
 };
@@ -235,6 +240,12 @@ class FeaturePairs {
   // Says what the searches to come ask for, with the types as they are now. Until it is called they
   // ask for everything, and nothing was asked for before.
   void ask(const AskedTypes& asked);
+  // From now on append() passes over neighbours that are proved apart over the whole step, if all
+  // triangles have one type: else most are not asked for. REQUIRES that there was no refit().
+  void prove_fans(PacedStop* pace) {
+    if (!asks_by_types_) fans_.prove(mesh_, points_, pace);
+  }
+  bool are_proved_apart(std::int32_t a, std::int32_t b) const { return fans_.are_apart(a, b); }
   // From now on the boxes of features are those of this motion, of the same vertices.
   void refit(const SteppedMesh& motion, PacedStop* pace, double separation) {
     points_.assign(motion, pace, separation);
@@ -263,6 +274,7 @@ class FeaturePairs {
   const Representatives& representatives_;
   const std::vector<TriangleType>& types_;
   FeaturePoints points_;
+  VertexFans fans_;
   const BoxKernels& kernels_ = box_kernels();
   AskedTypes asked_;
   bool asks_by_types_ = false;

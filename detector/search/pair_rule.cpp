@@ -116,6 +116,18 @@ void Marking::update(const BoundingVolumeTree& tree, Marks& marks, MarkingCounts
 
 // Counts what update() would: there a node is met once for each flag that it gets or loses.
 void Marking::mark_anew(const BoundingVolumeTree& tree, Marks& marks, MarkingCounts& counts) {
+  // In a step without views all nodes have the flag of all triangles.
+  const std::uint8_t now = marks.flags(0), of_all = marks.node_flags[BoundingVolumeTree::root];
+  if (std::has_single_bit(of_all) && of_all != now && are_of_one_type(marks.types)) {
+    marks.node_flags.assign(marks.node_flags.size(), now);
+    counts.changed += marks.types.size();
+    const auto times = [&](unsigned flags) {
+      return static_cast<std::uint64_t>(std::popcount(flags)) * marks.node_flags.size();
+    };
+    counts.marked += times(now & ~of_all);
+    counts.cleared += times(of_all & ~now);
+    return;
+  }
   for (auto node = static_cast<std::int32_t>(tree.node_count()); node-- > 0;) {
     auto& of_node = marks.node_flags[at(node)];
     const auto child = static_cast<std::size_t>(tree.child(node));

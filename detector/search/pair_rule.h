@@ -5,8 +5,10 @@
 // that share a vertex or an edge are looked at too.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -106,6 +108,11 @@ enum class TriangleType : std::uint8_t {
 };
 inline constexpr std::size_t triangle_types = 9;
 
+// Whether all triangles have one type.
+inline bool are_of_one_type(std::span<const TriangleType> types) {
+  return std::adjacent_find(types.begin(), types.end(), std::not_equal_to<>()) == types.end();
+}
+
 // A set of types, a bit each.
 using TypeSet = std::uint16_t;
 constexpr TypeSet set_of(TriangleType type) {
@@ -163,7 +170,8 @@ class Marking {
  public:
   virtual ~Marking() = default;
 
-  // Sets the types of all triangles, and the flags to match. Allocates nothing.
+  // Sets the types of all triangles, and the flags to match. Allocates nothing. All triangles of
+  // one type, as in a step without views, take no walk over the nodes.
   void bring_to(std::span<const TriangleType> types, const BoundingVolumeTree& tree, Marks& marks,
                 MarkingCounts& counts) const;
   // The same where only some triangles may change, each with its new type.

@@ -137,6 +137,8 @@ class MeshSearch {
   virtual bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) {
     return by_.search(input, counts, sink);
   }
+  // Whether it proves patches apart where proofs are worth their cost (SearchInput).
+  virtual bool has_proofs() const { return false; }
   // An estimate from a few patches, the same for every tree. Zero if the search has no proofs.
   // REQUIRES that `fit` was called for the step.
   virtual ProvableShares provable_shares(const Topology&) const { return {}; }

@@ -48,23 +48,27 @@ struct Hunt {
 // The candidates that one lane has found, on their way to the sink.
 class FoundPairs {
  public:
-  FoundPairs(Hunt& hunt, std::size_t lane) : hunt_(hunt), lane_(lane) {
-    // A wide node has up to 64 pairs with another one.
-    found_.reserve(at_once + 64);
-  }
-  void add(std::int32_t a, std::int32_t b) { found_.push_back({a, b}); }
-  std::size_t size() const { return found_.size(); }
-  bool are_enough() const { return found_.size() >= at_once; }
+  // A wide node has up to 64 pairs with another one. Whoever adds pairs looks after each node
+  // whether they are enough.
+  FoundPairs(Hunt& hunt, std::size_t lane)
+      : hunt_(hunt),
+        lane_(lane),
+        found_(std::make_unique_for_overwrite<CandidatePair[]>(at_once + 64)) {}
+  void add(std::int32_t a, std::int32_t b) { found_[size_++] = {a, b}; }
+  std::size_t size() const { return size_; }
+  bool are_enough() const { return size_ >= at_once; }
   void hand_over(bool is_ended) {
-    if (!found_.empty() && !is_ended && !hunt_.sink(found_, lane_)) hunt_.is_stopped = true;
-    found_.clear();
+    const std::span<const CandidatePair> found(found_.get(), size_);
+    if (!found.empty() && !is_ended && !hunt_.sink(found, lane_)) hunt_.is_stopped = true;
+    size_ = 0;
   }
 
  private:
   static constexpr std::size_t at_once = 256;
   Hunt& hunt_;
   const std::size_t lane_;
-  std::vector<CandidatePair> found_;
+  std::size_t size_ = 0;
+  const std::unique_ptr<CandidatePair[]> found_;
 };
 
 // Cuts what lies below these pairs of nodes into as many pairs as wanted or a few more, splitting

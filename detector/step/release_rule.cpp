@@ -31,13 +31,14 @@ bool find_static_contacts(const GivenStep& step, StepCost& cost,
   if (cost.pace.after(work_of_mark * types.size())) return false;
   const PairTables tables = {PairTable().add(flag::violated, flag::violated), {}};
   FeatureContacts contacts(mesh, step.motion.at_start(), step.elementary, Want::yes_no, &cost.pace);
+  contacts.prove_fans(&cost.pace);
   if (cost.pace.stopped()) return false;
   SearchCounts counts;
   std::uint64_t pairs = 0;
   const auto sink = [&](std::int32_t a, std::int32_t b) {
     constexpr std::uint64_t pairs_between_stops = 4096;
     if (pairs++ % pairs_between_stops == 0 && step.stop && step.stop()) return false;
-    return contacts.add_candidate(a, b, true, step.stop);
+    return contacts.are_proved_apart(a, b) || contacts.add_candidate(a, b, true, step.stop);
   };
   if (!WideSearch().search({mesh, step.tree, marks, tables}, counts, sink) ||
       !contacts.run(step.stop)) {
@@ -161,7 +162,7 @@ std::vector<std::int32_t> ReleaseRule::witnesses(const GivenStep& step, const St
 
 bool ReleaseRule::knows_clean(const GivenStep& step, const std::vector<PairContact>&,
                               std::size_t c) const {
-  return step.ghosts(c).empty();
+  return !step.has_ghosts(c);
 }
 
 std::vector<std::int32_t> ReleaseRule::may_touch_ghosts(

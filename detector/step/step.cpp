@@ -100,6 +100,7 @@ std::optional<Problem> check_step_input(const Surface& surface, const SteppedMes
                                         PacedStop& pace) {
   for (const auto* x : {&motion.vertices_t0, &motion.vertices_t1}) {
     if (!is_whole(*x, surface.first_apex, pace)) return check_positions(*x, surface.first_apex);
+    if (motion.is_at_rest()) break;
   }
   const auto components = surface.mesh.components.size();
   if (primitives.size() > 1 && primitives.size() != components) {
@@ -204,9 +205,13 @@ void FirstViews::replace(std::vector<ViewAnchor> anchors, std::vector<ApexRule> 
 }
 
 StepResult evaluate_step(StepContext& context, const std::optional<StepState>& known,
-                         const SteppedMesh& mesh, const StepQuestion& question,
+                         const SteppedMesh& given, const StepQuestion& question,
                          std::span<const ViewPrimitive> primitives, const StopFunction& asked,
                          std::optional<StepState>& next) {
+  // Equal ends are one array from here on, so what is computed of one need not be of the other.
+  const bool rests = given.vertices_t0.rows() == given.vertices_t1.rows() &&
+                     (given.is_at_rest() || given.vertices_t0 == given.vertices_t1);
+  const SteppedMesh mesh = rests ? given.at_start() : given;
   SharedStop shared(asked);
   const StopFunction stop = shared.function();
   PacedStop pace(stop, context.workers);
@@ -228,7 +233,7 @@ StepResult evaluate_step(StepContext& context, const std::optional<StepState>& k
     const SteppedMesh motion = moves_ghosts ? SteppedMesh{ghosts.all_t0, ghosts.all_t1} : mesh;
     StepRun step(context, goes_on ? &*known : nullptr, motion, question, policy, stop);
     const bool completed = run_stages(step, mesh, primitives);
-    result = step.finish(completed, mesh, primitives.empty(), next);
+    result = step.finish(completed, given, primitives.empty(), next);
     if (!result.primitives.empty()) result.apexes = std::move(ghosts.apexes);
   }
   result.times.total = total;

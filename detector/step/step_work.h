@@ -32,6 +32,10 @@ struct GivenStep {
   std::span<const std::int32_t> own_triangles(std::size_t c) const {
     return surface.mesh.components[c].triangles;
   }
+  bool has_ghosts(std::size_t c) const {
+    return !surface.is_closed() && !surface.mesh.components[c].is_cycle;
+  }
+  // REQUIRES a step with views, because others have no ghosts.
   std::span<const std::int32_t> ghosts(std::size_t c) const {
     return std::span(component(c).triangles).subspan(own_triangles(c).size());
   }

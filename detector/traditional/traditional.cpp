@@ -177,6 +177,8 @@ class NormalConeSearch::OfMesh : public MeshSearch {
     return scheme_.descend(input, &cones, counts, sink);
   }
 
+  bool has_proofs() const override { return true; }
+
   // A large patch that is free keeps all patches within it free. If all large ones are, the others
   // are not looked at.
   ProvableShares provable_shares(const Topology& mesh) const override {

@@ -73,8 +73,8 @@ int compared_in_lanes(const Float& x, const Float& y, const Float& margin) {
   of_x.fill(x);
   of_y.fill(y);
   FeatureLanes a, b;
-  corner(a, of_x.data());
-  corner(b, of_y.data());
+  corner(a, of_x.data(), 0);
+  corner(b, of_y.data(), 0);
   grow(a, margin);
   grow(b, margin);
   meet(a, b);

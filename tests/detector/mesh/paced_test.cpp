@@ -1,8 +1,8 @@
 // What is made of a mesh, in preprocessing or at the start of a step, asks the stop function after
 // every so much work, and ends where that says so. Counted is the work, not the time.
 #include "detector/mesh/for_all.h"
+#include "detector/mesh/list_by_row.h"
 #include "detector/mesh/mesh_checks.h"
-#include "detector/mesh/sort_by_key.h"
 #include "detector/mesh/surface.h"
 #include "detector/search/feature_pairs.h"
 #include "detector/traditional/traditional.h"
@@ -44,49 +44,34 @@ class Paced : public testing::Test {
   const std::uint64_t count_ = topology_.triangles.size();
 };
 
-TEST(PacedSort, IsStableAndCanBeEnded) {
-  struct Item {
-    int key, place;
-    bool operator==(const Item&) const = default;
-  };
+// More items than one worker takes at once, each in up to three of the rows.
+TEST(ListByRow, IsAscendingDoesNotDependOnTheWorkersAndCanBeEnded) {
+  constexpr std::size_t count = 70'000, rows = 300;
   std::mt19937_64 engine(3);
-  std::vector<Item> items(20'000), room;
-  int place = 0;
-  for (auto& item : items) item = {static_cast<int>(engine() % 300), place++};
-  auto expected = items;
-  std::stable_sort(expected.begin(), expected.end(),
-                   [](const Item& a, const Item& b) { return a.key < b.key; });
-  const auto key = [](const Item& item) { return item.key; };
-  auto sorted = items;
-  PacedStop never(never_stops);
-  ASSERT_TRUE(sort_by_key(sorted, room, 300, key, &never));
-  EXPECT_EQ(sorted, expected);
-  expect_paced(3 * items.size(), [&](PacedStop& pace) {
-    auto some = items;
-    const bool is_done = sort_by_key(some, room, 300, key, &pace);
+  std::vector<std::vector<std::int32_t>> rows_of(count);
+  std::vector<std::vector<std::int32_t>> expected(rows);
+  for (std::size_t item = 0; item < count; ++item) {
+    std::set<std::int32_t> some;
+    for (std::uint64_t n = engine() % 4; n-- > 0;)
+      some.insert(static_cast<std::int32_t>(engine() % (rows - 1)));
+    rows_of[item].assign(some.begin(), some.end());
+    for (const auto row : some) expected[at(row)].push_back(static_cast<std::int32_t>(item));
+  }
+  const auto of = [&](std::size_t item) -> const auto& { return rows_of[item]; };
+  for (const std::uint32_t threads : {1, 3}) {
+    const Workers workers(threads);
+    PacedStop pace(never_stops, workers);
+    Incidence lists;
+    ASSERT_TRUE(list_by_row(count, rows, of, lists, pace));
+    ASSERT_EQ(lists.starts.size(), rows + 1);
+    for (std::size_t row = 0; row < rows; ++row)
+      EXPECT_TRUE(std::ranges::equal(lists.row(static_cast<std::int32_t>(row)), expected[row]));
+  }
+  expect_paced(12 * count, [&](PacedStop& pace) {
+    Incidence lists;
+    const bool is_done = list_by_row(count, rows, of, lists, pace);
     EXPECT_EQ(is_done, !pace.stopped());
   });
-}
-
-// Keys of several digits, and more items than one worker takes at once.
-TEST(PacedSort, DoesNotDependOnTheWorkers) {
-  using Item = std::pair<std::uint64_t, int>;
-  std::mt19937_64 engine(4);
-  for (const std::size_t count : {100u, 30'000u}) {
-    std::vector<Item> items(count), room;
-    int place = 0;
-    for (auto& item : items) item = {engine() >> (engine() % 64), place++};
-    auto expected = items;
-    std::sort(expected.begin(), expected.end());
-    for (const std::uint32_t threads : {1, 3}) {
-      const Workers workers(threads);
-      PacedStop pace(never_stops, workers);
-      auto sorted = items;
-      const auto key = [](const Item& item) { return item.first; };
-      ASSERT_TRUE(sort_by_key(sorted, room, ~std::uint64_t{0}, key, &pace));
-      EXPECT_EQ(sorted, expected);
-    }
-  }
 }
 
 TEST_F(Paced, ATreeDoesNotDependOnTheWorkers) {
@@ -114,7 +99,6 @@ TEST_F(Paced, ChecksOfTheMesh) {
 TEST_F(Paced, AdjacencyOfAnOpenMesh) {
   expect_paced(50 * count_, [&](PacedStop& pace) { make_surface(rows_, vertices_, pace); });
   expect_paced(40 * count_, [&](PacedStop& pace) { make_topology(rows_, vertices_, pace); });
-  expect_paced(10 * count_, [&](PacedStop& pace) { boundary_loops(topology_, pace); });
 }
 
 TEST_F(Paced, LoopsOfASoup) {
@@ -122,6 +106,8 @@ TEST_F(Paced, LoopsOfASoup) {
   Triangles soup(soup_count, 3);
   for (Eigen::Index t = 0; t < soup_count; ++t) soup.row(t) << 3 * t, 3 * t + 1, 3 * t + 2;
   expect_paced(100 * count_, [&](PacedStop& pace) { make_surface(soup, 3 * soup_count, pace); });
+  const Topology topology = make_topology(soup, 3 * soup_count);
+  expect_paced(10 * count_, [&](PacedStop& pace) { boundary_loops(topology, pace); });
 }
 
 TEST_F(Paced, TreeAndItsBoxes) {
@@ -151,9 +137,11 @@ TEST_F(Paced, PointsAndRepresentatives) {
                [&](PacedStop& pace) { const FeaturePoints points(mesh_.motion(), &pace); });
   expect_paced(6 * count_, [&](PacedStop& pace) { const Representatives all(topology_, &pace); });
   Representatives some(topology_);
-  const std::vector<TriangleType> types(count_, TriangleType::dirty);
+  std::vector<TriangleType> types(count_, TriangleType::dirty);
   std::vector<std::int32_t> changed(count_);
   for (std::size_t t = 0; t < count_; ++t) changed[t] = static_cast<std::int32_t>(t);
+  for (std::size_t t = 0; t < count_; t += 9) types[t] = TriangleType::violated;
+  some.update(topology_, types, changed);  // from one type to several less has to be chosen
   expect_paced(24 * count_, [&](PacedStop& pace) {
     const bool is_done = some.update(topology_, types, changed, &pace);
     EXPECT_EQ(is_done, !pace.stopped());

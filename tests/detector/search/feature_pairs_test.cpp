@@ -16,23 +16,28 @@ using namespace detector;
 using Rational = boost::multiprecision::cpp_rational;
 
 // A box along axes and diagonals at both ends of the step, in the order of FeaturePoint.
+constexpr std::size_t floats_of_both = 2 * floats_of_corner;
+float float_of(const FeaturePoints& points, std::int32_t v, std::size_t k) {
+  const bool at_start = k < floats_of_corner;
+  return (at_start ? points.start(v) : points.end(v)).floats()[k % floats_of_corner];
+}
 struct Box {
-  std::array<float, floats_of_corner> lo, hi;
+  std::array<float, floats_of_both> lo, hi;
 
   static Box of(const FeaturePoints& points, std::span<const std::int32_t> vertices) {
     Box box;
-    for (std::size_t k = 0; k < floats_of_corner; ++k) {
-      box.lo[k] = box.hi[k] = points[vertices[0]].floats()[k];
+    for (std::size_t k = 0; k < floats_of_both; ++k) {
+      box.lo[k] = box.hi[k] = float_of(points, vertices[0], k);
       for (const auto v : vertices) {
-        box.lo[k] = std::min(box.lo[k], points[v].floats()[k]);
-        box.hi[k] = std::max(box.hi[k], points[v].floats()[k]);
+        box.lo[k] = std::min(box.lo[k], float_of(points, v, k));
+        box.hi[k] = std::max(box.hi[k], float_of(points, v, k));
       }
     }
     return box;
   }
 
   static bool apart(const Box& a, const Box& b, const FeatureMargin& margin, bool at_start) {
-    constexpr std::size_t lanes = floats_of_corner / 2;
+    constexpr std::size_t lanes = floats_of_corner;
     for (std::size_t k = 0; k < lanes; ++k) {
       const float by = margin.floats()[k];
       const auto below = [&](const Box& p, const Box& q, std::size_t i) {

@@ -1,0 +1,96 @@
+#include "detector/search/vertex_fans.h"
+
+#include "detector/mesh/for_all.h"
+#include "detector/search/feature_pairs.h"
+
+namespace assay::detector {
+namespace {
+
+// What a triangle says of the fans of its corners: bit k, that it is seen from above along axis k;
+// bit 3 + k, from below; bit 6 + 3 i + k, that along axis k the corner after i is below corner i,
+// and the one before i is not.
+using Sides = std::uint16_t;
+constexpr unsigned axes = 7;
+
+unsigned bits_of(LaneTruth truth) {
+  unsigned bits = 0;
+#ifdef __SSE__
+  bits = static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(truth)));
+#else
+  for (int k = 0; k < 3; ++k) bits |= static_cast<unsigned>(truth[k] & 1) << k;
+#endif
+  return bits & axes;
+}
+
+FloatLanes next_axes(FloatLanes a) { return FloatLanes{a[1], a[2], a[0], a[3]}; }
+
+FloatLanes cross(FloatLanes a, FloatLanes b) {
+  return next_axes(a * next_axes(b) - next_axes(a) * b);
+}
+
+FloatLanes size_of(FloatLanes a) { return greatest(a, -a); }
+
+Sides sides_of(const std::array<std::int32_t, 3>& triangle, const FeaturePoints& points) {
+  const std::array<FloatLanes, 3> corners = {points.start(triangle[0]).axes,
+                                             points.start(triangle[1]).axes,
+                                             points.start(triangle[2]).axes};
+  const FloatLanes p = corners[1] - corners[0], q = corners[2] - corners[0],
+                   origin = points.end(triangle[0]).axes,
+                   p_end = points.end(triangle[1]).axes - origin,
+                   q_end = points.end(triangle[2]).axes - origin;
+  const FloatLanes size =
+      greatest(greatest(size_of(p), size_of(q)), greatest(size_of(p_end), size_of(q_end)));
+  constexpr float of_sizes = 0x1p-17f, least_bound = 0x1p-39f;
+  const FloatLanes one = next_axes(size), bound = of_sizes * (one + next_axes(one)) + least_bound;
+  const FloatLanes start = cross(p, q), middle = cross(p, q_end) + cross(p_end, q),
+                   end = cross(p_end, q_end);
+  const FloatLanes lowest = least(least(start, middle), end),
+                   highest = greatest(greatest(start, middle), end);
+  unsigned sides = bits_of(lowest > bound) | bits_of(highest < -bound) << 3;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const FloatLanes here = corners[i], after = corners[(i + 1) % 3], before = corners[(i + 2) % 3];
+    sides |= bits_of((after < here) & (before >= here)) << (6 + 3 * i);
+  }
+  return static_cast<Sides>(sides);
+}
+
+}  // namespace
+
+void VertexFans::prove(const Topology& mesh, const FeaturePoints& points, PacedStop* pace) {
+  constexpr std::uint64_t work_of_triangle = 3, work_of_fan = 5;
+  std::vector<Sides> sides(mesh.triangles.size());
+  const auto look = [&](std::size_t t) { sides[t] = sides_of(mesh.triangles[t], points); };
+  std::vector<std::uint8_t> is_proved(mesh.vertex_triangles.starts.size() - 1);
+  const auto settle = [&](std::size_t number) {
+    const auto v = static_cast<std::int32_t>(number);
+    unsigned seen = axes | axes << 3, once = 0, twice = 0;
+    for (const auto t : mesh.vertex_triangles.row(v)) {
+      const auto& corners = mesh.triangles[at(t)];
+      const unsigned corner = corners[0] == v ? 0 : corners[1] == v ? 1 : 2;
+      const unsigned counted = unsigned{sides[at(t)]} >> (6 + 3 * corner) & axes;
+      seen &= sides[at(t)];
+      twice |= once & counted;
+      once |= counted;
+    }
+    // Along each axis the triangles are counted by the next one.
+    const unsigned around_once = once & ~twice;
+    is_proved[number] = ((seen | seen >> 3) & (around_once >> 1 | around_once << 2) & axes) != 0;
+  };
+  if (!for_all_paced(sides.size(), work_of_triangle, pace, look) ||
+      !for_all_paced(is_proved.size(), work_of_fan, pace, settle)) {
+    return;
+  }
+  for (const auto& [edge, surplus] : mesh.unmatched) {
+    for (const auto v : mesh.edges[at(edge)]) is_proved[at(v)] = 0;
+  }
+  auto proved = std::make_unique_for_overwrite<Corners[]>(sides.size());
+  const auto keep = [&](std::size_t t) {
+    const auto none = ~static_cast<std::int32_t>(t);
+    const auto corner = [&](std::int32_t v) { return is_proved[at(v)] ? v : none; };
+    const auto& [u, v, w] = mesh.triangles[t];
+    proved[t] = Corners{corner(u), corner(v), corner(w), none};
+  };
+  if (for_all_paced(sides.size(), 1, pace, keep)) proved_ = std::move(proved);
+}
+
+}  // namespace assay::detector
