@@ -125,14 +125,14 @@ namespace {
 Case simultaneous(Variation& vary, int exponent, int kind) {
   const int spikes = 1 << exponent;
   constexpr int columns = 8;
-  constexpr std::int64_t cell = usual_size / 64, drop = usual_size / 16;
+  constexpr std::int64_t cell = usual_size / 64, depth = usual_size / 16;
   GridMesh mesh;
   add_block(mesh, vary, usual_size, usual_size);
-  const std::int64_t end[] = {-drop, drop / 4, 0};
+  const std::int64_t end[] = {-depth, depth / 4, 0};
   for (int i = 0; i < spikes; ++i) {
     const GridPoint place{cell * (i % columns - columns / 2), cell * (i / columns - columns / 2),
                           0};
-    add_spike(mesh, vary, falling(place, drop, end[kind]), cell / 4, usual_size / 8,
+    add_spike(mesh, vary, falling(place, depth, end[kind]), cell / 4, usual_size / 8,
               Side::all_around);
   }
   constexpr double first[] = {0.5, 0, 1};
