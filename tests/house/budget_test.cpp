@@ -21,8 +21,8 @@ std::size_t count_lines(const std::string& path) {
 // that is asked for is allowed. Detectors of others count apart; `scripts` are those of all rooms.
 TEST(Budget, NoRoomGrows) {
   const std::map<std::string, std::size_t> budgets = {
-      {"detector", 15815},   {"oracle", 6240},   {"corpus", 5439}, {"corpus/peers", 857},
-      {"properties", 26619}, {"reports", 13811}, {"tests", 46287}, {"scripts", 10488}};
+      {"detector", 15818},   {"oracle", 6240},   {"corpus", 5439}, {"corpus/peers", 857},
+      {"properties", 26619}, {"reports", 13811}, {"tests", 46099}, {"scripts", 10488}};
   std::map<std::string, std::size_t> lines;
   for (const auto* room : rooms) {
     for (const auto& file : files_below(room)) {
@@ -65,7 +65,9 @@ const std::vector<Capability>& capabilities() {
       {"what a detector claims, and how it is judged",
        "everybody",
        {"properties/claims", "properties/judging", "properties/queries"}},
-      {"random cases", "campaigns", {"properties/generators"}},
+      {"random cases and their changes",
+       "campaigns",
+       {"properties/changes", "properties/generators"}},
       {"laws as tests", "who reads the proof", {"properties/laws", "properties/worlds"}},
       {"planted faults", "who doubts the judge", {"properties/faults"}},
       {"the search for failures", "owners of a detector", {"properties/search"}},
