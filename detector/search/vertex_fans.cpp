@@ -57,7 +57,7 @@ Sides sides_of(const std::array<std::int32_t, 3>& triangle, const FeaturePoints&
 }  // namespace
 
 void VertexFans::prove(const Topology& mesh, const FeaturePoints& points, PacedStop* pace) {
-  constexpr std::uint64_t work_of_triangle = 3, work_of_fan = 5;
+  constexpr std::uint64_t work_of_look = 3, work_of_fan = 5;
   std::vector<Sides> sides(mesh.triangles.size());
   const auto look = [&](std::size_t t) { sides[t] = sides_of(mesh.triangles[t], points); };
   std::vector<std::uint8_t> is_proved(mesh.vertex_triangles.starts.size() - 1);
@@ -76,7 +76,7 @@ void VertexFans::prove(const Topology& mesh, const FeaturePoints& points, PacedS
     const unsigned around_once = once & ~twice;
     is_proved[number] = ((seen | seen >> 3) & (around_once >> 1 | around_once << 2) & axes) != 0;
   };
-  if (!for_all_paced(sides.size(), work_of_triangle, pace, look) ||
+  if (!for_all_paced(sides.size(), work_of_look, pace, look) ||
       !for_all_paced(is_proved.size(), work_of_fan, pace, settle)) {
     return;
   }
