@@ -239,7 +239,7 @@ Draft ground(Random& random, bool closed) {
 // it at the origin: a vertex, an edge or a side; `lowest` names it.
 Draft faller(Random& random, bool closed, int size, std::vector<std::int32_t>& lowest) {
   Draft d;
-  if (!closed && random.one_in(3)) {
+  if (!closed && random.below(5) < 2) {
     d = of({{0, 1, 2}, {0, 2, 3}}, {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, "shape:flat");
     if (random.one_in(2)) d.faces.pop_back(), d.rest().pop_back();
     for (auto& p : d.rest()) p[0] += random.signed_unit() / 4, p[1] += random.signed_unit() / 4;
