@@ -137,7 +137,8 @@ class Detector {
   void reset();
 
   const Topology& topology() const;
-  // The mesh with the ghosts that close it.
+  // The mesh with the ghosts that close it. With a culling without views the first call makes them:
+  // O(M) for M triangles.
   const Surface& surface() const;
 
  private:

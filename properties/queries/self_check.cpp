@@ -180,7 +180,9 @@ std::string SelfTestFamily::text(std::uint64_t seed, std::uint64_t index) const 
 Expected<std::vector<AskedQuery>> named_queries(const std::filesystem::path& corpus) {
   const auto& rungs = method_of("oracle")->rungs;
   std::vector<AskedQuery> list;
-  BOOST_OUTCOME_TRY(files, corpus::case_files(corpus / "queries" / "named"));
+  const auto folder = corpus / "queries" / "named";
+  BOOST_OUTCOME_TRY(files, corpus::case_files(folder));
+  if (files.empty()) return corpus::problem_in(folder, "no named query");
   for (const auto& file : files) {
     BOOST_OUTCOME_TRY(c, corpus::read_case(file));
     BOOST_OUTCOME_TRY(pending, corpus::parse_json(c.pending, file));

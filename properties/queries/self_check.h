@@ -38,7 +38,7 @@ struct SelfTestFamily {
 
 // The named queries of a corpus, each with its answer, its first time, and the rung of the oracle
 // that must decide it. The rung is checked because a rung that left its share to the next one would
-// still answer rightly, only more slowly. Fails if a file cannot be read.
+// still answer rightly, only more slowly. Fails if there is none, or if a file cannot be read.
 Expected<std::vector<AskedQuery>> named_queries(const std::filesystem::path& corpus);
 
 // All families, the cheap and most telling ones first: the named queries of the corpus, small

@@ -1,6 +1,7 @@
 // The parts of the self-test: small worlds are complete, cases can be made alone, exact conditions
 // of the constructed families hold, results do not depend on the number of threads.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "corpus/cases/case_file.h"
 #include "corpus/files.h"
@@ -166,6 +167,11 @@ TEST(SelfTest, NamedQueriesAreCasesInTheirCanonicalForm) {
     EXPECT_EQ(corpus::read_bytes(file).value(), corpus::case_text(c));
   }
   EXPECT_FALSE(named_queries("no such folder"));
+  const auto empty =
+      std::filesystem::temp_directory_path() / ("assay-no-queries-" + std::to_string(::getpid()));
+  std::filesystem::create_directories(empty / "queries" / "named");
+  EXPECT_FALSE(named_queries(empty)) << "none of them would be asked, and all would seem well";
+  std::filesystem::remove_all(empty);
 }
 
 // An answer or a rung that is not the oracle's own is told.
