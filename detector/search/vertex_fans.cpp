@@ -57,6 +57,7 @@ Sides sides_of(const std::array<std::int32_t, 3>& triangle, const FeaturePoints&
 }  // namespace
 
 void VertexFans::prove(const Topology& mesh, const FeaturePoints& points, PacedStop* pace) {
+  if (pace && pace->stopped()) return;  // the points may not be there
   constexpr std::uint64_t work_of_look = 3, work_of_fan = 5;
   std::vector<Sides> sides(mesh.triangles.size());
   const auto look = [&](std::size_t t) { sides[t] = sides_of(mesh.triangles[t], points); };

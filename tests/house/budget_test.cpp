@@ -21,8 +21,8 @@ std::size_t count_lines(const std::string& path) {
 // that is asked for is allowed. Detectors of others count apart; `scripts` are those of all rooms.
 TEST(Budget, NoRoomGrows) {
   const std::map<std::string, std::size_t> budgets = {
-      {"detector", 15818},   {"oracle", 6240},   {"corpus", 5439}, {"corpus/peers", 857},
-      {"properties", 26619}, {"reports", 13811}, {"tests", 46099}, {"scripts", 10488}};
+      {"detector", 15819},   {"oracle", 6240},   {"corpus", 5439}, {"corpus/peers", 857},
+      {"properties", 26621}, {"reports", 13811}, {"tests", 46120}, {"scripts", 10488}};
   std::map<std::string, std::size_t> lines;
   for (const auto* room : rooms) {
     for (const auto& file : files_below(room)) {

@@ -36,6 +36,7 @@ class FanMesh {
   // much as `waves`, at both ends of the step; each end is drawn anew by the share `jitter`.
   void place(std::span<const int> sizes, int turns, double waves, double jitter, double scale,
              int axis) {
+    const double side = random_.below(2) == 0 ? 1 : -1;  // seen from above, or from below
     const auto frame = [&](Positions& x) {
       const double turn = 2 * 3.14159265358979 * random_.number(false);
       Eigen::Index v = 1;
@@ -45,7 +46,8 @@ class FanMesh {
           const double angle =
               turn + 2 * 3.14159265358979 * turns * (i + .4 * random_.number(false)) / size;
           const double r = 1 + .5 * random_.number(false);
-          put(x, v++, {r * std::cos(angle), r * std::sin(angle), waves * random_.number(false)},
+          put(x, v++,
+              {side * r * std::cos(angle), r * std::sin(angle), waves * random_.number(false)},
               scale, axis);
         }
       }
@@ -216,6 +218,21 @@ TEST(VertexFans, L13_OfAnOpenSheetTheInnerVerticesAreProved) {
       });
       EXPECT_EQ(fans.are_apart(a, b), shares_inner);
     }
+  }
+}
+
+// Points of a stopped pace are not there.
+TEST(VertexFans, NothingIsProvedOnceItIsStopped) {
+  const Topology mesh = make_topology(squares(40, 40), 1681);
+  const Positions x = flat_squares(40);
+  for (const std::uint32_t threads : {1, 3}) {
+    const Workers workers(threads);
+    const StopFunction at_once = [] { return true; };
+    PacedStop pace(at_once, workers);
+    EXPECT_TRUE(pace.now());
+    VertexFans fans;
+    fans.prove(mesh, FeaturePoints({x, x}, &pace), &pace);
+    EXPECT_FALSE(fans.are_apart(0, 1));
   }
 }
 
