@@ -79,6 +79,13 @@ constexpr auto names_of(LimitGives) {
       {{positions, "positions"}, {start_plus, "start-plus"}, {blend, "blend"}});
 }
 
+// Whether a detector names the pairs that meet.
+enum class Reported : std::uint8_t { pairs, no_pairs };
+constexpr auto names_of(Reported) {
+  return std::to_array<Named<Reported>>(
+      {{Reported::pairs, "pairs"}, {Reported::no_pairs, "no-pairs"}});
+}
+
 // A contract that asks for more is refused.
 inline constexpr double widest_time_tolerance = 1e-3;
 
@@ -141,6 +148,24 @@ ASSAY_FIELDS(Contract, adjacency, coordinates, margin, start, start_distance, le
              largest, features, time_tolerance, reports_pairs, separation, counts, rings,
              rest_distance, takes_relations, limit_gives, progress, motion, capacity_triangles,
              capacity_contacts, capacity_candidates)
+
+// Calls visit(name, member of the interface, member of the contract) for each member that a
+// description of the interface (assay_description) states: an enum there is a number.
+template <class Description, class Visit>
+void visit_members(Description& raw, Contract& contract, const Visit& visit) {
+#define ASSAY_VISIT(r, data, name) visit(BOOST_PP_STRINGIZE(name), raw.name, contract.name);
+#define ASSAY_VISIT_ALL(...) \
+  BOOST_PP_SEQ_FOR_EACH(ASSAY_VISIT, , BOOST_PP_VARIADIC_TO_SEQ(__VA_ARGS__))
+  ASSAY_VISIT_ALL(adjacency, coordinates, start, features)
+  auto reported = contract.reports_pairs ? Reported::pairs : Reported::no_pairs;
+  visit("reports", raw.reports, reported);
+  contract.reports_pairs = reported == Reported::pairs;
+  ASSAY_VISIT_ALL(margin, separation, start_distance, least_nonzero, largest, time_tolerance,
+                  counts, rings, rest_distance, limit_gives, progress, motion, capacity_triangles,
+                  capacity_contacts, capacity_candidates)
+#undef ASSAY_VISIT_ALL
+#undef ASSAY_VISIT
+}
 
 // The shortest decimal that reads back to the same double. It is made without libfmt, because the
 // worker does not use that.

@@ -48,43 +48,20 @@ std::string nothing_described(const assay_detector_api& table) {
   return text.empty() ? "describe() returns nothing" : "describe(): " + text;
 }
 
-// False if the number is no value of the enum.
-template <class Enum>
-bool read_number(std::int32_t raw, Enum& value) {
-  const auto named = from_number<Enum>(raw);
-  value = named.value_or(value);
-  return named.has_value();
-}
-
 // Says what in the description makes no sense; empty if all of it does.
 std::string read_contract(const assay_description& raw, Contract& contract) {
-  const auto unknown = [](const char* field, std::int32_t value) {
-    return std::string("unknown ") + field + " " + std::to_string(value);
-  };
-  if (!read_number(raw.adjacency, contract.adjacency)) return unknown("adjacency", raw.adjacency);
-  if (!read_number(raw.coordinates, contract.coordinates))
-    return unknown("coordinates", raw.coordinates);
-  if (!read_number(raw.start, contract.start)) return unknown("start", raw.start);
-  if (!read_number(raw.features, contract.features)) return unknown("features", raw.features);
-  if (raw.reports < 0 || raw.reports > ASSAY_REPORTS_NO_PAIRS)
-    return unknown("reports", raw.reports);
-  if (!read_number(raw.counts, contract.counts)) return unknown("counts", raw.counts);
-  if (!read_number(raw.limit_gives, contract.limit_gives))
-    return unknown("limit_gives", raw.limit_gives);
-  if (!read_number(raw.motion, contract.motion)) return unknown("motion", raw.motion);
-  contract.progress = raw.progress;
-  contract.rings = raw.rings;
-  contract.rest_distance = raw.rest_distance;
-  contract.margin = raw.margin;
-  contract.separation = raw.separation;
-  contract.start_distance = raw.start_distance;
-  contract.least_nonzero = raw.least_nonzero;
-  contract.largest = raw.largest;
-  contract.time_tolerance = raw.time_tolerance;
-  contract.capacity_triangles = raw.capacity_triangles;
-  contract.capacity_contacts = raw.capacity_contacts;
-  contract.capacity_candidates = raw.capacity_candidates;
-  contract.reports_pairs = raw.reports == ASSAY_REPORTS_PAIRS;
+  std::string unknown;
+  visit_members(raw, contract, [&]<class T>(const char* name, const auto& given, T& member) {
+    if constexpr (Listed<T>) {
+      const auto named = from_number<T>(given);
+      member = named.value_or(member);
+      if (!named && unknown.empty())
+        unknown = std::string("unknown ") + name + " " + std::to_string(given);
+    } else {
+      member = given;
+    }
+  });
+  if (!unknown.empty()) return unknown;
   return fault_of(contract);
 }
 
