@@ -13,12 +13,6 @@ namespace assay::reports {
 
 using detector::Culling, properties::Outcome;
 
-JudgedCounts& JudgedCounts::operator+=(const JudgedCounts& other) {
-  slow += other.slow;
-  ended += other.ended;
-  return properties::add_fields(*this, other);
-}
-
 std::optional<Estimate> FamilyRow::over() const {
   return cases_timed > 0 ? std::optional(bootstrap_ratio(ms, reference_ms)) : std::nullopt;
 }

@@ -80,15 +80,11 @@ struct JudgedCounts {
   std::uint64_t slow = 0;              // cases run once, because a step took so long
   std::uint64_t ended = 0;             // cases whose run ended early
 
-  JudgedCounts& operator+=(const JudgedCounts& other);
+  JudgedCounts& operator+=(const JudgedCounts& other) {
+    return properties::add_fields(*this, other);
+  }
 };
-template <class Archive>
-void fields(Archive& archive, JudgedCounts& counts) {
-  // The last two are said of a row.
-  auto& [errors, left_out, confirmed, timed_collisions, slow, ended] = counts;
-  archive("errors", errors, "left_out", left_out, "confirmed", confirmed, "timed_collisions",
-          timed_collisions);
-}
+ASSAY_FIELDS(JudgedCounts, errors, left_out, confirmed, timed_collisions, slow, ended)
 
 // A step whose answer was unsafe.
 struct UnsafeAnswer {
