@@ -1,5 +1,7 @@
 #include "properties/campaign/plan.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "properties/generators/families.h"
@@ -146,6 +148,11 @@ CampaignPlan without_relations(CampaignPlan plan) {
                        [&](const Family& family) { return family.name == stratum.family; });
   });
   return plan;
+}
+
+std::string trial_id(const CampaignPlan& plan, std::uint64_t seed, const std::string& family,
+                     std::uint64_t index) {
+  return fmt::format("{}:{}:{}:{}", plan.name, seed, family, index);
 }
 
 CampaignPlan query_plan(CampaignPlan plan) {

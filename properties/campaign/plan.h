@@ -79,6 +79,10 @@ corpus::Expected<CampaignPlan> parse_plan(const std::string& text,
 // The text of a plan, to which a store is bound: equal plans have equal texts.
 std::string plan_text(const CampaignPlan& plan);
 
+// "quick:1:closed-generic:12".
+std::string trial_id(const CampaignPlan& plan, std::uint64_t seed, const std::string& family,
+                     std::uint64_t index);
+
 // Puts elementary queries into a campaign of meshes, beside its families or in their place.
 
 // Whether some stratum is one of queries (queries/query_families.h).

@@ -1,6 +1,7 @@
 // What is asked of a campaign: its plan, a seed, a share of it, and the detector to be judged.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -74,12 +75,23 @@ using RunDeadline = std::chrono::steady_clock::time_point;
 
 // `seconds` after `begin`, or never, if that is more than three years: a clock of nanoseconds
 // would overflow.
-RunDeadline deadline_in(RunDeadline begin, double seconds);
+inline RunDeadline deadline_in(RunDeadline begin, double seconds) {
+  constexpr double longest = 1e8;
+  if (seconds > longest) return RunDeadline::max();
+  return begin +
+         std::chrono::duration_cast<RunDeadline::duration>(std::chrono::duration<double>(seconds));
+}
 // This share of the plan's seconds after `begin`, or never, if the plan has no limit.
-RunDeadline deadline_after(RunDeadline begin, const CampaignPlan& plan, double share);
+inline RunDeadline deadline_after(RunDeadline begin, const CampaignPlan& plan, double share) {
+  return plan.seconds == 0 ? RunDeadline::max() : deadline_in(begin, share * plan.seconds);
+}
 
 // How many cases of all families one of so many shares holds.
-std::uint64_t planned_trial_count(const CampaignPlan& plan, std::uint64_t shares);
+inline std::uint64_t planned_trial_count(const CampaignPlan& plan, std::uint64_t shares) {
+  std::uint64_t count = 0;
+  for (const auto& stratum : plan.strata) count += share_of(stratum.cases, shares);
+  return count;
+}
 
 // The index of the case at a place of a stratum, from 0, that a run judges. Shares under seeds that
 // follow one another judge different indices, because the shapes of some families take turns by
@@ -88,12 +100,18 @@ constexpr std::uint64_t trial_index(std::uint64_t place, std::uint64_t seed, std
   return place * shares + seed % shares;
 }
 
-// A search of so many cases is made of lanes, the last one of what is left (search/search.h).
-std::uint64_t search_lanes(std::uint64_t cases);
-std::uint64_t cases_of_lane(std::uint64_t cases, std::uint64_t lane);
-
-// "quick:1:closed-generic:12".
-std::string trial_id(const CampaignPlan& plan, std::uint64_t seed, const std::string& family,
-                     std::uint64_t index);
+// A search of so many cases is made of lanes, the last one of what is left (search/search.h): of so
+// many cases that an archive fills, and not so many lanes that they cannot be told one by one.
+constexpr std::uint64_t size_of_lane(std::uint64_t cases) {
+  constexpr std::uint64_t least = 500, most_lanes = 256;
+  return std::max(least, share_of(cases, most_lanes));
+}
+constexpr std::uint64_t search_lanes(std::uint64_t cases) {
+  return share_of(cases, size_of_lane(cases));
+}
+constexpr std::uint64_t cases_of_lane(std::uint64_t cases, std::uint64_t lane) {
+  const auto size = size_of_lane(cases);
+  return std::min(size, cases - lane * size);
+}
 
 }  // namespace assay::properties

@@ -13,17 +13,14 @@
 #include "properties/campaign/plan.h"
 #include "properties/worker/worker_process.h"
 #include "reports/bench/cases.h"
-#include "reports/campaign/case_folders.h"
-#include "reports/campaign/failure_text.h"
+#include "reports/campaign/campaign_text.h"
+#include "reports/campaign/own_checks.h"
 #include "reports/terminal/option_words.h"
-#include "reports/terminal/text_file.h"
 #include "reports/terminal/work.h"
 
 namespace assay::reports {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 // Reads the public sequences. Refuses a folder in which none of them is there, or in which one
 // cannot be used.
@@ -84,7 +81,7 @@ class CampaignTerminal : public properties::CampaignObserver {
   }
 
   void on_phase(const char* phase) override {
-    phase_began_ = Clock::now();
+    phase_began_ = std::chrono::steady_clock::now();
     progress_.emplace(phase);
   }
 
@@ -151,7 +148,7 @@ class CampaignTerminal : public properties::CampaignObserver {
 
   const properties::CampaignRequest& request_;
   const std::string out_;
-  Clock::time_point phase_began_;
+  std::chrono::steady_clock::time_point phase_began_;
   std::optional<PlainProgress> progress_;
   Expected<void> written_ = outcome::success();
 };

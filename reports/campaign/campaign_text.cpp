@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "properties/campaign/gates/findings.h"
-#include "properties/campaign/gates/not_judged.h"
+#include "properties/campaign/gates/gates.h"
 #include "properties/campaign/ledger/tally.h"
 #include "properties/queries/query_families.h"
 #include "reports/steps/measures_text.h"
@@ -14,6 +15,7 @@
 namespace assay::reports {
 namespace {
 
+using Json = nlohmann::ordered_json;
 using properties::FaultProof;
 using properties::FaultStatus;
 using properties::GateState;
@@ -163,14 +165,13 @@ const char* word_of(const FaultProof& proof) {
   return "";
 }
 
-std::string faults_text(const RunFindings& findings) {
-  const auto& power = findings.evidence.power;
-  const auto count = fmt::format(
-      "{} of {} planted faults found: {}", findings.found(), findings.planted(),
-      found_text(findings.found_at_random(), findings.found() - findings.found_at_random()));
-  if (!power.empty())
-    return fmt::format("{}; campaign {}, seed {}, of this build\n", count, power[0].campaign,
-                       power[0].seed);
+std::string faults_text(const RunFindings& findings, const Json& power) {
+  const auto count =
+      fmt::format("{} of {} planted faults found: {}", power["found"].get<std::uint64_t>(),
+                  power["planted"].get<std::uint64_t>(), found_text(power));
+  if (const auto& taken = findings.evidence.power; !taken.empty())
+    return fmt::format("{}; campaign {}, seed {}, of this build\n", count, taken[0].campaign,
+                       taken[0].seed);
   std::string out = fmt::format("{:44} {:18} {:>10} {:>12} {:>9}  {}\n", "fault", "law", "cases",
                                 "curated", "vertices", "verdict");
   for (const auto& proof : findings.evidence.faults) {
@@ -231,23 +232,21 @@ std::string worlds_text(const RunFindings& findings) {
 }
 
 // What was judged of the detector and what not, beside what its measures tell.
-std::string judged_lines(const RunFindings& findings) {
+std::string judged_lines(const Json& p) {
   std::string out;
-  const auto sizes = sizes_text(properties::judged_sizes(findings));
+  const auto sizes = sizes_text(p["judged_up_to"]);
   if (!sizes.empty())
-    out += fmt::format("claims were tried on {}\n{}\n", sizes,
-                       extremes_text(properties::largest_tried(findings),
-                                     findings.tally.counts.measures.relation_trials));
-  for (const auto& part : findings.run.detector.unjudged_parts)
+    out += fmt::format("claims were tried on {}\n{}\n", sizes, extremes_text(p["tried"]));
+  for (const std::string part : p["detector"]["unjudged_parts"])
     out += fmt::format("not judged: the {} of this library\n", part);
-  for (const auto& family : properties::left_out_families(findings))
+  for (const std::string family : p["left_out_families"])
     out += fmt::format("not judged: family {}, which the contract leaves out\n", family);
   return out;
 }
 
 }  // namespace
 
-std::string findings_text(const RunFindings& findings) {
+std::string findings_text(const RunFindings& findings, const Json& predicate) {
   const auto& run = findings.run;
   std::string out;
   if (!run.plan.strata.empty()) {
@@ -256,12 +255,13 @@ std::string findings_text(const RunFindings& findings) {
     const auto tags = tags_text(findings.tally.counts);
     if (!tags.empty()) out += fmt::format("\n{}", tags);
     if (!run.detector.built_in) out += fmt::format("\n{}", measures_text(findings));
-    out += judged_lines(findings);
+    out += judged_lines(predicate);
     if (run.plan.laws_every > 0) out += laws_text(findings);
   }
   const auto search = search_text(findings);
   if (!search.empty()) out += fmt::format("\n{}", search);
-  if (!findings.evidence.faults.empty()) out += fmt::format("\n{}", faults_text(findings));
+  if (!findings.evidence.faults.empty())
+    out += fmt::format("\n{}", faults_text(findings, predicate["power"]));
   const auto shrinking = shrinking_text(findings);
   if (!shrinking.empty()) out += fmt::format("\n{}", shrinking);
   if (!findings.evidence.worlds.empty()) out += fmt::format("\n{}", worlds_text(findings));

@@ -1,14 +1,22 @@
-// What a campaign came to, as plain text: a rendering of its findings and gates.
+// What a campaign came to, as plain text: a rendering of its predicate (certificate/statement.h),
+// or of its findings and gates where that holds less; and the files of its failures and slow cases.
 #pragma once
 
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "properties/campaign/gates/findings.h"
 #include "properties/campaign/gates/gates.h"
+#include "properties/campaign/ledger/store.h"
+#include "reports/terminal/option_words.h"
+#include "reports/terminal/work.h"
 
 namespace assay::reports {
 
 // All tables that the findings fill: strata, what the cases were, laws, planted faults, worlds.
-std::string findings_text(const properties::RunFindings& findings);
+std::string findings_text(const properties::RunFindings& findings,
+                          const nlohmann::ordered_json& predicate);
 
 // A row for each gate with its outcome, and below it at most five reasons.
 std::string gates_text(const properties::Judgement& judgement);
@@ -16,5 +24,46 @@ std::string gates_text(const properties::Judgement& judgement);
 // "DEFECT: 3 trials with a defect, 0 undecided, 1 laws broken".
 std::string verdict_text(const properties::RunFindings& findings,
                          const properties::Judgement& judgement);
+
+// "replay OUT/failures/... --detector LIB.so", the words of a line to paste in any folder. Without
+// `out` they are for the folder of the run: so they stand in certificates and pages, behind
+// "assay".
+std::string replay_words(const std::filesystem::path& out, const std::filesystem::path& file,
+                         const DetectorWords& detector);
+
+// The detector of a run, as a replay line names it.
+DetectorWords detector_of(const properties::RunFindings& findings);
+
+// Writes OUT/failures/CASE-CONFIGURATION-original.json and -smallest.json for each stored failure,
+// under the same names in every run, and a picture (.svg) of the smallest mesh of each signature.
+// `text` gets one paragraph for the signature that was met most often: claim, how often, both
+// sizes, triangles, feature, and the line that replays it. Nine others are a line each, the
+// smallest meshes first, with every broken claim among them; the rest is one count. `detector` is
+// the one that failed.
+Expected<void> write_failures(const properties::KeptFailures& kept,
+                              const std::filesystem::path& out, const DetectorWords& detector,
+                              std::string& text);
+
+// As many groups of failures are shown at most.
+inline constexpr std::size_t most_groups_shown = 5;
+
+// The groups of failures (properties/campaign/gates/gates.h), a line each with the smallest mesh of
+// each, and how many more there are. Empty if there are not even two kinds.
+std::string groups_text(const properties::RunFindings& findings,
+                        const nlohmann::ordered_json& predicate);
+
+// The groups of failures, then a paragraph for each signature of them, and a line for each further
+// case of it.
+std::string failures_text(const properties::RunFindings& findings,
+                          const nlohmann::ordered_json& predicate);
+
+// Writes two files for each case that was kept, OUT/slow/ID-CONFIGURATION-original.json and
+// -smallest.json, and a picture of the smaller one.
+Expected<void> write_slow_cases(const std::vector<properties::SlowCase>& cases,
+                                const std::filesystem::path& out);
+
+// The trials without a verdict, then the slowest of the others. Each has its processor time, the
+// line that replays it and, if one was kept, the smallest mesh and its picture.
+std::string slow_trials_text(const properties::RunFindings& findings);
 
 }  // namespace assay::reports

@@ -1,25 +1,25 @@
-#include "reports/campaign/failure_text.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <span>
 
 #include "corpus/files.h"
-#include "properties/campaign/gates/failure_groups.h"
-#include "properties/campaign/ledger/run_folder.h"
+#include "properties/campaign/ledger/store.h"
 #include "properties/judging/cause.h"
 #include "properties/queries/query_families.h"
 #include "properties/reducer/mesh_size.h"
 #include "properties/words.h"
+#include "reports/campaign/campaign_text.h"
 #include "reports/pictures/case_scene.h"
 #include "reports/terminal/option_words.h"
 #include "reports/terminal/words.h"
 
 namespace assay::reports {
 
+using Json = nlohmann::ordered_json;
 using properties::failure_file;
 
 std::string replay_words(const std::filesystem::path& out, const std::filesystem::path& file,
@@ -221,22 +221,22 @@ Expected<void> write_failures(const properties::KeptFailures& kept,
   return outcome::success();
 }
 
-std::string groups_text(const properties::RunFindings& findings) {
-  const auto groups = properties::failure_groups(findings);
-  const auto kinds = findings.kinds().size();
+std::string groups_text(const properties::RunFindings& findings, const Json& predicate) {
+  const auto& groups = predicate["failure_groups"];
   std::string text;
-  std::size_t rest = kinds;
-  for (const auto& group : std::span(groups).first(std::min(groups.size(), most_groups_shown))) {
-    text += fmt::format("{}\n  the smallest: {}: {}\n", text_of(group, kinds), group.smallest,
-                        smallest_size(*findings.example_of(group.smallest)));
-    rest -= group.kinds.size();
+  std::size_t rest = predicate["failures"].size();
+  for (std::size_t i = 0; i < std::min(groups.size(), most_groups_shown); ++i) {
+    const auto smallest = groups[i]["smallest"].get<std::string>();
+    text += fmt::format("{}\n  the smallest: {}: {}\n", groups[i]["what"].get<std::string>(),
+                        smallest, smallest_size(*findings.example_of(smallest)));
+    rest -= groups[i]["kinds"].size();
   }
   if (!groups.empty() && rest > 0) text += fmt::format("{} more in other groups\n", rest);
   return text;
 }
 
-std::string failures_text(const properties::RunFindings& findings) {
-  std::string out = groups_text(findings);
+std::string failures_text(const properties::RunFindings& findings, const Json& predicate) {
+  std::string out = groups_text(findings, predicate);
   std::set<std::string> told;
   const auto failures = in_order(findings.failures);
   for (const auto& shown : failures) {

@@ -7,10 +7,8 @@
 #include "corpus/cases/case_file.h"
 #include "corpus/digest.h"
 #include "corpus/json_fields.h"
-#include "properties/campaign/gates/failure_groups.h"
 #include "properties/campaign/gates/findings.h"
-#include "properties/campaign/gates/not_judged.h"
-#include "properties/campaign/ledger/run_folder.h"
+#include "properties/campaign/gates/gates.h"
 #include "properties/campaign/ledger/step_measures.h"
 #include "properties/campaign/ledger/tally.h"
 #include "properties/campaign/plan.h"
@@ -18,7 +16,7 @@
 #include "properties/fields.h"
 #include "properties/reducer/mesh_size.h"
 #include "properties/worker/plugin/query_case.h"
-#include "reports/campaign/failure_text.h"
+#include "reports/campaign/campaign_text.h"
 #include "reports/certificate/statement.h"
 #include "reports/steps/measures_text.h"
 #include "reports/terminal/words.h"
@@ -39,6 +37,12 @@ Json each(const List& list, const Make& make) {
   Json rows = Json::array();
   for (const auto& one : list) rows.push_back(make(one));
   return rows;
+}
+
+// The fields of each (properties/fields.h).
+template <class List>
+Json fields_of_each(const List& list) {
+  return each(list, [](const auto& one) { return properties::json_of_fields<Json>(one); });
 }
 
 template <class T>
@@ -98,10 +102,6 @@ Json named(const char* key, const std::string& name, const T& evidence) {
   Json json = {{key, name}};
   json.update(facts_of(evidence));
   return json;
-}
-
-Json canary_json(const properties::Canary& canary) {
-  return {{"fault", canary.fault}, {"found_after", or_null(canary.found_after)}};
 }
 
 Json fault_json(const properties::FaultProof& proof) {
@@ -228,21 +228,6 @@ Json laws_json(const RunFindings& findings) {
           {"laws", std::move(list)}};
 }
 
-// One {claim, reason} for each claim of which the verdict says nothing.
-Json not_judged_json(const RunFindings& findings) {
-  return each(properties::not_judged(findings), [](const auto& one) -> Json {
-    return {{"claim", one.claim}, {"reason", one.reason}};
-  });
-}
-
-// One {claim, triangles} for each claim that was judged: the size of the largest mesh that tried
-// it.
-Json judged_up_to_json(const RunFindings& findings) {
-  return each(properties::judged_sizes(findings), [](const auto& one) -> Json {
-    return {{"claim", one.claim}, {"triangles", one.triangles}};
-  });
-}
-
 // The largest of each extreme that was tried, and how many trials have a relation; null for a run
 // of queries alone.
 Json tried_json(const RunFindings& findings) {
@@ -254,7 +239,7 @@ Json tried_json(const RunFindings& findings) {
 // The canaries, the planted faults and the proved worlds.
 Json power_json(const RunFindings& findings) {
   const auto& taken = findings.evidence.power;
-  return {{"canaries", each(findings.evidence.canaries, canary_json)},
+  return {{"canaries", each(findings.evidence.canaries, facts_of<properties::Canary>)},
           {"taken_from", taken.empty() ? Json(nullptr) : facts_of(taken.front())},
           {"planted", findings.planted()},
           {"found", findings.found()},
@@ -323,18 +308,16 @@ Json times_json(const RunFindings& findings) {
   const auto world = [](const auto& of) -> Json {
     return {{"world", of.world}, {"classes", of.classes}, {"all", of.all}, {"motions", of.motions}};
   };
-  // The digests of the stores stand here, because stores hold times, and so their bytes differ
-  // from run to run.
-  const auto file = [](const auto& of) -> Json {
-    return {{"name", of.name}, {"sha256", of.sha256}};
-  };
-  return {{"issued", is_issued ? Json(issued->at) : Json(nullptr)},
-          {"seconds", is_issued ? Json(issued->seconds) : Json(nullptr)},
-          {"speed", each(speed, figure)},
-          {"strata", each(findings.tally.strata, stratum)},
-          {"near_the_limit", findings.tally.near_limit.size()},
-          {"worlds", each(findings.evidence.worlds, world)},
-          {"files", each(findings.files, file)}};
+  return {
+      {"issued", is_issued ? Json(issued->at) : Json(nullptr)},
+      {"seconds", is_issued ? Json(issued->seconds) : Json(nullptr)},
+      {"speed", each(speed, figure)},
+      {"strata", each(findings.tally.strata, stratum)},
+      {"near_the_limit", findings.tally.near_limit.size()},
+      {"worlds", each(findings.evidence.worlds, world)},
+      // The digests of the stores stand here, because stores hold times, and so their bytes differ
+      // from run to run.
+      {"files", fields_of_each(findings.files)}};
 }
 
 // One object for each signature of a defect or of a broken law, with the line that replays it.
@@ -360,7 +343,7 @@ Json failures_json(const RunFindings& findings) {
   return list;
 }
 
-// Those signatures by groups (properties/campaign/gates/failure_groups.h).
+// Those signatures by groups (properties/campaign/gates/gates.h).
 Json failure_groups_json(const RunFindings& findings) {
   const auto kinds = findings.kinds().size();
   return each(properties::failure_groups(findings), [&](const auto& group) -> Json {
@@ -460,8 +443,8 @@ Json make_predicate(const RunFindings& findings, const properties::Judgement& ju
         judgement.failed ? Json(properties::rule_of(*judgement.failed).name) : Json(nullptr)},
        {"gates", gates_json(judgement)},
        {"detector", json_of(findings.run.detector)},
-       {"not_judged", not_judged_json(findings)},
-       {"judged_up_to", judged_up_to_json(findings)},
+       {"not_judged", fields_of_each(properties::not_judged(findings))},
+       {"judged_up_to", fields_of_each(properties::judged_sizes(findings))},
        {"tried", tried_json(findings)},
        {"left_out_families", properties::left_out_families(findings)},
        {"isolation", isolation_json(findings)},

@@ -13,13 +13,10 @@
 #include "corpus/files.h"
 #include "corpus/json_fields.h"
 #include "properties/campaign/gates/findings.h"
-#include "properties/campaign/ledger/run_folder.h"
 #include "reports/campaign/campaign_terminal.h"
 #include "reports/campaign/campaign_text.h"
-#include "reports/campaign/failure_text.h"
-#include "reports/certificate/summary.h"
-#include "reports/terminal/text_file.h"
 #include "reports/terminal/words.h"
+#include "reports/terminal/work.h"
 
 namespace assay::reports {
 
@@ -167,8 +164,9 @@ Expected<int> issue_certificate(const properties::RunFindings& findings,
   BOOST_OUTCOME_TRY(write_for_ci(predicate, findings.folder));
   const auto judgement = judge(findings);
   fmt::print(
-      "{}\n{}\nverdict: {}{}; {}\nit speaks of {}\n{}next: {}\n", findings_text(findings),
-      gates_text(judgement), judgement.verdict, took, certificate, judged_text(predicate),
+      "{}\n{}\nverdict: {}{}; {}\nit speaks of {}\n{}next: {}\n",
+      findings_text(findings, predicate), gates_text(judgement), judgement.verdict, took,
+      certificate, judged_text(predicate),
       findings.is_whole() ? "" : "verify DIR... --out DIR judges it together with other shares\n",
       line_to_paste("verify " + shell_word(certificate), PastedIn::this_folder));
   return judgement.exit_code;

@@ -1,5 +1,3 @@
-#include "reports/certificate/summary.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,15 +5,14 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "properties/campaign/ledger/record.h"
 #include "properties/campaign/plan.h"
-#include "properties/fields.h"
 #include "properties/words.h"
-#include "reports/campaign/failure_text.h"
+#include "reports/campaign/campaign_text.h"
+#include "reports/certificate/statement.h"
 #include "reports/steps/measures_text.h"
 #include "reports/terminal/option_words.h"
-#include "reports/terminal/text_file.h"
 #include "reports/terminal/words.h"
+#include "reports/terminal/work.h"
 
 namespace assay::reports {
 namespace {
@@ -66,6 +63,15 @@ std::string strata_text(const Json& p) {
                        bound, wanted.is_null() ? "-" : fmt::format("{:.0e}", wanted.get<double>()));
   }
   return out;
+}
+
+// "met 3 times", or that no trial showed it.
+std::string met_text(const Json& failure) {
+  const auto trials = count(failure["met"]);
+  const auto id = failure["case"].get<std::string>();
+  return trials > 0                  ? "met " + properties::times_text(trials)
+         : id.starts_with("search/") ? "found by the search alone"
+                                     : "met in the corpus alone";
 }
 
 std::string failures_text(const Json& p) {
@@ -275,14 +281,6 @@ std::string suite_text(const char* name, const Tests& tests) {
 
 }  // namespace
 
-std::string met_text(const Json& failure) {
-  const auto trials = count(failure["met"]);
-  const auto id = failure["case"].get<std::string>();
-  return trials > 0                  ? "met " + properties::times_text(trials)
-         : id.starts_with("search/") ? "found by the search alone"
-                                     : "met in the corpus alone";
-}
-
 std::string summary_text(const Json& p, const std::string& begun) {
   const auto& power = p["power"];
   std::string out = fmt::format("## Assay: {}\n\n", cell(p["verdict"]));
@@ -294,9 +292,8 @@ std::string summary_text(const Json& p, const std::string& begun) {
     out += fmt::format(" Begun {}.", cell(begun));
   }
   if (count(power["planted"]) > 0)
-    out += fmt::format(
-        " {} of {} planted faults found: {}.", count(power["found"]), count(power["planted"]),
-        found_text(count(power["found_at_random"]), count(power["found_by_curated_case_alone"])));
+    out += fmt::format(" {} of {} planted faults found: {}.", count(power["found"]),
+                       count(power["planted"]), found_text(power));
   if (!power["taken_from"].is_null())
     out += fmt::format(" Their proof is taken from campaign {}, seed {}, of the same build.",
                        cell(power["taken_from"]["campaign"]), count(power["taken_from"]["seed"]));
@@ -321,16 +318,8 @@ Expected<void> write_for_ci(const Json& predicate, const std::filesystem::path& 
 }
 
 std::string judged_text(const Json& p) {
-  std::vector<properties::JudgedSize> judged_up_to;
-  for (const auto& one : p["judged_up_to"])
-    judged_up_to.push_back(
-        {one["claim"].get<std::string>(), one["triangles"].get<std::uint64_t>()});
-  auto sizes = sizes_text(judged_up_to);
-  if (const auto& tried = p["tried"]; !sizes.empty()) {
-    properties::Extremes largest;
-    properties::read_fields(tried["largest"], largest);
-    sizes += "; " + extremes_text(largest, count(tried["relations"]));
-  }
+  auto sizes = sizes_text(p["judged_up_to"]);
+  if (!sizes.empty()) sizes += "; " + extremes_text(p["tried"]);
   const auto phrases = p["detector"]["contract"]["leaves_out"].get<std::vector<std::string>>();
   return fmt::format(
       "{}{}; contract {}{}; campaign {}, {}{}{}", claims_text(p), sizes.empty() ? "" : "; " + sizes,
@@ -340,18 +329,6 @@ std::string judged_text(const Json& p) {
       p["campaign"]["name"].get<std::string>(), seeds_text(p["campaign"]["parts"]),
       p["campaign"]["is_default_seed"].get<bool>() ? " (the default)" : "",
       case_limits_text(p["campaign"]["plan"]));
-}
-
-std::string xml_escaped(const std::string& text) {
-  static const std::map<char, std::string_view> written = [] {
-    std::map<char, std::string_view> all = {
-        {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
-    for (char control = 0; control < ' '; ++control) {
-      if (control != '\n' && control != '\t') all[control] = "?";
-    }
-    return all;
-  }();
-  return replaced(text, written);
 }
 
 std::string junit_text(const Json& p) {

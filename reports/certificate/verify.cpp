@@ -1,4 +1,3 @@
-#include "reports/certificate/verify.h"
 
 #include <fmt/format.h>
 
@@ -12,11 +11,9 @@
 #include "corpus/files.h"
 #include "corpus/json_fields.h"
 #include "properties/campaign/gates/findings.h"
-#include "properties/campaign/ledger/run_folder.h"
 #include "properties/worker/plugin/judged_library.h"
 #include "properties/worker/worker_process.h"
 #include "reports/certificate/statement.h"
-#include "reports/certificate/summary.h"
 #include "reports/terminal/option_words.h"
 
 namespace assay::reports {

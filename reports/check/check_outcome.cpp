@@ -1,11 +1,10 @@
-#include "reports/check/check_outcome.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "properties/judging/agreement.h"
+#include "reports/check/check_run.h"
 #include "reports/steps/measures_text.h"
 #include "reports/steps/step_report.h"
 #include "reports/terminal/words.h"

@@ -1,5 +1,3 @@
-#include "reports/check/given_answers.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include "corpus/files.h"
 #include "corpus/formats/text_lines.h"
 #include "properties/worker/plugin/plugin_reading.h"
+#include "reports/check/step_answers.h"
 #include "reports/terminal/option_words.h"
 
 namespace assay::reports {

@@ -1,5 +1,3 @@
-#include "reports/check/separation_check.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include "oracle/distance/step_distance.h"
 #include "properties/judging/trial.h"
 #include "properties/numbering.h"
+#include "reports/check/check_run.h"
 #include "reports/steps/step_report.h"
 #include "reports/terminal/words.h"
 #include "reports/terminal/work.h"

@@ -5,11 +5,13 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 
+#include "corpus/formats/step_log.h"
 #include "corpus/formats/step_source.h"
 #include "detector/options.h"
 #include "detector/step_result.h"
-#include "properties/campaign/gates/not_judged.h"
+#include "properties/campaign/gates/gates.h"
 #include "properties/judging/judged_run.h"
 #include "properties/judging/subject.h"
 #include "reports/terminal/work.h"
@@ -18,7 +20,7 @@ namespace assay::reports {
 
 // The detector that `check` has before it, and its answers to the steps: those of the built-in one
 // are made in this process, one by one, those of a plug-in in a worker, all at once, and those of a
-// log are read (given_answers.h).
+// log are read (GivenAnswers).
 class StepAnswers {
  public:
   virtual ~StepAnswers() = default;
@@ -128,5 +130,63 @@ Expected<std::unique_ptr<StepAnswers>> answers_of_built_in(const BuiltInChoice& 
 // contract takes, with coordinates rounded if it says so.
 Expected<std::unique_ptr<StepAnswers>> answers_of_plugin(properties::Subject plugin,
                                                          CheckInput& input);
+
+// Answers that are not asked for here, but were given before: by a log, or by a table beside the
+// frames of `check`.
+
+class GivenAnswers : public StepAnswers {
+ public:
+  bool is_recorded() const override { return true; }
+  nlohmann::ordered_json to_json() const override { return detector_json({{"library", nullptr}}); }
+
+ protected:
+  GivenAnswers(properties::Subject subject, const corpus::StepSource& steps)
+      : StepAnswers(std::move(subject)), triangles_(steps.triangles()) {}
+
+  // Begins the run of step s, which is undecided until an answer is taken.
+  void begin_run(std::size_t s);
+  // Reads the answer as that of a plug-in is read, and believes none of it.
+  void take(const std::optional<corpus::LoggedAnswer>& logged);
+  void take_error(const std::string& text);
+
+ private:
+  Expected<detector::StepResult> result_of(const corpus::LoggedAnswer& logged) const;
+
+  const detector::Triangles& triangles_;
+};
+
+// Answers to the steps of `input` from a table FILE.csv with the columns step, answer and time: the
+// step counted from 1, free, collision, undecided or error, and a time of contact, which may be
+// empty. Claimed is that no step with a contact is called free, and, where a time is given, that no
+// contact begins before it. Rows are in any order; steps without a row are left out. Fails if the
+// file is no such table, or names a step twice.
+Expected<std::unique_ptr<StepAnswers>> answers_of_table(const std::string& file,
+                                                        const CheckInput& input,
+                                                        properties::Adjacency adjacency);
+
+// A log of steps (corpus/formats/step_log.h), as `check` takes it: the steps as the contract of the
+// detector takes them, and its recorded answers, which are judged as those of a plug-in are.
+
+// Which steps of a log are judged.
+struct LogSelection {
+  double share = 1;        // in (0, 1]; which steps these are goes by their numbers alone
+  std::uint64_t from = 1;  // steps before this one, from 1, are not judged
+  std::optional<std::uint64_t> step;  // this one alone
+  bool follow = false;                // waits for steps until the recorder ends the log
+};
+
+// A log's file, and "#N" behind it for step N alone, counted from 1.
+struct LogName {
+  std::string file;
+  std::optional<std::uint64_t> step;  // counted from 0
+};
+LogName log_name(const std::string& word);
+
+// The case that the words name: a case file, frames of one mesh, or LOG#N.
+corpus::Expected<corpus::Case> read_case_of(const std::vector<std::string>& words);
+
+// The steps that are chosen of a log, and the answers to them. Fails if it cannot be read, or if
+// nothing of it can be judged.
+Expected<CheckInput> read_log(const LogName& log, LogSelection selection);
 
 }  // namespace assay::reports

@@ -9,12 +9,10 @@
 
 #include "corpus/digest.h"
 #include "detector/step_result.h"
-#include "properties/campaign/ledger/run_folder.h"
 #include "properties/laws/law.h"
-#include "reports/campaign/failure_text.h"
+#include "reports/campaign/campaign_text.h"
 #include "reports/certificate/statement.h"
 #include "reports/pictures/case_scene.h"
-#include "reports/pictures/mesh_svg.h"
 #include "reports/steps/step_report.h"
 #include "reports/terminal/words.h"
 
@@ -32,18 +30,9 @@ std::string why_text(const properties::Judgement& judgement) {
                      reasons.size() > 1 ? fmt::format("; and {} more", reasons.size() - 1) : "");
 }
 
-template <class Point>
-Json point_json(const Point& p) {
-  return {p[0], p[1], p[2]};
-}
+Json point_json(const Eigen::Vector3d& p) { return {p[0], p[1], p[2]}; }
 
-Json moving_json(const detector::MovingPoint& p) { return {point_json(p.t0), point_json(p.t1)}; }
-
-Json frame_json(const detector::Positions& x) {
-  Json list = Json::array();
-  for (Eigen::Index v = 0; v < x.rows(); ++v) list.push_back({x(v, 0), x(v, 1), x(v, 2)});
-  return list;
-}
+Json moving_json(const detector::MovingPoint& p) { return {p.t0, p.t1}; }
 
 Json pairs_json(const CaseScene& scene, const SceneStep& step,
                 const std::vector<detector::PairContact>& pairs) {
@@ -130,7 +119,7 @@ Json scene_json(const CaseScene& scene, const corpus::Case& stored) {
     const auto row = scene.c.triangles.row(t);
     triangles.push_back({row[0], row[1], row[2]});
   }
-  for (const auto& frame : scene.c.frames) frames.push_back(frame_json(frame));
+  for (const auto& frame : scene.c.frames) frames.push_back(corpus::points_of(frame));
   for (const auto& step : scene.steps) {
     const auto& truth = step.truth;
     const auto first = truth.first ? truth.first->time : detector::TimeEnclosure{};

@@ -10,9 +10,8 @@
 #include "properties/judging/case_check.h"
 #include "properties/judging/exam.h"
 #include "properties/worker/plugin/query_case.h"
-#include "reports/pictures/mesh_svg.h"
 #include "reports/terminal/option_words.h"
-#include "reports/terminal/text_file.h"
+#include "reports/terminal/work.h"
 
 namespace assay::reports {
 

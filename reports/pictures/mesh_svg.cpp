@@ -1,5 +1,3 @@
-#include "reports/pictures/mesh_svg.h"
-
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -7,6 +5,7 @@
 #include <cmath>
 
 #include "detector/boundary/boundary_handler.h"
+#include "reports/pictures/case_scene.h"
 #include "reports/terminal/words.h"
 
 namespace assay::reports {

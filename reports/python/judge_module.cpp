@@ -18,7 +18,7 @@
 #include "properties/judging/contracted_case.h"
 #include "properties/judging/subject.h"
 #include "properties/worker/plugin/query_case.h"
-#include "reports/check/separation_check.h"
+#include "reports/check/check_run.h"
 #include "reports/page/run_json.h"
 #include "reports/python/calls.h"
 

@@ -112,14 +112,14 @@ Json limits_json(const properties::LimitUse& use) {
 
 }  // namespace
 
-std::string sizes_text(const std::vector<properties::JudgedSize>& judged_up_to) {
+std::string sizes_text(const Json& judged_up_to) {
   std::vector<std::pair<std::uint64_t, std::vector<std::string>>> sizes;
-  for (const auto& [claim, triangles] : judged_up_to) {
-    const auto size = triangles;
+  for (const auto& judged : judged_up_to) {
+    const auto size = judged["triangles"].get<std::uint64_t>();
     const auto known = std::find_if(sizes.begin(), sizes.end(),
                                     [&](const auto& one) { return one.first == size; });
     auto& claims = known == sizes.end() ? sizes.emplace_back(size, 0).second : known->second;
-    claims.push_back(claim);
+    claims.push_back(judged["claim"].get<std::string>());
   }
   std::string text;
   for (const auto& [triangles, claims] : sizes) {
@@ -130,22 +130,27 @@ std::string sizes_text(const std::vector<properties::JudgedSize>& judged_up_to) 
   return text;
 }
 
-std::string extremes_text(const properties::Extremes& largest, std::uint64_t relations) {
-  const auto count = [](std::uint64_t number, const char* one, const char* many) {
-    return fmt::format("{} {}", number, number == 1 ? one : many);
+std::string extremes_text(const Json& tried) {
+  const auto count = [](const Json& number, const char* one, const char* many) {
+    return fmt::format("{} {}", number.get<std::uint64_t>(), number == 1 ? one : many);
   };
+  const auto& largest = tried["largest"];
   return fmt::format(
       "largest tried: {} between two starts, {} at a vertex, {}, {}, {} in a step, "
       "{}; relations: {}",
-      count(largest.steps_in_a_row, "step", "steps"),
-      count(largest.valence, "triangle", "triangles"), count(largest.bodies, "body", "bodies"),
-      count(largest.components, "component", "components"), count(largest.pairs, "pair", "pairs"),
-      count(largest.triangles, "triangle", "triangles"), count(relations, "case", "cases"));
+      count(largest["steps_in_a_row"], "step", "steps"),
+      count(largest["valence"], "triangle", "triangles"),
+      count(largest["bodies"], "body", "bodies"),
+      count(largest["components"], "component", "components"),
+      count(largest["pairs"], "pair", "pairs"),
+      count(largest["triangles"], "triangle", "triangles"),
+      count(tried["relations"], "case", "cases"));
 }
 
-std::string found_text(std::uint64_t at_random, std::uint64_t by_curated_case_alone) {
-  return fmt::format("{} by random cases, {} by their curated case alone", at_random,
-                     by_curated_case_alone);
+std::string found_text(const Json& power) {
+  return fmt::format("{} by random cases, {} by their curated case alone",
+                     power["found_at_random"].get<std::uint64_t>(),
+                     power["found_by_curated_case_alone"].get<std::uint64_t>());
 }
 
 std::string measures_head(bool of_queries) {

@@ -4,9 +4,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
-#include <vector>
 
-#include "properties/campaign/gates/not_judged.h"
+#include "properties/campaign/gates/gates.h"
 
 namespace assay::reports {
 
@@ -19,14 +18,16 @@ std::string measures_text(const properties::RunFindings& findings);
 // ...". Empty if there is nothing to say.
 std::string measures_sentence(const properties::StepMeasures& measures);
 
+// Of `judged_up_to`, `tried` and `power` of a predicate (certificate/statement.h).
+
 // "meshes of up to 2048 triangles", or, where they differ, "meshes of up to 2048 triangles
 // (free-sound, total), of up to 60 (deterministic)". Empty if there are none.
-std::string sizes_text(const std::vector<properties::JudgedSize>& judged_up_to);
+std::string sizes_text(const nlohmann::ordered_json& judged_up_to);
 // "largest tried: 8 steps between two starts, 14 triangles at a vertex, 3 bodies, 5 components, 812
 // pairs in a step, 200 triangles; relations: 0 cases".
-std::string extremes_text(const properties::Extremes& largest, std::uint64_t relations);
+std::string extremes_text(const nlohmann::ordered_json& tried);
 // "72 by random cases, 44 by their curated case alone".
-std::string found_text(std::uint64_t at_random, std::uint64_t by_curated_case_alone);
+std::string found_text(const nlohmann::ordered_json& power);
 
 // The columns of one row, without its name: of steps, or of queries, which have no pairs.
 std::string measures_row(const properties::StepMeasures& measures, bool of_queries);

@@ -1,4 +1,3 @@
-#include "reports/steps/step_pairs.h"
 
 #include <fmt/format.h>
 

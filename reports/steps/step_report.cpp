@@ -63,33 +63,27 @@ std::string diff_text(const properties::StepDiff& diff, const ShownWork& shown) 
     for (const auto claim : diff.broken) out += fmt::format(" {}", properties::name_of(claim));
     out += "\n";
   }
-  constexpr std::size_t most_listed = 10;
-  const auto list = [&](const char* heading, const std::vector<detector::PairContact>& pairs,
-                        bool has_features) {
-    for (std::size_t i = 0; i < pairs.size() && i < most_listed; ++i) {
-      const auto& [pair, time, feature] = pairs[i];
-      out += fmt::format("  {}: triangles {} and {}{} at t = {}", heading, pair.a, pair.b,
-                         shown.bodies.text(pair), time_text(time));
-      out += has_features ? fmt::format(" ({})\n", properties::name_of(feature.kind)) : "\n";
+  const auto list = [&](const char* heading, const auto& items, bool has_features = true) {
+    constexpr std::size_t most_listed = 10;
+    for (std::size_t i = 0; i < items.size() && i < most_listed; ++i) {
+      const auto& one = items[i];
+      out += fmt::format("  {}: triangles {} and {}{} at t = ", heading, one.pair.a, one.pair.b,
+                         shown.bodies.text(one.pair));
+      if constexpr (requires { one.oracle; })
+        out += fmt::format("{}, exact {}\n", time_text(one.detector), time_text(one.oracle));
+      else
+        out +=
+            time_text(one.time) +
+            (has_features ? fmt::format(" ({})\n", properties::name_of(one.feature.kind)) : "\n");
     }
-    if (pairs.size() > most_listed)
-      out += fmt::format("  ... {} more\n", pairs.size() - most_listed);
+    if (items.size() > most_listed)
+      out += fmt::format("  ... {} more\n", items.size() - most_listed);
   };
-  list("missing", diff.missing, true);
+  list("missing", diff.missing);
   list("spurious", diff.spurious, shown.has_stages);
-  list("no candidate", diff.missing_candidates, true);
-  const auto list_times = [&](const char* heading,
-                              const std::vector<properties::WrongTime>& wrong) {
-    for (std::size_t i = 0; i < wrong.size() && i < most_listed; ++i) {
-      const auto& [pair, ours, exact] = wrong[i];
-      out += fmt::format("  {}: triangles {} and {}{} at t = {}, exact {}\n", heading, pair.a,
-                         pair.b, shown.bodies.text(pair), time_text(ours), time_text(exact));
-    }
-    if (wrong.size() > most_listed)
-      out += fmt::format("  ... {} more\n", wrong.size() - most_listed);
-  };
-  list_times("late", diff.late);
-  list_times("early", diff.early);
+  list("no candidate", diff.missing_candidates);
+  list("late", diff.late);
+  list("early", diff.early);
   return out;
 }
 

@@ -95,6 +95,18 @@ std::string replaced(std::string_view text, const std::map<char, std::string_vie
   return out;
 }
 
+std::string xml_escaped(const std::string& text) {
+  static const std::map<char, std::string_view> written = [] {
+    std::map<char, std::string_view> all = {
+        {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
+    for (char control = 0; control < ' '; ++control) {
+      if (control != '\n' && control != '\t') all[control] = "?";
+    }
+    return all;
+  }();
+  return replaced(text, written);
+}
+
 std::string commit_text() { return ASSAY_COMMIT; }
 
 std::string version_text() {

@@ -16,6 +16,9 @@ namespace assay::reports {
 // text in which each character that is a key of `characters` is replaced by its value.
 std::string replaced(std::string_view text, const std::map<char, std::string_view>& characters);
 
+// The text escaped for XML, with characters that XML 1.0 does not take replaced.
+std::string xml_escaped(const std::string& text);
+
 // The items of a list as one line of text, with `between` between them.
 template <class List>
 std::string joined(const List& list, const char* between) {

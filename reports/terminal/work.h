@@ -1,6 +1,6 @@
 // The work of a verb: how it ends, with an exit code, and where it cannot go on with one line on
-// stderr that says why; the limits of time and memory that a user sets; and lines that show how far
-// long work has come.
+// stderr that says why; the limits of time and memory that a user sets; lines that show how far
+// long work has come; and the files that it writes.
 #pragma once
 
 #include <boost/outcome/try.hpp>
@@ -8,8 +8,10 @@
 #include <cstdint>
 #include <cstdio>
 #include <new>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "corpus/problem.h"
 #include "detector/mesh/step_types.h"
@@ -159,5 +161,22 @@ class Progress {
   std::string phase_;
   std::chrono::steady_clock::time_point begin_;
 };
+
+// Files that a verb writes: whole, or not at all.
+
+// Whether a file can be written at each of these paths (empty: no file is wanted). Fails for a
+// folder, a device, one of the inputs, a file that is named twice, and a place without permission.
+// Called before the work, so that no work is lost.
+Expected<void> may_write(const std::vector<std::string>& outputs,
+                         const std::vector<std::string>& inputs = {});
+
+// Makes the folder if it is not there (empty: no folder is wanted), and looks whether these files
+// of it can be written. Called before the work in the same way.
+Expected<void> may_fill(const std::string& folder, const std::vector<std::string>& files = {});
+
+// Writes the whole file, or leaves the old one as it is.
+Expected<void> write_text_file(const std::string& path, const std::string& text);
+// Writes JSON in the same way, indented by one; bytes that are no UTF-8 are replaced.
+Expected<void> write_json_file(const std::string& path, const nlohmann::ordered_json& json);
 
 }  // namespace assay::reports

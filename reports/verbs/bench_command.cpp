@@ -8,7 +8,6 @@
 #include "corpus/problem.h"
 #include "reports/bench/compared/comparison.h"
 #include "reports/terminal/option_words.h"
-#include "reports/terminal/text_file.h"
 #include "reports/terminal/words.h"
 #include "reports/terminal/work.h"
 #include "reports/verbs/verbs.h"

@@ -9,12 +9,10 @@
 
 #include "corpus/formats/step_source.h"
 #include "properties/judging/case_options.h"
-#include "reports/check/separation_check.h"
-#include "reports/judge/kept_failures.h"
-#include "reports/judge/log_check.h"
+#include "reports/check/check_run.h"
 #include "reports/terminal/option_words.h"
-#include "reports/terminal/text_file.h"
 #include "reports/terminal/words.h"
+#include "reports/terminal/work.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {

@@ -21,8 +21,8 @@
 #include "properties/queries/query_methods.h"
 #include "reports/check/query_detector.h"
 #include "reports/estimate.h"
-#include "reports/terminal/text_file.h"
 #include "reports/terminal/words.h"
+#include "reports/terminal/work.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {

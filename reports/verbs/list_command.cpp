@@ -10,7 +10,8 @@
 #include "properties/campaign/gates/findings.h"
 #include "properties/faults/fault.h"
 #include "properties/laws/law.h"
-#include "reports/campaign/failure_text.h"
+#include "reports/campaign/campaign_text.h"
+#include "reports/certificate/statement.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {
@@ -61,10 +62,16 @@ Expected<int> list_campaigns(const std::string&) {
   return exit_holds;
 }
 
-template <auto text>
-Expected<int> list_of_run(const std::string& folder) {
+Expected<int> list_failures(const std::string& folder) {
   BOOST_OUTCOME_TRY(findings, properties::read_findings(folder));
-  fmt::print("{}", text(findings));
+  const auto predicate = make_predicate(findings, judge(findings), findings.run.plan, "");
+  fmt::print("{}", failures_text(findings, predicate));
+  return exit_holds;
+}
+
+Expected<int> list_slow(const std::string& folder) {
+  BOOST_OUTCOME_TRY(findings, properties::read_findings(folder));
+  fmt::print("{}", slow_trials_text(findings));
   return exit_holds;
 }
 
@@ -79,9 +86,8 @@ constexpr List lists[] = {
     {"laws", "the theorems that are tested, each in a sentence", false, list_laws},
     {"faults", "the planted faults that a campaign has to find", false, list_faults},
     {"campaigns", "campaigns, for `assay run` and `assay certify`", false, list_campaigns},
-    {"failures", "what failed in the run in DIR, each with its replay line", true,
-     list_of_run<failures_text>},
-    {"slow", "the slowest cases of the run in DIR", true, list_of_run<slow_trials_text>}};
+    {"failures", "what failed in the run in DIR, each with its replay line", true, list_failures},
+    {"slow", "the slowest cases of the run in DIR", true, list_slow}};
 
 void print_lists() {
   for (const auto& list : lists)

@@ -19,16 +19,13 @@
 #include "properties/words.h"
 #include "properties/worker/plugin/query_case.h"
 #include "properties/worker/worker_process.h"
-#include "reports/judge/kept_failures.h"
-#include "reports/judge/log_check.h"
+#include "reports/check/check_run.h"
 #include "reports/pictures/case_scene.h"
-#include "reports/pictures/mesh_svg.h"
 #include "reports/steps/case_export.h"
-#include "reports/steps/step_pairs.h"
 #include "reports/steps/step_report.h"
 #include "reports/terminal/option_words.h"
-#include "reports/terminal/text_file.h"
 #include "reports/terminal/words.h"
+#include "reports/terminal/work.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {

@@ -13,17 +13,12 @@
 #include "corpus/problem.h"
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/ledger/binding.h"
-#include "properties/campaign/ledger/run_folder.h"
 #include "properties/campaign/phases/phases.h"
 #include "properties/queries/self_check.h"
 #include "reports/campaign/campaign_terminal.h"
 #include "reports/campaign/campaign_text.h"
-#include "reports/campaign/case_folders.h"
-#include "reports/campaign/failure_text.h"
-#include "reports/certificate/own_checks.h"
+#include "reports/campaign/own_checks.h"
 #include "reports/certificate/statement.h"
-#include "reports/certificate/summary.h"
-#include "reports/terminal/text_file.h"
 #include "reports/terminal/words.h"
 #include "reports/terminal/work.h"
 #include "reports/verbs/verbs.h"
@@ -122,15 +117,7 @@ class Certification {
   }
 
   Expected<void> run_speed() {
-    std::vector<properties::SpeedFigure> figures;
-    fmt::print("\n{:<24} {:>9} {:>19}\n", "speed (a ratio)", "median", "interval");
-    measure_speed([&](const properties::SpeedFigure& figure) {
-      fmt::print("{:<24} {:>9.4f} {:>19}\n", figure.name, figure.median,
-                 fmt::format("[{:.4f}, {:.4f}]", figure.lo, figure.hi));
-      std::fflush(stdout);
-      figures.push_back(figure);
-    });
-    for (const auto& figure : figures) {
+    for (const auto& figure : measure_speed()) {
       BOOST_OUTCOME_TRY(store_.keep(to_row(figure)));
     }
     return outcome::success();
@@ -185,8 +172,10 @@ Expected<int> conclude(const properties::CampaignRequest& request,
                        const properties::RunFindings& findings, const std::string& out,
                        double seconds) {
   const auto judgement = judge(findings, properties::asked_of_a_run(findings));
-  fmt::print("{}\n{}{}\n{}, in {:.0f} s\n", findings_text(findings), groups_text(findings),
-             gates_text(judgement), verdict_text(findings, judgement), seconds);
+  const auto predicate = make_predicate(findings, judgement, request.plan, "");
+  fmt::print("{}\n{}{}\n{}, in {:.0f} s\n", findings_text(findings, predicate),
+             groups_text(findings, predicate), gates_text(judgement),
+             verdict_text(findings, judgement), seconds);
   const bool is_complete = !findings.has_more_to_do();
   if (!findings.evidence.slow.empty())
     fmt::print("slow cases: {}\n",
@@ -199,8 +188,7 @@ Expected<int> conclude(const properties::CampaignRequest& request,
                line_to_paste(fmt::format("report {} --out {}", shell_word(out), shell_word(page)),
                              PastedIn::this_folder));
   }
-  BOOST_OUTCOME_TRY(write_for_ci(make_predicate(findings, judgement, request.plan, ""),
-                                 findings.folder, findings.begun));
+  BOOST_OUTCOME_TRY(write_for_ci(predicate, findings.folder, findings.begun));
   return judgement.exit_code;
 }
 

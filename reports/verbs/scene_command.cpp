@@ -6,8 +6,8 @@
 #include "corpus/formats/mesh_writer.h"
 #include "corpus/problem.h"
 #include "corpus/scenes/scenes.h"
-#include "reports/terminal/text_file.h"
 #include "reports/terminal/words.h"
+#include "reports/terminal/work.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {

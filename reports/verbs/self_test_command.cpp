@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "properties/queries/self_check.h"
-#include "reports/campaign/case_folders.h"
+#include "reports/campaign/own_checks.h"
 #include "reports/check/query_detector.h"
 #include "reports/steps/step_report.h"
 #include "reports/terminal/option_words.h"

@@ -22,7 +22,7 @@ std::size_t count_lines(const std::string& path) {
 TEST(Budget, NoRoomGrows) {
   const std::map<std::string, std::size_t> budgets = {
       {"detector", 15819},   {"oracle", 6240},   {"corpus", 5439}, {"corpus/peers", 857},
-      {"properties", 26621}, {"reports", 13811}, {"tests", 46120}, {"scripts", 10488}};
+      {"properties", 26583}, {"reports", 13609}, {"tests", 46114}, {"scripts", 10488}};
   std::map<std::string, std::size_t> lines;
   for (const auto* room : rooms) {
     for (const auto& file : files_below(room)) {
@@ -77,7 +77,7 @@ const std::vector<Capability>& capabilities() {
       {"certificates and pages", "reviewers", {"reports/certificate", "reports/page"}},
       {"check, judge, queries",
        "owners of a simulator, of a mesh",
-       {"reports/check", "reports/judge", "reports/steps", "reports/pictures"}},
+       {"reports/check", "reports/steps", "reports/pictures"}},
       {"benches", "who compares speed and error", {"reports/bench"}},
       {"the Python module", "researchers", {"reports/python"}},
       {"the command line", "everybody", {"reports/terminal", "reports/verbs"}}};

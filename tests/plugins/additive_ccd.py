@@ -1,5 +1,5 @@
 """additive_ccd.cpp in Python: while two features are apart, they may go on for the time in which they
-cannot meet, and are then measured again. It is the detector of reports/judge/TEN_MINUTES.md, with the
+cannot meet, and are then measured again. It is the detector of reports/check/TEN_MINUTES.md, with the
 fault that is mended there."""
 
 from math import sqrt

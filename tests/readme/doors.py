@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Types the lines of reports/judge/TEN_MINUTES.md into a shell, and nothing else: for a detector in C++,
+"""Types the lines of reports/check/TEN_MINUTES.md into a shell, and nothing else: for a detector in C++,
 one in Python and a recorded log, until a gate has failed and, what was wrong being mended, another has
 passed. It starts from nothing, or from the installed program.
 
@@ -23,7 +23,7 @@ import plan
 from blocks import chunks_of, not_printed
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGE = "reports/judge/TEN_MINUTES.md"
+PAGE = "reports/check/TEN_MINUTES.md"
 WANTED_MINUTES = 30
 # A line is evaluated where those before it were, so that folders and variables stay. Whoever is asked
 # something answers yes.

@@ -135,7 +135,7 @@ ENDS = {
     "README.md": {
         "assay run --campaign smoke --detector build/release/peers/cubic_double.so --power build/certify --out build/cubic": [1],
     },
-    "reports/judge/TEN_MINUTES.md": {
+    "reports/check/TEN_MINUTES.md": {
         "assay run --campaign detector/plugin/ci/push.json --seed 2 --detector ./my_ccd.so --power build/proof --out build/mine": [1],
         "assay replay build/mine/failures/search-push-2-001-315-my-CCD-smallest.json --detector ./my_ccd.so": [1, 0],
         "SEED=1 SOURCES=tests/plugins/additive_ccd.cpp sh detector/plugin/ci/job.sh": [1],
@@ -157,7 +157,7 @@ SHOWN = {
     "reports/campaign/README.md": {
         "assay run --campaign smoke --out build/smoke": "canary pair/zero-zero-dropped",
     },
-    "reports/judge/TEN_MINUTES.md": {
+    "reports/check/TEN_MINUTES.md": {
         "assay run --campaign detector/plugin/ci/push.json --seed 2 --detector ./my_ccd.so --power build/proof --out build/mine": "claims     FAILS",
         "assay replay build/mine/failures/search-push-2-001-315-my-CCD-smallest.json --detector ./my_ccd.so": "my CCD: defect",
         "assay run --campaign detector/plugin/ci/push.json --seed 2 --detector ./my_ccd.so --power build/proof --out build/mine-mended": "claims     holds",
@@ -225,7 +225,7 @@ NOT_RUN = {
 }
 
 # Pages whose every line doors.py types.
-TYPED = {"reports/judge/TEN_MINUTES.md"}
+TYPED = {"reports/check/TEN_MINUTES.md"}
 
 PYTHON = "Python; tests/reports/python/examples_test.py runs all of it"
 NO_COMMAND = {
@@ -246,7 +246,7 @@ NO_COMMAND = {
         "twist ": "the table of sequences.py",
         "arithmetic culling": "the table of `assay bench --suite speed-error`",
     },
-    "reports/judge/TEN_MINUTES.md": {
+    "reports/check/TEN_MINUTES.md": {
         '#include "detector/plugin/assay_detector.hpp"': "C++; a test compares it with the file",
         "claims     FAILS": "what `assay run` prints",
         "my CCD: defect": "what `assay replay` prints before the fault is mended",

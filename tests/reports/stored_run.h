@@ -5,7 +5,6 @@
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/ledger/binding.h"
 #include "properties/campaign/ledger/evidence.h"
-#include "properties/campaign/ledger/run_folder.h"
 #include "properties/campaign/ledger/store.h"
 #include "properties/worker/worker_process.h"
 #include "tests/curated_cases.h"
@@ -97,7 +96,7 @@ struct RunToStore {
     EXPECT_TRUE(opened) << opened.error().message;
     if (!opened) return folder;
     properties::Store* const made = &opened.value();
-    properties::note_library(*made, request);
+    if (request.plugin) properties::note_library(*made, *request.plugin);
     if (!begun.empty()) made->set_note("begun", begun);
     for (const auto& found : evidence) made->set(found);
     // Every defect was met as the first failure.

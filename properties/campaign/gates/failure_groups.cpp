@@ -1,5 +1,3 @@
-#include "properties/campaign/gates/failure_groups.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -16,7 +14,7 @@
 #include "corpus/cases/case_file.h"
 #include "detector/mesh/enum_names.h"
 #include "detector/mesh/topology.h"
-#include "properties/campaign/ledger/run_folder.h"
+#include "properties/campaign/gates/gates.h"
 #include "properties/campaign/trials/planned_case.h"
 #include "properties/judging/cause.h"
 #include "properties/judging/judged_run.h"

@@ -8,7 +8,6 @@
 
 #include "corpus/digest.h"
 #include "properties/campaign/ledger/row_fields.h"
-#include "properties/campaign/ledger/run_folder.h"
 #include "properties/campaign/ledger/step_measures.h"
 #include "properties/campaign/plan.h"
 #include "properties/judging/cause.h"

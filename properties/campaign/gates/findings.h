@@ -20,6 +20,7 @@ struct StoreFile {
   std::string name;    // without its folder
   std::string sha256;  // of its bytes
 };
+ASSAY_FIELDS(StoreFile, name, sha256)
 
 // One run of those that are judged together.
 struct RunPart {

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "corpus/scenes/scenes.h"
-#include "properties/campaign/gates/not_judged.h"
 #include "properties/campaign/ledger/tally.h"
 #include "properties/campaign/phases/repetitions.h"
 #include "properties/judging/cause.h"

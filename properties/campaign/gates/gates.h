@@ -1,7 +1,7 @@
 // Decides whether a run holds: one function takes its findings, and what was asked for, to the
 // outcome of each gate. The order of the gates is stated here alone, and the exit codes follow it:
 // a doubt about the harness goes before a defect, and a defect before anything that is not
-// complete.
+// complete. Which claims were not judged, and how failures are grouped, stands below.
 #pragma once
 
 #include <array>
@@ -38,7 +38,7 @@ struct GateRule {
 // - complete: all that was planned is there: shares, trials, the search, and planted faults with
 //   all of their cases. For a certificate the corpus is there too, with an answer in every case,
 //   and so is the self-test. At most 1 % of the trials were disturbed from outside. Enough
-//   contacts were judged (not_judged.h).
+//   contacts were judged (lacks_of_contacts).
 // - bounds: every bound that is wanted is met. If none is wanted, every trial has a verdict,
 //   but for the strata of sizes, whose bounds say it.
 // - speed: every figure that has a limit was measured, and none is above its limit. A failure is
@@ -89,5 +89,87 @@ struct Judgement {
 Judgement judge(const RunFindings& findings, const Asked& asked);
 // Judges by what the stores say was asked for; if they do not say it, as `assay run` does.
 Judgement judge(const RunFindings& findings);
+
+// Claims that a run has not judged, and why. The verdict says nothing about them.
+
+struct NotJudged {
+  std::string claim, reason;
+};
+ASSAY_FIELDS(NotJudged, claim, reason)
+
+// Those claims of a plug-in that were not judged, in their order. Its contract makes some void: a
+// margin, no pairs. Others were never put to the test: no step had a contact; or its intervals of
+// the first time were wider than 1e-3 in more than one of a hundred collisions, and so state no
+// time. Of a detector that is judged by steps and queries, the steps decide. Empty for the built-in
+// detector, whose contract is the default and whose times are enclosures.
+std::vector<NotJudged> not_judged(const Claims& claims, const Contract& contract,
+                                  const StepMeasures& measures, bool of_queries = false);
+std::vector<NotJudged> not_judged(const BoundDetector& detector, const StepMeasures& measures,
+                                  bool of_queries = false);
+std::vector<NotJudged> not_judged(const RunFindings& findings);
+
+// Those of the claims that are not among these.
+Claims without(Claims claims, const std::vector<NotJudged>& left);
+
+// The names of the claims of a plug-in that were judged.
+std::vector<std::string> judged_claims(const RunFindings& findings);
+
+// The families of which the contract took no case at all.
+std::vector<std::string> left_out_families(const RunFindings& findings);
+
+// The size of the largest mesh on which a claim was tried and judged: in a trial, in the corpus, or
+// in a scene that was repeated. Claims about contacts are tried by steps with a contact that the
+// contract does not leave out, `deterministic` by cases that were run twice. The claims of all
+// configurations, in their order, but for those that were tried on no mesh, as `progress` is where
+// no stratum asks for limits. Empty for a run of queries alone, which have no size.
+struct JudgedSize {
+  std::string claim;
+  std::uint64_t triangles = 0;
+};
+ASSAY_FIELDS(JudgedSize, claim, triangles)
+std::vector<JudgedSize> judged_sizes(const RunFindings& findings);
+
+// How far the judged meshes went that judged_sizes looks at, each of these by itself.
+Extremes largest_tried(const RunFindings& findings);
+
+// Why too little was judged for a verdict; empty if enough was. Wherever a claim speaks of contacts
+// and the contract does not make it void, a tenth of the planned cases of each family has to have
+// a contact that the contract does not leave out, and so have some cases of at least three
+// families, or, unless a certificate is asked for, of all families if the campaign names fewer.
+// Families that the contract leaves out wholly are left aside. Of a claim that no step put to the
+// test nothing is known.
+std::vector<std::string> lacks_of_contacts(const RunFindings& findings, bool for_certificate);
+
+// The kinds of failure of a run, grouped by what one change of the detector would mend: one mistake
+// shows as many kinds, because a signature names the contact that happened to be lost.
+
+struct FailureGroup {
+  std::string does;                // "lose a contact", "report what is not there"
+  std::vector<std::string> kinds;  // signatures, in the order of RunFindings::kinds()
+  // What all contacts that it lost have in common; perhaps nothing.
+  std::vector<std::string> shared;
+  std::string smallest;  // the kind whose stored mesh is the smallest
+  // In so many of those cases that hold and were looked at, some contact has all of that, too.
+  std::size_t held_with = 0, held = 0;
+};
+
+// The group with the most kinds comes first. A single kind is in no group.
+//
+// Failures that do different things are in different groups. Those that lose a contact (answered
+// free, late, left out a pair or a candidate, let a limiter through) are grouped by its traits: its
+// features and its cause (cause.h), whether both triangles move, how small they are, whether it
+// lies within a component or between two, whether the mesh is closed, and at least how many
+// triangles it has. The traits of a group are those that set its contacts apart from contacts of a
+// hundred cases that hold, over the whole run, with which the detector was right. They are not told
+// if as many failing cases might have them by chance: if their share among cases that hold, to that
+// power, is above 1e-4.
+//
+// Deterministic. The oracle judges the cases that hold again, which takes seconds. Without stores
+// in the folder of the findings no traits are told.
+std::vector<FailureGroup> failure_groups(const RunFindings& findings);
+
+// "34 of 51 kinds of failure lose a contact: edge-edge (2 of 100 colliding cases that hold
+// have such a contact)"; `kinds` is the number of all.
+std::string text_of(const FailureGroup& group, std::size_t kinds);
 
 }  // namespace assay::properties

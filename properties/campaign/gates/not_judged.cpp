@@ -1,9 +1,8 @@
-#include "properties/campaign/gates/not_judged.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "properties/campaign/gates/gates.h"
 #include "properties/campaign/plan.h"
 #include "properties/queries/query_families.h"
 

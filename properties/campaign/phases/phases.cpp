@@ -35,7 +35,7 @@ class CampaignRun {
       : request_(request), corpus_(corpus), store_(store), observer_(observer) {}
 
   void run() {
-    note_library(store_, request_);
+    if (request_.plugin) note_library(store_, *request_.plugin);
     note_begin(store_);
     if (request_.plugin) note_isolation();
     observer_.on_begin(store_.trial_count());

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "properties/campaign/ledger/evidence.h"
-#include "properties/campaign/ledger/run_folder.h"
 #include "properties/campaign/ledger/store.h"
 #include "properties/campaign/phases/fault_hunt.h"
 #include "properties/campaign/request.h"

@@ -1,7 +1,7 @@
 // What a run rests on: its binding, its canary, and laws that were met too seldom.
 #include "properties/campaign/ledger/binding.h"
 
-#include "properties/campaign/ledger/run_folder.h"
+#include "properties/campaign/ledger/store.h"
 #include "properties/campaign/ledger/tally.h"
 #include "properties/campaign/phases/fault_hunt.h"
 #include "properties/campaign/trials/trials.h"

@@ -1,7 +1,6 @@
 // Kinds of failure are grouped by what they do; what those that lose a contact share is tested
 // where cases that hold stand beside them (tests/reports/verbs/run_command_test.cpp).
-#include "properties/campaign/gates/failure_groups.h"
-
+#include "properties/campaign/gates/gates.h"
 #include "tests/properties/campaign/good_findings.h"
 #include "tests/test.h"
 

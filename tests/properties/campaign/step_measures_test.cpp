@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "properties/campaign/gates/not_judged.h"
+#include "properties/campaign/gates/gates.h"
 #include "tests/test.h"
 
 namespace assay::properties {

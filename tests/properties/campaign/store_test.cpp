@@ -7,7 +7,6 @@
 
 #include "properties/campaign/ledger/binding.h"
 #include "properties/campaign/ledger/database.h"
-#include "properties/campaign/ledger/run_folder.h"
 #include "properties/campaign/phases/phases.h"
 #include "properties/random.h"
 #include "tests/problem_words.h"

@@ -251,7 +251,7 @@ TEST(Plugins, ThePageShowsTheExampleThatIsTested) {
 
 // Its class to the end of describe(), and the line behind which one is missing.
 TEST(Plugins, TenMinutesShowTheDetectorThatIsThere) {
-  const std::string page = text_of("/reports/judge/TEN_MINUTES.md");
+  const std::string page = text_of("/reports/check/TEN_MINUTES.md");
   const std::string source = text_of("/tests/plugins/additive_ccd.cpp");
   const auto begin = source.find("struct AdditiveCcd {"),
              end = source.find("  static Result query");

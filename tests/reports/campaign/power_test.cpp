@@ -1,6 +1,5 @@
 // `--power DIR`: the proof that planted faults are found, taken from another run of this build.
 #include "properties/campaign/gates/gates.h"
-#include "properties/campaign/ledger/run_folder.h"
 #include "tests/reports/tiny_campaign.h"
 
 namespace assay::tests {

@@ -1,7 +1,7 @@
 // Strata of sizes through the program: what goes wrong on large meshes alone is found, is brought
 // home with the number of triangles from which it fails, and is not certified up to a size at which
 // it was not judged. Refusals beyond a stated capacity are counted and break nothing.
-#include "properties/campaign/gates/not_judged.h"
+#include "properties/campaign/gates/gates.h"
 #include "tests/reports/tiny_campaign.h"
 
 namespace assay::tests {

@@ -1,12 +1,10 @@
 // Folders over all combinations of gate results, three to the sixth: `run`, `certify`, `verify`,
 // the page's data, JUnit and Markdown say the same verdict, exit code and reasons.
 #include "properties/campaign/gates/findings.h"
-#include "properties/campaign/ledger/run_folder.h"
 #include "reports/campaign/campaign_text.h"
 #include "reports/certificate/statement.h"
-#include "reports/certificate/summary.h"
-#include "reports/certificate/verify.h"
 #include "reports/page/run_json.h"
+#include "reports/terminal/words.h"
 #include "tests/properties/campaign/good_findings.h"
 #include "tests/reports/program.h"
 

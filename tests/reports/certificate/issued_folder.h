@@ -2,7 +2,6 @@
 #pragma once
 
 #include "reports/certificate/statement.h"
-#include "reports/certificate/summary.h"
 #include "tests/reports/program.h"
 #include "tests/reports/stored_run.h"
 

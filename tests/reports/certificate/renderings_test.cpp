@@ -1,7 +1,8 @@
 // JUnit and Markdown say what the certificate says, and take names that are no text, or markup: of
 // a plug-in, of a folder.
 #include "properties/words.h"
-#include "reports/certificate/verify.h"
+#include "reports/certificate/statement.h"
+#include "reports/terminal/words.h"
 #include "tests/properties/campaign/good_findings.h"
 #include "tests/reports/certificate/issued_folder.h"
 

@@ -3,7 +3,6 @@
 
 #include "properties/worker/plugin/query_case.h"
 #include "reports/pictures/case_scene.h"
-#include "reports/pictures/mesh_svg.h"
 #include "tests/reports/program.h"
 #include "tests/reports/stored_run.h"
 #include "tests/sinking_corner.h"

@@ -1,5 +1,5 @@
 // `assay certify` and `assay verify` through the program: verdicts, and every tampering seen.
-#include "reports/certificate/verify.h"
+#include "reports/certificate/statement.h"
 #include "tests/reports/json_schema.h"
 #include "tests/reports/tiny_campaign.h"
 

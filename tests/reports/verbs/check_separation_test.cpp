@@ -1,6 +1,6 @@
 // A separation that `assay check` is asked for, of meshes and of queries, as a user runs it: two
 // triangles and a query whose distance is known.
-#include "reports/check/separation_check.h"
+#include "reports/check/check_run.h"
 #include "tests/reports/program.h"
 #include "tests/sinking_corner.h"
 

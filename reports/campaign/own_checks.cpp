@@ -1,9 +1,13 @@
-#include "reports/certificate/own_checks.h"
+#include "reports/campaign/own_checks.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/outcome/try.hpp>
+#include <cstdlib>
 
+#include "corpus/digest.h"
+#include "corpus/files.h"
 #include "corpus/queries/query_csv.h"
 #include "corpus/scenes/scenes.h"
 #include "properties/campaign/ledger/step_measures.h"
@@ -17,7 +21,6 @@
 #include "properties/worker/worker_process.h"
 #include "reports/bench/cases.h"
 #include "reports/bench/sweep.h"
-#include "reports/campaign/case_folders.h"
 #include "reports/estimate.h"
 
 namespace assay::reports {
@@ -28,6 +31,17 @@ using detector::Culling;
 using properties::JudgedSource;
 using properties::Outcome;
 using properties::Source;
+
+// The cases of these files, or the first problem if one cannot be read.
+corpus::Expected<std::vector<corpus::Case>> read_cases(
+    const std::vector<std::filesystem::path>& files) {
+  std::vector<corpus::Case> cases;
+  for (const auto& file : files) {
+    BOOST_OUTCOME_TRY(c, corpus::read_case(file));
+    cases.push_back(std::move(c));
+  }
+  return cases;
+}
 
 void count_extremes(JudgedSource& row, const corpus::Case& c,
                     const std::vector<oracle::StepJudgement>& truth, bool has_contact) {
@@ -258,19 +272,69 @@ Expected<JudgedCorpus> judge_corpus(const properties::CampaignRequest& request,
   return judged;
 }
 
-void measure_speed(const OnSpeedFigure& on_figure) {
+std::vector<SpeedFigure> measure_speed() {
+  fmt::print("\n{:<24} {:>9} {:>19}\n", "speed (a ratio)", "median", "interval");
+  std::vector<SpeedFigure> figures;
+  const auto measure = [&](std::size_t figure, const corpus::Sequence& steps,
+                           const Options& measured, const Options& beside) {
+    const auto& of =
+        figures.emplace_back(figure_of(properties::speed_figures[figure], steps, measured, beside));
+    fmt::print("{:<24} {:>9.4f} {:>19}\n", of.name, of.median,
+               fmt::format("[{:.4f}, {:.4f}]", of.lo, of.hi));
+    std::fflush(stdout);
+  };
   constexpr int free_triangles = 20'480, search_triangles = 4'000, frames = 3;
   constexpr auto clean = detector::Start::clean;
   const Options exact = {Culling::automatic, clean}, bvh = {Culling::bvh, clean};
   const auto sphere = bench_scene("breathing-sphere", free_triangles, frames);
-  on_figure(figure_of(properties::speed_figures[0], sphere, exact, bvh));
+  measure(0, sphere, exact, bvh);
   // This scene is most like rod-twist, for whose step the limit is stated.
   const auto twist = bench_scene("twist", search_triangles, frames);
   auto in_doubles = exact;
   in_doubles.arithmetic = detector::Arithmetic::double_precision;
-  on_figure(figure_of(properties::speed_figures[2], twist, exact, in_doubles));
+  measure(2, twist, exact, in_doubles);
   const auto contact = step_at_first_contact("pinching-torus", search_triangles);
-  if (contact) on_figure(figure_of(properties::speed_figures[1], *contact, exact, bvh));
+  if (contact) measure(1, *contact, exact, bvh);
+  return figures;
+}
+
+Expected<std::filesystem::path> shipped_corpus() {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const auto is_corpus = [&](const fs::path& folder) {
+    return fs::is_directory(folder / "curated", error);
+  };
+  if (const char* named = std::getenv("ASSAY_CORPUS"); named && *named) {
+    if (is_corpus(named)) return fs::path(named);
+    return Problem{fmt::format("ASSAY_CORPUS is {}: it holds no curated/", named)};
+  }
+  const auto programs = properties::program_folder();
+  // Installed, then as it was built.
+  for (const auto& place : {programs / ".." / "share", programs / "share"}) {
+    const auto folder = (place / "assay" / "corpus").lexically_normal();
+    if (is_corpus(folder)) return folder;
+  }
+  return Problem{fmt::format("the shipped corpus is not at {}; ASSAY_CORPUS names its folder",
+                             (programs / "../share/assay/corpus").lexically_normal().string())};
+}
+
+std::string digest_of_files(const std::vector<std::filesystem::path>& files) {
+  std::string lines;
+  for (const auto& file : files) {
+    const auto digest = corpus::sha256_of_file(file);
+    lines += fmt::format("{} {}\n", file.filename().string(), digest ? digest.value() : "");
+  }
+  return corpus::sha256_of(lines);
+}
+
+Expected<properties::OwnCases> read_own_cases(const std::filesystem::path& folder) {
+  // A folder is named before the first case is put there.
+  std::error_code ignored;
+  if (!std::filesystem::exists(folder, ignored))
+    return properties::OwnCases{{}, digest_of_files({})};
+  BOOST_OUTCOME_TRY(files, corpus::case_files(folder));
+  BOOST_OUTCOME_TRY(cases, read_cases(files));
+  return properties::OwnCases{std::move(cases), digest_of_files(files)};
 }
 
 }  // namespace assay::reports

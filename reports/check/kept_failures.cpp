@@ -1,5 +1,3 @@
-#include "reports/judge/kept_failures.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,12 +14,11 @@
 #include "properties/judging/trial.h"
 #include "properties/reducer/case_edits.h"
 #include "properties/reducer/mesh_size.h"
-#include "reports/certificate/summary.h"
+#include "reports/check/check_run.h"
 #include "reports/pictures/case_scene.h"
-#include "reports/pictures/mesh_svg.h"
 #include "reports/steps/case_export.h"
-#include "reports/terminal/text_file.h"
 #include "reports/terminal/words.h"
+#include "reports/terminal/work.h"
 
 namespace assay::reports {
 namespace {

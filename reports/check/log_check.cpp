@@ -1,4 +1,3 @@
-#include "reports/judge/log_check.h"
 
 #include <fmt/format.h>
 
@@ -9,8 +8,7 @@
 
 #include "properties/judging/contracted_case.h"
 #include "properties/worker/plugin/plugin_reading.h"
-#include "reports/certificate/summary.h"
-#include "reports/check/given_answers.h"
+#include "reports/check/check_run.h"
 #include "reports/terminal/option_words.h"
 #include "reports/terminal/words.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
+#include <string>
 #include <vector>
 
 #include "properties/campaign/ledger/evidence.h"
@@ -28,9 +28,23 @@ struct JudgedCorpus {
 Expected<JudgedCorpus> judge_corpus(const properties::CampaignRequest& request,
                                     const std::filesystem::path& shipped);
 
-// Is called for each of properties::speed_figures: a ratio of processor times of interleaved steps
-// of the built-in detector. 10 s in all.
-using OnSpeedFigure = std::function<void(const properties::SpeedFigure&)>;
-void measure_speed(const OnSpeedFigure& on_figure);
+// Measures each of properties::speed_figures, a ratio of processor times of interleaved steps of
+// the built-in detector, and prints it. 10 s in all.
+std::vector<properties::SpeedFigure> measure_speed();
+
+// Where the cases of a corpus lie: what is shipped with the program, and a folder of the detector's
+// owner, which `run` and `certify` take beside it.
+
+// The folder of the shipped corpus: curated cases, known failures, the conformance set. It lies
+// beside the program, as that was built or installed, so the program holds no path of another
+// machine. The environment variable ASSAY_CORPUS names another folder. Fails if there is none.
+Expected<std::filesystem::path> shipped_corpus();
+
+// The cases of a folder of the owner: every file of it that ends with .json.
+// Fails if one cannot be read, or if there is none.
+Expected<properties::OwnCases> read_own_cases(const std::filesystem::path& folder);
+
+// SHA-256 over the names and bytes of these files.
+std::string digest_of_files(const std::vector<std::filesystem::path>& files);
 
 }  // namespace assay::reports
