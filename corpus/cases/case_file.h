@@ -1,6 +1,6 @@
 // Case files, schema `assay-case/1`: a deforming mesh and the facts that are known of it.
 //
-// The schema is documented in corpus/README.md. Writing is canonical: equal cases give equal
+// The schema is reports/schemas/case.schema.json. Writing is canonical: equal cases give equal
 // bytes. Each vertex, triangle or pair has a line of its own, and numbers are the shortest
 // decimals that read back to the same double.
 #pragma once

@@ -9,7 +9,7 @@ collision detection whose answers are known exactly. README.md says what everyth
   vectors.py check DIR
   vectors.py to-csv FILE.json OUT.csv [--truth FILE]
   vectors.py from-csv FILE.csv... --out DIR [--features vertex-face|edge-edge] [--truth FILE.json]
-  vectors.py flags [--set DIR] [--into README]
+  vectors.py flags [--set DIR]
 
 Exit codes of run and score: 0 all is right; 1 a miss, a late time or an alarm; 3 none of these, but
 not every case has an answer. Of every verb: 2 wrong input, with one line that says what.
@@ -997,7 +997,7 @@ def to_csv(group_file, out, truth):
         write_text(truth, json.dumps(labels, separators=(",", ":")) + "\n")
 
 
-# --- the flags of README.md ---------------------------------------------------------------------
+# --- the flags ----------------------------------------------------------------------------------
 
 def flags_text(vectors):
     counts = collections.Counter(flag for case in vectors.cases for flag in case.flags)
@@ -1006,15 +1006,6 @@ def flags_text(vectors):
         links = ", ".join(f"[{i + 1}]({link})" for i, link in enumerate(flag["links"]))
         text += f"| {name} | {counts[name]} | {flag['about']} | {flag['wrong']} | {links} |\n"
     return text
-
-
-def put_flags(vectors, file):
-    text = read_bytes(file).decode("utf-8")
-    begin, end = "<!-- flags of set.json -->\n", "<!-- end -->"
-    at = text.find(begin)
-    want(at >= 0 and text.find(end, at) >= 0, file, "has no place for the flags")
-    at += len(begin)
-    write_text(file, f"{text[:at]}\n{flags_text(vectors)}\n{text[text.find(end, at):]}")
 
 
 # --- the command line ---------------------------------------------------------------------------
@@ -1056,7 +1047,6 @@ def parser_of_all():
     one.add_argument("--truth", metavar="FILE", help="labels: a list of booleans")
     one = verbs.add_parser("flags", help="the flags as a table")
     one.add_argument("--set", metavar="DIR")
-    one.add_argument("--into", metavar="README", help="write it between the markers of this file")
     return parser
 
 
@@ -1107,8 +1097,6 @@ def main(words):
         to_csv(given.group, given.out, given.truth)
     elif given.verb == "from-csv":
         from_csv(given.files, given.out, given.features, given.truth)
-    elif given.into:
-        put_flags(VectorSet(given.set), given.into)
     else:
         print(flags_text(VectorSet(given.set)), end="")
     return 0

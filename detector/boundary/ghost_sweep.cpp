@@ -10,6 +10,14 @@ namespace {
 
 // The plane of a ghost at rest, in the coordinates of the tree's grid. These are scaled to about 1
 // and rounded to floats, which changes each by at most 2^-24 of the greatest of them.
+//
+// What it says to miss a ghost misses it. Coordinates in the grid are off by d_k = 2^-24 S_k, S_k
+// the greatest size. A side a_k is off by 2 d_k, so n_k = a_m b_n - a_n b_m is off by 2 d_m (|a_n|
+// + |b_n|) + 2 d_n (|a_m| + |b_m|) and terms of second order: half of `of_normal`, as 2^-22 = 4
+// 2^-24. At a point x of the box the value n.(x - corner) is off by the sum over k of (error of
+// n_k) |x_k - corner_k|, at most 2 S_k, and of |n_k| times the error of x_k - corner_k, at most 2
+// d_k = |n_k| wrong S_k / 2. So slack_ is twice the terms of first order. Those of second order are
+// 2^-22 of them, and the roundings of doubles are 2^-28 of them.
 class GhostPlane {
  public:
   GhostPlane() = default;

@@ -60,6 +60,14 @@ int order_at_start(const FourPoints& query, std::size_t axis) {
   return at_start.hi[0] < at_start.lo[1] ? 1 : at_start.hi[1] < at_start.lo[0] ? -1 : 0;
 }
 
+// With u = 2^-53 a place x + s (y - x), s in [0,1], is off by less than 8 M u + 2^-1073, and a
+// coefficient of F over [0,s] by at most 90 u MxMyMz more than one over [0,1]. M bounds |x| and
+// |y|, and 2 M is a double. The difference, at most 2 M, is off by 2 M u; its product with s by 2 M
+// u more and by 2^-1075 if it underflows; the sum, at most M and what it is off by, by M u and less
+// than M u more. De Casteljau's scheme takes three levels of such sums on coefficients of at most B
+// = 6 MxMyMz: the difference is off by 2 u B, the product by 2 u B and the sum by u B, so a level
+// adds 5 u B, and three add 90 u MxMyMz; what the operands are off by is averaged.
+
 // By how much the gap between the groups, in this order, is open at `until`: yes, no, or too little
 // for doubles to tell.
 Decision stays_ordered(const FourPoints& query, std::size_t axis, int order, double until) {

@@ -85,7 +85,7 @@ enum {
   ASSAY_CULLING_AUTO = 6         /* view_auto and normal_cone in one descent, each used only where
                                     it is expected to pay */
 };
-/* What is known at a new start. detector/README.md (The laws) says what clean and dirty mean. */
+/* What is known at a new start. detector/LAWS.md says what clean and dirty mean. */
 enum {
   ASSAY_START_VERIFIED = 0, /* the detector finds out at each new start what is clean */
   ASSAY_START_CLEAN = 1,    /* the caller vouches that nothing is in contact and that all triangles

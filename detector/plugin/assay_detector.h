@@ -1,6 +1,6 @@
 /* The C interface of a detector that wants to be certified: a shared library with one symbol,
  * assay_detector(), which returns a table of functions. C99 or C++; no library is needed to build
- * one. README.md beside this file has a complete example.
+ * one. tests/plugins/example.c is a complete one; README.md beside this file has one in C++.
  *
  * A detector is told a mesh once and then steps of it: over t in [0,1] every vertex moves linearly
  * from x_t0 to x_t1. It answers whether the mesh touches itself, when first, and which triangles.

@@ -77,11 +77,11 @@ bool edges_meet(StaticPoints x, const StaticEdge& a, const StaticEdge& b);
 // of the plane of the face, and the line passes strictly inside all three of its edges.
 bool edge_pierces_face(StaticPoints x, const StaticEdge& edge, const StaticFace& face);
 
-// All pairs in contact at the instant, ascending. Contact is defined in detector/README.md, The
-// laws: two closed faces of the two triangles that share no vertex meet. So triangles that share a
-// vertex or an edge are in contact when they meet beyond it, and triangles with the same three
-// vertices always are. REQUIRES indices in range. 0.1 to 0.4 s for 20,000 triangles. If nothing
-// moves in a step, judge_step finds the same set.
+// All pairs in contact at the instant, ascending. Contact is defined in detector/LAWS.md: two
+// closed faces of the two triangles that share no vertex meet. So triangles that share a vertex or
+// an edge are in contact when they meet beyond it, and triangles with the same three vertices
+// always are. REQUIRES indices in range. 0.1 to 0.4 s for 20,000 triangles. If nothing moves in a
+// step, judge_step finds the same set.
 std::vector<detector::TrianglePair> contacts_at(const Instant& instant,
                                                 const detector::TrianglesView& triangles,
                                                 int jobs = 1);

@@ -1,5 +1,5 @@
 // Layers, pieces and clean triangles of a mesh at one instant, found from the places at that
-// instant alone, without history (L9 and L10, detector/README.md); and exact winding numbers of a
+// instant alone, without history (L9 and L10, detector/LAWS.md); and exact winding numbers of a
 // cycle, found by counting how often a ray crosses it.
 #pragma once
 

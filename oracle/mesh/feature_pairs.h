@@ -123,9 +123,9 @@ struct PairVisitor {
   std::function<void(std::int32_t of_a, std::int32_t of_b, int worker)> meet;
 };
 
-// Finds the pairs in contact, a triangle of a with one of b, as detector/README.md, The laws,
-// defines contact: closed faces of the two triangles that share no vertex meet. If a and b are the
-// same object, triangles with the same three vertices are in contact too.
+// Finds the pairs in contact, a triangle of a with one of b, as detector/LAWS.md defines contact:
+// closed faces of the two triangles that share no vertex meet. If a and b are the same object,
+// triangles with the same three vertices are in contact too.
 void for_each_contact(const FeatureIndex& a, const FeatureIndex& b, const FeatureTests& tests,
                       const Workers& workers, const PairVisitor& visitor);
 

@@ -1,4 +1,4 @@
-// Which triangles of a mesh its moving ghosts touch (L11, detector/README.md).
+// Which triangles of a mesh its moving ghosts touch (L11, detector/LAWS.md).
 #pragma once
 
 #include <vector>

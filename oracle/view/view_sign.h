@@ -1,5 +1,5 @@
 // Exact view signs of triangles over a step, for view-point and view-line (L1 and L2,
-// detector/README.md), and K, the pairs that these leave.
+// detector/LAWS.md), and K, the pairs that these leave.
 #pragma once
 
 #include <array>
@@ -44,7 +44,7 @@ std::vector<detector::ViewSign> view_signs(const detector::SteppedMesh& motion,
                                            std::span<const detector::ViewPrimitive> primitives,
                                            int jobs);
 
-// K, the pairs among which the first contact is found (L3 and L10, detector/README.md).
+// K, the pairs among which the first contact is found (L3 and L10, detector/LAWS.md).
 //
 // K = (V+,V-) u (U,V0) u (U,Vv), where U is all triangles, and with groups every pair of two
 // groups too (L10). So a pair is in K when its signs are opposite, when a sign is zero, when a

@@ -1,6 +1,6 @@
 // The result of a suite of benches: rows, wrong answers, and what else a suite tells, in forms that
 // do not depend on the suite. It is written as text, as JSON (schema assay-bench/2,
-// reports/bench/README.md) and as CSV, each in one way.
+// reports/schemas/bench.schema.json) and as CSV, each in one way.
 #pragma once
 
 #include <map>
@@ -15,8 +15,8 @@
 
 namespace assay::reports {
 
-// What the suites of `assay bench` want to see: ratios. Suites hand these values to their rows;
-// reports/bench/README.md says which row is held against which of them.
+// What the suites of `assay bench` want to see: ratios. Suites hand these values to their rows; the
+// comments below say to which.
 //
 // Only a bound that somebody chose has a name here. The others stand in their rows: no wrong
 // answer (at_most(0)), every answer the same (at_least(100) %).

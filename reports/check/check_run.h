@@ -71,7 +71,7 @@ struct CheckOutcome {
   Expected<int> end(bool fail_on_collision) const;
 };
 
-// The report of `check`, schema assay-check/1 (documented in reports/check/README.md). `steps`: an
+// The report of `check`, schema assay-check/1 (reports/schemas/check.schema.json). `steps`: an
 // entry for each step that was judged (steps/step_report.h).
 nlohmann::ordered_json check_report(const std::vector<std::string>& files,
                                     const detector::Topology& mesh, const StepAnswers& answers,

@@ -112,7 +112,7 @@ Json bodies_json(const corpus::Case& c) {
   return list;
 }
 
-// The scene of a case in `assay-report/3`: what the viewer draws (reports/page/README.md, `scene`).
+// The scene of a case in `assay-report/3`: what the viewer draws (`scene` of its schema).
 Json scene_json(const CaseScene& scene, const corpus::Case& stored) {
   Json triangles = Json::array(), frames = Json::array(), steps = Json::array();
   for (Eigen::Index t = 0; t < scene.c.triangles.rows(); ++t) {

@@ -1,5 +1,5 @@
-// A run as the page shows it: `runs[]` of assay-report/3, documented in reports/page/README.md;
-// and the page as one file.
+// A run as the page shows it: `runs[]` of assay-report/3 (reports/schemas/report.schema.json); and
+// the page as one file.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 // A step, told: what `check` prints of it, and of a second opinion; and its JSON, schema
-// assay-check/1 (documented in reports/check/README.md).
+// assay-check/1 (reports/schemas/check.schema.json).
 #pragma once
 
 #include <cstdint>

@@ -8,6 +8,13 @@ namespace {
 
 using namespace detector;
 
+// Lemma 9 (Order): Rounding keeps order. If fl(x) < fl(y), then x < y; if fl(b - a) > r for a
+// double r, then b - a > r. So a comparison of inputs, of rounded inputs, or of a difference with
+// an input needs no bound. Points move linearly: if two are in one order at both ends of the step,
+// they are so throughout. Along a diagonal the distance of two points counts at most sqrt(3) times.
+// A margin of more than 8, in a grid, is beyond every coordinate, so distances are looked at up to
+// 8. The ratio of a distance's gap to |n| is at least that to |n|_1 divided by sqrt(3).
+
 // Two points on one place of a grid whose scale is 1: a power of two changes no rounding.
 struct Points {
   Positions x{2, 3};

@@ -125,6 +125,18 @@ void Claims::fail(const std::string& what) {
 
 namespace {
 
+// Lemma 1 (Roundings): Every operation of the detector satisfies the hypothesis of its script.
+// Doubles are rounded to the nearest, so p = fl(a op b) is off by at most u |a op b|, as long as
+// nothing overflows or underflows. A product with a power of two, a change of sign and an absolute
+// value are exact. The compiler contracts nothing: that is a test of its own. Range: a filter gives
+// up or scales unless each size M_k is 0 or in (2^-300, 2^300), or 2^-290 and 2^290. A product of
+// three entries then is below 2^900, so nothing overflows. A sum or difference that underflows is
+// exact. A product of two entries that underflows is off by at most 2^-1074, and by 2^-1074 M_k
+// after one more product with an entry of the group k. The bound is then at least u M_i M_j, or u
+// M_i M_j M_k. As M_i M_j is at least 2^-600, it is at least 2^-653, or 2^-653 M_k. Each script
+// leaves u/10 of that unused (claims.cpp), which is far more than 2^-1074. If M_k is 0, all entries
+// of its group are 0, and so are their products.
+
 // Roundings of the bound itself cost less than this, as a factor. What is left unused is for
 // underflows of products (lemma 1).
 constexpr double rounded_bound = 64 * unit, left_unused = unit / 10;
@@ -166,6 +178,14 @@ double Claims::write_inner(const std::string& name, int node, int bound, const C
   write(name, script);
   return error;
 }
+
+// Lemma 8 (Means): A mean (1-s) a + s b or a + s (b-a), s in [0,1], is off by at most what a and b
+// are off by, and by what its own operations round. Without roundings it grows with a and with b,
+// and it moves by e if both move by e. So one script is about a, one about b, and one about the
+// operations, with a and b as they are. 1 - s is at most 1, so it is off by at most half a unit in
+// the last place of numbers below 1, 2^-54. Is a bound the sum of a bound e of a and b and of
+// something more (the enclosure of a root), then the sum is rounded by u e at most, and e is at
+// most the size of a and b: a larger bound is beyond every number.
 
 // A mean of two numbers is off by what they are off by and by its own roundings (lemma 8). So if a
 // script is about a mean, it is about these roundings, and what the numbers are off by is returned.

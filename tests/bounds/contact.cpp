@@ -7,6 +7,16 @@
 namespace assay::bounds {
 namespace {
 
+// Lemma 5 (Halving): After d halvings a coefficient is off by at most what the script of depth d
+// says. By induction: its hypotheses are the goals of depth d - 1 and the size of the exact
+// coefficients, which are means of those of depth 0, and so no larger. All pieces of a depth have
+// the same hypotheses, so one script serves them all.
+//
+// Lemma 6 (Bernstein): A polynomial lies, over the interval, between the least and the greatest of
+// its coefficients. It is a mean of them, with the weights C(n,i) t^i (1-t)^(n-i), which are not
+// negative and add up to 1. So if all computed coefficients are beyond their bound on one side,
+// that is the polynomial's sign; the first and the last coefficient are its values at the ends.
+
 using namespace detector;
 
 // Goes down to the first piece of the greatest depth.

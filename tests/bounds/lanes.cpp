@@ -10,6 +10,21 @@ namespace {
 
 using namespace detector;
 
+// Lemma 10 (Shares in lanes): axial_error bounds the error of a computed share, and end_error that
+// of a value at a computed share. Gappa proves that the dividend a is off by at most 6.125 u G and
+// the divisor l by at most 6.125 u L, with exact values A and K. l is at least l_min, and |A| <= G
+// (1 + u). L / l_min <= 2^40, so K >= l_min (1 - 2^-10), and
+//
+//     |a/l - A/K| <= |a - A| / l + |A| |l - K| / (l K)
+//                 <= u (6.125 + 6.125 (1 + 2^-9) L / l_min) G / l_min
+//
+// The reciprocal and the product cost 2 u |a/l| <= 2.01 u G / l_min more. The code takes (16 + 12 L
+// / l_min) u G / l_min, rounded at most nine times. A share is a mean of such ratios, clamped to
+// [0,1], which takes no share farther from another one. A value is linear in its share, with a
+// slope of |h1 - h0| <= 4 T. So a computed share costs 4 T axial_error; the code adds 5 T
+// axial_error to value_error, which Gappa proves for a given share. The fifth T covers the three
+// roundings of this sum.
+
 // In units of 2^-53: the error of (p-q0).d and of d.d, of which lemma 10 speaks.
 constexpr double share_units = 6.125;
 

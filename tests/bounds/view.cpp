@@ -8,6 +8,14 @@ namespace {
 
 using namespace detector;
 
+// Lemma 7 (View values): The sign of (1-s) f + s g that sure_value_sign is sure of is that of all
+// f, g and s in the ranges. The value grows with f and with g, for s in [0,1], and it is linear in
+// s. So it is at least the lesser of the values at both ends of the range of s for the lower ends
+// of f and g; likewise above. The lower end of a range is a computed number less its bound, rounded
+// once more: an entry (lemma 4). What Gappa proves is that the value computed of such entries is
+// off by at most the margin. The ends of the range of s are quotients of ends of ranges, and a
+// factor covers their roundings.
+
 // A range of values: computed bounds less or plus what they may be off by, rounded once more.
 Range<Recorded> rounded_range(const std::string& name) {
   return {coordinate(name, 0, 0, 0) - coordinate(name + "e", 0, 0, 1),

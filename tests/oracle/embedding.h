@@ -8,9 +8,9 @@
 
 namespace assay::oracle {
 
-// True when no two triangles are in contact, as detector/README.md, The laws, defines it: pairs
-// that share a vertex or an edge meet nowhere beyond it, and no two triangles have the same three
-// vertices. REQUIRES indices in range, finite positions. 0.1 to 0.4 s for 20,000 triangles.
+// True when no two triangles are in contact, as detector/LAWS.md defines it: pairs that share a
+// vertex or an edge meet nowhere beyond it, and no two triangles have the same three vertices.
+// REQUIRES indices in range, finite positions. 0.1 to 0.4 s for 20,000 triangles.
 inline bool embedded(const detector::PositionsView& x, const detector::TrianglesView& triangles,
                      int jobs = 1) {
   return !any_contact_at(Instant(x), triangles, jobs);

@@ -273,17 +273,10 @@ NO_COMMAND = {
         "Positions direction = descent(x);": "C++; tests/detector/limit_test.cpp runs such a loop",
     },
     "detector/plugin/README.md": {
-        "/* A detector by boxes": "C, the plug-in that is compiled above; a test compares the two",
         "// A detector by spheres": "C++; a test compiles and runs it, and compares the two",
         "find_package(assay 0.3": "CMake; tests/consumer/plugin builds plug-ins so",
         "c++ -std=c++17 -O2 -shared -fPIC $(pkg-config": "a shell's; tests/consumer/pkg_config.sh builds so",
-        "assay=$(command -v assay)": "a job; a test runs it, and compares the two",
-        "assay_builtin_save(handle": "C; tests/consumer compiles a whole program like it",
         '#include "detector/plugin/assay_record.h"': "C; tests/recording compiles and runs it",
-    },
-    "tests/bounds/README.md": {
-        "X6 = X2 * X4;": "a script for Gappa, shortened; test bounds writes and proves such",
-        "|a/l - A/K|": "a formula",
     },
     "properties/README.md": {
         "WorkerProcess worker(": "C++; the tests of the worker are made of such lines",

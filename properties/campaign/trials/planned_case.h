@@ -47,7 +47,7 @@ corpus::Case brought_into_contract(corpus::Case c, const Contract& contract);
 // Finds the cases for which Start::clean may be used, because what the caller then vouches for is
 // true.
 
-// Whether the oracle calls every triangle clean (L9, detector/README.md) in every step of the case
+// Whether the oracle calls every triangle clean (L9, detector/LAWS.md) in every step of the case
 // that is a new start. For an unclosed mesh that depends on where the built-in detector puts its
 // apexes, so it is asked for them, in a copy of this process, in which a crash does no harm.
 bool starts_clean(const corpus::Case& c);

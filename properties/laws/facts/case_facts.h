@@ -179,7 +179,7 @@ class CaseFacts {
   std::vector<std::pair<detector::Positions, std::unique_ptr<oracle::LayerState>>> layers_;
 };
 
-// The view sets of a pair's two triangles (L3, detector/README.md). A triangle in Vv counts as
+// The view sets of a pair's two triangles (L3, detector/LAWS.md). A triangle in Vv counts as
 // violated, whatever its sign.
 enum class PairBlock : std::uint8_t {
   positive_negative,

@@ -27,7 +27,7 @@ _USAGE = 2
 class Failure(Dict[str, Any]):
     """A kind of failure, as the run's findings have it: signature, claim, met, what, file, ...
 
-    file: the smallest mesh that shows it, a case file. reports/README.md says what the others are.
+    file: the smallest mesh that shows it, a case file. The schema of certificates has the others.
     """
 
     def frames(self) -> Frames:

@@ -1,5 +1,5 @@
-// What detector/plugin/README.md has for a CI, as a machine runs it: the job, and the lines of the
-// files for GitHub and GitLab that run it.
+// What detector/plugin/ci has for a CI, as a machine runs it: the job, and the lines of the files
+// for GitHub and GitLab that run it.
 #include "tests/reports/tiny_campaign.h"
 
 namespace assay::tests {
@@ -50,12 +50,6 @@ class CiJob : public testing::Test {
   const Scratch scratch;
   std::string printed;
 };
-
-TEST_F(CiJob, StandsOnThePage) {
-  const auto job = read_text((source / job_file).string());
-  EXPECT_TRUE(
-      says(read_text((source / "detector/plugin/README.md").string()), "```sh\n" + job + "```\n"));
-}
 
 TEST_F(CiJob, EndsWithTheVerdict) {
   scratch.write("mine/detector.cpp", "this is no C++");
