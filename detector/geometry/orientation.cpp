@@ -89,26 +89,8 @@ bool segment_pierces_triangle(const Point& e0, const Point& e1, const std::array
 // it: a segment that pierces meets the triangle in the projection along every axis. In a
 // projection the two are apart if a line through an edge of the triangle, or through the segment,
 // has one of them strictly on one side and no point of the other on that side.
-//
-// Error bound of a side in the projection along axis k. With p and q the other two axes, and M_p
-// and M_q the largest |difference| along them, (b-a) x (c-a) is one minor, off by 8 u M_p M_q
-// (bernstein.h). side_error is this and one u more.
 
 namespace {
-
-constexpr double side_error = 9 * unit_roundoff;
-
-// The sign of (b-a) x (c-a) in the projection along `axis`, or 0 if it is not sure.
-int sure_side(const Point& a, const Point& b, const Point& c, std::size_t axis) {
-  const std::size_t p = (axis + 1) % 3, q = (axis + 2) % 3;
-  const double bp = b[p] - a[p], bq = b[q] - a[q], cp = c[p] - a[p], cq = c[q] - a[q];
-  const double mp = std::max(std::abs(bp), std::abs(cp)), mq = std::max(std::abs(bq), std::abs(cq));
-  if (!(mp > least_magnitude && mp < greatest_magnitude) ||
-      !(mq > least_magnitude && mq < greatest_magnitude)) {
-    return 0;
-  }
-  return sign_beyond(bp * cq - bq * cp, side_error * mp * mq);
-}
 
 bool surely_apart(const Point& e0, const Point& e1, const std::array<Point, 3>& face,
                   std::size_t axis) {

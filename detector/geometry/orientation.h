@@ -53,6 +53,23 @@ int filtered_orientation(const Point& a, const Point& b, const Point& c, const P
 // all finite inputs. 10 ns; 1 us if the determinant is near zero.
 int orientation(const Point& a, const Point& b, const Point& c, const Point& d);
 
+// Error bound of a side in the projection along axis k. With p and q the other two axes, and M_p
+// and M_q the largest |difference| along them, (b-a) x (c-a) is one minor, off by 8 u M_p M_q
+// (bernstein.h). side_error is this and one u more.
+inline constexpr double side_error = 9 * unit_roundoff;
+
+// The sign of (b-a) x (c-a) in the projection along `axis`, or 0 if it is not sure.
+inline int sure_side(const Point& a, const Point& b, const Point& c, std::size_t axis) {
+  const std::size_t p = (axis + 1) % 3, q = (axis + 2) % 3;
+  const double bp = b[p] - a[p], bq = b[q] - a[q], cp = c[p] - a[p], cq = c[q] - a[q];
+  const double mp = std::max(std::abs(bp), std::abs(cp)), mq = std::max(std::abs(bq), std::abs(cq));
+  if (!(mp > least_magnitude && mp < greatest_magnitude) ||
+      !(mq > least_magnitude && mq < greatest_magnitude)) {
+    return 0;
+  }
+  return sign_beyond(bp * cq - bq * cp, side_error * mp * mq);
+}
+
 // Whether the open segment e0e1 strictly pierces the open triangle, both at rest: its ends are
 // strictly on opposite sides of the triangle's plane, and its line passes strictly inside the
 // three edges. Exact for all finite inputs.

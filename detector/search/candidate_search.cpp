@@ -8,11 +8,6 @@
 namespace assay::detector {
 CandidateSearch::CandidateSearch(const SearchStages& stages, const Topology& mesh,
                                  const BoundingVolumeTree& tree, SearchMemory& memory,
-                                 const SteppedMesh& motion, const StopFunction& stop)
-    : CandidateSearch(stages, mesh, tree, memory, motion, PacedStop(stop)) {}
-
-CandidateSearch::CandidateSearch(const SearchStages& stages, const Topology& mesh,
-                                 const BoundingVolumeTree& tree, SearchMemory& memory,
                                  const SteppedMesh& motion, const PacedStop& pace)
     : stages_(stages),
       mesh_(mesh),
@@ -118,7 +113,8 @@ bool CandidateSearch::search(const PairTables& tables, bool uses_proofs) {
     }
     return true;
   };
-  SearchInput input = {mesh_, tree_, memory_.marks, tables, &pace_, uses_proofs, stages_.relation};
+  SearchInput input = {mesh_,  tree_,       memory_.marks,    tables,
+                       &pace_, uses_proofs, stages_.relation, contacts_.sheets()};
   if (first_) input.between = [&] { return contacts_.run(stop_, &pace_) && tighten(); };
   return stages_.search.search(input, counts_, PairSink::in_lanes(take)) &&
          contacts_.run(stop_, &pace_);
@@ -128,7 +124,7 @@ bool CandidateSearch::collect(bool uses_proofs) {
   const PairTables k = stages_.rule.candidates();
   contacts_.ask(AskedTypes::in_first_search(k));
   // Proofs of patches leave out the same pairs.
-  if (!uses_proofs || !stages_.search.has_proofs()) contacts_.prove_fans(&pace_);
+  if (!uses_proofs || !stages_.search.has_proofs()) contacts_.prove_apart(tree_.wide(), &pace_);
   return !pace_.stopped() && search(k, uses_proofs);
 }
 

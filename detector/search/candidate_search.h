@@ -30,12 +30,9 @@ struct SearchMemory {
 
 class CandidateSearch {
  public:
-  // REQUIRES a search that was fitted to the step, with its tree. The references must outlive this
+  // REQUIRES a search that was fitted to the step, with its tree, and a stop function that all
+  // workers of `pace` may call, such as that of SharedStop. The references must outlive this
   // object.
-  CandidateSearch(const SearchStages& stages, const Topology& mesh, const BoundingVolumeTree& tree,
-                  SearchMemory& memory, const SteppedMesh& motion, const StopFunction& stop);
-  // The same with the workers of `pace`. REQUIRES a stop function that all of them may call, such
-  // as that of SharedStop.
   CandidateSearch(const SearchStages& stages, const Topology& mesh, const BoundingVolumeTree& tree,
                   SearchMemory& memory, const SteppedMesh& motion, const PacedStop& pace);
 

@@ -117,12 +117,13 @@ class FeatureContacts {
     pairs_.refit(motion, pace, elementary_.separation() + slack);
   }
 
-  // Proves neighbours apart, where contacts are looked for in exact arithmetic by the detector's
-  // own rungs: neither a stage of one's own nor an arithmetic of other errors is spared a test.
-  // Their pairs need not be added. REQUIRES ask(), if types are asked for.
-  void prove_fans(PacedStop* pace) {
-    if (elementary_.first_rungs() && neighbours_count_) pairs_.prove_fans(pace);
+  // Proves pairs apart, where contacts are looked for in exact arithmetic by the detector's own
+  // rungs: neither a stage of one's own nor an arithmetic of other errors is spared a test. They
+  // need not be added. REQUIRES ask(), if types are asked for.
+  void prove_apart(const WideTree& tree, PacedStop* pace) {
+    if (elementary_.first_rungs() && neighbours_count_) pairs_.prove_apart(motion_, tree, pace);
   }
+  const Sheets* sheets() const { return pairs_.sheets(); }
   bool are_proved_apart(std::int32_t a, std::int32_t b) const {
     return pairs_.are_proved_apart(a, b);
   }

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,7 @@
 #include "detector/mesh/step_types.h"
 #include "detector/mesh/topology.h"
 #include "detector/search/pair_rule.h"
+#include "detector/search/sheets.h"
 #include "detector/search/vertex_fans.h"
 
 namespace assay::detector {
@@ -240,12 +242,20 @@ class FeaturePairs {
   // Says what the searches to come ask for, with the types as they are now. Until it is called they
   // ask for everything, and nothing was asked for before.
   void ask(const AskedTypes& asked);
-  // From now on append() passes over neighbours that are proved apart over the whole step, if all
-  // triangles have one type: else most are not asked for. REQUIRES that there was no refit().
-  void prove_fans(PacedStop* pace) {
-    if (!asks_by_types_) fans_.prove(mesh_, points_, pace);
+  // Proves pairs apart over the whole step, mostly neighbours, if all triangles have one type: else
+  // most are not asked for. `motion`: that of the constructor. REQUIRES that there was no refit().
+  void prove_apart(const SteppedMesh& motion, const WideTree& tree, PacedStop* pace) {
+    constexpr std::size_t worth_sheets = 4096;
+    if (asks_by_types_) return;
+    if (motion.is_at_rest() && mesh_.triangles.size() >= worth_sheets)
+      sheets_.emplace(mesh_, tree, motion.vertices_t0, pace);
+    if (!sheets_ || !sheets_->hold_most()) fans_.prove(mesh_, points_, pace);
   }
-  bool are_proved_apart(std::int32_t a, std::int32_t b) const { return fans_.are_apart(a, b); }
+  bool are_proved_apart(std::int32_t a, std::int32_t b) const {
+    return fans_.are_apart(a, b) || (sheets_ && sheets_->are_apart(a, b));
+  }
+  // Null: none.
+  const Sheets* sheets() const { return sheets_ ? &*sheets_ : nullptr; }
   // From now on the boxes of features are those of this motion, of the same vertices.
   void refit(const SteppedMesh& motion, PacedStop* pace, double separation) {
     points_.assign(motion, pace, separation);
@@ -275,6 +285,7 @@ class FeaturePairs {
   const std::vector<TriangleType>& types_;
   FeaturePoints points_;
   VertexFans fans_;
+  std::optional<Sheets> sheets_;
   const BoxKernels& kernels_ = box_kernels();
   AskedTypes asked_;
   bool asks_by_types_ = false;

@@ -74,6 +74,8 @@ class PairSink {
   bool takes_lanes_ = false;
 };
 
+class Sheets;
+
 struct SearchInput {
   const Topology& mesh;
   const BoundingVolumeTree& tree;  // fitted to the step
@@ -85,6 +87,8 @@ struct SearchInput {
   bool uses_proofs = true;  // whether proofs, if the search has any, are worth their cost
   // Null: everything counts. Else the search leaves out the pairs of components that do not meet.
   const PairRelation* relation = nullptr;
+  // Null: none. Else the search may leave out the pairs that lie in one of them.
+  const Sheets* sheets = nullptr;
   // Empty: the search is done in one go. Else it is done in rounds (search_lanes.h), and this is
   // called between two of them, when the sink has all that was found and no lane works. It may
   // refit the tree, to a shorter part of the step. If it returns false the search stops. A search

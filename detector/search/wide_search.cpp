@@ -3,6 +3,7 @@
 
 #include "detector/search/pair_search.h"
 #include "detector/search/search_lanes.h"
+#include "detector/search/sheets.h"
 
 namespace assay::detector {
 namespace {
@@ -83,6 +84,7 @@ class WideDescent {
   bool is_ended() const { return hunt_.is_stopped.load(std::memory_order_relaxed); }
 
   void split(const WidePair& p) {
+    if (hunt_.input.sheets && hunt_.input.sheets->nodes_are_apart(p.a, p.b)) return;
     const auto &a = tree_.node(p.a), &b = tree_.node(p.b);
     if (p.a != p.b && a.holds_triangles != b.holds_triangles) {
       if (a.holds_triangles) {

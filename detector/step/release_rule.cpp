@@ -31,7 +31,7 @@ bool find_static_contacts(const GivenStep& step, StepCost& cost,
   if (cost.pace.after(work_of_mark * types.size())) return false;
   const PairTables tables = {PairTable().add(flag::violated, flag::violated), {}};
   FeatureContacts contacts(mesh, step.motion.at_start(), step.elementary, Want::yes_no, &cost.pace);
-  contacts.prove_fans(&cost.pace);
+  contacts.prove_apart(step.tree.wide(), &cost.pace);
   if (cost.pace.stopped()) return false;
   SearchCounts counts;
   std::uint64_t pairs = 0;
@@ -40,10 +40,9 @@ bool find_static_contacts(const GivenStep& step, StepCost& cost,
     if (pairs++ % pairs_between_stops == 0 && step.stop && step.stop()) return false;
     return contacts.are_proved_apart(a, b) || contacts.add_candidate(a, b, true, step.stop);
   };
-  if (!WideSearch().search({mesh, step.tree, marks, tables}, counts, sink) ||
-      !contacts.run(step.stop)) {
-    return false;
-  }
+  SearchInput input = {mesh, step.tree, marks, tables};
+  input.sheets = contacts.sheets();
+  if (!WideSearch().search(input, counts, sink) || !contacts.run(step.stop)) return false;
   for (const auto& pair : contacts.take_new_pairs()) touched[at(pair.a)] = touched[at(pair.b)] = 1;
   return true;
 }

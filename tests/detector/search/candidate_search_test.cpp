@@ -21,7 +21,7 @@ TEST(AskedShare, OfASmallMeshIsExact) {
   PacedStop never(never_stops);
   const auto mesh_search = stages.pair_search->prepare(mesh, tree, never);
   CandidateSearch search({*stages.pair_rule, *stages.marking, *mesh_search, *stages.elementary},
-                         mesh, tree, memory, {x, x}, never_stops);
+                         mesh, tree, memory, {x, x}, never);
   for (std::size_t negative = 0; negative < mesh.triangles.size(); ++negative) {
     std::vector<TriangleType> types(mesh.triangles.size(), TriangleType::positive);
     types[negative] = TriangleType::negative;
@@ -45,7 +45,7 @@ class StoppedMarking : public testing::Test {
   StoppedMarking() { search_->fit(tree_, mesh_.topology, mesh_.motion(), never_); }
 
   CandidateSearch search(SearchMemory& memory, const StopFunction& stop) const {
-    return {stages_, mesh_.topology, tree_, memory, mesh_.motion(), stop};
+    return {stages_, mesh_.topology, tree_, memory, mesh_.motion(), PacedStop(stop)};
   }
   Found found(SearchMemory& memory, std::span<const TriangleType> types) const {
     auto whole = search(memory, never_stops);

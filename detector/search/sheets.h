@@ -1,0 +1,79 @@
+// Sheets of a mesh at rest: sets of triangles that are proved apart as a whole, by their contours.
+//
+// Where a mesh is smooth, nearly all candidates lie in sheets, and a search passes over pairs of
+// nodes whose triangles lie in one. So a smooth mesh is searched only where its sheets end.
+//
+// **L13** *for sheets. Let S be a set of triangles that are seen from one side along an axis. Let
+// its contour be the edges of its triangles that are passed once, and not back. In the projection
+// along the axis let no two edges of the contour meet but at a common vertex, and let there be
+// outside of each of them, beside it, no triangle of S. Then triangles of S are in no contact.*
+//
+// Proof. Almost every point of the plane lies in as many projected triangles of S as the contour
+// winds around it. That number changes only at the contour, there by one, and on both sides of each
+// edge of the contour it is 0 or 1. Every bounded region between edges has some of them beside it,
+// so the number is 0 or 1 everywhere: no two projected triangles overlap. Now let a point of one
+// triangle of S and a point of another be projected to one place.
+//   If the one point is inside its triangle, inside an edge that two of S share, or at a vertex
+//   that is not of the contour, the triangles of S around it cover all places nearby. The other
+//   triangle covers some of these, so it is one of those around it, and projects one to one: the
+//   two points are one, in a feature that both triangles have.
+//   Else both are on the contour. Two edges of it then meet, so they have a vertex in common there,
+//   or it is one edge, and again the points are one, in a feature that both triangles have.
+// So faces, edges and vertices of S that share no vertex do not meet.
+//
+// The number beside an edge is counted below its left end, a little to the right of it: of the
+// edges of the contour that pass below, those that run right add one, those that run left take one
+// away. An edge that runs right has to have 0 below, one that runs left 1. Edges that stand upright
+// pass below nothing, and need no look: each bounded region has others beside it.
+//
+// Sides are those of sure_side: where doubles cannot tell, nothing is proved.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "detector/boxes/bounding_volume_tree.h"
+#include "detector/mesh/paced_stop.h"
+#include "detector/mesh/topology.h"
+
+namespace assay::detector {
+
+class Sheets {
+ public:
+  // Looks for sheets in the whole mesh, then in each of the regions below the root of the tree,
+  // then in those below these: six in each, one for either side along each axis. 25 ns a triangle,
+  // if the whole mesh has them. If `pace` was stopped, they must not be used. Memory: 5 bytes a
+  // triangle.
+  Sheets(const Topology& mesh, const WideTree& tree, const PositionsView& x, PacedStop* pace);
+
+  // Whether nearly all triangles lie in some sheet.
+  bool hold_most() const { return hold_most_; }
+  // Whether two triangles lie in one sheet.
+  bool are_apart(std::int32_t a, std::int32_t b) const {
+    return common(of_triangle_[at(a)], of_triangle_[at(b)]) >= sheets_bit;
+  }
+  // Whether all triangles below two nodes of the tree lie in one sheet.
+  bool nodes_are_apart(std::int32_t a, std::int32_t b) const {
+    return common(of_node_[at(a)], of_node_[at(b)]) >= sheets_bit;
+  }
+
+ private:
+  // The sheets that hold a triangle, or all triangles of a node. The lowest six bits are the region
+  // that they are of: the upper three the child of the root, the lower three the child of that.
+  // Then six bits each are the sheets of the whole mesh, and of the regions at these two levels.
+  using Places = std::uint32_t;
+  static constexpr int directions = 6, levels = 3, region_bits = 6, of_lower = 3;
+  static constexpr Places sheets_bit = 1 << region_bits;
+  static constexpr Places sheets_above(int level) { return (sheets_bit << directions * level) - 1; }
+  // What two have in common.
+  static Places common(Places a, Places b) {
+    const Places other = (a ^ b) & (sheets_bit - 1);
+    return (a & b & sheets_above(other == 0 ? levels : other >> of_lower == 0 ? 2 : 1));
+  }
+  struct Builder;
+
+  std::vector<Places> of_triangle_, of_node_;
+  bool hold_most_ = false;
+};
+
+}  // namespace assay::detector
