@@ -96,6 +96,7 @@ class WideTree {
   std::vector<std::int32_t> binary_of_;  // by node
   std::vector<Slot> slots_;
   std::unique_ptr<float[]> boxes_, own_;  // the first refit writes them
+  std::size_t room_ = 0;                  // in boxes_: as many as refits have asked for so far
   std::size_t end_ = 0;                   // of a box, the first row of its bounds at t=1 (BoxRows)
   std::vector<std::int32_t> inner_;       // the nodes that hold nodes, ascending
 };

@@ -112,7 +112,6 @@ WideTree::WideTree(const BoundingVolumeTree& binary, std::span<const std::int32_
   cut(slots_);
   cut(binary_of_);
   cut(inner_);
-  boxes_ = std::make_unique_for_overwrite<float[]>(box_lanes::rows * slots_.size() + width);
   own_ = std::make_unique_for_overwrite<float[]>(box_lanes::rows * nodes_.size());
 }
 
@@ -138,6 +137,10 @@ bool WideTree::refit(const Topology& mesh, const RoundedPositions& points, Float
   constexpr std::uint64_t work_of_node = 16;
   constexpr std::size_t nodes_of_piece = 256;
   end_ = points.are_at_rest() ? 0 : box_lanes::rows / 2;
+  // A mesh that is only looked at where it rests takes half of the room.
+  const std::size_t room = rows() * slots_.size() + width;
+  if (room_ < room) boxes_ = std::make_unique_for_overwrite<float[]>(room);
+  room_ = std::max(room_, room);
   std::fill_n(boxes_.get() + rows() * slots_.size(), width, 0.0F);
   const auto fit_leaves = [&](std::size_t begin, std::size_t end, std::size_t) {
     for (; begin < end; ++begin) {

@@ -109,9 +109,10 @@ bool Representatives::choose_all(const Topology& mesh, const std::vector<Triangl
     features_[t] = lowest_of(static_cast<std::int32_t>(t));
   };
   const bool were_lowest = std::exchange(are_lowest_, false);
+  if (one_type) edge_types_.assign(edge_types_.size(), set_of(types[0]));  // each has a triangle
   const bool is_done =
       for_all_paced(vertex_types_.size(), work_of_vertex, pace, around_vertex) &&
-      for_all_paced(edge_types_.size(), work_of_edge, pace, around_edge) &&
+      (one_type || for_all_paced(edge_types_.size(), work_of_edge, pace, around_edge)) &&
       (were_lowest || for_all_paced(features_.size(), work_of_triangle, pace, of_triangle)) &&
       (one_type || choose_between_types(mesh, types, pace));
   are_lowest_ = is_done && one_type;
