@@ -136,11 +136,11 @@ struct Sheets::Builder {
 
   // Finds the sheets of this level. False if nothing is left to look for, or if it was stopped.
   bool find_sheets() {
-    constexpr std::size_t few = 256, share = 16, work_of_edge = 1, work_of_contour_edge = 8;
+    constexpr std::size_t few = 256, share = 16, work_of_holders = 1, work_of_contour_edge = 8;
     const std::size_t regions = std::size_t{1} << of_lower * level;
     most_edges = few + seen.size() / share / regions;
     contours.assign(directions * regions, {});
-    if (!for_each_paced(mesh.edges.size(), work_of_edge, pace,
+    if (!for_each_paced(mesh.edges.size(), work_of_holders, pace,
                         [&](std::size_t e) { find_edge(static_cast<std::int32_t>(e)); })) {
       return false;
     }

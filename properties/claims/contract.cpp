@@ -122,7 +122,9 @@ bool leaves_out(const Contract& contract, const detector::TrianglesView& triangl
 
 detector::Positions contracted(const detector::PositionsView& x, Coordinates coordinates) {
   if (coordinates == Coordinates::float64) return x;
-  return x.cast<float>().cast<double>();
+  // Two steps, through memory: of two conversions in a row g++ 12 drops both where it vectorises.
+  const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> rounded = x.cast<float>();
+  return rounded.cast<double>();
 }
 
 detector::Positions displacement(const detector::PositionsView& x_t0,
