@@ -32,7 +32,7 @@ struct Policy {
   double power = 1;                     // share of the planted faults that must be found, (0, 1]
   std::uint64_t self_test_queries = 0;  // queries of `assay self-test`; 0: it is not asked for
   // The size of the scenes on which a plug-in that claims to be deterministic is run again and
-  // again (phases/repetitions.h); 0: it is not.
+  // again (phases/phases.h); 0: it is not.
   std::uint64_t repeated_triangles = 0;
   std::vector<SpeedLimit> speed_limits;
 };

@@ -12,7 +12,7 @@
 
 #include "properties/campaign/ledger/evidence.h"
 #include "properties/campaign/plan.h"
-#include "properties/judging/trial.h"
+#include "properties/judging/verdict.h"
 
 namespace assay::properties {
 
@@ -42,7 +42,7 @@ struct CampaignRequest : Subject {
   // Cases of the detector's owner, which are judged beside the shipped ones.
   std::optional<OwnCases> own_cases;
   // Sequences on which a plug-in is run again and again, besides the scenes
-  // (phases/repetitions.h).
+  // (phases/phases.h).
   std::vector<corpus::Case> repeated;
 
   // The word of the isolation that was asked for; empty if none was.
@@ -61,7 +61,7 @@ struct CampaignRequest : Subject {
   // was started at another time with other hash seeds and addresses, a plug-in that asks may use
   // another number of threads, and each step is evaluated twice.
   WorkerLimits second_worker_limits() const {
-    constexpr std::uint64_t some = 3;  // large meshes are run with 1, 2 and 4 (repetitions.h)
+    constexpr std::uint64_t some = 3;  // large meshes are run with 1, 2 and 4 (phases.h)
     auto second = worker_limits(1);
     if (description.parts.takes_threads) second.threads = limits.threads == some ? 1 : some;
     second.asks_twice = true;

@@ -75,7 +75,7 @@ struct ClaimRow {
   About about;
   Tried tried;
   Deed deed;
-  // How a step breaks it. Two runs alone break `deterministic` (judged_run.h), and nothing breaks
+  // How a step breaks it. Two runs alone break `deterministic` (exam.h), and nothing breaks
   // times_unique.
   Shown (*shown_by)(const StepDiff&) = [](const StepDiff&) { return Shown(); };
   // Why it is not judged under this contract; empty if it is.

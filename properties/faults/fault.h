@@ -45,7 +45,7 @@ struct Fault : PlantedStage {
   detector::Options options{detector::Culling::view_point};
   FaultStatus status = FaultStatus::planted;
   std::string_view reason{};  // for open and equivalent faults: why they are so
-  // The fault shows only in a disturbed run (fault_run.h).
+  // The fault shows only in a disturbed run (run_disturbed of case_run.h).
   bool is_disturbed = false;
 };
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "detector/mesh/topology.h"
 #include "oracle/view/view_sign.h"
-#include "properties/worker/case_run.h"
 
 namespace assay::properties {
 
@@ -22,67 +22,64 @@ std::string time_text(const detector::TimeEnclosure& t) {
 
 class CaseChecker {
  public:
-  CaseChecker(const corpus::Case& c, std::optional<Culling> culling, int jobs,
-              std::optional<Arithmetic> arithmetic)
-      : case_(c), jobs_(jobs), options_(options_of(c)) {
-    options_.culling = culling.value_or(options_.culling);
-    options_.arithmetic = arithmetic.value_or(options_.arithmetic);
-    claims_ = claims_of(options_);
-  }
+  CaseChecker(const corpus::Case& c, const detector::Options& options, int jobs)
+      : jobs_(jobs),
+        configuration_{"", options},
+        detector_(built_in_detector().in(configuration_)),
+        claims_(detector_.claims_in(configuration_)),
+        checked_{examine({.detector = detector_,
+                          .configurations = {&configuration_, 1},
+                          .oracle_jobs = jobs,
+                          .needs_an_answer = true},
+                         c)},
+        case_(checked_.c),
+        script_(corpus::steps_of(case_)) {}
 
-  CaseReport run() {
-    auto made = CasePlayer::make(case_, options_);
-    if (!made) {
-      if (case_.expected.answer != Answer::error) fail("refused: " + made.error().message);
-      return finish();
-    }
-    if (case_.expected.answer == Answer::error) fail("accepted, expected to be refused");
-    bool collision = false;
-    player_ = &made.value();
-    for (std::size_t s = 0; s < player_->steps(); ++s) {
-      check_step(s);
-      collision |= report_.steps.back().result.answer == Answer::collision;
-    }
+  CheckedCase run() {
+    const auto& run = checked_.runs[0];
     const auto& expected = case_.expected.answer;
+    if (run.end != RunEnd::completed) {
+      if (expected != Answer::error) fail("refused: " + run.explanation);
+      return std::move(checked_);
+    }
+    if (expected == Answer::error) fail("accepted, expected to be refused");
+    bool collision = false;
+    for (std::size_t s = 0; s < run.steps.size(); ++s) {
+      check_step(s);
+      collision |= run.steps[s].answer == Answer::collision;
+    }
     // The answer that is expected of a case is that of all pairs (CaseRelation).
-    if (!expected || case_.counted) return finish();
+    if (!expected || case_.counted) return std::move(checked_);
     if (*expected == Answer::collision ? claims_.has(Claim::free_sound) && !collision
                                        : claims_.has(Claim::no_spurious) && collision) {
       fail(fmt::format("answer {}, expected {}", collision ? "collision" : "free",
                        name_of(*expected)));
     }
-    return finish();
+    return std::move(checked_);
   }
 
  private:
-  void fail(std::string fact) { report_.failed.push_back(std::move(fact)); }
+  void fail(std::string fact) { checked_.failed.push_back(std::move(fact)); }
 
-  CaseReport finish() {
-    if (!report_.failed.empty() && report_.outcome == Outcome::holds)
-      report_.outcome = Outcome::defect;
-    return std::move(report_);
+  detector::SteppedMesh motion(std::size_t s) const {
+    return {start_of(case_, script_[s]), end_of(case_, script_[s])};
   }
 
   void check_step(std::size_t s) {
-    CaseStepReport step{player_->play(s), judged(s, corpus::counted_of(case_)), {}};
-    step.diff =
-        compare(step.result, step.judgement, claims_, contract_of(options_), case_.triangles);
+    const auto& truth = checked_.truth[s];
     const std::string where = fmt::format("step {}: ", s + 1);
-    if (step.diff.outcome != Outcome::holds) fail(where + "detector and oracle disagree");
+    if (checked_.verdicts[0].steps[s].outcome != Outcome::holds)
+      fail(where + "detector and oracle disagree");
     if (s < case_.expected.steps.size())
       check_facts(where, case_.expected.steps[s],
-                  case_.counted ? judged(s, nullptr) : step.judgement);
+                  case_.counted
+                      ? judge_under(detector_.contract, motion(s), case_.triangles, {jobs_, {}})
+                      : truth);
     if (case_.counted && s < case_.counted->steps.size())
-      check_facts(where + "of what counts: ", case_.counted->steps[s], step.judgement);
-    if (uses_views(options_.culling) && claims_.has(Claim::free_sound))
-      check_signs(where, s, step.result);
+      check_facts(where + "of what counts: ", case_.counted->steps[s], truth);
+    if (uses_views(configuration_.options.culling) && claims_.has(Claim::free_sound))
+      check_signs(where, s, checked_.runs[0].steps[s]);
     if (const auto view = corpus::view_of_step(case_, s)) check_expected_signs(where, s, *view);
-    report_.steps.push_back(std::move(step));
-  }
-
-  oracle::StepJudgement judged(std::size_t s, const detector::CountedPairs* counted) const {
-    return judge_under(contract_of(options_), {player_->x_t0(s), player_->x_t1(s)}, case_.triangles,
-                       {jobs_, {}, oracle::AskedFeatures::all, counted});
   }
 
   void check_facts(const std::string& where, const corpus::ExpectedStep& expected,
@@ -109,8 +106,8 @@ class CaseChecker {
   void check_signs(const std::string& where, std::size_t s, const detector::StepResult& result) {
     if (result.answer == Answer::error) return;
     // A step that chose to do without views has no signs.
-    if (detector::chooses_views(options_.culling) && result.signs.empty()) return;
-    const auto& mesh = player_->detector().topology();
+    if (detector::chooses_views(configuration_.options.culling) && result.signs.empty()) return;
+    const auto mesh = detector::make_topology(case_.triangles, case_.frames.front().rows());
     for (std::size_t c = 0; c < mesh.components.size(); ++c) {
       for (const auto t : mesh.components[c].triangles) {
         const auto exact = sign_by_oracle(s, t, result.primitives[c]);
@@ -143,25 +140,27 @@ class CaseChecker {
 
   ViewSign sign_by_oracle(std::size_t s, std::int32_t t,
                           const detector::ViewPrimitive& view) const {
-    const auto corner = [&](int i) {
-      return detector::SteppedMesh{player_->x_t0(s), player_->x_t1(s)}.path(case_.triangles(t, i));
-    };
+    const auto corner = [&](int i) { return motion(s).path(case_.triangles(t, i)); };
     return oracle::view_sign({corner(0), corner(1), corner(2)}, view);
   }
 
-  const corpus::Case& case_;
   int jobs_;
-  detector::Options options_;
+  Configuration configuration_;
+  DetectorUnderTest detector_;
   Claims claims_;
-  CasePlayer* player_ = nullptr;  // set while the case runs
-  CaseReport report_;
+  CheckedCase checked_;
+  const corpus::Case& case_;
+  std::vector<corpus::CaseStep> script_;
 };
 
 }  // namespace
 
-CaseReport check_case(const corpus::Case& c, std::optional<Culling> culling, int jobs,
-                      std::optional<Arithmetic> arithmetic) {
-  return CaseChecker(c, culling, jobs, arithmetic).run();
+CheckedCase check_case(const corpus::Case& c, std::optional<Culling> culling, int jobs,
+                       std::optional<Arithmetic> arithmetic) {
+  auto options = options_of(c);
+  options.culling = culling.value_or(options.culling);
+  options.arithmetic = arithmetic.value_or(options.arithmetic);
+  return CaseChecker(c, options, jobs).run();
 }
 
 }  // namespace assay::properties

@@ -7,7 +7,7 @@
 #include "detector/assembly.h"
 #include "properties/judging/agreement.h"
 #include "properties/judging/contracted_case.h"
-#include "properties/judging/trial.h"
+#include "properties/judging/verdict.h"
 #include "properties/laws/step_law.h"
 #include "properties/random.h"
 #include "properties/worker/case_run.h"

@@ -11,7 +11,7 @@
 #include "corpus/cases/case_file.h"
 #include "detector/mesh/step_types.h"
 #include "properties/claims/claims.h"
-#include "properties/judging/judged_run.h"
+#include "properties/judging/exam.h"
 
 namespace assay::properties {
 

@@ -91,8 +91,8 @@ namespace {
 double error_bits(const Examined& judged) {
   constexpr double alarm = 8, no_answer = 8, disagreement = 16, bits_of_a_double = 53;
   double bits = 0;
-  for (std::size_t i = 0; i < judged.trials.size(); ++i) {
-    const auto& steps = judged.trials[i].steps;
+  for (std::size_t i = 0; i < judged.verdicts.size(); ++i) {
+    const auto& steps = judged.verdicts[i].steps;
     for (std::size_t s = 0; s < steps.size(); ++s) {
       const StepDiff& diff = steps[s];
       if (diff.answered_collision) bits = std::max(bits, alarm);
@@ -101,7 +101,7 @@ double error_bits(const Examined& judged) {
         const double off = std::abs(diff.first->detector.lo - diff.first->oracle.lo);
         if (off > 0) bits = std::max(bits, (bits_of_a_double + std::log2(off)) / 2);
       }
-      const auto& others = judged.trials[0].steps;
+      const auto& others = judged.verdicts[0].steps;
       if (s < others.size() && others[s].answer != diff.answer) bits = std::max(bits, disagreement);
     }
   }
@@ -299,8 +299,8 @@ class LaneSearch {
     const corpus::Case& c = judged.c;
     ++result_.cases;
     bool is_defect = false;
-    for (std::size_t i = 0; i < judged.trials.size(); ++i) {
-      const auto& failure = judged.trials[i].failure;
+    for (std::size_t i = 0; i < judged.verdicts.size(); ++i) {
+      const auto& failure = judged.verdicts[i].failure;
       if (!failure) continue;
       is_defect = true;
       if (met_.emplace(i, failure->signature()).second)
@@ -308,10 +308,10 @@ class LaneSearch {
     }
     result_.defects += is_defect ? 1 : 0;
     // What has no verdict would let later cases depend on how fast the machine is.
-    const auto is_open = [](const JudgedTrial& trial) {
+    const auto is_open = [](const Verdict& trial) {
       return trial.outcome == Outcome::undecided || trial.outcome == Outcome::error;
     };
-    if (std::any_of(judged.trials.begin(), judged.trials.end(), is_open)) {
+    if (std::any_of(judged.verdicts.begin(), judged.verdicts.end(), is_open)) {
       ++result_.open;
       return;
     }

@@ -149,6 +149,43 @@ CaseRun run_case(const corpus::Case& c, const Configuration& configuration) try 
   return out_of_memory();
 }
 
+std::vector<StepResult> run_disturbed(const corpus::Case& c, const Configuration& configuration,
+                                      std::span<const StepResult> undisturbed) {
+  constexpr int most_stops = 8;
+  auto made = CasePlayer::make(c, configuration.options, stages_of(configuration));
+  auto beside = CasePlayer::make(c, configuration.options, stages_of(configuration));
+  std::vector<StepResult> results;
+  for (std::size_t s = 0; s < made.value().steps(); ++s) {
+    std::vector<StepResult> after_stops;
+    for (int stop_at = 1; stop_at <= most_stops; ++stop_at) {
+      int asked = 0;
+      const auto stop = [&] { return ++asked == stop_at; };
+      const auto stopped = made.value().look(s, stop);
+      if (stopped.answer != detector::Answer::undecided) break;
+      after_stops.push_back(made.value().look(s));
+    }
+    const auto meanwhile = [&] {
+      beside.value().look(s);
+      return false;
+    };
+    results.push_back(made.value().play(s, meanwhile));
+    const auto differs = [&](const StepResult& disturbed) {
+      return !same_answers(without_marking_counts({disturbed}),
+                           without_marking_counts({undisturbed[s]}));
+    };
+    const auto other = std::find_if(after_stops.begin(), after_stops.end(), differs);
+    if (other != after_stops.end() && !differs(results.back())) results.back() = *other;
+  }
+  return results;
+}
+
+CaseRun without_marking_counts(std::vector<StepResult> results) {
+  CaseRun run;
+  run.steps = std::move(results);
+  for (auto& step : run.steps) step.counts.marking = {};
+  return run;
+}
+
 bool same_answers(const CaseRun& a, const CaseRun& b) {
   return a.end == b.end && a.explanation == b.explanation && a.has_answers == b.has_answers &&
          a.errors == b.errors && a.over_capacity == b.over_capacity &&

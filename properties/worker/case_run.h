@@ -111,6 +111,19 @@ struct CaseRun {
 // is undecided.
 CaseRun run_case(const corpus::Case& c, const Configuration& configuration);
 
+// Runs the case in the same way, but disturbed. Each step is first evaluated with a stop: at the
+// first time that the detector asks, then at the second and so on; after each stopped evaluation
+// it is evaluated whole. Then it is taken while a second detector of the same stages works on the
+// same step in between. A right detector gives the same results as undisturbed, because undecided
+// evaluations change nothing and two detectors share nothing. One result is returned for each
+// step: one that differs from `undisturbed`, if there is one. REQUIRES a mesh that is not refused.
+std::vector<detector::StepResult> run_disturbed(const corpus::Case& c,
+                                                const Configuration& configuration,
+                                                std::span<const detector::StepResult> undisturbed);
+// The results as a run that can be compared with another: without the counts of marking, because
+// these depend on the marking before, whether its step was committed or not.
+CaseRun without_marking_counts(std::vector<detector::StepResult> results);
+
 // Adds the text to the errors of step s, and makes it `explanation` if that is still empty.
 void note_error(CaseRun& run, std::size_t s, const std::string& text);
 // Why step s has no answer; empty if nothing is said about it.

@@ -8,7 +8,7 @@
 #include "corpus/hard/hard_families.h"
 #include "corpus/scenes/scenes.h"
 #include "detector/detector.h"
-#include "properties/campaign/trials/planned_case.h"
+#include "properties/campaign/trials/trials.h"
 #include "properties/generators/draft.h"
 #include "properties/generators/families.h"
 

@@ -7,7 +7,7 @@
 #include <bit>
 #include <numeric>
 
-#include "properties/worker/case_run.h"
+#include "properties/judging/exam.h"
 #include "reports/bench/cases.h"
 
 namespace assay::reports {
@@ -123,9 +123,8 @@ std::vector<SweptRuns> sweep(const corpus::Case& c, std::span<const SweptSubject
     if (of.is_once) return of.samples.push_back(*of.first->times);
     const double least = *std::min_element(first_ms.begin(), first_ms.end());
     if (of.samples.size() >= rounds_of_far_off && first_ms[i] > plan.far_off * least) return;
-    auto run = subject.worker
-                   ? std::move(subject.worker->run(c, {&subject.configuration, 1}).front())
-                   : run_here(c, subject, plan);
+    auto run = subject.worker ? run_alone(*subject.worker, c, subject.configuration)
+                              : run_here(c, subject, plan);
     if (run.end != properties::RunEnd::completed || !run.times) {
       of.ended = fmt::format("{}: {}", name_of(run.end), run.explanation);
     } else if (of.first) {

@@ -8,7 +8,6 @@
 
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/ledger/binding.h"
-#include "properties/campaign/phases/fault_hunt.h"
 #include "properties/campaign/phases/phases.h"
 #include "properties/campaign/plan.h"
 #include "properties/worker/worker_process.h"

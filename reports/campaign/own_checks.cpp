@@ -12,7 +12,6 @@
 #include "corpus/scenes/scenes.h"
 #include "properties/campaign/ledger/step_measures.h"
 #include "properties/campaign/plan.h"
-#include "properties/campaign/trials/case_tally.h"
 #include "properties/campaign/trials/trials.h"
 #include "properties/judging/case_check.h"
 #include "properties/judging/exam.h"
@@ -61,17 +60,14 @@ void count(JudgedSource& row, const oracle::StepJudgement& step) {
 JudgedSource check_facts(const std::vector<corpus::Case>& cases, Culling culling, int jobs) {
   JudgedSource row{.input = "curated cases", .configuration = properties::name_of(culling)};
   for (const auto& c : cases) {
-    const auto report = properties::check_case(c, culling, jobs);
+    const auto checked = properties::check_case(c, culling, jobs);
+    const auto& truth = checked.truth;
     ++row.cases;
-    bool has_contact = false;
-    std::vector<oracle::StepJudgement> truth;
-    for (const auto& step : report.steps) {
-      count(row, truth.emplace_back(step.judgement));
-      has_contact |= !step.judgement.pairs.empty();
-    }
+    for (const auto& step : truth) count(row, step);
+    const bool has_contact = std::ranges::any_of(truth, [](auto& s) { return !s.pairs.empty(); });
     if (!truth.empty()) count_extremes(row, c, truth, has_contact);
-    row.defects += report.outcome == Outcome::holds ? 0 : 1;
-    for (const auto& line : report.failed)
+    row.defects += checked.failed.empty() ? 0 : 1;
+    for (const auto& line : checked.failed)
       row.failed.push_back(
           {c.id, fmt::format("corpus: {} with {}", c.id, row.configuration), line});
   }
@@ -162,7 +158,7 @@ class CorpusCheck {
                          [](const auto& run) { return run.end == properties::RunEnd::hung; });
     for (std::size_t i = 0; i < rows.size(); ++i) {
       for (const auto& step : examined.truth) count(rows[i], step);
-      const auto& verdict = examined.trials[i];
+      const auto& verdict = examined.verdicts[i];
       if (!verdict.steps.empty() && verdict.outcome != Outcome::refused)
         count_extremes(rows[i], *seen, examined.truth,
                        properties::has_judged_contact(verdict.steps));

@@ -14,7 +14,7 @@
 #include "oracle/referee/second_opinion.h"
 #include "properties/judging/case_check.h"
 #include "properties/judging/case_options.h"
-#include "properties/judging/trial.h"
+#include "properties/judging/verdict.h"
 #include "properties/numbering.h"
 #include "reports/steps/step_report.h"
 #include "reports/terminal/option_words.h"
@@ -237,16 +237,18 @@ class CheckRun {
       return limits_.exceeded() || (listener_.stop && listener_.stop());
     };
     progress.phase("detector");
-    detector::StepResult result = answers_.answer(s, step, stop);
+    answers_.ask(s, step, stop);
+    detector::StepResult& result = answers_.result(s);
     std::string told_error;
     if (result.answer == Answer::error) {
-      const auto error = answers_.error_of(s, result);
+      const auto error = answers_.error_of(s);
       // The built-in detector has errors for input alone.
       if (!answers_.is_plugin()) {
         refused_ = fmt::format("step {}: {}", shown_number, error);
         return {};
       }
-      if (outcome_.ended.empty() && !answers_.is_refused(s)) outcome_.ended = error;
+      const bool is_refused = is_over_capacity(answers_.run(), answers_.place_of(s));
+      if (outcome_.ended.empty() && !is_refused) outcome_.ended = error;
       told_error = error;
     }
     if (result.answer == Answer::collision && !outcome_.collision_step) {
@@ -274,8 +276,10 @@ class CheckRun {
     oracle.judgement = std::move(judged.answer);
     oracle.milliseconds = judged.milliseconds;
     oracle.truth = truth_of(oracle.judgement, answers_.under_test().contract, steps_.triangles());
-    oracle.diff =
-        answers_.judge(s, result, oracle.judgement, {motion, steps_.triangles(), options});
+    const detector::TrianglesView triangles(steps_.triangles());
+    const auto& detector = answers_.under_test();
+    oracle.diff = judge_step(answers_.run(), answers_.place_of(s), {motion, triangles, options},
+                             oracle.judgement, detector.claims, detector.contract);
     const auto& diff = oracle.diff;
     progress.finish();
     if (diff.unanswered_contact && !outcome_.unanswered_step) {
@@ -456,10 +460,10 @@ class CheckRun {
 
   // A case states what is true of it, so an answer that differs is a defect.
   void check_facts() {
-    const auto report = properties::check_case(*steps_.case_file(), question_.built_in.culling,
-                                               question_.jobs, question_.built_in.arithmetic);
-    for (const auto& line : report.failed) say(fmt::format("expected facts: {}\n", line));
-    outcome_.facts_differ = !report.failed.empty();
+    const auto checked = properties::check_case(*steps_.case_file(), question_.built_in.culling,
+                                                question_.jobs, question_.built_in.arithmetic);
+    for (const auto& line : checked.failed) say(fmt::format("expected facts: {}\n", line));
+    outcome_.facts_differ = !checked.failed.empty();
     outcome_.defect |= outcome_.facts_differ;
   }
 

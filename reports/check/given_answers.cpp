@@ -13,13 +13,6 @@
 
 namespace assay::reports {
 
-void GivenAnswers::begin_run(std::size_t s) {
-  first_of_run_ = s;
-  run_ = {};
-  run_.has_answers = has_answers();
-  run_.steps.push_back(undecided());
-}
-
 void GivenAnswers::take(const std::optional<corpus::LoggedAnswer>& logged) {
   if (!has_answers() || !logged) return;
   auto result = result_of(*logged);
@@ -80,11 +73,9 @@ class Table : public GivenAnswers {
     return {{name_of(Claim::not_late), "the table has no times"}};
   }
 
-  detector::StepResult answer(std::size_t s, const corpus::SourceStep&,
-                              const detector::StopFunction&) override {
+  void ask(std::size_t s, const corpus::SourceStep&, const detector::StopFunction&) override {
     begin_run(s);
     take(rows_.at(s));
-    return run_.steps.front();
   }
 
  private:

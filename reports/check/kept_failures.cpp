@@ -9,9 +9,9 @@
 
 #include "properties/campaign/phases/shrink.h"
 #include "properties/judging/contracted_case.h"
-#include "properties/judging/judged_run.h"
+#include "properties/judging/exam.h"
 #include "properties/judging/subject.h"
-#include "properties/judging/trial.h"
+#include "properties/judging/verdict.h"
 #include "properties/reducer/case_edits.h"
 #include "properties/reducer/mesh_size.h"
 #include "reports/check/check_run.h"

@@ -173,8 +173,7 @@ class Recorded : public GivenAnswers {
 
   std::vector<properties::NotJudged> beyond_reach() const override { return beyond_a_log_; }
 
-  detector::StepResult answer(std::size_t s, const corpus::SourceStep& step,
-                              const detector::StopFunction&) override {
+  void ask(std::size_t s, const corpus::SourceStep& step, const detector::StopFunction&) override {
     const auto& now = steps_.now();
     begin_run(s);
     take(now.answer);
@@ -189,7 +188,6 @@ class Recorded : public GivenAnswers {
         }
       }
     }
-    return run_.steps.front();
   }
 
  private:

@@ -57,23 +57,26 @@ Expected<std::vector<JudgedQuery>> QueryDetector::judge(
     auto some = judge_some(std::span(queries).subspan(all.size(), count));
     for (auto& one : some) {
       const auto& name = names[all.size()];
-      if (one.run.end == properties::RunEnd::not_run) return Problem{one.run.explanation};
-      if (!one.is_within) {
+      if (!one) {
         ++left_out_;
-      } else {
-        ++judged_;
-        const bool is_open =
-            one.verdict.outcome == Outcome::undecided || one.verdict.outcome == Outcome::error;
-        undecided_ += is_open ? 1 : 0;
+        all.push_back(std::move(one));
+        continue;
       }
-      if (const auto& failure = one.verdict.failure) {
+      const auto& run = one->runs[0];
+      const auto& verdict = one->verdicts[0];
+      if (run.end == properties::RunEnd::not_run) return Problem{run.explanation};
+      ++judged_;
+      const bool is_open =
+          verdict.outcome == Outcome::undecided || verdict.outcome == Outcome::error;
+      undecided_ += is_open ? 1 : 0;
+      if (const auto& failure = verdict.failure) {
         ++defects_;
         ++broken_[properties::name_of(failure->claim)];
         const auto signature = failure->signature();
         auto shown = std::ranges::find(shown_, signature, &BrokenQuery::signature);
         if (shown == shown_.end()) {
           const bool is_alone_too =
-              shown_.size() >= most_shown || answers_alone(queries[all.size()], one.run);
+              shown_.size() >= most_shown || answers_alone(queries[all.size()], run);
           shown =
               shown_.insert(shown, {signature, 0, name,
                                     properties::printable(failure->explanation) +
@@ -133,8 +136,7 @@ bool QueryDetector::answers_alone(const detector::FourPoints& query,
   auto fresh = subject_.process();
   const auto asked =
       properties::contracted(properties::case_of_query(query, "query"), subject_.detector.contract);
-  return same_answers(
-      run, properties::run_alone({subject_.detector, {&asked_query, 1}, &fresh}, *asked, 0));
+  return same_answers(run, properties::run_alone(fresh, *asked, asked_query));
 }
 
 std::vector<JudgedQuery> QueryDetector::judge_some(std::span<const detector::FourPoints> queries) {
@@ -143,11 +145,9 @@ std::vector<JudgedQuery> QueryDetector::judge_some(std::span<const detector::Fou
   std::vector<std::size_t> places;
   std::vector<corpus::Case> cases;
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    const auto given = properties::case_of_query(queries[i], "query");
-    auto seen = properties::contracted(given, plugin.contract);
+    auto seen =
+        properties::contracted(properties::case_of_query(queries[i], "query"), plugin.contract);
     if (!seen) continue;
-    judged[i].is_within = true;
-    judged[i].is_rounded = seen->frames != given.frames;
     places.push_back(i);
     cases.push_back(std::move(*seen));
   }
@@ -155,12 +155,9 @@ std::vector<JudgedQuery> QueryDetector::judge_some(std::span<const detector::Fou
   auto examined = properties::examine(
       {plugin, {&asked_query, 1}, &worker_, asks_twice ? &second_ : nullptr}, std::move(cases));
   for (std::size_t i = 0; i < places.size(); ++i) {
-    JudgedQuery& one = judged[places[i]];
-    one.run = std::move(examined[i].runs[0]);
-    crashes_ += one.run.end == properties::RunEnd::crashed ? 1 : 0;
-    one.contact = !examined[i].truth[0].pairs.empty();
-    one.verdict = std::move(examined[i].trials[0]);
-    measures_ += properties::measures_of(one.verdict.steps, one.run.steps);
+    const auto& one = judged[places[i]].emplace(std::move(examined[i]));
+    crashes_ += one.runs[0].end == properties::RunEnd::crashed ? 1 : 0;
+    measures_ += properties::measures_of(one.verdicts[0].steps, one.runs[0].steps);
   }
   return judged;
 }

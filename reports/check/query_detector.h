@@ -18,14 +18,8 @@
 
 namespace assay::reports {
 
-// What came of one query.
-struct JudgedQuery {
-  bool is_within = false;   // the contract takes it; else the rest says nothing
-  bool is_rounded = false;  // by the contract, so that another query is judged
-  bool contact = false;     // the oracle finds one
-  properties::CaseRun run;
-  properties::JudgedTrial verdict;
-};
+// What came of one query; nothing if the contract does not take it, or it was not asked.
+using JudgedQuery = std::optional<properties::Examined>;
 
 // The first query that broke a claim in some way.
 struct BrokenQuery {
@@ -48,7 +42,7 @@ class QueryDetector {
 
   // Judges some queries. REQUIRES one name for each. Fails if no worker can be started. A query
   // that is not asked any more, because the plug-in crashed too often before, is counted as not
-  // asked and judged as if it lay outside of the contract.
+  // asked.
   Expected<std::vector<JudgedQuery>> judge(const std::vector<detector::FourPoints>& queries,
                                            const std::vector<std::string>& names);
 

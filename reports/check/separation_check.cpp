@@ -7,7 +7,7 @@
 #include "detector/mesh/mesh_checks.h"
 #include "detector/mesh/topology.h"
 #include "oracle/distance/step_distance.h"
-#include "properties/judging/trial.h"
+#include "properties/judging/verdict.h"
 #include "properties/numbering.h"
 #include "reports/check/check_run.h"
 #include "reports/steps/step_report.h"

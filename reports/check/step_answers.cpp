@@ -14,7 +14,6 @@
 namespace assay::reports {
 namespace {
 
-using detector::StepResult;
 using properties::Claim;
 
 class BuiltIn : public StepAnswers {
@@ -54,19 +53,15 @@ class BuiltIn : public StepAnswers {
             {"detector", nullptr}};
   }
 
-  StepResult answer(std::size_t, const corpus::SourceStep& step,
-                    const detector::StopFunction& stop) override try {
-    if (!detector_) return undecided();
+  void ask(std::size_t s, const corpus::SourceStep& step,
+           const detector::StopFunction& stop) override try {
+    begin_run(s);
+    if (!detector_) return;
     const auto given = properties::given_view(step.view, options_.culling);
-    return step.commit ? detector_->step(step.x_t0, step.x_t1, given, stop)
-                       : detector_->evaluate(step.x_t0, step.x_t1, given, stop);
+    run_.steps.front() = step.commit ? detector_->step(step.x_t0, step.x_t1, given, stop)
+                                     : detector_->evaluate(step.x_t0, step.x_t1, given, stop);
   } catch (const std::bad_alloc&) {
     limits_.memory_failed();
-    return undecided();
-  }
-
-  std::string error_of(std::size_t, const StepResult& result) const override {
-    return result.problem->message;
   }
 
  private:
@@ -101,19 +96,19 @@ class Plugin : public StepAnswers {
 
   // Runs all steps at once, because the worker carries the state of the detector from one to the
   // next. If the plug-in claims to be deterministic, they run a second time, in another process.
-  properties::JudgedRun begin() override {
+  properties::Verdict begin() override {
     const auto& claims = under_test().claims;
-    const auto& alone = under_test().configurations;
-    run_ = std::move(worker_.run(*case_, alone).front());
+    const auto& configuration = under_test().configurations.front();
+    run_ = run_alone(worker_, *case_, configuration);
     std::optional<properties::CaseRun> again;
-    if (claims.has(Claim::deterministic)) again = std::move(second_.run(*case_, alone).front());
-    return judge_run(*case_, run_, {}, claims, under_test().contract, again ? &*again : nullptr);
+    if (claims.has(Claim::deterministic)) again = run_alone(second_, *case_, configuration);
+    auto judged =
+        judge_run(*case_, run_, {}, claims, under_test().contract, again ? &*again : nullptr);
+    run_.steps.resize(corpus::steps_of(*case_).size(), undecided());
+    return judged;
   }
 
-  StepResult answer(std::size_t s, const corpus::SourceStep&,
-                    const detector::StopFunction&) override {
-    return s < run_.steps.size() ? run_.steps[s] : undecided();
-  }
+  void ask(std::size_t, const corpus::SourceStep&, const detector::StopFunction&) override {}
 
  private:
   properties::WorkerProcess worker_, second_;

@@ -12,7 +12,7 @@
 #include "detector/options.h"
 #include "detector/step_result.h"
 #include "properties/campaign/gates/gates.h"
-#include "properties/judging/judged_run.h"
+#include "properties/judging/exam.h"
 #include "properties/judging/subject.h"
 #include "reports/terminal/work.h"
 
@@ -32,13 +32,18 @@ class StepAnswers {
 
   // Called before the first step. Returns what the run as a whole broke, without judging any step.
   // If it does not hold, there may be no steps to ask for.
-  virtual properties::JudgedRun begin() { return {}; }
-  // The detector's answer to step s, which is `step`. Steps are asked for in order, each once.
-  virtual detector::StepResult answer(std::size_t s, const corpus::SourceStep& step,
-                                      const detector::StopFunction& stop) = 0;
+  virtual properties::Verdict begin() { return {}; }
+  // Has the detector answer step s, which is `step`, so that run() holds it. Steps are asked for in
+  // order, each once.
+  virtual void ask(std::size_t s, const corpus::SourceStep& step,
+                   const detector::StopFunction& stop) = 0;
+  // The answer, once it was asked for.
+  detector::StepResult& result(std::size_t s) { return run_.steps[place_of(s)]; }
   // Why a step ended with an error.
-  virtual std::string error_of(std::size_t s, const detector::StepResult&) const {
-    const auto error = properties::error_of(run_, s - first_of_run_);
+  std::string error_of(std::size_t s) const {
+    const auto place = place_of(s);
+    if (const auto& problem = run_.steps[place].problem) return problem->message;
+    const auto error = properties::error_of(run_, place);
     return error.empty() ? run_.explanation : error;
   }
 
@@ -63,32 +68,23 @@ class StepAnswers {
   std::size_t steps_left_out() const { return steps_left_out_; }
   // Milliseconds of preprocessing; nothing for a plug-in, which does it in a process of its own.
   std::optional<double> create_ms() const { return create_ms_; }
-  // The run of a plug-in, over all steps; of a log, over the step that was read last; of the
-  // built-in detector it is empty.
+  // The run of a plug-in, over all steps; of others, over the step that was asked for last.
   const properties::CaseRun& run() const { return run_; }
-
-  // Whether a plug-in refused step s as beyond its capacity.
-  bool is_refused(std::size_t s) const { return is_over_capacity(run_, s - first_of_run_); }
-
-  properties::StepDiff judge(std::size_t s, const detector::StepResult& result,
-                             const oracle::StepJudgement& judgement,
-                             const properties::LimitedStep& step) const {
-    const auto& claims = under_test().claims;
-    const auto& contract = under_test().contract;
-    const auto place = s - first_of_run_;
-    if (place >= run_.steps.size())
-      return compare(result, judgement, claims, contract, step.triangles);
-    auto diff = compare_step(run_, place, judgement, claims, contract, step.triangles);
-    if (place < run_.limits.size())
-      judge_limit(run_.limits[place], step, judgement, claims, contract, diff);
-    return diff;
-  }
+  // The place of step s in it.
+  std::size_t place_of(std::size_t s) const { return s - first_of_run_; }
 
  protected:
   explicit StepAnswers(properties::Subject subject) : subject_(std::move(subject)) {}
   // Fields of the JSON report for a detector that is judged by its claims; `of_process` is what is
   // known of the process that ran it.
   nlohmann::ordered_json detector_json(const nlohmann::ordered_json& of_process) const;
+  // Begins the run of step s alone, which is undecided until it has an answer.
+  void begin_run(std::size_t s) {
+    first_of_run_ = s;
+    run_ = {};
+    run_.has_answers = has_answers();
+    run_.steps = {undecided()};
+  }
   static detector::StepResult undecided() {
     detector::StepResult result;
     result.answer = detector::Answer::undecided;
@@ -100,6 +96,27 @@ class StepAnswers {
   std::optional<double> create_ms_;
   properties::CaseRun run_;
   std::size_t first_of_run_ = 0;  // the step that run_ begins with
+};
+
+// Answers that are not asked for here, but were given before: by a log, or by a table beside the
+// frames of `check` (given_answers.cpp).
+class GivenAnswers : public StepAnswers {
+ public:
+  bool is_recorded() const override { return true; }
+  nlohmann::ordered_json to_json() const override { return detector_json({{"library", nullptr}}); }
+
+ protected:
+  GivenAnswers(properties::Subject subject, const corpus::StepSource& steps)
+      : StepAnswers(std::move(subject)), triangles_(steps.triangles()) {}
+
+  // Reads the answer as that of a plug-in is read, and believes none of it.
+  void take(const std::optional<corpus::LoggedAnswer>& logged);
+  void take_error(const std::string& text);
+
+ private:
+  Expected<detector::StepResult> result_of(const corpus::LoggedAnswer& logged) const;
+
+  const detector::Triangles& triangles_;
 };
 
 // The mesh and the steps that `check` is given.
@@ -130,30 +147,6 @@ Expected<std::unique_ptr<StepAnswers>> answers_of_built_in(const BuiltInChoice& 
 // contract takes, with coordinates rounded if it says so.
 Expected<std::unique_ptr<StepAnswers>> answers_of_plugin(properties::Subject plugin,
                                                          CheckInput& input);
-
-// Answers that are not asked for here, but were given before: by a log, or by a table beside the
-// frames of `check`.
-
-class GivenAnswers : public StepAnswers {
- public:
-  bool is_recorded() const override { return true; }
-  nlohmann::ordered_json to_json() const override { return detector_json({{"library", nullptr}}); }
-
- protected:
-  GivenAnswers(properties::Subject subject, const corpus::StepSource& steps)
-      : StepAnswers(std::move(subject)), triangles_(steps.triangles()) {}
-
-  // Begins the run of step s, which is undecided until an answer is taken.
-  void begin_run(std::size_t s);
-  // Reads the answer as that of a plug-in is read, and believes none of it.
-  void take(const std::optional<corpus::LoggedAnswer>& logged);
-  void take_error(const std::string& text);
-
- private:
-  Expected<detector::StepResult> result_of(const corpus::LoggedAnswer& logged) const;
-
-  const detector::Triangles& triangles_;
-};
 
 // Answers to the steps of `input` from a table FILE.csv with the columns step, answer and time: the
 // step counted from 1, free, collision, undecided or error, and a time of contact, which may be

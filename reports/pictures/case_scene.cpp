@@ -271,7 +271,7 @@ std::optional<CaseScene> make_scene(const corpus::Case& c,
   judge(exam, examined);
   scene.c = std::move(examined.c);
   auto& truth = examined.truth;
-  auto& judged = examined.trials[0];
+  auto& judged = examined.verdicts[0];
   const auto& run = examined.runs[0];
   scene.failure = judged.failure;
   scene.contract = detector.contract;

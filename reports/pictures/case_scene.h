@@ -15,7 +15,7 @@
 #include "detector/options.h"
 #include "detector/step_result.h"
 #include "oracle/mesh/step.h"
-#include "properties/judging/trial.h"
+#include "properties/judging/verdict.h"
 #include "properties/worker/worker_process.h"
 #include "reports/terminal/option_words.h"
 #include "reports/terminal/work.h"

@@ -15,7 +15,7 @@
 #include "oracle/distance/step_distance.h"
 #include "properties/campaign/gates/findings.h"
 #include "properties/judging/case_options.h"
-#include "properties/judging/contracted_case.h"
+#include "properties/judging/exam.h"
 #include "properties/judging/subject.h"
 #include "properties/worker/plugin/query_case.h"
 #include "reports/check/check_run.h"
@@ -261,7 +261,7 @@ class Plugin {
       return py::none();
     const auto run = [&] {
       const py::gil_scoped_release others_may_run;
-      return process_.run(c.value(), subject_.detector.configurations)[0];
+      return run_alone(process_, c.value(), subject_.detector.configurations.front());
     }();
     if (run.end == RunEnd::not_run) throw std::runtime_error(run.explanation);
     if (run.end == RunEnd::refused || run.end == RunEnd::beyond_capacity) return py::none();

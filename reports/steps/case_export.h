@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "properties/judging/trial.h"
+#include "properties/judging/exam.h"
 #include "reports/terminal/work.h"
 
 namespace assay::reports {

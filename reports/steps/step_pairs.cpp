@@ -19,7 +19,7 @@
 #include "oracle/view/touched_by_ghosts.h"
 #include "oracle/view/view_sign.h"
 #include "properties/judging/agreement.h"
-#include "properties/judging/trial.h"
+#include "properties/judging/verdict.h"
 #include "properties/numbering.h"
 #include "properties/worker/case_run.h"
 #include "reports/steps/step_report.h"

@@ -16,7 +16,7 @@
 #include "oracle/mesh/step.h"
 #include "oracle/referee/second_opinion.h"
 #include "properties/judging/agreement.h"
-#include "properties/judging/trial.h"
+#include "properties/judging/verdict.h"
 
 namespace assay::reports {
 

@@ -19,6 +19,7 @@
 #include "detector/contact/contact_exact.h"
 #include "properties/fields.h"
 #include "properties/queries/query_methods.h"
+#include "properties/worker/plugin/query_case.h"
 #include "reports/check/query_detector.h"
 #include "reports/estimate.h"
 #include "reports/terminal/words.h"
@@ -255,17 +256,19 @@ Expected<void> ask_plugin(QueryDetector& detector, const std::string& file, cons
   BOOST_OUTCOME_TRY(judged, detector.judge(queries, names));
   for (std::size_t i = 0; i < set.size(); ++i) {
     const auto& one = judged[i];
-    if (!one.is_within || one.run.steps.empty()) continue;
-    const auto answer = one.run.steps[0].answer;
+    if (!one || one->runs[0].steps.empty()) continue;
+    const auto& run = one->runs[0];
+    const auto answer = run.steps[0].answer;
     if (answer != detector::Answer::free && answer != detector::Answer::collision) continue;
     // A label is no truth of another question than its own.
     const double separation = detector.separation();
-    const bool is_asked = !one.is_rounded && set[i].separation.value_or(0) == separation;
+    const bool is_rounded = one->c.frames != properties::case_of_query(set[i].query, "").frames;
+    const bool is_asked = !is_rounded && set[i].separation.value_or(0) == separation;
     const auto truth = is_asked ? set[i].truth : std::nullopt;
     score.add_answer(file, i,
                      {answer == detector::Answer::collision, truth,
                       separation > 0 ? std::optional(separation) : std::nullopt,
-                      truth && *truth != one.contact, 1e6 * one.run.times->steps[0]});
+                      truth && *truth == one->truth[0].pairs.empty(), 1e6 * run.times->steps[0]});
   }
   return outcome::success();
 }

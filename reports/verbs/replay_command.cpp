@@ -9,8 +9,7 @@
 #include "corpus/problem.h"
 #include "detector/step_result.h"
 #include "properties/campaign/request.h"
-#include "properties/campaign/trials/case_tally.h"
-#include "properties/campaign/trials/planned_case.h"
+#include "properties/campaign/trials/trials.h"
 #include "properties/generators/draft.h"
 #include "properties/judging/case_check.h"
 #include "properties/judging/exam.h"
@@ -110,7 +109,7 @@ std::string sets_text(const detector::StepResult& result) {
 }
 
 // What one configuration came to, without its name.
-std::string run_text(const properties::CaseRun& run, const properties::JudgedTrial& verdict,
+std::string run_text(const properties::CaseRun& run, const properties::Verdict& verdict,
                      bool is_query) {
   std::string text = fmt::format("{}{}\n", properties::name_of(verdict.outcome),
                                  run.explanation.empty() ? "" : " (" + run.explanation + ")");
@@ -147,11 +146,9 @@ struct RunText {
 };
 
 // Prints the broken laws. Returns whether there are any.
-bool print_broken_laws(const corpus::Case& c, const properties::DetectorUnderTest& detector,
-                       const std::vector<properties::CaseRun>& runs,
-                       const std::vector<oracle::StepJudgement>& truth) {
-  const properties::GeneratedCase made{c, {}};
-  const properties::RunCase one{made, detector.configurations, runs, truth};
+bool print_broken_laws(const properties::Examined& examined,
+                       const properties::DetectorUnderTest& detector) {
+  const properties::CountedCase one{examined, detector.configurations};
   const auto tally = properties::tally_cases({&one, 1}).front();
   for (const auto& broken : tally.broken) {
     fmt::print("BROKEN LAW {} ({}): {}\n", broken.law, broken.configuration, broken.explanation);
@@ -267,7 +264,7 @@ Expected<int> run_replay(const ReplayRequest& request) {
   auto exported = subject.detector;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const auto& configuration = subject.detector.configurations[i];
-    const auto& verdict = examined.trials[i];
+    const auto& verdict = examined.verdicts[i];
     std::string text = run_text(runs[i], verdict, is_query);
     if (verdict.outcome == Outcome::defect) code = exit_defect;
     if (verdict.failure && !broken) {
@@ -283,7 +280,7 @@ Expected<int> run_replay(const ReplayRequest& request) {
   }
   for (const auto& [configurations, text] : texts)
     fmt::print("{}: {}", fmt::join(configurations, ", "), text);
-  if (subject.detector.built_in && print_broken_laws(c, subject.detector, runs, truth)) {
+  if (subject.detector.built_in && print_broken_laws(examined, subject.detector)) {
     code = exit_defect;
   }
   if (!request.export_folder.empty()) {

@@ -94,8 +94,8 @@ Expected<int> replay(const Families& families, const SelfTestRequest& request,
     return wrong ? exit_unsound : exit_holds;
   }
   BOOST_OUTCOME_TRY(judged, plugin->judge({asked->query}, {request.replay}));
-  const auto& run = judged[0].run;
-  if (!run.steps.empty()) {
+  if (judged[0] && !judged[0]->runs[0].steps.empty()) {
+    const auto& run = judged[0]->runs[0];
     const auto& step = run.steps[0];
     fmt::print("plug-in: {}{}{}\n", properties::name_of(step.answer),
                step.answer == detector::Answer::collision ? " at t = " + time_text(step.first) : "",
@@ -136,14 +136,14 @@ Expected<FamilyCount> ask_family(QueryDetector& detector, const SelfTestFamily& 
     BOOST_OUTCOME_TRY(judged, detector.judge(queries, names));
     for (std::size_t i = 0; i < queries.size(); ++i) {
       const auto& one = judged[i];
-      const bool is_defect = one.verdict.failure.has_value();
-      const auto outcome = one.verdict.outcome;
-      const bool is_open = outcome != Outcome::holds && outcome != Outcome::defect;
       ++count.tally.queries;
-      count.tally.contacts += one.contact ? 1 : 0;
+      count.left_out += one ? 0 : 1;
+      if (!one) continue;
+      const auto outcome = one->verdicts[0].outcome;
+      const bool is_defect = outcome == Outcome::defect;
+      count.tally.contacts += one->truth[0].pairs.empty() ? 0 : 1;
       count.tally.contradictions += is_defect ? 1 : 0;
-      count.tally.open += one.is_within && is_open ? 1 : 0;
-      count.left_out += one.is_within ? 0 : 1;
+      count.tally.open += is_defect || outcome == Outcome::holds ? 0 : 1;
       if (is_defect && count.first_failure.empty()) count.first_failure = names[i];
     }
   }

@@ -2,8 +2,7 @@
 #include <fmt/format.h>
 
 #include "properties/campaign/phases/shrink.h"
-#include "properties/campaign/trials/case_tally.h"
-#include "properties/generators/draft.h"
+#include "properties/campaign/trials/trials.h"
 #include "properties/judging/case_check.h"
 #include "properties/reducer/mesh_size.h"
 #include "properties/worker/plugin/query_case.h"
@@ -42,8 +41,7 @@ std::optional<Failing> find_failure(const corpus::Case& c,
   }
   if (!detector.built_in) return std::nullopt;
   const auto examined = properties::examine({detector, detector.configurations, &worker}, c);
-  const properties::GeneratedCase made{c, {}};
-  const properties::RunCase one{made, detector.configurations, examined.runs, examined.truth};
+  const properties::CountedCase one{examined, detector.configurations};
   const auto tally = properties::tally_cases({&one, 1}).front();
   if (tally.broken.empty()) return std::nullopt;
   const auto& broken = tally.broken.front();

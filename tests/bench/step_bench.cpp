@@ -7,8 +7,7 @@
 #include "oracle/mesh/step.h"
 #include "properties/generators/draft.h"
 #include "properties/generators/families.h"
-#include "properties/judging/judged_run.h"
-#include "properties/judging/trial.h"
+#include "properties/judging/exam.h"
 #include "properties/worker/case_run.h"
 #include "properties/worker/worker_process.h"
 #include "reports/bench/sweep.h"
@@ -293,11 +292,9 @@ void judge_cases(benchmark::State& state, const properties::Family& family) {
   for (auto _ : state) {
     const auto id = "bench:1:" + std::string(family.name) + ":" + std::to_string(cases++);
     const auto c = properties::make_case(family, id).c;
-    const auto truth = properties::judge_case(c);
-    for (const auto& configuration : detector.configurations)
-      benchmark::DoNotOptimize(properties::judge_trial(
-          c, truth, properties::run_case(c, configuration), configuration, detector));
-    steps += truth.size();
+    const auto examined = properties::examine({detector, detector.configurations}, c);
+    benchmark::DoNotOptimize(examined.verdicts);
+    steps += examined.truth.size();
   }
   state.SetItemsProcessed(static_cast<std::int64_t>(steps));  // judged steps a second
 }

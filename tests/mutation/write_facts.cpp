@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <map>
 
-#include "properties/campaign/trials/planned_case.h"
+#include "properties/campaign/trials/trials.h"
 #include "properties/generators/draft.h"
 #include "properties/generators/families.h"
 #include "properties/laws/facts/carried_state.h"

@@ -1,6 +1,6 @@
 // Planted faults of the detector: each is found by its curated case, which the right detector
 // passes; the equivalent ones are never found.
-#include "properties/campaign/phases/fault_hunt.h"
+#include "properties/campaign/phases/phases.h"
 #include "properties/worlds/small_steps.h"
 #include "tests/asked.h"
 #include "tests/curated_cases.h"
@@ -41,11 +41,11 @@ TEST_P(Planted, IsFoundByItsCase) {
   const Fault& fault = GetParam();
   const corpus::Case* c = curated(fault.curated);
   ASSERT_NE(c, nullptr) << "no case " << fault.curated;
-  const auto judgements = judge_case(*c);
+  Examined examined{*c};
   Fault right = fault;
-  right.stages = detector::standard_stages;
-  EXPECT_FALSE(failure_of_fault(right, *c, judgements)) << "the right detector fails too";
-  EXPECT_TRUE(failure_of_fault(fault, *c, judgements)) << fault.about;
+  right.name = "";  // nothing is planted by it
+  EXPECT_FALSE(failure_of_fault(right, examined)) << "the right detector fails too";
+  EXPECT_TRUE(failure_of_fault(fault, examined)) << fault.about;
 }
 
 INSTANTIATE_TEST_SUITE_P(Faults, Planted, testing::ValuesIn(with_status(FaultStatus::planted)),
@@ -99,7 +99,8 @@ class NeverShows : public testing::TestWithParam<Fault> {};
 
 TEST_P(NeverShows, OnCuratedCases) {
   for (const auto& c : tests::curated_cases()) {
-    EXPECT_FALSE(failure_of_fault(GetParam(), c, judge_case(c))) << c.id;
+    Examined examined{c};
+    EXPECT_FALSE(failure_of_fault(GetParam(), examined)) << c.id;
   }
 }
 
@@ -130,15 +131,15 @@ TEST(PlantedFaults, SmallStepsShowThemAndNoEquivalentOne) {
   std::uint64_t colliding = 0;
   for (std::uint64_t i = 0; i < steps; ++i) {
     const SmallStep step = make_small_step(seed, i);
-    const auto point = case_of(step, detector::Culling::view_point);
-    const auto line = case_of(step, detector::Culling::view_line);
-    const auto judgements = judge_case(point);
-    if (judgements[0].pairs.empty()) continue;
+    Examined point{case_of(step, detector::Culling::view_point)};
+    point.truth = judge_case(point.c);
+    if (point.truth[0].pairs.empty()) continue;
+    Examined line{case_of(step, detector::Culling::view_line), point.truth};
     ++colliding;
     for (const auto& fault : faults()) {
       if (fault.status == FaultStatus::planted && i >= steps_of_planted) continue;
       const bool is_line = fault.options.culling == detector::Culling::view_line;
-      const auto defect = failure_of_fault(fault, is_line ? line : point, judgements);
+      const auto defect = failure_of_fault(fault, is_line ? line : point);
       found[fault.name] += defect.has_value();
       ASSERT_TRUE(!defect || fault.status != FaultStatus::equivalent)
           << fault.name << ", seed " << seed << ", case " << i;

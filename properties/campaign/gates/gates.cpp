@@ -6,7 +6,7 @@
 
 #include "corpus/scenes/scenes.h"
 #include "properties/campaign/ledger/tally.h"
-#include "properties/campaign/phases/repetitions.h"
+#include "properties/campaign/phases/phases.h"
 #include "properties/judging/cause.h"
 #include "properties/words.h"
 

@@ -1,5 +1,3 @@
-#include "properties/campaign/phases/fault_hunt.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,38 +5,42 @@
 
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/ledger/database.h"
+#include "properties/campaign/phases/phases.h"
 #include "properties/campaign/phases/shrink.h"
 #include "properties/campaign/trials/trials.h"
 #include "properties/generators/draft.h"
 #include "properties/generators/families.h"
-#include "properties/judging/fault_run.h"
+#include "properties/judging/exam.h"
 #include "properties/reducer/mesh_size.h"
 #include "properties/threads.h"
 #include "properties/worker/worker_process.h"
 
 namespace assay::properties {
 
-std::optional<Failure> failure_of_fault(const Fault& fault, const corpus::Case& c,
-                                        const std::vector<oracle::StepJudgement>& truth) {
-  const Configuration configuration{std::string(fault.name), fault.options};
-  CaseRun run;
-  run.steps = run_case(c, fault);
-  if (run.steps.empty()) return std::nullopt;  // a refused case shows nothing
-  CaseRun again = run;
+std::optional<Failure> failure_of_fault(const Fault& fault, Examined& examined) {
+  const std::string name(fault.name);
+  const Configuration planted{name, fault.options, name};
+  const DetectorUnderTest detector = built_in_detector();
+  const Exam exam{detector, {&planted, 1}};
+  auto& [c, truth, runs, again, verdicts, oracle_us, detector_us] = examined;
+  runs.clear();
+  again.clear();
+  verdicts.clear();
+  run_first(exam, examined);
+  if (runs[0].end != RunEnd::completed) return std::nullopt;  // a refused case shows nothing
   if (fault.is_disturbed) {
-    again = without_marking_counts(run_disturbed(c, fault.options, fault.stages, run.steps));
-    run = without_marking_counts(std::move(run.steps));
+    again = {without_marking_counts(run_disturbed(c, planted, runs[0].steps))};
+    runs[0] = without_marking_counts(std::move(runs[0].steps));
   }
-  auto verdict = judge_trial(c, truth, run, configuration, built_in_detector(), &again);
-  if (verdict.failure) verdict.failure->stage = fault.stage;
-  return verdict.failure;
+  judge(exam, examined);
+  return verdicts[0].failure;
 }
 
 Judge judge_of_fault(const Fault& fault) {
   return [&fault](const corpus::Case& c) -> std::optional<Finding> {
-    const auto failure = failure_of_fault(fault, c, judge_case(c));
-    if (!failure) return std::nullopt;
-    return finding_of(*failure);
+    Examined examined{c};
+    const auto failure = failure_of_fault(fault, examined);
+    return failure ? std::optional(finding_of(*failure)) : std::nullopt;
   };
 }
 
@@ -79,8 +81,8 @@ class Hunt {
       const auto c =
           corpus::read_case(hunt_.curated / (std::string(result.fault->curated) + ".json"));
       if (!c) throw StoreProblem(c.error().message);
-      result.proof.curated =
-          failure_of_fault(*result.fault, c.value(), judge_case(c.value())).has_value();
+      Examined examined{c.value()};
+      result.proof.curated = failure_of_fault(*result.fault, examined).has_value();
     }
   }
 
@@ -133,10 +135,9 @@ class Hunt {
           if (next >= end || is_cut_) return;
           place = next++;
         }
-        const auto made = case_of(seed, place);
-        const auto truth = judge_case(made.c);
+        Examined examined{case_of(seed, place).c};
         for (std::size_t f = 0; f < found.size(); ++f) {
-          if (found[f] || !failure_of_fault(*results_[f].fault, made.c, truth)) continue;
+          if (found[f] || !failure_of_fault(*results_[f].fault, examined)) continue;
           const std::lock_guard lock(mutex);
           first[f] = std::min(first[f], place);
         }
@@ -212,7 +213,7 @@ Canary meet_canary(const CampaignRequest& request) {
     throw_if_not_run(examined);
     // A worker that dies does not show that a defect was seen.
     const bool is_complete = examined.runs[0].end == RunEnd::completed;
-    if (!is_complete || examined.trials[0].outcome != Outcome::defect) continue;
+    if (!is_complete || examined.verdicts[0].outcome != Outcome::defect) continue;
     result.found_after = i + 1;
     return result;
   }

@@ -9,7 +9,6 @@
 
 #include "properties/campaign/ledger/binding.h"
 #include "properties/campaign/ledger/database.h"
-#include "properties/campaign/phases/repetitions.h"
 #include "properties/campaign/phases/shrink.h"
 #include "properties/random.h"
 #include "properties/worker/isolation.h"
@@ -28,51 +27,12 @@ constexpr double trials_share = 0.9, faults_share = 0.95;
 // The limits for shrinking a single failure or planted fault.
 constexpr ReduceLimits shrinking_of_one{60, 1'000'000};
 
-class CampaignRun {
- public:
+// The phases of run_campaign(), which states their order.
+struct CampaignRun {
   CampaignRun(const CampaignRequest& request, const std::filesystem::path& corpus, Store& store,
               CampaignObserver& observer)
       : request_(request), corpus_(corpus), store_(store), observer_(observer) {}
 
-  void run() {
-    if (request_.plugin) note_library(store_, *request_.plugin);
-    note_begin(store_);
-    if (request_.plugin) note_isolation();
-    observer_.on_begin(store_.trial_count());
-    const Canary canary = meet_canary(request_);
-    store_.set(to_row(canary));
-    observer_.on_canary(canary);
-    observer_.on_phase("trials");
-    const bool complete = judge_trials();
-    if (complete && request_.plugin) {
-      observer_.on_phase("repetitions");
-      repeat_large_meshes(request_, store_, after(1), progress_);
-    }
-    if (complete && request_.plan.search > 0) {
-      observer_.on_phase("search");
-      search_share(request_, corpus_, store_, after(faults_share), progress_);
-    }
-    observer_.on_phase("shrinking");
-    shrink(complete);
-    observer_.on_failures_shrunk(value_or_throw(store_.kept_failures()));
-    observer_.on_phase("slow cases");
-    keep_slow_cases(request_, store_, shrinking_of_one,
-                    complete ? earlier(after(1), shrinking_seconds(request_.plan)) : Clock::now(),
-                    [&](const std::string& id) { progress_("slow case " + id); });
-    observer_.on_slow_cases(stored().slow);
-    if (request_.power) take_power();
-    if (!complete) return;
-    if (!request_.power && request_.plan.fault_cases > 0) {
-      observer_.on_phase("faults");
-      hunt();
-    }
-    if (request_.plan.tetrahedron_seconds > 0) {
-      observer_.on_phase("tetrahedron");
-      explore_worlds();
-    }
-  }
-
- private:
   // Notes the isolation of all trials that the store holds, including those of an earlier call.
   void note_isolation() {
     PluginIsolation now{request_.isolation_word(), name_of(request_.isolation)};
@@ -87,16 +47,6 @@ class CampaignRun {
 
   static RunDeadline earlier(RunDeadline deadline, double seconds_from_now) {
     return std::min(deadline, deadline_in(Clock::now(), seconds_from_now));
-  }
-
-  // Returns whether all trials are stored.
-  bool judge_trials() {
-    const auto end = run_trials(request_, store_, after(trials_share),
-                                [&](const TrialProgress& state) { observer_.on_trial(state); });
-    if (end.problem) throw StoreProblem(*end.problem);
-    store_.set(to_row(HarnessProblem{end.harness_problem, store_.trial_count()}));
-    observer_.on_trials(end);
-    return end.complete;
   }
 
   // The tenth that is kept for shrinking begins when the trials have ended, however late that was.
@@ -175,7 +125,47 @@ class CampaignRun {
 Expected<void> run_campaign(const CampaignRequest& request, const std::filesystem::path& corpus,
                             Store& store, CampaignObserver& observer) {
   return catch_store_problem([&] {
-    CampaignRun(request, corpus, store, observer).run();
+    CampaignRun run(request, corpus, store, observer);
+    if (request.plugin) note_library(store, *request.plugin);
+    note_begin(store);
+    if (request.plugin) run.note_isolation();
+    observer.on_begin(store.trial_count());
+    const Canary canary = meet_canary(request);
+    store.set(to_row(canary));
+    observer.on_canary(canary);
+    observer.on_phase("trials");
+    const auto trials = run_trials(request, store, run.after(trials_share),
+                                   [&](const TrialProgress& state) { observer.on_trial(state); });
+    if (trials.problem) throw StoreProblem(*trials.problem);
+    store.set(to_row(HarnessProblem{trials.harness_problem, store.trial_count()}));
+    observer.on_trials(trials);
+    const bool complete = trials.complete;
+    if (complete && request.plugin) {
+      observer.on_phase("repetitions");
+      repeat_large_meshes(request, store, run.after(1), run.progress_);
+    }
+    if (complete && request.plan.search > 0) {
+      observer.on_phase("search");
+      search_share(request, corpus, store, run.after(faults_share), run.progress_);
+    }
+    observer.on_phase("shrinking");
+    run.shrink(complete);
+    observer.on_failures_shrunk(value_or_throw(store.kept_failures()));
+    observer.on_phase("slow cases");
+    keep_slow_cases(
+        request, store, shrinking_of_one,
+        complete ? run.earlier(run.after(1), shrinking_seconds(request.plan)) : Clock::now(),
+        [&](const std::string& id) { run.progress_("slow case " + id); });
+    observer.on_slow_cases(run.stored().slow);
+    if (request.power) run.take_power();
+    if (complete && !request.power && request.plan.fault_cases > 0) {
+      observer.on_phase("faults");
+      run.hunt();
+    }
+    if (complete && request.plan.tetrahedron_seconds > 0) {
+      observer.on_phase("tetrahedron");
+      run.explore_worlds();
+    }
     if (request.judged) value_or_throw(request.judged->is_as_it_was());
   });
 }

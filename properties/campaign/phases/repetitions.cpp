@@ -1,5 +1,3 @@
-#include "properties/campaign/phases/repetitions.h"
-
 #include <fmt/format.h>
 
 #include <Eigen/Core>
@@ -11,11 +9,11 @@
 #include "oracle/mesh/pair_relation.h"
 #include "properties/campaign/ledger/database.h"
 #include "properties/campaign/ledger/evidence.h"
+#include "properties/campaign/phases/phases.h"
 #include "properties/campaign/plan.h"
-#include "properties/campaign/trials/case_tally.h"
 #include "properties/campaign/trials/trials.h"
 #include "properties/changes/changes.h"
-#include "properties/judging/judged_run.h"
+#include "properties/judging/exam.h"
 #include "properties/random.h"
 
 namespace assay::properties {
@@ -177,10 +175,15 @@ std::vector<std::size_t> differing_steps(const corpus::Case& c, const DetectorUn
                                          const CaseRun& run, const CaseRun& answered) {
   const auto& contract = detector.contract;
   const TestedContacts is_tested(contract, c);
+  const detector::TrianglesView triangles(c.triangles);
+  const auto script = corpus::steps_of(c);
   std::vector<std::size_t> places;
   for (std::size_t s = 0; s < std::min(run.steps.size(), answered.steps.size()); ++s) {
-    const auto diff = compare_step(run, s, believed(answered.steps[s], is_tested), detector.claims,
-                                   contract, c.triangles);
+    auto answer = step_alone(run, s);
+    answer.limits.clear();  // which the oracle alone judges
+    const detector::SteppedMesh motion{start_of(c, script[s]), end_of(c, script[s])};
+    const auto diff = judge_step(answer, 0, {motion, triangles, {}},
+                                 believed(answered.steps[s], is_tested), detector.claims, contract);
     if (diff.outcome == Outcome::defect) places.push_back(s);
   }
   std::stable_sort(places.begin(), places.end(), [&](std::size_t a, std::size_t b) {
@@ -279,7 +282,7 @@ class Repetitions {
       limits.threads = threads_[process];
       workers_.emplace_back(request_.worker, request_.plugin, limits);
     }
-    auto run = std::move(workers_[process].run(c, {&configuration(), 1}).front());
+    auto run = run_alone(workers_[process], c, configuration());
     throw_if_not_run(run);
     return run;
   }
@@ -326,7 +329,7 @@ class Repetitions {
     Configuration chooser{"auto", {}};
     if (const double d = contract().separation; d > 0)
       chooser = {"bvh", {.culling = detector::Culling::bvh, .separation = d}};
-    const auto answered = std::move(built_in_.run(c, {&chooser, 1}).front());
+    const auto answered = run_alone(built_in_, c, chooser);
     auto places = differing_steps(c, request_.detector, run, answered);
     const auto plain = plain_steps(c, contract(), answered);
     places.insert(places.end(), plain.begin(), plain.end());
@@ -351,7 +354,7 @@ class Repetitions {
             examined);
       const auto& alone = examined.c;
       const auto& truth = examined.truth;
-      const auto& judged = examined.trials[0];
+      const auto& judged = examined.verdicts[0];
       // Without a verdict nothing is known of this size.
       if (judged.outcome != Outcome::holds && judged.outcome != Outcome::defect) continue;
       const auto facts = truth_of(alone, truth[0], contract());
@@ -392,8 +395,8 @@ class Repetitions {
   }
 
   // Tells of a run that differs from the first one, or that ended in a way that breaks a claim.
-  void tell(const corpus::Case& c, const CaseRun& first, const CaseRun& run,
-            const JudgedRun& judged, JudgedSource& row) {
+  void tell(const corpus::Case& c, const CaseRun& first, const CaseRun& run, const Verdict& judged,
+            JudgedSource& row) {
     row.broken = judged.outcome == Outcome::defect;
     const auto s = differing_step(first, run);
     row.what = !s ? fmt::format("{}: {}", name_of(run.end), run.explanation)
@@ -404,11 +407,9 @@ class Repetitions {
   }
 
   // Stores what the end of a run shows, or its difference from another one.
-  void keep_end(const corpus::Case& c, const CaseRun& run, const JudgedRun& judged,
+  void keep_end(const corpus::Case& c, const CaseRun& run, const Verdict& judged,
                 const std::string& what) {
-    Failure failure;
-    failure.claim = judged.broken.front();
-    failure.kind = failure.claim == Claim::deterministic ? "two runs differ" : name_of(run.end);
+    auto failure = failure_of(judged, c, {}, run, configuration(), request_.detector);
     failure.cause = special_;
     failure.explanation = fmt::format("{}, {} triangles, {}", c.id, c.triangles.rows(), what);
     add(c.id, c, failure, run.printed, true);

@@ -9,7 +9,6 @@
 #include "properties/campaign/ledger/database.h"
 #include "properties/campaign/ledger/evidence.h"
 #include "properties/campaign/phases/phases.h"
-#include "properties/campaign/trials/planned_case.h"
 #include "properties/campaign/trials/trials.h"
 #include "properties/threads.h"
 
@@ -87,7 +86,7 @@ class ShareSearch {
 
   // A defect as it is stored: if the case, run again by itself, has other answers, it is flaky.
   static StoredFailure stored_of(const FoundDefect& found, const Exam& exam) {
-    const auto alone = run_alone(exam, found.c, found.configuration);
+    const auto alone = run_alone(*exam.worker, found.c, exam.configurations[found.configuration]);
     throw_if_not_run(alone);
     const bool flaky = !same_answers(found.run, alone);
     return stored_failure(Source::search, found.c, exam.configurations[found.configuration],

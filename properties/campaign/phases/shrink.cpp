@@ -8,8 +8,7 @@
 
 #include "detector/detector.h"
 #include "properties/campaign/ledger/database.h"
-#include "properties/campaign/trials/case_tally.h"
-#include "properties/campaign/trials/planned_case.h"
+#include "properties/campaign/trials/trials.h"
 #include "properties/worker/child_process.h"
 
 namespace assay::properties {
@@ -36,7 +35,7 @@ Judge judge_of_detector(const DetectorUnderTest& detector, const Configuration& 
     const auto examined =
         examine({detector, {&configuration, 1}, &worker, nullptr, is_large(c) ? jobs : 1}, *seen);
     throw_if_not_run(examined);
-    const auto& failure = examined.trials[0].failure;
+    const auto& failure = examined.verdicts[0].failure;
     return failure ? std::optional(finding_of(*failure)) : std::nullopt;
   };
 }
@@ -288,10 +287,9 @@ Judge judge_of_slowness(const DetectorUnderTest& detector, const Configuration& 
           seconds](const corpus::Case& c) -> std::optional<Finding> {
     const auto seen = contracted(c, detector.contract);
     if (!seen) return std::nullopt;
-    const Exam exam{detector, {&configuration, 1}, &worker};
     int slow = 0, quick = 0;
     while (slow < 2 && quick < 2) {
-      const auto run = run_alone(exam, *seen, 0);
+      const auto run = run_alone(worker, *seen, configuration);
       throw_if_not_run(run);
       const bool is_slow = run.end == RunEnd::hung && run.processor_seconds >= seconds;
       ++(is_slow ? slow : quick);

@@ -10,7 +10,7 @@
 #include "detector/options.h"
 #include "properties/campaign/ledger/store.h"
 #include "properties/campaign/request.h"
-#include "properties/judging/trial.h"
+#include "properties/judging/verdict.h"
 #include "properties/reducer/reducer.h"
 #include "properties/worker/worker_process.h"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "properties/campaign/phases/repetitions.h"
+#include "properties/campaign/phases/phases.h"
 #include "properties/judging/contracted_case.h"
 #include "properties/random.h"
 

@@ -1,5 +1,3 @@
-#include "properties/campaign/trials/case_tally.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -106,18 +104,33 @@ struct LawCheck {
   std::size_t of_case, configuration;
 };
 
-void count_laws(std::span<const LawCheck> checks, std::span<const RunCase> cases,
+StoredFailure broken_law(const corpus::Case& c, const Configuration& configuration, const Law& law,
+                         const std::string& explanation) {
+  corpus::Case failing = c;
+  failing.about = fmt::format("breaks {}; {}", law.name, explanation);
+  failing.source = fmt::format("campaign case {}, {}", c.id, configuration.name);
+  failing.options = configuration_text(configuration);
+  // The case keeps its id, because laws that choose at random, or look at some of the cases only,
+  // go by it.
+  return {.case_id = c.id,
+          .configuration = configuration.name,
+          .law = std::string(law.name),
+          .explanation = explanation,
+          .mesh = corpus::case_text(failing)};
+}
+
+void count_laws(std::span<const LawCheck> checks, std::span<const CountedCase> cases,
                 std::span<CaseTally> tallies) {
   std::optional<ConfigurationLaws> asked;
   const LawCheck* last = nullptr;
   const auto found = check_in_copies(
-      checks.size(), [&](std::size_t i) { return cases[checks[i].of_case].made.c.id; },
+      checks.size(), [&](std::size_t i) { return cases[checks[i].of_case].examined.c.id; },
       [&](std::size_t i) {
         const LawCheck& check = checks[i];
         if (!last || last->of_case != check.of_case || last->configuration != check.configuration) {
-          const RunCase& one = cases[check.of_case];
-          asked.emplace(one.made.c, one.configurations[check.configuration],
-                        one.runs[check.configuration].steps, one.truth);
+          const auto& [examined, configurations, tags, with_laws] = cases[check.of_case];
+          asked.emplace(examined.c, configurations[check.configuration],
+                        examined.runs[check.configuration].steps, examined.truth);
         }
         last = &check;
         return asked->check(*check.law);
@@ -129,18 +142,20 @@ void count_laws(std::span<const LawCheck> checks, std::span<const RunCase> cases
     auto& tally = tallies[of_case];
     add_law(tally.counts, *law, found[i], name_of(configuration.options.culling));
     if (found[i].broken > 0)
-      tally.broken.push_back({std::string(law->name), configuration.name, found[i].first_broken});
+      tally.broken.push_back(
+          broken_law(cases[of_case].examined.c, configuration, *law, found[i].first_broken));
   }
 }
 
 }  // namespace
 
-std::vector<CaseTally> tally_cases(std::span<const RunCase> cases) {
+std::vector<CaseTally> tally_cases(std::span<const CountedCase> cases) {
   std::vector<CaseTally> tallies(cases.size());
   std::vector<LawCheck> checks;
   for (std::size_t k = 0; k < cases.size(); ++k) {
-    const auto& [made, configurations, runs, truth, with_laws] = cases[k];
-    for (const auto& tag : made.tags) ++tallies[k].counts.tags[tag];
+    const auto& [examined, configurations, tags, with_laws] = cases[k];
+    const auto& runs = examined.runs;
+    for (const auto& tag : tags) ++tallies[k].counts.tags[tag];
     bool counted_blocks = false;
     for (std::size_t i = 0; i < runs.size(); ++i) {
       if (runs[i].end != RunEnd::completed || !has_view_sets(configurations[i]) ||
@@ -148,11 +163,11 @@ std::vector<CaseTally> tally_cases(std::span<const RunCase> cases) {
           configurations[i].options.arithmetic != detector::Arithmetic::exact) {
         continue;
       }
-      if (!counted_blocks) count_blocks(runs[i], truth, tallies[k].counts);
+      if (!counted_blocks) count_blocks(runs[i], examined.truth, tallies[k].counts);
       counted_blocks = true;
       for (const Law& law : laws()) {
         // Laws speak of all contacts, and a run with a relation tells only those that count.
-        if (with_laws && !made.c.counted && is_checked_on(law, made.c.id))
+        if (with_laws && !examined.c.counted && is_checked_on(law, examined.c.id))
           checks.push_back({&law, k, i});
       }
     }
@@ -259,7 +274,7 @@ FormCheck check_in_form(const Law& law, const corpus::Case& c, const CaseRun& ru
   auto examined = examine({detector, {&configuration, 1}, &worker}, *told);
   throw_if_not_run(examined);
   const auto& in_form = examined.runs[0];
-  auto& judged = examined.trials[0];
+  auto& judged = examined.verdicts[0];
   check.disturbances = in_form.disturbances;
   if (judged.outcome != Outcome::holds && judged.outcome != Outcome::defect) return check;
   const auto first_difference = count_differences(*form, run, in_form, check.count);

@@ -1,5 +1,3 @@
-#include "properties/campaign/trials/planned_case.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,12 +9,12 @@
 #include "detector/detector.h"
 #include "oracle/instant/layers.h"
 #include "oracle/mesh/loops.h"
-#include "properties/campaign/trials/case_tally.h"
+#include "properties/campaign/trials/trials.h"
 #include "properties/changes/changes.h"
 #include "properties/generators/added_bodies.h"
 #include "properties/generators/draft.h"
 #include "properties/judging/contracted_case.h"
-#include "properties/judging/judged_run.h"
+#include "properties/judging/exam.h"
 #include "properties/queries/query_families.h"
 #include "properties/worker/child_process.h"
 #include "properties/worker/plugin/query_case.h"

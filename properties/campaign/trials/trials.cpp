@@ -10,10 +10,8 @@
 #include "properties/campaign/ledger/database.h"
 #include "properties/campaign/ledger/step_measures.h"
 #include "properties/campaign/ledger/tally.h"
-#include "properties/campaign/trials/case_tally.h"
-#include "properties/campaign/trials/planned_case.h"
 #include "properties/generators/draft.h"
-#include "properties/judging/case_check.h"
+#include "properties/judging/case_options.h"
 #include "properties/queries/query_families.h"
 #include "properties/random.h"
 #include "properties/threads.h"
@@ -122,23 +120,13 @@ class Trials {
       asked_.emplace(stratum.family, request.detector.in_stratum(stratum.family));
   }
 
-  TrialsEnd run() {
-    const auto begin = Clock::now();
-    in_threads(request_.jobs, [this] { work(); });
+  TrialsEnd end() {
     end_.complete = state_.done == planned_.size();
-    end_.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    end_.seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
     return end_;
   }
 
- private:
-  // Every 16th trial is run twice, to judge the claim `deterministic`: the second time in another
-  // process (CampaignRequest::second_worker_limits), and in another order: some of these trials
-  // wait for each other, and the last comes first.
-  static constexpr std::uint64_t repeat_every = 16;
-  static constexpr std::size_t repeated_together = 4;
-  static constexpr std::uint64_t meshes_kept = 3;  // this many meshes of each signature are stored
-  static constexpr std::size_t counted_together = 32;  // check_in_copies
-
+  // What each thread does: it takes trials, and runs and judges them.
   void work() {
     Workers workers(request_);
     std::vector<Trial> waiting, judged;
@@ -147,12 +135,15 @@ class Trials {
       while (const PlannedTrial* planned = next_trial()) {
         Trial trial = make(*planned, workers);
         if (trial.is_within) run(trial, run_first);
-        if (planned->index % repeat_every != 0 || !trial.is_within) {
-          conclude(trial);
-          judged.push_back(std::move(trial));
-        } else {
+        if (trial.is_within && planned->index % repeat_every == 0) {
           waiting.push_back(std::move(trial));
           if (waiting.size() == repeated_together) repeat(waiting, judged);
+        } else {
+          if (trial.is_within) {
+            judge(exam_of(trial), trial.examined);
+            conclude(trial);
+          }
+          judged.push_back(std::move(trial));
         }
         const bool is_large = planned->family->triangles > 0;  // not many of them in memory
         if (judged.size() >= counted_together || !request_.detector.built_in || is_large)
@@ -174,6 +165,15 @@ class Trials {
       end_.harness_problem = failure.what();
     }
   }
+
+ private:
+  // Every 16th trial is run twice, to judge the claim `deterministic`: the second time in another
+  // process (CampaignRequest::second_worker_limits), and in another order: some of these trials
+  // wait for each other, and the last comes first.
+  static constexpr std::uint64_t repeat_every = 16;
+  static constexpr std::size_t repeated_together = 4;
+  static constexpr std::uint64_t meshes_kept = 3;  // this many meshes of each signature are stored
+  static constexpr std::size_t counted_together = 32;  // check_in_copies
 
   const PlannedTrial* next_trial() {
     const std::lock_guard lock(mutex_);
@@ -197,7 +197,7 @@ class Trials {
     const PlannedTrial* planned = nullptr;
     const DetectorUnderTest* detector = nullptr;  // as it is asked in the stratum
     WorkerProcess *first = nullptr, *second = nullptr;
-    GeneratedCase made;
+    std::vector<std::string> tags;
     bool is_within = true;  // the detector's contract takes the case
     std::vector<Configuration> configurations;
     Examined examined;
@@ -255,16 +255,16 @@ class Trials {
     for (; !waiting.empty(); waiting.pop_back()) {
       auto& trial = waiting.back();
       run(trial, run_again);
+      judge(exam_of(trial), trial.examined);
       conclude(trial);
       judged.push_back(std::move(trial));
     }
   }
 
+  // Notes what the verdicts on a trial say.
   void conclude(Trial& trial) const {
-    if (!trial.is_within) return;
     auto& record = trial.record;
-    auto& examined = trial.examined;
-    judge(exam_of(trial), examined);
+    const auto& examined = trial.examined;
     record.oracle_us = examined.oracle_us;
     record.detector_us = examined.detector_us;
     record.outcomes.assign(trial.detector->configurations.size(), not_run);
@@ -314,10 +314,10 @@ class Trials {
     trial.second = &workers.second(*planned.family);
     const auto& detector = *(trial.detector = &asked_.find(planned.family->name)->second);
     auto drawn = case_within(detector.contract, *planned.family, id_of(planned));
-    trial.made = std::move(drawn.made);
+    trial.tags = std::move(drawn.made.tags);
     trial.is_within = drawn.seen.has_value();
     if (drawn.seen) trial.examined.c = std::move(*drawn.seen);
-    const bool vouched = is_vouched_for(detector, trial.made.c, planned.index);
+    const bool vouched = is_vouched_for(detector, drawn.made.c, planned.index);
     trial.configurations =
         vouched ? with_clean_start(detector.configurations) : detector.configurations;
     // Without a tree every pair of triangles is looked at.
@@ -333,14 +333,14 @@ class Trials {
     record.id = id_of(planned);
     record.family = planned.family->name;
     record.index = planned.index;
-    record.mesh = mesh_hash(trial.made.c);
+    record.mesh = mesh_hash(drawn.made.c);
     return trial;
   }
 
   void conclude_configuration(Trial& trial, std::size_t i) const {
     const auto& configuration = trial.configurations[i];
     const auto& run = trial.examined.runs[i];
-    auto& judged = trial.examined.trials[i];
+    auto& judged = trial.examined.verdicts[i];
     // What is special about the first of many contacts says little, and would tell apart what a
     // large mesh shows of one cause.
     if (judged.failure && !request_.detector.built_in && trial.planned->family->triangles > 0)
@@ -357,7 +357,7 @@ class Trials {
     if (!judged.failure) return;
     // A failing case is run again before it is reported. If the two runs differ, that is a failure
     // by itself.
-    const auto alone = run_alone(exam_of(trial), trial.examined.c, i);
+    const auto alone = run_alone(*trial.first, trial.examined.c, configuration);
     throw_if_not_run(alone);
     note(trial.record, alone);
     trial.failures.push_back(stored_failure(Source::trial, trial.examined.c, configuration,
@@ -392,40 +392,21 @@ class Trials {
 
   // Counts tags, set pairs and laws. The contract of the built-in detector leaves no case out.
   void count_cases(std::span<Trial> judged) const {
-    std::vector<RunCase> cases;
+    std::vector<CountedCase> cases;
     for (const auto& trial : judged) {
       const auto every = request_.plan.laws_every;
       const auto& family = *trial.planned->family;
       const bool with_laws = every > 0 && trial.planned->index % every == 0 &&
                              family.triangles == 0 && !is_question_family(family.name);
-      cases.push_back(
-          {trial.made, trial.configurations, trial.examined.runs, trial.examined.truth, with_laws});
+      cases.push_back({trial.examined, trial.configurations, trial.tags, with_laws});
     }
     const auto tallies = tally_cases(cases);
     for (std::size_t i = 0; i < judged.size(); ++i) {
       auto& trial = judged[i];
       trial.record.counts += tallies[i].counts;
-      for (const auto& broken : tallies[i].broken)
-        trial.failures.push_back(broken_law(trial.made.c, broken, trial.configurations));
+      trial.failures.insert(trial.failures.end(), tallies[i].broken.begin(),
+                            tallies[i].broken.end());
     }
-  }
-
-  static StoredFailure broken_law(const corpus::Case& c, const BrokenLaw& broken,
-                                  std::span<const Configuration> configurations) {
-    corpus::Case failing = c;
-    failing.about = fmt::format("breaks {}; {}", broken.law, broken.explanation);
-    failing.source = fmt::format("campaign case {}, {}", c.id, broken.configuration);
-    for (const auto& configuration : configurations) {
-      if (configuration.name == broken.configuration)
-        failing.options = configuration_text(configuration);
-    }
-    // The case keeps its id, because laws that choose at random, or look at some of the cases
-    // only, go by it.
-    return {.case_id = c.id,
-            .configuration = broken.configuration,
-            .law = broken.law,
-            .explanation = broken.explanation,
-            .mesh = corpus::case_text(failing)};
   }
 
   void keep(Trial& trial) {
@@ -459,6 +440,7 @@ class Trials {
   TrialProgress state_;
   TrialsEnd end_;
   Counts met_;
+  const Clock::time_point begin_ = Clock::now();
 };
 
 }  // namespace
@@ -466,7 +448,9 @@ class Trials {
 TrialsEnd run_trials(const CampaignRequest& request, Store& store, RunDeadline deadline,
                      const std::function<void(const TrialProgress&)>& progress,
                      const std::set<std::string>* only) {
-  return Trials(request, store, deadline, progress, only).run();
+  Trials trials(request, store, deadline, progress, only);
+  in_threads(request.jobs, [&] { trials.work(); });
+  return trials.end();
 }
 
 }  // namespace assay::properties

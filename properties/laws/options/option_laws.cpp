@@ -12,7 +12,7 @@
 #include "properties/generators/added_bodies.h"
 #include "properties/judging/agreement.h"
 #include "properties/judging/contracted_case.h"
-#include "properties/judging/trial.h"
+#include "properties/judging/verdict.h"
 #include "properties/laws/options/drawn_options.h"
 #include "properties/laws/step_law.h"
 #include "properties/random.h"

@@ -7,7 +7,7 @@
 
 #include "properties/campaign/ledger/step_measures.h"
 #include "properties/judging/contracted_case.h"
-#include "properties/judging/judged_run.h"
+#include "properties/judging/exam.h"
 
 namespace assay::reports {
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "properties/campaign/ledger/binding.h"
+#include "properties/judging/exam.h"
 #include "reports/bench/compared/comparison.h"
 #include "reports/terminal/option_words.h"
 
@@ -42,7 +43,7 @@ std::optional<double> bytes_a_triangle(const BenchSubject& subject) {
     auto scene = bench_scene("bend", size, frames);
     scene.frames.resize(2);
     const auto c = timed_case("", std::move(scene), subject.options.start).c;
-    const auto run = worker.run(c, {&configuration, 1}).front();
+    const auto run = run_alone(worker, c, configuration);
     if (!run.times || run.times->peak_bytes == 0) return std::nullopt;
     peaks[size == large ? 1 : 0] = static_cast<double>(run.times->peak_bytes);
     triangles = static_cast<double>(c.triangles.rows());

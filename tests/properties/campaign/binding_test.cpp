@@ -3,7 +3,7 @@
 
 #include "properties/campaign/ledger/store.h"
 #include "properties/campaign/ledger/tally.h"
-#include "properties/campaign/phases/fault_hunt.h"
+#include "properties/campaign/phases/phases.h"
 #include "properties/campaign/trials/trials.h"
 #include "properties/laws/law.h"
 #include "tests/problem_words.h"

@@ -1,11 +1,10 @@
 // What is counted of a case: the laws of a plug-in, which what is wrong in another form of a case
 // alone breaks, and what its claims allow does not; and how far a case goes.
-#include "properties/campaign/trials/case_tally.h"
-
 #include <csignal>
 #include <new>
 
 #include "properties/campaign/ledger/tally.h"
+#include "properties/campaign/trials/trials.h"
 #include "properties/worker/worker_process.h"
 #include "tests/curated_cases.h"
 #include "tests/meshes.h"

@@ -2,8 +2,7 @@
 #include "properties/campaign/ledger/evidence.h"
 
 #include "properties/campaign/ledger/tally.h"
-#include "properties/campaign/phases/fault_hunt.h"
-#include "properties/campaign/trials/case_tally.h"
+#include "properties/campaign/phases/phases.h"
 #include "properties/campaign/trials/trials.h"
 #include "tests/properties/campaign/good_findings.h"
 #include "tests/test.h"

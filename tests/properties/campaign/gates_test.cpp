@@ -2,7 +2,7 @@
 #include "properties/campaign/gates/gates.h"
 
 #include "corpus/scenes/scenes.h"
-#include "properties/campaign/phases/repetitions.h"
+#include "properties/campaign/phases/phases.h"
 #include "tests/properties/campaign/good_findings.h"
 #include "tests/test.h"
 

@@ -90,11 +90,9 @@ class Peers : public testing::Test {
     const auto seen = contracted(c.value(), detector.contract);
     if (!seen) throw std::runtime_error(mesh + " is not within the contract of " + name);
     WorkerProcess worker(ASSAY_WORKER, library_of(name), {.seconds = 20});
-    const auto run = worker.run(*seen, detector.configurations)[0];
-    const auto verdict = judge_trial(*seen, judge_case(*seen, detector.contract), run,
-                                     detector.configurations[0], detector);
-    if (!verdict.failure) return std::nullopt;
-    return verdict.failure->claim;
+    const auto failure =
+        examine({detector, detector.configurations, &worker}, *seen).verdicts[0].failure;
+    return failure ? std::optional(failure->claim) : std::nullopt;
   }
 
   // What holds of every one of them.
@@ -129,10 +127,11 @@ class Peers : public testing::Test {
   std::string cause_in(const std::string& text, const std::string& signature) {
     const auto c = corpus::parse_case(text, "failure").value();
     const auto& detector = peer_.detector;
-    const auto truth = judge_case(c, detector.contract);
     WorkerProcess worker(ASSAY_WORKER, peer_.library, {.seconds = 20});
-    const auto run = worker.run(c, detector.configurations)[0];
-    const auto verdict = judge_trial(c, truth, run, detector.configurations[0], detector);
+    const auto examined = examine({detector, detector.configurations, &worker}, c);
+    const auto& truth = examined.truth;
+    const auto& run = examined.runs[0];
+    const auto& verdict = examined.verdicts[0];
     if (!verdict.failure || !verdict.failure->pair) {
       ADD_FAILURE() << signature << ": does not fail any more";
       return "";

@@ -1,10 +1,9 @@
 // What the built-in detector is asked besides contacts, each question in a stratum of its own: how
 // far a step may be gone, and what comes within a distance. A wrong answer is found there.
-#include "properties/campaign/trials/planned_case.h"
-
 #include "detector/distance/nearness.h"
 #include "properties/campaign/ledger/tally.h"
 #include "properties/campaign/phases/shrink.h"
+#include "properties/campaign/trials/trials.h"
 #include "properties/generators/families.h"
 #include "properties/judging/case_check.h"
 #include "properties/judging/case_options.h"
@@ -12,6 +11,7 @@
 #include "properties/worker/case_run.h"
 #include "tests/curated_cases.h"
 #include "tests/properties/campaign/campaign_request.h"
+#include "tests/properties/small_case.h"
 #include "tests/reports/program.h"
 
 namespace assay::properties {
@@ -34,9 +34,8 @@ Found first_failure(const std::string& question, const Run& run) {
     const auto id = "smoke:1:" + question + ":" + std::to_string(found.after++);
     const auto c = case_within(detector.contract, *find_family(question), id).seen;
     if (!c) continue;
-    found.failure = judge_trial(*c, judge_case(*c, detector.contract), run(*c, configuration),
-                                configuration, detector)
-                        .failure;
+    found.failure =
+        test::verdict_on(*c, {}, run(*c, configuration), configuration, detector).failure;
   }
   return found;
 }
@@ -259,9 +258,7 @@ TEST(CleanStarts, VouchedForWronglyBlameNobody) {
   // It does answer wrongly.
   const Configuration trusting{
       "told", {detector::Culling::view_point, detector::Start::clean, detector::Pairs::all}};
-  EXPECT_EQ(
-      judge_trial(c, judge_case(c), run_case(c, trusting), trusting, built_in_detector()).outcome,
-      Outcome::defect);
+  EXPECT_EQ(examine({built_in_detector(), {&trusting, 1}}, c).verdicts[0].outcome, Outcome::defect);
 }
 
 }  // namespace

@@ -3,9 +3,8 @@
 #include "properties/campaign/trials/trials.h"
 
 #include "properties/campaign/ledger/tally.h"
-#include "properties/campaign/phases/fault_hunt.h"
+#include "properties/campaign/phases/phases.h"
 #include "properties/campaign/phases/shrink.h"
-#include "properties/campaign/trials/case_tally.h"
 #include "properties/generators/draft.h"
 #include "properties/generators/families.h"
 #include "properties/judging/case_check.h"

@@ -12,7 +12,8 @@
 #include "oracle/query/contact.h"
 #include "oracle/view/touched_by_ghosts.h"
 #include "oracle/view/view_sign.h"
-#include "properties/judging/fault_run.h"
+#include "properties/faults/fault.h"
+#include "properties/judging/exam.h"
 #include "tests/oracle/embedding.h"
 #include "tests/test.h"
 
@@ -258,7 +259,8 @@ inline bool non_adjacent_pairs(const Facts& f, bool wanted_in_k) {
 
 // What the planted fault says in the last step.
 inline std::optional<detector::StepResult> said_by(const Facts& f, const Fault* fault) {
-  return fault ? std::optional(run_case(f.given, *fault).back()) : std::nullopt;
+  if (!fault) return std::nullopt;
+  return run_case(f.given, {"", fault->options, std::string(fault->name)}).steps.back();
 }
 
 // The fault whose case this is: its name there was the mutant's.

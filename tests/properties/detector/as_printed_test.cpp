@@ -1,9 +1,10 @@
 // The thesis as printed misses, each deviation on its case; and how often, over random cases.
 #include <fmt/format.h>
 
+#include "properties/faults/fault.h"
 #include "properties/generators/draft.h"
 #include "properties/generators/families.h"
-#include "properties/judging/fault_run.h"
+#include "properties/judging/exam.h"
 #include "tests/curated_cases.h"
 #include "tests/test.h"
 
@@ -125,6 +126,14 @@ std::vector<Assembly> assemblies() {
   return out;
 }
 
+std::vector<detector::StepResult> results_of(const corpus::Case& c,
+                                             const detector::Stages& stages) {
+  auto player = CasePlayer::make(c, as_printed_options, stages).value();
+  std::vector<detector::StepResult> results;
+  for (std::size_t s = 0; s < player.steps(); ++s) results.push_back(player.play(s));
+  return results;
+}
+
 void count(const detector::StepResult& result, const oracle::StepJudgement& judgement,
            TollRow& row) {
   const StepDiff diff = compare(result, judgement, claims_of(as_printed_options));
@@ -158,7 +167,7 @@ TollTable measure_toll(const std::string& campaign, std::uint64_t cases_of_famil
         table.pairs += judgement.pairs.size();
       }
       for (std::size_t a = 0; a < tried.size(); ++a) {
-        const auto results = run_case(c, as_printed_options, tried[a].stages);
+        const auto results = results_of(c, tried[a].stages);
         for (std::size_t s = 0; s < results.size(); ++s) {
           count(results[s], judgements[s], table.rows[a]);
         }
@@ -190,7 +199,7 @@ TEST(AsPrinted, EachDeviationMissesOnItsCase) {
     const auto c = tests::curated_case(std::string(fault->curated));
     const auto judgements = judge_case(c);
     const auto defect = [&](const detector::Stages& stages) {
-      const auto results = run_case(c, as_printed_options, stages);
+      const auto results = results_of(c, stages);
       for (std::size_t s = 0; s < results.size(); ++s) {
         const auto diff = compare(results[s], judgements[s], claims_of(as_printed_options));
         if (diff.outcome != Outcome::holds) return true;

@@ -3,7 +3,7 @@
 // more steps, ASSAY_WALKS=100 more walks, of 1,000 steps each; ASSAY_SEED draws others.
 #include <fmt/format.h>
 
-#include "properties/campaign/phases/repetitions.h"
+#include "properties/campaign/phases/phases.h"
 #include "properties/judging/agreement.h"
 #include "properties/judging/step_errors.h"
 #include "tests/asked.h"

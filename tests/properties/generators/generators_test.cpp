@@ -10,7 +10,7 @@
 #include "properties/generators/added_bodies.h"
 #include "properties/generators/families.h"
 #include "properties/generators/motions.h"
-#include "properties/judging/judged_run.h"
+#include "properties/judging/exam.h"
 #include "properties/queries/query_families.h"
 #include "properties/worker/plugin/query_case.h"
 #include "tests/meshes.h"

@@ -76,8 +76,8 @@ TEST(Response, GeneratedOnesCommitWhatIsFreeAndTheDetectorAgrees) {
         }
       }
       // The answers of the detector, step by step, state carried as the script says.
-      for (const auto& report : check_case(made.c, detector::Culling::view_point).steps) {
-        ASSERT_EQ(report.diff.outcome, Outcome::holds);
+      for (const auto& diff : check_case(made.c, detector::Culling::view_point).verdicts[0].steps) {
+        ASSERT_EQ(diff.outcome, Outcome::holds);
       }
     }
   }

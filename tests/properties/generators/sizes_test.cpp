@@ -8,7 +8,7 @@
 #include "oracle/instant/instant.h"
 #include "properties/generators/draft.h"
 #include "properties/generators/families.h"
-#include "properties/judging/judged_run.h"
+#include "properties/judging/exam.h"
 #include "properties/queries/query_families.h"
 #include "tests/test.h"
 

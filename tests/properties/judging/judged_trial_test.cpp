@@ -23,9 +23,9 @@ class JudgedTrials : public testing::Test {
     plugin.claims = claims_of({});
     plugin.configurations = {configuration};
   }
-  JudgedTrial judge(const CaseRun& run, const DetectorUnderTest& detector,
-                    const CaseRun* again = nullptr) const {
-    return judge_trial(c, truth, run, configuration, detector, again);
+  Verdict judge(const CaseRun& run, const DetectorUnderTest& detector,
+                const CaseRun* again = nullptr) const {
+    return test::verdict_on(c, truth, run, configuration, detector, again);
   }
   static CaseRun ended(RunEnd end, const std::string& explanation) {
     return {end, explanation, {}};
@@ -43,7 +43,7 @@ class JudgedTrials : public testing::Test {
     EXPECT_EQ(judged.failure->explanation.find('\n'), std::string::npos);
   }
   // What the signature of a plug-in's step ends with.
-  std::string cause_behind(const JudgedTrial& judged, const DetectorUnderTest& detector) const {
+  std::string cause_behind(const Verdict& judged, const DetectorUnderTest& detector) const {
     if (detector.built_in || !judged.failure->pair) return "";
     const auto contact =
         std::find_if(truth[0].pairs.begin(), truth[0].pairs.end(),

@@ -1,10 +1,11 @@
 // L17: what a limiter allows. Each of its claims is broken once, alone; what numbers leave no room
 // for is counted and breaks nothing.
 #include "properties/judging/agreement.h"
-#include "properties/judging/judged_run.h"
+#include "properties/judging/exam.h"
 #include "properties/judging/step_errors.h"
-#include "properties/judging/trial.h"
+#include "properties/judging/verdict.h"
 #include "tests/close_passes.h"
+#include "tests/properties/small_case.h"
 #include "tests/sinking_corner.h"
 #include "tests/test.h"
 
@@ -38,8 +39,8 @@ Contract limiter(double separation = 0) {
   return contract;
 }
 
-JudgedRun judged(const corpus::Case& c, const LimitAnswer& answer,
-                 const Contract& contract = limiter(), const Claims& claims = claims_on_limits) {
+Verdict judged(const corpus::Case& c, const LimitAnswer& answer,
+               const Contract& contract = limiter(), const Claims& claims = claims_on_limits) {
   return judge_run(c, run_of(answer), judge_case(c, contract), claims, contract);
 }
 using List = std::vector<Claim>;
@@ -294,8 +295,7 @@ TEST(Limits, L17_AFailureTellsHowFarItWouldHaveBeenFree) {
   detector.claims = claims_on_limits;
   detector.contract = limiter();
   const auto failure_of = [&](const LimitAnswer& answer) {
-    const auto verdict =
-        judge_trial(c, judge_case(c, detector.contract), run_of(answer), {"limiter", {}}, detector);
+    const auto verdict = test::verdict_on(c, {}, run_of(answer), {"limiter", {}}, detector);
     EXPECT_TRUE(verdict.failure);
     return verdict.failure.value_or(Failure{});
   };

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "properties/campaign/phases/fault_hunt.h"
+#include "properties/campaign/phases/phases.h"
 #include "properties/reducer/mesh_size.h"
 #include "tests/curated_cases.h"
 #include "tests/properties/reducer/toy_faults.h"

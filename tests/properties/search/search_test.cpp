@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "properties/campaign/trials/planned_case.h"
+#include "properties/campaign/trials/trials.h"
 #include "properties/faults/fault.h"
 #include "properties/generators/families.h"
-#include "properties/judging/fault_run.h"
+#include "properties/judging/exam.h"
 #include "properties/judging/subject.h"
 #include "properties/worker/plugin/plugin_host.h"
 #include "tests/curated_cases.h"
@@ -26,10 +26,8 @@ struct Runner {
 };
 
 Examined judged_by(const Runner& runner, const corpus::Case& c) {
-  Examined examined;
-  examined.c = c;
-  examined.runs = {runner.run(c)};
-  judge({runner.detector, runner.detector.configurations, nullptr}, examined);
+  Examined examined{c, {}, {runner.run(c)}};
+  judge({runner.detector, runner.detector.configurations}, examined);
   return examined;
 }
 
@@ -38,15 +36,13 @@ Runner runner_of(const Fault& fault) {
   runner.detector = built_in_detector();
   runner.detector.configurations = {{std::string(fault.name), fault.options}};
   runner.run = [&fault](const corpus::Case& c) {
-    CaseRun run;
-    run.steps = run_case(c, fault);
-    return run;
+    return run_case(c, {"", fault.options, std::string(fault.name)});
   };
   // A fault must not be found by a case that was made for it, or that shows it by chance.
   std::set<std::string> shown_by;
   for (const auto& file : tests::curated_files()) {
     const auto c = corpus::read_case(file);
-    if (c && judged_by(runner, c.value()).trials[0].failure) shown_by.insert(c.value().id);
+    if (c && judged_by(runner, c.value()).verdicts[0].failure) shown_by.insert(c.value().id);
   }
   runner.shows_it_as_it_is = [shown_by](const corpus::Case& c) { return shown_by.contains(c.id); };
   return runner;
@@ -115,7 +111,7 @@ FirstDefect race_at_random(const Runner& runner, int seed, const RaceLimits& lim
     const auto c = random_case(runner, known, fmt::format("race:{}", seed), first.cases);
     const auto judged = c ? judged_by(runner, *c) : Examined{};
     first.count(judged);
-    if (!c || !judged.trials[0].failure) continue;
+    if (!c || !judged.verdicts[0].failure) continue;
     first.found = true;
     break;
   }
@@ -155,7 +151,7 @@ FirstDefect race_by_search(const Runner& runner, int seed, const RaceLimits& lim
   const ProcessorClock clock;
   const auto take = [&](const Examined& judged) {
     first.count(judged);
-    first.found = judged.trials[0].failure.has_value();
+    first.found = judged.verdicts[0].failure.has_value();
     if (first.found) first.seconds = clock.seconds();
     return first.found;
   };
@@ -170,7 +166,7 @@ FirstDefect race_by_search(const Runner& runner, int seed, const RaceLimits& lim
 using Signatures = std::set<std::string>;
 
 void take_signature(const Examined& judged, Signatures& met) {
-  if (const auto& failure = judged.trials[0].failure) met.insert(failure->signature());
+  if (const auto& failure = judged.verdicts[0].failure) met.insert(failure->signature());
 }
 
 Signatures signatures_at_random(const Runner& runner, double seconds) {
@@ -236,8 +232,8 @@ TEST(Search, WhatIsFoundFailsAgainFromItsFile) {
     const auto read = corpus::parse_case(corpus::case_text(found.c), "found");
     ASSERT_TRUE(read) << read.error().message;
     const auto judged = judged_by(runner, read.value());
-    ASSERT_TRUE(judged.trials[0].failure);
-    EXPECT_EQ(judged.trials[0].failure->signature(), found.failure.signature());
+    ASSERT_TRUE(judged.verdicts[0].failure);
+    EXPECT_EQ(judged.verdicts[0].failure->signature(), found.failure.signature());
   }
 }
 

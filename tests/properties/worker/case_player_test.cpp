@@ -1,5 +1,5 @@
 // A case is played as a caller of the detector would go through its script by hand.
-#include "properties/judging/fault_run.h"
+#include "properties/faults/fault.h"
 #include "properties/worker/case_run.h"
 #include "tests/curated_cases.h"
 #include "tests/test.h"

@@ -5,7 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "properties/judging/judged_run.h"
+#include "properties/judging/exam.h"
 #include "properties/worker/child_process.h"
 #include "properties/worker/plugin/query_case.h"
 #include "properties/worker/worker_process.h"

@@ -2,7 +2,7 @@
 // through the worker; and the oracle stays right whatever they do.
 #include <xmmintrin.h>
 
-#include "properties/judging/judged_run.h"
+#include "properties/judging/exam.h"
 #include "properties/worker/worker_process.h"
 #include "tests/curated_cases.h"
 #include "tests/properties/small_case.h"

@@ -3,7 +3,7 @@
 #include "detector/plugin/assay_builtin_detector.h"
 #include "properties/generators/draft.h"
 #include "properties/generators/families.h"
-#include "properties/judging/judged_run.h"
+#include "properties/judging/exam.h"
 #include "properties/worker/plugin/plugin_reading.h"
 #include "properties/worker/worker_process.h"
 #include "tests/curated_cases.h"
@@ -64,12 +64,14 @@ ToldRuns runs_told(const std::string& words, const std::vector<corpus::Case>& ca
     return tally;
   }
   tally.contract = description.value().contract;
+  const DetectorUnderTest told{name, false, description.value().claims, tally.contract,
+                               plugin_alone};
   for (const auto& c : cases) {
     const auto seen = contracted(c, tally.contract);
     if (!seen) continue;
-    const auto truth = judge_case(*seen, tally.contract);
-    const auto run = worker.run(*seen, plugin_alone)[0];
-    const auto verdict = judge_run(*seen, run, truth, description.value().claims, tally.contract);
+    const auto examined = examine({told, plugin_alone, &worker}, *seen);
+    const auto& run = examined.runs[0];
+    const auto& verdict = examined.verdicts[0];
     ++tally.outcomes[verdict.outcome];
     for (const auto claim : verdict.broken) ++tally.broken[claim];
     tally.left_out_misses += verdict.left_out_misses;

@@ -1,9 +1,9 @@
 // Plug-ins of steps, of a query and of candidates with faults that are excused or found.
 #include "properties/campaign/ledger/step_measures.h"
-#include "properties/campaign/trials/planned_case.h"
+#include "properties/campaign/trials/trials.h"
 #include "properties/claims/claims.h"
 #include "properties/generators/draft.h"
-#include "properties/judging/trial.h"
+#include "properties/judging/verdict.h"
 #include "properties/queries/query_families.h"
 #include "properties/worker/plugin/query_case.h"
 #include "properties/worker/worker_process.h"
@@ -21,7 +21,7 @@ struct Found {
   StepMeasures measures;
   std::uint64_t discards = 0, left_out = 0, contacts = 0;
 
-  void add(const JudgedTrial& verdict, const CaseRun& run) {
+  void add(const Verdict& verdict, const CaseRun& run) {
     ++outcomes[verdict.outcome];
     measures += measures_of(verdict.steps, run.steps);
     if (!verdict.failure) return;
@@ -66,13 +66,9 @@ struct TriedPlugin {
           ++found.discards;
           continue;
         }
-        const auto truth = judge_case(*planned.seen, detector.contract);
-        std::vector<CaseRun> runs;
-        for (int k = 0; k < (twice ? 2 : 1); ++k)
-          runs.push_back(worker.run(*planned.seen, detector.configurations)[0]);
-        found.add(judge_trial(*planned.seen, truth, runs[0], detector.configurations[0], detector,
-                              twice ? &runs[1] : nullptr),
-                  runs[0]);
+        const auto examined = examine(
+            {detector, detector.configurations, &worker, twice ? &worker : nullptr}, *planned.seen);
+        found.add(examined.verdicts[0], examined.runs[0]);
       }
     }
     return found;
@@ -222,8 +218,8 @@ Found queries_with(const std::string& words, std::uint64_t queries_a_family = 25
   TriedPlugin tried("query_alone", "ASSAY_QUERY", words);
   const auto& detector = tried.detector;
   Found found;
-  std::vector<corpus::Case> cases;
-  std::vector<CaseRun> runs, again;
+  const Exam exam{detector, detector.configurations, &tried.worker, &tried.worker};
+  std::vector<Examined> list;
   for (const auto& family : query_families()) {
     for (std::uint64_t i = 0; i < queries_a_family; ++i) {
       const auto made =
@@ -231,17 +227,14 @@ Found queries_with(const std::string& words, std::uint64_t queries_a_family = 25
       auto seen = contracted(made.c, detector.contract);
       found.left_out += seen ? 0 : 1;
       if (!seen) continue;
-      runs.push_back(tried.worker.run(*seen, detector.configurations)[0]);
-      cases.push_back(std::move(*seen));
+      run_first(exam, list.emplace_back(Examined{std::move(*seen)}));
     }
   }
-  for (const auto& c : cases) again.push_back(tried.worker.run(c, detector.configurations)[0]);
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    const auto truth = judge_case(cases[i], detector.contract);
-    found.contacts += truth[0].pairs.size();
-    found.add(
-        judge_trial(cases[i], truth, runs[i], detector.configurations[0], detector, &again[i]),
-        runs[i]);
+  for (auto& one : list) run_again(exam, one);
+  for (auto& one : list) {
+    judge(exam, one);
+    found.contacts += one.truth[0].pairs.size();
+    found.add(one.verdicts[0], one.runs[0]);
   }
   return found;
 }

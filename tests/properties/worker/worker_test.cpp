@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "detector/detector.h"
-#include "properties/judging/judged_run.h"
+#include "properties/judging/exam.h"
 #include "properties/worker/messages.h"
 #include "properties/worker/worker_process.h"
 #include "tests/curated_cases.h"

@@ -4,7 +4,7 @@
 
 #include "detector/step/stages.h"
 #include "properties/judging/case_options.h"
-#include "properties/judging/judged_run.h"
+#include "properties/judging/exam.h"
 #include "properties/laws/metamorphic/change_laws.h"
 #include "reports/bench/compared/comparison.h"
 #include "tests/reports/json_schema.h"

@@ -2,7 +2,7 @@
 #include <regex>
 
 #include "corpus/cases/case_file.h"
-#include "properties/campaign/trials/planned_case.h"
+#include "properties/campaign/trials/trials.h"
 #include "properties/generators/draft.h"
 #include "properties/generators/families.h"
 #include "tests/reports/tiny_campaign.h"

@@ -1,7 +1,7 @@
-// One trial: a case through a detector's configurations, judged by the oracle once.
+// What a detector's run of a case comes to in one configuration: the diffs of its steps, what it
+// breaks, and the first failure, in words.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -12,7 +12,6 @@
 #include "detector/mesh/counted_pairs.h"
 #include "detector/mesh/types.h"
 #include "properties/judging/agreement.h"
-#include "properties/judging/judged_run.h"
 #include "properties/judging/subject.h"
 
 namespace assay::properties {
@@ -68,15 +67,20 @@ std::string contact_text(const detector::PairContact& contact, const std::string
 Failure failure_of(const StepDiff& diff, const detector::StepResult& result,
                    const Contract& contract);
 
-struct JudgedTrial : JudgedRun {
-  std::optional<Failure> failure;  // for a defect: the first step that shows one
+struct Verdict {
+  Outcome outcome = Outcome::holds;
+  std::vector<Claim> broken;        // in the order of Claim, each once
+  std::string explanation;          // how the run ended, if it did not complete
+  std::uint64_t disturbances = 0;   // how often it was killed from outside and repeated
+  std::vector<StepDiff> steps;      // only of a completed run
+  std::size_t left_out_misses = 0;  // steps that only the contract saves from being a miss
+  std::optional<Failure> failure;   // for a defect: the first step that shows one
 };
 
-// Judges one run of a case. `truth` is the oracle's judgement of the same case, contracted
-// (judged_run.h); `again` is a second run, if there was one. In exact arithmetic the built-in
-// detector's times must be the oracle's in every bit; a plug-in is judged by its claims.
-JudgedTrial judge_trial(const corpus::Case& c, std::span<const oracle::StepJudgement> truth,
-                        const CaseRun& run, const Configuration& configuration,
-                        const DetectorUnderTest& detector, const CaseRun* again = nullptr);
+// The failure that the verdict on a run shows. In exact arithmetic the built-in detector's times
+// must be the oracle's in every bit; a plug-in is judged by its claims. REQUIRES a defect.
+Failure failure_of(const Verdict& verdict, const corpus::Case& c,
+                   std::span<const oracle::StepJudgement> truth, const CaseRun& run,
+                   const Configuration& configuration, const DetectorUnderTest& detector);
 
 }  // namespace assay::properties

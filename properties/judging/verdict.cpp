@@ -1,12 +1,12 @@
-#include "properties/judging/trial.h"
+#include "properties/judging/verdict.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "properties/judging/case_check.h"
-#include "properties/judging/case_options.h"
+#include "properties/faults/fault.h"
 #include "properties/judging/cause.h"
+#include "properties/judging/exam.h"
 #include "properties/numbering.h"
 #include "properties/worker/plugin/query_case.h"
 
@@ -74,29 +74,25 @@ void name_features(Failure& failure, const detector::FourPoints& query) {
 
 }  // namespace
 
-JudgedTrial judge_trial(const corpus::Case& c, std::span<const oracle::StepJudgement> truth,
-                        const CaseRun& run, const Configuration& configuration,
-                        const DetectorUnderTest& detector, const CaseRun* again) {
-  JudgedTrial judged{
-      judge_run(c, run, truth, detector.claims_on(c, configuration), detector.contract, again), {}};
-  if (judged.outcome != Outcome::defect) return judged;
-  Failure& failure = judged.failure.emplace();
-  const auto is_defect = [](const StepDiff& diff) { return diff.outcome == Outcome::defect; };
-  const auto diff = std::find_if(judged.steps.begin(), judged.steps.end(), is_defect);
-  if (diff == judged.steps.end()) {
-    failure.claim = judged.broken.front();
+Failure failure_of(const Verdict& verdict, const corpus::Case& c,
+                   std::span<const oracle::StepJudgement> truth, const CaseRun& run,
+                   const Configuration& configuration, const DetectorUnderTest& detector) {
+  Failure failure;
+  const auto diff = std::ranges::find(verdict.steps, Outcome::defect, &StepDiff::outcome);
+  if (diff == verdict.steps.end()) {
+    failure.claim = verdict.broken.front();
     failure.kind = failure.claim == Claim::deterministic ? "two runs differ" : name_of(run.end);
-    failure.explanation = judged.explanation.empty() ? failure.kind : judged.explanation;
+    failure.explanation = verdict.explanation.empty() ? failure.kind : verdict.explanation;
   } else {
-    const auto s = static_cast<std::size_t>(diff - judged.steps.begin());
+    const auto s = static_cast<std::size_t>(diff - verdict.steps.begin());
     const auto step = corpus::steps_of(c)[s];
     failure = failure_of(*diff, run.steps[s], detector.contract);
     if (failure.kind == "error") {
       const auto error = error_of(run, s);
-      failure.explanation = error.empty() ? judged.explanation : error;
+      failure.explanation = error.empty() ? verdict.explanation : error;
     }
     if (detector.built_in) {
-      find_stage(failure, c, step, *diff, configuration.options);
+      if (configuration.fault.empty()) find_stage(failure, c, step, *diff, configuration.options);
     } else if (failure.claim == Claim::commit_free) {
       failure.cause = text_of(cause_of(c.triangles, {start_of(c, step), run.limits[s]->positions},
                                        *diff->limit->hit, detector.contract.separation > 0));
@@ -105,11 +101,12 @@ JudgedTrial judge_trial(const corpus::Case& c, std::span<const oracle::StepJudge
     }
     failure.step = s;
   }
+  if (const Fault* planted = find_fault(configuration.fault)) failure.stage = planted->stage;
   failure.configuration = configuration.name;
   if (failure.pair)
     failure.explanation += BodyNames(corpus::counted_of(c), c.triangles).text(*failure.pair);
   if (const auto query = query_of(c)) name_features(failure, *query);
-  return judged;
+  return failure;
 }
 
 std::string Failure::signature() const {
