@@ -59,40 +59,18 @@ bool is_unanswered_contact(const detector::StepResult& result, const StepTruth& 
          !truth.starts_near;
 }
 
-class Comparison {
- public:
+// The parts of compare(), which states their order.
+struct Comparison {
   Comparison(const detector::StepResult& result, const oracle::StepJudgement& judgement,
-             const Claims& claims, const Contract& contract)
+             const Claims& claims, const Contract& contract,
+             const detector::TrianglesView& triangles)
       : result_(result),
         judgement_(judgement),
         claims_(claims),
         contract_(contract),
-        times_{claims.has(Claim::times_unique), contract.time_tolerance} {}
+        times_{claims.has(Claim::times_unique), contract.time_tolerance},
+        truth_(truth_of(judgement, contract, triangles)) {}
 
-  StepDiff run(StepTruth truth) {
-    diff_.answer = result_.answer;
-    diff_.oracle_complete = judgement_.complete;
-    diff_.nothing_in_contact = judgement_.complete && allowed().empty();
-    diff_.claims_pairs = claims_.has_any(claims_about({About::pairs}));
-    diff_.unanswered_contact = is_unanswered_contact(result_, truth);
-    if (result_.answer == Answer::error) {
-      diff_.owes_answer = !result_.problem;
-      return weighed(Outcome::error);
-    }
-    diff_.partial = !detector_complete() || !judgement_.complete;
-    truth_ = std::move(truth);
-    diff_.first_contact = truth_.first;
-    diff_.starts_near = truth_.starts_near;
-    diff_.left_out = std::move(truth_.left_out);
-    compare_with_all();
-    compare_with_what_counts();
-    compare_answers();
-    compare_with_slack();
-    excuse();
-    return weighed(diff_.partial ? Outcome::undecided : Outcome::holds);
-  }
-
- private:
   // What may be reported: whatever is there, or is so within the slack.
   const std::vector<PairContact>& allowed() const {
     return judgement_.within_slack ? *judgement_.within_slack : judgement_.pairs;
@@ -229,8 +207,28 @@ TimeOff time_off(const TimeEnclosure& stated, const TimeEnclosure& exact, double
 StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
                  const Claims& claims, const Contract& contract,
                  const detector::TrianglesView& triangles) {
-  return Comparison(result, judgement, claims, contract)
-      .run(truth_of(judgement, contract, triangles));
+  Comparison compared(result, judgement, claims, contract, triangles);
+  auto& diff = compared.diff_;
+  auto& truth = compared.truth_;
+  diff.answer = result.answer;
+  diff.oracle_complete = judgement.complete;
+  diff.nothing_in_contact = judgement.complete && compared.allowed().empty();
+  diff.claims_pairs = claims.has_any(claims_about({About::pairs}));
+  diff.unanswered_contact = is_unanswered_contact(result, truth);
+  if (result.answer == Answer::error) {
+    diff.owes_answer = !result.problem;
+    return compared.weighed(Outcome::error);
+  }
+  diff.partial = !compared.detector_complete() || !judgement.complete;
+  diff.first_contact = truth.first;
+  diff.starts_near = truth.starts_near;
+  diff.left_out = std::move(truth.left_out);
+  compared.compare_with_all();
+  compared.compare_with_what_counts();
+  compared.compare_answers();
+  compared.compare_with_slack();
+  compared.excuse();
+  return compared.weighed(diff.partial ? Outcome::undecided : Outcome::holds);
 }
 
 oracle::AskedFeatures asked_features(const Contract& contract) {

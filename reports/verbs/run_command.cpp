@@ -192,18 +192,6 @@ Expected<int> conclude(const properties::CampaignRequest& request,
   return judgement.exit_code;
 }
 
-// Runs what is left, and reads the whole of it.
-Expected<properties::RunFindings> run_rest(const properties::CampaignRequest& request,
-                                           properties::Store& store, const std::string& out) {
-  if (request.own_cases) {
-    BOOST_OUTCOME_TRY(own, judge_corpus(request, ""));
-    BOOST_OUTCOME_TRY(
-        properties::keep_corpus(store, own.rows, own.failures, properties::KeepMeshes::now));
-  }
-  BOOST_OUTCOME_TRY(run_on_terminal(request, store, out));
-  return properties::read_findings(out);
-}
-
 Expected<int> run_campaign(const CampaignWords& words) {
   // A share is judged together with others (verify), so it has a certificate.
   if (words.shares > 1) return certify(words);
@@ -214,7 +202,16 @@ Expected<int> run_campaign(const CampaignWords& words) {
   BOOST_OUTCOME_TRY(properties::expect_no_other_store(out, {properties::store_file(out)}));
   BOOST_OUTCOME_TRY(
       store, properties::Store::open(properties::store_file(out), properties::binding_of(request)));
-  const auto findings = run_rest(request, store, out);
+  // Runs what is left, and reads the whole of it.
+  const auto findings = [&]() -> Expected<properties::RunFindings> {
+    if (request.own_cases) {
+      BOOST_OUTCOME_TRY(own, judge_corpus(request, ""));
+      BOOST_OUTCOME_TRY(
+          properties::keep_corpus(store, own.rows, own.failures, properties::KeepMeshes::now));
+    }
+    BOOST_OUTCOME_TRY(run_on_terminal(request, store, out));
+    return properties::read_findings(out);
+  }();
   if (!findings) {
     auto problem = findings.error();
     problem.message += go_on;
