@@ -44,7 +44,8 @@ def compile_commands(build, rooms):
     return commands
 
 
-# Sources that use a name for something else than another source of their folder.
+# Sources that use a name for something else than another source of their folder. In the other rooms
+# there are too many of them, and what CMake joins there is joined enough.
 NOT_JOINED = tuple(f"{ROOT}/{file}" for file in (
     "detector/view/view_signs.cpp", "oracle/referee/referee.cpp", "oracle/referee/static_check.cpp"))
 
@@ -79,7 +80,7 @@ def main():
     arguments = FOR_CLANG + ([] if options.all else ["--checks=-*," + ",".join(CHEAP)])
 
     with tempfile.TemporaryDirectory() as folder:
-        sources = commands if options.files else by_folder(commands, folder)
+        sources = commands if options.files or options.all else by_folder(commands, folder)
         (Path(folder) / "compile_commands.json").write_text(json.dumps(
             [{"directory": str(options.build), "file": file, "command": command}
              for file, command in sources.items()]))
