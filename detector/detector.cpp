@@ -152,11 +152,13 @@ Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView&
   SharedStop shared(callers);
   const StopFunction asked = shared.function();
   PacedStop pace(asked, workers);
-  if (auto problem = check_triangles(triangles, positions.rows(), pace)) return std::move(*problem);
-  if (auto problem = check_positions(positions, positions.rows())) return std::move(*problem);
-  if (options.counted) {
-    if (auto problem = check_counted_pairs(*options.counted, triangles, positions.rows()))
-      return std::move(*problem);
+  if (auto problem = check_corners(triangles, positions.rows())) return std::move(*problem);
+  auto problem = check_positions(positions, positions.rows());
+  if (!problem && options.counted)
+    problem = check_counted_pairs(*options.counted, triangles, positions.rows());
+  if (problem) {
+    auto before = check_repeated(triangles, positions.rows(), pace);
+    return std::move(before ? *before : *problem);
   }
   const auto stopped = [] {
     return Problem{InputError::stopped, "stopped while the detector was created"};
@@ -166,6 +168,11 @@ Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView&
                         ? stages.boundary->close_up(triangles, positions.rows(), pace)
                         : surface_without_ghosts(triangles, positions.rows(), pace);
   if (pace.now()) return stopped();
+  // The edges tell already that most meshes repeat no triangle.
+  if (surface.mesh.may_repeat_triangles) {
+    if (auto repeated = check_repeated(triangles, positions.rows(), pace))
+      return std::move(*repeated);
+  }
   BoundingVolumeTree tree(surface.mesh, positions, &pace);
   if (pace.now()) return stopped();
   tree.grow_boxes(stages.elementary->separation());

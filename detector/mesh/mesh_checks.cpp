@@ -29,49 +29,15 @@ std::string at_triangle(Eigen::Index t) { return "triangle " + std::to_string(t)
 
 Problem stopped_at_checks() { return {InputError::stopped, "stopped while the mesh was checked"}; }
 
-// Triangles with the same three vertices are among those of one lowest vertex.
-std::optional<Problem> find_same_vertices(const TrianglesView& triangles, std::size_t vertex_count,
-                                          PacedStop& pace) {
-  const auto lowest_of = [&](std::size_t i) {
-    const auto t = static_cast<Eigen::Index>(i);
-    return std::array{std::min({triangles(t, 0), triangles(t, 1), triangles(t, 2)})};
-  };
-  Incidence of_vertex;
-  if (!list_by_row(static_cast<std::size_t>(triangles.rows()), vertex_count, lowest_of, of_vertex,
-                   pace))
-    return stopped_at_checks();
-  std::vector<std::array<std::int32_t, 3>> others;  // the two other vertices, and the triangle
-  for (std::int32_t v = 0; at(v) < vertex_count; ++v) {
-    const auto row = of_vertex.row(v);
-    if (row.size() < 2) continue;
-    others.clear();
-    for (const auto t : row) {
-      const auto a = triangles(t, 0), b = triangles(t, 1), c = triangles(t, 2);
-      const auto highest = std::max({a, b, c});
-      others.push_back({a ^ b ^ c ^ v ^ highest, highest, t});
-    }
-    std::sort(others.begin(), others.end());
-    const auto same = std::adjacent_find(
-        others.begin(), others.end(),
-        [](const auto& p, const auto& q) { return p[0] == q[0] && p[1] == q[1]; });
-    if (same != others.end()) {
-      return Problem{InputError::same_vertices_twice, "triangles " + std::to_string(same[0][2]) +
-                                                          " and " + std::to_string(same[1][2]) +
-                                                          " have the same three vertices"};
-    }
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 std::optional<Problem> check_triangles(const TrianglesView& triangles, Eigen::Index vertex_count) {
   PacedStop pace(never_stops);
-  return check_triangles(triangles, vertex_count, pace);
+  auto problem = check_corners(triangles, vertex_count);
+  return problem ? problem : check_repeated(triangles, vertex_count, pace);
 }
 
-std::optional<Problem> check_triangles(const TrianglesView& triangles, Eigen::Index vertex_count,
-                                       PacedStop& pace) {
+std::optional<Problem> check_corners(const TrianglesView& triangles, Eigen::Index vertex_count) {
   if (triangles.rows() == 0) return Problem{InputError::no_triangles, "the mesh has no triangles"};
   if (triangles.rows() > most_triangles || vertex_count > most_vertices) {
     return Problem{InputError::mesh_too_large,
@@ -95,7 +61,42 @@ std::optional<Problem> check_triangles(const TrianglesView& triangles, Eigen::In
       return Problem{InputError::repeated_index, at_triangle(t) + " names a vertex twice"};
     }
   }
-  return find_same_vertices(triangles, static_cast<std::size_t>(vertex_count), pace);
+  return std::nullopt;
+}
+
+// Triangles with the same three vertices are among those of one lowest vertex.
+std::optional<Problem> check_repeated(const TrianglesView& triangles, Eigen::Index vertex_count,
+                                      PacedStop& pace) {
+  const auto vertices = static_cast<std::size_t>(vertex_count);
+  const auto lowest_of = [&](std::size_t i) {
+    const auto t = static_cast<Eigen::Index>(i);
+    return std::array{std::min({triangles(t, 0), triangles(t, 1), triangles(t, 2)})};
+  };
+  Incidence of_vertex;
+  if (!list_by_row(static_cast<std::size_t>(triangles.rows()), vertices, lowest_of, of_vertex,
+                   pace))
+    return stopped_at_checks();
+  std::vector<std::array<std::int32_t, 3>> others;  // the two other vertices, and the triangle
+  for (std::int32_t v = 0; at(v) < vertices; ++v) {
+    const auto row = of_vertex.row(v);
+    if (row.size() < 2) continue;
+    others.clear();
+    for (const auto t : row) {
+      const auto a = triangles(t, 0), b = triangles(t, 1), c = triangles(t, 2);
+      const auto highest = std::max({a, b, c});
+      others.push_back({a ^ b ^ c ^ v ^ highest, highest, t});
+    }
+    std::sort(others.begin(), others.end());
+    const auto same = std::adjacent_find(
+        others.begin(), others.end(),
+        [](const auto& p, const auto& q) { return p[0] == q[0] && p[1] == q[1]; });
+    if (same != others.end()) {
+      return Problem{InputError::same_vertices_twice, "triangles " + std::to_string(same[0][2]) +
+                                                          " and " + std::to_string(same[1][2]) +
+                                                          " have the same three vertices"};
+    }
+  }
+  return std::nullopt;
 }
 
 std::optional<Problem> check_positions(const PositionsView& positions, Eigen::Index vertex_count) {

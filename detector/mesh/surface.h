@@ -43,7 +43,7 @@ struct Surface {
   std::size_t ghost_count() const { return all().triangles.size() - mesh.triangles.size(); }
 };
 
-// REQUIRES triangles that have passed check_triangles. O(N + M).
+// REQUIRES triangles that have passed check_corners. O(N + M).
 Surface make_surface(const TrianglesView& triangles, Eigen::Index vertex_count);
 // The same with a pace. If `pace` was stopped the result is of no use.
 Surface make_surface(const TrianglesView& triangles, Eigen::Index vertex_count, PacedStop& pace);

@@ -80,6 +80,7 @@ class EdgesOfVertices {
   }
 
   std::vector<UnmatchedEdge> unmatched;
+  bool may_repeat_triangles = false;
 
  private:
   void collect(std::int32_t v, std::span<const std::int32_t> around) {
@@ -95,10 +96,18 @@ class EdgesOfVertices {
     EdgeUse before = 0;  // no edge has vertex 0 for its higher one
     for (auto use = uses_.begin() + first; use != uses_.end(); ++use) {
       const EdgeUse higher = *use >> edge_use::vertex_shift;
-      if (higher == std::exchange(before, higher)) continue;
+      if (higher == std::exchange(before, higher)) {
+        may_repeat_triangles |= !edge_use::is_first(use[-1]) || opposite(*use) == opposite(use[-1]);
+        continue;
+      }
       *use |= EdgeUse{1} << edge_use::first_shift;
       ++count_;
     }
+  }
+
+  std::int32_t opposite(EdgeUse use) const {
+    const auto corner = at(edge_use::corner(use));
+    return mesh_.triangles[corner / 3][corner % 3];
   }
 
   Topology& mesh_;
@@ -140,8 +149,10 @@ bool make_edges(Topology& mesh, std::size_t vertex_count, PacedStop& pace) {
     mesh.edges.resize(edges);
     mesh.edge_triangles.starts.resize(edges + 1);
     if (!in_pieces([](auto& piece, std::size_t, std::size_t) { piece->write(); })) return false;
-    for (const auto& piece : used)
+    for (const auto& piece : used) {
       mesh.unmatched.insert(mesh.unmatched.end(), piece->unmatched.begin(), piece->unmatched.end());
+      mesh.may_repeat_triangles |= piece->may_repeat_triangles;
+    }
   }
   mesh.edge_triangles.starts[edges] = static_cast<std::int32_t>(uses);
   return true;
@@ -153,6 +164,22 @@ std::int32_t root_of(std::vector<std::int32_t>& parent, std::int32_t v) {
     v = parent[at(v)];
   }
   return v;
+}
+
+// As mostly: nothing has to be looked up. number: 0 for its vertices, of which there are `vertices`.
+bool make_only_component(Topology& mesh, const std::vector<std::int32_t>& number,
+                         std::size_t vertices, PacedStop& pace) {
+  auto& all = mesh.components.emplace_back();
+  all.triangles.resize(mesh.triangles.size());
+  all.vertices.reserve(vertices);
+  const auto take_triangle = [&](std::size_t t) {
+    all.triangles[t] = static_cast<std::int32_t>(t);
+  };
+  const auto take_vertex = [&](std::size_t v) {
+    if (number[v] == 0) all.vertices.push_back(static_cast<std::int32_t>(v));
+  };
+  return for_each_paced(all.triangles.size(), work_of_corner, pace, take_triangle) &&
+         for_each_paced(number.size(), work_of_corner, pace, take_vertex);
 }
 
 bool make_components(Topology& mesh, std::size_t vertex_count, PacedStop& pace) {
@@ -186,6 +213,7 @@ bool make_components(Topology& mesh, std::size_t vertex_count, PacedStop& pace) 
   };
   if (!for_each_paced(vertex_count, work_of_triangle, pace, number_vertex)) return false;
   mesh.component_of_triangle.resize(mesh.triangles.size());
+  if (sizes.size() == 1) return make_only_component(mesh, number, sizes[0].vertices, pace);
   const auto number_triangle = [&](std::size_t t) {
     const auto c = number[at(mesh.triangles[t][0])];
     mesh.component_of_triangle[t] = c;

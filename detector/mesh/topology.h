@@ -45,9 +45,12 @@ struct Topology {
   std::vector<UnmatchedEdge> unmatched;  // ascending by edge
   std::vector<Component> components;     // ascending by their lowest vertices
   std::vector<std::int32_t> component_of_triangle;
+  // False only if no two triangles have the same three vertices: every edge has one triangle, or two
+  // that differ in their third vertex.
+  bool may_repeat_triangles = false;
 };
 
-// REQUIRES triangles that have passed check_triangles. O(N + M).
+// REQUIRES triangles that have passed check_corners. O(N + M).
 Topology make_topology(const TrianglesView& triangles, Eigen::Index vertex_count);
 // The same with a pace. If `pace` was stopped the result is of no use.
 Topology make_topology(const TrianglesView& triangles, Eigen::Index vertex_count, PacedStop& pace);

@@ -48,6 +48,25 @@ TEST(Detector, L12_NamedErrors) {
   Positions nan = x;
   nan(3, 1) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(create_error(octahedron(), nan), InputError::non_finite_coordinate);
+  EXPECT_EQ(create_error(tests::triangles({{0, 1, 2}, {1, 2, 0}}), nan),
+            InputError::same_vertices_twice);
+}
+
+// The edges of a mesh tell whether triangles have to be compared: wherever the two that repeat stand,
+// turned or not, and however many others share their edges.
+TEST(Detector, L12_RepeatedTrianglesAreFoundAnywhere) {
+  const Positions x = octahedron_positions(1);
+  const Triangles whole = octahedron();
+  for (Eigen::Index t = 0; t < whole.rows(); ++t) {
+    for (const bool is_turned : {false, true}) {
+      Triangles more(whole.rows() + 1, 3);
+      more << whole, whole(t, 1), whole(t, is_turned ? 0 : 2), whole(t, is_turned ? 2 : 0);
+      EXPECT_EQ(create_error(more, x), InputError::same_vertices_twice) << t;
+    }
+  }
+  EXPECT_EQ(create_error(tests::triangles({{0, 1, 2}, {0, 1, 3}, {0, 1, 4}, {1, 0, 3}}), x),
+            InputError::same_vertices_twice);
+  EXPECT_TRUE(Detector::create(tests::triangles({{0, 1, 2}, {0, 1, 3}, {0, 1, 4}}), x, {}));
 }
 
 // The number of triangles is looked at before any triangle is, so that no memory stands behind it.

@@ -88,7 +88,7 @@ TEST_F(Paced, ATreeDoesNotDependOnTheWorkers) {
 
 TEST_F(Paced, ChecksOfTheMesh) {
   expect_paced(11 * count_, [&](PacedStop& pace) {
-    const auto problem = check_triangles(rows_, vertices_, pace);
+    const auto problem = check_repeated(rows_, vertices_, pace);
     EXPECT_EQ(problem.has_value(), pace.stopped());
     if (problem) {
       EXPECT_EQ(problem->error, InputError::stopped);
