@@ -1,6 +1,7 @@
 #include "detector/search/candidate_search.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "detector/boxes/moving_box.h"
 #include "detector/parallel/workers.h"
@@ -51,7 +52,7 @@ bool CandidateSearch::same_component(std::int32_t a, std::int32_t b) const {
   return mesh_.component_of_triangle[at(a)] == mesh_.component_of_triangle[at(b)];
 }
 
-double CandidateSearch::asked_share() const {
+double CandidateSearch::share_of_edges(bool open_alone) const {
   constexpr std::size_t most_edges = 512;
   const PairTables k = stages_.rule.candidates();
   const std::size_t edges = std::min(mesh_.edges.size(), most_edges);
@@ -61,9 +62,18 @@ double CandidateSearch::asked_share() const {
         mesh_.edge_triangles.row(static_cast<std::int32_t>(i * mesh_.edges.size() / edges));
     if (holders.size() < 2) continue;
     ++pairs;
-    asked += k.within.asks(memory_.marks.flags(holders[0]), memory_.marks.flags(holders[1]));
+    asked += k.within.asks(memory_.marks.flags(holders[0]), memory_.marks.flags(holders[1])) &&
+             !(open_alone && contacts_.are_proved_apart(holders[0], holders[1]));
   }
   return pairs == 0 ? 0 : static_cast<double>(asked) / static_cast<double>(pairs);
+}
+
+// Fans cost what a few hundred of the pairs cost that they leave out of a thousand triangles.
+void CandidateSearch::prove_apart() {
+  constexpr double least_asked = 0.125;
+  if (std::exchange(has_proved_apart_, true) || asked_share() < least_asked) return;
+  contacts_.ask(AskedTypes::in_first_search(stages_.rule.candidates()));
+  contacts_.prove_apart(tree_.wide(), &pace_);
 }
 
 void CandidateSearch::look_for_first(const TimeBound& bound, BoundingVolumeTree& tree) {
@@ -124,7 +134,7 @@ bool CandidateSearch::collect(bool uses_proofs) {
   const PairTables k = stages_.rule.candidates();
   contacts_.ask(AskedTypes::in_first_search(k));
   // Proofs of patches leave out the same pairs.
-  if (!uses_proofs || !stages_.search.has_proofs()) contacts_.prove_apart(tree_.wide(), &pace_);
+  if (!uses_proofs || !stages_.search.has_proofs()) prove_apart();
   return !pace_.stopped() && search(k, uses_proofs);
 }
 

@@ -55,7 +55,12 @@ class CandidateSearch {
   ProvableShares provable_shares() const { return stages_.search.provable_shares(mesh_); }
   // An estimate, from a few hundred edges spread over the mesh: the share of pairs of triangles at
   // an edge that the rule asks for. REQUIRES that types are marked.
-  double asked_share() const;
+  double asked_share() const { return share_of_edges(false); }
+  // The same of those pairs that are not proved apart by fans or sheets, which is done for that.
+  double open_share() {
+    prove_apart();
+    return share_of_edges(true);
+  }
   // The closure of L7. H starts as the triangles found in contact with their own component. Each
   // round tests (U,H) for the triangles that joined H last, and adds what is found, until H is
   // stable. Contacts of two components add nothing to H, because their pairs were all tested, and
@@ -78,6 +83,9 @@ class CandidateSearch {
 
  private:
   bool search(const PairTables& tables, bool uses_proofs);
+  // Proves pairs apart, once, if enough pairs of neighbours are asked for.
+  void prove_apart();
+  double share_of_edges(bool open_alone) const;
   // Takes the earliest contact so far for the bound. False if it was stopped. REQUIRES that all
   // candidates so far were tested.
   bool tighten();
@@ -97,6 +105,7 @@ class CandidateSearch {
   SearchCounts counts_;
   MarkingCounts marking_counts_;
   std::uint64_t closure_rounds_ = 0;
+  bool has_proved_apart_ = false;
   // Where the first contact is looked for: what it is found by.
   struct First {
     TimeBound bound;

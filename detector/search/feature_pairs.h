@@ -242,12 +242,12 @@ class FeaturePairs {
   // Says what the searches to come ask for, with the types as they are now. Until it is called they
   // ask for everything, and nothing was asked for before.
   void ask(const AskedTypes& asked);
-  // Proves pairs apart over the whole step, mostly neighbours, if all triangles have one type: else
-  // most are not asked for. `motion`: that of the constructor. REQUIRES that there was no refit().
+  // Proves pairs apart over the whole step, mostly neighbours. Sheets are looked for only if all
+  // triangles have one type: else most are not asked for. `motion`: that of the constructor.
+  // REQUIRES that there was no refit().
   void prove_apart(const SteppedMesh& motion, const WideTree& tree, PacedStop* pace) {
     constexpr std::size_t worth_sheets = 4096;
-    if (asks_by_types_) return;
-    if (motion.is_at_rest() && mesh_.triangles.size() >= worth_sheets)
+    if (!asks_by_types_ && motion.is_at_rest() && mesh_.triangles.size() >= worth_sheets)
       sheets_.emplace(mesh_, tree, motion.vertices_t0, pace);
     if (!sheets_ || !sheets_->hold_most()) fans_.prove(mesh_, points_, pace);
   }

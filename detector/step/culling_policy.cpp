@@ -231,7 +231,7 @@ bool CostModel::worth_sweeping(const GivenStep& step, const StepMarks& marks, Pa
 bool CostModel::worth_proving(const StepMarks& marks, CandidateSearch& candidates) {
   // Proofs are about pairs of one component, and none of these are left to search.
   if (marks.has_views() && marks.all_free()) return false;
-  const double asked = candidates.asked_share() * (marks.has_views() ? worth_beside_views : 1);
+  const double asked = candidates.open_share() * (marks.has_views() ? worth_beside_views : 1);
   const std::size_t triangles = surface_.mesh.triangles.size();
   constexpr ProvableShares at_best = {1, 1, 1};
   return worth_proving(at_best, asked, triangles) &&

@@ -143,7 +143,7 @@ class CostModel : public CullingPolicy {
 
   bool worth_proving(const StepMarks& marks, CandidateSearch& candidates) override;
   // Whether normal cones and contours are expected to save more than they cost (L14).
-  // asked_share: of the pairs of neighbours, the share that K asks for.
+  // asked_share: of the pairs of neighbours, the share that K asks for and that fans leave open.
   bool worth_proving(const ProvableShares& provable, double asked_share, std::size_t triangles);
 
   // Views have paid if release, ghost sweep and closure cost less than the pairs they left out.
