@@ -293,9 +293,10 @@ SavedState Detector::state() const {
   const ProcessorState processor;
   StepContext& context = parts_->context;
   PacedStop pace(never_stops, context.workers);
-  context.views.make(context, pace);
+  context.views.make(context, pace, std::numeric_limits<double>::infinity());
   return SavedState(StateFields{digest_of(context), context.options.culling, parts_->committed,
-                                context.views.apex_rules(), context.views.anchors()});
+                                context.views.apex_rules(), context.views.anchors(),
+                                context.views.work()});
 }
 
 std::optional<Problem> Detector::restore(const SavedState& saved) {
@@ -319,7 +320,7 @@ std::optional<Problem> Detector::restore(const SavedState& saved) {
   }
   StateFields copy = state;  // copied first, so that nothing has changed if memory fails here
   parts_->committed = std::move(copy.committed);
-  context.views.replace(std::move(copy.anchors), std::move(copy.apex_rules));
+  context.views.replace(std::move(copy.anchors), std::move(copy.apex_rules), copy.view_work);
   parts_->evaluated.reset();
   return std::nullopt;
 }

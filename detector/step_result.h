@@ -29,6 +29,7 @@ enum class ViewUse : std::uint8_t {
   saving_too_little,  // too few triangles are of one sign
   among_ghosts,       // too many triangles are near ghosts
   among_dirty,        // too few triangles are clean
+  saving_up,          // steps before have not saved what they cost (step/culling_policy.h)
 };
 // Their names follow the words "no views, ".
 constexpr auto names_of(ViewUse) {
@@ -41,7 +42,8 @@ constexpr auto names_of(ViewUse) {
        {hopeless, "of a few triangles doubles can tell too few signs"},
        {saving_too_little, "too few triangles are of one sign"},
        {among_ghosts, "too many triangles are near ghosts"},
-       {among_dirty, "too few triangles are clean"}});
+       {among_dirty, "too few triangles are clean"},
+       {saving_up, "steps before have not saved what they cost"}});
 }
 
 struct StepResult {

@@ -132,7 +132,7 @@ ApexChoice::ApexChoice(const Surface& surface, const BoundingVolumeTree& tree,
       all_(with_apexes(x, std::vector<MovingPoint>(surface.loops.size()), false)),
       x_(x),
       view_of_all_(all_),
-      stop_(stop),
+      stop_(stop, work_between_asks),
       sweep_{surface, tree, {view_of_all_, view_of_all_}, elementary, true},
       ghosts_(surface.ghost_count()),
       touched_(surface.mesh.triangles.size(), 0) {
@@ -235,7 +235,7 @@ std::vector<ApexRule> BoundaryHandler::choose_apexes(const Surface& surface,
                                                      const ElementaryTest& elementary,
                                                      const StopFunction& stop) const {
   if (surface.is_closed()) return {};
-  PacedStop pace(stop);
+  PacedStop pace(stop, ApexChoice::work_between_asks);
   if (!tree.refit(surface.mesh, {x, x}, pace) || !tree.join_boxes(&pace))
     return std::vector<ApexRule>(surface.loops.size());
   return ApexChoice(surface, tree, x, elementary, stop).run().rules;

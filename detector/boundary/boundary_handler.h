@@ -63,6 +63,9 @@ class ApexChoice {
   // 160 to 280 box tests do.
   static constexpr std::uint64_t work_per_triangle = 200, base_work = 200'000;
 
+  // The stop function is asked after so much work of the choice.
+  static constexpr std::uint64_t work_between_asks = 10'000;
+
   // REQUIRES the tree of the mesh, refitted to x. The references must outlive this object.
   ApexChoice(const Surface& surface, const BoundingVolumeTree& tree, const PositionsView& x,
              const ElementaryTest& elementary, const StopFunction& stop);

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <utility>
 
 #include "detector/mesh/step_types.h"
 
@@ -27,6 +29,9 @@ class PacedStop {
 
   explicit PacedStop(const StopFunction& stop, std::uint64_t interval = usual_interval)
       : stop_(stop), interval_(interval) {}
+  // The same that also ends once more than `most` work was done.
+  PacedStop(const StopFunction& stop, std::uint64_t interval, double most)
+      : stop_(stop), interval_(interval), most_(most) {}
   // For work that the workers share (for_all.h). One thread asks for all of them.
   PacedStop(const StopFunction& stop, const Workers& workers)
       : stop_(stop), workers_(&workers), interval_(usual_interval) {}
@@ -40,9 +45,11 @@ class PacedStop {
   }
   // Asks the stop function at once, however little work was done, and says whether to end.
   bool now() {
-    done_ = 0;
-    return stopped_ = stopped_ || (stop_ && stop_());
+    spent_ += std::exchange(done_, 0);
+    return stopped_ = stopped_ || static_cast<double>(spent_) > most_ || (stop_ && stop_());
   }
+  // The work that was done. REQUIRES that no workers shared it.
+  double spent() const { return static_cast<double>(spent_ + done_); }
   bool stopped() const { return stopped_; }
 
   // A pace with the same workers that asks nobody and is never stopped.
@@ -58,7 +65,8 @@ class PacedStop {
  private:
   const StopFunction& stop_;
   const Workers* workers_ = nullptr;
-  std::uint64_t interval_, done_ = 0;
+  std::uint64_t interval_, done_ = 0, spent_ = 0;
+  double most_ = std::numeric_limits<double>::infinity();
   bool stopped_ = false;
 };
 

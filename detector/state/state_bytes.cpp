@@ -186,6 +186,9 @@ void policy_fields(Archive& archive, Policy& policy) {
   field(archive, policy.next_pause);
   field(archive, policy.candidates);
   field(archive, policy.overhead);
+  field(archive, policy.credit);
+  field(archive, policy.tried);
+  field(archive, policy.has_views);
 }
 
 template <class Archive, class Committed>
@@ -216,6 +219,7 @@ void state_fields(Archive& archive, State& state) {
   length(archive, state.apex_rules, word);
   for (auto& rule : state.apex_rules) field(archive, rule.height);
   anchor_list(archive, state.anchors);
+  field(archive, state.view_work);
 }
 
 Problem damaged(const char* message) { return {InputError::damaged_state, message}; }

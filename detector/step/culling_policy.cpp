@@ -138,6 +138,43 @@ constexpr double worth_beside_views = 0.4;
 
 constexpr std::uint64_t longest_pause = 32;
 
+// What steps take, in box tests of 5 ns, fitted to steps of bvh and of views. Box tests themselves
+// are not counted, because they depend on the tree, and so on where the detector was made: a
+// candidate of bvh stands for the boxes above it and for its share of the triangle. Beside views
+// the triangle counts apart, and a candidate stands for more boxes, because those left lie apart.
+constexpr double work_of_candidate = 4.4, work_of_triangle = 5, work_beside_views = 22,
+                 work_of_test = 48, work_of_contact = 155;
+
+// A look at what is near a ghost, and its sweep; the view test of a point and of a line, a
+// triangle; a sign that takes integers; the release of a triangle in doubt; a winding number, a
+// triangle.
+constexpr double work_of_ghost = 40, work_of_point = 2, work_of_line = 3, work_of_integers = 600,
+                 work_of_doubt = 20, work_of_crossing = 4;
+
+double work_of_pairs(std::uint64_t pairs, std::uint64_t tests) {
+  return static_cast<double>(GhostCounts{0, pairs, tests, 0}.work());
+}
+
+// The least that views take to be made: a search among this many triangles of a component, a look
+// at the others, and, of an unclosed mesh, a tree of boxes.
+constexpr double work_of_plane = 25, work_of_look = 6, work_of_boxes = 10;
+constexpr std::size_t planes_of_search = 1024;
+// Of what a glance hopes for, some is left to chance. Holes, and places that are not in the middle,
+// take some times that, and what is spent on views that are too dear is lost.
+constexpr double share_of_hope = 0.7, with_holes = 1.5, without_hope = 2;
+
+double least_work_of_views(const Surface& surface) {
+  double work =
+      surface.is_closed() ? 0 : work_of_boxes * static_cast<double>(surface.mesh.triangles.size());
+  for (const auto& component : surface.mesh.components) {
+    const std::size_t count = component.triangles.size();
+    const bool is_searched = effort_for(component, surface.mesh, Effort::brief) != Effort::least;
+    if (is_searched) work += work_of_plane * static_cast<double>(std::min(count, planes_of_search));
+    work += work_of_look * static_cast<double>(count);
+  }
+  return work;
+}
+
 // Choosing anchors looks at an eighth of the triangles and costs at most half a step of culling
 // bvh. Because it is done every 16 steps or less often, it stays below 5 %.
 constexpr std::uint64_t first_anchor_age = 16, greatest_anchor_age = 4096;
@@ -162,7 +199,9 @@ std::uint64_t adjacent_pairs(const Topology& mesh) {
 const std::vector<ViewAnchor>& CostModel::anchors(const std::vector<ViewAnchor>& first,
                                                   const PositionsView& vertices_t0,
                                                   PacedStop& pace) {
-  if (state_.anchors_are_due) {
+  if (state_.anchors_are_due &&
+      (!saves_up_ || state_.credit - spent_ >= least_work_of_views(surface_))) {
+    const double spent_before = pace.spent();  // one thread chooses them
     auto chosen = std::make_shared<std::vector<ViewAnchor>>();
     for (const auto& component : surface_.all().components) {
       const Effort effort = effort_for(component, surface_.mesh, Effort::quick);
@@ -170,10 +209,77 @@ const std::vector<ViewAnchor>& CostModel::anchors(const std::vector<ViewAnchor>&
       chosen->push_back(choose_view_anchor(surface_.all(), component, surface_.first_apex,
                                            vertices_t0, effort, &pace));
     }
+    spent_ += pace.spent() - spent_before;
     state_.anchors = std::move(chosen);
     chose_anchors_ = true;
   }
   return state_.anchors ? *state_.anchors : first;
+}
+
+double CostModel::hoped_at_a_glance(const SteppedMesh& motion) const {
+  if (is_at_rest_) return 0;  // then bvh takes little: it passes over whole sheets
+  const Topology& mesh = surface_.mesh;
+  double seen = 0;
+  ViewCounts rungs;
+  for (const auto& component : mesh.components) {
+    const auto& [triangles, vertices, is_cycle] = component;
+    if (triangles.size() < worth_sampling) continue;
+    MovingPoint middle = {};
+    for (std::size_t i = 0; i < sample_size; ++i) {
+      const auto path = motion.path(vertices[i * vertices.size() / sample_size]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        middle.t0[k] += path.t0[k] / static_cast<double>(sample_size);
+        middle.t1[k] += path.t1[k] / static_cast<double>(sample_size);
+      }
+    }
+    std::size_t positive = 0;
+    while (positive < sample_size) {
+      const auto& v = mesh.triangles[at(triangles[positive * triangles.size() / sample_size])];
+      const MovingTriangle triangle = {motion.path(v[0]), motion.path(v[1]), motion.path(v[2])};
+      if (view_sign(triangle, {middle, middle}, rungs, Arithmetic::bounded) != ViewSign::positive)
+        break;
+      ++positive;
+    }
+    if (positive == sample_size) seen += static_cast<double>(triangles.size());
+  }
+  return share_of_hope * work_of_candidate * static_cast<double>(adjacent_) * seen /
+         std::max(1.0, static_cast<double>(mesh.triangles.size()));
+}
+
+void CostModel::begin(const SteppedMesh& motion, const StepState* known, bool needs_views) {
+  is_at_rest_ = motion.is_at_rest();
+  if (!saves_up_ || state_.pause > 0) return;
+  if (known && !known->met_is_complete) {
+    waits_ = true;
+    return;
+  }
+  const auto count = static_cast<double>(surface_.mesh.triangles.size());
+  if (needs_views && !state_.has_views) {
+    const double hoped = hoped_at_a_glance(motion);
+    const double times_least = hoped == 0 ? without_hope : surface_.is_closed() ? 1 : with_holes;
+    most_for_views_ = state_.credit + hoped;
+    waits_ =
+        most_for_views_ < std::max(times_least * least_work_of_views(surface_), 2 * state_.tried);
+    return;
+  }
+  double doubts = 0;
+  if (known && !surface_.is_closed())
+    doubts = static_cast<double>(std::count(known->clean.begin(), known->clean.end(), 0));
+  most_for_views_ = std::numeric_limits<double>::infinity();
+  const double trial = work_of_point * count + work_of_doubt * doubts;
+  waits_ = state_.credit < trial && state_.credit + hoped_at_a_glance(motion) < trial;
+}
+
+double CostModel::most_for_views() const {
+  return saves_up_ ? most_for_views_ : std::numeric_limits<double>::infinity();
+}
+
+void CostModel::pay_for_views(bool are_made, double work) {
+  if (!saves_up_ || state_.has_views) return;
+  state_.has_views = are_made;
+  waits_ = !are_made;
+  if (!are_made) state_.tried = most_for_views_;
+  spent_ += are_made ? work : most_for_views_;
 }
 
 bool CostModel::does_without(ViewUse because) {
@@ -187,12 +293,13 @@ std::uint64_t CostModel::expected_candidates() const {
 }
 
 bool CostModel::worth_classifying(const GivenStep& step, const StepMarks& marks) {
-  double saved = 0, count = 0, open = 0;
+  double saved = 0, count = 0, open = 0, tests = 0;
   for (std::size_t c = 0; c < marks.primitives.size(); ++c) {
     if (!step.looks_within(c)) continue;
     const auto own = step.own_triangles(c);
     const auto m = static_cast<double>(own.size());
     count += m;
+    tests += m * (marks.primitives[c].is_point() ? work_of_point : work_of_line);
     if (own.size() < worth_sampling) {
       saved += m;
       continue;
@@ -204,7 +311,10 @@ bool CostModel::worth_classifying(const GivenStep& step, const StepMarks& marks)
   }
   if (count == 0) return does_without(ViewUse::saving_too_little);  // nothing within counts
   const double hoped = worth_of_saved * saved / count * static_cast<double>(expected_candidates());
-  if (saved / count >= least_share && cost_of_open * open <= hoped) return true;
+  if (saved / count >= least_share && cost_of_open * open <= hoped) {
+    spent_ += tests;
+    return true;
+  }
   share_of_signs_ = share_ = saved / count;
   return does_without(ViewUse::hopeless);
 }
@@ -222,6 +332,7 @@ bool CostModel::worth_sweeping(const GivenStep& step, const StepMarks& marks, Pa
     if (share_ < least_share) return does_without(ViewUse::among_dirty);
   }
   if (surface_.is_closed()) return true;
+  spent_ += work_of_ghost * static_cast<double>(surface_.ghost_count());
   if (!step.tree.fit_once(surface_.mesh, step.motion, pace)) return false;
   const double saved = share_ * static_cast<double>(expected_candidates());
   return !has_more_ghost_pairs(step, marks, saved / cost_of_ghost_pair, pace) ||
@@ -271,6 +382,7 @@ double CostModel::cost_beside_search(const StepCounts& counts) const {
 }
 
 void CostModel::record_cost(const StepCounts& counts, std::uint64_t candidates_of_k) {
+  of_k_ = candidates_of_k;
   const auto k = static_cast<double>(candidates_of_k);
   const double all = share_ < 1 ? k / (1 - share_) : k;
   // How much proofs leave out depends on the tree, and so on where the detector was made.
@@ -281,13 +393,40 @@ void CostModel::record_cost(const StepCounts& counts, std::uint64_t candidates_o
   paid_ = *overhead_ <= worth_of_saved * saved;
 }
 
-PolicyState CostModel::next(const StepCounts& counts, bool has_own_primitives) const {
+double CostModel::credit_after(const StepCounts& counts, std::size_t contacts) const {
+  const auto count = static_cast<double>(surface_.mesh.triangles.size());
+  const auto& [in_doubt, released, pairs, tests, windings] = counts.release;
+  const double windings_of_all =
+      static_cast<double>(windings) + (counts.winding_numbers > 0 ? 1 : 0);
+  const double spent =
+      spent_ + work_of_integers * static_cast<double>(counts.view.exact) +
+      work_of_doubt * static_cast<double>(in_doubt) + work_of_crossing * windings_of_all * count +
+      work_of_pairs(counts.ghosts.pairs + pairs, counts.ghosts.elementary_tests + tests);
+  const bool is_told = counts_tell();
+  const SearchCounts search = is_told ? counts.search : SearchCounts{};
+  const NarrowCounts narrow = is_told ? counts.narrow : NarrowCounts{};
+  const auto candidates = static_cast<double>(search.candidate_pairs);
+  const double found = work_of_test * static_cast<double>(narrow.elementary_tests) +
+                       work_of_contact * static_cast<double>(contacts);
+  const bool ends_free = is_told && use() == ViewUse::used && !of_k_ &&
+                         surface_.mesh.components.size() == 1 && counts.free_components == 1;
+  double own = work_of_candidate * candidates + found, bvh = own;
+  if (ends_free || (of_k_ && is_told)) {
+    if (!ends_free) own = work_of_triangle * count + work_beside_views * candidates + found;
+    bvh = work_of_candidate * std::max(candidates, static_cast<double>(adjacent_)) + found;
+  }
+  return state_.credit + earned_share * bvh + bvh - own - spent;
+}
+
+PolicyState CostModel::next(const StepCounts& counts, std::size_t contacts,
+                            bool has_own_primitives) const {
   PolicyState next = state_;
-  if (counts.search.candidate_pairs > 0 && !proves_)
+  next.credit = credit_after(counts, contacts);
+  if (counts.search.candidate_pairs > 0 && counts_tell())
     next.candidates = counts.search.candidate_pairs;
   ++next.anchor_age;
   if (!is_due()) {
-    --next.pause;
+    if (next.pause > 0) --next.pause;
     return next;
   }
   next.overhead = overhead_ ? *overhead_ : state_.overhead / 2;

@@ -6,6 +6,7 @@
 // in the order of the functions below. After the first no it does without views.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -29,8 +30,15 @@ class CullingPolicy {
   // Whether steps of this culling may have views. Then each step follows what is clean, so that a
   // later step with views can rely on it.
   virtual bool may_use_views() const = 0;
+  // Told first: the motion of the mesh, the state that the step goes on from, or null, and whether
+  // the step would need the views that the detector makes (FirstViews).
+  virtual void begin(const SteppedMesh&, const StepState*, bool) {}
   // Whether view primitives are placed in this step.
   virtual bool is_due() const = 0;
+  // The work that views may take to be made, in box tests. Afterwards it is told whether they are
+  // there, and what they took. If they are not, the step is done without.
+  virtual double most_for_views() const { return std::numeric_limits<double>::infinity(); }
+  virtual void pay_for_views(bool /*are_made*/, double /*work*/) {}
   // Where each component is seen from. `first`: the anchors of preprocessing.
   virtual const std::vector<ViewAnchor>& anchors(const std::vector<ViewAnchor>& first,
                                                  const PositionsView& vertices_t0,
@@ -48,14 +56,18 @@ class CullingPolicy {
 
   // Whether the search proves patches apart. REQUIRES that types are marked.
   virtual bool worth_proving(const StepMarks& marks, CandidateSearch& candidates) = 0;
-  // Told after a search with views. `candidates_of_k`: those before the closure.
+  // Told after a search with views, unless a first contact has cut it short. `candidates_of_k`:
+  // those before the closure.
   virtual void record_cost(const StepCounts& counts, std::uint64_t candidates_of_k) = 0;
 
   // Whether views were used, as far as that is decided.
   virtual ViewUse use() const = 0;
-  // What the policy of the next step begins with. has_own_primitives: the primitives were placed at
-  // the policy's anchors; otherwise the caller gave them.
-  virtual PolicyState next(const StepCounts& counts, bool has_own_primitives) const = 0;
+  // What the policy of the next step begins with. `counts`, and `contacts`, how many pairs are in
+  // contact: none of a search that a first contact has cut short, because they depend on the tree.
+  // has_own_primitives: the primitives were placed at the policy's anchors; otherwise the caller
+  // gave them.
+  virtual PolicyState next(const StepCounts& counts, std::size_t contacts,
+                           bool has_own_primitives) const = 0;
 };
 
 // The cullings that decide nothing: views always (view_point, view_line) or never.
@@ -77,7 +89,7 @@ class FixedPolicy : public CullingPolicy {
   bool worth_proving(const StepMarks&, CandidateSearch&) override { return true; }
   void record_cost(const StepCounts&, std::uint64_t) override {}
   ViewUse use() const override { return has_views_ ? ViewUse::used : ViewUse::not_asked_for; }
-  PolicyState next(const StepCounts&, bool) const override { return state_; }
+  PolicyState next(const StepCounts&, std::size_t, bool) const override { return state_; }
 
  private:
   bool has_views_;
@@ -111,17 +123,36 @@ std::uint64_t adjacent_pairs(const Topology& mesh);
 // A step after one in which most triangles were in contact does not try to release them: they will
 // likely be in contact again. Then views do not pay either.
 //
+// Culling automatic keeps an account beside that, of counted work in box tests
+// (work_of_candidate and the constants beside it; the benches account/ hold it against times).
+// Each step without views earns a share of what it takes. A step with views earns what culling
+// bvh would at least have taken more, and pays for what views take. Views are made and tried
+// only if they can be paid for. So after any number of steps, automatic has spent little more
+// than culling bvh would have spent. A mesh that is seen to be positive from its middle, at a
+// glance, may spend beforehand what that saves within the step. A start of which only a first
+// contact is known would have to be verified anew, which costs more than views save: it is done
+// without them. What depends on the tree is not counted, so that a restored detector, whose
+// tree is another one, decides alike; nor is anything saved while the mesh rests.
+//
 // Example: on a sheet seen along itself views do not pay in steps 1, 3, 6, 11, 20; the pauses
 // between these are of 1, 2, 4 and 8 steps.
 class CostModel : public CullingPolicy {
  public:
+  // Of what a step without views takes, the share that may be lost later. A tenth is promised.
+  static constexpr double earned_share = 0.05;
+
   // adjacent: adjacent_pairs of the mesh. The surface must outlive this object.
-  CostModel(const Surface& surface, std::uint64_t adjacent, PolicyState before)
-      : surface_(surface), adjacent_(adjacent), state_(std::move(before)) {}
+  // saves_up: as culling automatic does.
+  CostModel(const Surface& surface, std::uint64_t adjacent, PolicyState before,
+            bool saves_up = false)
+      : surface_(surface), adjacent_(adjacent), state_(std::move(before)), saves_up_(saves_up) {}
 
   bool may_use_views() const override { return true; }
-  // Not while a pause lasts.
-  bool is_due() const override { return state_.pause == 0; }
+  void begin(const SteppedMesh& motion, const StepState* known, bool needs_views) override;
+  // Not while a pause lasts, nor while they cost more than may be spent.
+  bool is_due() const override { return state_.pause == 0 && !waits_; }
+  double most_for_views() const override;
+  void pay_for_views(bool are_made, double work) override;
   // Chooses anchors again when they are due, from the positions at the start of the step.
   const std::vector<ViewAnchor>& anchors(const std::vector<ViewAnchor>& first,
                                          const PositionsView& vertices_t0,
@@ -149,8 +180,11 @@ class CostModel : public CullingPolicy {
   // Views have paid if release, ghost sweep and closure cost less than the pairs they left out.
   void record_cost(const StepCounts& counts, std::uint64_t candidates_of_k) override;
 
-  ViewUse use() const override { return is_due() ? use_ : ViewUse::resting; }
-  PolicyState next(const StepCounts& counts, bool has_own_primitives) const override;
+  ViewUse use() const override {
+    return state_.pause > 0 ? ViewUse::resting : waits_ ? ViewUse::saving_up : use_;
+  }
+  PolicyState next(const StepCounts& counts, std::size_t contacts,
+                   bool has_own_primitives) const override;
 
  private:
   // Notes that views would not pay in this step, and why. Returns false.
@@ -159,6 +193,13 @@ class CostModel : public CullingPolicy {
   // What release and ghost sweep have cost, in candidates.
   double cost_beside_search(const StepCounts& counts) const;
   void update_anchors(PolicyState& next) const;
+  // What views save at once in a step that is seen from the middle of its components, at a glance.
+  double hoped_at_a_glance(const SteppedMesh& motion) const;
+  // Whether the counts of the search tell what bvh takes. What proofs leave out, and of a mesh at
+  // rest what its sheets leave out, depends on the tree, and so on where the detector was made.
+  bool counts_tell() const { return !proves_ && !is_at_rest_; }
+  // What may be spent after this step.
+  double credit_after(const StepCounts& counts, std::size_t contacts) const;
 
   const Surface& surface_;
   std::uint64_t adjacent_;
@@ -170,6 +211,11 @@ class CostModel : public CullingPolicy {
   bool proves_ = false;
   ViewUse use_ = ViewUse::used;
   std::optional<double> overhead_;  // of this step, where views were used or found not worth using
+
+  bool saves_up_ = false, waits_ = false, is_at_rest_ = false;
+  double most_for_views_ = 0;
+  double spent_ = 0;                   // of this step, on views and on the view test, in box tests
+  std::optional<std::uint64_t> of_k_;  // its candidates before the closure, once they are told
 };
 
 }  // namespace assay::detector

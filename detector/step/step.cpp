@@ -64,7 +64,9 @@ std::vector<ViewAnchor> place_anchors(const Surface& surface,
   for (const auto& component : surface.all().components) {
     const Effort effort = effort_for(component, surface.mesh,
                                      chooses_views(culling) ? Effort::brief : Effort::thorough);
-    if (pace.after(effort == Effort::least ? 400 : 20'000)) break;
+    constexpr std::uint64_t work_of_plane = 20, planes = 1024;
+    const std::uint64_t count = component.triangles.size();
+    if (pace.after(effort == Effort::least ? 400 : work_of_plane * std::min(count, planes))) break;
     if (chooses_views(culling)) {
       anchors.push_back(
           choose_view_anchor(surface.all(), component, surface.first_apex, x, effort, &pace));
@@ -154,7 +156,8 @@ class PolicyOfStep {
       : fixed_(context.options.culling, before) {
     if (!chooses_views(context.options.culling)) return;
     if (!context.adjacent_pairs) context.adjacent_pairs = adjacent_pairs(context.surface.mesh);
-    model_.emplace(context.surface, *context.adjacent_pairs, before);
+    model_.emplace(context.surface, *context.adjacent_pairs, before,
+                   context.options.culling == Culling::automatic);
   }
   FixedPolicy fixed_;
   std::optional<CostModel> model_;
@@ -181,26 +184,37 @@ bool move_ghosts(const StepContext& context, const SteppedMesh& mesh, PacedStop&
 
 }  // namespace
 
-bool FirstViews::make(StepContext& context, PacedStop& pace) {
-  if (!x_) return true;
+FirstViews::Made FirstViews::make(StepContext& context, PacedStop& pace, double most) {
+  if (!x_) return work_ <= most ? Made::yes : Made::too_dear;
+  if (work_ >= most) return Made::too_dear;
   const Surface& surface = context.surface;
+  constexpr std::uint64_t between = ApexChoice::work_between_asks;
   // Once the stop function has asked for an end it is not asked again.
-  const StopFunction paced = [&] { return pace.now(); };
+  const StopFunction asked = [&] { return pace.after(between); };
+  PacedStop counted(asked, between, most);
+  const StopFunction paced = [&] { return counted.after(between); };
   std::vector<ApexRule> rules;
   if (!surface.is_closed())
     rules = context.stages.boundary->choose_apexes(surface, context.tree, *x_,
                                                    *context.stages.elementary, paced);
   context.tree.forget_fit();
-  if (pace.stopped()) return false;
-  auto anchors = place_anchors(surface, rules, context.options.culling, *x_, pace);
-  if (pace.stopped()) return false;
-  replace(std::move(anchors), std::move(rules));
-  return true;
+  std::vector<ViewAnchor> anchors;
+  if (!counted.stopped())
+    anchors = place_anchors(surface, rules, context.options.culling, *x_, counted);
+  if (pace.stopped()) return Made::stopped;
+  if (counted.stopped() || counted.spent() > most) {
+    work_ = most;
+    return Made::too_dear;
+  }
+  replace(std::move(anchors), std::move(rules), counted.spent());
+  return Made::yes;
 }
 
-void FirstViews::replace(std::vector<ViewAnchor> anchors, std::vector<ApexRule> rules) {
+void FirstViews::replace(std::vector<ViewAnchor> anchors, std::vector<ApexRule> rules,
+                         double work) {
   anchors_ = std::move(anchors);
   apex_rules_ = std::move(rules);
+  work_ = work;
   x_.reset();
 }
 
@@ -225,9 +239,13 @@ StepResult evaluate_step(StepContext& context, const std::optional<StepState>& k
   {
     Stopwatch watch(total);
     MovedGhosts ghosts;
-    const bool asks_for_views =
-        policy.is_due() && (primitives.empty() || !context.surface.is_closed());
-    if (asks_for_views && !context.views.make(context, pace)) return no_answer();
+    const bool needs_views = primitives.empty() || !context.surface.is_closed();
+    policy.begin(mesh, goes_on ? &*known : nullptr, needs_views);
+    if (needs_views && policy.is_due()) {
+      const auto made = context.views.make(context, pace, policy.most_for_views());
+      if (made == FirstViews::Made::stopped) return no_answer();
+      policy.pay_for_views(made == FirstViews::Made::yes, context.views.work());
+    }
     const bool moves_ghosts = !context.surface.is_closed() && policy.is_due();
     if (moves_ghosts && !move_ghosts(context, mesh, pace, ghosts)) return no_answer();
     const SteppedMesh motion = moves_ghosts ? SteppedMesh{ghosts.all_t0, ghosts.all_t1} : mesh;

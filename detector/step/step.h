@@ -25,11 +25,15 @@ class FirstViews {
   FirstViews() = default;
   explicit FirstViews(const PositionsView& x) : x_(x) {}
 
+  enum class Made : std::uint8_t { yes, too_dear, stopped };
   // Makes them, unless that was done before. It leaves the boxes of the tree fitted to other
-  // positions. False if it was stopped; then nothing is kept.
-  bool make(StepContext& context, PacedStop& pace);
+  // positions. They are too dear if they take more than `most` work, in box tests; it does not show
+  // then whether they were made before. If they are not made nothing is kept of them.
+  Made make(StepContext& context, PacedStop& pace, double most);
   // Others in their place, from a saved state.
-  void replace(std::vector<ViewAnchor> anchors, std::vector<ApexRule> rules);
+  void replace(std::vector<ViewAnchor> anchors, std::vector<ApexRule> rules, double work);
+  // What they took, once they are made. It is counted in one thread.
+  double work() const { return work_; }
 
   // By component and by loop. Empty before they are made, and with a culling without views.
   const std::vector<ViewAnchor>& anchors() const { return anchors_; }
@@ -39,6 +43,7 @@ class FirstViews {
   std::optional<Positions> x_;  // nothing once they are made
   std::vector<ViewAnchor> anchors_;
   std::vector<ApexRule> apex_rules_;
+  double work_ = 0;  // until they are made, less than they take
 };
 
 // What a detector keeps of its mesh: what preprocessing made, and what steps work in.

@@ -322,7 +322,7 @@ bool StepRun::take_found() {
   cost_.counts.marking = search_->marking_counts();
   cost_.counts.narrow = search_->narrow_counts();
   cost_.counts.closure_rounds = search_->closure_rounds();
-  if (marks_.has_views()) policy_.record_cost(cost_.counts, candidates_of_k_);
+  if (marks_.has_views() && is_whole()) policy_.record_cost(cost_.counts, candidates_of_k_);
   search_.reset();  // gives its memory back
   return is_sorted;
 }
@@ -338,11 +338,13 @@ StepResult StepRun::finish(bool completed, const SteppedMesh& mesh, bool has_own
   result_.first = least_time(result_.pairs);
   if (completed) result_.views = policy_.use();
   if (completed && question_.until == 1) {
+    const auto& contacts = given_.relation ? all_contacts_ : result_.pairs;
     // Set whole or, if memory fails, not at all.
-    next = state_at_end(given_, marks_, cost_.pace, *context_.stages.release,
-                        given_.relation ? all_contacts_ : result_.pairs, is_complete(),
-                        mesh.vertices_t1);
-    next->policy = policy_.next(cost_.counts, has_own_primitives);
+    next = state_at_end(given_, marks_, cost_.pace, *context_.stages.release, contacts,
+                        is_complete(), mesh.vertices_t1);
+    StepCounts counts = cost_.counts;
+    if (!is_whole()) counts.search = {}, counts.narrow = {};
+    next->policy = policy_.next(counts, is_whole() ? contacts.size() : 0, has_own_primitives);
   }
   result_.signs = std::move(marks_.signs);
   result_.primitives = std::move(marks_.primitives);

@@ -69,12 +69,13 @@ class StepRun {
   }
   // Leaves, of the pairs that count, those in contact by the upper end of the first time.
   void keep_first();
-  // Whether the pairs found are all that are in contact in the step. A search for the first contact
-  // leaves out later ones as soon as it has found one that counts. Until then it finds what K
+  // Whether no contact has cut the search short. A search for the first contact leaves out later
+  // ones as soon as it has found one that counts; what it counts then depends on the tree.
+  bool is_whole() const { return !looks_for_first() || result_.pairs.empty(); }
+  // Whether the pairs found are all that are in contact in the step. A whole search finds what K
   // holds, and with views that is all only if the closure has made it so.
   bool is_complete() const {
-    if (!looks_for_first()) return true;
-    return result_.pairs.empty() && (!marks_.has_views() || is_closed_);
+    return is_whole() && (!looks_for_first() || !marks_.has_views() || is_closed_);
   }
 
   StepContext& context_;

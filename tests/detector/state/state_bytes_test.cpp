@@ -49,6 +49,8 @@ StateFields full_state() {
   policy.anchor_age = 3, policy.least_anchor_age = 32, policy.best_share = .7,
   policy.replaced_at = .3;
   policy.pause = 5, policy.next_pause = 8, policy.candidates = 1234, policy.overhead = 17.5;
+  policy.credit = -3.5, policy.tried = 250, policy.has_views = true;
+  state.view_work = 1e5;
   return state;
 }
 
@@ -92,6 +94,10 @@ TEST(StateBytes, AreTheSameStateAgain) {
   EXPECT_EQ(a.policy.next_pause, b.policy.next_pause);
   EXPECT_EQ(a.policy.candidates, b.policy.candidates);
   EXPECT_EQ(a.policy.overhead, b.policy.overhead);
+  EXPECT_EQ(a.policy.credit, b.policy.credit);
+  EXPECT_EQ(a.policy.tried, b.policy.tried);
+  EXPECT_EQ(a.policy.has_views, b.policy.has_views);
+  EXPECT_EQ(again.view_work, state.view_work);
   EXPECT_EQ(bytes_of(again), bytes_of(state));
 }
 
@@ -123,18 +129,19 @@ TEST(StateBytes, ReplaceWhatTheDetectorHasCommitted) {
   }
 }
 
-// The form is for ever: what an older build of version 2 has saved is read by a newer one.
+// The form is for ever: what an older build of version 3 has saved is read by a newer one.
 TEST(StateBytes, HaveTheFormThatIsStated) {
   StateFields state;
   state.mesh = 0x0123456789abcdef;
   state.culling = Culling::bvh;
   state.apex_rules = {{-.25}};
-  Bytes expected = {'a', 's', 's', 'a', 'y', 'S', 'A', 'V', 2, 0, 0, 0, 0, 0, 0, 0};
-  expected.insert(expected.end(), {66, 0, 0, 0, 0, 0, 0, 0});                         // bytes
+  Bytes expected = {'a', 's', 's', 'a', 'y', 'S', 'A', 'V', 3, 0, 0, 0, 0, 0, 0, 0};
+  expected.insert(expected.end(), {74, 0, 0, 0, 0, 0, 0, 0});                         // bytes
   expected.insert(expected.end(), {0xef, 0xcd, 0xab, 0x89, 0x67, 0x45, 0x23, 0x01});  // mesh
   expected.insert(expected.end(), {4, 0});  // bvh, no step committed
   expected.insert(expected.end(), {1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xd0, 0xbf});
   expected.insert(expected.end(), {0, 0, 0, 0, 0, 0, 0, 0});  // anchors
+  expected.insert(expected.end(), {0, 0, 0, 0, 0, 0, 0, 0});  // their work
   expected.resize(expected.size() + 8);
   seal(expected);
   EXPECT_EQ(bytes_of(state), expected);
@@ -201,7 +208,7 @@ TEST(StateBytes, WrongFieldsUnderARightChecksumAreRefused) {
     EXPECT_FALSE(read_state(changed));
   }
   // A version of before, and one to come.
-  for (const std::uint8_t version : {1, 3}) {
+  for (const std::uint8_t version : {2, 4}) {
     Bytes other = whole;
     other[8] = version;
     seal(other);

@@ -66,14 +66,14 @@ TEST(ViewPolicy, L15_DirtyAtAnUnknownStartTheNextStepIsLookedAt) {
   ASSERT_TRUE(policy.worth_sweeping(mesh.given, marks, mesh.cost.pace));
   EXPECT_FALSE(policy.worth_using(mesh.given, marks, {}));
   EXPECT_EQ(policy.use(), ViewUse::start_unknown);
-  EXPECT_EQ(policy.next({}, true).pause, 0u);
+  EXPECT_EQ(policy.next({}, 0, true).pause, 0u);
   const StepState state;
   mesh.given.known = &state;
   CostModel known(mesh.surface, 1'000'000, {});
   ASSERT_TRUE(known.worth_sweeping(mesh.given, marks, mesh.cost.pace));
   EXPECT_FALSE(known.worth_using(mesh.given, marks, {}));
   EXPECT_EQ(known.use(), ViewUse::among_dirty);
-  EXPECT_EQ(known.next({}, true).pause, 1u);
+  EXPECT_EQ(known.next({}, 0, true).pause, 1u);
   marks.clean.assign(mesh.surface.mesh.triangles.size(), 1);
   EXPECT_TRUE(known.worth_using(mesh.given, marks, {}));
 }
@@ -103,7 +103,7 @@ TEST(ViewPolicy, WhatViewsHaveCostMustBeSavedByTheSigns) {
 // After a look that paid.
 PolicyState after_views_paid(const PolicyState& before) {
   const TwoOpen mesh;
-  return CostModel(mesh.surface, 100, before).next({}, true);
+  return CostModel(mesh.surface, 100, before).next({}, 0, true);
 }
 
 TEST(ViewPolicy, WhatViewsHaveCostIsForgottenByHalves) {
@@ -131,11 +131,11 @@ TEST(ViewPolicy, CandidatesAreThoseOfTheLastSearchThatProvedNothing) {
   before.candidates = 500;
   CostModel policy(mesh.surface, 500, before);
   StepCounts counts;
-  EXPECT_EQ(policy.next(counts, true).candidates, 500u) << "nothing was searched";
+  EXPECT_EQ(policy.next(counts, 0, true).candidates, 500u) << "nothing was searched";
   counts.search.candidate_pairs = 300;
-  EXPECT_EQ(policy.next(counts, true).candidates, 300u);
+  EXPECT_EQ(policy.next(counts, 0, true).candidates, 300u);
   ASSERT_TRUE(policy.worth_proving({1, 1, 1}, 1, 0));
-  EXPECT_EQ(policy.next(counts, true).candidates, 500u) << "proofs have left out some";
+  EXPECT_EQ(policy.next(counts, 0, true).candidates, 500u) << "proofs have left out some";
 }
 
 // least_anchor_age after a step that chose anchors again.
@@ -148,7 +148,7 @@ std::uint64_t kept_for(std::uint64_t before, double replaced_at) {
   CostModel policy(mesh.surface, 100, state);
   PacedStop pace(never_stops);
   policy.anchors({}, mesh.x_t0, pace);
-  return policy.next({}, true).least_anchor_age;
+  return policy.next({}, 0, true).least_anchor_age;
 }
 
 TEST(ViewPolicy, AnchorsThatAreNoBetterAreKeptTwiceAsLong) {
@@ -264,7 +264,7 @@ PolicyState after_a_loss(PolicyState before) {
   SeenPositive seen;
   CostModel policy(seen.surface, 0, before);
   EXPECT_FALSE(policy.worth_sweeping(seen.given, seen.marks, seen.cost.pace));
-  return policy.next({}, true);
+  return policy.next({}, 0, true);
 }
 
 TEST(LookPolicy, ARestIsOf32StepsAtMost) {
@@ -289,7 +289,7 @@ class Saved : public testing::Test, protected SeenPositive {
     StepCounts counts;
     counts.search.candidate_pairs = of_k + closure;
     policy.record_cost(counts, of_k);
-    return policy.next(counts, true).pause == 0;
+    return policy.next(counts, 0, true).pause == 0;
   }
 };
 
@@ -304,6 +304,102 @@ TEST_F(Saved, IsReckonedFromThePairsThatAreLeft) {
 TEST_F(Saved, AllAndNothingIsLeft) {
   EXPECT_TRUE(has_paid(8, 0, 0));
   EXPECT_FALSE(has_paid(8, 1, 0));
+}
+
+// What culling auto may lose to culling bvh.
+class Account : public testing::Test, protected SeenPositive {
+ protected:
+  CostModel saver(const PolicyState& before, const StepState* known = nullptr) {
+    CostModel policy(surface, 1000, before, true);
+    policy.begin(given.motion, known, true);
+    return policy;
+  }
+};
+
+TEST_F(Account, ViewsOfASmallMeshAreMadeAtOnce) {
+  CostModel policy = saver({});
+  ASSERT_TRUE(policy.is_due());
+  EXPECT_EQ(policy.most_for_views(), 8'000) << "0.04 ms";
+  policy.pay_for_views(true, 5'000);
+  EXPECT_TRUE(policy.is_due());
+  EXPECT_TRUE(policy.next({}, 0, true).has_views);
+}
+
+TEST_F(Account, ViewsThatWereTooDearWaitUntilTwiceAsMuchIsEarned) {
+  CostModel policy = saver({});
+  policy.pay_for_views(false, 0);
+  EXPECT_FALSE(policy.is_due());
+  EXPECT_EQ(policy.use(), ViewUse::saving_up);
+  PolicyState state = policy.next({}, 0, true);
+  EXPECT_EQ(state.credit, 0);
+  EXPECT_EQ(state.tried, 8'000);
+  EXPECT_EQ(state.pause, 0u);
+  state.credit = 15'999;
+  EXPECT_FALSE(saver(state).is_due());
+  state.credit = 16'000;
+  EXPECT_TRUE(saver(state).is_due());
+}
+
+StepCounts searched(std::uint64_t candidates, std::uint64_t tests) {
+  StepCounts counts;
+  counts.search.candidate_pairs = candidates;
+  counts.narrow.elementary_tests = tests;
+  return counts;
+}
+
+TEST_F(Account, AStepWithoutViewsEarnsAShareOfWhatItTakes) {
+  PolicyState before;
+  before.credit = -1;
+  EXPECT_NEAR(saver(before).next(searched(10, 1), 2, true).credit,
+              -1 + .05 * (4.4 * 10 + 48 + 2 * 155), 1e-9);
+}
+
+// The tree of a restored detector is another one, and its steps have to decide alike.
+TEST_F(Account, WhatDependsOnTheTreeEarnsNothing) {
+  PolicyState before;
+  before.credit = -1;
+  StepCounts counts = searched(10, 1);
+  CostModel proves = saver(before);
+  ASSERT_TRUE(proves.worth_proving({1, 1, 1}, 1, 0));
+  EXPECT_EQ(proves.next(counts, 0, true).credit, -1);
+  CostModel rests = saver(before);
+  rests.begin(given.motion.at_start(), nullptr, true);
+  EXPECT_EQ(rests.next(counts, 0, true).credit, -1);
+  const double earned = saver(before).next(counts, 0, true).credit;
+  counts.search.box_tests = counts.ghosts.box_tests = 1000;
+  EXPECT_EQ(saver(before).next(counts, 0, true).credit, earned);
+}
+
+// Every pair is left out, and bvh would have had a thousand.
+TEST_F(Account, AFreeStepEarnsWhatItSavesAndPaysForItsViews) {
+  CostModel policy = saver({});
+  policy.pay_for_views(true, 5'000);
+  ASSERT_TRUE(policy.worth_classifying(given, marks));
+  StepCounts counts;
+  counts.free_components = 1;
+  EXPECT_DOUBLE_EQ(policy.next(counts, 0, true).credit, 8'000 - 5'000 + 1.05 * 4.4 * 1000 - 2 * 8);
+}
+
+// Views leave 100 of a thousand pairs, and a release; a first contact says nothing of what is left.
+TEST_F(Account, ASearchWithViewsEarnsWhatItSaves) {
+  StepCounts counts = searched(100, 1);
+  CostModel policy = saver({});
+  policy.record_cost(counts, 100);
+  counts.release.in_doubt = 2;
+  EXPECT_DOUBLE_EQ(policy.next(counts, 0, true).credit,
+                   8'000 + 1.05 * (4.4 * 1000 + 48) - (5 * 8 + 22 * 100 + 48) - 20 * 2);
+  EXPECT_EQ(saver({}).next({}, 0, true).credit, 8'000);
+}
+
+// To verify the start anew would cost more than views save.
+TEST_F(Account, AStartOfWhichAFirstContactIsKnownIsNotVerified) {
+  StepState known;
+  known.met_is_complete = false;
+  PolicyState state;
+  state.has_views = true;
+  EXPECT_FALSE(saver(state, &known).is_due());
+  known.met_is_complete = true;
+  EXPECT_TRUE(saver(state, &known).is_due());
 }
 
 // Culling auto proves patches apart (L14) where counts say that it pays, and nowhere else.
@@ -348,11 +444,35 @@ TEST(ProofsPolicy, L14_ACrumpledSheetIsNotAskedForProofs) {
   tests::expect_same_contacts(result, bvh);
 }
 
+// Sheets, which are proved apart at rest, are of the regions of the tree: another has other ones.
+TEST(ProofsPolicy, WhatSheetsLeaveOutDoesNotShowInTheStepsToCome) {
+  const Triangles sheet = tests::squares(50, 50);
+  const Positions flat = tests::flat_squares(50);
+  Positions wound = flat;
+  for (Eigen::Index v = 0; v < flat.rows(); ++v) {
+    const double turn = 0.2 * flat(v, 0);
+    wound.row(v) << (5 + turn) * std::cos(turn), flat(v, 1), (5 + turn) * std::sin(turn);
+  }
+  Detector one = Detector::create(sheet, wound, {Culling::automatic, Start::unknown}).value(),
+           other = Detector::create(sheet, crumpled(flat), {Culling::automatic, Start::unknown})
+                       .value();
+  const StepResult here = one.step(wound, wound), there = other.step(wound, wound);
+  EXPECT_NE(here.counts.search.candidate_pairs, there.counts.search.candidate_pairs);
+  const PolicyState a = one.state().fields().committed->policy,
+                    b = other.state().fields().committed->policy;
+  EXPECT_EQ(a.candidates, b.candidates);
+  EXPECT_EQ(a.credit, b.credit);
+}
+
 TEST(ProofsPolicy, WhereAllComponentsAreFreeNothingIsProved) {
   Triangles one = revolved(sphere_rings), two(2 * one.rows(), 3);
   const Positions x = sphere(1);
   two << one, one.array() + static_cast<std::int32_t>(x.rows());
-  const auto result = step(two, tests::side_by_side(x, x, 5), tests::side_by_side(x, x, 4));
+  const Positions near = tests::side_by_side(x, x, 4), far = tests::side_by_side(x, x, 5);
+  Detector detector = Detector::create(two, far, {Culling::automatic, Start::clean}).value();
+  StepResult result;
+  for (int i = 0; i < 100 && result.views != ViewUse::used; ++i)  // until views are earned
+    result = detector.step(i % 2 == 0 ? far : near, i % 2 == 0 ? near : far);
   EXPECT_EQ(result.counts.free_components, 2u);
   EXPECT_EQ(result.counts.search.contour_tests, 0u);
 }

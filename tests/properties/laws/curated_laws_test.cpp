@@ -102,7 +102,7 @@ TEST(CuratedViews, AreUsedInTheStepsThatAreStated) {
     const auto pending = nlohmann::json::parse(c.pending);
     if (!pending.contains("views_used")) continue;
     ++stated;
-    auto player = CasePlayer::make(c, {});
+    auto player = CasePlayer::make(c, {detector::Culling::view_auto});
     ASSERT_TRUE(player) << c.id;
     std::vector<int> used;
     for (std::size_t s = 0; s < player.value().steps(); ++s)
