@@ -51,7 +51,7 @@ def listed():
 def faults(sources, claims):
     """What is wrong with the list. `claims`: the names of what was proved."""
     of_list, found = listed(), set(found_in(sources))
-    lemmas = set(re.findall(r"^\*\*(\d+)\.", (HERE / "README.md").read_text(), re.M))
+    lemmas = set(re.findall(r"^\*\*(\d+)\.", (HERE.parent / "README.md").read_text(), re.M))
     wrong = [f"not in comparisons.txt: {file}: {code}" for file, code in sorted(found - set(of_list))]
     wrong += [f"no such line: {file}: {code}" for file, code in sorted(set(of_list) - found)]
     used = set()

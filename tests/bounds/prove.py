@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Has Gappa prove the error bounds of the detector's filters (README.md)."""
+"""Has Gappa prove the error bounds of the detector's filters (tests/README.md)."""
 import argparse
 import json
 import os

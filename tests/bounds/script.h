@@ -1,6 +1,6 @@
 // Questions for Gappa, made of what was recorded.
 //
-// A script has a variable for each rounded operation and an exact twin of it. README.md says which
+// A script has a variable for each rounded operation and an exact twin of it. tests/README.md says which
 // lemmas lead from a script to the bound that the detector uses.
 #pragma once
 

@@ -22,7 +22,7 @@ std::size_t count_lines(const std::string& path) {
 TEST(Budget, NoRoomGrows) {
   const std::map<std::string, std::size_t> budgets = {
       {"detector", 16252},   {"oracle", 6240},   {"corpus", 5439}, {"corpus/peers", 857},
-      {"properties", 26467}, {"reports", 13576}, {"tests", 46502}, {"scripts", 10464}};
+      {"properties", 26467}, {"reports", 13576}, {"tests", 46502}, {"scripts", 10438}};
   std::map<std::string, std::size_t> lines;
   for (const auto* room : rooms) {
     for (const auto& file : files_below(room)) {

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Mutates the detector's sources and counts which mutants its tests find (README.md)."""
+"""Mutates the detector's sources and counts which mutants its tests find (tests/README.md)."""
 import argparse
 import json
 import subprocess

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The lines of reports/campaign/README.md that run a campaign in shares, by GNU parallel or as a Slurm
+# The lines of reports/README.md that run a campaign in shares, by GNU parallel or as a Slurm
 # array: with a small campaign, and one share killed while it runs.
 # usage: shares_test.sh ASSAY parallel|slurm      77: what it needs is not installed
 # shellcheck disable=SC2317  # functions called by trap and expect
@@ -66,13 +66,13 @@ FAKE
 chmod +x "$scratch/first/assay"
 export PATH=$scratch/first:$PATH
 
-line=$(grep -m 1 "^    $start" "$here/../../reports/campaign/README.md")
+line=$(grep -m 1 "^    $start" "$here/../../reports/README.md")
 expect "the page has the line" test -n "$line"
 line=${line/--campaign nightly/--campaign tiny.json}
 echo "$line"
 together='assay verify night/* --out all'
 expect "and the line that judges the shares together" \
-  grep -qxF "    $together" "$here/../../reports/campaign/README.md"
+  grep -qxF "    $together" "$here/../../reports/README.md"
 cd "$scratch/run" || exit 1
 
 bash -c "$line" >"$scratch/first.out" 2>&1

@@ -34,7 +34,7 @@ GIVEN = {
         "cc -std=c99 -shared -fPIC -I. tests/plugins/example.c -o libmine.so",
         "assay scene bend --size 200 --frames 4 --out .",
     ],
-    "reports/campaign/README.md": [
+    "reports/README.md": [
         "cc -std=c99 -shared -fPIC -I. tests/plugins/example.c -o libmine.so",
     ],
 }
@@ -56,7 +56,7 @@ QUICK = {
     "README.md": [
         "export PATH=$PWD/build/release:$PATH",
     ],
-    "reports/check/README.md": [
+    "reports/README.md": [
         "assay scene bend --size 2000 --frames 12 --out build/bend",
         "assay check build/bend/frame_*.ply",
         "assay check --culling view-line --json build/report.json build/bend/frame_*.ply",
@@ -65,11 +65,7 @@ QUICK = {
         "assay scene twist --mesh build/bend/frame_0000.ply --frames 4 --out build/twist",
         "assay check build/bend/frame_0011.ply",
         "assay check --body build/bend/frame_0000.ply --body build/bend/frame_0011.ply",
-    ],
-    "reports/check/QUERIES.md": [
         "assay check corpus/queries/example_vf.csv --method detector-exact",
-    ],
-    "reports/campaign/README.md": [
         "assay replay quick:1:closed-generic:5 --why 0,5",
         "assay replay corpus/curated/B1_one_vertex_own_nearest.json --export build/export",
         "assay list faults",
@@ -88,31 +84,23 @@ SLOW = {
         "ASSAY_SEED=7 ASSAY_CASES=100000 ctest --preset law --verbose",
         "ASSAY_KILLS=50 ASSAY_SEED=7 ctest --preset unit -R KilledAtRandom --verbose",
         "ctest --preset planted --verbose",
-    ],
-    "README.md": [
-        "assay run --campaign smoke --detector build/release/peers/cubic_double.so --power build/certify --out build/cubic",
-    ],
-    "reports/check/QUERIES.md": [
-        "assay self-test --jobs 2",
-    ],
-    "tests/bench/README.md": [
         "build/release/assay-micro --benchmark_list_tests",
         "build/release/assay-micro --benchmark_filter=look --benchmark_repetitions=9 "
         "--benchmark_enable_random_interleaving=true",
     ],
-    "reports/bench/README.md": [
+    "README.md": [
+        "assay run --campaign smoke --detector build/release/peers/cubic_double.so --power build/certify --out build/cubic",
+    ],
+    "reports/README.md": [
+        "assay self-test --jobs 2",
         "assay bench --suite speed-error --json build/speed-error.json",
         "python3 reports/pictures/benches.py build/speed-error.json reports/pictures/speed-error.svg",
+        "assay run --campaign smoke --out build/smoke",
+        "assay run --campaign smoke --detector ./libmine.so --power build/smoke --out build/mine",
     ],
     "corpus/peers/README.md": [
         "assay bench --suite peers --json build/peers.json",
         "python3 reports/pictures/benches.py build/peers.json reports/pictures/peers.svg",
-    ],
-    "reports/campaign/README.md": [
-        "assay run --campaign smoke --out build/smoke",
-        "assay run --campaign smoke --detector ./libmine.so --power build/smoke --out build/mine",
-        "assay run --campaign smoke --out proof",
-        "assay run --campaign smoke --detector ./libmine.so --power proof --out mine",
     ],
     "reports/certificate/README.md": [
         "assay certify --campaign quick --out build/quick",
@@ -151,10 +139,8 @@ SHOWN = {
         "assay run --campaign smoke --detector build/release/peers/cubic_double.so --power build/certify --out build/cubic":
             "DEFECT free-sound: answered free",
     },
-    "reports/check/README.md": {
+    "reports/README.md": {
         "assay check build/bend/frame_*.ply": "step 11: collision at",
-    },
-    "reports/campaign/README.md": {
         "assay run --campaign smoke --out build/smoke": "canary pair/zero-zero-dropped",
     },
     "reports/check/TEN_MINUTES.md": {
@@ -173,9 +159,11 @@ NOT_RUN = {
         "reports/certify": "installs packages and builds; the slow list certifies by the program",
         "ninja -C build/release peer_cubic_double": LENT,
     },
-    "reports/bench/README.md": {
+    "reports/README.md": {
         "python3 reports/pictures/sequences.py assay reports/pictures/sequences.svg":
             "takes a minute, and prints times",
+        "assay certify --campaign nightly --jobs 2 --out build/night": NIGHT,
+        "assay verify night/* --out all": NIGHT + "; tests/nightly runs it",
     },
     ".github/CONTRIBUTING.md": {
         "tests/run": RECURSION,
@@ -186,10 +174,6 @@ NOT_RUN = {
         "python3 corpus/vectors/vectors.py check corpus/vectors": "tests/corpus/vectors does so",
         "python3 corpus/vectors/vectors.py run --arithmetic exact --out build/exact.json": SET_TESTS,
         "python3 corpus/vectors/vectors.py score build/exact.json --out build/matrix.html": SET_TESTS,
-    },
-    "reports/campaign/README.md": {
-        "assay certify --campaign nightly --jobs 2 --out build/night": NIGHT,
-        "assay verify night/* --out all": NIGHT + "; tests/nightly runs it",
     },
     "detector/plugin/README.md": {
         "assay check --detector ./libmine.so corpus/queries/example_vf.csv": NO_QUERY,
@@ -208,13 +192,9 @@ NOT_RUN = {
         "ctest --preset slow": RECURSION,
         "ctest --preset release": RECURSION,
         "tests/sanitized": "compiles and runs for hours",
-    },
-    "tests/bounds/README.md": {
         "python3 tests/bounds/prove.py": BOUNDS,
         "python3 tests/bounds/prove.py --changes tests/bounds/changes.json": BOUNDS,
         "python3 tests/bounds/contracted.py --build build/release": BOUNDS,
-    },
-    "tests/mutation/README.md": {
         "cmake --build --preset release --target mutation_facts mutant_judge detector_tests "
         "properties_detector_tests": LENT,
         "python3 tests/mutation/mutate.py": MUTANTS,
@@ -233,18 +213,15 @@ NO_COMMAND = {
         "verdict: certified in": "what reports/certify prints",
         "DEFECT free-sound: answered free": "what `assay run` prints of the cubic",
     },
-    "reports/check/README.md": {
+    "reports/README.md": {
         "step 11: collision at": "what `assay check` prints",
         "contact: triangles 0 and 1": "what `assay check` prints",
         "step 1: near at t = 0.5": "what `assay check --separation` prints",
-    },
-    "reports/campaign/README.md": {
         "canary pair/zero-zero-dropped": "what `assay run` prints",
         "parallel --jobs 2": "lines of GNU parallel and Slurm; tests/nightly runs them",
-    },
-    "reports/bench/README.md": {
         "twist ": "the table of sequences.py",
         "arithmetic culling": "the table of `assay bench --suite speed-error`",
+        "oracle: 5 queries (5 within": "what `assay check --separation` prints",
     },
     "reports/check/TEN_MINUTES.md": {
         '#include "detector/plugin/assay_detector.hpp"': "C++; a test compares it with the file",
@@ -255,9 +232,6 @@ NO_COMMAND = {
         "claims     holds": "what `assay run` prints",
         "step 111: free; DIFFER": "what `assay check` prints",
         "500 of 500 steps judged": "what `assay check` prints",
-    },
-    "reports/check/QUERIES.md": {
-        "oracle: 5 queries (5 within": "what `assay check --separation` prints",
     },
     "corpus/README.md": {
         "83                      an array": "the bytes of a record; tests/detector/plugin reads them",

@@ -111,7 +111,7 @@ class CheckReport(_Report):
     """What `assay check` says of the steps of a mesh.
 
     outcome: "holds", "defect", "undecided"; steps: a CheckedStep each; text: as it is printed;
-    json: as `--json` writes it (assay-check/1, reports/check/README.md); code: the exit code.
+    json: as `--json` writes it (assay-check/1, reports/README.md); code: the exit code.
     """
 
     outcome: str
