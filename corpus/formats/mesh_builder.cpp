@@ -39,8 +39,8 @@ Expected<void> MeshBuilder::add_polygon(std::span<const std::int64_t> vertices,
   }
   for (const std::int64_t vertex : vertices) {
     if (vertex < 0 || vertex >= most_vertices) {
-      return problem(place,
-                     fmt::format("vertex index {} (counted from 0) is out of range", vertex));
+      return problem(place, fmt::format("vertex index {} (counted from {}) is out of range",
+                                        vertex + first_number_, first_number_));
     }
     if (vertex > highest_) {
       highest_ = vertex;
@@ -52,7 +52,8 @@ Expected<void> MeshBuilder::add_polygon(std::span<const std::int64_t> vertices,
     if (a == b || b == c || a == c) {
       return problem(
           place,
-          fmt::format("triangle ({}, {}, {}) (counted from 0) names a vertex twice", a, b, c));
+          fmt::format("triangle ({}, {}, {}) (counted from {}) names a vertex twice",
+                      a + first_number_, b + first_number_, c + first_number_, first_number_));
     }
     corners_.insert(corners_.end(), {static_cast<std::int32_t>(a), static_cast<std::int32_t>(b),
                                      static_cast<std::int32_t>(c)});
@@ -85,8 +86,8 @@ Expected<Mesh> MeshBuilder::finish() {
   }
   if (highest_ >= static_cast<std::int64_t>(vertex_count())) {
     return problem(highest_place_,
-                   fmt::format("vertex index {} (counted from 0), but there are {} vertices",
-                               highest_, vertex_count()));
+                   fmt::format("vertex index {} (counted from {}), but there are {} vertices",
+                               highest_ + first_number_, first_number_, vertex_count()));
   }
   Mesh mesh;
   mesh.positions.resize(static_cast<Eigen::Index>(vertex_count()), 3);

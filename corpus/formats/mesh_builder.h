@@ -18,7 +18,9 @@ std::string shown(const Place& place);
 // REQUIRES: every call gets the place that a reader of the message should look at.
 class MeshBuilder {
  public:
-  explicit MeshBuilder(const std::filesystem::path& file) : file_(file) {}
+  // first_number: of a vertex, as the file counts; messages count so too.
+  explicit MeshBuilder(const std::filesystem::path& file, int first_number = 0)
+      : file_(file), first_number_(first_number) {}
 
   // Refuses a coordinate that is not finite, and more vertices than indices can name.
   Expected<void> add_vertex(double x, double y, double z, const Place& place);
@@ -43,6 +45,7 @@ class MeshBuilder {
 
  private:
   std::filesystem::path file_;
+  std::int64_t first_number_;
   std::vector<double> coordinates_;
   std::vector<std::int32_t> corners_;
   FacePlaces places_;

@@ -91,7 +91,8 @@ Expected<void> read_face(const Words& words, const Place& place, MeshBuilder& bu
 }  // namespace
 
 Expected<Mesh> read_obj(std::string_view text, const std::filesystem::path& file) {
-  MeshBuilder builder(file);
+  constexpr int first_number = 1;
+  MeshBuilder builder(file, first_number);
   Lines lines(text, '#', true);
   Words words;
   std::vector<std::int64_t> vertices;

@@ -6,12 +6,13 @@ from vectors import Wrong, want
 
 try:
     import assay
-except ImportError:
-    assay = None
+except ImportError as problem:
+    assay, why_absent = None, problem
 
 
 def demand_module():
-    want(assay, "PYTHONPATH", "wanted is the Python module assay (reports/python/README.md)")
+    want(assay, "PYTHONPATH", "wanted is the Python module assay, for the Python that it was built for "
+         f"(reports/python/README.md): {why_absent if not assay else ''}")
 
 
 class BuiltIn:

@@ -611,13 +611,23 @@ class Functions:
                 said = "undecided"
             elif not isinstance(said, str):
                 said = (f"share {float(said)!r}" if case.question == "limit"
-                        else "collision" if said else "free")
+                        else "collision" if true_or_false(said, case) else "free")
         except NotImplementedError:
             said = "unsupported"
+        except Wrong:
+            raise
         except Exception as problem:  # whatever a detector throws, the next case is asked
             print(f"{case.id}: {type(problem).__name__}: {problem}", file=sys.stderr)
             said = "error"
         return parse_answer(said, case)
+
+
+def true_or_false(said, case):
+    """A bool, of NumPy too. A time would pass for one: 0.0 for free."""
+    is_bool = getattr(getattr(said, "dtype", None), "kind", "") == "b" and not said.shape
+    want(isinstance(said, bool) or is_bool, case.id,
+         f"{said!r} is no answer: True, False, None, or a line such as \"collision 0.25\"")
+    return bool(said)
 
 
 def ask_all(asked, vectors):

@@ -147,15 +147,16 @@ std::string sizes_text(const StoredFailure& failure) {
 }
 
 // A kind of failure: one of its failures, in full.
-std::string paragraph(const StoredFailure& failure, const std::string& times,
+std::string paragraph(const StoredFailure& failure, std::uint64_t trials,
                       const std::filesystem::path& out, const DetectorWords& detector) {
   const bool is_shrunk = !failure.smallest.empty();
   const auto file = failure_file(failure, is_shrunk);
-  return fmt::format(
-      "\nDEFECT {} ({}), met {}\n  {}\n  case {}: {}\n  picture {}\n  replay: {}\n{}",
-      failure.signature(), failure.shown_configuration(), times, failure.shown_explanation(),
-      failure.id(), sizes_text(failure), picture_file(absolute_path(out / file)),
-      line_to_paste(replay_words(out, file, detector)), printed_text(failure.printed));
+  return fmt::format("\nDEFECT {} ({}), {}\n  {}\n  case {}: {}\n  picture {}\n  replay: {}\n{}",
+                     failure.signature(), failure.shown_configuration(), failure.met_text(trials),
+                     failure.shown_explanation(), failure.id(), sizes_text(failure),
+                     picture_file(absolute_path(out / file)),
+                     line_to_paste(replay_words(out, file, detector)),
+                     printed_text(failure.printed));
 }
 
 }  // namespace
@@ -186,7 +187,7 @@ Expected<void> write_failures(const properties::KeptFailures& kept,
         };
         return rank(a) < rank(b);
       });
-  text += paragraph(first, properties::times_text(met(first)), out, detector);
+  text += paragraph(first, met(first), out, detector);
   std::erase(kinds, &first);
   std::map<const StoredFailure*, std::size_t> triangles;
   for (const auto* kind : kinds) triangles[kind] = triangles_of(*kind);
@@ -205,9 +206,9 @@ Expected<void> write_failures(const properties::KeptFailures& kept,
   for (const auto* kind : std::span(kinds).first(shown)) {
     const auto configuration = kind->shown_configuration();
     text +=
-        fmt::format("DEFECT {}{}, met {}: {}\n", kind->signature(),
+        fmt::format("DEFECT {}{}, {}: {}\n", kind->signature(),
                     configuration == first.shown_configuration() ? "" : " (" + configuration + ")",
-                    properties::times_text(met(*kind)), smallest_size(*kind));
+                    kind->met_text(met(*kind)), smallest_size(*kind));
   }
   std::uint64_t times = 0;
   for (const auto* kind : std::span(kinds).subspan(shown)) times += met(*kind);
@@ -241,8 +242,7 @@ std::string failures_text(const properties::RunFindings& findings, const Json& p
   const auto failures = in_order(findings.failures);
   for (const auto& shown : failures) {
     if (!told.insert(shown.signature()).second) continue;
-    out += paragraph(shown, properties::times_text(findings.met_count(shown)), findings.folder,
-                     detector_of(findings));
+    out += paragraph(shown, findings.met_count(shown), findings.folder, detector_of(findings));
     for (const auto& other : failures) {
       if (&other != &shown && other.signature() == shown.signature())
         out += fmt::format("  also {} ({}): {}\n", other.id(), other.shown_configuration(),

@@ -208,7 +208,9 @@ Expected<int> run_replay(const ReplayRequest& request) {
       return Problem{read.error().message +
                      (request.id_or_file.find(':') == std::string::npos
                           ? ""
-                          : " (an id is CAMPAIGN:SEED:FAMILY:INDEX, with a family of this build)")};
+                          : " (an id is CAMPAIGN:SEED:FAMILY:INDEX, with a family of this build; "
+                            "what a search found "
+                            "is replayed by its file: assay list failures DIR)")};
     }
     c = std::move(read.value());
   }

@@ -1,7 +1,7 @@
 // Questions for Gappa, made of what was recorded.
 //
-// A script has a variable for each rounded operation and an exact twin of it. tests/README.md says which
-// lemmas lead from a script to the bound that the detector uses.
+// A script has a variable for each rounded operation and an exact twin of it. tests/README.md says
+// which lemmas lead from a script to the bound that the detector uses.
 #pragma once
 
 #include <string>

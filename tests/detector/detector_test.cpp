@@ -52,8 +52,8 @@ TEST(Detector, L12_NamedErrors) {
             InputError::same_vertices_twice);
 }
 
-// The edges of a mesh tell whether triangles have to be compared: wherever the two that repeat stand,
-// turned or not, and however many others share their edges.
+// The edges of a mesh tell whether triangles have to be compared: wherever the two that repeat
+// stand, turned or not, and however many others share their edges.
 TEST(Detector, L12_RepeatedTrianglesAreFoundAnywhere) {
   const Positions x = octahedron_positions(1);
   const Triangles whole = octahedron();

@@ -32,7 +32,6 @@ BOUNDS = "the tests bounds, bounds_changes and bounds_contracted run it"
 GIVEN = {
     "detector/plugin/README.md": [
         "cc -std=c99 -shared -fPIC -I. tests/plugins/example.c -o libmine.so",
-        "assay scene bend --size 200 --frames 4 --out .",
     ],
     "reports/README.md": [
         "cc -std=c99 -shared -fPIC -I. tests/plugins/example.c -o libmine.so",
@@ -47,7 +46,7 @@ GIVEN_SLOW = {
 
 QUICK = {
     "corpus/vectors/README.md": [
-        "cc -std=c99 -O2 corpus/vectors/examples/plain.c -o plain -lm",
+        "cc -std=c99 -O2 corpus/vectors/examples/plain.c -o build/plain -lm",
         "export PYTHONPATH=$PWD/build/release/python",
     ],
     "tests/README.md": [
@@ -75,7 +74,8 @@ QUICK = {
     ],
     "detector/plugin/README.md": [
         "cc -std=c99 -shared -fPIC -I. tests/plugins/example.c -o example.so",
-        "assay check --detector ./example.so frame_*.ply",
+        "assay scene bend --size 200 --frames 4 --out build/few",
+        "assay check --detector ./example.so build/few/frame_*.ply",
     ],
 }
 
@@ -170,7 +170,7 @@ NOT_RUN = {
         "tests/run --whole": RECURSION,
     },
     "corpus/vectors/README.md": {
-        "python3 corpus/vectors/vectors.py run -- ./plain": MISSES,
+        "python3 corpus/vectors/vectors.py run --out build/results.json -- build/plain": MISSES,
         "python3 corpus/vectors/vectors.py check corpus/vectors": "tests/corpus/vectors does so",
         "python3 corpus/vectors/vectors.py run --arithmetic exact --out build/exact.json": SET_TESTS,
         "python3 corpus/vectors/vectors.py score build/exact.json --out build/matrix.html": SET_TESTS,

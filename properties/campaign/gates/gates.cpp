@@ -202,11 +202,9 @@ GateFindings check_claims(const RunFindings& f, const Asked&) {
   for (const auto& signature : signatures) {
     const auto* shown = f.example_of(signature);
     const auto met = f.times_met.find(signature);
-    const bool by_search = met == f.times_met.end() && shown && shown->source == Source::search;
+    const auto times = met == f.times_met.end() ? 0 : met->second;
     found.against.push_back(fmt::format(
-        "{}, {}; {}", signature,
-        by_search ? "found by the search"
-                  : "met " + times_text(met == f.times_met.end() ? 0 : met->second),
+        "{}, {}; {}", signature, shown ? shown->met_text(times) : "met " + times_text(times),
         shown ? shown->id() + " (" + shown->shown_configuration() + ")" : "no mesh is stored"));
   }
   for (const auto& world : f.evidence.worlds) {

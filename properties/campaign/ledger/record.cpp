@@ -86,6 +86,13 @@ std::string StoredFailure::shown_configuration() const {
   return configuration + (law.empty() ? "" : ", law " + law);
 }
 
+std::string StoredFailure::met_text(std::uint64_t trials) const {
+  if (trials == 0 && source == Source::search) return "found by the search";
+  if (trials == 0 && source == Source::repeated) return "met on a large mesh or a long sequence";
+  if (trials == 0 && is_of_corpus()) return "met in the corpus alone";
+  return "met " + times_text(trials);
+}
+
 std::string StoredFailure::shown_explanation() const {
   if (flaky) return explanation + needs_what_came_before;
   return smallest_explanation.empty() ? explanation : smallest_explanation;

@@ -121,6 +121,8 @@ struct StoredFailure {
   // The explanation of the smallest mesh, if there is one. Of a flaky failure, which is not shrunk,
   // it says what that means.
   std::string shown_explanation() const;
+  // "met 3 times"; of a kind that no trial has shown, where it was found.
+  std::string met_text(std::uint64_t trials) const;
   bool is_of_corpus() const { return source == Source::corpus || source == Source::own; }
 };
 

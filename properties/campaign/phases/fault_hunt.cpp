@@ -245,9 +245,11 @@ std::string lack_of(const RunFindings& proof, const BoundRun& build, const Campa
       return fmt::format("found {}, which is registered as equivalent", fault.fault);
     if (fault.time_over) return fmt::format("was over before {} had all of its cases", fault.fault);
     if (!fault.is_whole(plan))
-      return fmt::format("gave each fault {} cases of {} seeds, campaign {} asks for {} of {}",
-                         fault.cases, fault.needed.size(), plan.name, plan.fault_cases,
-                         plan.fault_seeds);
+      return fmt::format(
+          "gave each fault {} cases of {} seeds, campaign {} asks for {} of {}: make a proof by "
+          "`assay run --campaign {} --out DIR`",
+          fault.cases, fault.needed.size(), plan.name, plan.fault_cases, plan.fault_seeds,
+          plan.name);
   }
   return "";
 }

@@ -319,6 +319,26 @@ TEST(EverydayNumbers, UnitsGoBeyondOrStayShort) {
   EXPECT_EQ(units_beyond(0, 1, -1), -0x1p-52);
 }
 
+// g++ 12 drops two conversions in a row where it makes lanes of straight lines.
+TEST(EverydayNumbers, InFloat32EveryCoordinateIsAFloat) {
+  int met = 0;
+  for (std::uint64_t i = 0; i < 400; ++i) {
+    Random random(1, i);
+    const EverydayNumbers numbers(random);
+    if (numbers.tag() != std::string("numbers:float32")) continue;
+    ++met;
+    const auto any = [&] { return any_vector(random); };
+    const Point x0 = numbers.place(any()), x1 = numbers.end(x0, any());
+    for (const auto* x : {&x0, &x1}) {
+      for (const double c : *x) {
+        const volatile float rounded = static_cast<float>(c);  // through memory
+        EXPECT_EQ(rounded, c) << i;
+      }
+    }
+  }
+  EXPECT_GT(met, 20);
+}
+
 // Whether some coordinate of the step is not x0 + (x1 - x0) where it ends.
 bool ends_are_rounded(const detector::Positions& x_t0, const detector::Positions& x_t1) {
   return (x_t0 + (x_t1 - x_t0)).eval() != x_t1;
