@@ -79,6 +79,9 @@ std::string CheckOutcome::summary() const {
     text += "; not judged\n";
   } else if (!judged_by_claims) {
     text += "; detector and oracle agree\n";
+  } else if (first_missed) {
+    text += fmt::format("; no claim is broken, and the contact of step {} is missed\n",
+                        *first_missed + 1);
   } else {
     text += claims_text(held, not_judged);
   }

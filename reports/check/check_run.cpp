@@ -292,6 +292,7 @@ class CheckRun {
     if (answers_.is_plugin()) outcome_.count(diff, result);
     ++outcome_.judged_steps;
     for (const auto claim : diff.broken) outcome_.first_broken.emplace(claim, steps_.number_of(s));
+    if (diff.answered_free && !outcome_.first_missed) outcome_.first_missed = steps_.number_of(s);
     const bool is_shown = question_.shows_all_steps || diff.outcome != Outcome::holds;
     if (is_shown)
       say(step_text(shown_number, result, &oracle, shown_work(s)) + error_line(told_error));

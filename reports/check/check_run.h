@@ -41,6 +41,8 @@ struct CheckOutcome {
   std::vector<std::string> asked_again;  // what came of asking a plug-in about steps that are kept
   std::vector<std::string> lost;         // of the input
   std::map<properties::Claim, std::uint64_t> first_broken;  // of each claim: its step, from 0
+  std::optional<std::uint64_t>
+      first_missed;  // the first contact answered free, whatever is claimed
   std::size_t judged_steps = 0;
   // Only for a plug-in: the claims that hold, those of which nothing is known, and what the
   // plug-in does whatever it claims.

@@ -274,6 +274,11 @@ class AsAModule(InScratch):
         vectors.write_results(results, file)
         self.assertEqual(vectors.read_results(file, vectors.VectorSet(MINI)), results)
 
+    def test_a_time_in_place_of_true_or_false_is_refused(self):
+        for said in (0.0, 0.5, (0.25, 0.5), {"first": 0.5}):
+            with self.assertRaisesRegex(vectors.Wrong, "is no answer: True, False, None"):
+                vectors.run(lambda *_: said, set=MINI)
+
     def test_a_function_is_asked_contacts(self):
         asked = []
         results = vectors.run(lambda *arguments: asked.append(arguments[0]), set=MINI,

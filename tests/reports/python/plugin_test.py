@@ -24,6 +24,11 @@ SOURCE = """
         def evaluate(self, x_t0, x_t1):
             return self.detector.evaluate(x_t0, x_t1)
 
+    class Blind(Right):
+        claims = ["total"]
+        def evaluate(self, x_t0, x_t1):
+            return None
+
     class Raises(Right):
         def evaluate(self, x_t0, x_t1):
             print("so far so good")
@@ -134,6 +139,12 @@ def test_a_right_detector_holds(mine, frames):
     assert "all claims hold" in report.text
     report = assay.check(frames, "python:mine:Right", isolation="limits")
     assert report.json["detector"]["isolation"] == "limits alone"
+
+
+def test_a_miss_is_told_though_it_breaks_no_claim(mine, frames):
+    report = assay.check(frames, "python:mine:Blind")
+    assert report.outcome == "holds" and report.steps[0].diff.wrong_answer
+    assert "no claim is broken, and the contact of step 1 is missed" in report.text
 
 
 def test_an_exception_is_an_error_with_its_traceback(mine, frames):
