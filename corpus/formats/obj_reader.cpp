@@ -6,7 +6,6 @@
 #include <cctype>
 #include <iterator>
 
-#include "corpus/formats/mesh_builder.h"
 #include "corpus/formats/mesh_reader.h"
 #include "corpus/formats/text_lines.h"
 

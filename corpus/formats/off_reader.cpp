@@ -2,7 +2,6 @@
 
 #include <boost/outcome/try.hpp>
 
-#include "corpus/formats/mesh_builder.h"
 #include "corpus/formats/mesh_reader.h"
 #include "corpus/formats/text_lines.h"
 

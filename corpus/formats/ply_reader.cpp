@@ -9,7 +9,6 @@
 #include <optional>
 #include <string_view>
 
-#include "corpus/formats/mesh_builder.h"
 #include "corpus/formats/mesh_reader.h"
 #include "corpus/formats/text_lines.h"
 

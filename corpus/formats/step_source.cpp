@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "corpus/files.h"
-#include "corpus/formats/sequence_reader.h"
+#include "corpus/formats/sequences.h"
 #include "corpus/formats/step_log.h"
 #include "corpus/formats/text_lines.h"
 #include "corpus/frame_order.h"

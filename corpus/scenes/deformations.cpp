@@ -1,9 +1,8 @@
-#include "corpus/scenes/deformations.h"
-
 #include <array>
 #include <cmath>
 
-#include "corpus/scenes/trigonometry.h"
+#include "corpus/scenes/moving_meshes.h"
+#include "corpus/scenes/shapes.h"
 
 namespace assay::corpus {
 

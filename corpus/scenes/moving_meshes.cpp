@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "corpus/scenes/shapes.h"
-#include "corpus/scenes/trigonometry.h"
 
 namespace assay::corpus {
 

@@ -7,10 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "corpus/scenes/deformations.h"
 #include "corpus/scenes/moving_meshes.h"
 #include "corpus/scenes/shapes.h"
-#include "corpus/scenes/trigonometry.h"
 
 namespace assay::corpus {
 namespace {

@@ -1,7 +1,7 @@
 // Kinematic scenes: deforming meshes of any size and number of frames. No physics.
 //
 // They are deterministic: the same name and options give the same doubles on every platform,
-// because sines and cosines are the room's own (see trigonometry.h) and all else is + - * / and
+// because sines and cosines are the room's own (see shapes.h) and all else is + - * / and
 // sqrt. Closed scenes are cycles with outward normals, and frame 0 of every scene is free of
 // contact.
 #pragma once
@@ -10,7 +10,7 @@
 #include <span>
 #include <string_view>
 
-#include "corpus/formats/sequence_reader.h"
+#include "corpus/formats/sequences.h"
 #include "corpus/problem.h"
 
 namespace assay::corpus {

@@ -1,5 +1,6 @@
 // Rest shapes of the scenes. `size` is the wanted number of triangles, and each shape takes the
-// nearest number that it can have. Closed shapes are cycles with outward normals.
+// nearest number that it can have. Closed shapes are cycles with outward normals. What they and the
+// motions of scenes compute with stands last: sine and cosine.
 #pragma once
 
 #include <algorithm>
@@ -104,5 +105,14 @@ class MeshMaker {
   std::vector<double> coordinates_;
   std::vector<std::int32_t> corners_;
 };
+
+// Sine and cosine of a part of a turn, from + - * / and floor only. Libraries differ in the last
+// bit of std::sin, and a scene must be the same mesh everywhere.
+
+inline constexpr double pi = 3.14159265358979323846;
+
+// sin(2 pi x) and cos(2 pi x) for |x| < 2^40, within 4e-16; exact at multiples of a quarter turn.
+double sin_turn(double x);
+double cos_turn(double x);
 
 }  // namespace assay::corpus

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detector/contact/contact_doubles.h"
+#include "detector/contact/rungs.h"
 
 namespace assay::detector {
 namespace {

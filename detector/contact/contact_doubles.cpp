@@ -1,8 +1,8 @@
-#include "detector/contact/contact_doubles.h"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
+
+#include "detector/contact/rungs.h"
 
 namespace assay::detector {
 namespace {

@@ -4,8 +4,7 @@
 // If all 12 lam vanish, the points are collinear, and the signed distances along an axis decide.
 // If those vanish too, the points coincide. So parallel edges, slivers, zero-length edges and
 // points at rest are no special cases.
-#include "detector/contact/contact_exact.h"
-
+#include "detector/contact/rungs.h"
 #include "detector/exact/real_root.h"
 
 namespace assay::detector {

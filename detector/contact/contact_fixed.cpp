@@ -1,8 +1,8 @@
 #include <cassert>
 
-#include "detector/contact/contact_exact.h"
 #include "detector/contact/fixed_products.h"
 #include "detector/contact/fixed_root.h"
+#include "detector/contact/rungs.h"
 
 namespace assay::detector {
 namespace {

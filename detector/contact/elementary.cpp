@@ -2,10 +2,9 @@
 
 #include <cmath>
 
-#include "detector/contact/contact_doubles.h"
-#include "detector/contact/contact_exact.h"
 #include "detector/contact/contact_pieces.h"
 #include "detector/contact/fixed_products.h"
+#include "detector/contact/rungs.h"
 
 namespace assay::detector {
 namespace {

@@ -4,7 +4,7 @@
 //
 // Guarantee of exact arithmetic: for every finite input the answer is that of exact arithmetic on
 // the doubles given. Touching counts, and so do t=0 and t=1. A time is the unique enclosure of
-// TimeEnclosure. For the other arithmetics see contact_doubles.h.
+// TimeEnclosure. For the other arithmetics see rungs.h.
 #pragma once
 
 #include <memory>
@@ -40,7 +40,7 @@ class ElementaryTest {
   // If not null: many queries may go through these first, and what they settle need not be asked.
   // A stage of one's own is asked for every query, unless it says otherwise.
   virtual const QueryKernels* first_rungs() const { return nullptr; }
-  // The axis rung (contact_doubles.h).
+  // The axis rung (rungs.h).
   virtual bool is_apart_along_an_axis(const FourPoints& query) const;
   virtual ContactResult test(const FourPoints& query, Want want) const {
     return test_contact_past_axis(query, want);

@@ -1,6 +1,6 @@
-#include "detector/distance/near_filter.h"
-
 #include <limits>
+
+#include "detector/distance/nearness.h"
 
 namespace assay::detector {
 namespace {

@@ -1,7 +1,6 @@
 #include "detector/distance/nearness.h"
 
-#include "detector/contact/contact_doubles.h"
-#include "detector/distance/near_filter.h"
+#include "detector/contact/rungs.h"
 #include "detector/exact/ball.h"
 #include "detector/exact/real_root.h"
 #include "detector/exact/root_isolation.h"

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "detector/mesh/for_all.h"
-#include "detector/mesh/list_by_row.h"
 
 namespace assay::detector {
 namespace {

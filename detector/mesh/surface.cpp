@@ -3,7 +3,7 @@
 #include <cassert>
 #include <utility>
 
-#include "detector/mesh/list_by_row.h"
+#include "detector/mesh/for_all.h"
 
 namespace assay::detector {
 

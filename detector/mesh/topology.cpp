@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "detector/mesh/for_all.h"
-#include "detector/mesh/list_by_row.h"
 
 namespace assay::detector {
 namespace {

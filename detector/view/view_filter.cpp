@@ -23,10 +23,10 @@
 //   d.d halved        | a quadratic with B = L      | as before + 2 L    | L
 //
 // view_cubic_error and view_axial_error are these with two u more.
-#include "detector/view/view_filter.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "detector/view/view_signs.h"
 
 namespace assay::detector {
 namespace {

@@ -1,5 +1,3 @@
-#include "oracle/distance/regions.h"
-
 #include <algorithm>
 #include <bit>
 #include <cassert>
@@ -7,8 +5,9 @@
 #include <cstdint>
 #include <utility>
 
+#include "oracle/distance/feature_distance.h"
 #include "oracle/query/integer_polynomial.h"
-#include "oracle/query/times/time_enclosure.h"
+#include "oracle/query/times/times.h"
 
 namespace assay::oracle {
 

@@ -7,8 +7,6 @@
 // - A weight is rounded by less than 2^-53, so the weighted sum moves by less than 3 * 2^-53 M.
 // - The point is rounded by less than 2^-52 M.
 // Together this is less than 4.3 * 2^-52 M, and `error` is what it is in the very case, rounded up.
-#include "oracle/instant/contact_place.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -8,7 +8,6 @@
 #include <numeric>
 
 #include "oracle/instant/instant.h"
-#include "oracle/mesh/loops.h"
 #include "oracle/mesh/mesh_features.h"
 
 namespace assay::oracle {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 #include <utility>
 
 namespace assay::oracle {
@@ -64,6 +65,104 @@ std::vector<detector::TrianglePair> same_vertices_pairs(const std::vector<Face>&
     }
   }
   return pairs;
+}
+
+namespace {
+
+void add_edges(const detector::TrianglesView& triangles, std::vector<DirectedEdge>& edges) {
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const std::int32_t from = triangles(t, k), to = triangles(t, (k + 1) % 3);
+      if (from != to) edges.push_back({from, to});
+    }
+  }
+}
+
+// What is left of the edges when opposite ones cancel.
+std::vector<DirectedEdge> unmatched(std::vector<DirectedEdge> edges) {
+  std::vector<DirectedEdge> reversed;
+  reversed.reserve(edges.size());
+  for (const auto& [from, to] : edges) reversed.push_back({to, from});
+  std::sort(edges.begin(), edges.end());
+  std::sort(reversed.begin(), reversed.end());
+  std::vector<DirectedEdge> rest;
+  // This is a difference of multisets: an edge used k times more one way is kept k times.
+  std::set_difference(edges.begin(), edges.end(), reversed.begin(), reversed.end(),
+                      std::back_inserter(rest));
+  return rest;
+}
+
+}  // namespace
+
+std::vector<DirectedEdge> unmatched_edges(const detector::TrianglesView& triangles) {
+  std::vector<DirectedEdge> edges;
+  add_edges(triangles, edges);
+  return unmatched(std::move(edges));
+}
+
+std::vector<Loop> boundary_loops(const detector::TrianglesView& triangles) {
+  const std::vector<DirectedEdge> edges = unmatched_edges(triangles);
+  std::vector<std::uint8_t> used(edges.size(), 0);
+  // The edges that leave a vertex are one range of `edges`. The used ones are its front part,
+  // because the lowest is always taken. If i is the first place of the range, taken[i] is their
+  // number.
+  std::vector<std::size_t> taken(edges.size() + 1, 0);
+  auto first_from = [&](std::int32_t vertex) {
+    const auto at = std::lower_bound(edges.begin(), edges.end(), DirectedEdge{vertex, -1});
+    return static_cast<std::size_t>(at - edges.begin());
+  };
+  // The place of the lowest unused edge that leaves the vertex; edges.size() when there is none.
+  auto lowest_from = [&](std::int32_t vertex) {
+    const std::size_t first = first_from(vertex), i = first + taken[first];
+    return i < edges.size() && edges[i][0] == vertex ? i : edges.size();
+  };
+  std::vector<Loop> loops;
+  for (std::size_t start = 0; start < edges.size(); ++start) {
+    if (used[start]) continue;
+    Loop& loop = loops.emplace_back();
+    for (std::size_t e = start; e != edges.size(); e = lowest_from(edges[e][1])) {
+      used[e] = 1;
+      ++taken[first_from(edges[e][0])];
+      loop.push_back(edges[e][0]);
+    }
+  }
+  return loops;
+}
+
+detector::Triangles ghost_triangles(const std::vector<Loop>& loops, std::int32_t first_apex) {
+  std::size_t count = 0;
+  for (const Loop& loop : loops) count += loop.size();
+  detector::Triangles ghosts(static_cast<Eigen::Index>(count), 3);
+  Eigen::Index row = 0;
+  std::int32_t apex = first_apex;
+  for (const Loop& loop : loops) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      ghosts.row(row++) << loop[(i + 1) % loop.size()], loop[i], apex;
+    }
+    ++apex;
+  }
+  return ghosts;
+}
+
+bool closes(const detector::TrianglesView& triangles, const detector::TrianglesView& ghosts) {
+  std::vector<DirectedEdge> edges;
+  add_edges(triangles, edges);
+  add_edges(ghosts, edges);
+  if (!unmatched(std::move(edges)).empty()) return false;
+
+  const std::set<std::int32_t> mesh_vertices(triangles.data(), triangles.data() + triangles.size());
+  std::vector<DirectedEdge> filled;
+  for (Eigen::Index g = 0; g < ghosts.rows(); ++g) {
+    int apexes = 0;
+    for (int k = 0; k < 3; ++k) {
+      if (mesh_vertices.count(ghosts(g, k)) > 0) continue;
+      ++apexes;
+      filled.push_back({ghosts(g, (k + 2) % 3), ghosts(g, (k + 1) % 3)});
+    }
+    if (apexes != 1) return false;
+  }
+  std::sort(filled.begin(), filled.end());
+  return filled == unmatched_edges(triangles);
 }
 
 }  // namespace assay::oracle

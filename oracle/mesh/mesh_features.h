@@ -1,4 +1,5 @@
-// Vertices, edges and triangles of a mesh as features, with the triangles that hold them.
+// Vertices, edges and triangles of a mesh as features, with the triangles that hold them; its
+// unmatched edges, and the ghosts that close it.
 #pragma once
 
 #include <array>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "detector/mesh/step_types.h"
+#include "detector/mesh/types.h"
 
 namespace assay::oracle {
 
@@ -44,5 +46,34 @@ inline bool holds(const Face& face, std::int32_t vertex) {
 inline bool share_vertex(const Edge& a, const Edge& b) {
   return a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1];
 }
+
+// What keeps a mesh from being a cycle, its unmatched edges; and the ghosts that close it.
+//
+// A directed edge (u,v) that is used k times more than (v,u) is unmatched k times. Every vertex
+// has as many unmatched edges that enter it as leave it (the boundary of any set of triangles is a
+// cycle), so the unmatched edges split into closed walks, whatever the triangles are.
+// An edge from a vertex to itself (a repeated index) matches itself.
+
+using DirectedEdge = std::array<std::int32_t, 2>;  // from, to
+using Loop = std::vector<std::int32_t>;            // in order; the last vertex leads to the first
+
+// Each unmatched edge, as often as it is unmatched; ascending. n log n.
+std::vector<DirectedEdge> unmatched_edges(const detector::TrianglesView& triangles);
+
+// Splits the unmatched edges into closed walks that use each once. A walk starts with the lowest
+// unused edge and goes on with the lowest unused edge that leaves its end. It goes on through
+// repeated vertices, and through its own start as long as an unused edge leaves that. Empty for a
+// cycle. n log n.
+std::vector<Loop> boundary_loops(const detector::TrianglesView& triangles);
+
+// One ghost for each edge (u,v) of each loop: (v, u, first_apex + number of the loop). Together
+// with the triangles whose loops these are, the ghosts make a cycle.
+detector::Triangles ghost_triangles(const std::vector<Loop>& loops, std::int32_t first_apex);
+
+// True when the given fans close the mesh with one ghost for each unmatched edge: triangles and
+// ghosts together are a cycle, and each ghost holds one unmatched edge of the triangles, reversed,
+// and one apex that no triangle holds. Any split of the edges into fans is valid, so it is not
+// asked which walks the fans follow.
+bool closes(const detector::TrianglesView& triangles, const detector::TrianglesView& ghosts);
 
 }  // namespace assay::oracle

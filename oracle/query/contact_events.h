@@ -20,7 +20,7 @@
 
 #include "detector/mesh/step_types.h"
 #include "oracle/query/integer_polynomial.h"
-#include "oracle/query/times/time_enclosure.h"
+#include "oracle/query/times/times.h"
 
 namespace assay::oracle {
 

@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "oracle/query/interval_sign.h"
-#include "oracle/query/times/algebraic_times.h"
-#include "oracle/query/times/closed_times.h"
+#include "oracle/query/times/times.h"
 
 namespace assay::oracle {
 

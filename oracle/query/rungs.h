@@ -40,7 +40,7 @@ IntervalAnswer interval_answer(const FourPoints& q, detector::Want want);
 
 // Tests the contact condition at each time at which a contact can begin (contact_events.h). It
 // decides every query. All signs in question are found as signs at zeros of quadratics
-// (times/closed_times.h), and these are signs of a few integers.
+// (times/times.h), and these are signs of a few integers.
 ExactAnswer quadratic_answer(ContactPolynomials& polynomials, detector::Want want);
 
 // The answer of quadratic_answer by other means: CGAL's algebraic kernel. No rung, but what that

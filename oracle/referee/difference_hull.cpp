@@ -1,10 +1,10 @@
-#include "oracle/referee/difference_hull.h"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
 #include <span>
+
+#include "oracle/referee/existence.h"
 
 namespace assay::oracle {
 

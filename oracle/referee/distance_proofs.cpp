@@ -1,9 +1,9 @@
-#include "oracle/referee/distance_proofs.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
+
+#include "oracle/referee/distance_referee.h"
 
 namespace assay::oracle {
 

@@ -1,6 +1,9 @@
 #include "oracle/referee/referee.h"
 
+#include <gmpxx.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -124,6 +127,163 @@ detector::Decision referee(const detector::FourPoints& query, const RefereeOptio
   const auto& p = query.points;
   return query.first_group == 1 ? referee(detector::VertexFace{p[0], {p[1], p[2], p[3]}}, options)
                                 : referee(detector::EdgeEdge{{p[0], p[1]}, {p[2], p[3]}}, options);
+}
+
+namespace {
+
+using detector::four_points;
+using detector::FourPoints;
+
+using Rational = mpq_class;
+// Coefficients of powers of s in [0,1], which runs over the times from lo to hi.
+using Linear = std::array<Rational, 2>;
+using Quadratic = std::array<Rational, 3>;
+using Cubic = std::array<Rational, 4>;
+using LinearPoint = std::array<Linear, 3>;
+
+// An interval is halved this often: to 2^-300 of the step, where coordinates differ by their bits.
+constexpr int halvings = 300;
+
+template <std::size_t A, std::size_t B>
+std::array<Rational, A + B - 1> product(const std::array<Rational, A>& a,
+                                        const std::array<Rational, B>& b) {
+  std::array<Rational, A + B - 1> c;
+  for (std::size_t i = 0; i < A; ++i) {
+    for (std::size_t j = 0; j < B; ++j) c[i + j] += a[i] * b[j];
+  }
+  return c;
+}
+
+template <std::size_t N>
+std::array<Rational, N> combined(const std::array<Rational, N>& a, int sign,
+                                 const std::array<Rational, N>& b) {
+  std::array<Rational, N> c;
+  for (std::size_t i = 0; i < N; ++i) c[i] = a[i] + sign * b[i];
+  return c;
+}
+
+template <std::size_t N>
+Rational value(const std::array<Rational, N>& p, const Rational& s) {
+  Rational sum = p[N - 1];
+  for (std::size_t i = N - 1; i-- > 0;) sum = sum * s + p[i];
+  return sum;
+}
+
+// The least and the greatest sign that a quadratic is known to have on [x,y]: those of its
+// Bernstein coefficients there.
+std::array<int, 2> signs_on(const Quadratic& q, const Rational& x, const Rational& y) {
+  const Rational middle = q[0] + q[1] * (x + y) / 2 + q[2] * x * y;
+  const std::array<int, 3> signs = {sgn(value(q, x)), sgn(middle), sgn(value(q, y))};
+  const auto [least, greatest] = std::minmax_element(signs.begin(), signs.end());
+  return {*least, *greatest};
+}
+
+class Bracket {
+ public:
+  Bracket(const FourPoints& query, double lo, double hi) : first_group_(query.first_group) {
+    const Rational from(lo), length = Rational(hi) - from;
+    std::array<LinearPoint, 4> x;
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Rational begin(query.points[i].t0[k]), way = Rational(query.points[i].t1[k]) - begin;
+        x[i][k] = {begin + way * from, way * length};
+      }
+    }
+    for (std::size_t j = 0; j < 3; ++j) {
+      for (std::size_t k = 0; k < 3; ++k) u_[j][k] = combined(x[j + 1][k], -1, x[0][k]);
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Cubic part = product(u_[0][k], cross(1, 2, k));
+      f_ = combined(f_, 1, part);
+      lambda_[k] = {Quadratic{}, cross(1, 2, k), cross(2, 0, k), cross(0, 1, k)};
+      for (std::size_t i = 1; i < 4; ++i)
+        lambda_[k][0] = combined(lambda_[k][0], -1, lambda_[k][i]);
+    }
+  }
+
+  bool holds_contact() const {
+    if (contact_on(0, 1)) return true;
+    const std::vector<Rational> ends = monotone_ends();
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+      if (contact_on(ends[i], ends[i + 1])) return true;
+    }
+    return false;
+  }
+
+ private:
+  Quadratic cross(std::size_t a, std::size_t b, std::size_t k) const {
+    const std::size_t l = (k + 1) % 3, m = (k + 2) % 3;
+    return combined(product(u_[a][l], u_[b][m]), -1, product(u_[a][m], u_[b][l]));
+  }
+
+  // 0, about the extremes of F, 1: where F has several zeros, its sign changes between these.
+  std::vector<Rational> monotone_ends() const {
+    const Quadratic slope = {f_[1], 2 * f_[2], 3 * f_[3]};
+    std::vector<Rational> ends = {0, 1};
+    if (sgn(slope[2]) != 0) {
+      const Rational turn = -slope[1] / (2 * slope[2]);
+      if (turn > 0 && turn < 1) ends = {0, turn, 1};
+    }
+    std::vector<Rational> all = ends;
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+      Rational x = ends[i], y = ends[i + 1];
+      const int before = sgn(value(slope, x));
+      if (before * sgn(value(slope, y)) >= 0) continue;
+      for (int n = 0; n < halvings; ++n) {
+        const Rational middle = (x + y) / 2;
+        (sgn(value(slope, middle)) == before ? x : y) = middle;
+      }
+      all.push_back(x);
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+  }
+
+  bool contact_on(Rational x, Rational y) const {
+    const int before = sgn(value(f_, x));
+    if (before == 0) return sgn(x) != 0 && meet_on(x, x) == detector::Decision::yes;
+    if (before * sgn(value(f_, y)) >= 0) return false;
+    for (int n = 0; n < halvings; ++n) {
+      const auto decision = meet_on(x, y);
+      if (decision != detector::Decision::open) return decision == detector::Decision::yes;
+      const Rational middle = (x + y) / 2;
+      const int there = sgn(value(f_, middle));
+      if (there == 0) return meet_on(middle, middle) == detector::Decision::yes;
+      (there == before ? x : y) = middle;
+    }
+    return false;
+  }
+
+  // Whether the features meet at every zero of F in [x,y]. Yes: the L of some axis are all >= 0, or
+  // all <= 0, and one of them is never zero. No: the L of some axis take both signs throughout.
+  detector::Decision meet_on(const Rational& x, const Rational& y) const {
+    for (const auto& of_axis : lambda_) {
+      std::array<bool, 2> on_side = {true, true};   // all <= 0, all >= 0
+      std::array<bool, 2> strict = {false, false};  // one is always < 0, one always > 0
+      for (int i = 0; i < 4; ++i) {
+        auto [least, greatest] = signs_on(of_axis[static_cast<std::size_t>(i)], x, y);
+        if (i >= first_group_) std::swap(least = -least, greatest = -greatest);
+        on_side[0] = on_side[0] && greatest <= 0;
+        on_side[1] = on_side[1] && least >= 0;
+        strict[0] = strict[0] || greatest < 0;
+        strict[1] = strict[1] || least > 0;
+      }
+      if (strict[0] && strict[1]) return detector::Decision::no;
+      if ((on_side[0] && strict[0]) || (on_side[1] && strict[1])) return detector::Decision::yes;
+    }
+    return detector::Decision::open;
+  }
+
+  int first_group_;
+  std::array<LinearPoint, 3> u_;
+  Cubic f_;
+  std::array<std::array<Quadratic, 4>, 3> lambda_;  // by axis and point
+};
+
+}  // namespace
+
+bool meet_between(const detector::FourPoints& query, double lo, double hi) {
+  return Bracket(query, lo, hi).holds_contact();
 }
 
 }  // namespace assay::oracle

@@ -9,7 +9,7 @@
 #include "oracle/processor_state.h"
 #include "oracle/query/integer_polynomial.h"
 #include "oracle/query/interval_sign.h"
-#include "oracle/query/times/algebraic_times.h"
+#include "oracle/query/times/times.h"
 
 namespace assay::oracle {
 

@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "oracle/mesh/loops.h"
+#include "oracle/mesh/mesh_features.h"
 #include "properties/random.h"
 
 namespace assay::properties {

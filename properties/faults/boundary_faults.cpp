@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "detector/contact/contact_doubles.h"
+#include "detector/contact/rungs.h"
 #include "detector/geometry/winding.h"
 #include "properties/faults/planting.h"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <set>
 
-#include "detector/contact/contact_exact.h"
+#include "detector/contact/rungs.h"
 #include "properties/faults/planting.h"
 #include "properties/faults/view_polynomials.h"
 

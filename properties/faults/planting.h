@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "properties/faults/fault.h"
-#include "properties/numbering.h"
+#include "properties/random.h"
 
 namespace assay::properties {
 

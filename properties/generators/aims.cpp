@@ -1,8 +1,7 @@
-#include "properties/generators/aims.h"
-
 #include <algorithm>
 #include <optional>
 
+#include "properties/generators/parts.h"
 #include "properties/random.h"
 
 namespace assay::properties {

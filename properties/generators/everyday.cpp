@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "corpus/scenes/trigonometry.h"
+#include "corpus/scenes/shapes.h"
 #include "detector/geometry/orientation.h"
-#include "properties/generators/shapes/shapes.h"
+#include "properties/generators/parts.h"
 #include "properties/random.h"
 
 namespace assay::properties {

@@ -7,13 +7,9 @@
 #include <utility>
 
 #include "oracle/mesh/step.h"
-#include "properties/generators/aims.h"
 #include "properties/generators/draft.h"
 #include "properties/generators/everyday.h"
-#include "properties/generators/menus.h"
-#include "properties/generators/motions.h"
-#include "properties/generators/relations.h"
-#include "properties/generators/shapes/shapes.h"
+#include "properties/generators/parts.h"
 #include "properties/random.h"
 
 namespace assay::properties {

@@ -1,10 +1,8 @@
-#include "properties/generators/motions.h"
-
 #include <algorithm>
 #include <cmath>
 
-#include "corpus/scenes/trigonometry.h"
-#include "properties/generators/aims.h"
+#include "corpus/scenes/shapes.h"
+#include "properties/generators/parts.h"
 #include "properties/random.h"
 
 namespace assay::properties {

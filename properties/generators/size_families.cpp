@@ -10,7 +10,6 @@
 #include <string>
 
 #include "corpus/scenes/shapes.h"
-#include "corpus/scenes/trigonometry.h"
 #include "properties/generators/draft.h"
 #include "properties/generators/families.h"
 #include "properties/random.h"

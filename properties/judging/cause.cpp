@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "oracle/distance/closest_places.h"
+#include "oracle/distance/feature_distance.h"
 #include "oracle/instant/instant.h"
 #include "oracle/query/contact.h"
 #include "properties/judging/contracted_case.h"

@@ -8,7 +8,7 @@
 #include "oracle/mesh/pair_relation.h"
 #include "properties/judging/agreement.h"
 #include "properties/judging/cause.h"
-#include "properties/worker/plugin/plugin_reading.h"
+#include "properties/worker/plugin/plugin_host.h"
 
 namespace assay::properties {
 namespace {

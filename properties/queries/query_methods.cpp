@@ -5,8 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "detector/contact/contact_exact.h"
 #include "detector/contact/elementary.h"
+#include "detector/contact/rungs.h"
 #include "detector/distance/nearness.h"
 #include "oracle/distance/feature_distance.h"
 #include "oracle/referee/referee.h"

@@ -17,7 +17,7 @@
 #include "corpus/cases/case_file.h"
 #include "detector/mesh/counted_pairs.h"
 #include "detector/mesh/types.h"
-#include "properties/numbering.h"
+#include "properties/random.h"
 
 namespace assay::properties {
 
@@ -59,7 +59,7 @@ corpus::Case seen_from_its_middle(const corpus::Case& c);
 // frames are the steps.
 corpus::Case with_steps(const corpus::Case& c, const std::vector<corpus::CaseStep>& steps);
 
-// relation_edits.cpp: the relation of a case, which says which pairs count
+// The relation of a case, which says which pairs count
 // (detector/mesh/counted_pairs.h), for a mesh that has changed.
 
 // What has become of the vertices. Several old vertices may be one new one; it has the body and the

@@ -1,11 +1,20 @@
 #include "properties/reducer/reducer.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstring>
 #include <span>
 
+#include "properties/changes/changes.h"
 #include "properties/reducer/passes/passes.h"
 #include "properties/reducer/search.h"
+#include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
+
 namespace {
 
 struct Pass {
@@ -125,6 +134,160 @@ Reduction reduce(const corpus::Case& failing, const Judge& judge, const ReduceLi
     if (pass.tried + pass.accepted > 0) reduction.passes.push_back(pass);
   }
   return reduction;
+}
+
+namespace {
+
+bool moves(const std::vector<detector::Point>& places) {
+  for (const auto& place : places) {
+    if (place != places.front()) return true;
+  }
+  return false;
+}
+
+int rank_of(const std::optional<corpus::CaseView>& view) {
+  if (!view) return 0;
+  return (view->q1.empty() ? 1 : 3) + (moves(view->q0) || moves(view->q1) ? 1 : 0);
+}
+
+std::string counted(std::size_t count, const char* one, const char* many) {
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+}  // namespace
+
+std::uint64_t number_cost(double value) {
+  const double magnitude = std::abs(value);
+  if (magnitude <= 9 && magnitude == std::floor(magnitude)) {
+    return static_cast<std::uint64_t>(magnitude);
+  }
+  if (magnitude < 1e15 && magnitude == std::floor(magnitude)) {
+    std::uint64_t digits = 0;
+    for (auto rest = static_cast<std::uint64_t>(magnitude); rest > 0; rest /= 10) ++digits;
+    return 10 * digits;
+  }
+  char text[64];
+  const auto end = fmt::format_to_n(text, sizeof text, "{}", magnitude);
+  return 100 + 10 * end.size;
+}
+
+MeshSize size_of(const corpus::Case& c) {
+  MeshSize size;
+  const auto steps = corpus::steps_of(c);
+  size.steps = steps.size();
+  size.triangles = static_cast<std::size_t>(c.triangles.rows());
+  size.vertices = c.frames.empty() ? 0 : static_cast<std::size_t>(c.frames.front().rows());
+  size.frames = c.frames.size();
+  for (const auto& step : steps) {
+    const auto &x_t0 = start_of(c, step), &x_t1 = end_of(c, step);
+    for (Eigen::Index v = 0; v < x_t0.rows(); ++v) {
+      if (x_t0.row(v) != x_t1.row(v)) ++size.moving;
+    }
+  }
+  size.view = rank_of(c.view);
+  for (const double* x : numbers_along(c)) size.numbers += number_cost(*x);
+  if (c.counted) {
+    const auto& pairs = c.counted->pairs;
+    size.relation = pairs.apart.size() + static_cast<std::size_t>(pairs.rings) +
+                    (pairs.rest_distance > 0 ? 1 : 0) + pairs.triangle_pairs.size() +
+                    pairs.vertex_faces.size() + pairs.edge_pairs.size();
+    if (pairs.rest != corpus::points_of(c.frames.front())) {
+      for (const auto& point : pairs.rest) {
+        for (const double value : point) size.numbers += number_cost(value);
+      }
+    }
+  }
+  if (c.ghosts) size.ghosts = static_cast<std::size_t>(c.ghosts->triangles.rows());
+  return size;
+}
+
+std::string size_text(const corpus::Case& c) {
+  if (says_query(c)) return fmt::format("one {} query", query_word(c));
+  const auto size = size_of(c);
+  return counted(size.triangles, "triangle", "triangles") + ", " +
+         counted(size.vertices, "vertex", "vertices") + ", " + counted(size.steps, "step", "steps");
+}
+
+std::string size_text(const corpus::Case& before, const corpus::Case& after) {
+  const auto from = size_text(before), to = size_text(after);
+  return from == to ? from : from + " -> " + to;
+}
+
+namespace {
+
+// place(frame, axis) gives the address of a coordinate.
+template <class Place>
+void append_groups(std::vector<NumberGroup>& groups, std::size_t frames, Place place) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::size_t first = groups.size();
+    for (std::size_t f = 0; f < frames; ++f) {
+      double* const number = place(f, axis);
+      const auto same =
+          std::find_if(groups.begin() + static_cast<std::ptrdiff_t>(first), groups.end(),
+                       [&](const NumberGroup& g) { return *g.front() == *number; });
+      if (same != groups.end()) {
+        same->push_back(number);
+      } else {
+        groups.push_back({number});
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<NumberGroup> number_groups(corpus::Case& c) {
+  std::vector<NumberGroup> groups;
+  for (Eigen::Index v = 0; v < c.frames.front().rows(); ++v) {
+    append_groups(groups, c.frames.size(), [&](std::size_t f, std::size_t axis) {
+      return &c.frames[f](v, static_cast<Eigen::Index>(axis));
+    });
+  }
+  if (c.view) {
+    for (auto* end : {&c.view->q0, &c.view->q1}) {
+      append_groups(groups, end->size(),
+                    [&](std::size_t f, std::size_t axis) { return &(*end)[f][axis]; });
+    }
+  }
+  if (!c.ghosts) return groups;
+  for (std::size_t a = 0; a < c.ghosts->apexes.front().size(); ++a) {
+    append_groups(groups, c.ghosts->apexes.size(),
+                  [&](std::size_t f, std::size_t axis) { return &c.ghosts->apexes[f][a][axis]; });
+  }
+  return groups;
+}
+
+double rounded_to_digits(double value, int digits) {
+  const std::string text = fmt::format("{:.{}e}", value, digits - 1);
+  double rounded = value;
+  std::from_chars(text.data(), text.data() + text.size(), rounded);
+  return rounded;
+}
+
+std::vector<double> simpler_values(double value) {
+  std::vector<double> values = {0};
+  const double sign = value < 0 ? -1 : 1;
+  for (double magnitude = 1; magnitude <= 9; ++magnitude) {
+    values.push_back(sign * magnitude);
+    values.push_back(-sign * magnitude);
+  }
+  for (const double magnitude : {10., 12., 15., 20., 30., 50., 75., 99., 200., 500., 999.}) {
+    values.push_back(sign * magnitude);
+  }
+  values.push_back(std::round(value));
+  values.push_back(std::trunc(value));
+  values.push_back(std::trunc(value / 2));
+  for (const int digits : {1, 2, 3, 4, 6, 8, 12})
+    values.push_back(rounded_to_digits(value, digits));
+
+  const auto cost = number_cost(value);
+  std::erase_if(values, [&](double v) { return number_cost(v) >= cost; });
+  // Shorter numbers come first. Among equals the order above stays.
+  std::stable_sort(values.begin(), values.end(),
+                   [](double a, double b) { return number_cost(a) < number_cost(b); });
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  for (double& v : values) v += 0.0;  // no negative zero
+  return values;
 }
 
 }  // namespace assay::properties

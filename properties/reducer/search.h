@@ -6,7 +6,6 @@
 #include <unordered_map>
 #include <vector>
 
-#include "properties/reducer/mesh_size.h"
 #include "properties/reducer/reducer.h"
 
 namespace assay::properties {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "oracle/distance/closest_places.h"
+#include "oracle/distance/feature_distance.h"
 #include "oracle/query/contact_events.h"
 #include "properties/search/degeneracy.h"
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "oracle/mesh/loops.h"
+#include "oracle/mesh/mesh_features.h"
 #include "properties/changes/changes.h"
 #include "properties/generators/draft.h"
 #include "properties/random.h"

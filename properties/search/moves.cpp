@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "detector/mesh/topology.h"
-#include "oracle/distance/closest_places.h"
+#include "oracle/distance/feature_distance.h"
 #include "properties/changes/changes.h"
 #include "properties/random.h"
 #include "properties/worker/plugin/query_case.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "detector/boundary/boundary_handler.h"
-#include "oracle/mesh/loops.h"
+#include "oracle/mesh/mesh_features.h"
 #include "properties/changes/changes.h"
 #include "properties/generators/draft.h"
 #include "properties/random.h"

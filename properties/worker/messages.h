@@ -24,7 +24,7 @@
 #include "detector/step_result.h"
 #include "properties/claims/claims.h"
 #include "properties/fields.h"
-#include "properties/problem.h"
+#include "properties/words.h"
 #include "properties/worker/case_run.h"
 #include "properties/worker/plugin/query_case.h"
 
@@ -259,7 +259,7 @@ constexpr std::uint64_t wire_version() {
   return hash;
 }
 
-// What a plug-in says is checked where it is read (plugin_reading.h), in its own process. If that
+// What a plug-in says is checked where it is read (plugin_reading.cpp), in its own process. If that
 // process damages its own memory, its reply may be none; such a reply counts as a crash.
 
 // Bytes of the longest line of text in a reply.

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "properties/judging/step_errors.h"
-#include "reports/estimate.h"
+#include "properties/judging/step_measures.h"
+#include "reports/bench/sweep.h"
 
 namespace assay::reports {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "corpus/cases/case_file.h"
-#include "corpus/formats/sequence_reader.h"
+#include "corpus/formats/sequences.h"
 #include "detector/options.h"
 
 namespace assay::reports {

@@ -10,7 +10,7 @@
 #include "properties/campaign/ledger/store.h"
 #include "properties/judging/cause.h"
 #include "properties/queries/query_families.h"
-#include "properties/reducer/mesh_size.h"
+#include "properties/reducer/reducer.h"
 #include "properties/words.h"
 #include "reports/campaign/campaign_text.h"
 #include "reports/pictures/case_scene.h"

@@ -10,17 +10,16 @@
 #include "corpus/files.h"
 #include "corpus/queries/query_csv.h"
 #include "corpus/scenes/scenes.h"
-#include "properties/campaign/ledger/step_measures.h"
 #include "properties/campaign/plan.h"
 #include "properties/campaign/trials/trials.h"
 #include "properties/judging/case_check.h"
 #include "properties/judging/exam.h"
+#include "properties/judging/step_measures.h"
 #include "properties/queries/self_check.h"
 #include "properties/worker/plugin/query_case.h"
 #include "properties/worker/worker_process.h"
 #include "reports/bench/cases.h"
 #include "reports/bench/sweep.h"
-#include "reports/estimate.h"
 
 namespace assay::reports {
 

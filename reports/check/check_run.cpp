@@ -6,7 +6,7 @@
 #include <optional>
 #include <set>
 
-#include "corpus/formats/mesh_writer.h"
+#include "corpus/formats/sequences.h"
 #include "detector/mesh/mesh_checks.h"
 #include "detector/mesh/topology.h"
 #include "detector/step_result.h"
@@ -15,7 +15,7 @@
 #include "properties/judging/case_check.h"
 #include "properties/judging/case_options.h"
 #include "properties/judging/verdict.h"
-#include "properties/numbering.h"
+#include "properties/random.h"
 #include "reports/steps/step_report.h"
 #include "reports/terminal/option_words.h"
 #include "reports/terminal/work.h"

@@ -13,7 +13,7 @@
 #include "properties/judging/subject.h"
 #include "properties/judging/verdict.h"
 #include "properties/reducer/case_edits.h"
-#include "properties/reducer/mesh_size.h"
+#include "properties/reducer/reducer.h"
 #include "reports/check/check_run.h"
 #include "reports/pictures/case_scene.h"
 #include "reports/steps/case_export.h"

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "properties/judging/contracted_case.h"
-#include "properties/worker/plugin/plugin_reading.h"
+#include "properties/worker/plugin/plugin_host.h"
 #include "reports/check/check_run.h"
 #include "reports/terminal/option_words.h"
 #include "reports/terminal/words.h"

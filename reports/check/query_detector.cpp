@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "properties/campaign/ledger/step_measures.h"
+#include "properties/judging/step_measures.h"
 #include "properties/words.h"
 #include "properties/worker/plugin/query_case.h"
 #include "reports/steps/measures_text.h"

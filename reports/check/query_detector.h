@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "detector/mesh/step_types.h"
-#include "properties/campaign/ledger/step_measures.h"
 #include "properties/judging/exam.h"
+#include "properties/judging/step_measures.h"
 #include "reports/terminal/option_words.h"
 #include "reports/terminal/work.h"
 

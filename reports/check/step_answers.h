@@ -99,7 +99,7 @@ class StepAnswers {
 };
 
 // Answers that are not asked for here, but were given before: by a log, or by a table beside the
-// frames of `check` (given_answers.cpp).
+// frames of `check`.
 class GivenAnswers : public StepAnswers {
  public:
   bool is_recorded() const override { return true; }

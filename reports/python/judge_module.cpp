@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "corpus/cases/case_file.h"
-#include "corpus/formats/sequence_reader.h"
+#include "corpus/formats/sequences.h"
 #include "corpus/frame_order.h"
 #include "detector/mesh/mesh_checks.h"
 #include "oracle/distance/step_distance.h"

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "properties/campaign/ledger/step_measures.h"
+#include "properties/judging/step_measures.h"
 #include "properties/queries/query_families.h"
 #include "reports/terminal/words.h"
 

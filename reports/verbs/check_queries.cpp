@@ -16,12 +16,12 @@
 #include <vector>
 
 #include "corpus/queries/query_csv.h"
-#include "detector/contact/contact_exact.h"
+#include "detector/contact/rungs.h"
 #include "properties/fields.h"
 #include "properties/queries/query_methods.h"
 #include "properties/worker/plugin/query_case.h"
+#include "reports/bench/sweep.h"
 #include "reports/check/query_detector.h"
-#include "reports/estimate.h"
 #include "reports/terminal/words.h"
 #include "reports/terminal/work.h"
 #include "reports/verbs/verbs.h"

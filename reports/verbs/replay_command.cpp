@@ -14,7 +14,7 @@
 #include "properties/judging/case_check.h"
 #include "properties/judging/exam.h"
 #include "properties/queries/query_families.h"
-#include "properties/reducer/mesh_size.h"
+#include "properties/reducer/reducer.h"
 #include "properties/words.h"
 #include "properties/worker/plugin/query_case.h"
 #include "properties/worker/worker_process.h"

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "corpus/formats/mesh_writer.h"
+#include "corpus/formats/sequences.h"
 #include "corpus/problem.h"
 #include "corpus/scenes/scenes.h"
 #include "reports/terminal/words.h"

@@ -4,7 +4,7 @@
 #include "properties/campaign/phases/shrink.h"
 #include "properties/campaign/trials/trials.h"
 #include "properties/judging/case_check.h"
-#include "properties/reducer/mesh_size.h"
+#include "properties/reducer/reducer.h"
 #include "properties/worker/plugin/query_case.h"
 #include "reports/check/step_answers.h"
 #include "reports/pictures/case_scene.h"

@@ -10,7 +10,6 @@
 #include "properties/queries/query_families.h"
 #include "properties/random.h"
 #include "reports/bench/sweep.h"
-#include "reports/estimate.h"
 #include "tests/bench/step_parts.h"
 
 namespace assay::tests {

@@ -1,7 +1,7 @@
 // Reads the public data sets whose folder ASSAY_DATA names; skipped where it is absent.
 #include "tests/public_data.h"
 
-#include "corpus/formats/sequence_reader.h"
+#include "corpus/formats/sequences.h"
 #include "corpus/queries/query_csv.h"
 #include "tests/test.h"
 

@@ -2,8 +2,7 @@
 // is silent rather than wrong, double and float are wrong where they are known to be.
 #include "detector/boundary/ghost_sweep.h"
 #include "detector/boxes/moving_box.h"
-#include "detector/contact/contact_doubles.h"
-#include "detector/contact/contact_exact.h"
+#include "detector/contact/rungs.h"
 #include "detector/detector.h"
 #include "detector/exact/real_root.h"
 #include "detector/geometry/orientation.h"

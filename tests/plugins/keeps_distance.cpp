@@ -15,7 +15,7 @@
 
 #include "detector/detector.h"
 #include "detector/plugin/assay_detector.hpp"
-#include "oracle/distance/closest_places.h"
+#include "oracle/distance/feature_distance.h"
 #include "oracle/distance/step_distance.h"
 #include "tests/plugins/told.h"
 

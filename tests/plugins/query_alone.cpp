@@ -28,8 +28,8 @@
 #include <ctime>
 #include <limits>
 
-#include "detector/contact/contact_exact.h"
 #include "detector/contact/elementary.h"
+#include "detector/contact/rungs.h"
 #include "detector/distance/nearness.h"
 #include "tests/plugins/changed_builtin.h"
 #include "tests/plugins/told.h"

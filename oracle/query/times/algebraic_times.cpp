@@ -2,7 +2,7 @@
 // where two zeros are told apart by that many bits, on half a megabyte of stack. So zeros are
 // isolated here, with the pieces that are left on the heap; of the kernel come square-free parts,
 // and what compares numbers and takes them nearer, which are loops.
-#include "oracle/query/times/algebraic_times.h"
+#include "oracle/query/times/times.h"
 
 // g++ 12 takes two handles of CGAL that share a number, when they are swapped, for one that is used
 // after its end.

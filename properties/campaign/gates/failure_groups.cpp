@@ -19,7 +19,7 @@
 #include "properties/judging/cause.h"
 #include "properties/judging/exam.h"
 #include "properties/queries/query_families.h"
-#include "properties/reducer/mesh_size.h"
+#include "properties/reducer/reducer.h"
 #include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {

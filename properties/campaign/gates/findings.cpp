@@ -8,9 +8,9 @@
 
 #include "corpus/digest.h"
 #include "properties/campaign/ledger/row_fields.h"
-#include "properties/campaign/ledger/step_measures.h"
 #include "properties/campaign/plan.h"
 #include "properties/judging/cause.h"
+#include "properties/judging/step_measures.h"
 #include "properties/queries/query_families.h"
 
 namespace assay::properties {

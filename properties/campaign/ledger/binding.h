@@ -8,7 +8,7 @@
 
 #include "properties/campaign/request.h"
 #include "properties/claims/claims.h"
-#include "properties/problem.h"
+#include "properties/words.h"
 
 namespace assay::properties {
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "properties/campaign/ledger/database.h"
-#include "properties/campaign/ledger/step_measures.h"
 #include "properties/fields.h"
 #include "properties/judging/agreement.h"
+#include "properties/judging/step_measures.h"
 
 namespace assay::properties {
 

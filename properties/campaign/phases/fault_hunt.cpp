@@ -11,7 +11,7 @@
 #include "properties/generators/draft.h"
 #include "properties/generators/families.h"
 #include "properties/judging/exam.h"
-#include "properties/reducer/mesh_size.h"
+#include "properties/reducer/reducer.h"
 #include "properties/threads.h"
 #include "properties/worker/worker_process.h"
 

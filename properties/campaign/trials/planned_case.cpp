@@ -8,7 +8,7 @@
 #include "detector/boundary/boundary_handler.h"
 #include "detector/detector.h"
 #include "oracle/instant/layers.h"
-#include "oracle/mesh/loops.h"
+#include "oracle/mesh/mesh_features.h"
 #include "properties/campaign/trials/trials.h"
 #include "properties/changes/changes.h"
 #include "properties/generators/added_bodies.h"

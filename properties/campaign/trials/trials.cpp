@@ -8,10 +8,10 @@
 #include <system_error>
 
 #include "properties/campaign/ledger/database.h"
-#include "properties/campaign/ledger/step_measures.h"
 #include "properties/campaign/ledger/tally.h"
 #include "properties/generators/draft.h"
 #include "properties/judging/case_options.h"
+#include "properties/judging/step_measures.h"
 #include "properties/queries/query_families.h"
 #include "properties/random.h"
 #include "properties/threads.h"

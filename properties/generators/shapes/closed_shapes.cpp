@@ -3,8 +3,8 @@
 #include <map>
 #include <utility>
 
-#include "corpus/scenes/trigonometry.h"
-#include "properties/generators/shapes/shapes.h"
+#include "corpus/scenes/shapes.h"
+#include "properties/generators/parts.h"
 #include "properties/random.h"
 
 namespace assay::properties {

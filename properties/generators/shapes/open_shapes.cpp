@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "corpus/scenes/trigonometry.h"
-#include "properties/generators/shapes/shapes.h"
+#include "corpus/scenes/shapes.h"
+#include "properties/generators/parts.h"
 #include "properties/random.h"
 
 namespace assay::properties {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <span>
 
-#include "properties/numbering.h"
+#include "properties/random.h"
 
 namespace assay::properties {
 

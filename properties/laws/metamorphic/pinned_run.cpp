@@ -4,7 +4,7 @@
 #include <map>
 
 #include "detector/assembly.h"
-#include "oracle/mesh/loops.h"
+#include "oracle/mesh/mesh_features.h"
 
 namespace assay::properties {
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "properties/numbering.h"
 #include "properties/random.h"
 
 namespace assay::properties {

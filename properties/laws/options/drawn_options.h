@@ -8,7 +8,7 @@
 
 #include "detector/mesh/enum_names.h"
 #include "detector/options.h"
-#include "properties/generators/relations.h"
+#include "properties/generators/parts.h"
 #include "properties/laws/facts/case_facts.h"
 
 namespace assay::properties {

@@ -8,8 +8,8 @@
 #include "properties/changes/changes.h"
 #include "properties/random.h"
 #include "properties/reducer/case_edits.h"
-#include "properties/reducer/mesh_size.h"
 #include "properties/reducer/passes/passes.h"
+#include "properties/reducer/reducer.h"
 
 namespace assay::properties {
 

@@ -9,7 +9,6 @@
 
 #include "detector/step_result.h"
 #include "properties/words.h"
-#include "properties/worker/plugin/plugin_reading.h"
 #include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {

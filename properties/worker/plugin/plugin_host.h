@@ -1,16 +1,20 @@
-// Loads a plug-in and runs cases through it. The library's code, its constructors included, runs
-// in this process; so only the worker may use this class.
+// Loads a plug-in and runs cases through it, and reads what a plug-in gives.
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
+#include "detector/options.h"
 #include "detector/plugin/assay_detector.h"
+#include "detector/step_result.h"
 #include "properties/claims/claims.h"
-#include "properties/problem.h"
+#include "properties/words.h"
 #include "properties/worker/case_run.h"
 
 namespace assay::properties {
 
+// The library's code, its constructors included, runs in this process; so only the worker may use
+// this class.
 class PluginHost {
  public:
   // Loads a library, which is never unloaded again. `threads` is told to a library that asks how
@@ -42,5 +46,50 @@ class PluginHost {
   PluginDescription description_;
   bool asks_twice_ = false;
 };
+
+// Reads what a plug-in gives, and believes none of it: its table of functions, in any version that
+// this host takes; what it says of itself; and its results.
+
+// The text as one printable line, no longer than a reply may hold; empty for none.
+std::string line_of(const char* text);
+
+// What the plug-in says about the call that failed last, in one line; empty for nothing.
+std::string text_of_error(const assay_detector_api& table);
+// What a plug-in says by ASSAY_BEYOND_CAPACITY, with its own line if it gives one.
+Problem refused_by_capacity(const std::string& text);
+
+// "evaluate returned 3: TEXT".
+std::string text_of_code(const assay_detector_api& table, const char* function, std::int32_t code);
+
+// The table as one of this host's version; functions that an older version does not have are NULL.
+// Refuses NULL, another version of the interface, and a table with a gap; the problem does not name
+// the library.
+Expected<assay_detector_api> read_table(const assay_detector_api* api);
+
+// The plug-in's description. Refuses one that makes no sense; the problem does not name the
+// library.
+Expected<PluginDescription> read_description(const assay_detector_api& table);
+// What a detector with these parts says of itself. Refuses it likewise.
+Expected<PluginDescription> described(const assay_description& raw, const PluginParts& parts);
+
+// The result of a step. Its pairs are a < b, ascending, each once with its least time ([0, 1] if
+// none is stated). Fails if it breaks the header's rules, and, with the plug-in's own words, if it
+// says that the step has no answer. If `reports_pairs` is false, because the contract says that the
+// plug-in reports none, pairs break the rules.
+Expected<detector::StepResult> step_result(const assay_result& raw, std::int32_t triangle_count,
+                                           bool reports_pairs = true);
+
+// What a limiter with these claims allows: its share, or -1, and where the caller stops, by its
+// positions or as Contract::limit_gives says; `way` is the displacement from x_t0 to x_t1. Fails if
+// the share is none, if there are neither positions nor a share to compute them from, if they are
+// not finite, and if a claim speaks of a share that is not stated.
+Expected<LimitAnswer> limit_answer(const assay_limit& raw, const Claims& claims,
+                                   const Contract& contract, const detector::Positions& x_t0,
+                                   const detector::Positions& x_t1, const detector::Positions& way);
+
+// The candidate pairs a < b, ascending, each once. Fails if an index is none of a
+// triangle.
+Expected<std::vector<detector::TrianglePair>> candidate_pairs(const assay_candidates& raw,
+                                                              std::int32_t triangle_count);
 
 }  // namespace assay::properties

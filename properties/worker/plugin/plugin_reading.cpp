@@ -1,5 +1,3 @@
-#include "properties/worker/plugin/plugin_reading.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
@@ -7,6 +5,7 @@
 
 #include "detector/mesh/step_types.h"
 #include "properties/words.h"
+#include "properties/worker/plugin/plugin_host.h"
 
 namespace assay::properties {
 

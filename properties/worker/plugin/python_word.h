@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "properties/problem.h"
+#include "properties/words.h"
 
 namespace assay::properties {
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <tuple>
 
-#include "properties/campaign/ledger/step_measures.h"
 #include "properties/judging/contracted_case.h"
 #include "properties/judging/exam.h"
+#include "properties/judging/step_measures.h"
 
 namespace assay::reports {
 

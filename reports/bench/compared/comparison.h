@@ -16,12 +16,11 @@
 #include "detector/options.h"
 #include "oracle/mesh/step.h"
 #include "properties/changes/changes.h"
-#include "properties/judging/step_errors.h"
+#include "properties/judging/step_measures.h"
 #include "properties/judging/subject.h"
 #include "reports/bench/bench_report.h"
 #include "reports/bench/cases.h"
 #include "reports/bench/sweep.h"
-#include "reports/estimate.h"
 
 namespace assay::reports {
 
@@ -210,7 +209,7 @@ class Comparison {
 // without roots). Otherwise it is rational arithmetic at a witness: a time before the one that the
 // detector told at which the two features meet or, if the contract asks for all features, their
 // two triangles; or two times between which the features are proved to meet
-// (oracle/referee/rational_bracket.h). REQUIRES an unsafe diff of that step.
+// (oracle/referee/referee.h). REQUIRES an unsafe diff of that step.
 bool is_confirmed(const corpus::Case& c, std::size_t s, const properties::StepDiff& diff,
                   const detector::StepResult& result, const properties::Contract& contract);
 

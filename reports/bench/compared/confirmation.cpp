@@ -3,7 +3,6 @@
 #include <optional>
 #include <vector>
 
-#include "oracle/referee/rational_bracket.h"
 #include "oracle/referee/referee.h"
 #include "oracle/referee/static_check.h"
 #include "reports/bench/compared/comparison.h"

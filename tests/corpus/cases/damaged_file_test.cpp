@@ -2,7 +2,7 @@
 // that the file's size does not warrant. Worth running under sanitizers.
 #include "corpus/cases/case_file.h"
 #include "corpus/formats/mesh_reader.h"
-#include "corpus/formats/mesh_writer.h"
+#include "corpus/formats/sequences.h"
 #include "corpus/queries/query_csv.h"
 #include "tests/corpus/scratch.h"
 

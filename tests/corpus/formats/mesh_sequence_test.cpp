@@ -1,6 +1,5 @@
 // Sequences of frames, and the writer: what is written reads back bit by bit.
-#include "corpus/formats/mesh_writer.h"
-#include "corpus/formats/sequence_reader.h"
+#include "corpus/formats/sequences.h"
 #include "corpus/formats/step_source.h"
 #include "tests/corpus/scratch.h"
 

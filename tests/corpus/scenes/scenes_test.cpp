@@ -2,7 +2,6 @@
 
 #include "corpus/scenes/moving_meshes.h"
 #include "corpus/scenes/shapes.h"
-#include "corpus/scenes/trigonometry.h"
 #include "tests/problem_words.h"
 
 namespace assay::corpus {

@@ -1,8 +1,8 @@
 // Integers of fixed width against the general path: verdicts, times in every bit, how much they
 // leave open; the widths at their bounds; signs at roots against Tarski queries.
-#include "detector/contact/contact_exact.h"
 #include "detector/contact/fixed_products.h"
 #include "detector/contact/fixed_root.h"
+#include "detector/contact/rungs.h"
 #include "detector/exact/real_root.h"
 #include "tests/detector/contact/query_draw.h"
 #include "tests/detector/exact/tarski.h"

@@ -1,7 +1,6 @@
 #include "detector/contact/elementary.h"
 
-#include "detector/contact/contact_doubles.h"
-#include "detector/contact/contact_exact.h"
+#include "detector/contact/rungs.h"
 #include "tests/detector/contact/query_draw.h"
 #include "tests/detector/points.h"
 #include "tests/detector/small_stack.h"

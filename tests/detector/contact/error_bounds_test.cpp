@@ -1,7 +1,7 @@
 // The bounds of the filters hold: every coefficient computed in double against the same one in
 // exact integers. Prints the largest error beside what is allowed.
-#include "detector/contact/contact_doubles.h"
-#include "detector/view/view_filter.h"
+#include "detector/contact/rungs.h"
+#include "detector/view/view_signs.h"
 #include "tests/detector/exact/exact_numbers.h"
 #include "tests/test.h"
 

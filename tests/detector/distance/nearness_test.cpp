@@ -2,7 +2,6 @@
 // against distances in rational numbers.
 #include "detector/distance/nearness.h"
 
-#include "detector/distance/near_filter.h"
 #include "tests/detector/distance/rational_distance.h"
 #include "tests/detector/exact/exact_numbers.h"
 #include "tests/detector/points.h"
@@ -248,7 +247,7 @@ TEST(Near, L16_ScaledByPowersOfTwoNothingChanges) {
   }
 }
 
-// The bounds of near_filter.h hold: what it computes in doubles, against the same in exact binary
+// The bounds of the filter hold: what it computes in doubles, against the same in exact binary
 // fractions. Prints the largest error beside what is allowed.
 
 constexpr int cases = 2000;

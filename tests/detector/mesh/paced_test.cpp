@@ -1,7 +1,6 @@
 // What is made of a mesh, in preprocessing or at the start of a step, asks the stop function after
 // every so much work, and ends where that says so. Counted is the work, not the time.
 #include "detector/mesh/for_all.h"
-#include "detector/mesh/list_by_row.h"
 #include "detector/mesh/mesh_checks.h"
 #include "detector/mesh/surface.h"
 #include "detector/search/feature_pairs.h"

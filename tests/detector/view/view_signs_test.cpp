@@ -1,7 +1,6 @@
 // View signs, one triangle at a time.
 #include "detector/view/view_signs.h"
 
-#include "detector/view/view_filter.h"
 #include "tests/detector/points.h"
 #include "tests/detector/small_stack.h"
 

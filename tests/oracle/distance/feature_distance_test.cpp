@@ -1,9 +1,8 @@
 // Times and distances computed by hand, for each region and each way to get one wrong.
 #include "oracle/distance/feature_distance.h"
 
-#include "oracle/distance/regions.h"
 #include "oracle/query/integer_polynomial.h"
-#include "oracle/query/times/algebraic_times.h"
+#include "oracle/query/times/times.h"
 #include "tests/oracle/query/query_kinds.h"
 
 namespace assay::oracle {

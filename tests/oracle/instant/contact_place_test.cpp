@@ -1,8 +1,7 @@
 // Places of contacts, held against rational arithmetic of this file, and triangles that cross.
-#include "oracle/instant/contact_place.h"
-
 #include <gmpxx.h>
 
+#include "oracle/instant/instant.h"
 #include "oracle/mesh/step.h"
 #include "tests/oracle/random_points.h"
 #include "tests/oracle/small_meshes.h"

@@ -2,7 +2,7 @@
 #include "oracle/instant/layers.h"
 
 #include "oracle/instant/instant.h"
-#include "oracle/mesh/loops.h"
+#include "oracle/mesh/mesh_features.h"
 #include "tests/oracle/random_points.h"
 #include "tests/oracle/small_meshes.h"
 

@@ -1,5 +1,4 @@
-#include "oracle/mesh/loops.h"
-
+#include "oracle/mesh/mesh_features.h"
 #include "tests/oracle/random_points.h"
 #include "tests/oracle/small_meshes.h"
 

@@ -4,7 +4,7 @@
 #include "oracle/processor_state.h"
 #include "oracle/query/contact.h"
 #include "oracle/query/rungs.h"
-#include "oracle/query/times/time_enclosure.h"
+#include "oracle/query/times/times.h"
 #include "tests/oracle/random_points.h"
 
 #if defined(__SSE2__)

@@ -4,8 +4,7 @@
 #include "oracle/mesh/feature_pairs.h"
 #include "oracle/query/integer_polynomial.h"
 #include "oracle/query/interval_sign.h"
-#include "oracle/query/times/algebraic_times.h"
-#include "oracle/query/times/time_enclosure.h"
+#include "oracle/query/times/times.h"
 #include "tests/oracle/random_points.h"
 
 namespace assay::oracle {

@@ -1,6 +1,6 @@
 #include "oracle/view/touched_by_ghosts.h"
 
-#include "oracle/mesh/loops.h"
+#include "oracle/mesh/mesh_features.h"
 #include "oracle/mesh/step.h"
 #include "tests/oracle/random_points.h"
 #include "tests/oracle/small_meshes.h"

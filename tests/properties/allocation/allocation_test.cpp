@@ -9,8 +9,7 @@
 #include <new>
 
 #include "corpus/scenes/scenes.h"
-#include "detector/contact/contact_doubles.h"
-#include "detector/contact/contact_exact.h"
+#include "detector/contact/rungs.h"
 #include "detector/detector.h"
 #include "detector/distance/nearness.h"
 #include "detector/view/view_anchor.h"

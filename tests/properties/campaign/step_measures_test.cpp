@@ -1,4 +1,4 @@
-#include "properties/campaign/ledger/step_measures.h"
+#include "properties/judging/step_measures.h"
 
 #include <nlohmann/json.hpp>
 

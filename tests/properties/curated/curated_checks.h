@@ -6,7 +6,6 @@
 #include "corpus/cases/case_file.h"
 #include "detector/step_result.h"
 #include "oracle/instant/layers.h"
-#include "oracle/mesh/loops.h"
 #include "oracle/mesh/mesh_features.h"
 #include "oracle/mesh/step.h"
 #include "oracle/query/contact.h"

@@ -5,7 +5,7 @@
 
 #include "properties/campaign/phases/phases.h"
 #include "properties/judging/agreement.h"
-#include "properties/judging/step_errors.h"
+#include "properties/judging/step_measures.h"
 #include "tests/asked.h"
 #include "tests/properties/small_case.h"
 

@@ -7,7 +7,7 @@
 
 #include "detector/mesh/surface.h"
 #include "oracle/instant/layers.h"
-#include "oracle/mesh/loops.h"
+#include "oracle/mesh/mesh_features.h"
 #include "oracle/mesh/step.h"
 #include "oracle/query/contact.h"
 #include "oracle/view/touched_by_ghosts.h"
@@ -17,7 +17,6 @@
 #include "properties/generators/everyday.h"
 #include "properties/generators/families.h"
 #include "properties/laws/facts/case_facts.h"
-#include "properties/numbering.h"
 #include "properties/queries/query_families.h"
 #include "properties/random.h"
 #include "tests/meshes.h"

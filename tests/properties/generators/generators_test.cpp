@@ -6,10 +6,10 @@
 
 #include "detector/mesh/mesh_checks.h"
 #include "oracle/distance/step_distance.h"
-#include "oracle/mesh/loops.h"
+#include "oracle/mesh/mesh_features.h"
 #include "properties/generators/added_bodies.h"
 #include "properties/generators/families.h"
-#include "properties/generators/motions.h"
+#include "properties/generators/parts.h"
 #include "properties/judging/exam.h"
 #include "properties/queries/query_families.h"
 #include "properties/worker/plugin/query_case.h"

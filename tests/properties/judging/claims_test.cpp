@@ -7,7 +7,7 @@
 #include "detector/plugin/assay_detector.h"
 #include "detector/step_result.h"
 #include "properties/judging/agreement.h"
-#include "properties/judging/step_errors.h"
+#include "properties/judging/step_measures.h"
 #include "tests/meshes.h"
 #include "tests/test.h"
 

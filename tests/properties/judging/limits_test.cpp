@@ -2,7 +2,7 @@
 // for is counted and breaks nothing.
 #include "properties/judging/agreement.h"
 #include "properties/judging/exam.h"
-#include "properties/judging/step_errors.h"
+#include "properties/judging/step_measures.h"
 #include "properties/judging/verdict.h"
 #include "tests/close_passes.h"
 #include "tests/properties/small_case.h"

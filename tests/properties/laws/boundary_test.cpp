@@ -8,7 +8,7 @@
 #include "detector/detector.h"
 #include "detector/view/view_signs.h"
 #include "oracle/instant/layers.h"
-#include "oracle/mesh/loops.h"
+#include "oracle/mesh/mesh_features.h"
 #include "oracle/view/touched_by_ghosts.h"
 #include "oracle/view/view_sign.h"
 #include "properties/laws/facts/carried_state.h"

@@ -7,7 +7,6 @@
 #include "corpus/files.h"
 #include "properties/queries/query_families.h"
 #include "properties/queries/self_check.h"
-#include "properties/queries/small_world.h"
 #include "tests/oracle/query/query_kinds.h"
 #include "tests/test.h"
 

@@ -10,7 +10,7 @@
 #include "oracle/distance/feature_distance.h"
 #include "oracle/mesh/step.h"
 #include "oracle/query/contact_events.h"
-#include "oracle/query/times/algebraic_times.h"
+#include "oracle/query/times/times.h"
 #include "oracle/referee/second_opinion.h"
 #include "properties/queries/query_methods.h"
 #include "properties/random.h"

@@ -4,10 +4,10 @@
 
 #include "corpus/cases/case_file.h"
 #include "corpus/scenes/shapes.h"
-#include "oracle/mesh/loops.h"
+#include "oracle/mesh/mesh_features.h"
 #include "properties/reducer/case_edits.h"
-#include "properties/reducer/mesh_size.h"
 #include "properties/reducer/passes/passes.h"
+#include "properties/reducer/reducer.h"
 #include "tests/meshes.h"
 #include "tests/test.h"
 

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "properties/campaign/phases/phases.h"
-#include "properties/reducer/mesh_size.h"
+#include "properties/reducer/reducer.h"
 #include "tests/curated_cases.h"
 #include "tests/properties/reducer/toy_faults.h"
 

@@ -8,7 +8,6 @@
 #include "corpus/scenes/shapes.h"
 #include "detector/mesh/topology.h"
 #include "properties/reducer/case_edits.h"
-#include "properties/reducer/mesh_size.h"
 #include "tests/properties/reducer/toy_faults.h"
 #include "tests/test.h"
 

@@ -7,7 +7,7 @@
 #include "detector/options.h"
 #include "oracle/instant/instant.h"
 #include "oracle/instant/layers.h"
-#include "oracle/mesh/loops.h"
+#include "oracle/mesh/mesh_features.h"
 #include "oracle/mesh/step.h"
 #include "oracle/view/touched_by_ghosts.h"
 #include "oracle/view/view_sign.h"

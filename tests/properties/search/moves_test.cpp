@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "oracle/instant/layers.h"
-#include "oracle/mesh/loops.h"
+#include "oracle/mesh/mesh_features.h"
 #include "properties/generators/draft.h"
 #include "properties/queries/query_families.h"
 #include "properties/random.h"

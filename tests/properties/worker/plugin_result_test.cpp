@@ -1,5 +1,5 @@
 // A plug-in's result: what it says, and what it says against the rules.
-#include "properties/worker/plugin/plugin_reading.h"
+#include "properties/worker/plugin/plugin_host.h"
 #include "tests/test.h"
 
 namespace assay::properties {

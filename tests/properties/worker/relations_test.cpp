@@ -4,7 +4,7 @@
 #include "properties/generators/draft.h"
 #include "properties/generators/families.h"
 #include "properties/judging/exam.h"
-#include "properties/worker/plugin/plugin_reading.h"
+#include "properties/worker/plugin/plugin_host.h"
 #include "properties/worker/worker_process.h"
 #include "tests/curated_cases.h"
 #include "tests/properties/worker/worker_cases.h"

@@ -1,8 +1,8 @@
 // Plug-ins of steps, of a query and of candidates with faults that are excused or found.
-#include "properties/campaign/ledger/step_measures.h"
 #include "properties/campaign/trials/trials.h"
 #include "properties/claims/claims.h"
 #include "properties/generators/draft.h"
+#include "properties/judging/step_measures.h"
 #include "properties/judging/verdict.h"
 #include "properties/queries/query_families.h"
 #include "properties/worker/plugin/query_case.h"

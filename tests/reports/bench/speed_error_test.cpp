@@ -4,7 +4,7 @@
 
 #include "properties/random.h"
 #include "reports/bench/compared/comparison.h"
-#include "reports/estimate.h"
+#include "reports/bench/sweep.h"
 #include "tests/reports/json_schema.h"
 #include "tests/test.h"
 

@@ -1,6 +1,6 @@
 // The steps that `check` goes through: the same frames from files, one after another, as of a case
 // that is at hand as a whole.
-#include "corpus/formats/sequence_reader.h"
+#include "corpus/formats/sequences.h"
 #include "corpus/scenes/scenes.h"
 #include "reports/check/check_run.h"
 #include "tests/reports/program.h"

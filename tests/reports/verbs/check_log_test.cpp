@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "corpus/formats/mesh_writer.h"
+#include "corpus/formats/sequences.h"
 #include "corpus/scenes/scenes.h"
 #include "detector/detector.h"
 #include "tests/public_data.h"

@@ -3,8 +3,8 @@
 #include "tests/public_data.h"
 
 #include "corpus/queries/query_csv.h"
-#include "detector/contact/contact_exact.h"
 #include "detector/contact/elementary.h"
+#include "detector/contact/rungs.h"
 #include "oracle/query/contact.h"
 #include "tests/reports/program.h"
 

@@ -2,8 +2,8 @@
 // the other.
 #include "detector/contact/lanes/query_lanes.h"
 
-#include "detector/contact/contact_doubles.h"
 #include "detector/contact/contact_pieces.h"
+#include "detector/contact/rungs.h"
 #include "detector/geometry/orientation.h"
 #include "tests/detector/contact/query_draw.h"
 #include "tests/test.h"

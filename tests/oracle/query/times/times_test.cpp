@@ -1,6 +1,6 @@
 // Zeros as exact numbers.
-#include "oracle/query/times/algebraic_times.h"
-#include "oracle/query/times/closed_times.h"
+#include "oracle/query/times/times.h"
+
 #include "tests/oracle/random_points.h"
 
 namespace assay::oracle {

@@ -1,5 +1,6 @@
 // Reads the frames of one mesh that deforms, one file a frame, and those of several bodies in step
-// as one mesh; and finds vertices that stand at one place in every frame.
+// as one mesh; finds vertices that stand at one place in every frame; and writes meshes and
+// sequences.
 #pragma once
 
 #include <cstddef>
@@ -115,5 +116,22 @@ class DoubledCorners {
  private:
   std::vector<std::int32_t> first_;  // by vertex, the first one of its place; -1: of no triangle
 };
+
+// Writes meshes as binary little-endian PLY with double coordinates, which read back bit by bit.
+//
+// Every file is written beside its place and then renamed, so a reader sees the old file or the
+// whole new one.
+
+// Fails, with the reason, when the file system refuses, and when memory does not suffice. `marked`:
+// null, or by triangle 0 for grey, 1 for red, 2 for amber.
+Expected<void> write_mesh(const std::filesystem::path& path,
+                          const detector::PositionsView& positions,
+                          const detector::TrianglesView& triangles,
+                          const std::vector<std::uint8_t>* marked = nullptr);
+
+// Writes frame_0000.ply, frame_0001.ply, ... into `folder`, which is made if it is missing.
+// Returns the paths, in frame order.
+Expected<std::vector<std::filesystem::path>> write_sequence(const std::filesystem::path& folder,
+                                                            const Sequence& sequence);
 
 }  // namespace assay::corpus

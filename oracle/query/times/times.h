@@ -1,0 +1,182 @@
+// Times of the closed step as exact numbers, in each of the ways in which they are held, and the
+// doubles between which they are.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "detector/mesh/step_types.h"
+#include "oracle/query/integer_polynomial.h"
+
+namespace assay::oracle {
+
+// Distinct times in [0,1], ascending.
+class ExactTimes {
+ public:
+  ExactTimes() = default;
+  virtual ~ExactTimes() = default;
+  ExactTimes(const ExactTimes&) = delete;
+  ExactTimes& operator=(const ExactTimes&) = delete;
+
+  virtual int size() const = 0;
+  // The exact sign of q at the i-th time.
+  virtual int sign(const IntegerPolynomial& q, int i) const = 0;
+  virtual detector::TimeEnclosure enclosure(int i) const = 0;
+};
+
+// The canonical enclosure of a time in [lo,hi] that can only be compared with doubles. REQUIRES 0
+// <= lo <= hi, and that compare(t) is the exact sign of (time - t); it is asked of doubles in
+// [lo,hi] only. A wrong guess costs only work: when it is n units in the last place away, about 2
+// log2 n comparisons.
+template <class Compare>
+detector::TimeEnclosure enclose_time(double guess, double lo, double hi, Compare compare) {
+  // Doubles >= 0 are ordered as their bit patterns.
+  auto bits = [](double t) { return std::bit_cast<std::uint64_t>(t); };
+  auto value = [](std::uint64_t b) { return std::bit_cast<double>(b); };
+  const std::uint64_t least = bits(lo + 0.0), greatest = bits(hi + 0.0);  // no -0
+  if (!(guess > lo)) guess = lo;
+  if (guess > hi) guess = hi;
+
+  std::uint64_t at = bits(guess + 0.0);
+  const int first = compare(value(at));
+  if (first == 0) return {value(at), value(at)};
+  // Takes steps that double until the time is passed, then halves.
+  std::uint64_t below = at, above = at;
+  for (std::uint64_t step = 1;; step *= 2) {
+    if (first > 0) {
+      below = at;
+      at += std::min(step, greatest - at);
+    } else {
+      above = at;
+      at -= std::min(step, at - least);
+    }
+    const int side = compare(value(at));
+    if (side == 0) return {value(at), value(at)};
+    if (side != first) {
+      (first > 0 ? above : below) = at;
+      break;
+    }
+  }
+  while (above - below > 1) {
+    const std::uint64_t middle = below + (above - below) / 2;
+    const int side = compare(value(middle));
+    if (side == 0) return {value(middle), value(middle)};
+    (side > 0 ? below : above) = middle;
+  }
+  return {value(below), value(above)};
+}
+
+// A zero of f in [s,e] in plain doubles: only a guess, so it has no error bound. f is of degree 6
+// at most, and `sign_at_s` is its sign at s, opposite to that at e.
+double guess_zero(const IntegerPolynomial& f, double s, double e, int sign_at_s);
+
+// Encloses the zero of f in (s,e) by exact integer signs of f at doubles, without the algebraic
+// kernel. REQUIRES that f is of degree 6 at most, that it has exactly one zero in (s,e), a simple
+// one, and opposite signs at s and e, and that 0 <= s < e <= 1. 1 to 3 us.
+detector::TimeEnclosure simple_zero_time(const IntegerPolynomial& f, double s, double e);
+
+// Times whose signs are closed formulas: a zero of a polynomial of degree 1 or 2, as an exact
+// number, and the zeros of one cubic in the closed step, between those of its derivative.
+
+// Held is r = -c/b, or r = (-b -+ sqrt(b^2 - 4ac)) / 2a with a > 0, by its integers and by which of
+// the two zeros it is. No root is ever taken, and nothing is isolated or refined.
+class QuadraticTime {
+ public:
+  // Appends the distinct real zeros of p, ascending. REQUIRES degree 1 or 2.
+  static void append_zeros(const IntegerPolynomial& p, std::vector<QuadraticTime>& to);
+
+  // The exact sign of q(r). Some 10 products of integers where q has degree 2.
+  int sign(const IntegerPolynomial& q) const;
+  // The exact sign of r - other.
+  int compare(const QuadraticTime& other) const;
+  // The exact sign of r - t. REQUIRES 0 <= t <= 1.
+  int compare(double t) const;
+  // REQUIRES 0 <= r <= 1.
+  detector::TimeEnclosure enclosure() const;
+
+ private:
+  enum class Zero : signed char { lesser = -1, only = 0, greater = 1 };
+
+  QuadraticTime(Integer a, Integer b, Integer c, Zero zero);
+  // The exact sign of u r + v.
+  int sign_of_linear(const Integer& u, const Integer& v) const;
+  double guess() const;
+
+  Integer a_, b_, c_;  // r is a zero of a t^2 + b t + c; a = 0 and b > 0 if it is the only one
+  Zero zero_;
+};
+
+// The zeros in the closed step of polynomials of degree 1 and 2, in order.
+class QuadraticTimes final : public ExactTimes {
+ public:
+  // Finds the distinct zeros in [0,1] of all the polynomials together, ascending. A constant has
+  // none. REQUIRES that no polynomial is identically zero, and degrees <= 2.
+  explicit QuadraticTimes(std::span<const IntegerPolynomial> polynomials);
+
+  int size() const override { return static_cast<int>(times_.size()); }
+  int sign(const IntegerPolynomial& q, int i) const override { return times_[i].sign(q); }
+  detector::TimeEnclosure enclosure(int i) const override { return times_[i].enclosure(); }
+  // Gives the times away.
+  std::vector<QuadraticTime> take() { return std::move(times_); }
+
+ private:
+  std::vector<QuadraticTime> times_;
+};
+
+// On the pieces of the step between the zeros of its derivative a cubic f is strictly monotone. So
+// its zeros are some of the bounds of these pieces, and one inside of each piece at whose bounds f
+// has opposite signs. A zero is held by its piece. All questions come down to signs of f at zeros
+// of quadratics, which are closed formulas; nothing is isolated or refined.
+class CubicTimes final : public ExactTimes {
+ public:
+  // REQUIRES degree 2 or 3.
+  explicit CubicTimes(IntegerPolynomial f);
+
+  int size() const override { return static_cast<int>(zeros_.size()); }
+  // REQUIRES degree <= 2.
+  int sign(const IntegerPolynomial& q, int i) const override;
+  detector::TimeEnclosure enclosure(int i) const override;
+
+ private:
+  struct Zero {
+    std::size_t bound;    // where it is, or where its piece begins
+    bool inside = false;  // of the piece
+  };
+  // The exact sign of the zero minus another time or a double in [0,1].
+  template <class Time>
+  int compare(const Zero& zero, const Time& other) const;
+
+  IntegerPolynomial f_;
+  std::vector<QuadraticTime> bounds_;  // from 0 to 1
+  std::vector<int> signs_;             // of f at the bounds
+  std::vector<Zero> zeros_;
+};
+
+// The zeros of polynomials in the closed step as exact algebraic numbers, by CGAL's algebraic
+// kernel.
+//
+// The kernel stays behind this header. Its numbers are reference counted without regard to
+// threads, so an object belongs to the thread that made it.
+
+class AlgebraicTimes final : public ExactTimes {
+ public:
+  // Finds the distinct zeros in [0,1] of all the polynomials together, ascending. REQUIRES that no
+  // polynomial is identically zero.
+  explicit AlgebraicTimes(std::span<const IntegerPolynomial> polynomials);
+  ~AlgebraicTimes() override;
+
+  int size() const override;
+  int sign(const IntegerPolynomial& q, int i) const override;
+  detector::TimeEnclosure enclosure(int i) const override;
+
+ private:
+  struct Zeros;
+  std::unique_ptr<Zeros> zeros_;
+};
+
+}  // namespace assay::oracle
