@@ -37,7 +37,7 @@ struct WrongTime {
 // its interval, because that is how far the caller goes: it is late if this end is after t*, and
 // early if it is before t*, each by more than the tolerance. So [0.25, 1] states a time, and where
 // t* is 0.75 it is early by 0.5, although it holds t*. At most one of the two is not 0. Every count
-// of late and early first times is one of these (step_errors.h).
+// of late and early first times is one of these (step_measures.h).
 struct TimeOff {
   double late = 0, early = 0;
   double ulps = 0;  // how many doubles lie between the two lower ends; 0 if neither late nor early

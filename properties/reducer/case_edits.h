@@ -59,8 +59,8 @@ corpus::Case seen_from_its_middle(const corpus::Case& c);
 // frames are the steps.
 corpus::Case with_steps(const corpus::Case& c, const std::vector<corpus::CaseStep>& steps);
 
-// The relation of a case, which says which pairs count
-// (detector/mesh/counted_pairs.h), for a mesh that has changed.
+// The relation of a case, which says which pairs count (detector/mesh/counted_pairs.h), for a mesh
+// that has changed.
 
 // What has become of the vertices. Several old vertices may be one new one; it has the body and the
 // place at rest of the old one that it was.

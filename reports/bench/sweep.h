@@ -1,7 +1,8 @@
 // Times several subjects on the same case, side by side, and returns what they answered and the
 // times of each round. A subject is the built-in detector in this process, by its options, or any
-// detector in a worker. What is compared is measured in turn. Then what such measurements tell: their
-// medians and ratios, each as an estimate with its interval.
+// detector in a worker. What is compared is measured in turn.
+//
+// Below stand medians and ratios of such measurements, each with its interval.
 #pragma once
 
 #include <cmath>
@@ -124,8 +125,8 @@ double quantile(std::vector<double> samples, double share);
 // the interval holds the middle 95 % of the medians of the draws.
 //
 // The intervals are deterministic: the draws come from the project's own integer random numbers,
-// seeded alike for every call. They are narrower than the rank interval if samples are few, and lack
-// its guarantee: with five samples the true coverage is nearer to 85 than to 95 %.
+// seeded alike for every call. They are narrower than the rank interval if samples are few, and
+// lack its guarantee: with five samples the true coverage is nearer to 85 than to 95 %.
 
 // REQUIRES samples not empty. 2,000 draws: the ends are good to about 1 % of the interval's
 // probability. O(2,000 n).
