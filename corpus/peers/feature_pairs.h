@@ -5,6 +5,9 @@
 // pair.
 #pragma once
 
+#include <type_traits>
+#include <utility>
+
 #include "corpus/peers/triangle_pairs.h"
 
 namespace assay::peers {
@@ -13,6 +16,43 @@ namespace assay::peers {
 struct FourPaths {
   const double* at[2][4];  // at t = 0 and at t = 1
 };
+
+// Calls test(four points at t = 0, the same at t = 1, more...) with points of the peer's own type,
+// which is made of three numbers.
+template <class Point, class Test, class... More>
+auto ask_points(const Test& test, const FourPaths& paths, More&&... more) {
+  using Number = std::decay_t<decltype(std::declval<Point&>()[0])>;
+  const auto p = [&](int at, int i) {
+    const double* x = paths.at[at][i];
+    return Point(static_cast<Number>(x[0]), static_cast<Number>(x[1]), static_cast<Number>(x[2]));
+  };
+  return test(p(0, 0), p(0, 1), p(0, 2), p(0, 3), p(1, 0), p(1, 1), p(1, 2), p(1, 3),
+              std::forward<More>(more)...);
+}
+
+// What a peer tells that knows the time, one that knows when it is not before, and one that knows
+// nothing of it.
+inline Time at_time(bool found, double time) {
+  return found ? Time(plugin::Interval{{time, time}}) : std::nullopt;
+}
+inline Time not_before(bool found, double time) {
+  return found ? Time(plugin::Interval{{time, std::max(time, 1.)}}) : std::nullopt;
+}
+inline Time some_time(bool found) { return not_before(found, 0); }
+
+// What most peers have in common: they want a free start and coordinates of usual sizes, because
+// their tolerances are lengths, and they are functions of their arguments that return a bool.
+inline plugin::Description usual_description(const char* name, const char* version,
+                                             std::uint32_t claims) {
+  plugin::Description d;
+  d.name = name;
+  d.version = version;
+  d.claims = claims | ASSAY_CLAIM_DETERMINISTIC | ASSAY_CLAIM_TOTAL;
+  d.start = ASSAY_START_FREE;
+  d.least_nonzero = 1e-6;
+  d.largest = 1e6;
+  return d;
+}
 
 // `Tests` has `Time vertex_face(const FourPaths&)` and `edge_edge`: when the two features meet
 // first, or nothing when they do not.
@@ -60,6 +100,13 @@ class FeaturePairs : public TrianglePairs<FeatureTests<Tests>> {
  public:
   explicit FeaturePairs(const plugin::Mesh& mesh, double separation = 0)
       : TrianglePairs<FeatureTests<Tests>>(mesh, separation) {}
+};
+
+// The peer of `Tests` that have, besides, `static plugin::Description describe()`.
+template <class Tests>
+struct PeerOf : FeaturePairs<Tests> {
+  explicit PeerOf(const plugin::Mesh& mesh) : FeaturePairs<Tests>(mesh, describe().separation) {}
+  static plugin::Description describe() { return Tests::describe(); }
 };
 
 }  // namespace assay::peers

@@ -4,7 +4,7 @@
 
 #include <type_traits>
 
-#include "detector/plugin/assay_detector.hpp"
+#include "corpus/peers/feature_pairs.h"
 
 namespace assay::peers {
 
@@ -37,6 +37,14 @@ class LimiterOf {
 
  private:
   Peer peer_;
+};
+
+// The peer of `Tests` whose times are lower bounds, so that a caller may go all of that way.
+template <class Tests>
+struct LowerBoundOf : PeerOf<Tests> {
+  static constexpr double part_of_time = 1;
+  static constexpr std::uint32_t limit_claims = ASSAY_CLAIM_PATH_FREE;
+  using PeerOf<Tests>::PeerOf;
 };
 
 template <class Peer>

@@ -1,0 +1,103 @@
+// Additive continuous collision detection (Li et al. 2021) of two simulators in doubles, on the host;
+// ASSAY_PEER_CODIM_IPC says whether the first.
+//
+//   CodimIpc  Point_Triangle_CCD and Edge_Edge_CCD of Math/Distance/CCD.h, commit 9c6cbe3a
+//             (2022-11-01) of ipc-sim/Codim-IPC: eta 0.1, thickness 0, after its test of boxes, as
+//             FEM/IPC.h calls them
+//   Libuipc   point_triangle_ccd and edge_edge_ccd of utils/distance/ccd.h, commit 619a5412
+//             (2026-07-08) of spiriMirror/libuipc, which are compiled for host and device: eta 0.1,
+//             thickness 0, at most 1000 rounds, after its test of boxes, as
+//             stackless_bvh_simplex_trajectory_filter.cu calls them
+//
+// Contract: no contact at the start, and coordinates of usual sizes; the time is a lower bound.
+// Claims: free-sound and not-late, because who has the method says of it: C-IPC
+// "interpenetration-free" (its paper's abstract), libuipc "penetration-free frictional contact"
+// (README, line 18). None says that what it reports is a contact: what comes near may be reported.
+// As limiters (limiter.h) their share is the time. Claim: path-free.
+//
+// Expected before the first run: both stop before contacts, and announce what comes near. Parallel
+// edges: where the lines' distance is rounded to 0, both go by the corners ("this must be some far
+// away nearly parallel edges"), which may be farther apart than the edges are: a miss. A start so
+// near that the squared distance is rounded to 0 does not move: CodimIpc goes on for ever.
+#if ASSAY_PEER_CODIM_IPC
+#include <Eigen/Dense>
+#include <vector>
+// After these.
+#include <Math/Distance/CCD.h>
+#else
+#include <utils/distance/distance_flagged.h>
+// After this.
+#include <utils/distance/ccd.h>
+#endif
+
+#include "corpus/peers/feature_pairs.h"
+#include "corpus/peers/limiter.h"
+
+namespace assay::peers {
+namespace {
+
+#if ASSAY_PEER_CODIM_IPC
+struct Engine {
+  static constexpr auto name = "C-IPC, additive", version = "9c6cbe3a";
+  static constexpr auto faces_near = JGSL::Point_Triangle_CCD_Broadphase<double>;
+  static constexpr auto edges_near = JGSL::Edge_Edge_CCD_Broadphase<double>;
+  static constexpr auto faces = JGSL::Point_Triangle_CCD<double>;
+  static constexpr auto edges = JGSL::Edge_Edge_CCD<double>;
+  template <class Test, class... Points>
+  static bool ask(const Test& test, double& time, const Points&... points) {
+    return test(points..., eta, 0, time);
+  }
+  static constexpr double eta = .1;
+};
+#else
+namespace distance = uipc::backend::cuda::distance;
+struct Engine {
+  static constexpr auto name = "libuipc, additive", version = "619a5412";
+  static constexpr auto faces_near = distance::point_triangle_ccd_broadphase<double>;
+  static constexpr auto edges_near = distance::edge_edge_ccd_broadphase<double>;
+  static constexpr auto faces = distance::point_triangle_ccd<double>;
+  static constexpr auto edges = distance::edge_edge_ccd<double>;
+  template <class Test, class... Points>
+  static bool ask(const Test& test, double& time, const Points&... points) {
+    return test(points..., eta, 0, most_rounds, time);
+  }
+  static constexpr double eta = .1;
+  static constexpr int most_rounds = 1000;
+};
+#endif
+
+struct Additive {
+  static Time vertex_face(const FourPaths& paths) {
+    return ask(Engine::faces_near, Engine::faces, paths);
+  }
+  static Time edge_edge(const FourPaths& paths) {
+    return ask(Engine::edges_near, Engine::edges, paths);
+  }
+
+  static plugin::Description describe() {
+    return usual_description(Engine::name, Engine::version,
+                             ASSAY_CLAIM_FREE_SOUND | ASSAY_CLAIM_NOT_LATE);
+  }
+
+ private:
+  using Point = Eigen::Matrix<double, 3, 1>;
+
+  template <class Near, class Test>
+  static Time ask(const Near& near, const Test& test, const FourPaths& paths) {
+    return ask_points<Point>(
+        [&](const Point& a, const Point& b, const Point& c, const Point& d, const Point& a1,
+            const Point& b1, const Point& c1, const Point& d1) -> Time {
+          const Point da = a1 - a, db = b1 - b, dc = c1 - c, dd = d1 - d;
+          if (!near(a, b, c, d, da, db, dc, dd, 0)) return std::nullopt;
+          double time = 1;
+          const bool found = Engine::ask(test, time, a, b, c, d, da, db, dc, dd);
+          return not_before(found, time);
+        },
+        paths);
+  }
+};
+
+}  // namespace
+}  // namespace assay::peers
+
+ASSAY_EXPORT_DETECTOR(assay::peers::AsBuilt<assay::peers::LowerBoundOf<assay::peers::Additive>>);
