@@ -1,19 +1,19 @@
 // ArcSim (Narain et al. 2012): the elementary test of its collision handling.
 //
 // Version: commit e17d93b5 (2022-07-17) of kaist-silab/arcsim, which calls itself 0.3.1. Function:
-// collision_test of src/collision.cpp, which is no part of a header, so that file is included as it
-// is; find_impacts calls it for pairs that share no node and whose boxes meet. Settings: what is
+// collision_test of its source collision, which is no part of a header, so that file is included as
+// it is; find_impacts calls it for pairs that share no node and whose boxes meet. Settings: what is
 // fixed there (a distance below 1e-6, weights above -1e-6, Newton's method to 1e-6 of the step).
 // Contract: no contact at the start, and coordinates of usual sizes. Claims: free-sound, because
-// collision_response moves until find_impacts is empty, and mesh.hpp calls what comes of it the
-// "collision-free position" of the next step; not-late is not claimed, because Newton's method ends
-// within 1e-6 on either side.
+// collision_response moves until find_impacts is empty, and its header mesh calls what comes of it
+// the "collision-free position" of the next step; not-late is not claimed, because Newton's method
+// ends within 1e-6 on either side.
 //
-// Expected before the first run: four points that start within a millionth of one plane are
-// skipped ("initially coplanar"), so that edges of one plane that fold through each other are
-// missed. The end of the step is put behind the roots ("also check at end of timestep"), but the
-// loop ends before it. Newton's method returns the last place but one, and 1e-6 is a length: misses
-// where coordinates or ways are large. Motion within a plane is missed.
+// Expected before the first run: four points that start within a millionth of one plane are skipped
+// ("initially coplanar"), so that edges of one plane that fold through each other are missed. The
+// end of the step is put behind the roots ("also check at end of timestep"), but the loop ends
+// before it. Newton's method returns the last place but one, and 1e-6 is a length: misses where
+// coordinates or ways are large. Motion within a plane is missed.
 #include <fstream>
 #include <iostream>
 
@@ -23,7 +23,7 @@ inline ostream& operator<<(ostream& out, fstream&) { return out; }
 }  // namespace std
 
 #include "collision.cpp"
-int uuid_src = 0;  // of mesh.cpp, of which nothing else is used
+int uuid_src = 0;  // of its source mesh, of which nothing else is used
 
 #include "corpus/peers/feature_pairs.h"
 

@@ -3,8 +3,8 @@
 // a distance eta" cannot be asked with 0, so that of a contact is 1e-8.
 //
 // Version: commit e5fe5c97 (2019-06-11) of evouga/collisiondetection. Functions: vertexFaceCTCD,
-// edgeEdgeCTCD, vertexEdgeCTCD and vertexVertexCTCD of include/CTCD.h, combined as
-// CTCDNarrowPhase.cpp combines them. Settings: eta alone. Contract: no contact at the start;
+// edgeEdgeCTCD, vertexEdgeCTCD and vertexVertexCTCD of its header CTCD, combined as its
+// CTCDNarrowPhase combines them. Settings: eta alone. Contract: no contact at the start;
 // coordinates of usual sizes, because eta is a length. Claims: free-sound and not-late, from that
 // header ("Returns true if the vertex and face ever come closer than a distance eta to each other,
 // and stores the earliest time"; of edges "Does not work correctly if two edges are parallel at the

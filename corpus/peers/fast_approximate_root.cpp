@@ -11,8 +11,8 @@
 // Expected before the first run: the two of its README. A cubic without extrema (4 b b - 12 a c
 // below 0) is answered "no" though it has a root. Of several roots one alone is looked at, so that
 // what meets at a later one is missed. Newton's method stops short of the root, where a contact at
-// the end of a feature or of the step is not inside yet. A motion within a plane is answered
-// "yes": alarms. Below lengths of 1e-5 coefficients count as zero.
+// the end of a feature or of the step is not inside yet. A motion within a plane is answered "yes":
+// alarms. Below lengths of 1e-5 coefficients count as zero.
 #include <ccd.hpp>
 
 #include "corpus/peers/feature_pairs.h"

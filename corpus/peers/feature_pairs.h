@@ -100,6 +100,21 @@ class FeaturePairs : public TrianglePairs<FeatureTests<Tests>> {
  public:
   explicit FeaturePairs(const plugin::Mesh& mesh, double separation = 0)
       : TrianglePairs<FeatureTests<Tests>>(mesh, separation) {}
+
+  static plugin::Result query(std::int32_t kind, plugin::Positions x_t0, plugin::Positions x_t1) {
+    FourPaths paths;
+    for (std::size_t i = 0; i < 4; ++i) {
+      paths.at[0][i] = x_t0[i];
+      paths.at[1][i] = x_t1[i];
+    }
+    const bool is_vertex_face = kind == ASSAY_QUERY_VERTEX_FACE;
+    const Time time = is_vertex_face ? Tests::vertex_face(paths) : Tests::edge_edge(paths);
+    plugin::Result result;
+    if (!time) return result;
+    result.answer = ASSAY_COLLISION;
+    result.first = *time;
+    return result;
+  }
 };
 
 // The peer of `Tests` that have, besides, `static plugin::Description describe()`.

@@ -1,12 +1,14 @@
 // The additive continuous collision detection (Li et al. 2021) of ppf-contact-solver, on the host.
 //
 // Version: commit f23b3565 (2026-08-07) of st-tech/ppf-contact-solver. Functions:
-// accd::point_triangle_ccd and accd::edge_edge_ccd of contact/accd.hpp, which its emulator compiles
-// for the host, too. Settings: offset 0, ghat 1e-3 (what stays free between surfaces is a hundredth
-// of it), and its defaults line_search_max_t 1.25 and ccd_eps 1e-7. Contract: float32, no contact at
-// the start, and coordinates of usual sizes; the time is a lower bound. Claims: free-sound and
-// not-late ("Contact resolutions are penetration-free", its README, line 33). That what it reports
-// is a contact it does not say. As a limiter (limiter.h) its share is the time. Claim: path-free.
+// accd::point_triangle_ccd and accd::edge_edge_ccd of contact/accd, which its emulator compiles for
+// the host, too. Settings: offset 0, ghat 1e-3 (what stays free between surfaces is a hundredth of
+// it), and its defaults line_search_max_t 1.25 and ccd_eps 1e-7. Contract: float32, 1e-5 apart at
+// the start, where it parks what comes nearer, and coordinates up to 10 ("compare ghat against
+// FLT_EPSILON times the scene radius", its source says, and gives 10 as an example); the time is a
+// lower bound. Claims: free-sound and not-late ("Contact resolutions are penetration-free", its
+// README, line 33). That what it reports is a contact it does not say. As a limiter (limiter.h) its
+// share is the time. Claim: path-free.
 //
 // Expected before the first run: few defects, because its distances are the least of all
 // candidates, and the last step is verified. It loses what a float does not hold of differences of
@@ -52,6 +54,9 @@ struct Ppf {
     auto d = usual_description("ppf-contact-solver, accd", "f23b3565",
                                ASSAY_CLAIM_FREE_SOUND | ASSAY_CLAIM_NOT_LATE);
     d.coordinates = ASSAY_COORDINATES_FLOAT32;
+    d.start = ASSAY_START_APART;
+    d.start_distance = 1e-5;
+    d.largest = 10;
     return d;
   }
 

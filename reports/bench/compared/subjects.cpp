@@ -53,10 +53,8 @@ BenchSubject built_in_in_worker(const detector::Options& options) {
 namespace {
 
 // The detectors for which corpus/peers has adapters, and why each may not be there.
-constexpr const char* of_tight_inclusion =
-    "Tight-Inclusion was not found when it was built (corpus/peers/README.md)";
-constexpr const char* of_ipc_toolkit =
-    "the IPC Toolkit was not found when it was built (corpus/peers/README.md)";
+constexpr const char* of_source =
+    "its source was not found when it was built (corpus/peers/README.md)";
 constexpr std::pair<const char*, const char*> known_peers[] = {
     {"cubic_double", nullptr},
     {"cubic_float", nullptr},
@@ -66,9 +64,12 @@ constexpr std::pair<const char*, const char*> known_peers[] = {
     {"sampled_100", nullptr},
     {"fcl_elementary", "libfcl-dev was not there"},
     {"bullet_bernstein", "libbullet-dev was not there"},
-    {"tight_inclusion", of_tight_inclusion},
-    {"ipc_tight_inclusion", of_ipc_toolkit},
-    {"ipc_additive", of_ipc_toolkit}};
+    // clang-format off
+    {"tight_inclusion", of_source}, {"ipc_tight_inclusion", of_source}, {"ipc_additive", of_source},
+    {"fast_approximate_root", of_source}, {"eltopo_cubic", of_source}, {"ctcd", of_source},
+    {"eltopo_root_parity", of_source}, {"bsc", of_source}, {"tight_ccd", of_source},
+    {"arcsim", of_source}, {"codim_ipc", of_source}, {"libuipc", of_source}, {"ppf", of_source}};
+// clang-format on
 
 void add_library(const std::filesystem::path& file, Peers& peers) {
   auto opened = properties::Subject::open(properties::worker_program(), file.string(),

@@ -103,6 +103,7 @@ TEST(PeersBench, OneThatHangsOrCrashesEndsNothingElse) {
   EXPECT_NE(text.find("hung"), std::string::npos) << text;
   EXPECT_NE(text.find("absent: plugin_query_alone: it holds no steps"), std::string::npos) << text;
   EXPECT_NE(text.find("absent: fcl_elementary: libfcl-dev was not there"), std::string::npos);
+  EXPECT_NE(text.find("absent: arcsim: its source was not found"), std::string::npos);
 }
 
 TEST(PeersBench, OneThatIsAskedForADistanceTakesNoPart) {
@@ -231,9 +232,12 @@ TEST(PeersBench, EachPeerThatIsPresentMissesItsStoredMesh) {
     const auto name = subject.plugin->stem().string();
     expect_missed(subject, folder / (name + ".json"));
     // The strip of the top README shows the first.
-    for (const auto& [peer, more] : {std::pair{"bullet_bernstein", "missed.json"},
-                                     std::pair{"fcl_elementary", "fcl_lengths.json"},
-                                     std::pair{"tight_inclusion", "tight_inclusion_through.json"}})
+    for (const auto& [peer, more] :
+         {std::pair{"bullet_bernstein", "missed.json"},
+          std::pair{"fcl_elementary", "fcl_lengths.json"},
+          std::pair{"tight_inclusion", "tight_inclusion_through.json"},
+          std::pair{"arcsim", "arcsim_coplanar.json"}, std::pair{"arcsim", "arcsim_end.json"},
+          std::pair{"arcsim", "arcsim_flat.json"}, std::pair{"ctcd", "ctcd_distance.json"}})
       if (name == peer) expect_missed(subject, folder / more);
   }
   EXPECT_GE(present, 5u) << "these need no library";
