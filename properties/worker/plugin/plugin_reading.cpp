@@ -111,7 +111,8 @@ Expected<PluginDescription> read_description(const assay_detector_api& table) {
   std::memcpy(&raw, given, bytes_of(table.abi_version).description);
   Claims known = claims_from_outside;
   if (table.abi_version == first_version) known.set(Claim::candidates, false);
-  if (table.abi_version < ASSAY_DETECTOR_ABI_VERSION) known = known.without(claims_on_limits);
+  constexpr std::int32_t first_with_limits = 3;
+  if (table.abi_version < first_with_limits) known = known.without(claims_on_limits);
   if (raw.claims & ~known.bits()) return broken("unknown bits in its claims");
 
   const PluginParts parts = {table.evaluate != nullptr, table.query != nullptr,
