@@ -89,7 +89,7 @@ SLOW = {
         "--benchmark_enable_random_interleaving=true",
     ],
     "README.md": [
-        "assay run --campaign smoke --detector build/release/peers/cubic_double.so --power build/certify --out build/cubic",
+        "assay run --campaign smoke --part steps --detector build/release/peers/cubic_double.so --power build/certify --out build/cubic",
     ],
     "reports/README.md": [
         "assay self-test --jobs 2",
@@ -121,7 +121,7 @@ SLOW = {
 # has the same command twice.
 ENDS = {
     "README.md": {
-        "assay run --campaign smoke --detector build/release/peers/cubic_double.so --power build/certify --out build/cubic": [1],
+        "assay run --campaign smoke --part steps --detector build/release/peers/cubic_double.so --power build/certify --out build/cubic": [1],
     },
     "reports/check/TEN_MINUTES.md": {
         "assay run --campaign detector/plugin/ci/push.json --seed 2 --detector ./my_ccd.so --power build/proof --out build/mine": [1],
@@ -136,7 +136,7 @@ ENDS = {
 # line of it, but for times, has to be a line that the command prints now.
 SHOWN = {
     "README.md": {
-        "assay run --campaign smoke --detector build/release/peers/cubic_double.so --power build/certify --out build/cubic":
+        "assay run --campaign smoke --part steps --detector build/release/peers/cubic_double.so --power build/certify --out build/cubic":
             "DEFECT free-sound: answered free",
     },
     "reports/README.md": {
