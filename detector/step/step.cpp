@@ -64,9 +64,9 @@ std::vector<ViewAnchor> place_anchors(const Surface& surface,
   for (const auto& component : surface.all().components) {
     const Effort effort = effort_for(component, surface.mesh,
                                      chooses_views(culling) ? Effort::brief : Effort::thorough);
-    constexpr std::uint64_t work_of_plane = 20, planes = 1024;
+    constexpr std::uint64_t work_of_one = 20, planes = 1024;
     const std::uint64_t count = component.triangles.size();
-    if (pace.after(effort == Effort::least ? 400 : work_of_plane * std::min(count, planes))) break;
+    if (pace.after(effort == Effort::least ? 400 : work_of_one * std::min(count, planes))) break;
     if (chooses_views(culling)) {
       anchors.push_back(
           choose_view_anchor(surface.all(), component, surface.first_apex, x, effort, &pace));
@@ -172,10 +172,10 @@ struct MovedGhosts {
 // False if it was stopped.
 bool move_ghosts(const StepContext& context, const SteppedMesh& mesh, PacedStop& pace,
                  MovedGhosts& ghosts) {
-  constexpr std::uint64_t work_of_ghost = 10, work_of_vertex = 3;
+  constexpr std::uint64_t work_of_apex = 10, work_of_vertex = 3;
   const Surface& surface = context.surface;
   ghosts.apexes = context.stages.boundary->place_apexes(surface, context.views.apex_rules(), mesh);
-  if (pace.after(work_of_ghost * surface.ghost_count())) return false;
+  if (pace.after(work_of_apex * surface.ghost_count())) return false;
   ghosts.all_t0 = with_apexes(mesh.vertices_t0, ghosts.apexes, false);
   if (pace.after(work_of_vertex * at(surface.first_apex))) return false;
   ghosts.all_t1 = with_apexes(mesh.vertices_t1, ghosts.apexes, true);

@@ -279,6 +279,7 @@ constexpr const char* test_head =
     R"(// The same case through the built-in detector: a GoogleTest, to be compiled with
 // -I SOURCES-OF-ASSAY and linked with its detector.
 #define CASE_ARRAYS_ONLY
+#include "case.cpp"
 
 #include <gtest/gtest.h>
 

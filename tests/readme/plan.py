@@ -124,8 +124,8 @@ ENDS = {
         "assay run --campaign smoke --part steps --detector build/release/peers/cubic_double.so --power build/certify --out build/cubic": [1],
     },
     "reports/check/TEN_MINUTES.md": {
-        "assay run --campaign detector/plugin/ci/push.json --seed 2 --detector ./my_ccd.so --power build/proof --out build/mine": [1],
-        "assay replay build/mine/failures/search-push-2-001-315-my-CCD-smallest.json --detector ./my_ccd.so": [1, 0],
+        "assay run --campaign detector/plugin/ci/push.json --seed 3 --detector ./my_ccd.so --power build/proof --out build/mine": [1],
+        "assay replay build/mine/failures/search-push-3-001-292-my-CCD-smallest.json --detector ./my_ccd.so": [1, 0],
         "SEED=1 SOURCES=tests/plugins/additive_ccd.cpp sh detector/plugin/ci/job.sh": [1],
         "SEED=3 sh detector/plugin/ci/job.sh": [1],
         "assay check steps.log --keep build/judged": [1],
@@ -144,9 +144,9 @@ SHOWN = {
         "assay run --campaign smoke --out build/smoke": "canary pair/zero-zero-dropped",
     },
     "reports/check/TEN_MINUTES.md": {
-        "assay run --campaign detector/plugin/ci/push.json --seed 2 --detector ./my_ccd.so --power build/proof --out build/mine": "claims     FAILS",
-        "assay replay build/mine/failures/search-push-2-001-315-my-CCD-smallest.json --detector ./my_ccd.so": "my CCD: defect",
-        "assay run --campaign detector/plugin/ci/push.json --seed 2 --detector ./my_ccd.so --power build/proof --out build/mine-mended": "claims     holds",
+        "assay run --campaign detector/plugin/ci/push.json --seed 3 --detector ./my_ccd.so --power build/proof --out build/mine": "claims     FAILS",
+        "assay replay build/mine/failures/search-push-3-001-292-my-CCD-smallest.json --detector ./my_ccd.so": "my CCD: defect",
+        "assay run --campaign detector/plugin/ci/push.json --seed 3 --detector ./my_ccd.so --power build/proof --out build/mine-mended": "claims     holds",
         "SEED=1 SOURCES=tests/plugins/additive_ccd.cpp sh detector/plugin/ci/job.sh": "corpus     FAILS",
         "SEED=3 sh detector/plugin/ci/job.sh": "verdict: defect",
         "assay check steps.log --keep build/judged": "step 111: free; DIFFER",

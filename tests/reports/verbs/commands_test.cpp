@@ -61,7 +61,8 @@ TEST_F(Commands, EverySceneAgreesAndSaysWhetherItCollides) {
 
 TEST_F(Commands, ReportHoldsWhatGhostsAndReleaseCost) {
   const auto frames = make_scene("arm-in-box", 800, 31);
-  const auto outcome = run_assay("check " + frames + " --no-oracle --json " + (scratch / "r.json"));
+  const auto outcome = run_assay("check " + frames + " --culling view-auto --no-oracle --json " +
+                                 (scratch / "r.json"));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
   const auto report = json::parse(read_text(scratch / "r.json"));
   int in_doubt = 0, released = 0, pairs = 0;
