@@ -223,7 +223,7 @@ TEST(VectorSchemas, AreThoseOfSetsAndResults) {
       }
     }
   }
-  EXPECT_EQ(files, 6 + 13 + 10);
+  EXPECT_EQ(files, 6 + 13 + 21);
   auto changed = parsed(results + "/assay_exact.json");
   changed["answers"]["vf-d-0001"]["answer"] = "perhaps";
   EXPECT_FALSE(wrong_by(of_results, changed).empty());

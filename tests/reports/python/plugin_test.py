@@ -24,11 +24,6 @@ SOURCE = """
         def evaluate(self, x_t0, x_t1):
             return self.detector.evaluate(x_t0, x_t1)
 
-    class Blind(Right):
-        claims = ["total"]
-        def evaluate(self, x_t0, x_t1):
-            return None
-
     class Raises(Right):
         def evaluate(self, x_t0, x_t1):
             print("so far so good")
@@ -58,6 +53,11 @@ SOURCE = """
     class OutOfMemory(Right):
         def evaluate(self, x_t0, x_t1):
             raise MemoryError
+
+    class Blind(Right):
+        claims = ["total"]
+        def evaluate(self, x_t0, x_t1):
+            return None
 
     class Exits(Right):
         def evaluate(self, x_t0, x_t1):
