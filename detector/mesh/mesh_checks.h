@@ -24,9 +24,9 @@ inline constexpr Eigen::Index most_vertices = (std::int64_t{1} << 31) - 1 - most
 // mesh_too_large, index_out_of_range, repeated_index, same_vertices_twice; its message names the
 // lowest triangle that has it. O(N + M).
 std::optional<Problem> check_triangles(const TrianglesView& triangles, Eigen::Index vertex_count);
-// Its two parts: all errors but the last, and same_vertices_twice alone, which compares triangles and
-// so takes ten times as long. check_repeated REQUIRES triangles that have passed check_corners; its
-// error is `stopped` if the pace was stopped before the end.
+// Its two parts: all errors but the last, and same_vertices_twice alone, which compares triangles
+// and so takes ten times as long. check_repeated REQUIRES triangles that have passed check_corners.
+// Its error is `stopped` if the pace was stopped before the end.
 std::optional<Problem> check_corners(const TrianglesView& triangles, Eigen::Index vertex_count);
 std::optional<Problem> check_repeated(const TrianglesView& triangles, Eigen::Index vertex_count,
                                       PacedStop& pace);
