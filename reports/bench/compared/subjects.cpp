@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <set>
+#include <sstream>
 
 #include "properties/worker/worker_process.h"
 #include "reports/bench/compared/comparison.h"
@@ -52,24 +53,22 @@ BenchSubject built_in_in_worker(const detector::Options& options) {
 
 namespace {
 
-// The detectors for which corpus/peers has adapters, and why each may not be there.
-constexpr const char* of_source =
-    "its source was not found when it was built (corpus/peers/README.md)";
-constexpr std::pair<const char*, const char*> known_peers[] = {
-    {"cubic_double", nullptr},
-    {"cubic_float", nullptr},
-    {"cubic_eigen", "libeigen3-dev was not there"},
-    {"sampled_1", nullptr},
-    {"sampled_10", nullptr},
-    {"sampled_100", nullptr},
-    {"fcl_elementary", "libfcl-dev was not there"},
-    {"bullet_bernstein", "libbullet-dev was not there"},
-    // clang-format off
-    {"tight_inclusion", of_source}, {"ipc_tight_inclusion", of_source}, {"ipc_additive", of_source},
-    {"fast_approximate_root", of_source}, {"eltopo_cubic", of_source}, {"ctcd", of_source},
-    {"eltopo_root_parity", of_source}, {"bsc", of_source}, {"tight_ccd", of_source},
-    {"arcsim", of_source}, {"codim_ipc", of_source}, {"libuipc", of_source}, {"ppf", of_source}};
-// clang-format on
+// The detectors for which corpus/peers has adapters, and why each may not be there: nothing where
+// it is always built.
+using KnownPeer = std::pair<std::string, std::string>;
+std::vector<KnownPeer> known_peers() {
+  std::vector<KnownPeer> known = {
+      {"cubic_double", ""}, {"cubic_float", ""}, {"cubic_eigen", "libeigen3-dev was not there"},
+      {"sampled_1", ""},    {"sampled_10", ""},  {"sampled_100", ""}};
+  known.emplace_back("fcl_elementary", "libfcl-dev was not there");
+  known.emplace_back("bullet_bernstein", "libbullet-dev was not there");
+  std::istringstream of_sources(
+      "tight_inclusion ipc_tight_inclusion ipc_additive fast_approximate_root eltopo_cubic ctcd "
+      "eltopo_root_parity bsc tight_ccd arcsim codim_ipc libuipc ppf");
+  for (std::string name; of_sources >> name;)
+    known.emplace_back(name, "its source was not found when it was built (corpus/peers/README.md)");
+  return known;
+}
 
 void add_library(const std::filesystem::path& file, Peers& peers) {
   auto opened = properties::Subject::open(properties::worker_program(), file.string(),
@@ -95,9 +94,9 @@ void add_library(const std::filesystem::path& file, Peers& peers) {
 
 // Known detectors stand in the order of their list. Others stand behind them, by name.
 std::size_t place_of(const std::filesystem::path& file) {
-  const auto* known = std::find_if(std::begin(known_peers), std::end(known_peers),
-                                   [&](const auto& peer) { return file.stem() == peer.first; });
-  return static_cast<std::size_t>(known - std::begin(known_peers));
+  const auto known = known_peers();
+  const auto found = std::ranges::find(known, file.stem().string(), &KnownPeer::first);
+  return static_cast<std::size_t>(found - known.begin());
 }
 
 }  // namespace
@@ -116,11 +115,11 @@ Peers find_peers(const std::string& folder) {
     if (entry.path().extension() == ".so") files.emplace(place_of(entry.path()), entry.path());
   }
   for (const auto& [place, file] : files) add_library(file, peers);
-  for (const auto& [name, needs] : known_peers) {
-    if (std::any_of(files.begin(), files.end(),
-                    [stem = name](const auto& file) { return file.second.stem() == stem; }))
+  for (const auto& [name, needs] : known_peers()) {
+    if (std::ranges::any_of(files, [stem = name](auto& f) { return f.second.stem() == stem; }))
       continue;
-    peers.absent.push_back({name, needs ? needs : fmt::format("{}.so is not in {}", name, folder)});
+    peers.absent.push_back(
+        {name, needs.empty() ? fmt::format("{}.so is not in {}", name, folder) : needs});
   }
   return peers;
 }

@@ -62,7 +62,7 @@ TEST_F(Obj, ProblemsNameFileAndLine) {
     EXPECT_EQ(problem.message.find('\n'), std::string::npos);
   };
   const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-  expect("but there are 3 vertices", "line 4", vertices + "f 1 2 4\n");
+  expect("index 4 (counted from 1), but there are 3 vertices", "line 4", vertices + "f 1 2 4\n");
   expect("but there are 3 vertices", "line 5", vertices + "f 1 2 3\nf 7 2 3\nf 1 3 2\n");
   expect("index 0 is out of range", "line 4", vertices + "f 0 1 2\n");
   expect("index -4 is out of range", "line 4", vertices + "f -4 1 2\n");
