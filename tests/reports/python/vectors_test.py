@@ -19,6 +19,7 @@ import make_group  # noqa: E402
 import vectors  # noqa: E402
 
 STORED = sorted((ROOM / "results").glob("*.json"))
+PACKAGED = ("bullet_", "cubic_", "fcl_", "sampled_")  # peers that need no sources of others
 
 
 @pytest.fixture(scope="module")
@@ -40,8 +41,8 @@ def test_the_stored_results_come_out_again(committed, file):
         asked = hosted.BuiltIn(file.stem[len("assay_"):])
     else:
         library = Path(os.environ["ASSAY_BUILD_DIR"]) / "peers" / f"{file.stem}.so"
-        if not library.exists():
-            assert os.environ.get("CI") != "true", library
+        required = os.environ.get("CI") == "true" and file.stem.startswith(PACKAGED)
+        if not library.exists() and not required:
             pytest.skip(f"{library} was not built: what it needs is not installed")
         asked = hosted.PlugIn(str(library), 10)
     results = vectors.ask_all(asked, committed)
