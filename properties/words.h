@@ -1,6 +1,6 @@
 // The words of an enum, as a table in the order of its values, which count from 0; those of a
-// count; whole numbers in words; words from outside, such as a plug-in's name, made safe to print
-// anywhere; and problems, which are said in words.
+// count; whole numbers in words; and words from outside, such as a plug-in's name, made safe to
+// print anywhere.
 #pragma once
 
 #include <charconv>
@@ -10,7 +10,6 @@
 #include <string>
 #include <string_view>
 
-#include "corpus/problem.h"
 #include "detector/mesh/enum_names.h"
 
 namespace assay::properties {
@@ -42,12 +41,5 @@ inline std::string times_text(std::uint64_t count) {
 // no part of a character becomes U+FFFD. A terminal can then show it, and writers of JSON and XML,
 // which escape quotes and brackets themselves, accept it.
 std::string printable(std::string_view text);
-
-// The problems of corpus/ by their short names. The only exception that leaves this room is
-// std::bad_alloc.
-
-using corpus::Expected;
-using corpus::Problem;
-using corpus::ProblemKind;
 
 }  // namespace assay::properties

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "corpus/cases/case_file.h"
-#include "properties/random.h"
+#include "properties/numbering.h"
 
 namespace assay::properties {
 

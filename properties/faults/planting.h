@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "properties/faults/fault.h"
-#include "properties/random.h"
+#include "properties/numbering.h"
 
 namespace assay::properties {
 

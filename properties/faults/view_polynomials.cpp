@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "properties/random.h"
+#include "properties/numbering.h"
 
 namespace assay::properties {
 

@@ -9,7 +9,7 @@
 
 #include "corpus/cases/case_file.h"
 #include "detector/mesh/types.h"
-#include "properties/random.h"
+#include "properties/numbering.h"
 
 namespace assay::properties {
 

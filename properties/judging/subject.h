@@ -11,7 +11,7 @@
 
 #include "corpus/cases/case_file.h"
 #include "properties/claims/claims.h"
-#include "properties/words.h"
+#include "properties/problem.h"
 #include "properties/worker/case_run.h"
 #include "properties/worker/plugin/judged_library.h"
 #include "properties/worker/worker_process.h"

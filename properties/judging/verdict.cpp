@@ -7,7 +7,7 @@
 #include "properties/faults/fault.h"
 #include "properties/judging/cause.h"
 #include "properties/judging/exam.h"
-#include "properties/random.h"
+#include "properties/numbering.h"
 #include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {

@@ -18,6 +18,7 @@
 #include "detector/detector.h"
 #include "oracle/mesh/step.h"
 #include "properties/judging/agreement.h"
+#include "properties/numbering.h"
 #include "properties/queries/query_families.h"
 #include "properties/random.h"
 #include "properties/threads.h"

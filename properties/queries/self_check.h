@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "properties/problem.h"
 #include "properties/queries/query_methods.h"
-#include "properties/words.h"
 #include "properties/worlds/small_steps.h"
 
 namespace assay::properties {

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "properties/words.h"
+#include "properties/problem.h"
 
 namespace assay::properties {
 

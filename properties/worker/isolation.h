@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "properties/problem.h"
 #include "properties/words.h"
 #include "properties/worker/child_process.h"
 

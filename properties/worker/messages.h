@@ -24,7 +24,7 @@
 #include "detector/step_result.h"
 #include "properties/claims/claims.h"
 #include "properties/fields.h"
-#include "properties/words.h"
+#include "properties/problem.h"
 #include "properties/worker/case_run.h"
 #include "properties/worker/plugin/query_case.h"
 

@@ -14,6 +14,7 @@
 #include "oracle/instant/layers.h"
 #include "oracle/view/view_sign.h"
 #include "properties/judging/agreement.h"
+#include "properties/numbering.h"
 #include "properties/random.h"
 #include "properties/threads.h"
 

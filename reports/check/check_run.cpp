@@ -15,7 +15,7 @@
 #include "properties/judging/case_check.h"
 #include "properties/judging/case_options.h"
 #include "properties/judging/verdict.h"
-#include "properties/random.h"
+#include "properties/numbering.h"
 #include "reports/steps/step_report.h"
 #include "reports/terminal/option_words.h"
 #include "reports/terminal/work.h"

@@ -8,7 +8,7 @@
 #include "detector/mesh/topology.h"
 #include "oracle/distance/step_distance.h"
 #include "properties/judging/verdict.h"
-#include "properties/random.h"
+#include "properties/numbering.h"
 #include "reports/check/check_run.h"
 #include "reports/steps/step_report.h"
 #include "reports/terminal/words.h"

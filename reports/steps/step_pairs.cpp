@@ -20,7 +20,7 @@
 #include "oracle/view/view_sign.h"
 #include "properties/judging/agreement.h"
 #include "properties/judging/verdict.h"
-#include "properties/random.h"
+#include "properties/numbering.h"
 #include "properties/worker/case_run.h"
 #include "reports/steps/step_report.h"
 #include "reports/terminal/words.h"

@@ -8,7 +8,7 @@
 
 #include "properties/campaign/request.h"
 #include "properties/claims/claims.h"
-#include "properties/words.h"
+#include "properties/problem.h"
 
 namespace assay::properties {
 

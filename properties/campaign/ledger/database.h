@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "properties/words.h"
+#include "properties/problem.h"
 
 struct sqlite3;
 struct sqlite3_stmt;

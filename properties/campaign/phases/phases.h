@@ -17,9 +17,9 @@
 #include "properties/claims/claims.h"
 #include "properties/faults/fault.h"
 #include "properties/judging/exam.h"
+#include "properties/problem.h"
 #include "properties/reducer/reducer.h"
 #include "properties/search/search.h"
-#include "properties/words.h"
 #include "properties/worker/worker_process.h"
 
 namespace assay::properties {

@@ -17,7 +17,7 @@
 #include "oracle/mesh/step.h"
 #include "oracle/view/view_sign.h"
 #include "properties/laws/facts/view_values.h"
-#include "properties/random.h"
+#include "properties/numbering.h"
 
 namespace assay::properties {
 

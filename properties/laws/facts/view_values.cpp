@@ -5,7 +5,7 @@
 #include <cmath>
 #include <span>
 
-#include "properties/random.h"
+#include "properties/numbering.h"
 
 namespace assay::properties {
 

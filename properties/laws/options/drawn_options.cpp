@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "properties/numbering.h"
 #include "properties/random.h"
 
 namespace assay::properties {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "corpus/problem.h"
-#include "properties/words.h"
+#include "properties/problem.h"
 
 namespace assay::properties {
 

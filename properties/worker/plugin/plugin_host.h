@@ -8,7 +8,7 @@
 #include "detector/plugin/assay_detector.h"
 #include "detector/step_result.h"
 #include "properties/claims/claims.h"
-#include "properties/words.h"
+#include "properties/problem.h"
 #include "properties/worker/case_run.h"
 
 namespace assay::properties {

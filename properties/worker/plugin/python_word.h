@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "properties/words.h"
+#include "properties/problem.h"
 
 namespace assay::properties {
 

@@ -17,6 +17,7 @@
 #include "properties/generators/everyday.h"
 #include "properties/generators/families.h"
 #include "properties/laws/facts/case_facts.h"
+#include "properties/numbering.h"
 #include "properties/queries/query_families.h"
 #include "properties/random.h"
 #include "tests/meshes.h"

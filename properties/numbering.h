@@ -1,0 +1,63 @@
+// Lists of the numbers of vertices or triangles, and of the points of a grid that is mapped onto
+// itself.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "detector/mesh/step_types.h"
+
+namespace assay::properties {
+
+using Numbers = std::vector<std::int32_t>;
+
+using detector::at;
+
+// 0 .. count - 1.
+inline Numbers in_order(std::size_t count) {
+  Numbers numbers(count);
+  std::iota(numbers.begin(), numbers.end(), 0);
+  return numbers;
+}
+
+// Grids of side^dimensions points, numbered along the first axis first, and the maps of a grid
+// onto itself: axes exchanged and mirrored.
+
+// base^exponent in whole numbers. REQUIRES exponent >= 0.
+inline int power(int base, int exponent) {
+  int result = 1;
+  for (int i = 0; i < exponent; ++i) result *= base;
+  return result;
+}
+
+// One map of the grid onto itself, for a grid of any side. Element i of what it returns is the
+// number of the point onto which point i is mapped.
+using ImageOfGrid = std::function<std::vector<int>(int side)>;
+// Calls `visit` for each permutation of the axes with each choice of mirrored axes, the identity
+// first. `visit` may keep the map.
+inline void for_each_symmetry(int dimensions,
+                              const std::function<void(const ImageOfGrid&)>& visit) {
+  std::array<int, 3> axes = {0, 1, 2};
+  int mirrored = 0;
+  const ImageOfGrid image_of = [&](int side) {
+    std::vector<int> image;
+    for (int p = 0; p < power(side, dimensions); ++p) {
+      int to = 0;
+      for (int k = 0; k < dimensions; ++k) {
+        const int c = p / power(side, axes[static_cast<std::size_t>(k)]) % side;
+        to += ((mirrored >> k) % 2 == 0 ? c : side - 1 - c) * power(side, k);
+      }
+      image.push_back(to);
+    }
+    return image;
+  };
+  do {
+    for (mirrored = 0; mirrored < power(2, dimensions); ++mirrored) visit(image_of);
+  } while (std::next_permutation(axes.begin(), axes.begin() + dimensions));
+}
+
+}  // namespace assay::properties
