@@ -132,15 +132,12 @@ class Members {
 
 std::string read_description(const Json& body, assay_description& d) {
   if (!body.contains("claims")) return "claims";
-  return Members(body)("claims", d.claims)("adjacency", d.adjacency)("coordinates", d.coordinates)(
-             "margin", d.margin)("start", d.start)("start_distance", d.start_distance)(
-             "least_nonzero", d.least_nonzero)("largest", d.largest)("features", d.features)(
-             "time_tolerance", d.time_tolerance)("reports", d.reports)("separation", d.separation)(
-             "counts", d.counts)("rings", d.rings)("rest_distance", d.rest_distance)(
-             "limit_gives", d.limit_gives)("progress", d.progress)("motion", d.motion)(
-             "capacity_triangles", d.capacity_triangles)("capacity_contacts", d.capacity_contacts)(
-             "capacity_candidates", d.capacity_candidates)
-      .wrong();
+  Members members(body);
+  members("claims", d.claims);
+#define ASSAY_MEMBER(kind, name, since) members(#name, d.name);
+  ASSAY_CONTRACT_MEMBERS(ASSAY_MEMBER)
+#undef ASSAY_MEMBER
+  return members.wrong();
 }
 
 std::string read_counted(const Json& map, detector::CountedPairs& counted) {

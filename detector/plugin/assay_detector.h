@@ -208,6 +208,18 @@ typedef struct assay_description {
                                    within the separation */
 } assay_description;
 
+/* The members of the contract, for code that treats them all alike: X(kind, name, the version since
+ * which there is one). An integer is an int32_t, a real a double, a count a uint64_t. */
+/* clang-format off */
+#define ASSAY_CONTRACT_MEMBERS(X) \
+  X(integer, adjacency, 1) X(integer, coordinates, 1) X(real, margin, 1) X(integer, start, 2) \
+  X(real, start_distance, 2) X(real, least_nonzero, 2) X(real, largest, 2) X(integer, features, 2) \
+  X(real, time_tolerance, 2) X(integer, reports, 2) X(real, separation, 3) X(integer, counts, 3) \
+  X(integer, rings, 3) X(real, rest_distance, 3) X(integer, limit_gives, 3) X(real, progress, 3) \
+  X(integer, motion, 3) X(count, capacity_triangles, 3) X(count, capacity_contacts, 3) \
+  X(count, capacity_candidates, 3)
+/* clang-format on */
+
 /* The detector's own data of one mesh. */
 typedef struct assay_handle assay_handle;
 

@@ -49,7 +49,7 @@
 
 #include "detector/plugin/assay_detector.h"
 
-static_assert(ASSAY_DETECTOR_ABI_VERSION == 3, "this header is of another version");
+static_assert(ASSAY_DETECTOR_ABI_VERSION >= 3, "this header is of a later version");
 
 namespace assay {
 namespace plugin {

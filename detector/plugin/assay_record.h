@@ -412,26 +412,9 @@ static inline void assay_record_begin_body_(assay_recorder* r, const assay_recor
   assay_record_words_(r, "name", d->name);
   assay_record_words_(r, "version", d->version ? d->version : "");
   assay_record_count_(r, "claims", d->claims);
-  assay_record_integer_(r, "adjacency", d->adjacency);
-  assay_record_integer_(r, "coordinates", d->coordinates);
-  assay_record_real_(r, "margin", d->margin);
-  assay_record_integer_(r, "start", d->start);
-  assay_record_real_(r, "start_distance", d->start_distance);
-  assay_record_real_(r, "least_nonzero", d->least_nonzero);
-  assay_record_real_(r, "largest", d->largest);
-  assay_record_integer_(r, "features", d->features);
-  assay_record_real_(r, "time_tolerance", d->time_tolerance);
-  assay_record_integer_(r, "reports", d->reports);
-  assay_record_real_(r, "separation", d->separation);
-  assay_record_integer_(r, "counts", d->counts);
-  assay_record_integer_(r, "rings", d->rings);
-  assay_record_real_(r, "rest_distance", d->rest_distance);
-  assay_record_integer_(r, "limit_gives", d->limit_gives);
-  assay_record_real_(r, "progress", d->progress);
-  assay_record_integer_(r, "motion", d->motion);
-  assay_record_count_(r, "capacity_triangles", d->capacity_triangles);
-  assay_record_count_(r, "capacity_contacts", d->capacity_contacts);
-  assay_record_count_(r, "capacity_candidates", d->capacity_candidates);
+#define ASSAY_RECORD_MEMBER_(kind, name, since) assay_record_##kind##_(r, #name, d->name);
+  ASSAY_CONTRACT_MEMBERS(ASSAY_RECORD_MEMBER_)
+#undef ASSAY_RECORD_MEMBER_
   assay_record_count_(r, "vertices", r->vertex_count);
   assay_record_int32s_(r, "triangles", c->triangles, 3 * c->triangle_count);
   assay_record_vertices_(r, "positions", c->positions);

@@ -92,7 +92,7 @@ constexpr auto names_of(Claim) {
   using C = const Contract&;
   using D = const StepDiff&;
   constexpr auto without_pairs = [](C c, bool) {
-    return c.reports_pairs ? "" : "the detector reports no pairs";
+    return c.reports_pairs() ? "" : "the detector reports no pairs";
   };
   return std::to_array<ClaimRow>({
       {free_sound, "free-sound", ASSAY_CLAIM_FREE_SOUND, answers, by_contact, loses,

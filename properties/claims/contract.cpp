@@ -69,12 +69,11 @@ std::vector<std::string> phrases_of(const Contract& contract) {
   if (contract.time_tolerance > 0) say("times within ", number_text(contract.time_tolerance));
   const char* level = name_of(contract.counts);
   if (contract.rings > 0)
-    list.push_back(std::string(level) + " beyond " + std::to_string(contract.rings) +
-                   (contract.rings == 1 ? " ring" : " rings"));
+    say(level, " beyond " + std::to_string(contract.rings),
+        contract.rings == 1 ? " ring" : " rings");
   if (contract.rest_distance > 0)
-    list.push_back(std::string(level) + " from " + number_text(contract.rest_distance) +
-                   " apart at rest");
-  if (!contract.reports_pairs) list.emplace_back("no pairs");
+    say(level, " from " + number_text(contract.rest_distance), " apart at rest");
+  if (!contract.reports_pairs()) list.emplace_back("no pairs");
   if (contract.progress > 0) say("progress ", number_text(contract.progress));
   if (contract.limit_gives != LimitGives::positions)
     say("stops at ", name_of(contract.limit_gives));

@@ -5,11 +5,13 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "detector/mesh/counted_pairs.h"
 #include "detector/mesh/step_types.h"
 #include "detector/mesh/types.h"
+#include "detector/plugin/assay_detector.h"
 #include "properties/fields.h"
 #include "properties/words.h"
 
@@ -107,7 +109,7 @@ struct Contract {
   double least_nonzero = 0, largest = 0;
   TestedFeatures features = TestedFeatures::both;
   double time_tolerance = 0;  // a time is late, early or wrong when it is off by more than this
-  bool reports_pairs = true;
+  Reported reports = Reported::pairs;
   // Above 0: the question is not which triangles touch, but which come within this distance. Then
   // pairs that share no vertex are asked for alone.
   double separation = 0;
@@ -131,6 +133,7 @@ struct Contract {
   friend bool operator==(const Contract&, const Contract&) = default;
 
   bool has_range() const { return largest > 0; }
+  bool reports_pairs() const { return reports == Reported::pairs; }
   // Whether it is judged what the detector reports although it is not there. The features of a
   // query share no vertex.
   bool judges_alarms(bool of_queries = false) const {
@@ -143,28 +146,31 @@ struct Contract {
   }
 };
 
-// Each member by its name, in reports, certificates and messages.
-ASSAY_FIELDS(Contract, adjacency, coordinates, margin, start, start_distance, least_nonzero,
-             largest, features, time_tolerance, reports_pairs, separation, counts, rings,
-             rest_distance, takes_relations, limit_gives, progress, motion, capacity_triangles,
-             capacity_contacts, capacity_candidates)
-
 // Calls visit(name, member of the interface, member of the contract) for each member that a
 // description of the interface (assay_description) states: an enum there is a number.
 template <class Description, class Visit>
 void visit_members(Description& raw, Contract& contract, const Visit& visit) {
-#define ASSAY_VISIT(r, data, name) visit(BOOST_PP_STRINGIZE(name), raw.name, contract.name);
-#define ASSAY_VISIT_ALL(...) \
-  BOOST_PP_SEQ_FOR_EACH(ASSAY_VISIT, , BOOST_PP_VARIADIC_TO_SEQ(__VA_ARGS__))
-  ASSAY_VISIT_ALL(adjacency, coordinates, start, features)
-  auto reported = contract.reports_pairs ? Reported::pairs : Reported::no_pairs;
-  visit("reports", raw.reports, reported);
-  contract.reports_pairs = reported == Reported::pairs;
-  ASSAY_VISIT_ALL(margin, separation, start_distance, least_nonzero, largest, time_tolerance,
-                  counts, rings, rest_distance, limit_gives, progress, motion, capacity_triangles,
-                  capacity_contacts, capacity_candidates)
-#undef ASSAY_VISIT_ALL
+#define ASSAY_NAME(kind, name, since) name,
+#define ASSAY_VISIT(kind, name, since) visit(#name, raw.name, contract.name);
+  // This compiles only if no member of the contract is missing.
+  [[maybe_unused]] const auto& [ASSAY_CONTRACT_MEMBERS(ASSAY_NAME) takes_relations] = contract;
+  ASSAY_CONTRACT_MEMBERS(ASSAY_VISIT)
+#undef ASSAY_NAME
 #undef ASSAY_VISIT
+}
+
+// Each member by its name, in reports, certificates and messages; whether it reports pairs is a
+// bool there.
+template <class Archive>
+void fields(Archive& archive, Contract& x) {
+  assay_description unused = {};
+  bool reports_pairs = x.reports_pairs();
+  visit_members(unused, x, [&](std::string_view name, auto&, auto& member) {
+    if (name == "reports") return archive("reports_pairs", reports_pairs);
+    archive(name.data(), member);
+    if (name == "rest_distance") archive("takes_relations", x.takes_relations);
+  });
+  x.reports = reports_pairs ? Reported::pairs : Reported::no_pairs;
 }
 
 // The shortest decimal that reads back to the same double. It is made without libfmt, because the

@@ -152,7 +152,7 @@ struct Comparison {
     diff_.is_without_excuse = !unexcused.empty();
     if (claims_.has(Claim::all_pairs)) return;
     const bool is_silent = result_.pairs.empty() && !claims_.has(Claim::first_pairs);
-    if (!contract_.reports_pairs || is_silent) {
+    if (!contract_.reports_pairs() || is_silent) {
       diff_.missing.clear();
       return;
     }

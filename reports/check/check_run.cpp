@@ -170,7 +170,7 @@ class CheckRun {
     // The time of preprocessing is shown once, with the first step.
     const auto& contract = answers_.under_test().contract;
     return {!answers_.is_plugin(),
-            contract.reports_pairs,
+            contract.reports_pairs(),
             s == 0 ? answers_.create_ms() : std::nullopt,
             bodies_,
             contract.separation,

@@ -216,7 +216,7 @@ Expected<detector::StepResult> GivenAnswers::result_of(const corpus::LoggedAnswe
     raw.pair_times = logged.pair_times.data();
   }
   const auto triangles = static_cast<std::int32_t>(triangles_.rows());
-  return properties::step_result(raw, triangles, under_test().contract.reports_pairs);
+  return properties::step_result(raw, triangles, under_test().contract.reports_pairs());
 }
 
 namespace {
@@ -303,7 +303,7 @@ Expected<std::unique_ptr<StepAnswers>> answers_of_table(const std::string& file,
   if (rows.empty()) return Problem{fmt::format("{}: it has no row", file)};
   properties::Contract contract;
   contract.adjacency = adjacency;
-  contract.reports_pairs = false;
+  contract.reports = properties::Reported::no_pairs;
   properties::Claims claims = {Claim::free_sound};
   claims.set(Claim::not_late, has_times);
   properties::Subject subject;

@@ -277,7 +277,7 @@ std::optional<CaseScene> make_scene(const corpus::Case& c,
   scene.contract = detector.contract;
   if (run.end != RunEnd::completed) scene.ended = end_text(run);
   scene.reports_pairs =
-      run.has_answers && detector.contract.reports_pairs && !properties::says_query(scene.c);
+      run.has_answers && detector.contract.reports_pairs() && !properties::says_query(scene.c);
   scene.claims = properties::judged_claims(detector.claims_in(configuration), detector.contract);
   if (scene.failure && scene.failure->claim == properties::Claim::commit_free)
     show_way(scene, run.limits[scene.failure->step]->positions, truth);

@@ -34,11 +34,12 @@ inline pybind11::dict words_of_members() {
   return members;
 }
 
-// Takes over the numbers that `described` of assay/hosting.py has made of words.
+// Takes over the members, of which `described` of assay/hosting.py has made numbers of words.
 inline void set_contract(assay_description& description, const pybind11::dict& numbers) {
   properties::Contract contract;
-  visit_members(description, contract, [&](const char* name, auto& member, const auto&) {
-    member = numbers[name].template cast<std::remove_reference_t<decltype(member)>>();
+  visit_members(description, contract, [&]<class T>(const char* name, T& member, const auto&) {
+    using Number = std::conditional_t<std::is_integral_v<T>, pybind11::int_, pybind11::float_>;
+    member = Number(numbers[name]).template cast<T>();
   });
 }
 

@@ -313,7 +313,7 @@ class Plugin {
     // The first time of a plug-in that states none is [0, 1].
     if (step.first != detector::TimeEnclosure{0, 1})
       answer["time"] = std::array{step.first.lo, step.first.hi};
-    if (subject_.detector.contract.reports_pairs && !is_query) {
+    if (subject_.detector.contract.reports_pairs() && !is_query) {
       std::vector<std::array<std::int32_t, 2>> pairs;
       for (const auto& [pair, time, feature] : step.pairs) pairs.push_back({pair.a, pair.b});
       answer["pairs"] = pairs;

@@ -230,7 +230,7 @@ CaseRun PluginHost::run(const corpus::Case& c, bool is_timed) const {
     return {RunEnd::refused, std::move(explanation), {}};
   }
   PluginRun plugin(table_, handle, static_cast<std::int32_t>(c.triangles.rows()),
-                   description_.contract.reports_pairs, asks_twice_);
+                   description_.contract.reports_pairs(), asks_twice_);
   if (c.counted && !c.counted->pairs.count_all()) {
     // A contracted case has no relation for such a plug-in.
     if (!table_.count) return {RunEnd::refused, "it cannot be told which pairs count", {}};

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
-#include <iterator>
 
 #include "detector/mesh/step_types.h"
 #include "properties/words.h"
@@ -13,17 +12,17 @@ namespace {
 
 constexpr std::uint32_t first_version = 1;
 
-// How much of the table and of the description a version has.
-struct KnownBytes {
-  std::size_t table, description;
-};
-constexpr KnownBytes bytes_of_versions[] = {
-    {offsetof(assay_detector_api, use_threads), offsetof(assay_description, start)},
-    {offsetof(assay_detector_api, count), offsetof(assay_description, separation)},
-    {sizeof(assay_detector_api), sizeof(assay_description)}};
-static_assert(std::size(bytes_of_versions) == ASSAY_DETECTOR_ABI_VERSION);
-const KnownBytes& bytes_of(std::uint32_t version) {
-  return bytes_of_versions[version - first_version];
+// How much of the table a version has, and how much of the description.
+std::size_t table_bytes(std::uint32_t version) {
+  if (version == 1) return offsetof(assay_detector_api, use_threads);
+  return version == 2 ? offsetof(assay_detector_api, count) : sizeof(assay_detector_api);
+}
+std::size_t description_bytes(std::uint32_t version) {
+#define ASSAY_MEMBER(kind, name, since) \
+  if (version < since) return offsetof(assay_description, name);
+  ASSAY_CONTRACT_MEMBERS(ASSAY_MEMBER)
+#undef ASSAY_MEMBER
+  return sizeof(assay_description);
 }
 
 Problem broken(std::string explanation) { return {std::move(explanation)}; }
@@ -99,7 +98,7 @@ Expected<assay_detector_api> read_table(const assay_detector_api* api) {
                    std::to_string(ASSAY_DETECTOR_ABI_VERSION)};
   }
   assay_detector_api table = {};
-  std::memcpy(&table, api, bytes_of(version).table);
+  std::memcpy(&table, api, table_bytes(version));
   if (auto gap = gap_in(table); !gap.empty()) return broken(std::move(gap));
   return table;
 }
@@ -108,7 +107,7 @@ Expected<PluginDescription> read_description(const assay_detector_api& table) {
   const assay_description* given = table.describe();
   if (!given) return broken(nothing_described(table));
   assay_description raw = {};
-  std::memcpy(&raw, given, bytes_of(table.abi_version).description);
+  std::memcpy(&raw, given, description_bytes(table.abi_version));
   Claims known = claims_from_outside;
   if (table.abi_version == first_version) known.set(Claim::candidates, false);
   constexpr std::int32_t first_with_limits = 3;
@@ -279,7 +278,6 @@ Expected<LimitAnswer> limit_answer(const assay_limit& raw, const Claims& claims,
 
 Expected<std::vector<detector::TrianglePair>> candidate_pairs(const assay_candidates& raw,
                                                               std::int32_t triangle_count) {
-  const auto broken = [](std::string explanation) { return Problem{std::move(explanation)}; };
   if (raw.pair_count > 0 && !raw.pairs) return broken("candidates are counted but not given");
   std::vector<detector::TrianglePair> pairs;
   for (std::uint64_t i = 0; i < raw.pair_count; ++i) {

@@ -258,7 +258,7 @@ std::vector<SubjectRow> by_subject(std::span<const FamilyRow> families,
     if (!has_part) continue;
     row.families = over.size();
     row.answers = row.counts.timed_collisions > 0 ? "answer, time" : "answer";
-    if (subject.detector.contract.reports_pairs) row.answers += ", pairs";
+    if (subject.detector.contract.reports_pairs()) row.answers += ", pairs";
     if (!over.empty()) row.over = bootstrap_median(std::move(over));
     if (!create_over.empty()) row.create_over = median_of(std::move(create_over)).value;
     row.unsafe = share_of(row.counts.errors.unsafe, row.counts.errors.steps);

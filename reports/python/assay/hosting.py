@@ -118,11 +118,7 @@ def described(claims, contract, claim_words, members):
         if member not in members:
             raise ValueError(f"contract: {member!r} is none of its members")
         words = members[member]
-        numbers[member] = (
-            _place(value, words, f"contract: {member}")
-            if words
-            else int(value) if member == "rings" or member.startswith("capacity_") else float(value)
-        )
+        numbers[member] = _place(value, words, f"contract: {member}") if words else value
     return sum(1 << _place(claim, claim_words, "claims") for claim in set(claims)), numbers
 
 

@@ -396,7 +396,7 @@ TEST(Gates, WithoutContactsInsideTheContractNothingIsCertified) {
   expect_certified({plug_in, claims_total, contacts(0, 0)});
   const Change void_pairs = [](auto& f) {
     f.run.detector.configurations[0].claims = {"all-pairs", "total"};
-    f.run.detector.contract.reports_pairs = false;
+    f.run.detector.contract.reports = Reported::no_pairs;
   };
   expect_certified({plug_in, void_pairs, contacts(0, 0)});
   // But some claim has to be judged: one whose every interval says nothing of the time is none.

@@ -110,6 +110,23 @@ std::vector<SchemaJson> records_of(const std::string& file) {
   return records;
 }
 
+// The members of the contract stand in the order of their list, each as a number of its kind, and
+// nothing else stands beside what the schema names.
+void expect_contract(const SchemaJson& begin) {
+  std::vector<std::string> listed, others;
+#define ASSAY_MEMBER(kind, name, since)                                                  \
+  listed.emplace_back(#name);                                                            \
+  EXPECT_EQ(begin.at(#name).is_number_integer(), std::string(#kind) != "real") << #name; \
+  EXPECT_GE(begin.at(#name), 0) << #name;
+  ASSAY_CONTRACT_MEMBERS(ASSAY_MEMBER)
+#undef ASSAY_MEMBER
+  const auto named = schema_named("log").at("$defs").at("begin").at("properties");
+  for (const auto& [key, value] : begin.items()) {
+    if (!named.contains(key)) others.push_back(key);
+  }
+  EXPECT_EQ(others, listed);
+}
+
 TEST(Schemas, RecordsOfLogsAreOfTheirs) {
   const Scratch scratch;
   const auto c = one_above_another(0.5, -0.5);
@@ -149,6 +166,7 @@ TEST(Schemas, RecordsOfLogsAreOfTheirs) {
       if (record["type"] == "begin") {
         EXPECT_EQ(record["triangles"].size(), 6u);
         EXPECT_EQ(record["positions"].size(), 18u);
+        expect_contract(record);
         EXPECT_EQ(record.contains("counted"), file == "counted.log");
       }
     }
