@@ -23,6 +23,14 @@ constexpr const char* word_of(const char* const (&words)[n], Enum value) {
   return place < n ? words[place] : "unknown";
 }
 
+// The rows of an enum whose list says more than names, in the order of its values.
+template <Listed Enum>
+inline constexpr auto all_rows = names_of(Enum{});
+template <Listed Enum>
+constexpr const auto& row_of(Enum value) {
+  return all_rows<Enum>[static_cast<std::size_t>(value)];
+}
+
 // A whole number that is written in digits alone and fits into T; nothing for other words.
 template <class T = std::uint64_t>
 std::optional<T> whole_number_of(std::string_view word) {

@@ -27,13 +27,13 @@ Claims claims_named(const std::vector<std::string>& words) {
 
 Claims judged_claims(const Claims& claims, const Contract& contract, bool of_queries) {
   Claims judged = claims;
-  for (const auto& row : claim_rows)
+  for (const auto& row : all_rows<Claim>)
     if (*row.why_void(contract, of_queries)) judged.set(row.value, false);
   return judged;
 }
 
 void weigh(const Claims& claims, StepDiff& diff) {
-  for (const auto& row : claim_rows)
+  for (const auto& row : all_rows<Claim>)
     if (claims.has(row.value) && row.shown_by(diff).kind) diff.broken.push_back(row.value);
   if (!diff.broken.empty()) diff.outcome = Outcome::defect;
 }
@@ -43,18 +43,6 @@ Contract contract_of(const detector::Options& options) {
   if (options.separation > 0) contract.adjacency = Adjacency::no_shared_vertex;
   contract.separation = options.separation;
   return contract;
-}
-
-Claims claims_of(const detector::Options& options) {
-  using detector::Arithmetic;
-  const bool exact = options.arithmetic == Arithmetic::exact;
-  Claims claims = {Claim::deterministic, Claim::total};
-  if (!exact && options.arithmetic != Arithmetic::bounded) return claims;
-  for (const Claim proved :
-       {Claim::free_sound, Claim::not_late, Claim::first_time, Claim::first_pairs})
-    claims.set(proved);
-  claims.set(Claim::all_pairs, options.pairs == detector::Pairs::all);
-  return claims.set(Claim::no_spurious, exact).set(Claim::times_unique, exact);
 }
 
 std::string fault_of_name(std::string_view name) {

@@ -71,7 +71,8 @@ constexpr auto names_of(Deed) {
 struct ClaimRow {
   Claim value;
   const char* name;
-  std::uint32_t bit;  // of assay_description::claims; 0: nobody claims it from outside
+  std::uint32_t bit;    // of assay_description::claims; 0: nobody claims it from outside
+  std::uint32_t since;  // the version of the interface in which that bit came
   About about;
   Tried tried;
   Deed deed;
@@ -95,23 +96,23 @@ constexpr auto names_of(Claim) {
     return c.reports_pairs() ? "" : "the detector reports no pairs";
   };
   return std::to_array<ClaimRow>({
-      {free_sound, "free-sound", ASSAY_CLAIM_FREE_SOUND, answers, by_contact, loses,
+      {free_sound, "free-sound", ASSAY_CLAIM_FREE_SOUND, 1, answers, by_contact, loses,
        [](D d) { return if_so(d.answered_free, "answered free", d.first_contact); }},
-      {not_late, "not-late", ASSAY_CLAIM_NOT_LATE, times, by_contact, loses,
+      {not_late, "not-late", ASSAY_CLAIM_NOT_LATE, 1, times, by_contact, loses,
        [](D d) { return if_so(d.late_first, "late", d.first_contact); }},
-      {first_time, "first-time", ASSAY_CLAIM_FIRST_TIME, times, by_stated_time, loses,
+      {first_time, "first-time", ASSAY_CLAIM_FIRST_TIME, 1, times, by_stated_time, loses,
        [](D d) {  // an oracle that was stopped knows no exact first time
          return if_so(d.first && d.late_first, "late", d.first_contact) |
                 if_so(d.first && d.early_first, "early", d.first_contact);
        },
        [](C c, bool) { return c.margin > 0 ? "the contract has a margin" : ""; }},
-      {first_pairs, "first-pairs", ASSAY_CLAIM_FIRST_PAIRS, pairs, by_contact, loses,
+      {first_pairs, "first-pairs", ASSAY_CLAIM_FIRST_PAIRS, 1, pairs, by_contact, loses,
        [](D d) { return d.is_without_excuse ? if_any("missing pair", d.missing) : Shown(); },
        without_pairs},
-      {all_pairs, "all-pairs", ASSAY_CLAIM_ALL_PAIRS, pairs, by_contact, loses,
+      {all_pairs, "all-pairs", ASSAY_CLAIM_ALL_PAIRS, 1, pairs, by_contact, loses,
        [](D d) { return if_any("missing pair", d.missing) | if_any("late pair", d.late); },
        without_pairs},
-      {no_spurious, "no-spurious", ASSAY_CLAIM_NO_SPURIOUS, answers, by_step, reports,
+      {no_spurious, "no-spurious", ASSAY_CLAIM_NO_SPURIOUS, 1, answers, by_step, reports,
        [](D d) {
          const auto pair =
              d.spurious.empty() ? Shown() : Shown{"spurious pair", d.spurious.front().pair};
@@ -123,29 +124,25 @@ constexpr auto names_of(Claim) {
          return c.judges_alarms(of_queries) ? ""
                                             : "the contract has a margin, and tests neighbours";
        }},
-      {deterministic, "deterministic", ASSAY_CLAIM_DETERMINISTIC, runs, by_second_run, differs},
-      {total, "total", ASSAY_CLAIM_TOTAL, runs, by_step, ends,
+      {deterministic, "deterministic", ASSAY_CLAIM_DETERMINISTIC, 1, runs, by_second_run, differs},
+      {total, "total", ASSAY_CLAIM_TOTAL, 1, runs, by_step, ends,
        [](D d) { return if_so(d.owes_answer, d.refused ? name_of(Outcome::refused) : "error"); }},
-      {candidates, "candidates", ASSAY_CLAIM_CANDIDATES, broad_phase, by_candidates, loses,
+      {candidates, "candidates", ASSAY_CLAIM_CANDIDATES, 2, broad_phase, by_candidates, loses,
        [](D d) { return if_any("missing candidate", d.missing_candidates); }},
-      {commit_free, "commit-free", ASSAY_CLAIM_COMMIT_FREE, limits, by_contact_ahead, loses,
+      {commit_free, "commit-free", ASSAY_CLAIM_COMMIT_FREE, 3, limits, by_contact_ahead, loses,
        [](D d) {
          return d.limit && d.limit->hit ? Shown{"contact on the way", *d.limit->hit} : Shown();
        }},
-      {path_free, "path-free", ASSAY_CLAIM_PATH_FREE, limits, by_contact_ahead, loses,
+      {path_free, "path-free", ASSAY_CLAIM_PATH_FREE, 3, limits, by_contact_ahead, loses,
        [](D d) { return if_so(d.limit && d.limit->too_far, "share too large", d.first_contact); }},
-      {progress, "progress", ASSAY_CLAIM_PROGRESS, limits, by_contact_ahead, stops,
+      {progress, "progress", ASSAY_CLAIM_PROGRESS, 3, limits, by_contact_ahead, stops,
        [](D d) {
          return if_so(d.limit && d.limit->too_short, "share too small", d.first_contact);
        }},
-      {whole, "whole-when-safe", ASSAY_CLAIM_WHOLE, limits, by_free_way, stops,
+      {whole, "whole-when-safe", ASSAY_CLAIM_WHOLE, 3, limits, by_free_way, stops,
        [](D d) { return if_so(d.limit && d.limit->is_cut, "free step cut", d.first_contact); }},
-      {times_unique, "times-unique", 0, times, by_contact, loses},
+      {times_unique, "times-unique", 0, 1, times, by_contact, loses},
   });
-}
-inline constexpr auto claim_rows = names_of(Claim());
-constexpr const ClaimRow& row_of(Claim claim) {
-  return claim_rows[static_cast<std::size_t>(claim)];
 }
 
 // A set of claims.
@@ -185,7 +182,7 @@ class Claims {
 constexpr Claims claims_about(std::initializer_list<About> abouts) {
   Claims claims;
   for (const About about : abouts) {
-    for (const auto& row : claim_rows)
+    for (const auto& row : all_rows<Claim>)
       if (row.about == about) claims = claims.with(Claims::of_bits(row.bit));
   }
   return claims;
@@ -193,21 +190,29 @@ constexpr Claims claims_about(std::initializer_list<About> abouts) {
 inline constexpr Claims claims_on_limits = claims_about({About::limits});
 inline constexpr Claims claims_from_outside = claims_about(
     {About::answers, About::times, About::pairs, About::broad_phase, About::limits, About::runs});
-static_assert(std::all_of(claim_rows.begin(), claim_rows.end(), [](const ClaimRow& row) {
+static_assert(std::all_of(all_rows<Claim>.begin(), all_rows<Claim>.end(), [](const ClaimRow& row) {
   return row_of(row.value).value == row.value &&
          (row.bit == 0 || row.bit == Claims({row.value}).bits());
 }));
+
+// What the built-in detector claims. exact: everything. bounded: everything but no-spurious (its
+// intervals hold the times by construction, see StepResult::first). double and float:
+// deterministic and total. With pairs first, no arithmetic claims all-pairs.
+inline Claims claims_of(const detector::Options& options) {
+  const bool exact = options.arithmetic == detector::Arithmetic::exact;
+  const bool proved = exact || options.arithmetic == detector::Arithmetic::bounded;
+  Claims claims = {Claim::deterministic, Claim::total};
+  if (!proved) return claims;
+  claims = claims.with({Claim::free_sound, Claim::not_late, Claim::first_time, Claim::first_pairs});
+  claims.set(Claim::all_pairs, options.pairs == detector::Pairs::all);
+  return claims.set(Claim::no_spurious, exact).set(Claim::times_unique, exact);
+}
 
 // Those of claims_from_outside that `claims` has, in the order of Claim.
 std::vector<Claim> list_of(const Claims& claims);
 // Their words, and the claims of words. A word of no claim is passed over.
 std::vector<std::string> words_of(const Claims& claims);
 Claims claims_named(const std::vector<std::string>& words);
-
-// What the built-in detector claims. exact: everything. bounded: everything but no-spurious (its
-// intervals hold the times by construction, see StepResult::first). double and float:
-// deterministic and total. With pairs first, no arithmetic claims all-pairs.
-Claims claims_of(const detector::Options& options);
 
 // The progress that the built-in detector promises where it limits a step.
 inline constexpr double built_in_progress = 0.9;

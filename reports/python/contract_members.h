@@ -12,7 +12,7 @@ namespace assay::python {
 
 inline pybind11::tuple claim_words() {
   pybind11::list words;
-  for (const auto& row : properties::claim_rows) {
+  for (const auto& row : properties::all_rows<properties::Claim>) {
     if (row.bit != 0) words.append(row.name);
   }
   return words;

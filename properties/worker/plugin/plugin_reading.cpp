@@ -108,10 +108,9 @@ Expected<PluginDescription> read_description(const assay_detector_api& table) {
   if (!given) return broken(nothing_described(table));
   assay_description raw = {};
   std::memcpy(&raw, given, description_bytes(table.abi_version));
-  Claims known = claims_from_outside;
-  if (table.abi_version == first_version) known.set(Claim::candidates, false);
-  constexpr std::int32_t first_with_limits = 3;
-  if (table.abi_version < first_with_limits) known = known.without(claims_on_limits);
+  Claims known;
+  for (const auto& row : all_rows<Claim>)
+    if (row.since <= table.abi_version) known = known.with(Claims::of_bits(row.bit));
   if (raw.claims & ~known.bits()) return broken("unknown bits in its claims");
 
   const PluginParts parts = {table.evaluate != nullptr, table.query != nullptr,
