@@ -66,6 +66,10 @@ T& add_fields(T& sum, const T& addend) {
   return sum;
 }
 
+// A type with `static constexpr bool adds_up = true` is added field by field.
+template <class T>
+requires(T::adds_up) T& operator+=(T& sum, const T& addend) { return add_fields(sum, addend); }
+
 // Such types as JSON objects, and back. An enum is written as its word, and read by its list of
 // words; what is not there is null.
 

@@ -69,10 +69,6 @@ TimesOff& TimesOff::operator+=(const TimesOff& other) {
   return *this;
 }
 
-StepErrors& StepErrors::operator+=(const StepErrors& other) { return add_fields(*this, other); }
-
-LimitUse& LimitUse::operator+=(const LimitUse& other) { return add_fields(*this, other); }
-
 LimitUse use_of(const LimitDiff& limit) {
   LimitUse use;
   if (!limit.ahead) {
@@ -155,10 +151,6 @@ double ratio_of(std::uint64_t of, std::uint64_t in) {
 }
 
 }  // namespace
-
-StepMeasures& StepMeasures::operator+=(const StepMeasures& other) {
-  return add_fields(*this, other);
-}
 
 StepMeasures measures_of(std::span<const StepDiff> diffs,
                          std::span<const detector::StepResult> results) {

@@ -46,7 +46,7 @@ struct LimitUse {
   double used(double part) const;
   std::uint64_t stalled() const;
 
-  LimitUse& operator+=(const LimitUse& other);
+  static constexpr bool adds_up = true;
   friend bool operator==(const LimitUse&, const LimitUse&) = default;
 };
 
@@ -76,7 +76,7 @@ struct StepErrors {
   std::uint64_t answered() const { return steps - undecided; }
   std::uint64_t collisions() const { return contact - missed; }  // of `contact`
 
-  StepErrors& operator+=(const StepErrors& other);
+  static constexpr bool adds_up = true;
   friend bool operator==(const StepErrors&, const StepErrors&) = default;
 };
 
@@ -150,7 +150,7 @@ struct StepMeasures {
   // trials that were run twice and compared, and trials that were judged by a relation.
   std::uint64_t contact_trials = 0, repeated_trials = 0, relation_trials = 0;
 
-  StepMeasures& operator+=(const StepMeasures& other);
+  static constexpr bool adds_up = true;
   friend bool operator==(const StepMeasures&, const StepMeasures&) = default;
 };
 ASSAY_FIELDS(StepMeasures, errors, free_squared, contact_squared, without_time, unanswered,

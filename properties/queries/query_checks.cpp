@@ -252,8 +252,6 @@ bool contradicts(const MethodAnswer& answer, const MethodAnswer& of_oracle,
          (asked.met_at && misses(answer, *asked.met_at));
 }
 
-QueryTally& QueryTally::operator+=(const QueryTally& other) { return add_fields(*this, other); }
-
 std::optional<std::string> check_query(const AskedQuery& asked, std::uint64_t pick,
                                        QueryTally& tally, std::span<const QueryMethod> methods) {
   ++tally.queries;

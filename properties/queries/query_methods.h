@@ -80,7 +80,7 @@ struct QueryTally {
   std::uint64_t open = 0;         // a referee could not tell
   std::uint64_t invariances = 0;  // changes of a query that could be applied
   oracle::RungCounts rungs;       // the rungs of the oracle's timed answer
-  QueryTally& operator+=(const QueryTally& other);
+  static constexpr bool adds_up = true;
 };
 ASSAY_FIELDS(QueryTally, queries, contacts, contradictions, open, invariances, rungs)
 

@@ -24,7 +24,7 @@
 namespace assay::reports {
 
 // Each function renders a part of the findings or gates: a part of a certificate's predicate
-// (schema assay-certificate/7, reports/certificate/README.md).
+// (reports/certificate/README.md).
 
 namespace {
 

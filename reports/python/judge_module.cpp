@@ -226,7 +226,7 @@ py::tuple read_case(const std::string& file) {
   return mesh_and_frames(c.value().triangles, c.value().frames);
 }
 
-// What a certificate would say of the run in a folder, as JSON (assay-certificate/7).
+// What a certificate would say of the run in a folder, as JSON.
 std::string findings(const std::string& folder) {
   const auto found = properties::read_findings(folder);
   if (!found) throw py::value_error(found.error().message);

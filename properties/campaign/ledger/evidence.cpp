@@ -9,27 +9,6 @@
 
 namespace assay::properties {
 
-// The fields of a row are the members of its struct. A line of text is called `what` in all rows.
-ASSAY_FIELDS(Canary, fault, found_after)
-ASSAY_FIELDS(HarnessProblem, what, trials)
-ASSAY_FIELDS(MeshCounts, triangles, vertices, steps)
-ASSAY_FIELDS(ShrunkFault, before, after, calls)
-ASSAY_FIELDS(FaultProof, fault, law, status, curated, needed, cases, time_over, known_vertices,
-             shrunk)
-ASSAY_FIELDS(PowerSource, campaign, detector, seed, program, worker, generator, rows)
-ASSAY_FIELDS(World, world, classes, motions, all, collisions, complete, counterexample)
-ASSAY_FIELDS(PluginIsolation, asked, got)
-ASSAY_FIELDS(SlowCase, id, configuration, undecided, seconds, limit, mesh, smallest)
-ASSAY_FIELDS(Asked, gates, certificate)
-ASSAY_FIELDS(Versions, assay, commit, libraries, corpus)
-ASSAY_FIELDS(JudgedSource::Failed, id, signature, what)
-ASSAY_FIELDS(JudgedSource::Step, step, contacts, holds)
-ASSAY_FIELDS(JudgedSource, source, input, configuration, planned, cases, left_out, steps,
-             collisions, pairs, defects, undecided, complete, failed, open, extremes,
-             triangles_in_contact, triangles, runs, threads, what, broken, judged, causes)
-ASSAY_FIELDS(SpeedFigure, name, median, lo, hi, samples)
-ASSAY_FIELDS(Issued, out, detector, own_cases, data, at, seconds)
-
 namespace {
 
 // Throws StoreProblem if the row is not what to_row makes of what it says: then its key or its
@@ -44,16 +23,15 @@ T told(const Row& row) {
 }
 
 // What the row says becomes one of the list, or the only one, if the row is of its kind.
-template <class T>
-bool takes(std::vector<T>& list, const Row& row) {
+template <class Place>
+bool takes(Place& place, const Row& row) {
+  using T = typename Place::value_type;
   if (row.kind != T::kind) return false;
-  list.push_back(told<T>(row));
-  return true;
-}
-template <class T>
-bool takes(std::optional<T>& only, const Row& row) {
-  if (row.kind != T::kind) return false;
-  only = told<T>(row);
+  if constexpr (requires { place.push_back(T()); }) {
+    place.push_back(told<T>(row));
+  } else {
+    place = told<T>(row);
+  }
   return true;
 }
 

@@ -1,6 +1,7 @@
 // What a run finds out besides its trials: one struct for each kind of evidence, and the functions
 // that turn it into a row of the ledger and back. Each struct states its kind; what it has of
-// key() and progress() goes into the row.
+// key() and progress() goes into the row, whose fields are the members. A line of text is called
+// `what` in all rows.
 //
 // Two runs of one campaign have equal rows, unless the kind `may_differ`: times and paths
 // (SpeedFigure, Issued), a World, which its limit of time may end early, and a SlowCase.
@@ -26,6 +27,7 @@ struct Canary {
   std::optional<std::uint64_t> found_after;  // how many cases that took; nothing: it was not found
   const std::string& key() const { return fault; }
 };
+ASSAY_FIELDS(Canary, fault, found_after)
 
 // What kept the harness itself from going on, after `trials` trials had been stored. `explanation`
 // is empty when nothing did.
@@ -38,14 +40,17 @@ struct HarnessProblem {
   // without one.
   std::uint64_t progress() const { return 2 * trials + (what.empty() ? 0 : 1); }
 };
+ASSAY_FIELDS(HarnessProblem, what, trials)
 
 struct MeshCounts {
   std::uint64_t triangles = 0, vertices = 0, steps = 0;
 };
+ASSAY_FIELDS(MeshCounts, triangles, vertices, steps)
 struct ShrunkFault {
   MeshCounts before, after;
   std::uint64_t calls = 0;  // calls of the reducer's judge
 };
+ASSAY_FIELDS(ShrunkFault, before, after, calls)
 
 // What it took to find a planted fault.
 struct FaultProof {
@@ -75,6 +80,8 @@ struct FaultProof {
   // A hunt that was not ended by the time counts as farther than any that was.
   std::uint64_t progress() const;
 };
+ASSAY_FIELDS(FaultProof, fault, law, status, curated, needed, cases, time_over, known_vertices,
+             shrunk)
 
 // From which run of the same build the proofs of planted faults were taken.
 struct PowerSource {
@@ -85,6 +92,7 @@ struct PowerSource {
   std::string rows;                        // digest of that run's rows
   const std::string& key() const { return campaign; }
 };
+ASSAY_FIELDS(PowerSource, campaign, detector, seed, program, worker, generator, rows)
 struct PowerProof {
   PowerSource source;
   std::vector<FaultProof> faults;
@@ -102,6 +110,7 @@ struct World {
   // A counterexample counts as farther than any number of classes that hold.
   std::uint64_t progress() const;
 };
+ASSAY_FIELDS(World, world, classes, motions, all, collisions, complete, counterexample)
 
 // How the process of a plug-in was isolated in all of a run: the word that was asked for, empty if
 // none was, and the word of what it had.
@@ -109,6 +118,7 @@ struct PluginIsolation {
   static constexpr const char* kind = "isolation";
   std::string asked, got;
 };
+ASSAY_FIELDS(PluginIsolation, asked, got)
 
 // A trial that reached the limit of a case, or came near it.
 struct SlowCase {
@@ -126,6 +136,7 @@ struct SlowCase {
   // farther.
   std::uint64_t progress() const;
 };
+ASSAY_FIELDS(SlowCase, id, configuration, undecided, seconds, limit, mesh, smallest)
 
 // What a verb asked of a run.
 struct Asked {
@@ -133,6 +144,7 @@ struct Asked {
   std::vector<std::string> gates;  // names of gates.h; no other gate is judged
   bool certificate = false;        // a certificate is to be issued: every gate is asked for
 };
+ASSAY_FIELDS(Asked, gates, certificate)
 
 // What issued a certificate: versions of the program and of its libraries, and its cases.
 struct Versions {
@@ -142,6 +154,7 @@ struct Versions {
   std::string libraries;
   std::string corpus{};  // SHA-256 over names and bytes of all cases, own cases too
 };
+ASSAY_FIELDS(Versions, assay, commit, libraries, corpus)
 
 // What one input came to in one configuration. The input is a part of the shipped corpus, a scene,
 // or the owner's cases; a large mesh that was put to a plug-in, several times where it claims to be
@@ -186,6 +199,11 @@ struct JudgedSource {
 
   std::string key() const { return input + ", " + configuration + ", " + name_of(source); }
 };
+ASSAY_FIELDS(JudgedSource::Failed, id, signature, what)
+ASSAY_FIELDS(JudgedSource::Step, step, contacts, holds)
+ASSAY_FIELDS(JudgedSource, source, input, configuration, planned, cases, left_out, steps,
+             collisions, pairs, defects, undecided, complete, failed, open, extremes,
+             triangles_in_contact, triangles, runs, threads, what, broken, judged, causes)
 
 // A ratio of the times of two things that were run in turn.
 struct SpeedFigure {
@@ -196,6 +214,7 @@ struct SpeedFigure {
   std::vector<double> samples;
   const std::string& key() const { return name; }
 };
+ASSAY_FIELDS(SpeedFigure, name, median, lo, hi, samples)
 
 // Where a certificate was issued, and when, and how long that took.
 struct Issued {
@@ -207,6 +226,7 @@ struct Issued {
   std::string at{};         // UTC, 2026-01-31T12:00:00Z; empty: it is not issued yet
   double seconds = 0;
 };
+ASSAY_FIELDS(Issued, out, detector, own_cases, data, at, seconds)
 
 // All that the evidence rows of some stores say. Each list is in the order of stores, then of
 // names.

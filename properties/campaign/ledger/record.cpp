@@ -9,8 +9,6 @@
 
 namespace assay::properties {
 
-ASSAY_FIELDS(LawCount, premise, close, broken, differs, by_culling)
-ASSAY_FIELDS(SetPairCount, contacts, first_contacts)
 ASSAY_FIELDS(StoredFailure, source, case_id, configuration, law, claim, kind, contact, explanation,
              mesh, smallest, smallest_explanation, flaky, printed)
 
@@ -19,9 +17,8 @@ template <class Archive>
 void fields(Archive& archive, TrialRecord& x) {
   archive("outcomes", x.outcomes, "triangles", x.triangles, "steps", x.steps, "collisions",
           x.collisions, "pairs", x.pairs, "oracle_us", x.oracle_us, "detector_us", x.detector_us);
-  archive("slowest_us", x.slowest_us, "disturbed", x.disturbed, "mesh", x.mesh, "tags",
-          x.counts.tags, "set_pairs", x.counts.set_pairs, "laws", x.counts.laws, "measures",
-          x.counts.measures, "extremes", x.counts.extremes);
+  archive("slowest_us", x.slowest_us, "disturbed", x.disturbed, "mesh", x.mesh);
+  fields(archive, x.counts);
 }
 
 namespace {
@@ -34,25 +31,10 @@ std::string key_of(const StoredFailure& failure) {
 
 }  // namespace
 
-LawCount& LawCount::operator+=(const LawCount& other) { return add_fields(*this, other); }
-
-SetPairCount& SetPairCount::operator+=(const SetPairCount& other) {
-  return add_fields(*this, other);
-}
-
 void Extremes::include(const Extremes& other) {
   for (const auto most : {&Extremes::steps_in_a_row, &Extremes::valence, &Extremes::bodies,
                           &Extremes::components, &Extremes::pairs, &Extremes::triangles})
     this->*most = std::max(this->*most, other.*most);
-}
-
-TrialCounts& TrialCounts::operator+=(const TrialCounts& other) {
-  add_to(tags, other.tags);
-  add_to(set_pairs, other.set_pairs);
-  add_to(laws, other.laws);
-  measures += other.measures;
-  extremes.include(other.extremes);
-  return *this;
 }
 
 char letter_of(Outcome outcome) {

@@ -24,16 +24,18 @@ struct LawCount {
   Counts by_culling;
   // Of a plug-in: steps whose answers differ in two forms of a case, which its claims allow.
   std::uint64_t differs = 0;
-  LawCount& operator+=(const LawCount& other);
+  static constexpr bool adds_up = true;
   friend bool operator==(const LawCount&, const LawCount&) = default;
 };
+ASSAY_FIELDS(LawCount, premise, close, broken, differs, by_culling)
 
 // Contacts, and those of them that are the first of their step.
 struct SetPairCount {
   std::uint64_t contacts = 0, first_contacts = 0;
-  SetPairCount& operator+=(const SetPairCount& other);
+  static constexpr bool adds_up = true;
   friend bool operator==(const SetPairCount&, const SetPairCount&) = default;
 };
+ASSAY_FIELDS(SetPairCount, contacts, first_contacts)
 
 // How far cases go, of one case or of many: the largest of each.
 struct Extremes {
@@ -47,6 +49,7 @@ struct Extremes {
   friend bool operator==(const Extremes&, const Extremes&) = default;
 };
 ASSAY_FIELDS(Extremes, steps_in_a_row, valence, bodies, components, pairs, triangles)
+inline void add_to(Extremes& sum, const Extremes& more) { sum.include(more); }
 
 // What is counted of a trial besides its outcomes. The same members add up to what is counted of
 // many.
@@ -57,9 +60,10 @@ struct TrialCounts {
   std::map<std::string, LawCount, std::less<>> laws;
   StepMeasures measures;  // most of them only of a plug-in
   Extremes extremes{};    // of a mesh that was judged; of many the largest of each
-  TrialCounts& operator+=(const TrialCounts& other);
+  static constexpr bool adds_up = true;
   friend bool operator==(const TrialCounts&, const TrialCounts&) = default;
 };
+ASSAY_FIELDS(TrialCounts, tags, set_pairs, laws, measures, extremes)
 
 struct TrialRecord {
   std::string id;  // campaign:seed:family:index
