@@ -294,10 +294,10 @@ std::string verdict_text(const RunFindings& findings, const properties::Judgemen
                                 findings.tally.with_defect(), findings.tally.open(),
                                 properties::broken_laws(findings.tally.counts));
   if (differing) out += fmt::format(", {} larger meshes on which runs differ", differing);
-  if (const auto wrong_steps = evidence.sum_of(Source::repeated).defects)
-    out += fmt::format(", {} wrong steps of larger meshes", wrong_steps);
-  if (const auto defects = evidence.sum_of(Source::search).defects)
-    out += fmt::format(", {} cases of the search with a defect", defects);
+  for (const auto& source : properties::all_rows<Source>) {
+    const auto defects = evidence.sum_of(source.value).defects;
+    if (*source.defects && defects) out += fmt::format(", {} {}", defects, source.defects);
+  }
   return out;
 }
 

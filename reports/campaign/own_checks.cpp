@@ -137,7 +137,8 @@ class CorpusCheck {
   void judge(const corpus::Case& c, properties::WorkerProcess& worker,
              std::vector<JudgedSource>& rows) {
     const auto source = rows.front().source;
-    const auto id = (source == Source::own ? "own/" : "") + c.id;
+    // Ids of a source that counts as another one have its own prefix behind that one's.
+    const auto id = (row_of(source).counts_as == source ? "" : row_of(source).prefix) + c.id;
     const auto seen = properties::contracted(c, request_.detector.contract);
     for (auto& row : rows) ++(seen ? row.cases : row.left_out);
     if (!seen) return;  // the case is beyond the contract

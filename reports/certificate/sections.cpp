@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <initializer_list>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "corpus/cases/case_file.h"
 #include "corpus/digest.h"
@@ -85,14 +85,15 @@ Json facts_of(const T& evidence) {
   return facts;
 }
 
-// These facts of each input of a source; null if there is none.
-Json inputs_json(const RunFindings& findings, Source source,
-                 std::initializer_list<const char*> names) {
+// What the row of a source shows of each of its inputs; null if there is none.
+Json inputs_json(const RunFindings& findings, Source source) {
   Json inputs;
   for (const auto& row : findings.evidence.rows_of(source)) {
     const auto facts = facts_of(row);
     Json& input = inputs.emplace_back();
-    for (const char* name : names) input[name] = facts[name];
+    std::istringstream words(row_of(source).shown);
+    for (std::string word; words >> word;)
+      input[word.substr(0, word.find('='))] = facts[word.substr(word.find('=') + 1)];
   }
   return inputs;
 }
@@ -251,33 +252,13 @@ Json power_json(const RunFindings& findings) {
 
 // Null if no self-test was run.
 Json self_test_json(const RunFindings& findings) {
-  Json families;
-  for (const auto& row : findings.evidence.rows_of(Source::self_test))
-    families.push_back({{"family", row.input},
-                        {"complete", row.complete},
-                        {"contacts", row.collisions},
-                        {"contradictions", row.defects},
-                        {"open", row.undecided},
-                        {"queries", row.cases}});
+  auto families = inputs_json(findings, Source::self_test);
   if (families.is_null()) return nullptr;
   const auto sum = findings.evidence.sum_of(Source::self_test);
   return {{"queries", sum.cases},
           {"contradictions", sum.defects},
           {"complete", sum.complete},
           {"families", std::move(families)}};
-}
-
-Json corpus_json(const RunFindings& findings) {
-  return inputs_json(findings, Source::corpus,
-                     {"cases", "collisions", "configuration", "defects", "extremes", "failed",
-                      "input", "left_out", "open", "pairs", "steps", "triangles_in_contact"});
-}
-
-// One object for each large mesh that was put to a plug-in again and again; null if none was.
-Json repeated_json(const RunFindings& findings) {
-  return inputs_json(findings, Source::repeated,
-                     {"broken", "configuration", "extremes", "input", "judged", "runs", "steps",
-                      "threads", "triangles", "what"});
 }
 
 // How many cases the search asked, and what it found; null if the campaign has none.
@@ -434,37 +415,38 @@ Json make_predicate(const RunFindings& findings, const properties::Judgement& ju
   for (const auto& problem : findings.evidence.problems) {
     if (!problem.what.empty()) problems.push_back(problem.what);
   }
-  return for_any_reader(
-      findings,
-      {{"schema", certificate_schema},
-       {"verdict", judgement.verdict},
-       {"exit_code", judgement.exit_code},
-       {"failed_gate",
-        judgement.failed ? Json(properties::rule_of(*judgement.failed).name) : Json(nullptr)},
-       {"gates", gates_json(judgement)},
-       {"detector", json_of(findings.run.detector)},
-       {"not_judged", fields_of_each(properties::not_judged(findings))},
-       {"judged_up_to", fields_of_each(properties::judged_sizes(findings))},
-       {"tried", tried_json(findings)},
-       {"left_out_families", properties::left_out_families(findings)},
-       {"isolation", isolation_json(findings)},
-       {"versions", versions_json(findings)},
-       {"campaign", campaign_json(findings, plan)},
-       {"confidence", confidence_json(findings)},
-       {"strata", strata_json(findings)},
-       {"cases", cases_json(findings)},
-       {"laws", laws_json(findings)},
-       {"power", power_json(findings)},
-       {"harness_problems", std::move(problems)},
-       {"self_test", self_test_json(findings)},
-       {"corpus", corpus_json(findings)},
-       {"repeated", repeated_json(findings)},
-       {"search", search_json(findings)},
-       {"failures", failures_json(findings)},
-       {"failure_groups", failure_groups_json(findings)},
-       {"replay", replay_json(findings)},
-       {"digests", digests_json(findings, campaign_digest)},
-       {"times", times_json(findings)}});
+  Json predicate = {
+      {"schema", certificate_schema},
+      {"verdict", judgement.verdict},
+      {"exit_code", judgement.exit_code},
+      {"failed_gate",
+       judgement.failed ? Json(properties::rule_of(*judgement.failed).name) : Json(nullptr)},
+      {"gates", gates_json(judgement)},
+      {"detector", json_of(findings.run.detector)},
+      {"not_judged", fields_of_each(properties::not_judged(findings))},
+      {"judged_up_to", fields_of_each(properties::judged_sizes(findings))},
+      {"tried", tried_json(findings)},
+      {"left_out_families", properties::left_out_families(findings)},
+      {"isolation", isolation_json(findings)},
+      {"versions", versions_json(findings)},
+      {"campaign", campaign_json(findings, plan)},
+      {"confidence", confidence_json(findings)},
+      {"strata", strata_json(findings)},
+      {"cases", cases_json(findings)},
+      {"laws", laws_json(findings)},
+      {"power", power_json(findings)},
+      {"harness_problems", std::move(problems)},
+      {"self_test", self_test_json(findings)}};
+  for (const auto& row : properties::all_rows<Source>)
+    if (*row.section)
+      predicate[row.section] =
+          *row.shown ? inputs_json(findings, row.value) : search_json(findings);
+  predicate.update(Json{{"failures", failures_json(findings)},
+                        {"failure_groups", failure_groups_json(findings)},
+                        {"replay", replay_json(findings)},
+                        {"digests", digests_json(findings, campaign_digest)},
+                        {"times", times_json(findings)}});
+  return for_any_reader(findings, std::move(predicate));
 }
 
 }  // namespace assay::reports

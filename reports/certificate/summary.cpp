@@ -68,10 +68,11 @@ std::string strata_text(const Json& p) {
 // "met 3 times", or that no trial showed it.
 std::string met_text(const Json& failure) {
   const auto trials = count(failure["met"]);
+  if (trials > 0) return "met " + properties::times_text(trials);
   const auto id = failure["case"].get<std::string>();
-  return trials > 0                  ? "met " + properties::times_text(trials)
-         : id.starts_with("search/") ? "found by the search alone"
-                                     : "met in the corpus alone";
+  for (const auto& source : properties::all_rows<properties::Source>)
+    if (*source.prefix && id.starts_with(source.prefix)) return source.met_in_summary;
+  return properties::row_of(properties::Source::corpus).met_in_summary;
 }
 
 std::string failures_text(const Json& p) {

@@ -136,7 +136,7 @@ void check_repetitions(const RunFindings& f, GateFindings& found) {
   wanted.emplace_back(name_of_long_sequence);
   const auto& configurations = f.run.detector.configurations;
   if (!configurations.empty() && claims_named(configurations[0].claims).has_any(claims_on_limits)) {
-    for (const auto kind : all_values<WalkKind>) wanted.push_back(name_of_walk(kind));
+    for (const auto kind : all_values<WalkKind>) wanted.emplace_back(name_of(kind));
   }
   const auto rows = f.evidence.rows_of(Source::repeated);
   const auto done = std::ranges::count_if(wanted, [&](const std::string& name) {

@@ -169,8 +169,7 @@ void EvidenceFacts::add(EvidenceFacts other) {
     if (known.progress() < world.progress()) known = world;
   });
   for (const auto& row : other.sources) {
-    const bool has_seed = row.source == Source::repeated || row.source == Source::search;
-    has_seed ? sources.push_back(row) : append_new(sources, {row});
+    row_of(row.source).is_drawn ? sources.push_back(row) : append_new(sources, {row});
   }
   append(canaries, other.canaries);
   append(problems, other.problems);
@@ -188,11 +187,10 @@ void EvidenceFacts::add(EvidenceFacts other) {
 }
 
 std::vector<JudgedSource> EvidenceFacts::rows_of(Source source) const {
-  std::vector<JudgedSource> rows;
-  for (const auto& row : sources) {
-    const bool is_part = row.source == Source::own && source == Source::corpus;
-    if (row.source == source || is_part) rows.push_back(row);
-  }
+  auto rows = sources;
+  std::erase_if(rows, [&](const JudgedSource& row) {
+    return row.source != source && row_of(row.source).counts_as != source;
+  });
   return rows;
 }
 

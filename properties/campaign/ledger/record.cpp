@@ -53,7 +53,8 @@ std::string about_text(const std::string& signature, const std::string& explanat
 }
 
 std::string StoredFailure::id() const {
-  return (is_of_corpus() ? "corpus/" : source == Source::repeated ? "repeated/" : "") + case_id;
+  const std::string prefix = row_of(row_of(source).counts_as).prefix;
+  return case_id.starts_with(prefix) ? case_id : prefix + case_id;
 }
 
 std::string StoredFailure::broken() const {
@@ -69,10 +70,8 @@ std::string StoredFailure::shown_configuration() const {
 }
 
 std::string StoredFailure::met_text(std::uint64_t trials) const {
-  if (trials == 0 && source == Source::search) return "found by the search";
-  if (trials == 0 && source == Source::repeated) return "met on a large mesh or a long sequence";
-  if (trials == 0 && is_of_corpus()) return "met in the corpus alone";
-  return "met " + times_text(trials);
+  const std::string elsewhere = row_of(source).met;
+  return trials == 0 && !elsewhere.empty() ? elsewhere : "met " + times_text(trials);
 }
 
 std::string StoredFailure::shown_explanation() const {

@@ -90,14 +90,39 @@ inline constexpr char not_run = '-';
 
 // Where the cases come from that a campaign judges.
 enum class Source : std::uint8_t { trial, corpus, own, repeated, search, self_test };
+
+// All that there is to know of a source: who names its cases, adds up what they came to or shows
+// it reads it here.
+struct SourceRow {
+  Source value;
+  const char* name;
+  Source counts_as;    // itself, or the source of which it is a part
+  bool is_drawn;       // by the seed: runs under other seeds have other cases, which add up
+  const char* prefix;  // of the ids of its failures; no trial's id begins so
+  // Where a kind of failure was met that no trial has shown, and the same in a summary; and what is
+  // counted behind the verdict.
+  const char *met = "", *met_in_summary = "", *defects = "";
+  // Its section of a certificate, where that lists its inputs, and what is shown of each: members
+  // of JudgedSource, with another name in front where they have one ("queries=cases").
+  const char *section = "", *shown = "";
+};
 constexpr auto names_of(Source) {
   using enum Source;
-  return std::to_array<Named<Source>>({{trial, "trial"},
-                                       {corpus, "corpus"},
-                                       {own, "own cases"},
-                                       {repeated, "repeated"},
-                                       {search, "search"},
-                                       {self_test, "self-test"}});
+  constexpr const char* in_corpus = "met in the corpus alone";
+  return std::to_array<SourceRow>(
+      {{trial, "trial", trial, true, ""},
+       {corpus, "corpus", corpus, false, "corpus/", in_corpus, in_corpus, "", "corpus",
+        "cases collisions configuration defects extremes failed input left_out open pairs steps "
+        "triangles_in_contact"},
+       {own, "own cases", corpus, false, "own/", in_corpus, in_corpus},
+       {repeated, "repeated", repeated, true, "repeated/", "met on a large mesh or a long sequence",
+        in_corpus, "wrong steps of larger meshes", "repeated",
+        "broken configuration extremes input judged runs steps threads triangles what"},
+       {search, "search", search, true, "search/", "found by the search",
+        "found by the search alone", "cases of the search with a defect", "search"},
+       {self_test, "self-test", self_test, false, "", "", "", "", "",
+        "family=input complete contacts=collisions contradictions=defects open=undecided "
+        "queries=cases"}});
 }
 
 // A defect, with its mesh if that is kept. `mesh` and `smallest` are case files (assay-case/1) as
@@ -116,10 +141,10 @@ struct StoredFailure {
   bool flaky = false;                  // its case alone, in a new process, comes to something else
   std::string printed{};               // by the plug-in as it failed; may differ between runs
 
-  // As people see them. The id is "corpus/NAME" for the corpus, shipped or of the owner, and
-  // "repeated/NAME" for a large mesh; no trial's id begins so, because the name of a campaign has
-  // no '/'. A broken law stands in both others, "law L3_..." and "view-point, law L3_...", because
-  // one case may break both a law and a claim in the same configuration.
+  // As people see them. The id begins with the prefix of what its source counts as, "corpus/NAME";
+  // no trial's id begins so, because the name of a campaign has no '/'. A broken law stands in both
+  // others, "law L3_..." and "view-point, law L3_...", because one case may break both a law and a
+  // claim in the same configuration.
   std::string id() const, signature() const, shown_configuration() const;
   std::string broken() const;  // law and claim, with which the signature begins
   // The explanation of the smallest mesh, if there is one. Of a flaky failure, which is not shrunk,
@@ -127,7 +152,7 @@ struct StoredFailure {
   std::string shown_explanation() const;
   // "met 3 times"; of a kind that no trial has shown, where it was found.
   std::string met_text(std::uint64_t trials) const;
-  bool is_of_corpus() const { return source == Source::corpus || source == Source::own; }
+  bool is_of_corpus() const { return row_of(source).counts_as == Source::corpus; }
 };
 
 // What is said behind the explanation of a failure that its own case does not show.

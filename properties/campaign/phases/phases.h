@@ -158,20 +158,17 @@ enum class WalkKind : std::uint8_t {
   squeezed,     // two plates come together about one
   far_away,     // a pile, 2^20 of its sizes from the origin
 };
+// The names are the ids of walks.
 constexpr auto names_of(WalkKind) {
   using enum WalkKind;
-  return std::to_array<Named<WalkKind>>({{resting, "resting"},
-                                         {sliding, "sliding"},
-                                         {pile, "pile"},
-                                         {closing_gap, "closing-gap"},
-                                         {far_goal, "far-goal"},
-                                         {squeezed, "squeezed"},
-                                         {far_away, "far-away"}});
+  return std::to_array<Named<WalkKind>>({{resting, "walk-resting"},
+                                         {sliding, "walk-sliding"},
+                                         {pile, "walk-pile"},
+                                         {closing_gap, "walk-closing-gap"},
+                                         {far_goal, "walk-far-goal"},
+                                         {squeezed, "walk-squeezed"},
+                                         {far_away, "walk-far-away"}});
 }
-
-// The id of a walk, "walk-pile", and what all of them begin with.
-inline constexpr const char* walk_in_id = "walk-";
-std::string name_of_walk(WalkKind kind);
 
 // The number of steps of a walk in a campaign.
 inline constexpr int steps_of_a_walk = 1000;

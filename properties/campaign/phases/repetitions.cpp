@@ -48,6 +48,10 @@ Eigen::Matrix3d drawn_map(Random& random) {
   return Eigen::Matrix3d::Identity() + drawn_entries(random, most);
 }
 
+std::string random_key(std::uint64_t seed, const std::string& input) {
+  return fmt::format("{}{}:{}", row_of(Source::repeated).prefix, seed, input);
+}
+
 std::string name_of_form(const corpus::SceneInfo& scene, int form) {
   return form == 0 ? std::string(scene.name) : fmt::format("{}-{}", scene.name, form + 1);
 }
@@ -58,7 +62,7 @@ corpus::Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triang
                             std::uint64_t seed, int form) {
   constexpr int least_frames = 6, most_frames = 18, most_copies = 6;
   const std::string name = name_of_form(scene, form);
-  Random random(fmt::format("repeated/{}:{}", seed, name));
+  Random random(random_key(seed, name));
   corpus::SceneOptions options;
   int copies = 1;
   options.size = static_cast<int>(triangles);
@@ -93,7 +97,7 @@ corpus::Case long_sequence(std::uint64_t seed) {
   constexpr double most_drift = 0.08;
   corpus::Case c;
   c.id = name_of_long_sequence;
-  Random random(fmt::format("repeated/{}:{}", seed, c.id));
+  Random random(random_key(seed, c.id));
   const auto name = meeting[random.below(static_cast<int>(std::size(meeting)))];
   corpus::SceneOptions options;
   options.size = random.between(least_size, most_size);
@@ -463,7 +467,7 @@ void repeat_large_meshes(const CampaignRequest& request, Store& store, RunDeadli
         return walk(kind, request.seed, steps_of_a_walk, detector.contract,
                     [&](const corpus::Case& step) { return repetitions.limit_of(step); });
       };
-      put(name_of_walk(kind), JudgedSteps::all, walked, "");
+      put(name_of(kind), JudgedSteps::all, walked, "");
     }
   }
   for (const auto& c : request.repeated) put(c.id, JudgedSteps::none, [&] { return c; });

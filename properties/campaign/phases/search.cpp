@@ -56,9 +56,9 @@ class ShareSearch {
     const Exam exam{request_.detector, request_.detector.configurations, &worker};
     const auto examine = examine_in_lane(exam);
     while (const auto lane = next_lane()) {
-      const SearchLane searched{
-          fmt::format("search/{}:{}:{}", request_.plan.name, request_.seed, name_of_lane(*lane)),
-          cases_of_lane(cases_, *lane)};
+      const SearchLane searched{fmt::format("{}{}:{}:{}", row_of(Source::search).prefix,
+                                            request_.plan.name, request_.seed, name_of_lane(*lane)),
+                                cases_of_lane(cases_, *lane)};
       const auto result = search(searched, space_, examine, [this] { return is_over(); });
       keep(*lane, result, exam);
     }

@@ -15,6 +15,13 @@ using Row = Eigen::RowVector3d;
 constexpr int corners_of_a_plate = 4, corners_of_a_body = 4;
 constexpr double half_of_a_plate = 8, size_of_a_body = 1, far_off = 0x1p20;
 
+template <class Matrix, class OneRow>
+Matrix matrix_of(const std::vector<OneRow>& rows) {
+  Matrix out(static_cast<Eigen::Index>(rows.size()), 3);
+  for (Eigen::Index i = 0; i < out.rows(); ++i) out.row(i) = rows[static_cast<std::size_t>(i)];
+  return out;
+}
+
 class Bodies {
  public:
   Bodies(Random& random, double gap) : random_(random), gap_(gap) {}
@@ -43,17 +50,8 @@ class Bodies {
 
   Row drawn() { return {random_.signed_unit(), random_.signed_unit(), random_.signed_unit()}; }
 
-  detector::Triangles triangles() const {
-    detector::Triangles out(static_cast<Eigen::Index>(triangles_.size()), 3);
-    for (std::size_t t = 0; t < triangles_.size(); ++t)
-      out.row(static_cast<Eigen::Index>(t)) = triangles_[t];
-    return out;
-  }
-  Positions positions() const {
-    Positions out(static_cast<Eigen::Index>(rows_.size()), 3);
-    for (std::size_t v = 0; v < rows_.size(); ++v) out.row(static_cast<Eigen::Index>(v)) = rows_[v];
-    return out;
-  }
+  detector::Triangles triangles() const { return matrix_of<detector::Triangles>(triangles_); }
+  Positions positions() const { return matrix_of<Positions>(rows_); }
 
  private:
   void add_triangle(int a, int b, int c) { triangles_.emplace_back(a, b, c); }
@@ -159,11 +157,9 @@ class Driver {
 
 }  // namespace
 
-std::string name_of_walk(WalkKind kind) { return std::string(walk_in_id) + name_of(kind); }
-
 corpus::Case walk(WalkKind kind, std::uint64_t seed, int steps, const Contract& contract,
                   const AskedLimit& ask) {
-  const std::string id = name_of_walk(kind);
+  const std::string id = name_of(kind);
   Random random(fmt::format("{}:{}", seed, id));
   const Scene scene = scene_of(kind, random, contract.separation);
   Driver driver(kind, scene, random);

@@ -344,7 +344,7 @@ TEST(Gates, APlugInIsGivenEverySceneAndALimiterEveryWalk) {
   };
   const auto walks = [&](std::size_t count) -> Change {
     return [=](auto& f) {
-      for (std::size_t i = 0; i < count; ++i) given(f, name_of_walk(all_values<WalkKind>[i]));
+      for (std::size_t i = 0; i < count; ++i) given(f, name_of(all_values<WalkKind>[i]));
     };
   };
   const auto all = all_values<WalkKind>.size();

@@ -110,7 +110,7 @@ TEST(Walks, AreOfTheirSeedAlone) {
   const auto stays = [](const corpus::Case& step) { return std::optional(step.frames[0]); };
   for (const auto kind : all_values<WalkKind>) {
     const auto c = walk(kind, 3, 10, {}, stays);
-    EXPECT_EQ(c.id, name_of_walk(kind));
+    EXPECT_EQ(c.id, name_of(kind));
     EXPECT_EQ(c.frames, walk(kind, 3, 10, {}, stays).frames);
     EXPECT_NE(c.frames, walk(kind, 4, 10, {}, stays).frames);
     EXPECT_TRUE(judge_under({}, {c.frames[0], c.frames[0]}, c.triangles).pairs.empty())
