@@ -10,6 +10,8 @@
 // over the step, which fail as soon as a motion is longer than the things that move.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -115,25 +117,36 @@ class FloatGrid {
     return {start, motion.is_at_rest() ? start : (*this)(motion.vertices_t1, vertex)};
   }
 
-  // Margins in floats for a distance d, 0 for d = 0. Points that are ordered by more than margin(d)
+  // Margins in floats for a distance d of 0 or more. Points that are ordered by more than margin(d)
   // along an axis, or whose boxes are apart although each was grown by half of it, are farther
-  // apart than d along that axis.
+  // apart than d along that axis, by 2^-22 or more of what the grid brings to 1.
   //
   // f(x) is off by at most 2^-23: |(x - centre) scale| <= 2 is rounded to float, and to double
   // before. Let D = d scale, m = D (1 + 2^-20) + 2^-20, and a margin or a bound of a grown box be
   // rounded by 2^-24 (2 + m) at most. Boxes are compared after two such roundings. So the order
   // proves that the scaled coordinates differ by more than
-  //   m - 2 * 2^-24 (2 + m) - 2 * 2^-23 > D (1 + 2^-20 - 2^-22) + 2^-20 - 2^-21 - 2^-40 > D.
+  //   m - 2 * 2^-24 (2 + m) - 2 * 2^-23 > D (1 + 2^-20 - 2^-22) + 2^-20 - 2^-21 - 2^-40 > D + 2^-22.
   // The rounding of m itself, by 2^-24 m, is covered in the same way. A margin may be infinite.
   FloatLanes margin(double d) const {
     const auto by = [&](int k) { return margin_of(d * scale_[k]); };
-    return d == 0 ? FloatLanes{} : FloatLanes{by(0), by(1), by(2), 0};
+    return FloatLanes{by(0), by(1), by(2), 0};
   }
   // The same for sums of coordinates along the diagonals (feature_pairs.h), with the margin that
   // these need for d = 0: along a diagonal a distance of d is sqrt(3) d.
   float diagonal_margin(double d) const {
     constexpr double root = 1.7320508075688774;
     return margin_of(root * (d * common_scale_));
+  }
+
+  // How far off positions may be, by axis, for what boxes with a margin told apart: 2^-26 of the
+  // unit, less what comparing them is off by (kept_features.h). Negative where that is more, and NaN
+  // where the unit is no double: nothing is as near as that.
+  std::array<double, 3> tolerance() const {
+    const auto r = [&](int k) {
+      const double unit = 1 / scale_[k], largest = std::abs(centre_[k]) + 2 * unit;
+      return 0x1p-26 * unit - (0x1p-48 * largest + 0x1p-1060);
+    };
+    return {r(0), r(1), r(2)};
   }
 
   // (x - centre), multiplied by one power of two for all axes. Each coordinate is at most 2 in

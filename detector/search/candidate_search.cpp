@@ -18,7 +18,7 @@ CandidateSearch::CandidateSearch(const SearchStages& stages, const Topology& mes
       stop_(pace.stop()),
       pace_(pace),
       contacts_(mesh, motion, stages.elementary, Want::first_time, memory.representatives,
-                memory.marks.types, &pace_) {
+                memory.marks.types) {
   contacts_.sort_by(stages.relation);
   if (pace.workers()) contacts_.make_lanes(pace.workers()->count());
 }
@@ -44,6 +44,7 @@ bool CandidateSearch::change_types(std::span<const Marking::Change> changes) {
 bool CandidateSearch::follow_marks() {
   constexpr std::uint64_t work_of_mark = 8;  // in box tests
   const auto& [types, flags, changed] = memory_.marks;
+  if (!changed.empty()) memory_.near.forget();
   if (pace_.after(work_of_mark * changed.size())) return false;
   return memory_.is_whole = memory_.representatives.update(mesh_, types, changed, &pace_);
 }
@@ -73,7 +74,12 @@ void CandidateSearch::prove_apart() {
   constexpr double least_asked = 0.125;
   if (std::exchange(has_proved_apart_, true) || asked_share() < least_asked) return;
   contacts_.ask(AskedTypes::in_first_search(stages_.rule.candidates()));
+  fit_features();
   contacts_.prove_apart(tree_.wide(), &pace_);
+}
+
+void CandidateSearch::fit_features() {
+  if (!std::exchange(has_features_, true)) contacts_.take_near_in(motion_, 0, &pace_);
 }
 
 void CandidateSearch::look_for_first(const TimeBound& bound, BoundingVolumeTree& tree) {
@@ -81,10 +87,14 @@ void CandidateSearch::look_for_first(const TimeBound& bound, BoundingVolumeTree&
   contacts_.leave_out_later_than(bound);
 }
 
+void CandidateSearch::lower_bound() {
+  first_->bound.until = std::min(first_->bound.until, contacts_.least_end());
+  contacts_.leave_out_later_than(first_->bound);
+}
+
 bool CandidateSearch::tighten() {
   auto& [bound, tree, asked_until, fitted] = *first_;
-  bound.until = std::min(bound.until, contacts_.least_end());
-  contacts_.leave_out_later_than(bound);
+  lower_bound();
   // If times are not unique, what is found depends on which pairs are tested: those that doubles
   // cannot tell from a contact. So it must not depend on which contact was found before.
   const double useful = bound.has_unique_times ? bound.until : asked_until;
@@ -130,12 +140,31 @@ bool CandidateSearch::search(const PairTables& tables, bool uses_proofs) {
          contacts_.run(stop_, &pace_);
 }
 
-bool CandidateSearch::collect(bool uses_proofs) {
+bool CandidateSearch::collect(bool uses_proofs, bool keeps) {
   const PairTables k = stages_.rule.candidates();
   contacts_.ask(AskedTypes::in_first_search(k));
+  const bool has_proofs = uses_proofs && stages_.search.has_proofs();
   // Proofs of patches leave out the same pairs.
-  if (!uses_proofs || !stages_.search.has_proofs()) prove_apart();
-  return !pace_.stopped() && search(k, uses_proofs);
+  if (!has_proofs) prove_apart();
+  fit_features();
+  memory_.near.forget();
+  const std::size_t most = KeptFeatures::most(mesh_);
+  keeps = keeps && !has_proofs && !motion_.is_at_rest();
+  if (keeps) contacts_.list_keys(most, memory_.near.take_room());
+  if (pace_.stopped() || !search(k, uses_proofs)) return false;
+  const double until = first_ ? first_->fitted : 1;
+  if (!keeps || until == 0) return true;
+  if (auto keys = contacts_.take_keys(); keys.size() <= most)
+    memory_.near.keep(motion_, until, contacts_.grid(), std::move(keys), pace_);
+  return !pace_.stopped();
+}
+
+bool CandidateSearch::collect_kept() {
+  for (std::size_t i = 0; i < KeptFeatures::parts; ++i) {
+    if (first_) lower_bound();
+    if (!contacts_.run(memory_.near.part(i), stop_, &pace_)) return false;
+  }
+  return true;
 }
 
 bool CandidateSearch::close() {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "detector/search/feature_contacts.h"
+#include "detector/search/kept_features.h"
 #include "detector/search/pair_search.h"
 
 namespace assay::detector {
@@ -16,8 +17,8 @@ struct SearchStages {
   const PairRelation* relation = nullptr;  // null: everything counts
 };
 
-// What is kept from one search to the next. It depends on the mesh and on the types that were
-// marked last, on nothing else of the steps before.
+// What is kept from one search to the next. Marks and representatives depend on the mesh and on the
+// types that were marked last, on nothing else of the steps before.
 struct SearchMemory {
   // If `pace` was stopped, it must not be used.
   SearchMemory(const Topology& mesh, const BoundingVolumeTree& tree, PacedStop* pace = nullptr)
@@ -26,13 +27,13 @@ struct SearchMemory {
   Representatives representatives;
   // Whether marks and representatives are of the same types; false after a stop between the two.
   bool is_whole = true;
+  KeptFeatures near;  // of a step with these types
 };
 
 class CandidateSearch {
  public:
-  // REQUIRES a search that was fitted to the step, with its tree, and a stop function that all
-  // workers of `pace` may call, such as that of SharedStop. The references must outlive this
-  // object.
+  // REQUIRES a stop function that all workers of `pace` may call, such as that of SharedStop. The
+  // references must outlive this object.
   CandidateSearch(const SearchStages& stages, const Topology& mesh, const BoundingVolumeTree& tree,
                   SearchMemory& memory, const SteppedMesh& motion, const PacedStop& pace);
 
@@ -43,14 +44,19 @@ class CandidateSearch {
   // REQUIRES that nothing was collected yet.
   void look_for_first(const TimeBound& bound, BoundingVolumeTree& tree);
 
-  // A step calls mark, collect and, if it closes the set of pairs, close; each returns false if it
-  // was stopped.
+  // A step calls mark; then collect, or collect_kept if all that may meet is kept; and close, if it
+  // closes the set of pairs. Each returns false if it was stopped.
 
   // Sets the marks of the tree to these types, by triangle. REQUIRES none of those of the closure.
   bool mark(std::span<const TriangleType> types);
   // Finds the candidates and tests their feature pairs. With uses_proofs the search leaves out the
-  // pairs that it can prove apart (PatchProofs).
-  bool collect(bool uses_proofs = true);
+  // pairs that it can prove apart (PatchProofs). With `keeps` it keeps what was near for a later
+  // question (L20). REQUIRES a search that was fitted to the step, with its tree.
+  bool collect(bool uses_proofs = true, bool keeps = false);
+  // Whether an earlier search of the same types has kept all that may meet. REQUIRES mark().
+  bool is_kept() { return memory_.near.cover(motion_, first_ ? first_->asked_until : 1, pace_); }
+  // Tests what is kept. REQUIRES is_kept().
+  bool collect_kept();
   // See MeshSearch.
   ProvableShares provable_shares() const { return stages_.search.provable_shares(mesh_); }
   // An estimate, from a few hundred edges spread over the mesh: the share of pairs of triangles at
@@ -83,11 +89,14 @@ class CandidateSearch {
 
  private:
   bool search(const PairTables& tables, bool uses_proofs);
+  void fit_features();
   // Proves pairs apart, once, if enough pairs of neighbours are asked for.
   void prove_apart();
   double share_of_edges(bool open_alone) const;
-  // Takes the earliest contact so far for the bound. False if it was stopped. REQUIRES that all
-  // candidates so far were tested.
+  // Takes the earliest contact so far for the bound. REQUIRES that all candidates so far were
+  // tested.
+  void lower_bound();
+  // The same, and fits boxes to what is left of the step. False if it was stopped.
   bool tighten();
   bool change_types(std::span<const Marking::Change> changes);
   // Brings the representatives up to the marks.
@@ -105,7 +114,7 @@ class CandidateSearch {
   SearchCounts counts_;
   MarkingCounts marking_counts_;
   std::uint64_t closure_rounds_ = 0;
-  bool has_proved_apart_ = false;
+  bool has_features_ = false, has_proved_apart_ = false;
   // Where the first contact is looked for: what it is found by.
   struct First {
     TimeBound bound;

@@ -1,6 +1,7 @@
 #include "detector/search/feature_contacts.h"
 
 #include <atomic>
+#include <iterator>
 #include <utility>
 
 #include "detector/parallel/workers.h"
@@ -22,21 +23,22 @@ struct FeatureContacts::OneType {
 FeatureContacts::FeatureContacts(const Topology& mesh, const SteppedMesh& motion,
                                  const ElementaryTest& elementary, Want want,
                                  const Representatives& representatives,
-                                 const std::vector<TriangleType>& types, PacedStop* pace)
+                                 const std::vector<TriangleType>& types)
     : mesh_(mesh),
       motion_(motion),
       elementary_(elementary),
       want_(want),
       neighbours_count_(elementary.separation() == 0),
-      pairs_(mesh, motion, representatives, types, pace, elementary.separation()) {
+      pairs_(mesh, representatives, types) {
   make_lanes(1);
 }
 
 FeatureContacts::FeatureContacts(const Topology& mesh, const SteppedMesh& motion,
                                  const ElementaryTest& elementary, Want want,
                                  std::unique_ptr<OneType> own, PacedStop* pace)
-    : FeatureContacts(mesh, motion, elementary, want, own->representatives, own->types, pace) {
+    : FeatureContacts(mesh, motion, elementary, want, own->representatives, own->types) {
   own_ = std::move(own);
+  take_near_in(motion, 0, pace);
 }
 
 FeatureContacts::FeatureContacts(const Topology& mesh, const SteppedMesh& motion,
@@ -285,9 +287,18 @@ void FeatureContacts::settle_in_lanes(const QueryKernels& kernels, Lane& lane) c
   std::swap(lane.untested, lane.open);
 }
 
+template <class Lists>
+void FeatureContacts::list(Lane& lane, Lists lists) const {
+  if (most_keys_ == 0 || lane.listed.size() > most_keys_) return;
+  std::copy_if(lane.untested.begin(), lane.untested.end(), std::back_inserter(lane.listed),
+               [&](FeatureKey key) { return lists(kind_of(key)); });
+}
+
 bool FeatureContacts::run(Lane& lane, const StopFunction& stop) {
   Stopwatch watch(lane.test_time);
+  list(lane, [](FeatureKind kind) { return kind != FeatureKind::piercing; });
   if (const QueryKernels* kernels = elementary_.first_rungs()) settle_in_lanes(*kernels, lane);
+  list(lane, [](FeatureKind kind) { return kind == FeatureKind::piercing; });
   constexpr std::size_t tests_between_stops = 256, found_at_once = 1024;
   for (std::size_t i = 0; i < lane.untested.size(); ++i) {
     if (i % tests_between_stops == 0 && stop && stop()) return false;
@@ -318,6 +329,31 @@ bool FeatureContacts::run(const StopFunction& stop, const PacedStop* pace) {
     run_lanes({0, lanes_.size(), 0});
   }
   return completed;
+}
+
+bool FeatureContacts::run(std::span<const FeatureKey> keys, const StopFunction& stop,
+                          const PacedStop* pace) {
+  std::atomic<bool> completed = true;
+  const auto add = [&](const LoopPiece& piece) {
+    Lane& lane = *lanes_[piece.lane];
+    for (std::size_t i = piece.begin; i < piece.end && completed; ++i) {
+      lane.untested.push_back(keys[i]);
+      if (lane.untested.size() >= tests_at_once && !run(lane, stop)) completed = false;
+    }
+  };
+  if (pace && pace->workers()) {
+    pace->workers()->share_out(keys.size(), tests_at_once, add);
+  } else {
+    add({0, keys.size(), 0});
+  }
+  return completed && run(stop, pace);
+}
+
+std::vector<FeatureKey> FeatureContacts::take_keys() {
+  std::vector<FeatureKey> keys = std::move(lanes_[0]->listed);
+  for (std::size_t i = 1; i < lanes_.size(); ++i)
+    keys.insert(keys.end(), lanes_[i]->listed.begin(), lanes_[i]->listed.end());
+  return keys;
 }
 
 namespace {

@@ -92,7 +92,7 @@ class FeatureContacts {
   // stopped, the object must not be used.
   FeatureContacts(const Topology& mesh, const SteppedMesh& motion, const ElementaryTest& elementary,
                   Want want, const Representatives& representatives,
-                  const std::vector<TriangleType>& types, PacedStop* pace = nullptr);
+                  const std::vector<TriangleType>& types);
   FeatureContacts(const Topology& mesh, const SteppedMesh& motion, const ElementaryTest& elementary,
                   Want want, PacedStop* pace = nullptr);
   ~FeatureContacts();
@@ -112,9 +112,10 @@ class FeatureContacts {
   // infinity if there is none. REQUIRES that no lane works.
   double least_end() const;
   // From now on pairs of features are taken that come near in this motion, of the same vertices,
-  // by as much more than the separation as the slack. They are tested over the whole step.
+  // by as much more than the separation as the slack. They are tested over the whole step. The
+  // second constructor has done it; after the first it is REQUIRED before candidates come.
   void take_near_in(const SteppedMesh& motion, double slack, PacedStop* pace) {
-    pairs_.refit(motion, pace, elementary_.separation() + slack);
+    pairs_.fit(motion, pace, elementary_.separation() + slack);
   }
 
   // Proves pairs apart, where contacts are looked for in exact arithmetic by the detector's own
@@ -142,6 +143,19 @@ class FeatureContacts {
   // false if `stop` asked for an end; the contacts found until then are kept.
   bool run(const StopFunction& stop, const PacedStop* pace = nullptr);
 
+  // From now on the feature pairs that are taken are listed, one lane's in this room, but edges that
+  // are seen at once to pierce nothing at t=0. take_keys() gives them, in any order; if there are
+  // more than `most` it gives more than that. REQUIRES that no candidate has come yet.
+  void list_keys(std::size_t most, std::vector<FeatureKey> room) {
+    most_keys_ = most;
+    lanes_[0]->listed = std::move(room);
+  }
+  std::vector<FeatureKey> take_keys();
+  // The grid of the motion in which they are near.
+  const FloatGrid& grid() const { return pairs_.grid(); }
+  // Tests these feature pairs, whatever is near. As run().
+  bool run(std::span<const FeatureKey> keys, const StopFunction& stop, const PacedStop* pace);
+
   // The triangle pairs in contact that were found since the last call, each once.
   std::deque<TrianglePair> take_new_pairs() { return contacts_.take_new_pairs(); }
   NarrowCounts counts() const;
@@ -167,7 +181,7 @@ class FeatureContacts {
                   Want want, std::unique_ptr<OneType> own, PacedStop* pace);
   // What one lane has taken and found.
   struct Lane {
-    std::vector<FeatureKey> untested;
+    std::vector<FeatureKey> untested, listed;
     // Room for the queries of one kind on their way through the first rungs.
     std::vector<FeatureKey> keys, open;
     std::vector<QueryVertices> queries;
@@ -181,6 +195,9 @@ class FeatureContacts {
     double test_time = 0;
   };
   bool run(Lane& lane, const StopFunction& stop);
+  // Lists those of the untested whose kind lists(kind) takes.
+  template <class Lists>
+  void list(Lane& lane, Lists lists) const;
   // Drops from the untested what the first rungs settle.
   void settle_in_lanes(const QueryKernels& kernels, Lane& lane) const;
   void test(FeatureKey key, Lane& lane) const;
@@ -203,6 +220,7 @@ class FeatureContacts {
   std::unique_ptr<OneType> own_;
   FeaturePairs pairs_;
   std::vector<std::unique_ptr<Lane>> lanes_;
+  std::size_t most_keys_ = 0;  // 0: they are not listed
   std::mutex handing_over_;
   PairContacts contacts_;
   const PairRelation* relation_ = nullptr;

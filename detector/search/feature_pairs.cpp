@@ -264,24 +264,21 @@ FloatLanes diagonals(const Point& y) {
 
 void FeaturePoints::assign(const SteppedMesh& motion, PacedStop* pace, double separation) {
   constexpr std::uint64_t work_of_point = 8;
-  const FloatGrid grid(motion, pace);
+  grid_ = FloatGrid(motion, pace);
   if (pace && pace->stopped()) return;
-  margin_ = {};
-  if (separation > 0) {
-    const float along = grid.diagonal_margin(separation);
-    margin_.axes = grid.margin(separation);
-    margin_.diagonals = FloatLanes{along, along, along, along};
-  }
+  const float along = grid_.diagonal_margin(separation);
+  margin_.diagonals = FloatLanes{along, along, along, along};
+  margin_.axes = motion.is_at_rest() && separation == 0 ? FloatLanes{} : grid_.margin(separation);
   const auto count = static_cast<std::size_t>(motion.size());
   const std::size_t ends = motion.is_at_rest() ? 1 : 2;
   if (ends_ < ends) points_ = std::make_unique_for_overwrite<FeaturePoint[]>(ends * count);
   ends_ = ends;
   for_all_paced(count, work_of_point, pace, [&](std::size_t v) {
     const auto vertex = static_cast<std::int32_t>(v);
-    const RoundedPoint axes = grid(motion, vertex);
-    points_[ends * v] = {axes.t0, diagonals(grid.scaled(motion.vertices_t0, vertex))};
+    const RoundedPoint axes = grid_(motion, vertex);
+    points_[ends * v] = {axes.t0, diagonals(grid_.scaled(motion.vertices_t0, vertex))};
     if (ends == 1) return;
-    points_[ends * v + 1] = {axes.t1, diagonals(grid.scaled(motion.vertices_t1, vertex))};
+    points_[ends * v + 1] = {axes.t1, diagonals(grid_.scaled(motion.vertices_t1, vertex))};
   });
 }
 

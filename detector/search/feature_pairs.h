@@ -145,6 +145,7 @@ struct alignas(32) FeaturePoint {
 // Memory: 32 bytes a triangle, 16 at rest.
 class FeaturePoints {
  public:
+  FeaturePoints() = default;  // of no step
   // If `pace` was stopped, they must not be used.
   explicit FeaturePoints(const SteppedMesh& motion, PacedStop* pace = nullptr,
                          double separation = 0) {
@@ -152,8 +153,10 @@ class FeaturePoints {
   }
   // Makes them those of another motion of as many vertices, in the same memory.
   void assign(const SteppedMesh& motion, PacedStop* pace, double separation);
-  // By how much features have to be apart that are farther apart than the separation.
+  // By how much features have to be apart that are farther apart than the separation. Along the
+  // axes 0 if that is 0 and the mesh is at rest.
   const FeatureMargin& margin() const { return margin_; }
+  const FloatGrid& grid() const { return grid_; }
   const FeaturePoint& start(std::int32_t vertex) const { return points_[ends_ * at(vertex)]; }
   const FeaturePoint& end(std::int32_t vertex) const { return (&start(vertex))[ends_ - 1]; }
   // How many floats after those of the start the ones of the end stand.
@@ -163,6 +166,7 @@ class FeaturePoints {
   std::size_t ends_ = 0;
   std::unique_ptr<FeaturePoint[]> points_;
   FeatureMargin margin_;
+  FloatGrid grid_;
 };
 
 // The pair rule in terms of triangle types: which pairs of types the present search asks for, and
@@ -228,23 +232,23 @@ struct AskedTypes {
 
 class FeaturePairs {
  public:
-  // types: by triangle, those of `representatives`. separation: features that are not farther
-  // apart are taken. The references must outlive this object. If `pace` was stopped, it must not be
-  // used.
-  FeaturePairs(const Topology& mesh, const SteppedMesh& motion,
-               const Representatives& representatives, const std::vector<TriangleType>& types,
-               PacedStop* pace = nullptr, double separation = 0)
-      : mesh_(mesh),
-        representatives_(representatives),
-        types_(types),
-        points_(motion, pace, separation) {}
+  // types: by triangle, those of `representatives`. The references must outlive this object.
+  FeaturePairs(const Topology& mesh, const Representatives& representatives,
+               const std::vector<TriangleType>& types)
+      : mesh_(mesh), representatives_(representatives), types_(types) {}
 
   // Says what the searches to come ask for, with the types as they are now. Until it is called they
   // ask for everything, and nothing was asked for before.
   void ask(const AskedTypes& asked);
+  // From now on features are taken that are not farther apart than the separation in this motion.
+  // REQUIRED before all that follows. If `pace` was stopped, nothing more must be asked.
+  void fit(const SteppedMesh& motion, PacedStop* pace, double separation) {
+    points_.assign(motion, pace, separation);
+  }
+  const FloatGrid& grid() const { return points_.grid(); }
   // Proves pairs apart over the whole step, mostly neighbours. Sheets are looked for only if all
-  // triangles have one type: else most are not asked for. `motion`: that of the constructor.
-  // REQUIRES that there was no refit().
+  // triangles have one type: else most are not asked for. REQUIRES that it was fitted to this
+  // motion last.
   void prove_apart(const SteppedMesh& motion, const WideTree& tree, PacedStop* pace) {
     constexpr std::size_t worth_sheets = 4096;
     if (!asks_by_types_ && motion.is_at_rest() && mesh_.triangles.size() >= worth_sheets)
@@ -256,10 +260,6 @@ class FeaturePairs {
   }
   // Null: none.
   const Sheets* sheets() const { return sheets_ ? &*sheets_ : nullptr; }
-  // From now on the boxes of features are those of this motion, of the same vertices.
-  void refit(const SteppedMesh& motion, PacedStop* pace, double separation) {
-    points_.assign(motion, pace, separation);
-  }
 
   // Appends the feature pairs that (a, b) stands for, at most max_keys. With may_pierce it also
   // appends edges that may pierce the other triangle at t=0. 30 to 45 ns.

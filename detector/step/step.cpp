@@ -24,8 +24,9 @@
 //         hole by hole: pairs of the BVH and the ghosts,
 //           elementary tests; what is in contact goes into Vv    sweep_ghosts (L11)
 //     +   a free component ends the step if it is the only one   ends_free (L5)
-//     (r) refit the boxes of the BVH                             fit_boxes, MeshSearch
 //         mark the triangles whose type has changed: the vBVHs   mark_types, Marking
+//     (r) refit the boxes of the BVH                             find_pairs, MeshSearch
+//     +     or none of both: what a longer step has left         (L20)
 //         traverse (V+,V-), (U,V0) and (U,Vv), passing over
 //           nodes with a single child                            find_pairs, PairRule (L3)
 //     +     and the pairs of two components                      (L10)
@@ -138,7 +139,7 @@ bool run_stages(StepRun& step, const SteppedMesh& mesh, std::span<const ViewPrim
   if (!step.pays_to_use()) step.drop_views();
   if (!step.sweep_ghosts()) return false;
   if (step.ends_free()) return true;
-  return step.fit_boxes() && step.mark_types() && step.find_pairs() && step.close_pairs();
+  return step.mark_types() && step.find_pairs() && step.close_pairs();
 }
 
 // The policy of the culling asked for, made without allocating.

@@ -63,7 +63,8 @@ struct StepContext {
 // What a step is asked for.
 struct StepQuestion {
   Pairs pairs;
-  double until = 1;  // with Pairs::first: a later contact is of no interest
+  double until = 1;            // with Pairs::first: a later contact is of no interest
+  bool is_asked_again = true;  // the next question may begin at the same places
 };
 
 // Answers the step, going on from `known`, the state of the last commit if there is one. If the

@@ -258,11 +258,6 @@ bool StepRun::ends_free() {
   return marks_.all_free() && mesh_.components.size() == 1;
 }
 
-bool StepRun::fit_boxes() {
-  Stopwatch watch(result_.times.broad_phase);
-  return context_.pair_search->fit(given_.tree, mesh_, given_.motion, cost_.pace);
-}
-
 bool StepRun::mark_types() {
   std::vector<TriangleType> types(mesh_.triangles.size());
   constexpr std::uint64_t work_of_type = 1;
@@ -282,7 +277,11 @@ bool StepRun::find_pairs() {
   bool completed = true;
   {
     Stopwatch watch(times.broad_phase);
-    completed = search_->collect(policy_.worth_proving(marks_, *search_));
+    const bool keeps = is_line_search() && !marks_.has_views();
+    completed = keeps && search_->is_kept()
+                    ? search_->collect_kept()
+                    : context_.pair_search->fit(given_.tree, mesh_, given_.motion, cost_.pace) &&
+                          search_->collect(policy_.worth_proving(marks_, *search_), keeps);
   }
   // Tests are made as candidates come up, so their time is part of the time measured above.
   times.narrow_phase = search_->test_time();

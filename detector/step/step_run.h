@@ -42,11 +42,10 @@ class StepRun {
   // sets are known, it counts them for the result.
   bool ends_free();
 
-  // Fits the boxes of the tree to the step.
-  bool fit_boxes();
   // Gives each triangle its type, and marks the tree.
   bool mark_types();
-  // Finds the candidates, and tests them as they come up.
+  // Fits the boxes of the tree to the step, finds the candidates, and tests them as they come up;
+  // or tests what an earlier question has left, if that is all (L20).
   bool find_pairs();
   // Closes the set of pairs (L7), if all pairs are asked for, or if K has found a contact within a
   // component that does not count. Without the closure a later one that counts could then be
@@ -62,6 +61,11 @@ class StepRun {
   // What the search found goes into the result, also if it was stopped. False if it was stopped
   // while contacts were sorted into those that count and others.
   bool take_found();
+  // Whether what is near is kept for a next question. Where times are not unique, it would depend on
+  // it which pairs are found.
+  bool is_line_search() const {
+    return question_.is_asked_again && context_.options.arithmetic == Arithmetic::exact;
+  }
   // Whether the first contact alone is looked for.
   bool looks_for_first() const { return question_.pairs == Pairs::first; }
   TimeBound by_time(double until) const {

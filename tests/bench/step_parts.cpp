@@ -70,7 +70,7 @@ StepParts::StepParts(const corpus::Sequence& step)
       tree_(mesh_, motion_.vertices_t0),
       marks_(tree_),
       representatives_(mesh_),
-      features_(mesh_, motion_, representatives_, marks_.types) {
+      features_(mesh_, representatives_, marks_.types) {
   fit();
   for (const auto& corners : mesh_.triangles)
     boxes_.push_back(tree_.box_of_triangle(corners, motion_));
@@ -94,7 +94,7 @@ StepParts* StepParts::of(const std::string& name, benchmark::State& state) {
 
 void StepParts::fit() {
   tree_.refit(mesh_, motion_);
-  features_.refit(motion_, nullptr, 0);
+  features_.fit(motion_, nullptr, 0);
 }
 
 void StepParts::search(const Take& take) const {

@@ -103,9 +103,10 @@ class Sequence {
         mesh_(mesh),
         tree_(mesh.topology, mesh.x_t0),
         memory_(mesh.topology, tree_),
-        pairs_(mesh.topology, {mesh.x_t0, mesh.x_t1}, memory_.representatives, memory_.marks.types),
+        pairs_(mesh.topology, memory_.representatives, memory_.marks.types),
         brute_force_(mesh) {
     tree_.refit(mesh.topology, {mesh.x_t0, mesh.x_t1});
+    pairs_.fit({mesh.x_t0, mesh.x_t1}, nullptr, 0);
   }
 
   void mark(const std::vector<TriangleType>& types) {

@@ -126,6 +126,41 @@ TEST(SmallSteps, L3_L7_L12_EveryCullingAgreesWithTheOracle) {
   }
 }
 
+// A shorter step, asked after the whole one, is answered as if it were asked alone.
+TEST(SmallSteps, L20_AskedAgainIsAnsweredAlike) {
+  const std::uint64_t seed = tests::asked("ASSAY_SEED", 20120);
+  const std::uint64_t cases = tests::asked("ASSAY_CASES", 10000);
+  std::uint64_t kept = 0, collisions = 0;
+  for (std::uint64_t i = 0; i < cases; ++i) {
+    const auto step = make_small_step(seed, i);
+    const double share = static_cast<double>(i % 16 + 1) / 16;
+    const detector::Positions x = step.x_t0 + share * (step.x_t1 - step.x_t0);
+    const auto pairs = i % 3 == 0 ? detector::Pairs::first : detector::Pairs::all;
+    const auto make = [&] {
+      const auto culling = i % 2 == 0 ? Culling::bvh : Culling::automatic;
+      return std::move(detector::Detector::create(step.triangles, step.x_t0,
+                                                  {culling, detector::Start::verified, pairs})
+                           .value());
+    };
+    auto asked = make(), fresh = make();
+    asked.evaluate(step.x_t0, step.x_t1);
+    const auto again = asked.evaluate(step.x_t0, x), expected = fresh.evaluate(step.x_t0, x);
+    ASSERT_EQ(again.answer, expected.answer) << "seed " << seed << ", case " << i;
+    ASSERT_EQ(again.first, expected.first) << "seed " << seed << ", case " << i;
+    const auto is_same = [](const detector::PairContact& a, const detector::PairContact& b) {
+      return a.pair == b.pair && a.time == b.time && a.feature.kind == b.feature.kind &&
+             a.feature.vertices == b.feature.vertices;
+    };
+    ASSERT_TRUE(std::equal(again.pairs.begin(), again.pairs.end(), expected.pairs.begin(),
+                           expected.pairs.end(), is_same))
+        << "seed " << seed << ", case " << i;
+    kept += again.counts.search.box_tests == 0;
+    collisions += again.answer == detector::Answer::collision;
+  }
+  EXPECT_GT(kept, cases / 4);
+  EXPECT_GT(collisions, cases / 4);
+}
+
 // Two steps with the state carried: what the first leaves dirty or clean serves the second.
 TEST(SmallSteps, L8_StateIsCarriedSoundly) {
   const std::uint64_t seed = tests::asked("ASSAY_SEED", 20112);

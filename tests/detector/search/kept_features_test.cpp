@@ -1,0 +1,157 @@
+// Questions that begin where an earlier one began: what that one has kept gives the same answers.
+#include "detector/search/kept_features.h"
+
+#include "detector/detector.h"
+#include "detector/state/step_state.h"
+#include "tests/detector/search/search_meshes.h"
+
+namespace assay::detector {
+namespace {
+
+// A mesh of sheets that pass through each other or past each other, and steps that begin with it.
+class AskedAgain : public testing::TestWithParam<Culling> {
+ protected:
+  // Of any size, anywhere.
+  void make(int i) {
+    const int size = 3 + i % 7;
+    tests::MovingMesh mesh = random_.sheets(2 + i % 2, size, i % 3 == 0);
+    // Above each other at the start, some of them; in the opposite order at the end.
+    const double height = i % 4 == 0 ? 0 : i % 4 == 1 ? 9 : 3;
+    for (Eigen::Index v = 0; v < mesh.x_t0.rows(); ++v) {
+      const double above = height * static_cast<double>(v / ((size + 1) * (size + 1)));
+      mesh.x_t0(v, 2) += above;
+      mesh.x_t1(v, 2) -= above;
+    }
+    const double scale = std::ldexp(1, 40 * (i % 5) - 80), away = i % 4 == 0 ? 1e5 : 0;
+    triangles_ = mesh.rows();
+    x_t0_ = scale * (mesh.x_t0.array() + away);
+    x_t1_ = scale * ((i % 2 ? mesh.x_t0 + .1 * (mesh.x_t1 - mesh.x_t0) : mesh.x_t1).array() + away);
+    // A quarter of what L20 allows: the share is only as exact as the place of the fastest vertex.
+    const FloatGrid grid({x_t0_, x_t1_});
+    for (std::size_t k = 0; k < 3; ++k) off_[k] = grid.tolerance()[k] / 4;
+  }
+
+  Detector detector(Options options) const {
+    return std::move(Detector::create(triangles_, x_t0_, options).value());
+  }
+
+  // A place on the way, and a little off it: the end of a shorter step as a line search has it.
+  Positions end_at(double share, double off) {
+    Positions x = x_t0_ + share * (x_t1_ - x_t0_);
+    for (Eigen::Index v = 0; v < x.rows(); ++v) {
+      for (Eigen::Index k = 0; k < 3; ++k)
+        x(v, k) += off * random_.number(false) * off_[static_cast<std::size_t>(k)];
+    }
+    return x;
+  }
+
+  static bool was_kept(const StepResult& result) {
+    return result.counts.search.box_tests + result.counts.search.candidate_pairs == 0 &&
+           result.counts.narrow.rungs.axis + result.counts.narrow.elementary_tests > 0;
+  }
+
+  tests::SearchMeshes random_{41};
+  Triangles triangles_;
+  Positions x_t0_, x_t1_;
+  Point off_{};
+};
+
+TEST_P(AskedAgain, L20_AShorterStepIsAnsweredAsIfItWereTheFirst) {
+  int kept = 0, collisions = 0, inside = 0;
+  for (int i = 0; i < 60; ++i) {
+    make(i);
+    Options options{GetParam(), Start::verified, i % 5 < 2 ? Pairs::first : Pairs::all};
+    options.threads = i % 7 == 0 ? 3 : 1;
+    if (!chooses_views(GetParam()) && i % 6 == 1) options.separation = .05 * std::abs(x_t0_(0, 0));
+    Detector asked = detector(options);
+    const StepResult whole = asked.evaluate(x_t0_, x_t1_);
+    for (const double part : {1., .99, .7, .5, 1e-3}) {
+      const bool is_bounded = options.pairs == Pairs::first && whole.answer == Answer::collision;
+      const double share = part * (is_bounded ? whole.first.lo : 1);
+      const Positions x = end_at(share, i % 2);
+      const StepResult again = asked.evaluate(x_t0_, x);
+      Detector fresh = detector(options);
+      const StepResult expected = fresh.evaluate(x_t0_, x);
+      ASSERT_EQ(again.answer, expected.answer) << i << " " << part;
+      tests::expect_same_contacts(again, expected);
+      kept += was_kept(again);
+      collisions += again.answer == Answer::collision;
+      inside += again.first.lo > 0;
+      if (chooses_views(GetParam())) continue;
+      ASSERT_EQ(asked.commit().has_value(), fresh.commit().has_value());
+      EXPECT_EQ(asked.state().bytes(), fresh.state().bytes());
+      asked.reset();
+    }
+  }
+  EXPECT_GT(kept, 100);
+  EXPECT_GT(collisions, 30);
+  EXPECT_GT(inside, 20);
+}
+
+TEST_P(AskedAgain, WhatLeavesTheStepIsSearched) {
+  make(9);
+  const auto is_searched = [&](const Positions& from, const Positions& to) {
+    Detector asked = detector({GetParam()});
+    EXPECT_FALSE(was_kept(asked.evaluate(x_t0_, x_t1_)));
+    const StepResult again = asked.evaluate(from, to);
+    tests::expect_same_contacts(again, detector({GetParam()}).evaluate(from, to));
+    return !was_kept(again);
+  };
+  EXPECT_FALSE(is_searched(x_t0_, x_t1_));
+  EXPECT_FALSE(is_searched(x_t0_, end_at(.5, 1)));
+  EXPECT_TRUE(is_searched(x_t0_, end_at(1.01, 0))) << "farther";
+  EXPECT_TRUE(is_searched(x_t0_, end_at(-.1, 0))) << "back";
+  EXPECT_TRUE(is_searched(x_t0_, end_at(.5, 9))) << "beside the way";
+  EXPECT_TRUE(is_searched(end_at(.1, 0), end_at(.5, 0))) << "from another place";
+  Detector asked = detector({GetParam()});
+  EXPECT_FALSE(was_kept(asked.step(x_t0_, x_t1_)));
+  EXPECT_FALSE(was_kept(asked.evaluate(x_t0_, end_at(.5, 0)))) << "after step, which keeps nothing";
+}
+
+// Boxes that hardly are apart, and a step that ends as far off as it may: below what lies there.
+TEST_P(AskedAgain, L20_WhatIsHardlyApartIsKept) {
+  const Triangles three = tests::triangles({{0, 1, 2}, {3, 4, 5}, {6, 7, 8}});
+  const double above = 0x1p-40;
+  const Positions x = tests::positions({{-1, -1, 0},
+                                        {1, -1, 0},
+                                        {0, 1, 0},
+                                        {-1, -1, above},
+                                        {1, -1, above},
+                                        {0, 1, above},
+                                        {9, 9, -1},
+                                        {8, 9, 1},
+                                        {9, 8, 0}});
+  Positions along = x;
+  along.middleRows(3, 3).col(0).array() += .5;
+  for (const double below : {0x1p-27, -0x1p-27}) {
+    Detector asked = std::move(Detector::create(three, x, {GetParam()}).value());
+    ASSERT_EQ(asked.evaluate(x, along).answer, Answer::free);
+    Positions half = .5 * x + .5 * along;
+    half.middleRows(3, 3).col(2).array() = -below;
+    const StepResult again = asked.evaluate(x, half);
+    EXPECT_TRUE(was_kept(again));
+    EXPECT_EQ(again.answer, below > 0 ? Answer::collision : Answer::free);
+  }
+}
+
+// A contact ends what the first one is looked for in: later than that nothing is kept.
+TEST_P(AskedAgain, L20_BeyondAFirstContactNothingIsKept) {
+  int beyond = 0;
+  for (int i = 0; i < 40; i += 2) {
+    make(i);
+    Detector asked = detector({GetParam(), Start::verified, Pairs::all});
+    const StepResult first = asked.first_contact(x_t0_, x_t1_, 1);
+    if (first.answer != Answer::collision || first.first.hi >= .25) continue;
+    const StepResult all = asked.evaluate(x_t0_, end_at(.75, 0));
+    tests::expect_same_contacts(all, detector({GetParam()}).evaluate(x_t0_, end_at(.75, 0)));
+    beyond += !was_kept(all);
+  }
+  EXPECT_GT(beyond, 3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cullings, AskedAgain,
+                         testing::Values(Culling::bvh, Culling::automatic, Culling::none),
+                         tests::culling_of_test);
+
+}  // namespace
+}  // namespace assay::detector
