@@ -176,8 +176,7 @@ Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView&
   BoundingVolumeTree tree(surface.mesh, positions, &pace);
   if (pace.now()) return stopped();
   tree.grow_boxes(stages.elementary->separation());
-  SearchMemory search(surface.mesh, tree, &pace);
-  if (pace.stopped()) return stopped();
+  SearchMemory search(tree);
   auto mesh_search = stages.pair_search->prepare(surface.mesh, tree, pace);
   if (pace.now()) return stopped();
   StepContext context{options,

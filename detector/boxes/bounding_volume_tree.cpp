@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <numeric>
 #include <span>
 
@@ -34,7 +35,9 @@ std::size_t longest_side(const Point& lo, const Point& hi) {
 // of equal places are in the order of their numbers.
 struct BoundingVolumeTree::Builder {
   using Numbers = std::vector<std::int32_t>;
-  using Spot = std::array<std::int32_t, 4>;
+  // Places lie between 2^29 and 3 * 2^29. Their bits, read as those of floats, are of normal
+  // numbers in the same order.
+  using Spot = LaneTruth;
   using Spots = std::unique_ptr<Spot[]>;
   // The triangles of a node, by their places in the lists.
   struct Range {
@@ -50,14 +53,12 @@ struct BoundingVolumeTree::Builder {
   const PositionsView& x;
   PacedStop* pace;
   std::array<Spots, 2> lists;       // component after component
-  Numbers order;                    // the triangles in the order of the leaves
   std::vector<Bounds> bounds;       // by component
   std::uint32_t placed = 0;         // the triangles of the components that have their ranges
   std::vector<Range> large, small;  // that are still to be split
 
   bool run() {
-    order.resize(mesh.triangles.size());
-    for (auto& list : lists) list = std::make_unique_for_overwrite<Spot[]>(order.size());
+    for (auto& list : lists) list = std::make_unique_for_overwrite<Spot[]>(mesh.triangles.size());
     return grow_over_components() && find_spots(large) && find_spots(small) && split_large() &&
            grow_small();
   }
@@ -95,7 +96,7 @@ struct BoundingVolumeTree::Builder {
       placed += count;
       return below + 2 * static_cast<std::int32_t>(count) - 2;
     }
-    tree.component_[at(node)] = mixed_components;
+    set_component(node, mixed_components);
     constexpr std::uint64_t work_of_split = 8;
     if (has_to_end(work_of_split * numbers.size())) return below;
     const auto [lo, hi] = bounds_of(
@@ -109,6 +110,10 @@ struct BoundingVolumeTree::Builder {
     set_children(node, below);
     const auto end = grow_over_components(below, below + 2, numbers.first(middle), middles);
     return grow_over_components(below + 1, end, numbers.subspan(middle), middles);
+  }
+
+  void set_component(std::int32_t node, std::int32_t component) {
+    if (!tree.component_.empty()) tree.component_[at(node)] = component;
   }
 
   void set_children(std::int32_t node, std::int32_t first) {
@@ -126,7 +131,7 @@ struct BoundingVolumeTree::Builder {
   // a place has up to 29 bits and a sign.
   bool find_spots(const std::vector<Range>& ranges) const {
     constexpr std::uint64_t work_of_spot = 3;
-    constexpr int cell_bits = 27, least_exponent = -990;
+    constexpr int cell_bits = 27, least_exponent = -990, origin_place = 1 << 30;
     for (const auto& range : ranges) {
       const auto& triangles = mesh.components[at(range.component)].triangles;
       const auto& [lo, hi] = bounds[at(range.component)];
@@ -145,7 +150,7 @@ struct BoundingVolumeTree::Builder {
         for (std::size_t k = 0; k < 3; ++k) {
           const auto axis = static_cast<Eigen::Index>(k);
           const double sum = .125 * x(u, axis) + .125 * x(v, axis) + .125 * x(w, axis);
-          spot[k] = static_cast<std::int32_t>((sum - origin[k]) * cells);
+          spot[k] = origin_place + static_cast<std::int32_t>((sum - origin[k]) * cells);
         }
         lists[0][range.begin + i] = spot;
       };
@@ -162,78 +167,123 @@ struct BoundingVolumeTree::Builder {
 
   // The order along an axis.
   static std::uint64_t place_along(const Spot& spot, std::size_t axis) {
-    constexpr std::int64_t lowest = 1 << 30;
-    return static_cast<std::uint64_t>(spot[axis] + lowest) << 32 |
-           static_cast<std::uint32_t>(spot[3]);
+    return static_cast<std::uint64_t>(spot[axis]) << 32 | static_cast<std::uint32_t>(spot[3]);
   }
 
-  // Splits a range in two. REQUIRES two triangles or more.
-  Halves split(const Range& range) {
-    const Spot* const from = lists[range.list].get() + range.begin;
-    Spot* const to = lists[1 - range.list].get() + range.begin;
-    const std::uint32_t count = range.size(), half = half_of(count);
-    Spot lo = from[0], hi = from[0];
+  // How far some spots reach along the axis where they reach farthest.
+  struct Extent {
+    std::size_t axis;
+    std::int32_t lo, side;
+  };
+  // Of `count` spots, one or more.
+  static Extent extent_of(const Spot* spots, std::size_t count) {
+    FloatLanes lo = std::bit_cast<FloatLanes>(spots[0]), hi = lo;
     for (std::size_t i = 1; i < count; ++i) {
-      for (std::size_t k = 0; k < 4; ++k) {
-        lo[k] = std::min(lo[k], from[i][k]);
-        hi[k] = std::max(hi[k], from[i][k]);
-      }
+      const auto spot = std::bit_cast<FloatLanes>(spots[i]);
+      lo = least(lo, spot);
+      hi = greatest(hi, spot);
     }
-    std::size_t axis = 0;
-    for (std::size_t k = 1; k < 3; ++k) {
-      if (hi[k] - lo[k] > hi[axis] - lo[axis]) axis = k;
-    }
-    if (count <= few) {
-      rank(from, to, count, axis);
-    } else {
-      divide(from, to, count, axis, half, lo[axis], hi[axis] - lo[axis]);
-    }
+    const auto lowest = std::bit_cast<Spot>(lo), sides = std::bit_cast<Spot>(hi) - lowest;
+    // Sums, because branches would be foretold wrongly as often as not.
+    const std::size_t is_last = sides[2] > std::max(sides[0], sides[1]);
+    const std::size_t axis = 2 * is_last + (1 - is_last) * std::size_t{sides[1] > sides[0]};
+    return {axis, lowest[axis], sides[axis]};
+  }
+
+  // Splits a range in two. REQUIRES more than a few triangles.
+  Halves split(const Range& range) {
+    Spot* const from = lists[range.list].get() + range.begin;
+    Spot* const to = lists[1 - range.list].get() + range.begin;
+    const std::uint32_t half = half_of(range.size());
+    divide(from, to, range.size(), half);
     const auto child = range.below, below = child + 2,
                below_second = below + 2 * static_cast<std::int32_t>(half) - 2;
-    tree.component_[at(range.node)] = range.component;
+    set_component(range.node, range.component);
     set_children(range.node, child);
     const std::uint32_t middle = range.begin + half, list = 1 - range.list;
     return {{{child, below, range.component, range.begin, middle, list},
              {child + 1, below_second, range.component, middle, range.end, list}}};
   }
 
-  // Sorts a few spots along the axis: each goes to the place that says how many come before it.
-  static constexpr std::size_t few = 8;
-  static void rank(const Spot* from, Spot* to, std::size_t count, std::size_t axis) {
-    std::uint64_t places[few];
-    for (std::size_t i = 0; i < count; ++i) places[i] = place_along(from[i], axis);
-    for (std::size_t i = 0; i < count; ++i) {
-      std::size_t before = 0;
-      for (std::size_t j = 0; j < count; ++j) before += places[j] < places[i];
-      to[before] = from[i];
+  // Sorts up to `most` spots along the axis: each goes to the place that says how many come before
+  // it.
+  template <std::size_t most>
+  static void rank(Spot* spots, std::size_t count, std::size_t axis) {
+    Spot held[most];
+    std::uint64_t places[most];
+    std::uint32_t before[most] = {};
+    for (std::size_t i = 0; i < most; ++i) {
+      held[i] = spots[std::min(i, count - 1)];
+      places[i] = i < count ? place_along(held[i], axis) : ~std::uint64_t{0};
     }
+    for (std::size_t i = 1; i < most; ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        const std::uint32_t is_behind = places[j] < places[i];
+        before[i] += is_behind;
+        before[j] += 1 - is_behind;
+      }
+    }
+    for (std::size_t i = 0; i < count; ++i) spots[before[i]] = held[i];
+  }
+
+  void set_leaf(std::int32_t node, std::int32_t component, std::int32_t triangle) {
+    set_component(node, component);
+    tree.child_[at(node)] = ~triangle;
+    tree.leaf_[at(triangle)] = node;
+  }
+
+  // Makes the nodes of a few triangles.
+  static constexpr std::uint32_t few = 8, levels_of_few = 3;
+  void grow_few(std::int32_t node, std::int32_t below, std::int32_t component, Spot* spots,
+                std::uint32_t count) {
+    if (count == 1) return set_leaf(node, component, spots[0][3]);
+    const std::size_t axis = extent_of(spots, count).axis;
+    set_component(node, component);
+    set_children(node, below);
+    if (count == 2) {
+      const bool turned = place_along(spots[1], axis) < place_along(spots[0], axis);
+      set_leaf(below, component, spots[turned][3]);
+      return set_leaf(below + 1, component, spots[!turned][3]);
+    }
+    count <= 4 ? rank<4>(spots, count, axis) : rank<few>(spots, count, axis);
+    const std::uint32_t half = count / 2;
+    grow_few(below, below + 2, component, spots, half);
+    grow_few(below + 1, below + 2 * static_cast<std::int32_t>(half), component, spots + half,
+             count - half);
   }
 
   // Brings the first half to the front.
-  static void divide(const Spot* from, Spot* to, std::size_t count, std::size_t axis,
-                     std::size_t half, std::int32_t lo, std::int32_t side) {
+  static void divide(Spot* from, Spot* to, std::size_t count, std::size_t half) {
+    const auto [axis, lo, side] = extent_of(from, count);
     constexpr int least_bits = 5, most_bits = 10;
     const int bits = std::clamp(static_cast<int>(std::bit_width(count)), least_bits, most_bits);
     const int shift = std::max(0, static_cast<int>(std::bit_width(unsigned(side))) - bits);
-    std::array<std::uint32_t, 1 << most_bits> counts;
-    std::fill_n(counts.begin(), std::size_t{1} << bits, 0);
-    const auto part_of = [&](std::size_t i) { return unsigned(from[i][axis] - lo) >> shift; };
-    for (std::size_t i = 0; i < count; ++i) ++counts[part_of(i)];
-    // The part that holds the last spot of the first half.
-    std::size_t before = 0;
+    // Neighbours in the list are mostly of one part, so two counters of each take turns.
+    std::uint32_t counts[1 << most_bits][2];
+    std::memset(counts, 0, sizeof(*counts) << bits);
+    const std::int32_t* const along = reinterpret_cast<const std::int32_t*>(from) + axis;
+    const auto part_of = [&](std::size_t i) { return unsigned(along[4 * i] - lo) >> shift; };
+    for (std::size_t i = 0; i < count; ++i) ++counts[part_of(i)][i % 2];
+    // The part that holds the first spot of the second half.
     unsigned part = 0;
-    while (before + counts[part] < half) before += counts[part++];
-    Spot* const middle = to + before;
-    Spot* const behind = middle + counts[part];
-    std::array<Spot*, 3> next = {to, middle, behind};  // below the part, in it, above
+    for (std::size_t before = 0; (before += counts[part][0] + counts[part][1]) <= half;) ++part;
+    // Spots below the part go to the front and those above it to the back. Those of the part wait
+    // where the list has been read.
+    std::size_t below = 0, waiting = 0;
     for (std::size_t i = 0; i < count; ++i) {
       const unsigned p = part_of(i);
-      *next[std::size_t{p >= part} + std::size_t{p > part}]++ = from[i];
+      if (p == part) {
+        from[waiting++] = from[i];
+      } else {
+        to[below + (-std::size_t{p > part} & (count - 1 - i + waiting))] = from[i];
+        below += p < part;
+      }
     }
-    if (to + half == behind) return;
-    std::nth_element(middle, to + half, behind, [axis](const Spot& a, const Spot& b) {
-      return place_along(a, axis) < place_along(b, axis);
-    });
+    std::nth_element(from, from + (half - below), from + waiting,
+                     [axis = axis](const Spot& a, const Spot& b) {
+                       return place_along(a, axis) < place_along(b, axis);
+                     });
+    std::copy_n(from, waiting, to + below);
   }
 
   static constexpr std::uint64_t work_to_split = 3;
@@ -268,13 +318,10 @@ struct BoundingVolumeTree::Builder {
 
   // Returns the work that it took.
   std::uint64_t grow(const Range& range) {
-    if (range.size() == 1) {
-      const auto triangle = lists[range.list][range.begin][3];
-      tree.component_[at(range.node)] = range.component;
-      tree.child_[at(range.node)] = ~triangle;
-      tree.leaf_[at(triangle)] = range.node;
-      order[range.begin] = triangle;
-      return 1;
+    if (range.size() <= few) {
+      grow_few(range.node, range.below, range.component, lists[range.list].get() + range.begin,
+               range.size());
+      return levels_of_few * work_to_split * range.size();
     }
     const Halves halves = split(range);
     return work_to_split * range.size() + grow(halves[0]) + grow(halves[1]);
@@ -283,17 +330,16 @@ struct BoundingVolumeTree::Builder {
 
 BoundingVolumeTree::BoundingVolumeTree(const Topology& mesh, const PositionsView& x,
                                        PacedStop* pace) {
-  const std::size_t nodes = 2 * mesh.triangles.size() - 1;
-  child_.resize(nodes);
-  component_.resize(nodes);
-  parent_.resize(mesh.triangles.size() - 1);
-  leaf_.resize(mesh.triangles.size());
+  child_.resize(2 * mesh.triangles.size() - 1);
+  parent_ = std::make_unique_for_overwrite<std::int32_t[]>(mesh.triangles.size() - 1);
+  leaf_ = std::make_unique_for_overwrite<std::int32_t[]>(mesh.triangles.size());
+  if (mesh.components.size() > 1) component_.resize(child_.size());
   component_root_.resize(mesh.components.size());
-  Builder builder{*this, mesh, x, pace, {}, {}, {}, 0, {}, {}};
+  Builder builder{*this, mesh, x, pace, {}, {}, 0, {}, {}};
   if (!builder.run()) return;
   builder.lists = {};  // gives their memory back
   make_blocks();
-  wide_ = WideTree(*this, builder.order, pace);
+  wide_ = WideTree(*this, pace);
 }
 
 void BoundingVolumeTree::make_blocks() {
@@ -329,7 +375,8 @@ bool BoundingVolumeTree::refit(const Topology& mesh, const SteppedMesh& motion, 
                                double slack) {
   forget_fit();
   boxes_are_joined_ = false;
-  RoundedPositions points;  // given back before the search takes room for its own
+  wide_.make_room(motion.is_at_rest());
+  RoundedPositions points;  // taken last, and given back before the search takes room for its own
   if (!points.assign(motion, pace)) return false;
   grid_ = points.grid();
   const double distance = separation_ + slack;

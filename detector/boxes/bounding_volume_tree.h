@@ -6,7 +6,7 @@
 // 2k+2 for some k), and so that all nodes below a node have consecutive numbers. A search
 // therefore reads both children from neighbouring cache lines, and boxes are joined by a backward
 // pass over one subtree after the other. Components are split from each other before their
-// triangles are, so only the topmost nodes hold triangles of several components. Memory: 100 bytes
+// triangles are, so only the topmost nodes hold triangles of several components. Memory: 92 bytes
 // a triangle, 70 of them the wide form; 128 more once its own boxes are joined.
 #pragma once
 
@@ -53,9 +53,8 @@ inline MovingBox box_of(const BoxRows& rows, std::size_t i) {
 class WideTree {
  public:
   WideTree() = default;
-  // order: the triangles as the leaves of the binary tree hold them, from its first child on. If
-  // `pace` was stopped, the tree must not be used.
-  WideTree(const BoundingVolumeTree& binary, std::span<const std::int32_t> order, PacedStop* pace);
+  // If `pace` was stopped, the tree must not be used.
+  WideTree(const BoundingVolumeTree& binary, PacedStop* pace);
 
   static constexpr std::int32_t root = 0;
   struct Node {
@@ -78,8 +77,10 @@ class WideTree {
   }
   const float* box(std::int32_t n) const { return own_.get() + rows() * at(n); }
 
+  // Takes memory for the boxes. A mesh that is only looked at where it rests takes half of it.
+  void make_room(bool at_rest);
   // Makes the boxes those of the triangles, each grown by this on all sides. False if `pace` was
-  // stopped.
+  // stopped. REQUIRES room for a motion like that of the points.
   bool refit(const Topology& mesh, const RoundedPositions& points, FloatLanes by, PacedStop& pace);
 
  private:
@@ -120,7 +121,9 @@ class BoundingVolumeTree {
   std::int32_t child(std::int32_t node) const { return child_[at(node)]; }
   std::int32_t parent(std::int32_t node) const { return parent_[at((node - 1) / 2)]; }
   // The component of all triangles below the node, or mixed_components.
-  std::int32_t component(std::int32_t node) const { return component_[at(node)]; }
+  std::int32_t component(std::int32_t node) const {
+    return component_.empty() ? 0 : component_[at(node)];
+  }
   // The node that holds all triangles of the component, and no others.
   std::int32_t root_of(std::int32_t component) const { return component_root_[at(component)]; }
 
@@ -200,10 +203,10 @@ class BoundingVolumeTree {
   static constexpr std::int32_t nodes_of_block = 2048;
   void make_blocks();
 
-  std::vector<std::int32_t> child_;   // the first child of a node; for a leaf ~triangle
-  std::vector<std::int32_t> parent_;  // by pair of siblings
-  std::vector<std::int32_t> leaf_;    // by triangle
-  std::vector<std::int32_t> component_;
+  std::vector<std::int32_t> child_;             // the first child of a node; for a leaf ~triangle
+  std::unique_ptr<std::int32_t[]> parent_;      // by pair of siblings
+  std::unique_ptr<std::int32_t[]> leaf_;        // by triangle
+  std::vector<std::int32_t> component_;         // by node; empty if there is one component
   std::vector<std::int32_t> component_root_;    // by component
   mutable std::unique_ptr<MovingBox[]> boxes_;  // by node; nothing until they are first joined
   mutable bool boxes_are_joined_ = false;

@@ -10,25 +10,30 @@ namespace {
 
 using box_lanes::width;
 
-// The twelve bounds of a box, in the order of the rows.
-std::array<float, box_lanes::rows> bounds_of(const MovingBox& box) {
-  const auto& [a, b, c, d] = box;
-  return {a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2], d[0], d[1], d[2]};
+// Writes the bounds of a box in the order of the rows, so far from each other; those at t=1 only of
+// a mesh that moves.
+void write_rows(const MovingBox& box, bool moves, float* first, std::size_t stride) {
+  const auto three = [&](std::size_t row, FloatLanes bounds) {
+    for (std::size_t k = 0; k < 3; ++k) first[(row + k) * stride] = bounds[k];
+  };
+  three(0, box.lo_t0);
+  three(3, box.hi_t0);
+  if (!moves) return;
+  three(6, box.lo_t1);
+  three(9, box.hi_t1);
 }
 
 }  // namespace
 
 struct WideTree::Builder {
-  // A node of the binary tree; all nodes below it are numbered first .. last - 1. Its triangles
-  // stand in the order of the leaves from place `begin` on.
+  // A node of the binary tree; all nodes below it are numbered first .. last - 1.
   struct Subtree {
-    std::int32_t top, first, last, begin;
+    std::int32_t top, first, last;
     std::int32_t triangles() const { return (last - first) / 2 + 1; }
   };
 
   WideTree& wide;
   const BoundingVolumeTree& binary;
-  std::span<const std::int32_t> order;
   PacedStop* pace;
 
   bool is_mixed(const Subtree& of) const { return binary.component(of.top) == mixed_components; }
@@ -39,8 +44,7 @@ struct WideTree::Builder {
   std::array<Subtree, 2> halves(const Subtree& of) const {
     const auto child = of.first, below = child + 2;
     const auto middle = binary.is_leaf(child + 1) ? of.last : binary.child(child + 1);
-    const Subtree first = {child, below, middle, of.begin};
-    return {first, Subtree{child + 1, middle, of.last, of.begin + first.triangles()}};
+    return {Subtree{child, below, middle}, Subtree{child + 1, middle, of.last}};
   }
 
   // Opens the largest subtrees until there are eight, or none may be opened. They stay in the
@@ -71,6 +75,15 @@ struct WideTree::Builder {
     return count;
   }
 
+  // A node of a few triangles has a first half no larger than the second, so its leaves follow each
+  // other as their numbers do.
+  void add_triangles(const Subtree& of, std::size_t slot) {
+    if (binary.is_leaf(of.top)) wide.slots_[slot] = {of.top, binary.triangle(of.top)};
+    for (auto node = of.first; node < of.last; ++node) {
+      if (binary.is_leaf(node)) wide.slots_[slot++] = {node, binary.triangle(node)};
+    }
+  }
+
   std::int32_t add(const Subtree& top) {
     constexpr std::uint64_t work_of_node = 60, work_of_small = 8;
     const auto n = static_cast<std::int32_t>(wide.nodes_.size());
@@ -83,11 +96,10 @@ struct WideTree::Builder {
     wide.binary_of_.push_back(top.top);
     if (!small) wide.inner_.push_back(n);
     wide.slots_.resize(first + count);
-    for (std::size_t i = 0; i < count; ++i) {
-      if (small) {
-        const auto triangle = order[at(top.begin) + i];
-        wide.slots_[first + i] = {binary.leaf_of(triangle), triangle};
-      } else {
+    if (small) {
+      add_triangles(top, first);
+    } else {
+      for (std::size_t i = 0; i < count; ++i) {
         const auto child = add(subtrees[i]);
         wide.slots_[first + i] = {subtrees[i].top, child};
       }
@@ -96,15 +108,14 @@ struct WideTree::Builder {
   }
 };
 
-WideTree::WideTree(const BoundingVolumeTree& binary, std::span<const std::int32_t> order,
-                   PacedStop* pace) {
+WideTree::WideTree(const BoundingVolumeTree& binary, PacedStop* pace) {
   // What a mesh of few components needs. Of others the lists grow, and are cut to size.
-  const std::size_t expected = order.size() / 6 + width;
+  const std::size_t triangles = binary.node_count() / 2 + 1, expected = triangles / 6 + width;
   nodes_.reserve(expected);
   binary_of_.reserve(expected);
-  slots_.reserve(order.size() + expected);
-  Builder builder{*this, binary, order, pace};
-  builder.add({BoundingVolumeTree::root, 1, static_cast<std::int32_t>(binary.node_count()), 0});
+  slots_.reserve(triangles + expected);
+  Builder builder{*this, binary, pace};
+  builder.add({BoundingVolumeTree::root, 1, static_cast<std::int32_t>(binary.node_count())});
   const auto cut = [](auto& list) {
     if (list.capacity() - list.size() > list.size() / 8) list.shrink_to_fit();
   };
@@ -112,7 +123,15 @@ WideTree::WideTree(const BoundingVolumeTree& binary, std::span<const std::int32_
   cut(slots_);
   cut(binary_of_);
   cut(inner_);
-  own_ = std::make_unique_for_overwrite<float[]>(box_lanes::rows * nodes_.size());
+}
+
+void WideTree::make_room(bool at_rest) {
+  end_ = at_rest ? 0 : box_lanes::rows / 2;
+  const std::size_t room = rows() * slots_.size() + width;
+  if (room_ >= room) return;
+  boxes_ = std::make_unique_for_overwrite<float[]>(room);
+  own_ = std::make_unique_for_overwrite<float[]>(rows() * nodes_.size());
+  room_ = room;
 }
 
 void WideTree::refit_node(std::int32_t n, const Topology& mesh, const RoundedPositions& points,
@@ -125,22 +144,16 @@ void WideTree::refit_node(std::int32_t n, const Topology& mesh, const RoundedPos
     const MovingBox box_of_child = node.holds_triangles
                                        ? grown(points.box(mesh.triangles[at(child)]), by)
                                        : box_of({box(child), 1, end_}, 0);
-    const auto bounds = bounds_of(box_of_child);
-    for (std::size_t row = 0; row < rows(); ++row) first[row * node.count + i] = bounds[row];
+    write_rows(box_of_child, end_ != 0, first + i, node.count);
     whole = i == 0 ? box_of_child : join(whole, box_of_child);
   }
-  std::copy_n(bounds_of(whole).begin(), rows(), own_.get() + rows() * at(n));
+  write_rows(whole, end_ != 0, own_.get() + rows() * at(n), 1);
 }
 
 bool WideTree::refit(const Topology& mesh, const RoundedPositions& points, FloatLanes by,
                      PacedStop& pace) {
   constexpr std::uint64_t work_of_node = 16;
   constexpr std::size_t nodes_of_piece = 256;
-  end_ = points.are_at_rest() ? 0 : box_lanes::rows / 2;
-  // A mesh that is only looked at where it rests takes half of the room.
-  const std::size_t room = rows() * slots_.size() + width;
-  if (room_ < room) boxes_ = std::make_unique_for_overwrite<float[]>(room);
-  room_ = std::max(room_, room);
   std::fill_n(boxes_.get() + rows() * slots_.size(), width, 0.0F);
   const auto fit_leaves = [&](std::size_t begin, std::size_t end, std::size_t) {
     for (; begin < end; ++begin) {

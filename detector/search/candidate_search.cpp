@@ -27,8 +27,7 @@ bool CandidateSearch::mark(std::span<const TriangleType> types) {
   if (pace_.stopped()) return false;
   if (!memory_.is_whole) {
     memory_.marks = Marks(tree_);
-    memory_.representatives = Representatives(mesh_, &pace_);
-    if (pace_.stopped()) return false;
+    memory_.representatives = Representatives();
   }
   memory_.is_whole = false;
   stages_.marking.bring_to(types, tree_, memory_.marks, marking_counts_);
@@ -109,8 +108,12 @@ bool CandidateSearch::tighten() {
 }
 
 bool CandidateSearch::search(const PairTables& tables, bool uses_proofs) {
-  if (first_ && !tighten()) return false;
   const auto& types = memory_.marks.types;
+  if (!contacts_.find_few() &&
+      !(memory_.is_whole = memory_.representatives.make(mesh_, types, &pace_))) {
+    return false;
+  }
+  if (first_ && !tighten()) return false;
   struct alignas(64) Asking {
     std::size_t pairs_until = 0;
   };

@@ -20,9 +20,7 @@ struct SearchStages {
 // What is kept from one search to the next. Marks and representatives depend on the mesh and on the
 // types that were marked last, on nothing else of the steps before.
 struct SearchMemory {
-  // If `pace` was stopped, it must not be used.
-  SearchMemory(const Topology& mesh, const BoundingVolumeTree& tree, PacedStop* pace = nullptr)
-      : marks(tree), representatives(mesh, pace) {}
+  explicit SearchMemory(const BoundingVolumeTree& tree) : marks(tree) {}
   Marks marks;
   Representatives representatives;
   // Whether marks and representatives are of the same types; false after a stop between the two.

@@ -125,6 +125,7 @@ class FeatureContacts {
     if (elementary_.first_rungs() && neighbours_count_) pairs_.prove_apart(motion_, tree, pace);
   }
   const Sheets* sheets() const { return pairs_.sheets(); }
+  bool find_few() const { return pairs_.find_few(); }
   bool are_proved_apart(std::int32_t a, std::int32_t b) const {
     return pairs_.are_proved_apart(a, b);
   }

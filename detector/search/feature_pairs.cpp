@@ -71,12 +71,19 @@ std::uint32_t represented_pairs(RepresentedFeatures a, RepresentedFeatures b, bo
 
 }  // namespace
 
-Representatives::Representatives(const Topology& mesh, PacedStop* pace)
-    : features_(mesh.triangles.size()),
-      vertex_types_(mesh.vertex_triangles.starts.size() - 1),
-      edge_types_(mesh.edges.size()) {
+Representatives::Representatives(const Topology& mesh, PacedStop* pace) {
   const std::vector<TriangleType> types(mesh.triangles.size(), TriangleType::positive);
   choose_all(mesh, types, pace);
+}
+
+RepresentedFeatures Representatives::lowest_of(std::int32_t t, const Topology& mesh) {
+  unsigned features = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto v = mesh.triangles[at(t)][i], e = mesh.triangle_edges[at(t)][i];
+    features |= unsigned{mesh.vertex_triangles.row(v).front() == t} << i |
+                unsigned{mesh.edge_triangles.row(e).front() == t} << (3 + i);
+  }
+  return static_cast<RepresentedFeatures>(features);
 }
 
 // Most features lie between triangles of one type, and the lowest of these represents them. Each
@@ -84,20 +91,14 @@ Representatives::Representatives(const Topology& mesh, PacedStop* pace)
 bool Representatives::choose_all(const Topology& mesh, const std::vector<TriangleType>& types,
                                  PacedStop* pace) {
   const bool one_type = are_of_one_type(types);
+  features_.resize(mesh.triangles.size());
+  vertex_types_.resize(mesh.vertex_triangles.starts.size() - 1);
+  edge_types_.resize(mesh.edges.size());
   const auto types_of = [&](std::span<const std::int32_t> holders) {
     if (one_type) return holders.empty() ? TypeSet{0} : set_of(types[0]);
     TypeSet seen = 0;
     for (const auto t : holders) seen |= set_of(types[at(t)]);
     return seen;
-  };
-  const auto lowest_of = [&](std::int32_t t) {
-    unsigned features = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto v = mesh.triangles[at(t)][i], e = mesh.triangle_edges[at(t)][i];
-      features |= unsigned{mesh.vertex_triangles.row(v).front() == t} << i |
-                  unsigned{mesh.edge_triangles.row(e).front() == t} << (3 + i);
-    }
-    return static_cast<RepresentedFeatures>(features);
   };
   const auto around_vertex = [&](std::size_t v) {
     vertex_types_[v] = types_of(mesh.vertex_triangles.row(static_cast<std::int32_t>(v)));
@@ -106,7 +107,7 @@ bool Representatives::choose_all(const Topology& mesh, const std::vector<Triangl
     edge_types_[e] = types_of(mesh.edge_triangles.row(static_cast<std::int32_t>(e)));
   };
   const auto of_triangle = [&](std::size_t t) {
-    features_[t] = lowest_of(static_cast<std::int32_t>(t));
+    features_[t] = lowest_of(static_cast<std::int32_t>(t), mesh);
   };
   const bool were_lowest = std::exchange(are_lowest_, false);
   if (one_type) edge_types_.assign(edge_types_.size(), set_of(types[0]));  // each has a triangle
@@ -140,6 +141,7 @@ bool Representatives::choose_between_types(const Topology& mesh,
 
 bool Representatives::update(const Topology& mesh, const std::vector<TriangleType>& types,
                              std::span<const std::int32_t> changed, PacedStop* pace) {
+  if (features_.empty()) return are_of_one_type(types) || choose_all(mesh, types, pace);
   // A vertex or an edge is chosen for once for each changed triangle that holds it. If many have
   // changed it is cheaper to choose everything anew, once.
   if (changed.size() > mesh.triangles.size() / 4) return choose_all(mesh, types, pace);
@@ -189,7 +191,7 @@ void FeaturePairs::append(std::int32_t a, std::int32_t b, bool may_pierce,
                           std::vector<FeatureKey>& keys) const {
   const auto &p = mesh_.triangles[at(a)], &q = mesh_.triangles[at(b)];
   const std::uint32_t asked =
-      represented_pairs(representatives_.of(a), representatives_.of(b), may_pierce) &
+      represented_pairs(representatives_.of(a, mesh_), representatives_.of(b, mesh_), may_pierce) &
       without_shared_corner[shared_corners(p, q)];
   if (asked == 0) return;
   const bool within =

@@ -50,7 +50,8 @@ namespace assay::detector {
 // so the edges come up twice, at (0,5) and at (1,5). They are tested at (0,5) alone, because
 // positive comes before zero in the order of types.
 //
-// Memory: 5 bytes a triangle.
+// Memory: 5 bytes a triangle. A search that compares few pairs of features spares it: what is not
+// made yet looks up what a triangle represents, as long as all triangles have one type.
 
 // The features that a triangle represents: bit i stands for its corner i, bit 3 + i for its edge
 // opposite to corner i.
@@ -58,20 +59,32 @@ using RepresentedFeatures = std::uint8_t;
 
 class Representatives {
  public:
+  Representatives() = default;
   // With all triangles in V+. If `pace` was stopped, they must not be used.
   explicit Representatives(const Topology& mesh, PacedStop* pace = nullptr);
 
+  // Makes them for these types, if they are not made yet. False if `pace` was stopped; the object
+  // must then not be used.
+  bool make(const Topology& mesh, const std::vector<TriangleType>& types, PacedStop* pace) {
+    return !features_.empty() || choose_all(mesh, types, pace);
+  }
   // Chooses anew for the features of the changed triangles, by the present types of all triangles.
-  // Allocates nothing. False if `pace` was stopped; the object must then not be used.
+  // Allocates nothing if they are made. False if `pace` was stopped; the object must then not be
+  // used.
   bool update(const Topology& mesh, const std::vector<TriangleType>& types,
               std::span<const std::int32_t> changed, PacedStop* pace = nullptr);
 
-  RepresentedFeatures of(std::int32_t triangle) const { return features_[at(triangle)]; }
+  // REQUIRES that they are made, or that all triangles have one type.
+  RepresentedFeatures of(std::int32_t triangle, const Topology& mesh) const {
+    return features_.empty() ? lowest_of(triangle, mesh) : features_[at(triangle)];
+  }
   // The types of all triangles that hold the feature.
   TypeSet types_of_vertex(std::int32_t vertex) const { return vertex_types_[at(vertex)]; }
   TypeSet types_of_edge(std::int32_t edge) const { return edge_types_[at(edge)]; }
 
  private:
+  // The features whose lowest triangle is this one.
+  static RepresentedFeatures lowest_of(std::int32_t triangle, const Topology& mesh);
   bool choose_all(const Topology& mesh, const std::vector<TriangleType>& types, PacedStop* pace);
   bool choose_between_types(const Topology& mesh, const std::vector<TriangleType>& types,
                             PacedStop* pace);
@@ -255,6 +268,8 @@ class FeaturePairs {
       sheets_.emplace(mesh_, tree, motion.vertices_t0, pace);
     if (!sheets_ || !sheets_->hold_most()) fans_.prove(mesh_, points_, pace);
   }
+  // Whether sheets leave so few pairs that each may look up what it stands for.
+  bool find_few() const { return sheets_ && sheets_->hold_most() && !asks_by_types_; }
   bool are_proved_apart(std::int32_t a, std::int32_t b) const {
     return fans_.are_apart(a, b) || (sheets_ && sheets_->are_apart(a, b));
   }

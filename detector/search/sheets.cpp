@@ -67,7 +67,7 @@ struct Sheets::Builder {
     const double least = .4 * std::max({size(0), size(1), size(2)});
     unsigned sides = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const int side = size(axis) < least ? 0 : sure_side(a, b, c, axis);
+      const int side = sure_side(a, b, c, axis) * int{size(axis) >= least};
       sides |= unsigned{side > 0} << axis | unsigned{side < 0} << (3 + axis);
     }
     seen[t] = static_cast<std::uint8_t>(sides);
@@ -88,6 +88,7 @@ struct Sheets::Builder {
   }
 
   std::size_t region_of(std::int32_t t) const {
+    if (level == 0) return 0;
     return (places[at(t)] & (sheets_bit - 1)) >> of_lower * (levels - 1 - level);
   }
 
@@ -112,7 +113,9 @@ struct Sheets::Builder {
     const auto holders = mesh.edge_triangles.row(edge);
     const bool are_two = holders.size() == 2 && region_of(holders[0]) == region_of(holders[1]);
     const unsigned both = are_two ? seen[at(holders[0])] & seen[at(holders[1])] : 0;
-    for (const auto t : holders) add(t, edge, seen[at(t)] & ~both);
+    for (const auto t : holders) {
+      if (const unsigned sides = seen[at(t)] & ~both; sides != 0) add(t, edge, sides);
+    }
   }
 
   // Whether the contour is as L13 requires. A sweep compares each edge with those that reach as far

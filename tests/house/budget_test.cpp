@@ -21,13 +21,8 @@ std::size_t count_lines(const std::string& path) {
 // that is asked for is allowed. Detectors of others count apart; `scripts` are those of all rooms.
 TEST(Budget, NoRoomGrows) {
   const std::map<std::string, std::size_t> budgets = {
-<<<<<<< HEAD
-      {"detector", 16230},   {"oracle", 6173},   {"corpus", 5394}, {"corpus/peers", 1238},
-      {"properties", 26397}, {"reports", 13566}, {"tests", 46508}, {"scripts", 10460}};
-=======
-      {"detector", 16224},   {"oracle", 6173},   {"corpus", 5391}, {"corpus/peers", 1238},
-      {"properties", 26384}, {"reports", 13567}, {"tests", 46522}, {"scripts", 10455}};
->>>>>>> a545dd32 (A claim names the version of the interface in which it came, and stands in four files)
+      {"detector", 16475},   {"oracle", 6173},   {"corpus", 5391}, {"corpus/peers", 1238},
+      {"properties", 26393}, {"reports", 13553}, {"tests", 46707}, {"scripts", 10456}};
   std::map<std::string, std::size_t> lines;
   for (const auto* room : rooms) {
     for (const auto& file : files_below(room)) {

@@ -17,7 +17,7 @@ TEST(AskedShare, OfASmallMeshIsExact) {
   BoundingVolumeTree tree(mesh, x);
   tree.refit(mesh, {x, x});
   const Stages stages = standard_stages({Culling::view_point});
-  SearchMemory memory(mesh, tree);
+  SearchMemory memory(tree);
   PacedStop never(never_stops);
   const auto mesh_search = stages.pair_search->prepare(mesh, tree, never);
   CandidateSearch search({*stages.pair_rule, *stages.marking, *mesh_search, *stages.elementary},
@@ -70,12 +70,12 @@ class StoppedMarking : public testing::Test {
 TEST_F(StoppedMarking, IsForgotten) {
   std::vector<TriangleType> types(mesh_.topology.triangles.size());
   for (auto& type : types) type = random_.below(30) ? TriangleType::negative : TriangleType::zero;
-  SearchMemory fresh(mesh_.topology, tree_);
+  SearchMemory fresh(tree_);
   const Found expected = found(fresh, types);
   ASSERT_GT(expected.pairs.size(), 0u);
   int stopped = 0;
   for (std::uint64_t n = 1; n < 4; ++n) {
-    SearchMemory memory(mesh_.topology, tree_);
+    SearchMemory memory(tree_);
     std::uint64_t asked = 0;
     const StopFunction stop = [&] { return ++asked == n; };
     stopped += !search(memory, stop).mark(types);

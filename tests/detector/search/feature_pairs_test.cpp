@@ -102,10 +102,11 @@ class Sequence {
       : random_(random),
         mesh_(mesh),
         tree_(mesh.topology, mesh.x_t0),
-        memory_(mesh.topology, tree_),
+        memory_(tree_),
         pairs_(mesh.topology, memory_.representatives, memory_.marks.types),
         brute_force_(mesh) {
     tree_.refit(mesh.topology, {mesh.x_t0, mesh.x_t1});
+    memory_.representatives.make(mesh.topology, memory_.marks.types, nullptr);
     pairs_.fit({mesh.x_t0, mesh.x_t1}, nullptr, 0);
   }
 

@@ -30,7 +30,7 @@ void expect_same(const Topology& mesh, const Representatives& kept,
   std::vector<std::int32_t> all(mesh.triangles.size());
   for (std::size_t t = 0; t < all.size(); ++t) all[t] = static_cast<std::int32_t>(t);
   fresh.update(mesh, types, all);
-  for (const auto t : all) ASSERT_EQ(kept.of(t), fresh.of(t));
+  for (const auto t : all) ASSERT_EQ(kept.of(t, mesh), fresh.of(t, mesh));
   for (std::size_t v = 0; v + 1 < mesh.vertex_triangles.starts.size(); ++v) {
     const auto vertex = static_cast<std::int32_t>(v);
     ASSERT_EQ(kept.types_of_vertex(vertex), fresh.types_of_vertex(vertex));
