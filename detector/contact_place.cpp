@@ -148,7 +148,13 @@ void set_normal(const Places::Edge& u, const Places::Edge& v, ContactPlace& plac
 ContactPlace contact_place(const SteppedMesh& motion, const TrianglesView& triangles,
                            const PairContact& contact) {
   const ProcessorState state;
-  const auto& v = contact.feature.vertices;
+  auto [kind, named] = contact.feature;
+  // Triangles with the same vertices meet in each of these, and so in the first.
+  if (kind == FeatureKind::same_vertices) {
+    kind = FeatureKind::vertex_face;
+    named = {named[0], named[0], named[1], named[2], -1};
+  }
+  const auto& v = named;
   const Places places(motion, triangles, contact);
   const auto face = [&](std::size_t first) {
     return std::array{places.at(v[first]), places.at(v[first + 1]), places.at(v[first + 2])};
@@ -156,10 +162,10 @@ ContactPlace contact_place(const SteppedMesh& motion, const TrianglesView& trian
   ContactPlace place;
   Nearest nearest;
   std::size_t of_a = 1, count = 4;  // vertices of the first feature, and of both
-  if (contact.feature.kind == FeatureKind::vertex_face) {
+  if (kind == FeatureKind::vertex_face) {
     nearest = nearest_of_face(places.at(v[0]), face(1));
     set_normal(places.edge(v[1], v[2]), places.edge(v[1], v[3]), place);
-  } else if (contact.feature.kind == FeatureKind::edge_edge) {
+  } else if (kind == FeatureKind::edge_edge) {
     of_a = 2;
     nearest = nearest_of_edges(places.at(v[0]), places.at(v[1]), places.at(v[2]), places.at(v[3]));
     set_normal(places.edge(v[0], v[1]), places.edge(v[2], v[3]), place);

@@ -30,8 +30,8 @@ struct ContactPlace {
   double normal_error = 0;
 };
 
-// REQUIRES a contact of these triangles whose feature is named, as the detector names it, and
-// finite positions. 0.5 to 1 us, no allocation.
+// REQUIRES a contact of these triangles whose feature is named, and finite positions. Of triangles
+// with the same vertices it is the place of one of these. 0.5 to 1 us, no allocation.
 ContactPlace contact_place(const SteppedMesh& motion, const TrianglesView& triangles,
                            const PairContact& contact);
 

@@ -281,4 +281,43 @@ std::optional<detector::TrianglePair> any_nearer_than(const detector::PositionsV
   return found;
 }
 
+// The differences of the places of two triangles fill a convex body, and the two cross when 0 is
+// inside of it. Its sides are normal to a triangle or to an edge of each. If it is flat, all
+// normals here are normal to its plane, or 0.
+bool triangles_cross(const detector::PositionsView& x, const detector::TrianglesView& triangles,
+                     const detector::TrianglePair& pair) {
+  std::array<detector::MovingPoint, 6> places;
+  for (int i = 0; i < 6; ++i) {
+    const auto place = detector::point_of(x, triangles(i < 3 ? pair.a : pair.b, i % 3));
+    places[i] = {place, place};
+  }
+  const IntegerScale scale(places);
+  std::array<IntegerPoint, 6> corner;
+  for (int i = 0; i < 6; ++i) {
+    for (int k = 0; k < 3; ++k) corner[i][k] = scale(places[i].t0[k]);
+  }
+  const auto edge = [&](int first, int i) {
+    return corner[first + (i + 1) % 3] - corner[first + i];
+  };
+  bool has_side = false;
+  const auto is_inside_of_side = [&](const IntegerPoint& normal) {
+    if (normal == IntegerPoint{}) return true;
+    has_side = true;
+    std::array<Integer, 6> height;
+    for (int i = 0; i < 6; ++i) height[i] = dot(normal, corner[i]);
+    const auto [a_low, a_high] = std::minmax({height[0], height[1], height[2]});
+    const auto [b_low, b_high] = std::minmax({height[3], height[4], height[5]});
+    return a_high > b_low && a_low < b_high;
+  };
+  if (!is_inside_of_side(cross(edge(0, 0), edge(0, 1))) ||
+      !is_inside_of_side(cross(edge(3, 0), edge(3, 1))))
+    return false;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      if (!is_inside_of_side(cross(edge(0, i), edge(3, j)))) return false;
+    }
+  }
+  return has_side;
+}
+
 }  // namespace assay::oracle

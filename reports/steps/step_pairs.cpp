@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -12,6 +13,7 @@
 
 #include "detector/boundary/boundary_handler.h"
 #include "detector/boxes/moving_box.h"
+#include "detector/contact_place.h"
 #include "oracle/distance/step_distance.h"
 #include "oracle/instant/instant.h"
 #include "oracle/instant/layers.h"
@@ -53,9 +55,13 @@ std::string StepContacts::text(std::size_t most) const {
     out += fmt::format("  contact: triangles {} and {}{}", pair.a, pair.b, bodies.text(pair));
     if (!is_at_rest) out += fmt::format(" at t = {}", time_text(time));
     out += fmt::format(", {}", properties::name_of(feature.kind));
-    if (const auto place = oracle::contact_place(motion, triangles, contact))
-      out += fmt::format(" at ({:.9g}, {:.9g}, {:.9g})", place->point[0], place->point[1],
-                         place->point[2]);
+    if (feature.vertices[0] >= 0) {
+      const auto place = detector::contact_place(motion, triangles, contact);
+      // Rounding shows in numbers near 0 alone.
+      const auto number = [&](double x) { return std::abs(x) <= place.error ? 0 : x; };
+      const auto& [x, y, z] = place.point;
+      out += fmt::format(" at ({:.9g}, {:.9g}, {:.9g})", number(x), number(y), number(z));
+    }
     out += cross_at_start(contact) ? ", crossing" : ", touching";
     if (time.hi > 0)
       out += cross_at_end(contact) ? "; crossing at the end" : "; not crossing at the end";
@@ -87,11 +93,15 @@ nlohmann::ordered_json StepContacts::json() const {
     Json json = to_json(contact, bodies);
     json["meeting"] = cross_at_start(contact) ? "crossing" : "touching";
     json["crosses_at_end"] = is_at_rest ? Json() : Json(cross_at_end(contact));
-    const auto place = oracle::contact_place(motion, triangles, contact);
+    std::optional<detector::ContactPlace> place;
+    if (contact.feature.vertices[0] >= 0)
+      place = detector::contact_place(motion, triangles, contact);
     json["point"] = place ? Json(place->point) : Json();
     json["barycentric"] = place ? Json(place->barycentric) : Json();
     json["error"] = place ? Json(place->error) : Json();
-    json["normal"] = place && place->normal ? Json(*place->normal) : Json();
+    const bool has_normal = place && place->normal;
+    json["normal"] = has_normal ? Json(*place->normal) : Json();
+    json["normal_error"] = has_normal ? Json(place->normal_error) : Json();
     list.push_back(std::move(json));
   }
   return list;

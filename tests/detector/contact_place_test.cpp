@@ -72,6 +72,28 @@ TEST(ContactPlace, OfAVertexThatSinksIntoAFace) {
   EXPECT_LE(place.error, 5 * 0x1p-48);
 }
 
+TEST(ContactPlace, EdgesThatLieInALineHaveNoNormal) {
+  const auto x =
+      tests::positions({{0, 0, 0}, {4, 0, 0}, {2, 9, 0}, {2, 0, 0}, {6, 0, 0}, {4, -9, 0}});
+  const auto f = tests::triangles({{0, 1, 2}, {3, 4, 5}});
+  const PairContact contact = {{0, 1}, {0, 0}, {FeatureKind::edge_edge, {0, 1, 3, 4, -1}}};
+  const auto place = contact_place({x, x}, f, contact);
+  EXPECT_FALSE(place.normal);
+  EXPECT_LE(place.error, 9 * 0x1p-48);
+  EXPECT_TRUE(place.point[0] >= 2 && place.point[0] <= 4) << place.point[0];
+}
+
+// The oracle names such a contact; a mesh that has it is refused by the detector.
+TEST(ContactPlace, OfTheSameTriangleTwiceIsACorner) {
+  const auto x = tests::positions({{1, 2, 3}, {4, 0, 0}, {0, 4, 0}});
+  const auto f = tests::triangles({{0, 1, 2}, {1, 2, 0}});
+  const auto place =
+      contact_place({x, x}, f, {{0, 1}, {0, 0}, {FeatureKind::same_vertices, {0, 1, 2, -1, -1}}});
+  EXPECT_EQ(place.point, (Point{1, 2, 3}));
+  EXPECT_EQ(place.barycentric[0], (Point{1, 0, 0}));
+  EXPECT_EQ(place.barycentric[1], (Point{0, 0, 1}));
+}
+
 TEST(ContactPlace, IsWithinItsErrorOfBothTriangles) {
   const auto steps = tests::asked("ASSAY_CASES", 4000);
   std::mt19937_64 random(tests::asked("ASSAY_SEED", 5203));

@@ -1,0 +1,126 @@
+// Triangles that cross or only touch, held against rational arithmetic of this file.
+#include <gmpxx.h>
+
+#include "oracle/instant/instant.h"
+#include "oracle/mesh/step.h"
+#include "tests/oracle/random_points.h"
+#include "tests/oracle/small_meshes.h"
+
+namespace assay::oracle {
+namespace {
+
+using detector::PairContact, detector::Point, detector::Positions, detector::Triangles,
+    test::positions, test::Random, test::triangles;
+using Vector = std::array<mpq_class, 3>;
+
+Vector operator-(const Vector& a, const Vector& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+mpq_class dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+Vector exact(const Point& x) { return {mpq_class(x[0]), mpq_class(x[1]), mpq_class(x[2])}; }
+
+struct Motion {
+  Positions x_t0, x_t1;
+  Triangles f;
+  detector::SteppedMesh stepped() const { return {x_t0, x_t1}; }
+  std::vector<PairContact> contacts() const { return judge_step(stepped(), f, {}).pairs; }
+  Vector at(std::int32_t v, double t) const {
+    const auto from = exact(detector::point_of(x_t0, v)), to = exact(detector::point_of(x_t1, v));
+    Vector x;
+    for (int k = 0; k < 3; ++k) x[k] = (1 - mpq_class(t)) * from[k] + mpq_class(t) * to[k];
+    return x;
+  }
+};
+
+// Two triangles of random corners, which may share one; every third at rest.
+Motion random_motion(Random& random, int i) {
+  const auto kind = static_cast<test::Coordinates>(i % test::coordinate_kinds);
+  Motion motion;
+  place_randomly(random, kind, 6, motion.x_t0, motion.x_t1);
+  if (i % 3 == 0) motion.x_t1 = motion.x_t0;
+  motion.f = random.below(4) == 0 ? triangles({{0, 1, 2}, {3, 4, 0}})
+             : i % 97 == 0        ? triangles({{0, 1, 2}, {1, 0, 2}})
+                                  : triangles({{0, 1, 2}, {5, 3, 4}});
+  return motion;
+}
+
+bool cross_at_rest(test::Rows rows, test::Corners corners = {{0, 1, 2}, {3, 4, 5}}) {
+  return triangles_cross(positions(rows), triangles(corners), {0, 1});
+}
+
+TEST(TrianglesCross, OnlyIfNoPlaneIsBetweenThem) {
+  const auto with_tip_at = [](double z) {
+    return cross_at_rest({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, z}, {1, 1, 5}, {2, 1, 5}});
+  };
+  EXPECT_FALSE(with_tip_at(1));
+  EXPECT_FALSE(with_tip_at(0));
+  EXPECT_TRUE(with_tip_at(-0x1p-1074));
+  // Coplanar ones that overlap lie on each other.
+  EXPECT_FALSE(cross_at_rest({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 0}, {5, 1, 0}, {1, 5, 0}}));
+  // An edge crosses an edge, at the rim of both.
+  EXPECT_FALSE(cross_at_rest({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {2, 0, -1}, {2, 0, 1}, {2, -1, 0}}));
+  // A triangle without area is the segment or the point that it has become.
+  EXPECT_TRUE(cross_at_rest({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {1, 1, 1}, {1, 1, 0}}));
+  EXPECT_FALSE(cross_at_rest({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 0}, {1, 1, 0}, {1, 1, 0}}));
+  EXPECT_FALSE(cross_at_rest({{0, 0, 0}, {4, 0, 0}, {2, 0, 0}, {1, 0, 0}, {9, 0, 0}, {5, 0, 0}}));
+  // Those that share a corner, and the same triangle twice.
+  EXPECT_TRUE(cross_at_rest({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {1, 1, 1}},
+                            {{0, 1, 2}, {0, 3, 4}}));
+  EXPECT_FALSE(cross_at_rest({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 1, 2}, {1, 0, 2}}));
+}
+
+// By the line in which the planes of two triangles with area meet: on it the triangles have pieces,
+// which overlap in more than a point.
+bool cross_by_line(const std::array<Vector, 3>& a, const std::array<Vector, 3>& b) {
+  const Vector of_a = cross(a[1] - a[0], a[2] - a[0]), of_b = cross(b[1] - b[0], b[2] - b[0]),
+               line = cross(of_a, of_b);
+  const auto piece = [&](const auto& corners, const Vector& normal, const Vector& origin) {
+    std::vector<mpq_class> ends;
+    int above = 0, below = 0;
+    for (int i = 0; i < 3; ++i) {
+      const auto &p = corners[i], &q = corners[(i + 1) % 3];
+      const mpq_class h = dot(normal, p - origin), g = dot(normal, q - origin);
+      above += h > 0 ? 1 : 0;
+      below += h < 0 ? 1 : 0;
+      if (h == 0) ends.push_back(dot(line, p));
+      if (h * g < 0) ends.push_back(dot(line, p) + h / (h - g) * dot(line, q - p));
+    }
+    if (above == 0 || below == 0) ends.clear();
+    std::sort(ends.begin(), ends.end());
+    return ends;
+  };
+  const auto on_a = piece(a, of_b, b[0]), on_b = piece(b, of_a, a[0]);
+  return !on_a.empty() && !on_b.empty() &&
+         std::max(on_a.front(), on_b.front()) < std::min(on_a.back(), on_b.back());
+}
+
+TEST(TrianglesCross, AsTheLineOfTheirPlanesSays) {
+  Random random(5202);
+  int crossing = 0, touching = 0;
+  for (int i = 0; i < 10000; ++i) {
+    const auto motion = random_motion(random, 3 * i);
+    std::array<std::array<Vector, 3>, 2> corners;
+    bool has_area = true;
+    for (int side = 0; side < 2; ++side) {
+      auto& x = corners[side];
+      for (int k = 0; k < 3; ++k) x[k] = motion.at(motion.f(side, k), 0);
+      const auto normal = cross(x[1] - x[0], x[2] - x[0]);
+      has_area = has_area && dot(normal, normal) > 0;
+    }
+    if (!has_area) continue;
+    const bool answer = triangles_cross(motion.x_t0, motion.f, {0, 1});
+    EXPECT_EQ(answer, cross_by_line(corners[0], corners[1])) << i;
+    const bool meets = !motion.contacts().empty();
+    EXPECT_TRUE(meets || !answer) << i;
+    crossing += answer ? 1 : 0;
+    touching += meets && !answer ? 1 : 0;
+  }
+  EXPECT_GT(crossing, 200);
+  EXPECT_GT(touching, 50);
+}
+
+}  // namespace
+}  // namespace assay::oracle
