@@ -83,8 +83,6 @@ mpq_class Instant::in_units(double coordinate) const { return in_units(mpq_class
 
 namespace {
 
-using detector::TrianglePair;
-
 FeatureTests tests_at(const Instant& instant) {
   const StaticPoints x = instant.points();
   return {[x](std::int32_t v, const Face& f) { return vertex_meets_face(x, v, f); },
@@ -97,34 +95,6 @@ BoxOfVertices boxes_at(const Instant& instant) {
 }
 
 }  // namespace
-
-std::vector<TrianglePair> contacts_at(const Instant& instant,
-                                      const detector::TrianglesView& triangles, int jobs) {
-  const MeshFeatures features = mesh_features(triangles);
-  const FeatureIndex mesh(features, boxes_at(instant));
-  std::vector<std::vector<TrianglePair>> found(std::max(jobs, 1));
-  for_each_contact(mesh, mesh, tests_at(instant), {jobs},
-                   {[](std::int32_t s, std::int32_t t) { return s != t; },
-                    [&](std::int32_t s, std::int32_t t, int worker) {
-                      found[worker].push_back({std::min(s, t), std::max(s, t)});
-                    }});
-  std::vector<TrianglePair> all;
-  for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-  return all;
-}
-
-bool any_contact_at(const Instant& instant, const detector::TrianglesView& triangles, int jobs) {
-  const MeshFeatures features = mesh_features(triangles);
-  const FeatureIndex mesh(features, boxes_at(instant));
-  std::atomic<bool> found = false;
-  StopGate gate([&] { return found.load(); });
-  for_each_contact(mesh, mesh, tests_at(instant), {jobs, &gate},
-                   {[&](std::int32_t s, std::int32_t t) { return s != t && !found; },
-                    [&](std::int32_t, std::int32_t, int) { found = true; }});
-  return found;
-}
 
 std::vector<std::uint8_t> touched_at(const Instant& instant,
                                      const detector::TrianglesView& triangles,

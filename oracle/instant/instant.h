@@ -78,18 +78,6 @@ bool edges_meet(StaticPoints x, const StaticEdge& a, const StaticEdge& b);
 // of the plane of the face, and the line passes strictly inside all three of its edges.
 bool edge_pierces_face(StaticPoints x, const StaticEdge& edge, const StaticFace& face);
 
-// All pairs in contact at the instant, ascending. Contact is defined in detector/LAWS.md: two
-// closed faces of the two triangles that share no vertex meet. So triangles that share a vertex or
-// an edge are in contact when they meet beyond it, and triangles with the same three vertices
-// always are. REQUIRES indices in range. 0.1 to 0.4 s for 20,000 triangles. If nothing moves in a
-// step, judge_step finds the same set.
-std::vector<detector::TrianglePair> contacts_at(const Instant& instant,
-                                                const detector::TrianglesView& triangles,
-                                                int jobs = 1);
-
-// Whether any pair is in contact; stops at the first that it finds.
-bool any_contact_at(const Instant& instant, const detector::TrianglesView& triangles, int jobs = 1);
-
 // Element t of the result is 1 when triangle t meets another triangle of its own component, or a
 // ghost of that component. REQUIRES that triangles and ghosts name vertices of this instant.
 // `component` lists the component of each triangle, then that of each ghost.
@@ -101,12 +89,12 @@ std::vector<std::uint8_t> touched_at(const Instant& instant,
 // Says whether a pair of triangles, the lower index first, is to be looked at.
 using WantedPair = std::function<bool(std::int32_t, std::int32_t)>;
 
-// A pair of triangles that `counts` accepts and that is in contact at rest (contacts_at says what
-// that is), or holds a vertex and a face, or two edges, that share no vertex and are nearer to each
-// other than `distance`; nothing if there is none. The comparison is exact, of squared distances in
-// rationals. With distance 0 the question is whether there is a contact. REQUIRES indices in range,
-// finite positions, distance finite and not negative. 5 to 20 us for each pair of features whose
-// boxes are that near; stops at the first that it finds.
+// A pair of triangles that `counts` accepts and that is in contact at rest (detector/LAWS.md says
+// what that is), or holds a vertex and a face, or two edges, that share no vertex and are nearer to
+// each other than `distance`; nothing if there is none. The comparison is exact, of squared
+// distances in rationals. With distance 0 the question is whether there is a contact. REQUIRES
+// indices in range, finite positions, distance finite and not negative. 5 to 20 us for each pair of
+// features whose boxes are that near; stops at the first that it finds.
 std::optional<detector::TrianglePair> any_nearer_than(const detector::PositionsView& x,
                                                       const detector::TrianglesView& triangles,
                                                       double distance, const WantedPair& counts);

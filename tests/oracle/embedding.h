@@ -1,5 +1,8 @@
-// Whether a mesh is embedded at an instant, and whether it meets a moving view primitive.
+// Which triangles of a mesh meet at an instant, whether it is embedded, and whether it meets a
+// moving view primitive.
 #pragma once
+
+#include <algorithm>
 
 #include "detector/mesh/step_types.h"
 #include "oracle/instant/instant.h"
@@ -8,19 +11,47 @@
 
 namespace assay::oracle {
 
+// All pairs in contact at the instant, ascending. Contact is defined in detector/LAWS.md: two
+// closed faces of the two triangles that share no vertex meet. So triangles that share a vertex or
+// an edge are in contact when they meet beyond it, and triangles with the same three vertices
+// always are. REQUIRES indices in range.
+inline std::vector<detector::TrianglePair> contacts_at(const Instant& instant,
+                                                       const detector::TrianglesView& triangles,
+                                                       int jobs = 1) {
+  const StaticPoints x = instant.points();
+  const FeatureTests tests = {
+      [x](std::int32_t v, const Face& f) { return vertex_meets_face(x, v, f); },
+      [x](const Edge& a, const Edge& b) { return edges_meet(x, a, b); },
+      [x](const Edge& e, const Face& f) { return edge_pierces_face(x, e, f); }};
+  const MeshFeatures features = mesh_features(triangles);
+  const FeatureIndex mesh(
+      features, [&](std::span<const std::int32_t> vertices) { return instant.box_of(vertices); });
+  std::vector<std::vector<detector::TrianglePair>> found(std::max(jobs, 1));
+  for_each_contact(mesh, mesh, tests, {jobs},
+                   {[](std::int32_t s, std::int32_t t) { return s != t; },
+                    [&](std::int32_t s, std::int32_t t, int worker) {
+                      found[worker].push_back({std::min(s, t), std::max(s, t)});
+                    }});
+  std::vector<detector::TrianglePair> all;
+  for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
 // True when no two triangles are in contact, as detector/LAWS.md defines it: pairs that share a
 // vertex or an edge meet nowhere beyond it, and no two triangles have the same three vertices.
 // REQUIRES indices in range, finite positions. 0.1 to 0.4 s for 20,000 triangles.
 inline bool embedded(const detector::PositionsView& x, const detector::TrianglesView& triangles,
                      int jobs = 1) {
-  return !any_contact_at(Instant(x), triangles, jobs);
+  return contacts_at(Instant(x), triangles, jobs).empty();
 }
 
 // The same question at time t of the step.
 inline bool embedded_at(const detector::SteppedMesh& motion,
                         const detector::TrianglesView& triangles, const RationalTime& t,
                         int jobs = 1) {
-  return !any_contact_at(Instant(motion, t), triangles, jobs);
+  return contacts_at(Instant(motion, t), triangles, jobs).empty();
 }
 
 // True when some triangle meets the view primitive at some t in [0,1]; touching counts. A

@@ -1,8 +1,8 @@
 // Layers of triangles, and the winding numbers that they are made of.
 #include "oracle/instant/layers.h"
 
-#include "oracle/instant/instant.h"
 #include "oracle/mesh/mesh_features.h"
+#include "tests/oracle/embedding.h"
 #include "tests/oracle/random_points.h"
 #include "tests/oracle/small_meshes.h"
 

@@ -3,9 +3,9 @@
 
 #include <Eigen/Geometry>
 
-#include "oracle/instant/instant.h"
 #include "oracle/mesh/step.h"
 #include "oracle/rational_time.h"
+#include "tests/oracle/embedding.h"
 #include "tests/oracle/random_points.h"
 #include "tests/oracle/small_meshes.h"
 
