@@ -1,6 +1,6 @@
 // A type names its fields once, beside it:
 //
-//   ASSAY_FIELDS(MeshCounts, triangles, vertices, steps)
+//   ASSAY_FIELDS(Canary, fault, found_after)
 //
 // names all members. One that is left out does not compile, and neither does a name that is no
 // member. A type that shows less, or more, has a function `fields(archive, x)` that calls

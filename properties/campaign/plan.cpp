@@ -84,14 +84,7 @@ std::vector<CampaignPlan> make_named_plans() {
   release.seconds = 72 * hour;
   release.search = 2'000'000;
 
-  CampaignPlan faults;
-  faults.name = "faults";
-  faults.about = "planted faults alone: how many cases each takes, and how small its mesh becomes";
-  faults.seconds = hour;
-  faults.fault_cases = 2000;
-  faults.fault_seeds = 3;
-  faults.shrink_faults = true;
-  return {smoke, quick, nightly, release, faults};
+  return {smoke, quick, nightly, release};
 }
 
 }  // namespace

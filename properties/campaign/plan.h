@@ -53,14 +53,13 @@ struct CampaignPlan {
   std::uint64_t law_premises = 0;  // each law's premise must hold at least so often
   std::uint64_t fault_cases = 0;   // cases of a seed in which a planted fault may show
   int fault_seeds = 0;             // seeds over which the median is taken
-  bool shrink_faults = false;      // also shrink what each planted fault shows
   double tetrahedron_seconds = 0;  // seconds for the exhaustive worlds
   std::uint64_t search = 0;        // cases that the search asks (phases/phases.h); 0: none
   double shrink_share = 0.2;       // most that shrinking takes of `seconds`
   Policy policy;
 };
 
-// smoke, quick, nightly, release, faults.
+// smoke, quick, nightly, release.
 const std::vector<CampaignPlan>& named_plans();
 
 // A plan by its name, or from a file.

@@ -67,7 +67,6 @@ void fields(Archive& archive, CampaignPlan& plan) {
   archive.may("law_premises", plan.law_premises, most_cases);
   archive.may("fault_cases", plan.fault_cases, most_cases);
   archive.may("fault_seeds", plan.fault_seeds, most_cases);
-  archive.may("shrink_faults", plan.shrink_faults);
   archive.may("tetrahedron_seconds", plan.tetrahedron_seconds, at_least_0);
   archive.may("shrink_share", plan.shrink_share, at_least_0);
   archive.may("search", plan.search, most_cases);
@@ -125,10 +124,6 @@ class PlanReader : public corpus::JsonReader<PlanReader> {
     fields(reader, x);
   }
 
-  static void read(const JsonField& field, bool& x) {
-    if (!field.json().is_boolean()) throw Refused{field.problem("true or false expected")};
-    x = field.json().get<bool>();
-  }
   static void read(const JsonField& field, double& x, const Rule& rule) {
     read(field, x);
     if (!rule.holds(x)) throw Refused{field.problem(rule.expected)};

@@ -186,30 +186,6 @@ std::string faults_text(const RunFindings& findings, const Json& power) {
   return out + count + "\n";
 }
 
-// Tells how small the meshes became that show the planted faults. Empty if nothing was shrunk.
-std::string shrinking_text(const RunFindings& findings) {
-  std::string out = fmt::format("{:44} {:>22} {:>14} {:>7} {:>8}\n", "fault",
-                                "triangles, steps from", "to", "known", "calls");
-  std::size_t tried = 0, reached = 0;
-  bool any = false;
-  for (const auto& proof : findings.evidence.faults) {
-    if (!proof.shrunk || proof.status != FaultStatus::planted) continue;
-    any = true;
-    const auto& [before, after, calls] = *proof.shrunk;
-    const bool is_near = after.vertices <= proof.known_vertices + 1;
-    tried += proof.known_vertices > 0 ? 1 : 0;
-    reached += proof.known_vertices > 0 && is_near ? 1 : 0;
-    out += fmt::format("{:44} {:>22} {:>14} {:>7} {:>8}{}\n", proof.fault,
-                       fmt::format("{}, {}", before.triangles, before.steps),
-                       fmt::format("{} vertices", after.vertices),
-                       proof.known_vertices ? fmt::format("{}", proof.known_vertices) : "-", calls,
-                       is_near || proof.known_vertices == 0 ? "" : "  larger");
-  }
-  if (!any) return "";
-  return out +
-         fmt::format("{} of {} within one vertex of the smallest known mesh\n", reached, tried);
-}
-
 // What the search found; empty if none was asked for.
 std::string search_text(const RunFindings& findings) {
   const auto sum = findings.evidence.sum_of(Source::search);
@@ -262,8 +238,6 @@ std::string findings_text(const RunFindings& findings, const Json& predicate) {
   if (!search.empty()) out += fmt::format("\n{}", search);
   if (!findings.evidence.faults.empty())
     out += fmt::format("\n{}", faults_text(findings, predicate["power"]));
-  const auto shrinking = shrinking_text(findings);
-  if (!shrinking.empty()) out += fmt::format("\n{}", shrinking);
   if (!findings.evidence.worlds.empty()) out += fmt::format("\n{}", worlds_text(findings));
   return out;
 }

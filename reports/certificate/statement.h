@@ -22,8 +22,8 @@
 namespace assay::reports {
 
 inline constexpr const char* statement_type = "https://in-toto.io/Statement/v1";
-inline constexpr const char* predicate_type = "urn:assay:certificate:7";
-inline constexpr const char* certificate_schema = "assay-certificate/7";
+inline constexpr const char* predicate_type = "urn:assay:certificate:8";
+inline constexpr const char* certificate_schema = "assay-certificate/8";
 
 // Findings and gates as JSON, with all text in UTF-8. `plan` has its times, which the stores do
 // not state; `campaign_digest` is the SHA-256 of the campaign's file.

@@ -231,7 +231,7 @@ std::optional<std::uint64_t> shares_of(const std::string& word) {
 void add_run_options(Verb& verb, CampaignWords& words) {
   words.campaign = "quick";
   verb.add("--campaign NAME|FILE", words.campaign,
-           "smoke, quick, nightly, release, faults, or a campaign file (.json)")
+           "smoke, quick, nightly, release, or a campaign file (.json)")
       .shows_default();
   add_campaign_options(verb, words);
   add_choice(verb, "--share 1/N", words.shares, "1/N, with N from 1 to 1000000", shares_of,

@@ -16,7 +16,7 @@ namespace assay::properties {
 // every member by its name, enums by their words, and `leaves_out`: phrases_of(contract).
 nlohmann::json json_of(const Contract& contract);
 
-// Schema `assay-store/8`. The object holds `campaign` (the plan, with its times set to nothing,
+// Schema `assay-store/9`. The object holds `campaign` (the plan, with its times set to nothing,
 // because a run that ran out of time may go on), `seed`, `shares`, `detector` (name, built_in,
 // contract, threads, configurations with their claims, query_claims, unjudged_parts),
 // `planted_faults` (how many this build has), `digests` (SHA-256 of program, worker and plug-in,

@@ -69,7 +69,6 @@ void FaultProof::add(const FaultProof& other) {
   cases += other.cases;
   curated |= other.curated;
   time_over |= other.time_over;
-  if (!shrunk) shrunk = other.shrunk;
 }
 
 std::uint64_t FaultProof::progress() const {

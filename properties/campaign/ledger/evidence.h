@@ -42,16 +42,6 @@ struct HarnessProblem {
 };
 ASSAY_FIELDS(HarnessProblem, what, trials)
 
-struct MeshCounts {
-  std::uint64_t triangles = 0, vertices = 0, steps = 0;
-};
-ASSAY_FIELDS(MeshCounts, triangles, vertices, steps)
-struct ShrunkFault {
-  MeshCounts before, after;
-  std::uint64_t calls = 0;  // calls of the reducer's judge
-};
-ASSAY_FIELDS(ShrunkFault, before, after, calls)
-
 // What it took to find a planted fault.
 struct FaultProof {
   static constexpr const char* kind = "fault";
@@ -64,7 +54,6 @@ struct FaultProof {
   std::uint64_t cases = 0;           // tried under each seed, unless the fault showed before
   bool time_over = false;            // the hunt was ended by a limit of time
   std::uint64_t known_vertices = 0;  // of the smallest known mesh that shows it; 0: unknown
-  std::optional<ShrunkFault> shrunk;
 
   bool found() const;            // by its curated case, or by a random one under any seed
   bool found_at_random() const;  // by a random case under any seed
@@ -80,8 +69,7 @@ struct FaultProof {
   // A hunt that was not ended by the time counts as farther than any that was.
   std::uint64_t progress() const;
 };
-ASSAY_FIELDS(FaultProof, fault, law, status, curated, needed, cases, time_over, known_vertices,
-             shrunk)
+ASSAY_FIELDS(FaultProof, fault, law, status, curated, needed, cases, time_over, known_vertices)
 
 // From which run of the same build the proofs of planted faults were taken.
 struct PowerSource {

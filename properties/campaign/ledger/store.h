@@ -18,7 +18,7 @@ namespace assay::properties {
 
 // The schema of a store, which is part of the text that binds it to a run (binding.h). A store of
 // another schema is refused.
-inline constexpr const char* store_schema = "assay-store/8";
+inline constexpr const char* store_schema = "assay-store/9";
 
 // All failures that a store holds.
 struct KeptFailures {

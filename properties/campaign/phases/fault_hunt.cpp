@@ -36,14 +36,6 @@ std::optional<Failure> failure_of_fault(const Fault& fault, Examined& examined) 
   return verdicts[0].failure;
 }
 
-Judge judge_of_fault(const Fault& fault) {
-  return [&fault](const corpus::Case& c) -> std::optional<Finding> {
-    Examined examined{c};
-    const auto failure = failure_of_fault(fault, examined);
-    return failure ? std::optional(finding_of(*failure)) : std::nullopt;
-  };
-}
-
 namespace {
 
 class Hunt {
@@ -51,22 +43,21 @@ class Hunt {
   Hunt(const FaultHunt& hunt, RunDeadline deadline, const OnHunt& progress)
       : hunt_(hunt), deadline_(deadline), progress_(progress) {
     for (const auto& fault : faults()) {
-      FaultResult result{&fault, {}, {}};
-      auto& proof = result.proof;
+      FaultProof proof;
       proof.fault = fault.name;
       proof.law = fault.law;
       proof.status = fault.status;
       proof.cases = hunt.cases;
       proof.known_vertices = static_cast<std::uint64_t>(fault.smallest_vertices);
-      results_.push_back(std::move(result));
+      proofs_.push_back(std::move(proof));
     }
   }
 
-  std::vector<FaultResult> run() {
+  std::vector<FaultProof> run() {
     if (!hunt_.curated.empty()) try_curated();
     for (int s = 1; s <= hunt_.seeds && !is_cut_; ++s) run_seed(s);
-    for (auto& result : results_) result.proof.time_over = is_cut_;
-    return std::move(results_);
+    for (auto& proof : proofs_) proof.time_over = is_cut_;
+    return std::move(proofs_);
   }
 
  private:
@@ -76,13 +67,13 @@ class Hunt {
   bool over() const { return std::chrono::steady_clock::now() >= deadline_; }
 
   void try_curated() {
-    for (auto& result : results_) {
-      if (result.fault->curated.empty()) continue;
-      const auto c =
-          corpus::read_case(hunt_.curated / (std::string(result.fault->curated) + ".json"));
+    for (std::size_t f = 0; f < proofs_.size(); ++f) {
+      const Fault& fault = faults()[f];
+      if (fault.curated.empty()) continue;
+      const auto c = corpus::read_case(hunt_.curated / (std::string(fault.curated) + ".json"));
       if (!c) throw StoreProblem(c.error().message);
       Examined examined{c.value()};
-      result.proof.curated = failure_of_fault(*result.fault, examined).has_value();
+      proofs_[f].curated = failure_of_fault(fault, examined).has_value();
     }
   }
 
@@ -95,13 +86,13 @@ class Hunt {
   }
 
   void run_seed(int seed) {
-    std::vector<std::optional<std::uint64_t>> found(results_.size());
+    std::vector<std::optional<std::uint64_t>> found(proofs_.size());
     for (std::uint64_t begin = 0; begin < hunt_.cases && !is_cut_; begin += chunk) {
       const std::uint64_t end = std::min(hunt_.cases, begin + chunk);
       run_chunk(seed, begin, end, found);
       std::size_t hidden = 0, planted = 0;
       for (std::size_t f = 0; f < found.size(); ++f) {
-        if (results_[f].fault->status != FaultStatus::planted) continue;
+        if (proofs_[f].status != FaultStatus::planted) continue;
         ++planted;
         hidden += found[f] ? 0 : 1;
       }
@@ -115,10 +106,8 @@ class Hunt {
       // a fair share of the cases too.
       if (hidden == 0 && end >= hunt_.cases / 4) break;
     }
-    for (std::size_t f = 0; f < results_.size(); ++f) {
-      results_[f].proof.needed.push_back(found[f] ? std::optional(*found[f] + 1) : std::nullopt);
-      if (found[f] && !results_[f].shown_by) results_[f].shown_by = case_of(seed, *found[f]).c;
-    }
+    for (std::size_t f = 0; f < proofs_.size(); ++f)
+      proofs_[f].needed.push_back(found[f] ? std::optional(*found[f] + 1) : std::nullopt);
   }
 
   void run_chunk(int seed, std::uint64_t begin, std::uint64_t end,
@@ -137,7 +126,7 @@ class Hunt {
         }
         Examined examined{case_of(seed, place).c};
         for (std::size_t f = 0; f < found.size(); ++f) {
-          if (found[f] || !failure_of_fault(*results_[f].fault, examined)) continue;
+          if (found[f] || !failure_of_fault(faults()[f], examined)) continue;
           const std::lock_guard lock(mutex);
           first[f] = std::min(first[f], place);
         }
@@ -152,46 +141,15 @@ class Hunt {
   const FaultHunt& hunt_;
   const RunDeadline deadline_;
   const OnHunt& progress_;
-  bool is_cut_ = false;  // the deadline came before all cases were judged
-  std::vector<FaultResult> results_;
+  bool is_cut_ = false;             // the deadline came before all cases were judged
+  std::vector<FaultProof> proofs_;  // in the order of faults()
 };
 
 }  // namespace
 
-std::vector<FaultResult> hunt_faults(const FaultHunt& hunt, RunDeadline deadline,
-                                     const OnHunt& progress) {
+std::vector<FaultProof> hunt_faults(const FaultHunt& hunt, RunDeadline deadline,
+                                    const OnHunt& progress) {
   return Hunt(hunt, deadline, progress).run();
-}
-
-void shrink_faults(std::vector<FaultResult>& results, const ReduceLimits& limits, int jobs,
-                   RunDeadline deadline, const std::function<void(const std::string&)>& progress) {
-  std::mutex mutex;
-  std::size_t next = 0;
-  const auto counts_of = [](const corpus::Case& c) {
-    const auto size = size_of(c);
-    return MeshCounts{size.triangles, size.vertices, size.steps};
-  };
-  const auto work = [&] {
-    while (true) {
-      FaultResult* result = nullptr;
-      {
-        const std::lock_guard lock(mutex);
-        if (next >= results.size() || std::chrono::steady_clock::now() >= deadline) return;
-        result = &results[next++];
-      }
-      if (!result->shown_by) continue;
-      const auto options = result->fault->options;
-      const auto reduction =
-          reduce(*result->shown_by, judge_of_fault(*result->fault), limits, {},
-                 [&options](const corpus::Case& c) { return with_explicit_view(c, options); });
-      result->proof.shrunk = {counts_of(*result->shown_by), counts_of(reduction.smallest),
-                              reduction.calls};
-      if (!progress) continue;
-      const std::lock_guard lock(mutex);
-      progress(result->proof.fault);
-    }
-  };
-  in_threads(jobs, work);
 }
 
 Canary meet_canary(const CampaignRequest& request) {

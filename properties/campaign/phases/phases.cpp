@@ -24,7 +24,7 @@ using Clock = std::chrono::steady_clock;
 // shrunk, and then nothing else is begun. The same command goes on with the rest.
 constexpr double trials_share = 0.9, faults_share = 0.95;
 
-// The limits for shrinking a single failure or planted fault.
+// The limits for shrinking a single failure.
 constexpr ReduceLimits shrinking_of_one{60, 1'000'000};
 
 // The phases of run_campaign(), which states their order.
@@ -87,13 +87,10 @@ struct CampaignRun {
     const FaultHunt hunt{plan.name,        request_.seed,
                          plan.fault_seeds, share_of(plan.fault_cases, request_.shares),
                          request_.jobs,    corpus_};
-    auto results = hunt_faults(
+    const auto proofs = hunt_faults(
         hunt, after(faults_share),
         [&](const auto& text, auto done, auto left) { observer_.on_progress(text, done, left); });
-    if (plan.shrink_faults)
-      shrink_faults(results, shrinking_of_one, request_.jobs, after(1),
-                    [&](const std::string& fault) { progress_(fault + " shrunk"); });
-    for (const auto& result : results) store_.set(to_row(result.proof));
+    for (const auto& proof : proofs) store_.set(to_row(proof));
   }
 
   void explore_worlds() {

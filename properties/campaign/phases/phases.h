@@ -27,13 +27,6 @@ namespace assay::properties {
 // Plants every registered fault in the detector and counts the cases that the harness needs to
 // find it.
 
-struct FaultResult {
-  const Fault* fault = nullptr;  // one of faults()
-  FaultProof proof;
-  // The first case that showed the fault, under the first seed under which one did.
-  std::optional<corpus::Case> shown_by;
-};
-
 struct FaultHunt {
   std::string campaign;  // ids are campaign:seed.fSEED:family:index
   std::uint64_t seed = 1;
@@ -50,20 +43,12 @@ using OnHunt = std::function<void(const std::string&, std::uint64_t done, std::u
 // fault that is found under a seed leaves the round of that seed; equivalent and open faults stay
 // to its end. The result does not depend on the number of jobs, unless the deadline ends it. About
 // 0.2 ms for each case and each fault that is left.
-std::vector<FaultResult> hunt_faults(const FaultHunt& hunt, RunDeadline deadline,
-                                     const OnHunt& progress);
+std::vector<FaultProof> hunt_faults(const FaultHunt& hunt, RunDeadline deadline,
+                                    const OnHunt& progress);
 
 // What the fault shows in a case, judged by the claims of its options; nothing if the case holds.
 // The oracle is asked where its judgement is not there yet, which then serves the next fault.
 std::optional<Failure> failure_of_fault(const Fault& fault, Examined& examined);
-
-// The reducer's judge for a fault. It asks the oracle by itself.
-Judge judge_of_fault(const Fault& fault);
-
-// Shrinks `shown_by` of each result that has one, and notes in its proof how small it became.
-// `progress` is called with the name of the fault.
-void shrink_faults(std::vector<FaultResult>& results, const ReduceLimits& limits, int jobs,
-                   RunDeadline deadline, const std::function<void(const std::string&)>& progress);
 
 // A detector that is known to be wrong goes through all that the detector under test goes through.
 // A run in which it is not found is a run that sees nothing.

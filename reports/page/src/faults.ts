@@ -1,4 +1,4 @@
-// Planted faults: what the harness was shown to find, and how small it made each.
+// Planted faults: what the harness was shown to find.
 import { folded, html, section, table } from "./dom";
 import { barPlot, shares } from "./plots";
 import type { Findings } from "./report";
@@ -51,20 +51,6 @@ function allOf(list: Fault[]): HTMLElement {
   );
 }
 
-function sizesOf(shrunk: Fault[]): HTMLElement {
-  return table(
-    "How small each fault\u2019s mesh became",
-    [
-      { head: "fault", cell: (f: Fault) => f.fault },
-      { head: "triangles, steps from", cell: (f: Fault) => `${f.shrunk!.before.triangles}, ${f.shrunk!.before.steps}`, number: true },
-      { head: "to vertices", cell: (f: Fault) => count(f.shrunk!.after.vertices), number: true },
-      { head: "smallest known", cell: (f: Fault) => (f.known_vertices === 0 ? "\u2013" : count(f.known_vertices)), number: true },
-      { head: "runs", cell: (f: Fault) => count(f.shrunk!.calls), number: true },
-    ],
-    shrunk,
-  );
-}
-
 export function faults({ power }: Findings): HTMLElement {
   const title = "Planted faults";
   const canary = canaryText(power.canaries);
@@ -72,7 +58,6 @@ export function faults({ power }: Findings): HTMLElement {
   if (list.length === 0) return section("faults", title, html("p", {}, canary, " No faults were planted in this run."));
   const planted = list.filter((f) => f.status === "planted");
   const lost = planted.filter((f) => !f.found);
-  const shrunk = list.filter((f) => f.shrunk);
   const { taken_from: from } = power;
   const rows = byCases(planted);
   return section(
@@ -97,8 +82,5 @@ export function faults({ power }: Findings): HTMLElement {
     rows.length === 0 ? null : html("h3", {}, "How many random cases they took (median over seeds)"),
     rows.length === 0 ? null : barPlot("Faults by the random cases that they took", rows),
     folded(`All ${list.length} faults, with those that are equivalent or open`, allOf(list)),
-    shrunk.length === 0
-      ? html("p", { class: "note" }, "This campaign does not shrink what planted faults show.")
-      : folded("How small each fault\u2019s mesh became", sizesOf(shrunk)),
   );
 }

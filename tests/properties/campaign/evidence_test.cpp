@@ -54,7 +54,6 @@ TEST(Evidence, EveryKindSurvivesItsRow) {
   expect_survives(Canary{"pair/x", std::nullopt}, &EvidenceFacts::canaries);
   expect_survives(HarnessProblem{"no worker", 7}, &EvidenceFacts::problems);
   auto proof = fault_proof("a/b", FaultStatus::open, true, {3, std::nullopt});
-  proof.shrunk = ShrunkFault{{9, 8, 7}, {3, 2, 1}, 55};
   proof.known_vertices = 5;
   expect_survives(proof, &EvidenceFacts::faults);
   EvidenceFacts facts;

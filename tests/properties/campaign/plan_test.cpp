@@ -15,7 +15,7 @@ const char* const whole_plan = R"({"schema": "assay-campaign/1", "name": "tiny-1
   "strata": [{"family": "closed-generic", "cases": 12, "bound": 0.5},
              {"family": "broken", "cases": 5}],
   "seconds": 30, "case_seconds": 2.5, "case_bytes": 5000000000, "laws_every": 3, "law_premises": 4,
-  "fault_cases": 7, "fault_seeds": 2, "shrink_faults": true, "tetrahedron_seconds": 1.5, "shrink_share": 0.25,
+  "fault_cases": 7, "fault_seeds": 2, "tetrahedron_seconds": 1.5, "shrink_share": 0.25,
   "search": 900,
   "policy": {"power": 0.5, "self_test_queries": 9, "repeated_triangles": 80,
              "speed_limits": {"exact-over-double": 1.5}}})";
@@ -61,7 +61,6 @@ TEST_F(Plans, AFileSaysAllOfIt) {
   EXPECT_EQ(plan.law_premises, 4u);
   EXPECT_EQ(plan.fault_cases, 7u);
   EXPECT_EQ(plan.fault_seeds, 2);
-  EXPECT_TRUE(plan.shrink_faults);
   EXPECT_EQ(plan.tetrahedron_seconds, 1.5);
   EXPECT_EQ(plan.shrink_share, .25);
   EXPECT_EQ(plan.search, 900);
@@ -127,7 +126,6 @@ TEST_F(Plans, AWrongFieldIsOneClearLine) {
   expect_wrong("/case_bytes", std::uint64_t{1} << 61, "case_bytes");
   expect_wrong("/case_bytes", "4GB", "case_bytes");
   expect_wrong("/shrink_share", 1.5, "shrink_share");
-  expect_wrong("/shrink_faults", 1, "shrink_faults: true or false");
   expect_wrong("/laws_every", -1, "laws_every");
   expect_wrong("/law_premises", "many", "law_premises");
   expect_wrong("/fault_seeds", 0, "fault_cases and fault_seeds");
@@ -212,7 +210,7 @@ TEST_F(Plans, NamedOnesListKnownFamiliesOnce) {
     EXPECT_FALSE(plan.about.empty());
     EXPECT_EQ(find_plan(plan.name).value().seconds, plan.seconds);
   }
-  EXPECT_EQ(names, (std::set<std::string>{"smoke", "quick", "nightly", "release", "faults"}));
+  EXPECT_EQ(names, (std::set<std::string>{"smoke", "quick", "nightly", "release"}));
   const auto missing = find_plan("no-such-campaign");
   ASSERT_FALSE(missing);
   EXPECT_NE(missing.error().message.find("no-such-campaign"), std::string::npos);
@@ -222,7 +220,7 @@ TEST_F(Plans, NamedOnesListKnownFamiliesOnce) {
 // want no bound, and their number shows each of the ten shapes equally often.
 TEST_F(Plans, NamedOnesJudgeLargeMeshesUpToTheirTime) {
   const std::map<std::string, std::uint64_t> largest = {
-      {"smoke", 0}, {"quick", 10'000}, {"nightly", 100'000}, {"release", 1'000'000}, {"faults", 0}};
+      {"smoke", 0}, {"quick", 10'000}, {"nightly", 100'000}, {"release", 1'000'000}};
   for (const auto& plan : named_plans()) {
     std::uint64_t most = 0;
     for (const auto& stratum : plan.strata) {

@@ -170,7 +170,7 @@ TEST_F(Stores, ThatAreNoneAreRefused) {
 TEST_F(Stores, OfAnotherSchemaAreTold) {
   { open(R"({"schema": "assay-store/2"})"); }
   expect_no_read(file, "is of schema \"assay-store/2\"");
-  expect_no_open(file, R"({"schema": "assay-store/8"})", "run it again");
+  expect_no_open(file, R"({"schema": "assay-store/9"})", "run it again");
 }
 
 // Up to assay-store/5 a store had other tables.
@@ -181,9 +181,9 @@ TEST_F(Stores, OfTheTablesOfBeforeAreToldInOneLine) {
           "KEY(key)) WITHOUT ROWID; INSERT INTO note VALUES('binding', '{\"schema\": "
           "\"assay-store/5\"}', '')");
   constexpr auto line =
-      ": is of schema \"assay-store/5\", this assay reads assay-store/8: run it again";
+      ": is of schema \"assay-store/5\", this assay reads assay-store/9: run it again";
   expect_no_read(file, line);
-  expect_no_open(file, R"({"schema": "assay-store/8"})", line);
+  expect_no_open(file, R"({"schema": "assay-store/9"})", line);
 }
 
 TEST_F(Stores, DamageIsSeen) {
@@ -203,7 +203,7 @@ TEST_F(Stores, DamageIsSeen) {
 // What other rooms ask of a store comes back as a value, even in the middle of its rows.
 TEST_F(Stores, DamageThatIsMetLateIsAValueToo) {
   {
-    Store store = open(R"({"schema": "assay-store/8"})");
+    Store store = open(R"({"schema": "assay-store/9"})");
     for (std::uint64_t i = 0; i < 400; ++i) {
       store.add(record(i), {failure(record(i).id, "s")});
     }
@@ -227,7 +227,7 @@ TEST_F(Stores, DamageThatIsMetLateIsAValueToo) {
 
 // The hash that every row of a store carries: no change of a row goes unseen.
 
-const std::string test_binding = R"({"schema": "assay-store/8"})";
+const std::string test_binding = R"({"schema": "assay-store/9"})";
 
 TEST(RowHash, TellsAllRowsApart) {
   const auto hash = [](const Row& row) { return row_hash(row); };

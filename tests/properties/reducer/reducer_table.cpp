@@ -10,6 +10,7 @@
 #include <string>
 
 #include "properties/campaign/phases/phases.h"
+#include "properties/campaign/phases/shrink.h"
 #include "properties/reducer/reducer.h"
 #include "tests/curated_cases.h"
 #include "tests/properties/reducer/toy_faults.h"
@@ -48,6 +49,15 @@ void print_row(const std::string& name, const corpus::Case& start, const Judge& 
     }
     std::printf("%s\n", corpus::case_text(reduction.smallest).c_str());
   }
+}
+
+// It asks the oracle by itself.
+Judge judge_of_fault(const Fault& fault) {
+  return [&fault](const corpus::Case& c) -> std::optional<Finding> {
+    Examined examined{c};
+    const auto failure = failure_of_fault(fault, examined);
+    return failure ? std::optional(finding_of(*failure)) : std::nullopt;
+  };
 }
 
 corpus::Case inflated_curated_case(const Fault& fault, const Judge& judge, std::uint64_t seed) {

@@ -101,7 +101,7 @@ TEST_F(Certify, ACertificateVerifiesAndNoFieldOrFileCanBeChanged) {
       << made.out.substr(row, 80);
   const Json statement = read();
   EXPECT_EQ(statement["_type"], "https://in-toto.io/Statement/v1");
-  EXPECT_EQ(statement["predicateType"], "urn:assay:certificate:7");
+  EXPECT_EQ(statement["predicateType"], "urn:assay:certificate:8");
   EXPECT_EQ(statement["subject"][0]["digest"]["sha256"].get<std::string>().size(), 64u);
   const Json& p = statement["predicate"];
   EXPECT_EQ(p["verdict"], "certified");
@@ -274,7 +274,7 @@ TEST_F(Certify, ACertificateOfAnOlderSchemaIsRefusedByName) {
   write(certificate, old.dump(1) + "\n");
   expect_ended("verify " + certificate, 1,
                {"of schema assay-certificate/1, this assay verifies "
-                "assay-certificate/7: verify it with the assay that issued it"});
+                "assay-certificate/8: verify it with the assay that issued it"});
 }
 
 TEST_F(Certify, BadInputIsOneLine) {

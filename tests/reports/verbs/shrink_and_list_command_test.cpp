@@ -83,7 +83,7 @@ TEST(List, LawsFaultsAndCampaigns) {
   }
   EXPECT_GE(planted.size(), 40u);
   const auto campaigns = expect_ended("list campaigns", 0);
-  for (const std::string name : {"smoke", "quick", "nightly", "release", "faults"}) {
+  for (const std::string name : {"smoke", "quick", "nightly", "release"}) {
     EXPECT_TRUE(contains(campaigns.out, name + " ")) << campaigns.out;
   }
 }
