@@ -150,11 +150,6 @@ std::uint64_t SelfTestFamily::indices(std::uint64_t queries) const {
   return queries >= from ? listed : 0;
 }
 
-std::optional<AskedQuery> SelfTestFamily::contact(std::uint64_t seed, std::uint64_t index) const {
-  auto asked = query ? query(seed, index) : std::nullopt;
-  return asked && !asked->within ? asked : std::nullopt;
-}
-
 std::optional<std::string> SelfTestFamily::check(std::uint64_t seed, std::uint64_t index,
                                                  QueryTally& tally) const {
   if (!step) {

@@ -29,8 +29,6 @@ struct SelfTestFamily {
 
   // How many indices to check if `queries` random small-integer queries are asked for.
   std::uint64_t indices(std::uint64_t queries) const;
-  // The query of contact of the case, if it is one.
-  std::optional<AskedQuery> contact(std::uint64_t seed, std::uint64_t index) const;
   // Checks a case. Returns what is wrong with it, or nothing.
   std::optional<std::string> check(std::uint64_t seed, std::uint64_t index,
                                    QueryTally& tally) const;

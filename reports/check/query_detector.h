@@ -1,5 +1,5 @@
-// The elementary query of a plug-in, as `check` and `self-test` judge it: many queries at once, by
-// its claims. Nothing is stored.
+// The elementary query of a plug-in, as `check` judges it: many queries at once, by its claims.
+// Nothing is stored.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ using JudgedQuery = std::optional<properties::Examined>;
 struct BrokenQuery {
   std::string signature;  // of the failure
   std::uint64_t met = 0;  // how many queries had it
-  std::string query;      // "FILE query 12", "ulp:1:7"
+  std::string query;      // "FILE query 12"
   std::string what;       // explains it
 };
 

@@ -1,19 +1,15 @@
-// `assay self-test` checks the oracle and prints a line for each family. Or it asks the query of a
-// plug-in on these families.
+// `assay self-test` checks the oracle and prints a line for each family.
 #include <fmt/format.h>
 
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "properties/queries/self_check.h"
 #include "reports/campaign/own_checks.h"
-#include "reports/check/query_detector.h"
-#include "reports/steps/step_report.h"
 #include "reports/terminal/option_words.h"
 #include "reports/terminal/words.h"
 #include "reports/terminal/work.h"
@@ -27,8 +23,7 @@ struct SelfTestRequest {
   std::uint64_t queries = 20'000;    // this many random small-integer queries
   std::optional<double> time_limit;  // seconds
   int jobs = 1;
-  DetectorWords detector;  // its query answers; if there is none, the oracle and its referees do
-  std::string replay;      // "family:seed:index"; empty: the whole self-test
+  std::string replay;  // "family:seed:index"; empty: the whole self-test
 };
 
 using properties::QueryTally;
@@ -78,118 +73,22 @@ void announce(const Families& families, const SelfTestRequest& request) {
   std::fflush(stdout);
 }
 
-// One case again. Without a plug-in all methods are asked.
-Expected<int> replay(const Families& families, const SelfTestRequest& request,
-                     QueryDetector* plugin) {
-  const auto named = properties::self_test_case(families, request.replay);
-  const auto asked = named ? named->family->contact(named->seed, named->index) : std::nullopt;
-  if (!named || (plugin && !asked))
-    return Problem{fmt::format("'{}' is no {} of the self-test (family:seed:index)", request.replay,
-                               plugin ? "query" : "case")};
+// One case again, put to all methods.
+Expected<int> replay(const Families& families, const std::string& name) {
+  const auto named = properties::self_test_case(families, name);
+  if (!named)
+    return Problem{fmt::format("'{}' is no case of the self-test (family:seed:index)", name)};
   fmt::print("{}", named->family->text(named->seed, named->index));
-  if (!plugin) {
-    QueryTally tally;
-    const auto wrong = named->family->check(named->seed, named->index, tally);
-    fmt::print("{}\n", wrong ? "contradiction: " + *wrong : "no contradiction");
-    return wrong ? exit_unsound : exit_holds;
-  }
-  BOOST_OUTCOME_TRY(judged, plugin->judge({asked->query}, {request.replay}));
-  if (judged[0] && !judged[0]->runs[0].steps.empty()) {
-    const auto& run = judged[0]->runs[0];
-    const auto& step = run.steps[0];
-    fmt::print("plug-in: {}{}{}\n", properties::name_of(step.answer),
-               step.answer == detector::Answer::collision ? " at t = " + time_text(step.first) : "",
-               run.explanation.empty() ? "" : " (" + run.explanation + ")");
-  }
-  fmt::print("{}", plugin->text());
-  return plugin->exit_code();
-}
-
-// The self-test's families of queries, put to the query of a plug-in.
-
-constexpr const char* family_row = "{:<14}{:>10}{:>10}{:>10}{:>10}{:>11}{:>9}\n";
-
-// What came of one family: contradictions are defects, and open ones are undecided.
-struct FamilyCount {
   QueryTally tally;
-  std::uint64_t left_out = 0;
-  std::string first_failure;  // the name of the query in the self-test
-};
-
-// Asks the queries of contact until the time is over.
-Expected<FamilyCount> ask_family(QueryDetector& detector, const SelfTestFamily& family,
-                                 const SelfTestRequest& request,
-                                 const std::function<bool()>& is_over) {
-  using properties::Outcome;
-  constexpr std::size_t at_once = 4096;
-  FamilyCount count;
-  const std::uint64_t end = family.indices(request.queries);
-  for (std::uint64_t index = 0; index < end && !is_over();) {
-    std::vector<detector::FourPoints> queries;
-    std::vector<std::string> names;
-    for (; index < end && queries.size() < at_once; ++index) {
-      const auto asked = family.contact(request.seed, index);
-      if (!asked) continue;
-      queries.push_back(asked->query);
-      names.push_back(fmt::format("{}:{}:{}", family.name, request.seed, index));
-    }
-    BOOST_OUTCOME_TRY(judged, detector.judge(queries, names));
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-      const auto& one = judged[i];
-      ++count.tally.queries;
-      count.left_out += one ? 0 : 1;
-      if (!one) continue;
-      const auto outcome = one->verdicts[0].outcome;
-      const bool is_defect = outcome == Outcome::defect;
-      count.tally.contacts += one->truth[0].pairs.empty() ? 0 : 1;
-      count.tally.contradictions += is_defect ? 1 : 0;
-      count.tally.open += is_defect || outcome == Outcome::holds ? 0 : 1;
-      if (is_defect && count.first_failure.empty()) count.first_failure = names[i];
-    }
-  }
-  return count;
-}
-
-// Prints a line for each family, then what the plug-in does whatever it claims, and the claims
-// that it breaks. Whole steps are left out. Returns the exit code of the verdict: 1 if a claim is
-// broken, 3 if the time was over.
-Expected<int> self_test_of_plugin(const Families& families, const SelfTestRequest& request) {
-  BOOST_OUTCOME_TRY(detector, QueryDetector::open(request.detector));
-  if (!request.replay.empty()) return replay(families, request, &detector);
-  fmt::print("{}\n", detector.title());
-  fmt::print(family_row, "family", "queries", "contacts", "left out", "defects", "undecided", "s");
-  std::fflush(stdout);
-  const auto begin = Clock::now();
-  bool was_over = false;
-  const auto is_over = [&] {
-    return was_over |= request.time_limit && seconds_since(begin) >= *request.time_limit;
-  };
-  std::vector<std::string> replays;
-  for (const auto& family : families) {
-    const auto family_began = Clock::now();
-    BOOST_OUTCOME_TRY(count, ask_family(detector, family, request, is_over));
-    const auto& tally = count.tally;
-    if (tally.queries == 0) continue;
-    fmt::print(family_row, family.name, tally.queries, tally.contacts, count.left_out,
-               tally.contradictions, tally.open,
-               fmt::format("{:.1f}", seconds_since(family_began)));
-    std::fflush(stdout);
-    if (!count.first_failure.empty()) replays.push_back(count.first_failure);
-  }
-  fmt::print("{}", detector.text());
-  for (const auto& name : replays)
-    fmt::print("replay: {}\n",
-               line_to_paste("self-test --replay " + name + detector_words(request.detector)));
-  if (was_over) fmt::print("stopped at the time limit\n");
-  const int code = detector.exit_code();
-  return code == exit_holds && was_over ? exit_undecided : code;
+  const auto wrong = named->family->check(named->seed, named->index, tally);
+  fmt::print("{}\n", wrong ? "contradiction: " + *wrong : "no contradiction");
+  return wrong ? exit_unsound : exit_holds;
 }
 
 Expected<int> run_self_test(const SelfTestRequest& request) {
   BOOST_OUTCOME_TRY(corpus, shipped_corpus());
   BOOST_OUTCOME_TRY(families, properties::self_test_families(corpus));
-  if (!request.detector.library.empty()) return self_test_of_plugin(families, request);
-  if (!request.replay.empty()) return replay(families, request, nullptr);
+  if (!request.replay.empty()) return replay(families, request.replay);
   announce(families, request);
 
   const auto begin = Clock::now();
@@ -238,8 +137,6 @@ void add_options(Verb& verb, SelfTestRequest& request) {
       .with(positive())
       .in(OptionGroup::limits);
   add_jobs(verb, request.jobs);
-  add_detector(verb, request.detector,
-               "A plug-in's library: its query answers the same queries, and the oracle judges it");
   verb.add("--replay CASE", request.replay, "One case again, by its name family:seed:index");
 }
 

@@ -177,7 +177,6 @@ NOT_RUN = {
     },
     "detector/plugin/README.md": {
         "assay check --detector ./libmine.so corpus/queries/example_vf.csv": NO_QUERY,
-        "assay self-test --detector ./libmine.so": NO_QUERY,
         "assay run --campaign smoke --part query --detector ./libmine.so --power proof --out mine-query":
             NO_QUERY,
     },

@@ -3,6 +3,7 @@
 import subprocess
 import sys
 import textwrap
+from pathlib import Path
 
 import pytest
 import wrong_detectors
@@ -232,7 +233,8 @@ def test_a_limiter_alone_is_judged(mine, frames):
 
 
 def test_queries_alone_are_judged(mine):
-    command = [program(), "self-test", "--detector", "python:mine:Queries", "--queries", "200"]
+    queries = Path(__file__).resolve().parents[3] / "corpus" / "queries" / "example_vf.csv"
+    command = [program(), "check", str(queries), "--detector", "python:mine:Queries"]
     ended = subprocess.run(command, capture_output=True, text=True, check=False)
     assert ended.returncode == 0, ended.stdout + ended.stderr
 

@@ -166,16 +166,6 @@ TEST_F(Parts, TheSeparationOfAContractIsThatOfItsQueries) {
                  "--separation 2: query alone 1 answers by that of its contract, 3");
 }
 
-TEST_F(Parts, TheSelfTestsFamiliesFindAFaultAndItsLineReplaysIt) {
-  expect_ended(asked("", "self-test --queries 300"), 0,
-               {"small-int", "rungs", "plane-2", "all claims hold in "});
-  const auto wrong =
-      expect_ended(asked("miss-coplanar", "self-test --queries 300"), 1, {"coplanar throughout"});
-  const auto lines = replay_lines(wrong.out);
-  ASSERT_FALSE(lines.empty());
-  expect_ended(lines[0], 1, {"plug-in: free"});
-}
-
 TEST_F(Parts, ACampaignOfQueriesIsCertifiedAndVerified) {
   expect_ended(asked("", campaign("certify", "right")), 0,
                {"216 trials of 9 families", "query-small-int", "named queries"});
@@ -244,7 +234,6 @@ TEST_F(Parts, AFailingQueryIsExportedAsPlainArrays) {
 TEST_F(Parts, WhatAsksForAPartThatIsNotThereIsRefused) {
   const std::string frames = std::string(ASSAY_SOURCE_DIR) + "/corpus/curated/";
   expect_refused(candidates("", "check " + queries), "it holds no elementary query");
-  expect_refused(candidates("", "self-test"), "it holds no elementary query");
   expect_refused(asked("", campaign("run", "steps") + " --part steps"), "but a query alone");
   expect_refused(candidates("", campaign("run", "query") + " --part query"),
                  "it holds no elementary query");
