@@ -8,7 +8,6 @@
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/gates/gates.h"
 #include "properties/campaign/ledger/tally.h"
-#include "properties/queries/query_families.h"
 #include "reports/steps/measures_text.h"
 #include "reports/terminal/work.h"
 
@@ -68,59 +67,6 @@ std::string disturbance_text(const RunFindings& findings) {
     out += fmt::format("{} {} ({:.1f} s)", i ? "," : "", tally.near_limit[i].id,
                        1e-6 * static_cast<double>(tally.near_limit[i].slowest_us));
   return out + (tally.near_limit.size() > most ? ", ...\n" : "\n");
-}
-
-std::string range_text(int log2) {
-  if (log2 < 0) return "none";
-  const std::uint64_t lo = std::uint64_t{1} << log2, hi = 2 * lo - 1;
-  return lo == hi ? fmt::format("{}", lo) : fmt::format("{}-{}", lo, hi);
-}
-
-std::string histogram(const std::map<int, std::uint64_t>& counts) {
-  std::string out;
-  for (const auto& [log2, count] : counts) {
-    out += fmt::format("{}{}: {}", out.empty() ? "" : ", ", range_text(log2), count);
-  }
-  return out;
-}
-
-std::string distribution_text(const properties::Tally& tally) {
-  std::string out;
-  for (const auto& [family, t] : tally.strata) {
-    const bool is_query = properties::is_query_family(family);
-    out += fmt::format(
-        "{}: {} ({} distinct, {} discarded), {:.0f} % collide\n", family,
-        is_query ? fmt::format("{} queries", t.trials)
-                 : fmt::format("{} steps of {} cases", t.steps, t.trials),
-        t.meshes.size(), t.discards,
-        t.steps ? 100.0 * static_cast<double>(t.collisions) / static_cast<double>(t.steps) : 0.0);
-    if (!is_query)
-      out += fmt::format("  triangles {}\n  pairs in contact {}\n", histogram(t.sizes),
-                         histogram(t.contacts));
-  }
-  return out;
-}
-
-std::string tags_text(const properties::TrialCounts& counts) {
-  std::string out;
-  for (const auto& [sets, count] : counts.set_pairs) {
-    if (out.empty())
-      out = fmt::format("{:16} {:>12} {:>14}\n", "sets of a pair", "in contact", "first contact");
-    out += fmt::format("{:16} {:>12} {:>14}\n", sets, count.contacts, count.first_contacts);
-  }
-  if (counts.tags.empty()) return out;
-  out += "cases by tag:\n";
-  std::string line;
-  for (const auto& [tag, count] : counts.tags) {
-    const std::string word = fmt::format("{} {}", tag, count);
-    constexpr std::size_t width = 100;
-    if (!line.empty() && line.size() + word.size() + 2 > width) {
-      out += fmt::format("  {}\n", line);
-      line.clear();
-    }
-    line += (line.empty() ? "" : ", ") + word;
-  }
-  return out + fmt::format("  {}\n", line);
 }
 
 // Nobody knows how close a plug-in came. Answers that differ in two forms of a case are allowed by
@@ -226,10 +172,7 @@ std::string findings_text(const RunFindings& findings, const Json& predicate) {
   const auto& run = findings.run;
   std::string out;
   if (!run.plan.strata.empty()) {
-    out += fmt::format("\n{}{}\n{}", strata_text(findings), disturbance_text(findings),
-                       distribution_text(findings.tally));
-    const auto tags = tags_text(findings.tally.counts);
-    if (!tags.empty()) out += fmt::format("\n{}", tags);
+    out += fmt::format("\n{}{}", strata_text(findings), disturbance_text(findings));
     if (!run.detector.built_in) out += fmt::format("\n{}", measures_text(findings));
     out += judged_lines(predicate);
     if (run.plan.laws_every > 0) out += laws_text(findings);

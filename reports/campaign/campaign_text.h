@@ -14,7 +14,7 @@
 
 namespace assay::reports {
 
-// All tables that the findings fill: strata, what the cases were, laws, planted faults, worlds.
+// All tables that the findings fill: strata, laws, planted faults, worlds.
 std::string findings_text(const properties::RunFindings& findings,
                           const nlohmann::ordered_json& predicate);
 
