@@ -70,25 +70,25 @@ std::span<const QueryMethod> query_methods();
 // work that it may do, or the detector's ladder in some arithmetic. Null if there is none.
 const QueryMethod* method_of(std::string_view word);
 
-// Puts one query to the methods and tries one invariance, and tells what contradicts what.
+// Puts one query to the methods, and tells what contradicts what.
 
 // What a family of queries came to.
 struct QueryTally {
   std::uint64_t queries = 0;
   std::uint64_t contacts = 0;  // or within the distance
   std::uint64_t contradictions = 0;
-  std::uint64_t open = 0;         // a referee could not tell
-  std::uint64_t invariances = 0;  // changes of a query that could be applied
-  oracle::RungCounts rungs;       // the rungs of the oracle's timed answer
+  std::uint64_t open = 0;    // a referee could not tell
+  oracle::RungCounts rungs;  // the rungs of the oracle's timed answer
+
   static constexpr bool adds_up = true;
 };
-ASSAY_FIELDS(QueryTally, queries, contacts, contradictions, open, invariances, rungs)
+ASSAY_FIELDS(QueryTally, queries, contacts, contradictions, open, rungs)
 
-// Compares every method that checks such queries, and for contacts the invariance that `pick`
-// chooses (or the next one that can be applied), with the oracle's timed answer: verdicts are
-// equal, times are equal in every bit or within what is proved, a time that is known is not missed,
-// and a listed query has its known answer by its rung. Returns what contradicts, or nothing. The
-// dearest part is the algebraic kernel.
+// Compares every method that checks such queries with the oracle's timed answer (`pick` chooses
+// those that are put to some of the queries alone): verdicts are equal, times are equal in every
+// bit or within what is proved, a time that is known is not missed, and a listed query has its
+// known answer by its rung. Returns what contradicts, or nothing. The dearest part is the algebraic
+// kernel.
 std::optional<std::string> check_query(const AskedQuery& asked, std::uint64_t pick,
                                        QueryTally& tally,
                                        std::span<const QueryMethod> methods = query_methods());

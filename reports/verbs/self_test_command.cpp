@@ -112,7 +112,6 @@ Expected<int> run_self_test(const SelfTestRequest& request) {
     complete = complete && result.complete;
   }
   print_row("all", total, seconds_since(begin));
-  fmt::print("{} invariances of these queries checked\n", total.invariances);
   if (total.contradictions > 0) {
     fmt::print("self-test: {} contradictions; the oracle or a referee is wrong\n",
                total.contradictions);
