@@ -124,12 +124,6 @@ class CampaignTerminal : public properties::CampaignObserver {
     std::fflush(stdout);
   }
 
-  void on_slow_cases(const std::vector<properties::SlowCase>& cases) override {
-    progress_.reset();
-    if (!written_) return;
-    written_ = write_slow_cases(cases, out_);
-  }
-
   // Says whether every failing mesh could be written.
   const Expected<void>& written() const { return written_; }
 
@@ -251,13 +245,9 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
 Expected<void> may_keep_run(const std::filesystem::path& out,
                             const std::vector<std::string>& files) {
   BOOST_OUTCOME_TRY(may_fill(out, files));
-  for (const auto* part : {"failures", "slow"}) {
-    std::error_code ignored;
-    if (std::filesystem::exists(out / part, ignored)) {
-      BOOST_OUTCOME_TRY(may_fill(out / part));
-    }
-  }
-  return outcome::success();
+  std::error_code ignored;
+  if (!std::filesystem::exists(out / "failures", ignored)) return outcome::success();
+  return may_fill(out / "failures");
 }
 
 Expected<void> run_on_terminal(const properties::CampaignRequest& request, properties::Store& store,

@@ -37,8 +37,8 @@ void add_campaign_options(Verb& verb, CampaignWords& words);
 // wrong.
 Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& words);
 
-// Makes the folder of a run, and looks whether these files of it can be written, and its folders of
-// failing and slow cases.
+// Makes the folder of a run, and looks whether these files of it can be written, and its folder of
+// failures.
 Expected<void> may_keep_run(const std::filesystem::path& out,
                             const std::vector<std::string>& files);
 

@@ -1,5 +1,5 @@
 // What a campaign came to, as plain text: a rendering of its predicate (certificate/statement.h),
-// or of its findings and gates where that holds less; and the files of its failures and slow cases.
+// or of its findings and gates where that holds less; and the files of its failures.
 #pragma once
 
 #include <filesystem>
@@ -57,13 +57,8 @@ std::string groups_text(const properties::RunFindings& findings,
 std::string failures_text(const properties::RunFindings& findings,
                           const nlohmann::ordered_json& predicate);
 
-// Writes two files for each case that was kept, OUT/slow/ID-CONFIGURATION-original.json and
-// -smallest.json, and a picture of the smaller one.
-Expected<void> write_slow_cases(const std::vector<properties::SlowCase>& cases,
-                                const std::filesystem::path& out);
-
-// The trials without a verdict, then the slowest of the others. Each has its processor time, the
-// line that replays it and, if one was kept, the smallest mesh and its picture.
+// The trials without a verdict, then the slowest of the others. Each has its processor time
+// and the line that replays it.
 std::string slow_trials_text(const properties::RunFindings& findings);
 
 }  // namespace assay::reports

@@ -46,26 +46,6 @@ std::string size_of_mesh(const std::string& text) {
   return c ? properties::size_text(c.value()) : "unreadable";
 }
 
-using properties::SlowCase;
-
-// The path of a mesh within the folder of the run: slow/ID-CONFIGURATION-smallest.json.
-std::filesystem::path slow_file(const SlowCase& slow, bool smallest) {
-  std::string name = slow.id + "-" + slow.configuration;
-  for (char& c : name) {
-    const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                          (c >= '0' && c <= '9') || c == '-' || c == '_';
-    if (!is_plain) c = '-';
-  }
-  return std::filesystem::path("slow") / (name + (smallest ? "-smallest.json" : "-original.json"));
-}
-
-const SlowCase* kept_of(const properties::RunFindings& findings, const std::string& id) {
-  const auto& slow = findings.evidence.slow;
-  const auto found =
-      std::find_if(slow.begin(), slow.end(), [&](const SlowCase& one) { return one.id == id; });
-  return found == slow.end() ? nullptr : &*found;
-}
-
 std::string trial_text(const properties::RunFindings& findings,
                        const properties::TrialRecord& trial, const std::string& took) {
   const auto size = properties::is_query_family(trial.family)
@@ -73,50 +53,37 @@ std::string trial_text(const properties::RunFindings& findings,
                         : fmt::format("{} triangles, {} step{}", trial.triangles, trial.steps,
                                       trial.steps == 1 ? "" : "s");
   std::string out = fmt::format("{:>12}  {}: {}\n", took, trial.id, size);
-  const auto* kept = kept_of(findings, trial.id);
-  if (!kept) {
-    const auto words = "replay " + shell_word(trial.id) + detector_words(detector_of(findings));
-    return out + fmt::format("              replay: {}\n", line_to_paste(words));
-  }
-  const auto file = slow_file(*kept, !kept->smallest.empty());
-  if (!kept->smallest.empty())
-    out += fmt::format("              shrunk to {}, which takes at least {} s\n",
-                       size_of_mesh(kept->smallest), 2 * kept->limit);
-  return out +
-         fmt::format("              picture {}\n              replay: {}\n",
-                     picture_file(absolute_path(findings.folder / file)),
-                     line_to_paste(replay_words(findings.folder, file, detector_of(findings))));
+  const auto words = "replay " + shell_word(trial.id) + detector_words(detector_of(findings));
+  return out + fmt::format("              replay: {}\n", line_to_paste(words));
 }
 
-// Writes what is kept of a case: its mesh and its smallest one, as far as they are there. `file_of`
-// names their files.
-template <class Kept, class FileOf>
-Expected<void> write_meshes(const Kept& kept, const FileOf& file_of) {
+using properties::StoredFailure;
+
+// Writes the mesh of a failure and its smallest one, as far as they are there.
+Expected<void> write_meshes(const StoredFailure& failure, const std::filesystem::path& out) {
   for (const bool smallest : {false, true}) {
-    const auto& text = smallest ? kept.smallest : kept.mesh;
+    const auto& text = smallest ? failure.smallest : failure.mesh;
     if (text.empty()) continue;
     std::error_code error;
-    const auto folder = file_of(smallest).parent_path();
-    std::filesystem::create_directories(folder, error);
+    const auto file = out / failure_file(failure, smallest);
+    std::filesystem::create_directories(file.parent_path(), error);
     if (error)
-      return Problem{fmt::format("{}: cannot be made: {}", folder.string(), error.message())};
-    BOOST_OUTCOME_TRY(corpus::write_file_atomically(file_of(smallest), text));
+      return Problem{
+          fmt::format("{}: cannot be made: {}", file.parent_path().string(), error.message())};
+    BOOST_OUTCOME_TRY(corpus::write_file_atomically(file, text));
   }
   return outcome::success();
 }
 
 // Draws the smallest of its meshes that is there.
-template <class Kept, class FileOf>
-Expected<void> write_picture(SceneMaker& scenes, const Kept& kept, const FileOf& file_of,
-                             const std::string& title) {
-  const bool is_shrunk = !kept.smallest.empty();
-  const auto shown = corpus::parse_case(is_shrunk ? kept.smallest : kept.mesh, "stored case");
+Expected<void> write_picture(SceneMaker& scenes, const StoredFailure& failure,
+                             const std::filesystem::path& out) {
+  const bool is_shrunk = !failure.smallest.empty();
+  const auto shown = corpus::parse_case(is_shrunk ? failure.smallest : failure.mesh, "stored case");
   if (!shown) return outcome::success();
-  return scenes.write_picture(file_of(is_shrunk).string(), shown.value(), kept.configuration,
-                              title);
+  return scenes.write_picture((out / failure_file(failure, is_shrunk)).string(), shown.value(),
+                              failure.configuration, failure.signature());
 }
-
-using properties::StoredFailure;
 
 constexpr std::size_t kinds_shown = 10;
 
@@ -170,10 +137,9 @@ Expected<void> write_failures(const properties::KeptFailures& kept,
   std::set<std::string> told;
   std::vector<const StoredFailure*> kinds;
   for (const auto& failure : failures) {
-    const auto file_of = [&](bool smallest) { return out / failure_file(failure, smallest); };
-    BOOST_OUTCOME_TRY(write_meshes(failure, file_of));
+    BOOST_OUTCOME_TRY(write_meshes(failure, out));
     if (!told.insert(failure.signature()).second) continue;
-    BOOST_OUTCOME_TRY(write_picture(scenes, failure, file_of, failure.signature()));
+    BOOST_OUTCOME_TRY(write_picture(scenes, failure, out));
     kinds.push_back(&failure);
   }
   const auto met = [&](const StoredFailure& failure) {
@@ -250,19 +216,6 @@ std::string failures_text(const properties::RunFindings& findings, const Json& p
     }
   }
   return failures.empty() ? "no failures\n" : out;
-}
-
-Expected<void> write_slow_cases(const std::vector<SlowCase>& cases,
-                                const std::filesystem::path& out) {
-  // The scene is made by the oracle alone, because the detector takes too long for this case to be
-  // asked again.
-  SceneMaker scenes(std::nullopt);
-  for (const auto& slow : cases) {
-    const auto file_of = [&](bool smallest) { return out / slow_file(slow, smallest); };
-    BOOST_OUTCOME_TRY(write_meshes(slow, file_of));
-    BOOST_OUTCOME_TRY(write_picture(scenes, slow, file_of, "slow: " + slow.id));
-  }
-  return outcome::success();
 }
 
 std::string slow_trials_text(const properties::RunFindings& findings) {

@@ -75,8 +75,8 @@ Expected<int> judge_together(const std::vector<std::string>& folders, const std:
 struct Verification {
   std::vector<std::string> differences;  // one line each; none: the certificate is verified
   nlohmann::ordered_json statement;      // as it was read; null if it is no statement
-  // Files beside it, and in failures/ and slow/, that were not looked at, such as a page: nothing
-  // of it rests on them.
+  // Files beside it, and in failures/, that were not looked at, such as a page: nothing of it rests
+  // on them.
   std::vector<std::string> others = {};
 };
 

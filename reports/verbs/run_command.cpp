@@ -177,7 +177,7 @@ Expected<int> conclude(const properties::CampaignRequest& request,
              groups_text(findings, predicate), gates_text(judgement),
              verdict_text(findings, judgement), seconds);
   const bool is_complete = !findings.has_more_to_do();
-  if (!findings.evidence.slow.empty())
+  if (!findings.tally.undecided.empty() || !findings.tally.near_limit.empty())
     fmt::print("slow cases: {}\n",
                line_to_paste("list slow " + shell_word(out), PastedIn::this_folder));
   if (!is_complete && findings.failures.empty()) {

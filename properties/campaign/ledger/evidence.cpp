@@ -82,11 +82,6 @@ std::uint64_t World::progress() const {
   return counterexample ? farthest : classes;
 }
 
-std::uint64_t SlowCase::progress() const {
-  constexpr std::uint64_t longest = 1'000'000'000;
-  return smallest.empty() ? 1 : longest - std::min<std::uint64_t>(smallest.size(), longest - 2);
-}
-
 Row to_row(const AnyEvidence& evidence) {
   return std::visit(
       []<class T>(const T& x) {
@@ -100,8 +95,8 @@ Row to_row(const AnyEvidence& evidence) {
 
 void EvidenceFacts::take(const Row& row) {
   const auto is_taken = [&](auto&... lists) { return (takes(lists, row) || ...); };
-  if (!is_taken(canaries, problems, faults, power, worlds, asked, versions, isolation, slow,
-                sources, speed, issued))
+  if (!is_taken(canaries, problems, faults, power, worlds, asked, versions, isolation, sources,
+                speed, issued))
     throw StoreProblem(fmt::format("no run stores {}", row_name(row)));
 }
 
@@ -173,7 +168,6 @@ void EvidenceFacts::add(EvidenceFacts other) {
   append(canaries, other.canaries);
   append(problems, other.problems);
   append(isolation, other.isolation);
-  append(slow, other.slow);
   append(speed, other.speed);
   join(asked, other.asked);
   join(versions, other.versions);

@@ -4,7 +4,7 @@
 // `what` in all rows.
 //
 // Two runs of one campaign have equal rows, unless the kind `may_differ`: times and paths
-// (SpeedFigure, Issued), a World, which its limit of time may end early, and a SlowCase.
+// (SpeedFigure, Issued), and a World, which its limit of time may end early.
 #pragma once
 
 #include <optional>
@@ -108,24 +108,6 @@ struct PluginIsolation {
 };
 ASSAY_FIELDS(PluginIsolation, asked, got)
 
-// A trial that reached the limit of a case, or came near it.
-struct SlowCase {
-  static constexpr const char* kind = "slow";
-  static constexpr bool may_differ = true;
-  std::string id, configuration;
-  bool undecided = false;  // it reached the limit of a case
-  double seconds = 0;      // processor time that it took, unless it is undecided
-  double limit = 0;        // the limit of a case, in seconds
-  // Case files as text. `smallest` takes at least twice the limit; it is empty if no such case is
-  // known.
-  std::string mesh, smallest{};
-  std::string key() const { return id + ", " + configuration; }
-  // A shrunk mesh counts as farther than none, and of two shrunk meshes the shorter counts as
-  // farther.
-  std::uint64_t progress() const;
-};
-ASSAY_FIELDS(SlowCase, id, configuration, undecided, seconds, limit, mesh, smallest)
-
 // What a verb asked of a run.
 struct Asked {
   static constexpr const char* kind = "asked";
@@ -227,7 +209,6 @@ struct EvidenceFacts {
   std::optional<Asked> asked;
   std::optional<Versions> versions;
   std::vector<PluginIsolation> isolation;
-  std::vector<SlowCase> slow;
   std::vector<JudgedSource> sources;
   std::vector<SpeedFigure> speed;
   std::optional<Issued> issued;
@@ -245,9 +226,8 @@ struct EvidenceFacts {
 };
 EvidenceFacts facts_in(const Store& store);
 
-using AnyEvidence =
-    std::variant<Canary, HarnessProblem, FaultProof, PowerSource, World, Asked, Versions,
-                 PluginIsolation, SlowCase, JudgedSource, SpeedFigure, Issued>;
+using AnyEvidence = std::variant<Canary, HarnessProblem, FaultProof, PowerSource, World, Asked,
+                                 Versions, PluginIsolation, JudgedSource, SpeedFigure, Issued>;
 Row to_row(const AnyEvidence& evidence);
 
 // Whether two runs of one campaign may differ in this row, which is one of evidence.

@@ -148,12 +148,6 @@ Expected<void> run_campaign(const CampaignRequest& request, const std::filesyste
     observer.on_phase("shrinking");
     run.shrink(complete);
     observer.on_failures_shrunk(value_or_throw(store.kept_failures()));
-    observer.on_phase("slow cases");
-    keep_slow_cases(
-        request, store, shrinking_of_one,
-        complete ? run.earlier(run.after(1), shrinking_seconds(request.plan)) : Clock::now(),
-        [&](const std::string& id) { run.progress_("slow case " + id); });
-    observer.on_slow_cases(run.stored().slow);
     if (request.power) run.take_power();
     if (complete && !request.power && request.plan.fault_cases > 0) {
       observer.on_phase("faults");

@@ -196,8 +196,8 @@ class CampaignObserver {
   virtual ~CampaignObserver() = default;
   // Called first: so many trials are in the store already.
   virtual void on_begin(std::uint64_t /*trials*/) {}
-  // A phase begins now: "trials", "repetitions", "search", "shrinking", "slow cases", "faults"
-  // or "tetrahedron". The first of these is told after the canary.
+  // A phase begins now: "trials", "repetitions", "search", "shrinking", "faults" or
+  // "tetrahedron". The first of these is told after the canary.
   virtual void on_phase(const char* /*phase*/) {}
   virtual void on_canary(const Canary&) {}
   virtual void on_trial(const TrialProgress&) {}
@@ -206,8 +206,6 @@ class CampaignObserver {
   virtual void on_progress(const std::string&, std::uint64_t /*done*/, std::uint64_t /*left*/) {}
   // All trials and their failures are stored now; faults and worlds are still to come.
   virtual void on_failures_shrunk(const KeptFailures&) {}
-  // The cases on which the detector takes longest, as they were kept.
-  virtual void on_slow_cases(const std::vector<SlowCase>&) {}
 };
 
 // Does what the store does not hold yet: the trials, the shrinking of what failed, and the planted

@@ -63,7 +63,7 @@ TEST_F(Phases, TrialsHaveTheTimeWhileSomeAreMissing) {
   const auto noted = run(always_free(10'000'000, seconds));
   EXPECT_FALSE(noted.trials.complete);
   EXPECT_GE(noted.until_trials_ended, 0.85 * seconds);
-  EXPECT_EQ(noted.phases, (std::vector<std::string>{"trials", "shrinking", "slow cases"}));
+  EXPECT_EQ(noted.phases, (std::vector<std::string>{"trials", "shrinking"}));
   // There is time to shrink what they showed, a little, where the machine does not stand still.
   const bool stalled = noted.failures.empty() || noted.until_trials_ended > 1.1 * seconds;
   EXPECT_TRUE(stalled || std::any_of(noted.failures.begin(), noted.failures.end(),
@@ -73,8 +73,8 @@ TEST_F(Phases, TrialsHaveTheTimeWhileSomeAreMissing) {
 TEST_F(Phases, OnceTheTrialsAreDoneEverythingElseIs) {
   const auto noted = run(always_free(2, 60));
   EXPECT_TRUE(noted.trials.complete);
-  EXPECT_EQ(noted.phases, (std::vector<std::string>{"trials", "repetitions", "shrinking",
-                                                    "slow cases", "faults", "tetrahedron"}));
+  EXPECT_EQ(noted.phases, (std::vector<std::string>{"trials", "repetitions", "shrinking", "faults",
+                                                    "tetrahedron"}));
 }
 
 // The six-fold volume that the mesh encloses; positive if its triangles are seen from outside.
