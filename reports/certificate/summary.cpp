@@ -198,52 +198,6 @@ Tests strata_tests(const Json& p) {
   return tests;
 }
 
-Tests laws_tests(const Json& p) {
-  Tests tests;
-  if (p["laws"].is_null()) return tests;
-  for (const auto& law : p["laws"]["laws"]) {
-    const auto broken = count(law["broken"]);
-    tests.push_back(
-        {text(law["law"]), state_of(broken > 0, law["premises"] == 0),
-         broken > 0 ? fmt::format("broken in {} steps", broken) : "its premise never held"});
-  }
-  return tests;
-}
-
-// Planted faults have to be found, and equivalent ones must not be. The policy of the plan may ask
-// for less than all of them, so a fault that is not found fails only if the gate fails.
-Tests faults_tests(const Json& p) {
-  Tests tests;
-  const bool harness_fails = gate_fails(p, "harness");
-  for (const auto& fault : p["power"]["faults"]) {
-    const bool found = fault["found"].get<bool>(), was_tried = !fault["time_over"].get<bool>();
-    auto& test = tests.emplace_back(TestCase{text(fault["fault"]), TestState::holds, ""});
-    if (fault["status"] == "planted" && !found) {
-      test.state = state_of(harness_fails && was_tried, true);
-      test.why = fmt::format("not found within {} cases", count(fault["cases"]));
-    } else if (fault["status"] == "equivalent" && found) {
-      test.state = TestState::failed;
-      test.why = "found, but registered as equivalent";
-    } else if (fault["status"] == "open" && !found) {
-      test.state = TestState::skipped;
-      test.why = "open: no case is known that shows it";
-    }
-  }
-  return tests;
-}
-
-Tests corpus_tests(const Json& p) {
-  Tests tests;
-  for (const auto& row : p["corpus"]) {
-    std::string lines;
-    for (const auto& line : row["failed"])
-      lines += fmt::format("{}: {}\n", text(line["id"]), text(line["what"]));
-    tests.push_back(
-        {text(row["input"]) + ", " + text(row["configuration"]), state_of(!lines.empty()), lines});
-  }
-  return tests;
-}
-
 Tests failures_tests(const Json& p) {
   Tests tests;
   std::map<std::string, std::string> groups;
@@ -335,9 +289,7 @@ std::string judged_text(const Json& p) {
 std::string junit_text(const Json& p) {
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"assay\">\n" +
          suite_text("gates", gates_tests(p)) + suite_text("strata", strata_tests(p)) +
-         suite_text("laws", laws_tests(p)) + suite_text("faults", faults_tests(p)) +
-         suite_text("corpus", corpus_tests(p)) + suite_text("failures", failures_tests(p)) +
-         "</testsuites>\n";
+         suite_text("failures", failures_tests(p)) + "</testsuites>\n";
 }
 
 }  // namespace assay::reports
