@@ -68,8 +68,12 @@ class Formatter : public CLI::Formatter {
     return (value.empty() ? "" : " " + value) + (is_list ? "..." : "");
   }
   std::string make_option(const CLI::Option* option, bool is_positional) const override {
-    return row(make_option_name(option, is_positional) + make_option_opts(option),
-               option->get_description(), get_column_width());
+    auto about = option->get_description();
+    if (option->get_required() && !is_positional) about += " (needed)";
+    if (const auto value = option->get_default_str(); !value.empty())
+      about += fmt::format(" (default {})", value);
+    return row(make_option_name(option, is_positional) + make_option_opts(option), about,
+               get_column_width());
   }
   std::string make_subcommand(const CLI::App* verb) const override {
     constexpr std::size_t width = 18;
@@ -131,6 +135,7 @@ int run(const Words& words) {
       "for deforming triangle meshes, against an exact oracle");
   app.set_help_flag();
   app.formatter(std::make_shared<Formatter>());
+  app.option_defaults()->group(reports::OptionGroup::question);
   app.footer(reports::exit_codes_text());
   std::vector<reports::AddedVerb> added;
   for (const auto add_verb : verbs) added.push_back(add_verb(app));

@@ -14,7 +14,7 @@
 #include "reports/bench/cases.h"
 #include "reports/campaign/campaign_text.h"
 #include "reports/campaign/own_checks.h"
-#include "reports/terminal/option_words.h"
+#include "reports/terminal/options.h"
 #include "reports/terminal/work.h"
 
 namespace assay::reports {
@@ -148,30 +148,30 @@ class CampaignTerminal : public properties::CampaignObserver {
 
 }  // namespace
 
-void add_campaign_options(Verb& verb, CampaignWords& words) {
+void add_campaign_options(CLI::App& verb, CampaignWords& words) {
   add_seed(verb, words.seed, "Of all random cases; a fresh one a night");
-  verb.add("--time SECONDS", words.time_limit,
-           "Seconds by the clock for the campaign, in place of its own limit; what is left "
-           "over then is incomplete")
-      .with(positive())
-      .in(OptionGroup::limits);
-  verb.add("--case-seconds SECONDS", words.case_seconds,
-           "Processor time of one case, in place of the campaign's own (10); then it is undecided")
-      .with(positive())
-      .in(OptionGroup::limits);
+  add(verb, "--time SECONDS", words.time_limit,
+      "Seconds by the clock for the campaign, in place of its own limit; what is left "
+      "over then is incomplete")
+      ->check(positive())
+      ->group(OptionGroup::limits);
+  add(verb, "--case-seconds SECONDS", words.case_seconds,
+      "Processor time of one case, in place of the campaign's own (10); then it is undecided")
+      ->check(positive())
+      ->group(OptionGroup::limits);
   add_choice(verb, "--memory SIZE", words.memory, "a whole number above 0, alone or with K, M or G",
              memory_size,
              "Address space of the process that runs a case, such as 6GB or 512MB, in place of the "
              "campaign's own (4GB); then memory fails there")
-      .in(OptionGroup::limits);
-  verb.add("--power DIR", words.power,
-           "Folder of a run or certificate of this build: planted faults are proved by it, "
-           "not again");
-  verb.add("--corpus DIR", words.own_cases,
-           "Folder of case files of your own (assay-case/1), judged beside what is shipped");
-  verb.add("--data DIR", words.data,
-           "Folder of the public data: a plug-in that claims to be deterministic is run again and "
-           "again on its sequences too");
+      ->group(OptionGroup::limits);
+  add(verb, "--power DIR", words.power,
+      "Folder of a run or certificate of this build: planted faults are proved by it, "
+      "not again");
+  add(verb, "--corpus DIR", words.own_cases,
+      "Folder of case files of your own (assay-case/1), judged beside what is shipped");
+  add(verb, "--data DIR", words.data,
+      "Folder of the public data: a plug-in that claims to be deterministic is run again and "
+      "again on its sequences too");
   add_detector(verb, words.detector);
   add_part(verb, words.detector.part);
   add_jobs(verb, words.jobs);

@@ -11,6 +11,10 @@
 #include "reports/terminal/option_words.h"
 #include "reports/terminal/work.h"
 
+namespace CLI {
+class App;
+}  // namespace CLI
+
 namespace assay::reports {
 
 // The request in the user's words.
@@ -31,7 +35,7 @@ struct CampaignWords {
 
 // Adds an option for each member but --campaign, --out and --share, which each verb describes in
 // its own way.
-void add_campaign_options(Verb& verb, CampaignWords& words);
+void add_campaign_options(CLI::App& verb, CampaignWords& words);
 
 // From this call on ctrl-C leaves with what is stored. Fails if a name, a file or a library is
 // wrong.

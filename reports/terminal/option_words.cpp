@@ -1,6 +1,3 @@
-#include "reports/terminal/option_words.h"
-
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <boost/assert.hpp>
@@ -9,6 +6,7 @@
 
 #include "corpus/problem.h"
 #include "properties/campaign/plan.h"
+#include "reports/terminal/options.h"
 #include "reports/terminal/words.h"
 
 namespace assay::reports {
@@ -25,14 +23,6 @@ std::vector<std::string> words_of(const std::string& list) {
     begin = end + between.size();
   }
   return words;
-}
-
-// Says what stands behind an option, "DIR" of "--out DIR", and its first title.
-VerbOption named(CLI::Option* option, const std::string& name) {
-  const auto blank = name.find(' ');
-  option->type_name(blank == std::string::npos ? "" : name.substr(blank + 1));
-  option->group(OptionGroup::question);
-  return VerbOption(option);
 }
 
 // Reads a decimal number with nothing before or behind it.
@@ -56,94 +46,23 @@ Check number(IsRight is_right, const char* what) {
 
 }  // namespace
 
-VerbOption VerbOption::required() {
-  option_->required();
-  if (!option_->get_positional()) say(" (needed)");
-  return *this;
-}
-
-VerbOption VerbOption::with(const Check& check) {
-  option_->check(CLI::Validator(check, ""));
-  return *this;
-}
-
-VerbOption VerbOption::in_range(std::uint64_t least, std::uint64_t most) {
-  return with([=](const std::string& word) {
-    const auto number = whole_number_of<std::uint64_t>(word);
-    return number && *number >= least && *number <= most
-               ? ""
-               : fmt::format("'{}' is not a whole number from {} to {}", word, least, most);
-  });
-}
-
-VerbOption VerbOption::shows_default() {
-  option_->capture_default_str();
-  say(fmt::format(" (default {})", option_->get_default_str()));
-  return *this;
-}
-
-VerbOption VerbOption::excludes(VerbOption other) {
-  option_->excludes(other.option_);
-  return *this;
-}
-
-VerbOption VerbOption::in(const char* group) {
-  option_->group(group);
-  return *this;
-}
-
-VerbOption VerbOption::among(const std::vector<std::string>& words) {
-  say(": " + joined(words, ", "));
-  return *this;
-}
-
-void VerbOption::say(const std::string& more) {
-  option_->description(option_->get_description() + more);
-}
-
-Verb::Verb(CLI::App& app, const std::string& name, const std::string& about)
-    : app_(app.add_subcommand(name, about)) {
+CLI::App& add_verb(CLI::App& app, const std::string& name, const std::string& about) {
   const auto manual = std::ranges::find(verb_manuals(), name, &VerbManual::verb);
   BOOST_ASSERT(manual != verb_manuals().end());
-  app_->group(manual->group);
-  app_->footer(manual->text());
+  auto& verb = *app.add_subcommand(name, about);
+  verb.group(manual->group);
+  verb.footer(manual->text());
+  return verb;
 }
 
-template <class Target>
-VerbOption Verb::add(const std::string& name, Target& target, const std::string& about) {
-  return named(app_->add_option(name.substr(0, name.find(' ')), target, about), name);
-}
-template VerbOption Verb::add(const std::string&, std::string&, const std::string&);
-template VerbOption Verb::add(const std::string&, std::vector<std::string>&, const std::string&);
-template VerbOption Verb::add(const std::string&, std::vector<std::vector<std::string>>&,
-                              const std::string&);
-template VerbOption Verb::add(const std::string&, int&, const std::string&);
-template VerbOption Verb::add(const std::string&, std::uint64_t&, const std::string&);
-template VerbOption Verb::add(const std::string&, double&, const std::string&);
-template VerbOption Verb::add(const std::string&, std::vector<double>&, const std::string&);
-template VerbOption Verb::add(const std::string&, std::optional<double>&, const std::string&);
-
-VerbOption Verb::add_flag(const std::string& name, bool& target, const std::string& about) {
-  return named(app_->add_flag(name, target, about), name);
-}
-
-VerbOption Verb::add_word(const std::string& name,
-                          std::function<void(const std::string& word)> take,
-                          const std::string& about) {
-  const auto word = name.substr(0, name.find(' '));
-  return named(app_->add_option_function<std::string>(word, std::move(take), about), name);
-}
-
-std::function<std::vector<std::string>()> Verb::given() const {
-  return [app = app_] {
-    std::vector<std::string> words;
-    for (const auto* option : app->get_options()) {
-      if (option->count() == 0 || option->get_positional()) continue;
-      const auto value = option->get_type_name();
-      words.push_back(option->get_name() + (value.empty() ? "" : " " + value));
-    }
-    return words;
-  };
+std::vector<std::string> given_options(const CLI::App& verb) {
+  std::vector<std::string> words;
+  for (const auto* option : verb.get_options()) {
+    if (option->count() == 0 || option->get_positional()) continue;
+    const auto value = option->get_type_name();
+    words.push_back(option->get_name() + (value.empty() ? "" : " " + value));
+  }
+  return words;
 }
 
 std::string wrong_word(const std::string& word, const std::string& wanted) {
@@ -183,6 +102,15 @@ std::string memory_word(std::uint64_t bytes) {
   return fmt::format("{}{}", bytes, units[unit]);
 }
 
+Check in_range(std::uint64_t least, std::uint64_t most) {
+  return [=](const std::string& word) {
+    const auto number = whole_number_of<std::uint64_t>(word);
+    return number && *number >= least && *number <= most
+               ? ""
+               : fmt::format("'{}' is not a whole number from {} to {}", word, least, most);
+  };
+}
+
 Check positive() {
   return number([](double x) { return x > 0; }, "a number above 0");
 }
@@ -205,32 +133,33 @@ Check whole_number() {
   };
 }
 
-void add_limits(Verb& verb, std::optional<double>& seconds, std::optional<std::uint64_t>& bytes) {
-  verb.add("--time SECONDS", seconds,
-           "Limit in seconds of processor time, all threads together; what is left is undecided")
-      .with(positive())
-      .in(OptionGroup::limits);
+void add_limits(CLI::App& verb, std::optional<double>& seconds,
+                std::optional<std::uint64_t>& bytes) {
+  add(verb, "--time SECONDS", seconds,
+      "Limit in seconds of processor time, all threads together; what is left is undecided")
+      ->check(positive())
+      ->group(OptionGroup::limits);
   add_choice(verb, "--memory SIZE", bytes, "a whole number above 0, alone or with K, M or G",
              memory_size, "Limit of resident memory, such as 6GB or 512MB (MB: 2^20 bytes)")
-      .in(OptionGroup::limits);
+      ->group(OptionGroup::limits);
 }
 
-void add_jobs(Verb& verb, int& jobs) {
+void add_jobs(CLI::App& verb, int& jobs) {
   jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   // The number of cores is no part of the manual, for it is another on every machine.
-  verb.add("--jobs N", jobs,
-           "Threads of the oracle (default: all cores); the result does not depend on it")
-      .in_range(1, 1024)
-      .in(OptionGroup::limits);
+  add(verb, "--jobs N", jobs,
+      "Threads of the oracle (default: all cores); the result does not depend on it")
+      ->check(in_range(1, 1024))
+      ->group(OptionGroup::limits);
 }
 
-void add_seed(Verb& verb, std::uint64_t& seed, const std::string& about) {
-  verb.add("--seed N", seed, about).with(whole_number()).shows_default();
+void add_seed(CLI::App& verb, std::uint64_t& seed, const std::string& about) {
+  add(verb, "--seed N", seed, about)->check(whole_number())->capture_default_str();
 }
 
 constexpr int most_threads = 1024;
 
-void add_part(Verb& verb, DetectorPart& part) {
+void add_part(CLI::App& verb, DetectorPart& part) {
   const auto parse = [](std::string_view word) {
     return word == "steps"   ? std::optional(DetectorPart::steps)
            : word == "query" ? std::optional(DetectorPart::query)
@@ -239,35 +168,36 @@ void add_part(Verb& verb, DetectorPart& part) {
   add_choice(verb, "--part", part, "steps, query", parse,
              "What of the plug-in is judged: whole steps with their candidates, or its elementary "
              "query (default: all that it holds)")
-      .in(OptionGroup::detector);
+      ->group(OptionGroup::detector);
 }
 
-VerbOption add_detector_alone(Verb& verb, DetectorWords& detector, const std::string& about) {
-  auto library = verb.add("--detector LIB.so", detector.library, about).in(OptionGroup::detector);
+CLI::Option* add_detector_alone(CLI::App& verb, DetectorWords& detector, const std::string& about) {
+  auto library =
+      add(verb, "--detector LIB.so", detector.library, about)->group(OptionGroup::detector);
   add_choice(verb, "--isolation", detector.isolation, "bubblewrap, limits",
              from_name<properties::Isolation>,
              "Of the plug-in's process: bubblewrap, or limits alone (default: bubblewrap where it "
              "works)")
-      .in(OptionGroup::detector);
+      ->group(OptionGroup::detector);
   return library;
 }
 
-VerbOption add_detector(Verb& verb, DetectorWords& detector, const std::string& about) {
+CLI::Option* add_detector(CLI::App& verb, DetectorWords& detector, const std::string& about) {
   auto library = add_detector_alone(verb, detector, about);
-  verb.add("--threads N", detector.threads,
-           "How many threads the detector may use; a plug-in is told")
-      .in_range(1, most_threads)
-      .shows_default()
-      .in(OptionGroup::detector);
+  add(verb, "--threads N", detector.threads,
+      "How many threads the detector may use; a plug-in is told")
+      ->check(in_range(1, most_threads))
+      ->capture_default_str()
+      ->group(OptionGroup::detector);
   return library;
 }
 
-void add_threads(Verb& verb, std::uint64_t& threads) {
-  verb.add("--threads N", threads,
-           "How many threads the detector may use; 0: all cores, and a plug-in is told 1")
-      .in_range(0, most_threads)
-      .shows_default()
-      .in(OptionGroup::detector);
+void add_threads(CLI::App& verb, std::uint64_t& threads) {
+  add(verb, "--threads N", threads,
+      "How many threads the detector may use; 0: all cores, and a plug-in is told 1")
+      ->check(in_range(0, most_threads))
+      ->capture_default_str()
+      ->group(OptionGroup::detector);
 }
 
 DetectorPart part_asked_by(const properties::CampaignPlan& plan) {

@@ -1,9 +1,6 @@
-// A verb and its options, as the verb's own file states them; checks of the words after an option,
-// and the options that several verbs have. The detector that they name: the built-in one, or a
-// plug-in; and what a plug-in says of itself, for people.
-//
-// CLI11 parses the command line behind this header, and formats help. It takes six seconds to
-// compile, so only option_words.cpp and main.cpp include it.
+// The words after an option, and checks of them; what help says of a verb beside its options. The
+// detector that they name: the built-in one, or a plug-in; and what a plug-in says of itself, for
+// people.
 #pragma once
 
 #include <fmt/format.h>
@@ -12,7 +9,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,19 +18,7 @@
 #include "properties/words.h"
 #include "reports/terminal/work.h"
 
-namespace CLI {
-class App;
-class Option;
-}  // namespace CLI
-
 namespace assay::reports {
-
-// The titles under which the options of a verb stand.
-struct OptionGroup {
-  static constexpr const char *input = "Input", *question = "What is asked",
-                              *detector = "The detector", *limits = "Limits and threads",
-                              *output = "What is written";
-};
 
 // A check of the word after an option: one clear line that says what is wrong with it; empty if
 // nothing is.
@@ -70,68 +54,6 @@ std::string exit_codes_text();
 // begins behind `indent` columns that are written already.
 std::string wrapped(const std::string& text, std::size_t indent);
 
-class VerbOption {
- public:
-  explicit VerbOption(CLI::Option* option) : option_(option) {}
-  VerbOption required();
-  VerbOption with(const Check& check);
-  VerbOption in_range(std::uint64_t least, std::uint64_t most);
-  // Help shows the value that the target has now.
-  VerbOption shows_default();
-  // The two may not be given together.
-  VerbOption excludes(VerbOption other);
-  // Under which title help shows it, in place of OptionGroup::question.
-  VerbOption in(const char* group);
-  // Help lists the words that it may be.
-  VerbOption among(const std::vector<std::string>& words);
-
- private:
-  void say(const std::string& more);
-  CLI::Option* option_;
-};
-
-class Verb {
- public:
-  Verb(CLI::App& app, const std::string& name, const std::string& about);
-
-  // Adds an option with what stands behind it ("--out DIR"), or a word without one ("FILE"). The
-  // target keeps its value if the option is not given. It must outlive the parsing.
-  // Targets are words, lists of them, numbers and optional numbers: those of option_words.cpp.
-  template <class Target>
-  VerbOption add(const std::string& name, Target& target, const std::string& about);
-  VerbOption add_flag(const std::string& name, bool& target, const std::string& about);
-  // `take` is called with the word, once it has passed the checks.
-  VerbOption add_word(const std::string& name, std::function<void(const std::string& word)> take,
-                      const std::string& about);
-  // Gives the options of the command line as help names them ("--out DIR"), once it is parsed.
-  std::function<std::vector<std::string>()> given() const;
-
- private:
-  CLI::App* app_;
-};
-
-// A verb of the command line: its name, and what it does once the command line is parsed, which
-// returns the exit code.
-struct AddedVerb {
-  std::string name;
-  std::function<int()> act;
-};
-
-// Makes a verb with these options and this action, which returns the exit code, or the problem with
-// which the verb is refused. The action keeps the request alive: it holds the defaults, and the
-// options write into it.
-template <class Request>
-AddedVerb make_verb(CLI::App& app, const char* name, const char* about,
-                    void (*add_options)(Verb&, Request&), Expected<int> (*run)(const Request&)) {
-  const auto request = std::make_shared<Request>();
-  Verb verb(app, name, about);
-  add_options(verb, *request);
-  return {name, [request, run] {
-            const auto code = run(*request);
-            return code ? code.value() : refuse(code.error());
-          }};
-}
-
 // One line that says which words are wanted in place of this one, and which may have been meant.
 std::string wrong_word(const std::string& word, const std::string& wanted);
 
@@ -141,20 +63,6 @@ Check one_of(const std::string& words, Parse parse) {
   return [words, parse](const std::string& word) {
     return parse(word) ? std::string() : wrong_word(word, words);
   };
-}
-
-// An option whose word is one of `words`, or has the form that the option's name tells ("--why
-// A,B"). Its target stays as it is if the option is not given.
-template <class Target, class Parse>
-VerbOption add_choice(Verb& verb, const std::string& name, Target& target, const std::string& words,
-                      Parse parse, const std::string& about) {
-  const bool has_form = name.find(' ') != std::string::npos;
-  return verb
-      .add_word(
-          has_form ? name : name + " WORD",
-          [&target, parse](const std::string& word) { target = *parse(word); },
-          has_form ? about : about + ": " + words)
-      .with(one_of(words, parse));
 }
 
 using properties::whole_number_of;
@@ -168,6 +76,7 @@ std::optional<std::uint64_t> memory_size(const std::string& word);
 // The word for a number of bytes: "512MB"; "1000".
 std::string memory_word(std::uint64_t bytes);
 
+Check in_range(std::uint64_t least, std::uint64_t most);
 Check positive();      // a number above 0
 Check length();        // a finite number >= 0
 Check whole_number();  // 0 .. 2^64-1
@@ -205,20 +114,5 @@ std::string plugin_text(const properties::Subject& plugin);
 // "  it printed:" and the lines that it printed in a case, each behind four blanks; empty if it
 // printed nothing.
 std::string printed_text(const std::string& printed);
-
-// The options --jobs (all cores, unless told otherwise) and --seed.
-void add_jobs(Verb& verb, int& jobs);
-// The options --time and --memory of a verb that does its work in this process (work.h).
-void add_limits(Verb& verb, std::optional<double>& seconds, std::optional<std::uint64_t>& bytes);
-void add_seed(Verb& verb, std::uint64_t& seed, const std::string& about);
-// The option --part: which part of a plug-in a campaign is about.
-void add_part(Verb& verb, DetectorPart& part);
-// The options --detector, --isolation and --threads. Returns the option --detector.
-VerbOption add_detector(Verb& verb, DetectorWords& detector,
-                        const std::string& about =
-                            "A plug-in's library, or python:MODULE:CLASS (default: the built-in)");
-// The same without --threads, and --threads alone, for a verb that takes all cores if it is 0.
-VerbOption add_detector_alone(Verb& verb, DetectorWords& detector, const std::string& about);
-void add_threads(Verb& verb, std::uint64_t& threads);
 
 }  // namespace assay::reports

@@ -7,7 +7,6 @@
 
 #include "corpus/problem.h"
 #include "reports/bench/compared/comparison.h"
-#include "reports/terminal/option_words.h"
 #include "reports/terminal/words.h"
 #include "reports/terminal/work.h"
 #include "reports/verbs/verbs.h"
@@ -75,35 +74,35 @@ Expected<int> run_bench(const BenchRequest& request) try {
   return Problem{problem.what()};
 }
 
-void add_options(Verb& verb, BenchRequest& request) {
+void add_options(CLI::App& verb, BenchRequest& request) {
   const char* data = std::getenv("ASSAY_DATA");
   request.settings.data = data && *data ? data : "../shared/data";
-  const auto names = corpus::names_among(suites);
-  auto suite = verb.add("--suite NAME", request.suite, "What to measure")
-                   .with(one_of(fmt::format("{}", fmt::join(names, ", ")), suite_named))
-                   .among(names);
+  const auto names = joined(corpus::names_among(suites), ", ");
+  auto* suite = add(verb, "--suite NAME", request.suite, "What to measure: " + names)
+                    ->check(one_of(names, suite_named));
   add_detector(verb, request.detector,
                "In place of a suite: a plug-in's library, timed beside the built-in detector on "
                "scenes and public sequences, its answers judged by its claims")
-      .excludes(suite);
-  verb.add("--case-seconds SECONDS", request.settings.case_seconds,
-           "Processor seconds that a plug-in may take for a sequence")
-      .with(positive())
-      .shows_default()
-      .in(OptionGroup::limits);
+      ->excludes(suite);
+  add(verb, "--case-seconds SECONDS", request.settings.case_seconds,
+      "Processor seconds that a plug-in may take for a sequence")
+      ->check(positive())
+      ->capture_default_str()
+      ->group(OptionGroup::limits);
   add_jobs(verb, request.settings.jobs);
   verb.add_flag("--quick", request.is_quick,
                 "A tenth of sizes and rounds: a first look, in a tenth of the time or so");
-  verb.add("--data DIR", request.settings.data,
-           "Folder of the public data (default $ASSAY_DATA, else ../shared/data); rows of "
-           "what is not there say so");
+  add(verb, "--data DIR", request.settings.data,
+      "Folder of the public data (default $ASSAY_DATA, else ../shared/data); rows of "
+      "what is not there say so");
   request.settings.peers = (properties::worker_program().parent_path() / "peers").string();
-  verb.add("--peers DIR", request.settings.peers,
-           "Suite peers: folder of the plug-ins (default: peers beside the program, where target "
-           "`peers` builds them)");
-  verb.add("--json FILE", request.json_file, "Write all figures here (assay-bench/2)")
-      .in(OptionGroup::output);
-  verb.add("--csv FILE", request.csv_file, "Write the raw samples here").in(OptionGroup::output);
+  add(verb, "--peers DIR", request.settings.peers,
+      "Suite peers: folder of the plug-ins (default: peers beside the program, where target "
+      "`peers` builds them)");
+  add(verb, "--json FILE", request.json_file, "Write all figures here (assay-bench/2)")
+      ->group(OptionGroup::output);
+  add(verb, "--csv FILE", request.csv_file, "Write the raw samples here")
+      ->group(OptionGroup::output);
 }
 
 }  // namespace

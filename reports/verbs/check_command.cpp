@@ -10,7 +10,6 @@
 #include "corpus/formats/step_source.h"
 #include "properties/judging/case_options.h"
 #include "reports/check/check_run.h"
-#include "reports/terminal/option_words.h"
 #include "reports/terminal/words.h"
 #include "reports/terminal/work.h"
 #include "reports/verbs/verbs.h"
@@ -33,7 +32,7 @@ struct CheckRequest {
   bool fail_on_collision = false;
   std::string json_file, junit_file;  // empty: not written
   Keeping keeping;
-  std::function<std::vector<std::string>()> given;  // Verb::given
+  std::function<std::vector<std::string>()> given;  // given_options of the verb
 };
 
 // What is judged, as bits, so that an option may be of several kinds.
@@ -328,33 +327,33 @@ Expected<int> run_check(const CheckRequest& request) {
 }
 
 // Which steps of a log are judged.
-void add_selection(Verb& verb, LogSelection& selection) {
-  verb.add("--share SHARE", selection.share, "Judge this share of a log's steps").with(share());
-  verb.add("--from N", selection.from, "Go on with this step of a log, counted from 1")
-      .in_range(1, std::numeric_limits<std::int64_t>::max());
+void add_selection(CLI::App& verb, LogSelection& selection) {
+  add(verb, "--share SHARE", selection.share, "Judge this share of a log's steps")->check(share());
+  add(verb, "--from N", selection.from, "Go on with this step of a log, counted from 1")
+      ->check(in_range(1, std::numeric_limits<std::int64_t>::max()));
   verb.add_flag("--follow", selection.follow, "Wait for steps until the recorder ends the log");
 }
 
-void add_options(Verb& verb, CheckRequest& request) {
+void add_options(CLI::App& verb, CheckRequest& request) {
   auto& question = request.question;
-  verb.add("INPUT", request.inputs,
-           "Frames (OBJ, PLY, OFF; .gz too), whose steps are judged; one alone: a mesh at "
-           "rest. Or one case file (.json). Or a log that a recorder wrote (assay_record.h, "
-           "assay.Recorder); LOG#N: step N alone; several, each by itself. Or query files (.csv, "
-           ".csv.gz)");
-  verb.add("--body FRAME", question.bodies,
-           "The frames of one of several meshes, which become bodies of one; numbered from 0. One "
-           "frame: it stands still");
-  verb.add("--apart A,B", request.apart,
-           "A,B: bodies that do not meet; A,A: one that meets not itself")
-      .with(one_of("A,B: two bodies by number", two_numbers));
-  verb.add("--rings K", request.rings,
-           "Pairs of triangles that fewer than K edges join do not count (1: those that share a "
-           "vertex)")
-      .in_range(0, std::numeric_limits<std::int32_t>::max());
-  verb.add("--rest-distance LENGTH", request.rest_distance,
-           "Pairs of triangles that are nearer than this in the first frame do not count")
-      .with(length());
+  add(verb, "INPUT", request.inputs,
+      "Frames (OBJ, PLY, OFF; .gz too), whose steps are judged; one alone: a mesh at "
+      "rest. Or one case file (.json). Or a log that a recorder wrote (assay_record.h, "
+      "assay.Recorder); LOG#N: step N alone; several, each by itself. Or query files (.csv, "
+      ".csv.gz)");
+  add(verb, "--body FRAME", question.bodies,
+      "The frames of one of several meshes, which become bodies of one; numbered from 0. One "
+      "frame: it stands still");
+  add(verb, "--apart A,B", request.apart,
+      "A,B: bodies that do not meet; A,A: one that meets not itself")
+      ->check(one_of("A,B: two bodies by number", two_numbers));
+  add(verb, "--rings K", request.rings,
+      "Pairs of triangles that fewer than K edges join do not count (1: those that share a "
+      "vertex)")
+      ->check(in_range(0, std::numeric_limits<std::int32_t>::max()));
+  add(verb, "--rest-distance LENGTH", request.rest_distance,
+      "Pairs of triangles that are nearer than this in the first frame do not count")
+      ->check(length());
   verb.add_flag("--weld", request.weld,
                 "Vertices of a body that stand at one place in every frame count as one");
   add_selection(verb, request.selection);
@@ -364,8 +363,8 @@ void add_options(Verb& verb, CheckRequest& request) {
                      "queries: its query answers. Of a log: one of the same code; it is asked "
                      "again about what is kept, and that is shrunk");
   add_threads(verb, question.threads);
-  verb.add("--answers FILE", question.answers,
-           "Judge the answers of this table (step,answer,time) in place of a detector");
+  add(verb, "--answers FILE", question.answers,
+      "Judge the answers of this table (step,answer,time) in place of a detector");
   add_choice(verb, "--adjacency", question.adjacency, all_names<properties::Adjacency>(),
              from_name<properties::Adjacency>,
              "Which neighbours --answers are about (default all)");
@@ -379,46 +378,46 @@ void add_options(Verb& verb, CheckRequest& request) {
   add_choice(verb, "--arithmetic", built_in.arithmetic, all_names<detector::Arithmetic>(),
              from_name<detector::Arithmetic>, "What the detector computes in (default exact)");
   verb.add_flag("--no-oracle", question.no_oracle, "Detector only; prints `not judged`");
-  verb.add("--second-opinion SHARE", question.second_opinion,
-           "Check the oracle itself by other methods, on this share of its questions")
-      .with(share());
-  verb.add("--separation LENGTH", request.separation,
-           "Ask the oracle alone which triangles that share no vertex come within this "
-           "distance, when first, and how near any two come. Of queries: ask for this distance, "
-           "and not for contact, where a query's rows say none")
-      .with(length());
-  verb.add("--offset LENGTH", request.offsets,
-           "The same with a length for each --body, in their order: the distance of two triangles "
-           "is the sum of their bodies' lengths")
-      .with(length());
+  add(verb, "--second-opinion SHARE", question.second_opinion,
+      "Check the oracle itself by other methods, on this share of its questions")
+      ->check(share());
+  add(verb, "--separation LENGTH", request.separation,
+      "Ask the oracle alone which triangles that share no vertex come within this "
+      "distance, when first, and how near any two come. Of queries: ask for this distance, "
+      "and not for contact, where a query's rows say none")
+      ->check(length());
+  add(verb, "--offset LENGTH", request.offsets,
+      "The same with a length for each --body, in their order: the distance of two triangles "
+      "is the sum of their bodies' lengths")
+      ->check(length());
   add_jobs(verb, question.jobs);
   add_limits(verb, question.time_limit, question.memory_limit);
   verb.add_flag("--fail-on-collision", request.fail_on_collision,
                 "Exit code 5 when they agree on a collision, or a step comes within --separation; "
                 "of a log when one is recorded, and no answer breaks a claim");
-  verb.add("--keep DIR", request.keeping.folder,
-           "Keep failing steps here: the part of the mesh that shows each, as case, OBJ and C++; "
-           "of a plug-in shrunk")
-      .in(OptionGroup::output);
-  verb.add("--shrink-time SECONDS", request.keeping.shrink_seconds,
-           "Of a log, seconds at most for each that is shrunk")
-      .with(positive())
-      .shows_default()
-      .in(OptionGroup::limits);
-  verb.add("--ply FILE", question.ply_file,
-           "Write the mesh at its first contact here, with the triangles in contact in red, at "
-           "rest those that only touch in amber")
-      .in(OptionGroup::output);
+  add(verb, "--keep DIR", request.keeping.folder,
+      "Keep failing steps here: the part of the mesh that shows each, as case, OBJ and C++; "
+      "of a plug-in shrunk")
+      ->group(OptionGroup::output);
+  add(verb, "--shrink-time SECONDS", request.keeping.shrink_seconds,
+      "Of a log, seconds at most for each that is shrunk")
+      ->check(positive())
+      ->capture_default_str()
+      ->group(OptionGroup::limits);
+  add(verb, "--ply FILE", question.ply_file,
+      "Write the mesh at its first contact here, with the triangles in contact in red, at "
+      "rest those that only touch in amber")
+      ->group(OptionGroup::output);
   verb.add_flag("--all-steps", request.all_steps,
                 "Print every step of a log, not only those that are not as claimed")
-      .in(OptionGroup::output);
-  verb.add("--junit FILE", request.junit_file,
-           "Write what each claim of a log came to here, as JUnit XML")
-      .in(OptionGroup::output);
-  verb.add("--json FILE", request.json_file,
-           "Write the report here (assay-check/1; of queries assay-queries/1)")
-      .in(OptionGroup::output);
-  request.given = verb.given();
+      ->group(OptionGroup::output);
+  add(verb, "--junit FILE", request.junit_file,
+      "Write what each claim of a log came to here, as JUnit XML")
+      ->group(OptionGroup::output);
+  add(verb, "--json FILE", request.json_file,
+      "Write the report here (assay-check/1; of queries assay-queries/1)")
+      ->group(OptionGroup::output);
+  request.given = [&verb] { return given_options(verb); };
 }
 
 }  // namespace

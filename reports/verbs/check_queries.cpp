@@ -340,8 +340,8 @@ Expected<int> check_queries(const QueryQuestion& question) {
   return score.is_wrong() ? exit_defect : exit_holds;
 }
 
-void add_query_options(Verb& verb, QueryQuestion& question) {
-  verb.add("--truth FILE", question.truths, "Labels (.json), one file for each query file");
+void add_query_options(CLI::App& verb, QueryQuestion& question) {
+  add(verb, "--truth FILE", question.truths, "Labels (.json), one file for each query file");
   std::vector<const char*> words;
   for (const auto& method : properties::query_methods()) {
     if (method.word) words.push_back(method.word);

@@ -113,12 +113,11 @@ Expected<int> run_list(const ListRequest& request) {
   return list.print(request.folder);
 }
 
-void add_options(Verb& verb, ListRequest& request) {
-  const auto names = corpus::names_among(lists);
-  verb.add("LIST", request.list, "Which; without it, what the lists are")
-      .with(one_of(fmt::format("{}", fmt::join(names, ", ")), list_named))
-      .among(names);
-  verb.add("DIR", request.folder, "Of a run, for failures and slow");
+void add_options(CLI::App& verb, ListRequest& request) {
+  const auto names = joined(corpus::names_among(lists), ", ");
+  add(verb, "LIST", request.list, "Which; without it, what the lists are: " + names)
+      ->check(one_of(names, list_named));
+  add(verb, "DIR", request.folder, "Of a run, for failures and slow");
 }
 
 }  // namespace

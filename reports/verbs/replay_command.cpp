@@ -22,7 +22,6 @@
 #include "reports/pictures/case_scene.h"
 #include "reports/steps/case_export.h"
 #include "reports/steps/step_report.h"
-#include "reports/terminal/option_words.h"
 #include "reports/terminal/words.h"
 #include "reports/terminal/work.h"
 #include "reports/verbs/verbs.h"
@@ -301,15 +300,15 @@ std::optional<detector::TrianglePair> parse_pair(const std::string& word) {
   return detector::TrianglePair{a, b};
 }
 
-void add_options(Verb& verb, ReplayRequest& request) {
-  verb.add("CASE", request.id_or_file,
-           "Its id, CAMPAIGN:SEED:FAMILY:INDEX, or a file; LOG#N: step N of a log")
-      .required();
-  verb.add("--export DIR", request.export_folder,
-           "Write frames as OBJ, a picture of the first contact and a test in C++ into this "
-           "folder: plain arrays beside a GoogleTest, or of a plug-in beside a program that loads "
-           "it")
-      .in(OptionGroup::output);
+void add_options(CLI::App& verb, ReplayRequest& request) {
+  add(verb, "CASE", request.id_or_file,
+      "Its id, CAMPAIGN:SEED:FAMILY:INDEX, or a file; LOG#N: step N of a log")
+      ->required();
+  add(verb, "--export DIR", request.export_folder,
+      "Write frames as OBJ, a picture of the first contact and a test in C++ into this "
+      "folder: plain arrays beside a GoogleTest, or of a plug-in beside a program that loads "
+      "it")
+      ->group(OptionGroup::output);
   add_choice(verb, "--why A,B", request.why, "A,B: two triangles", parse_pair,
              "A,B: why this pair of triangles was or was not tested");
   add_detector(verb, request.detector);

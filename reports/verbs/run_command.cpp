@@ -157,13 +157,15 @@ Expected<int> certify(const CampaignWords& words) {
   return Certification(words, request, corpus, std::move(store)).run();
 }
 
-void add_certify_options(Verb& verb, CampaignWords& words) {
+void add_certify_options(CLI::App& verb, CampaignWords& words) {
   words.campaign = "smoke";
-  verb.add("--campaign NAME|FILE", words.campaign,
-           "smoke, quick, nightly, release, or a campaign file (.json)")
-      .shows_default();
+  add(verb, "--campaign NAME|FILE", words.campaign,
+      "smoke, quick, nightly, release, or a campaign file (.json)")
+      ->capture_default_str();
   add_campaign_options(verb, words);
-  verb.add("--out DIR", words.out, "Folder for the certificate").required().in(OptionGroup::output);
+  add(verb, "--out DIR", words.out, "Folder for the certificate")
+      ->required()
+      ->group(OptionGroup::output);
 }
 
 constexpr const char* go_on = "; what is stored stays: run the same again to go on";
@@ -228,18 +230,18 @@ std::optional<std::uint64_t> shares_of(const std::string& word) {
   return shares && *shares >= 1 && *shares <= most ? shares : std::nullopt;
 }
 
-void add_run_options(Verb& verb, CampaignWords& words) {
+void add_run_options(CLI::App& verb, CampaignWords& words) {
   words.campaign = "quick";
-  verb.add("--campaign NAME|FILE", words.campaign,
-           "smoke, quick, nightly, release, or a campaign file (.json)")
-      .shows_default();
+  add(verb, "--campaign NAME|FILE", words.campaign,
+      "smoke, quick, nightly, release, or a campaign file (.json)")
+      ->capture_default_str();
   add_campaign_options(verb, words);
   add_choice(verb, "--share 1/N", words.shares, "1/N, with N from 1 to 1000000", shares_of,
              "1/N: do this share of the campaign under a seed of its own, with the checks and the "
              "certificate of `certify`; `verify DIR... --out DIR` judges the shares together");
-  verb.add("--out DIR", words.out, "Folder for the store and the failing meshes")
-      .required()
-      .in(OptionGroup::output);
+  add(verb, "--out DIR", words.out, "Folder for the store and the failing meshes")
+      ->required()
+      ->group(OptionGroup::output);
 }
 
 }  // namespace

@@ -57,16 +57,16 @@ Expected<int> run_scene(const SceneRequest& request) {
   return exit_holds;
 }
 
-void add_options(Verb& verb, SceneRequest& request) {
-  verb.add("SCENE", request.name, "One of `assay list scenes`")
-      .required()
-      .among(corpus::names_among(corpus::scenes()));
-  verb.add("--mesh FILE", request.mesh_file, "Deform this mesh instead of the scene's own");
-  verb.add("--size N", request.size, "Triangles wanted").in_range(1, 1'000'000'000);
-  verb.add("--frames N", request.frames, "Frames").in_range(1, 1'000'000'000);
-  verb.add("--out DIR", request.out, "Folder for frame_0000.ply, ...")
-      .required()
-      .in(OptionGroup::output);
+void add_options(CLI::App& verb, SceneRequest& request) {
+  add(verb, "SCENE", request.name,
+      "One of `assay list scenes`: " + joined(corpus::names_among(corpus::scenes()), ", "))
+      ->required();
+  add(verb, "--mesh FILE", request.mesh_file, "Deform this mesh instead of the scene's own");
+  add(verb, "--size N", request.size, "Triangles wanted")->check(in_range(1, 1'000'000'000));
+  add(verb, "--frames N", request.frames, "Frames")->check(in_range(1, 1'000'000'000));
+  add(verb, "--out DIR", request.out, "Folder for frame_0000.ply, ...")
+      ->required()
+      ->group(OptionGroup::output);
 }
 
 }  // namespace

@@ -10,7 +10,6 @@
 
 #include "properties/queries/self_check.h"
 #include "reports/campaign/own_checks.h"
-#include "reports/terminal/option_words.h"
 #include "reports/terminal/words.h"
 #include "reports/terminal/work.h"
 #include "reports/verbs/verbs.h"
@@ -126,17 +125,17 @@ Expected<int> run_self_test(const SelfTestRequest& request) {
   return exit_holds;
 }
 
-void add_options(Verb& verb, SelfTestRequest& request) {
+void add_options(CLI::App& verb, SelfTestRequest& request) {
   add_seed(verb, request.seed, "Of all random queries");
-  verb.add("--queries N", request.queries,
-           "Random small-integer queries; the other families follow this number")
-      .in_range(1, 1'000'000'000)
-      .shows_default();
-  verb.add("--time SECONDS", request.time_limit, "Limit in seconds; what is left is undecided")
-      .with(positive())
-      .in(OptionGroup::limits);
+  add(verb, "--queries N", request.queries,
+      "Random small-integer queries; the other families follow this number")
+      ->check(in_range(1, 1'000'000'000))
+      ->capture_default_str();
+  add(verb, "--time SECONDS", request.time_limit, "Limit in seconds; what is left is undecided")
+      ->check(positive())
+      ->group(OptionGroup::limits);
   add_jobs(verb, request.jobs);
-  verb.add("--replay CASE", request.replay, "One case again, by its name family:seed:index");
+  add(verb, "--replay CASE", request.replay, "One case again, by its name family:seed:index");
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include "properties/worker/plugin/query_case.h"
 #include "reports/check/step_answers.h"
 #include "reports/pictures/case_scene.h"
-#include "reports/terminal/option_words.h"
 #include "reports/terminal/words.h"
 #include "reports/terminal/work.h"
 #include "reports/verbs/verbs.h"
@@ -110,17 +109,17 @@ Expected<int> run_shrink(const ShrinkRequest& request) {
   return exit_defect;
 }
 
-void add_options(Verb& verb, ShrinkRequest& request) {
-  verb.add("FILE", request.files,
-           "A case file (.json), frames of one mesh, or LOG#N: step N of a log")
-      .required();
-  verb.add("--out FILE", request.out, "Where the smallest case goes")
-      .required()
-      .in(OptionGroup::output);
-  verb.add("--time SECONDS", request.seconds, "Seconds at most")
-      .with(positive())
-      .shows_default()
-      .in(OptionGroup::limits);
+void add_options(CLI::App& verb, ShrinkRequest& request) {
+  add(verb, "FILE", request.files,
+      "A case file (.json), frames of one mesh, or LOG#N: step N of a log")
+      ->required();
+  add(verb, "--out FILE", request.out, "Where the smallest case goes")
+      ->required()
+      ->group(OptionGroup::output);
+  add(verb, "--time SECONDS", request.seconds, "Seconds at most")
+      ->check(positive())
+      ->capture_default_str()
+      ->group(OptionGroup::limits);
   add_detector(verb, request.detector);
 }
 

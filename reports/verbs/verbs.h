@@ -7,7 +7,7 @@
 
 #include "properties/queries/query_methods.h"
 #include "reports/campaign/campaign_terminal.h"
-#include "reports/terminal/option_words.h"
+#include "reports/terminal/options.h"
 
 namespace assay::reports {
 
@@ -34,7 +34,7 @@ struct QueryQuestion {
   std::string json_file;
 };
 // --truth and --method.
-void add_query_options(Verb& verb, QueryQuestion& question);
+void add_query_options(CLI::App& verb, QueryQuestion& question);
 Expected<int> check_queries(const QueryQuestion& question);
 
 }  // namespace assay::reports

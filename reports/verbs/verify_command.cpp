@@ -105,21 +105,21 @@ Expected<int> run_verify(const VerifyRequest& request) {
   return request.out.empty() ? code : judge_together(folders, request.out);
 }
 
-void add_options(Verb& verb, VerifyRequest& request) {
-  verb.add("CERTIFICATE", request.certificates, "OUT/certificate.json, or OUT").required();
-  verb.add("--out DIR", request.out,
-           "Folder for a certificate of all of them together: shares of one campaign, or whole "
-           "ones, each under a seed of its own")
-      .in(OptionGroup::output);
-  verb.add("--again SHARE", request.again,
-           "SHARE of the trials, above 0, at most 1: they are run once more and have to come to "
-           "what is stored")
-      .with(share());
-  verb.add_word(
-          "--seed N",
-          [&](const std::string& word) { request.seed = whole_number_of<std::uint64_t>(word); },
-          "Of the choice of --again (default: a fresh one, printed)")
-      .with(whole_number());
+void add_options(CLI::App& verb, VerifyRequest& request) {
+  add(verb, "CERTIFICATE", request.certificates, "OUT/certificate.json, or OUT")->required();
+  add(verb, "--out DIR", request.out,
+      "Folder for a certificate of all of them together: shares of one campaign, or whole "
+      "ones, each under a seed of its own")
+      ->group(OptionGroup::output);
+  add(verb, "--again SHARE", request.again,
+      "SHARE of the trials, above 0, at most 1: they are run once more and have to come to "
+      "what is stored")
+      ->check(share());
+  add(
+      verb, "--seed N",
+      [&](const std::string& word) { request.seed = whole_number_of<std::uint64_t>(word); },
+      "Of the choice of --again (default: a fresh one, printed)")
+      ->check(whole_number());
   add_detector(verb, request.detector,
                "The certified plug-in's library, for --again (default: where it was)");
   add_jobs(verb, request.jobs);
@@ -191,9 +191,9 @@ Expected<int> run_report(const ReportRequest& request) {
   return exit_holds;
 }
 
-void add_options(Verb& verb, ReportRequest& request) {
-  verb.add("DIR", request.folders, "Folders of runs, the oldest first").required();
-  verb.add("--out FILE", request.out, "The page (.html)").required().in(OptionGroup::output);
+void add_options(CLI::App& verb, ReportRequest& request) {
+  add(verb, "DIR", request.folders, "Folders of runs, the oldest first")->required();
+  add(verb, "--out FILE", request.out, "The page (.html)")->required()->group(OptionGroup::output);
 }
 
 }  // namespace

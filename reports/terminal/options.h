@@ -1,0 +1,100 @@
+// A verb and its options, as the verb's own file states them to CLI11, and the options that several
+// verbs have. CLI11 takes six seconds to compile, so only verbs include this.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "reports/terminal/option_words.h"
+#include "reports/terminal/words.h"
+
+namespace assay::reports {
+
+// The titles under which the options of a verb stand: the second one, if an option states none.
+struct OptionGroup {
+  static constexpr const char *input = "Input", *question = "What is asked",
+                              *detector = "The detector", *limits = "Limits and threads",
+                              *output = "What is written";
+};
+
+// Adds an option with what stands behind it ("--out DIR"), or a word without one ("FILE"). The
+// target, which must outlive the parsing, keeps its value if the option is not given. It may be a
+// function instead, which is called with the word once that has passed the checks.
+template <class Target>
+CLI::Option* add(CLI::App& verb, const std::string& name, Target&& target,
+                 const std::string& about) {
+  const auto blank = name.find(' ');
+  const auto word = name.substr(0, blank);
+  CLI::Option* option = nullptr;
+  if constexpr (std::is_invocable_v<Target, const std::string&>)
+    option = verb.add_option_function<std::string>(word, target, about);
+  else
+    option = verb.add_option(word, target, about);
+  return option->type_name(blank == std::string::npos ? "" : name.substr(blank + 1));
+}
+
+// The options of the command line as help names them ("--out DIR"), once it is parsed.
+std::vector<std::string> given_options(const CLI::App& verb);
+
+// A verb of the command line: its name, and what it does once the command line is parsed, which
+// returns the exit code.
+struct AddedVerb {
+  std::string name;
+  std::function<int()> act;
+};
+
+// A verb with what its manual says.
+CLI::App& add_verb(CLI::App& app, const std::string& name, const std::string& about);
+
+// Makes a verb with these options and this action, which returns the exit code, or the problem with
+// which the verb is refused. The action keeps the request alive: it holds the defaults, and the
+// options write into it.
+template <class Request>
+AddedVerb make_verb(CLI::App& app, const char* name, const char* about,
+                    void (*add_options)(CLI::App&, Request&),
+                    Expected<int> (*run)(const Request&)) {
+  const auto request = std::make_shared<Request>();
+  add_options(add_verb(app, name, about), *request);
+  return {name, [request, run] {
+            const auto code = run(*request);
+            return code ? code.value() : refuse(code.error());
+          }};
+}
+
+// An option whose word is one of `words`, or has the form that the option's name tells ("--why
+// A,B"). Its target stays as it is if the option is not given.
+template <class Target, class Parse>
+CLI::Option* add_choice(CLI::App& verb, const std::string& name, Target& target,
+                        const std::string& words, Parse parse, const std::string& about) {
+  const bool has_form = name.find(' ') != std::string::npos;
+  return add(
+             verb, has_form ? name : name + " WORD",
+             [&target, parse](const std::string& word) { target = *parse(word); },
+             has_form ? about : about + ": " + words)
+      ->check(one_of(words, parse));
+}
+
+// The options --jobs (all cores, unless told otherwise) and --seed.
+void add_jobs(CLI::App& verb, int& jobs);
+// The options --time and --memory of a verb that does its work in this process (work.h).
+void add_limits(CLI::App& verb, std::optional<double>& seconds,
+                std::optional<std::uint64_t>& bytes);
+void add_seed(CLI::App& verb, std::uint64_t& seed, const std::string& about);
+// The option --part: which part of a plug-in a campaign is about.
+void add_part(CLI::App& verb, DetectorPart& part);
+// The options --detector, --isolation and --threads. Returns the option --detector.
+CLI::Option* add_detector(
+    CLI::App& verb, DetectorWords& detector,
+    const std::string& about =
+        "A plug-in's library, or python:MODULE:CLASS (default: the built-in)");
+// The same without --threads, and --threads alone, for a verb that takes all cores if it is 0.
+CLI::Option* add_detector_alone(CLI::App& verb, DetectorWords& detector, const std::string& about);
+void add_threads(CLI::App& verb, std::uint64_t& threads);
+
+}  // namespace assay::reports
