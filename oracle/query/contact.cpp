@@ -132,16 +132,6 @@ namespace {
 
 using detector::TimeEnclosure;
 
-// Zero exactly when the polynomial, of degree at most 3, has a root of multiplicity 2 or more.
-Integer discriminant(const IntegerPolynomial& f) {
-  if (f.degree() < 2) return 1;
-  const Integer &d = f.c[0], &c = f.c[1], &b = f.c[2];
-  if (f.degree() == 2) return c * c - 4 * b * d;
-  const Integer& a = f.c[3];
-  return b * b * c * c - 4 * a * c * c * c - 4 * b * b * b * d - 27 * a * a * d * d +
-         18 * a * b * c * d;
-}
-
 // True when F has a root of multiplicity 2 or more and its derivative a zero in the enclosure.
 // Such a root is a rational number, because F is a cubic with rational coefficients.
 bool has_double_root_at(const IntegerPolynomial& f, const TimeEnclosure& first) {

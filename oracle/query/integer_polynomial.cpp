@@ -72,6 +72,15 @@ IntegerPolynomial derivative(const IntegerPolynomial& p) {
   return d;
 }
 
+Integer discriminant(const IntegerPolynomial& f) {
+  if (f.degree() < 2) return 1;
+  const Integer &d = f.c[0], &c = f.c[1], &b = f.c[2];
+  if (f.degree() == 2) return c * c - 4 * b * d;
+  const Integer& a = f.c[3];
+  return b * b * c * c - 4 * a * c * c * c - 4 * b * b * b * d - 27 * a * a * d * d +
+         18 * a * b * c * d;
+}
+
 int sign_at(const IntegerPolynomial& p, double t) {
   if (p.is_zero()) return 0;
   if (t == 0) return sgn(p.c.front());

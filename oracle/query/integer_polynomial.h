@@ -32,6 +32,9 @@ IntegerPolynomial linear(const Integer& at_t0, const Integer& at_t1);
 
 IntegerPolynomial derivative(const IntegerPolynomial& p);
 
+// Zero exactly when p has a root of multiplicity 2 or more. REQUIRES a degree of at most 3.
+Integer discriminant(const IntegerPolynomial& p);
+
 // The exact sign of p at t. REQUIRES t finite and >= 0.
 int sign_at(const IntegerPolynomial& p, double t);
 

@@ -49,14 +49,6 @@ double share_of(const Integer& x, long exponent) {
   return mantissa == 0 ? 0 : std::min(share, 1.0);
 }
 
-Integer discriminant(const IntegerPolynomial& f) {
-  const auto c = [&](std::size_t i) { return i < f.c.size() ? f.c[i] : Integer(0); };
-  const Integer a = c(3), b = c(2), l = c(1), d = c(0);
-  if (a == 0) return l * l - 4 * b * d;
-  return b * b * l * l - 4 * a * l * l * l - 4 * b * b * b * d - 27 * a * a * d * d +
-         18 * a * b * l * d;
-}
-
 // How the projected point lies in the feature at a time: 0 at its end, positive inside, negative
 // outside, as a share of the greatest L.
 class Sides {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "properties/campaign/phases/phases.h"
+#include "properties/generators/draft.h"
 #include "properties/judging/contracted_case.h"
 #include "properties/random.h"
 
@@ -15,52 +16,23 @@ using Row = Eigen::RowVector3d;
 constexpr int corners_of_a_plate = 4, corners_of_a_body = 4;
 constexpr double half_of_a_plate = 8, size_of_a_body = 1, far_off = 0x1p20;
 
-template <class Matrix, class OneRow>
-Matrix matrix_of(const std::vector<OneRow>& rows) {
-  Matrix out(static_cast<Eigen::Index>(rows.size()), 3);
-  for (Eigen::Index i = 0; i < out.rows(); ++i) out.row(i) = rows[static_cast<std::size_t>(i)];
-  return out;
+// A square of two triangles at this height, seen from above or from below.
+void add_plate(Draft& draft, double z, bool is_above) {
+  const auto first = draft.vertices();
+  for (const auto& [x, y] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}})
+    draft.vertex({half_of_a_plate * x, half_of_a_plate * y, z});
+  draft.faces.push_back({first, first + (is_above ? 2 : 1), first + (is_above ? 1 : 2)});
+  draft.faces.push_back({first, first + (is_above ? 3 : 2), first + (is_above ? 2 : 3)});
 }
 
-class Bodies {
- public:
-  Bodies(Random& random, double gap) : random_(random), gap_(gap) {}
-
-  // A square of two triangles at this height, seen from above or from below.
-  void add_plate(double z, bool is_above) {
-    const int first = static_cast<int>(rows_.size());
-    for (const auto& [x, y] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}})
-      rows_.emplace_back(half_of_a_plate * x, half_of_a_plate * y, z);
-    add_triangle(first, first + (is_above ? 2 : 1), first + (is_above ? 1 : 2));
-    add_triangle(first, first + (is_above ? 3 : 2), first + (is_above ? 2 : 3));
-  }
-
-  // A tetrahedron whose lowest corner is a gap above `z`.
-  void add_body(double x, double y, double z) {
-    const int first = static_cast<int>(rows_.size());
-    const Row centre(x, y, z + gap_ + 1.5 * size_of_a_body);
-    for (const auto& corner :
-         {Row(1, 0, -0.7), Row(-0.5, 0.87, -0.7), Row(-0.5, -0.87, -0.7), Row(0, 0, 1)})
-      rows_.push_back(centre + size_of_a_body * (corner + 0.2 * drawn()));
-    add_triangle(first, first + 2, first + 1);
-    add_triangle(first, first + 1, first + 3);
-    add_triangle(first + 1, first + 2, first + 3);
-    add_triangle(first + 2, first, first + 3);
-  }
-
-  Row drawn() { return {random_.signed_unit(), random_.signed_unit(), random_.signed_unit()}; }
-
-  detector::Triangles triangles() const { return matrix_of<detector::Triangles>(triangles_); }
-  Positions positions() const { return matrix_of<Positions>(rows_); }
-
- private:
-  void add_triangle(int a, int b, int c) { triangles_.emplace_back(a, b, c); }
-
-  Random& random_;
-  double gap_;
-  std::vector<Row> rows_;
-  std::vector<Eigen::RowVector3i> triangles_;
-};
+// A tetrahedron about a point.
+void add_body(Draft& draft, Random& random, const Point& middle) {
+  const auto v = draft.vertices();
+  for (const auto& corner : {Point{1, 0, -0.7}, {-0.5, 0.87, -0.7}, {-0.5, -0.87, -0.7}, {0, 0, 1}})
+    draft.vertex(middle + size_of_a_body * (corner + 0.2 * any_vector(random)));
+  for (const Face& f : {Face{0, 2, 1}, Face{0, 1, 3}, Face{1, 2, 3}, Face{2, 0, 3}})
+    draft.faces.push_back({v + f[0], v + f[1], v + f[2]});
+}
 
 // What of a mesh moves: the rows from `first` on, by bodies of four corners.
 struct Scene {
@@ -70,33 +42,38 @@ struct Scene {
 
 Scene scene_of(WalkKind kind, Random& random, double separation) {
   const double gap = 0.5 + 2 * separation;
-  Bodies bodies(random, gap);
+  Draft draft;
+  draft.frames.resize(1);
   Scene scene;
-  bodies.add_plate(0, false);
+  // Its lowest corner is at least a gap above z.
+  const auto add_body_above = [&](double z, double x = 0) {
+    add_body(draft, random, {x, 0, z + gap + 1.5 * size_of_a_body});
+  };
+  add_plate(draft, 0, false);
   switch (kind) {
     case WalkKind::resting:
     case WalkKind::sliding:
     case WalkKind::far_goal:
-      bodies.add_body(0, 0, 0);
+      add_body_above(0);
       break;
     case WalkKind::pile:
     case WalkKind::far_away:
-      for (int i = 0; i < 3; ++i) bodies.add_body(0.3 * i, 0, i * (3 + gap));
+      for (int i = 0; i < 3; ++i) add_body_above(i * (3 + gap), 0.3 * i);
       break;
     case WalkKind::closing_gap:
-      bodies.add_body(0, 0, 1 + gap);
-      bodies.add_body(0, 0, 2 * (3 + gap));
+      add_body_above(1 + gap);
+      add_body_above(2 * (3 + gap));
       break;
     case WalkKind::squeezed:
-      bodies.add_body(0, 0, 0);
-      bodies.add_plate(4 + 2 * gap, true);
+      add_body_above(0);
+      add_plate(draft, 4 + 2 * gap, true);
       scene.first_moving = 0;
       break;
   }
-  scene.c.triangles = bodies.triangles();
-  Positions x = bodies.positions();
-  if (kind == WalkKind::far_away) x.array() += far_off * size_of_a_body;
-  scene.c.frames = {x};
+  auto mesh = finished(std::move(draft), "").c;
+  scene.c.triangles = std::move(mesh.triangles);
+  scene.c.frames = std::move(mesh.frames);
+  if (kind == WalkKind::far_away) scene.c.frames[0].array() += far_off * size_of_a_body;
   return scene;
 }
 
