@@ -9,7 +9,7 @@
 #include <immintrin.h>
 #endif
 
-namespace assay::detector {
+namespace assay::detector::box_kernel {
 namespace {
 
 #define ASSAY_INLINE inline __attribute__((always_inline))
@@ -201,4 +201,4 @@ constexpr BoxKernels kernels_of_this_file = {compare_all_lanes, compare_one_lane
 #undef ASSAY_INLINE
 
 }  // namespace
-}  // namespace assay::detector
+}  // namespace assay::detector::box_kernel

@@ -19,7 +19,7 @@
 #include "detector/exact/double_lanes.h"
 #include "detector/view/view_lanes.h"
 
-namespace assay::detector {
+namespace assay::detector::view_kernel {
 namespace {
 
 struct LaneVector {
@@ -274,4 +274,4 @@ constexpr LaneKernels kernels_of_this_file = {lane_count, kernel<point_group>,
                                               kernel<two_cubics_group>, kernel<middle_group>};
 
 }  // namespace
-}  // namespace assay::detector
+}  // namespace assay::detector::view_kernel

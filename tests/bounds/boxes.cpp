@@ -7,6 +7,7 @@ namespace assay::bounds {
 namespace {
 
 using namespace detector;
+using namespace detector::box_kernel;
 
 // Lemma 9 (Order): Rounding keeps order. If fl(x) < fl(y), then x < y; if fl(b - a) > r for a
 // double r, then b - a > r. So a comparison of inputs, of rounded inputs, or of a difference with

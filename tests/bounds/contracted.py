@@ -11,11 +11,11 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 # Sources with filters. Compiled once more for a machine that has contracted operations.
-FILTERS = ["contact/contact_doubles.cpp", "contact/contact_fixed.cpp", "contact/lanes/query_lanes_avx2.cpp",
+FILTERS = ["contact/contact_doubles.cpp", "contact/contact_fixed.cpp", "lanes_avx2.cpp", "lanes_avx512.cpp",
            "distance/near_filter.cpp", "distance/nearness.cpp",
            "geometry/orientation.cpp", "geometry/winding.cpp", "boxes/moving_box.cpp",
            "search/feature_pairs.cpp", "traditional/moving_contour.cpp", "view/view_bounds.cpp",
-           "view/view_filter.cpp", "view/view_lanes_avx512.cpp"]
+           "view/view_filter.cpp"]
 # Of x86-64 (vfmadd213pd, vfnmsub...) and of 64-bit ARM (fmadd, fmla, fmls...).
 CONTRACTED = re.compile(r"\t(vf(n?m(add|sub)|maddsub|msubadd)\w*|fn?m(add|sub|la|ls)\w*)\b")
 

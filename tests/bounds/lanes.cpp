@@ -9,6 +9,7 @@ namespace assay::bounds {
 namespace {
 
 using namespace detector;
+using namespace detector::view_kernel;
 
 // Lemma 10 (Shares in lanes): axial_error bounds the error of a computed share, and end_error that
 // of a value at a computed share. Gappa proves that the dividend a is off by at most 6.125 u G and

@@ -2,7 +2,8 @@
 // piercing. They compute what one query alone computes, so they add no script that is not there
 // already.
 #include "detector/contact/lanes/query_lanes.cpp"
-
+#define ASSAY_LANES 2
+#include "detector/contact/lanes/query_lanes_kernel.h"
 #include "tests/bounds/claims.h"
 #include "tests/bounds/moving_points.h"
 
@@ -10,6 +11,7 @@ namespace assay::bounds {
 namespace {
 
 using namespace detector;
+using namespace detector::query_kernel;
 
 // What a group of lanes computes of a query of these points. No group of a query lies before the
 // other, so that everything is computed.

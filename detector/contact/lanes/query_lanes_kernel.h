@@ -10,7 +10,7 @@
 #include "detector/contact/lanes/query_lanes.h"
 #include "detector/exact/double_lanes.h"
 
-namespace assay::detector {
+namespace assay::detector::query_kernel {
 namespace {
 
 struct LaneVector {
@@ -268,4 +268,4 @@ constexpr QueryKernels kernels_of_this_file = {kernel<contact_group<1>>, kernel<
                                                kernel<piercing_group>};
 
 }  // namespace
-}  // namespace assay::detector
+}  // namespace assay::detector::query_kernel

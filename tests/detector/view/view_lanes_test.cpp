@@ -192,8 +192,8 @@ TEST(ViewBounds, L2_CubicsAndValuesOfLanes) {
     in.corners = batch.mesh.triangles[0].data();
     for (std::int32_t t = 0; t < 8; t += 2) {
       const std::int32_t two[2] = {t, t + 1};
-      LaneLine line;
-      cubics(line, in, two);
+      view_kernel::LaneLine line;
+      view_kernel::cubics(line, in, two);
       for (std::size_t lane = 0; lane < 2; ++lane) {
         const auto triangle = batch.triangle(static_cast<std::size_t>(two[lane]));
         const auto h0 = exact_cubic(triangle, batch.primitive.q0);

@@ -1,12 +1,16 @@
-#include "detector/view/view_lanes.h"
-
+// The vector code of boxes/box_lanes.h, contact/lanes/query_lanes.h and view/view_lanes.h for every
+// machine, and which instruction set runs.
 #define ASSAY_LANES 2
+#include "detector/boxes/box_lanes_kernel.h"
+#include "detector/contact/lanes/query_lanes_kernel.h"
 #include "detector/view/view_lanes_kernel.h"
 
 namespace assay::detector {
 
-// Defined in view_lanes_avx2.cpp and view_lanes_avx512.cpp. Null if the compiler does not make
-// code for the set.
+// Defined in lanes_avx2.cpp and lanes_avx512.cpp. Null if the compiler does not make code for the
+// set.
+extern const BoxKernels* const avx2_box_kernels;
+extern const QueryKernels* const avx2_query_kernels;
 extern const LaneKernels* const avx2_lane_kernels;
 extern const LaneKernels* const avx512_lane_kernels;
 
@@ -15,7 +19,8 @@ namespace {
 bool machine_has(InstructionSet set) {
 #if defined(__x86_64__) || defined(__i386__)
   // The answers include whether the operating system saves the wide registers.
-  if (set == InstructionSet::avx2) return __builtin_cpu_supports("avx2");
+  if (set == InstructionSet::avx2)
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("popcnt");
   if (set == InstructionSet::avx512) {
     return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
            __builtin_cpu_supports("avx512vl");
@@ -27,7 +32,7 @@ bool machine_has(InstructionSet set) {
 const LaneKernels* compiled_for(InstructionSet set) {
   if (set == InstructionSet::avx2) return avx2_lane_kernels;
   if (set == InstructionSet::avx512) return avx512_lane_kernels;
-  return &kernels_of_this_file;
+  return &view_kernel::kernels_of_this_file;
 }
 
 }  // namespace
@@ -43,7 +48,17 @@ InstructionSet best_instruction_set() {
 }
 
 const LaneKernels& lane_kernels(InstructionSet set) {
-  return is_available(set) ? *compiled_for(set) : kernels_of_this_file;
+  return is_available(set) ? *compiled_for(set) : view_kernel::kernels_of_this_file;
+}
+
+const BoxKernels& plain_box_kernels() { return box_kernel::kernels_of_this_file; }
+const BoxKernels& box_kernels() {
+  return is_available(InstructionSet::avx2) ? *avx2_box_kernels : plain_box_kernels();
+}
+
+const QueryKernels& plain_query_kernels() { return query_kernel::kernels_of_this_file; }
+const QueryKernels& query_kernels() {
+  return is_available(InstructionSet::avx2) ? *avx2_query_kernels : plain_query_kernels();
 }
 
 }  // namespace assay::detector

@@ -10,7 +10,7 @@ namespace assay::detector {
 
 extern const LaneKernels* const avx512_lane_kernels;
 #ifdef __AVX512F__
-const LaneKernels* const avx512_lane_kernels = &kernels_of_this_file;
+const LaneKernels* const avx512_lane_kernels = &view_kernel::kernels_of_this_file;
 #else
 const LaneKernels* const avx512_lane_kernels = nullptr;
 #endif
