@@ -127,10 +127,10 @@ void put_in_order(const std::vector<std::string>& paths, FrameOrder& result) {
     std::ranges::stable_sort(names, by_number);
     return names;
   };
-  const auto given = all_parsed(Reading::decimals), counts = all_parsed(Reading::counts);
-  auto wanted = sorted(given);
+  const auto decimals = all_parsed(Reading::decimals), counts = all_parsed(Reading::counts);
+  auto names = sorted(decimals);
   const auto other = sorted(counts);
-  const bool is_unclear = are_alike(counts) && paths_of(wanted) != paths_of(other);
+  const bool is_unclear = are_alike(counts) && paths_of(names) != paths_of(other);
   const auto place_of_difference = [&](const Names& order) {
     std::size_t i = 0;
     while (order[i].path == paths[i]) ++i;
@@ -138,29 +138,29 @@ void put_in_order(const std::vector<std::string>& paths, FrameOrder& result) {
   };
   std::vector<std::string>& remarks = result.remarks;
   if (is_unclear) {
-    const auto& order = paths_of(wanted) != paths ? wanted : other;
+    const auto& order = paths_of(names) != paths ? names : other;
     const auto i = place_of_difference(order);
     const auto [a, b] = short_names(paths[i], order[i].path);
     remarks.push_back(fmt::format(
         "frames are taken as given, {} before {}: whether their numbers are decimals is unclear", a,
         b));
-    wanted = given;
-  } else if (paths_of(wanted) != paths) {
+    names = decimals;
+  } else if (paths_of(names) != paths) {
     const bool is_of_a_shell = is_order_of_a_shell(paths);
-    const auto i = place_of_difference(wanted);
-    const auto [a, b] = short_names(paths[i], wanted[i].path);
+    const auto i = place_of_difference(names);
+    const auto [a, b] = short_names(paths[i], names[i].path);
     remarks.push_back(
         is_of_a_shell
             ? fmt::format("frames are taken in the order of their numbers: {} before {}", b, a)
             : fmt::format("frames are taken as given, not in the order of their numbers: {} "
                           "before {}",
                           a, b));
-    if (!is_of_a_shell) wanted = given;
+    if (!is_of_a_shell) names = decimals;
   }
-  if (!is_unclear && std::ranges::is_sorted(wanted, by_number)) {
-    if (auto line = unevenness(wanted); !line.empty()) remarks.push_back(std::move(line));
+  if (!is_unclear && std::ranges::is_sorted(names, by_number)) {
+    if (auto line = unevenness(names); !line.empty()) remarks.push_back(std::move(line));
   }
-  for (const auto& name : wanted) result.files.emplace_back(name.path);
+  for (const auto& name : names) result.files.emplace_back(name.path);
 }
 
 }  // namespace

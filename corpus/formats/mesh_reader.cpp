@@ -153,12 +153,12 @@ std::string places_of_same_faces(const std::filesystem::path& file) {
   const auto mesh = read_mesh(file);
   if (!mesh) return "";
   const auto& [unit, numbers] = mesh.value().places;
-  std::map<std::array<std::int32_t, 3>, std::size_t> seen;
+  std::map<std::array<std::int32_t, 3>, std::size_t> places_by_corners;
   for (std::size_t t = 0; t < numbers.size(); ++t) {
     const auto row = mesh.value().triangles.row(static_cast<Eigen::Index>(t));
     std::array<std::int32_t, 3> corners = {row[0], row[1], row[2]};
     std::ranges::sort(corners);
-    const auto [first, is_new] = seen.emplace(corners, t);
+    const auto [first, is_new] = places_by_corners.emplace(corners, t);
     if (!is_new) return fmt::format("{}s {} and {}", unit, numbers[first->second], numbers[t]);
   }
   return "";

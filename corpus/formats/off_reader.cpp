@@ -12,8 +12,8 @@ using Words = std::vector<std::string_view>;
 
 // Whether this is a header word: OFF behind some of the letters ST, C, N, 4, n, capital or not.
 bool is_header(std::string_view word) {
-  constexpr std::string_view known = "STCN4nOFstcof";
-  if (word.size() < 3 || word.find_first_not_of(known) != std::string_view::npos) return false;
+  constexpr std::string_view letters = "STCN4nOFstcof";
+  if (word.size() < 3 || word.find_first_not_of(letters) != std::string_view::npos) return false;
   const auto end = word.substr(word.size() - 3);
   return end == "OFF" || end == "off";
 }

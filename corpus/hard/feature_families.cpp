@@ -142,7 +142,7 @@ Case simultaneous(Variation& vary, int exponent, int kind) {
 // A triangle that tilts, and a copy of it with vertices of its own, at a height above it that goes
 // from z_t0 to z_t1. While the height is not 0 the two do not meet, because neither ever stands
 // upright.
-Case copies(Variation& vary, std::int64_t z_t0, std::int64_t z_t1, KnownFacts known) {
+Case copies(Variation& vary, std::int64_t z_t0, std::int64_t z_t1, KnownFacts facts) {
   GridMesh mesh;
   std::array<GridVertex, 3> corners, copy;
   const auto face = wide_face(vary, usual_size);
@@ -153,7 +153,7 @@ Case copies(Variation& vary, std::int64_t z_t0, std::int64_t z_t1, KnownFacts kn
   }
   mesh.add_triangle(corners);
   mesh.add_triangle(copy);
-  return sheared_case(mesh, vary, std::move(known));
+  return sheared_case(mesh, vary, std::move(facts));
 }
 
 Case duplicates(Variation& vary, int exponent, int kind) {

@@ -94,7 +94,7 @@ GridPoint GridMap::operator()(GridPoint p) const {
 }
 
 Case grid_case(const GridMesh& mesh, const GridMap& map, const std::array<int, 3>& exponents,
-               KnownFacts known) {
+               KnownFacts facts) {
   Case c;
   c.triangles.resize(static_cast<Eigen::Index>(mesh.triangles.size()), 3);
   for (Eigen::Index t = 0; t < c.triangles.rows(); ++t) {
@@ -121,13 +121,13 @@ Case grid_case(const GridMesh& mesh, const GridMap& map, const std::array<int, 3
     if (mesh.view.size() > 1) c.view->q1 = path(mesh.view[1]);
     c.options["culling"] = mesh.view.size() > 1 ? "view-line" : "view-point";
   }
-  c.expected.answer = known.answer;
-  c.expected.steps.push_back(std::move(known));
+  c.expected.answer = facts.answer;
+  c.expected.steps.push_back(std::move(facts));
   return c;
 }
 
-Case sheared_case(const GridMesh& mesh, Variation& vary, KnownFacts known) {
-  return grid_case(mesh, GridMap::any(vary), to_size_one, std::move(known));
+Case sheared_case(const GridMesh& mesh, Variation& vary, KnownFacts facts) {
+  return grid_case(mesh, GridMap::any(vary), to_size_one, std::move(facts));
 }
 
 // Corners (-a, -b), (c, -d), (e, f) with a, b, c, d, f in [3/4, 1] and |e| <= 1/8 of reach. How far
@@ -179,15 +179,15 @@ GridVertex falling(const GridPoint& p, std::int64_t z_t0, std::int64_t z_t1) {
 KnownFacts known_free() { return {}; }
 
 KnownFacts known_collision(double first) {
-  KnownFacts known = known_collision();
-  known.first_time = {first, first};
-  return known;
+  KnownFacts facts = known_collision();
+  facts.first_time = {first, first};
+  return facts;
 }
 
 KnownFacts known_collision() {
-  KnownFacts known;
-  known.answer = detector::Answer::collision;
-  return known;
+  KnownFacts facts;
+  facts.answer = detector::Answer::collision;
+  return facts;
 }
 
 }  // namespace assay::corpus

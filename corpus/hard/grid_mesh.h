@@ -106,13 +106,13 @@ using KnownFacts = ExpectedStep;
 // One step of the mapped mesh, with coordinate i multiplied by 2^exponents[i]. If that is not
 // exact the process ends; the tests make every case.
 Case grid_case(const GridMesh& mesh, const GridMap& map, const std::array<int, 3>& exponents,
-               KnownFacts known);
+               KnownFacts facts);
 
 // These exponents bring coordinates of usual_size to about 1.
 inline constexpr std::array<int, 3> to_size_one = {-46, -46, -46};
 
 // grid_case under some GridMap::any, with coordinates of about 1.
-Case sheared_case(const GridMesh& mesh, Variation& vary, KnownFacts known);
+Case sheared_case(const GridMesh& mesh, Variation& vary, KnownFacts facts);
 
 // The two solids of most hard cases: a block with a face in the plane z = 0, and a spike above it.
 //

@@ -43,9 +43,9 @@ using detector::ViewSign;
 
 constexpr ViewSign zero = ViewSign::zero, plus = ViewSign::positive, minus = ViewSign::negative;
 
-KnownFacts with_signs(KnownFacts known, std::vector<ViewSign> signs) {
-  known.view_signs = std::move(signs);
-  return known;
+KnownFacts with_signs(KnownFacts facts, std::vector<ViewSign> signs) {
+  facts.view_signs = std::move(signs);
+  return facts;
 }
 
 // A tetrahedron on a wide face, its fourth corner on the axis; its last triangle is the floor.
@@ -63,7 +63,7 @@ void add_tent(GridMesh& mesh, Variation& vary, const GridVertex& top, const Grid
 Case touches_zero(Variation& vary, int exponent, int kind) {
   const std::int64_t gap = two_to(exponent);
   GridMesh mesh;
-  KnownFacts known;
+  KnownFacts facts;
   const std::int64_t ends[] = {gap, -gap, 0}, end = ends[kind / 2];
   const bool above = end > 0;
   if (kind % 2 == 0) {
@@ -71,16 +71,16 @@ Case touches_zero(Variation& vary, int exponent, int kind) {
     const GridPoint top{0, 0, usual_size + vary.between(0, usual_size)};
     add_tent(mesh, vary, {top, top + moved}, moved);
     mesh.view = {at_rest({0, 0, usual_size / 2})};
-    known = with_signs(known_free(), {plus, plus, plus, above ? plus : zero});
+    facts = with_signs(known_free(), {plus, plus, plus, above ? plus : zero});
   } else {
     const std::int64_t start = usual_size / 2 - gap;
     add_tent(mesh, vary, falling({}, 2 * start, 2 * end), {});
     mesh.view = {falling({}, start, end)};
     const ViewSign sign = above ? plus : zero;
     const double first = end == 0 ? 1 : 1 - std::ldexp(1, exponent + 1 - usual_exponent);
-    known = with_signs(above ? known_free() : known_collision(first), {sign, sign, sign, sign});
+    facts = with_signs(above ? known_free() : known_collision(first), {sign, sign, sign, sign});
   }
-  return sheared_case(mesh, vary, std::move(known));
+  return sheared_case(mesh, vary, std::move(facts));
 }
 
 // A tent that moves along with its view-point, which stays above, below or on the floor, or is one

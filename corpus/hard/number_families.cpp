@@ -10,12 +10,12 @@ namespace assay::corpus {
 namespace {
 
 // A block, and a spike whose tip goes from one height to another.
-Case spike_falls(Variation& vary, std::int64_t z_t0, std::int64_t z_t1, KnownFacts known) {
+Case spike_falls(Variation& vary, std::int64_t z_t0, std::int64_t z_t1, KnownFacts facts) {
   GridMesh mesh;
   add_block(mesh, vary, usual_size, vary.between(usual_size / 2, usual_size));
   add_spike(mesh, vary, falling(under_the_face(vary, usual_size, 0), z_t0, z_t1), usual_size / 2,
             usual_size / 2, Side::all_around);
-  return sheared_case(mesh, vary, std::move(known));
+  return sheared_case(mesh, vary, std::move(facts));
 }
 
 // The spike starts above, inside or on the block and leaves it. If it starts inside, it is pierced

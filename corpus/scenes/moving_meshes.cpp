@@ -196,13 +196,13 @@ class BoxSurface {
   BoxSurface(MeshMaker& maker, int b) : maker_(maker), b_(b) {}
 
   std::int32_t vertex(const std::array<int, 3>& place) {
-    const auto [known, is_new] = known_.try_emplace(place, 0);
+    const auto [entry, is_new] = numbers_.try_emplace(place, 0);
     if (is_new) {
       const auto coordinate = [&](int i) { return 2.0 * i / (3 * b_) - 1; };
-      known->second =
+      entry->second =
           maker_.vertex({coordinate(place[0]), coordinate(place[1]), coordinate(place[2])});
     }
-    return known->second;
+    return entry->second;
   }
 
   // Adds one side, without the block in its middle that is `open` edges wide.
@@ -231,7 +231,7 @@ class BoxSurface {
  private:
   MeshMaker& maker_;
   int b_;
-  std::map<std::array<int, 3>, std::int32_t> known_;
+  std::map<std::array<int, 3>, std::int32_t> numbers_;
 };
 
 // Adds a ring of the arm around a station.

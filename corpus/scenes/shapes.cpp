@@ -74,7 +74,7 @@ Mesh grid(int columns, int rows, const Point& lo, const Point& hi) {
 Mesh sphere_shape(int size) {
   const int f = nearest_resolution(size, 1, [](int n) { return 20 * n * n; });
   MeshMaker maker;
-  std::map<Shared, std::int32_t> known;
+  std::map<Shared, std::int32_t> numbers;
   std::vector<std::int32_t> of_face;
   for (const auto& [a, b, c] : ico_faces) {
     constexpr std::int32_t none = -1;
@@ -88,7 +88,7 @@ Mesh sphere_shape(int size) {
       std::copy_if(weights.begin(), weights.end(), std::back_inserter(shared),
                    [](const Weighted& one) { return one.weight > 0; });
       if (shared.size() == weights.size()) return number = maker.vertex(on_sphere(weights));
-      const auto [place, is_new] = known.try_emplace(shared, 0);
+      const auto [place, is_new] = numbers.try_emplace(shared, 0);
       if (is_new) place->second = maker.vertex(on_sphere(weights));
       return number = place->second;
     };

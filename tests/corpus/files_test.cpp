@@ -100,10 +100,10 @@ TEST_F(AtomicFile, SeveralWritersAtATimeAreWhole) {
       const std::string words(1000 + 1000 * w, static_cast<char>('a' + w));
       for (int i = 0; i < times; ++i) {
         EXPECT_TRUE(write_file_atomically(file(), words));
-        const auto seen = text();
-        ASSERT_FALSE(seen.empty());
-        EXPECT_EQ(seen.size(), 1000 + 1000 * static_cast<std::size_t>(seen[0] - 'a'));
-        EXPECT_EQ(std::count(seen.begin(), seen.end(), seen[0]), std::ssize(seen));
+        const auto content = text();
+        ASSERT_FALSE(content.empty());
+        EXPECT_EQ(content.size(), 1000 + 1000 * static_cast<std::size_t>(content[0] - 'a'));
+        EXPECT_EQ(std::count(content.begin(), content.end(), content[0]), std::ssize(content));
       }
     });
   }
@@ -192,18 +192,18 @@ FrameOrder order_of(const Words& words) {
   return in_order_of_numbers({words.begin(), words.end()});
 }
 
-void expect_order(const Words& given, const Words& wanted, const std::string& remark) {
-  const auto order = order_of(given);
+void expect_order(const Words& input, const Words& expected, const std::string& remark) {
+  const auto order = order_of(input);
   Words files;
   for (const auto& file : order.files) files.push_back(file.string());
-  EXPECT_EQ(files, wanted);
+  EXPECT_EQ(files, expected);
   const std::string line = order.remarks.empty() ? "" : order.remarks.front();
   EXPECT_EQ(line.empty(), remark.empty()) << line;
   EXPECT_NE(line.find(remark), std::string::npos) << line;
 }
 
-void expect_as_given(const Words& given, const std::string& remark) {
-  expect_order(given, given, remark);
+void expect_as_given(const Words& input, const std::string& remark) {
+  expect_order(input, input, remark);
 }
 
 TEST(FramesInOrder, TheOrderOfAShellIsPutInOrder) {

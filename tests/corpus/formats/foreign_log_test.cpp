@@ -113,9 +113,9 @@ TEST_F(ForeignLogs, WrongKindsInAStepAreNotTakenForAbsent) {
                                                  {"answer", std::int64_t{1} << 33},
                                                  {"pairs", doubles({0, 1})},
                                                  {"pair_times", integers({0, 1})}}) {
-    const auto told = read(key, value);
-    EXPECT_EQ(told.why_unknown, "") << key;
-    EXPECT_EQ(told.answer->answer, -1) << key;
+    const auto record = read(key, value);
+    EXPECT_EQ(record.why_unknown, "") << key;
+    EXPECT_EQ(record.answer->answer, -1) << key;
   }
   EXPECT_TRUE(std::isnan(read("answer", 1).answer->first_lo)) << "no time is not 0";
   EXPECT_FALSE(read("positions", doubles({0, 0, 0})).limit->positions->allFinite());

@@ -304,14 +304,14 @@ TEST_F(StepLogs, DisplacementsAreExactSums) {
 }
 
 TEST_F(StepLogs, RefuseWhatIsNone) {
-  const auto told = [&](std::string_view bytes) {
+  const auto message_of = [&](std::string_view bytes) {
     const auto log = StepLog::open(write("none.log", bytes));
     return log ? std::string("none") : log.error().message;
   };
-  EXPECT_TRUE(says(told("v 0 0 0\n"), "it is no log of steps"));
-  EXPECT_TRUE(says(told(""), "it is no log of steps"));
+  EXPECT_TRUE(says(message_of("v 0 0 0\n"), "it is no log of steps"));
+  EXPECT_TRUE(says(message_of(""), "it is no log of steps"));
   good_ = bytes_in(write_log());
-  EXPECT_TRUE(says(told(good_.substr(0, 100)), "its first record is damaged"));
+  EXPECT_TRUE(says(message_of(good_.substr(0, 100)), "its first record is damaged"));
   EXPECT_FALSE(StepLog::open(folder() / "absent.log"));
   EXPECT_FALSE(StepLog::open(folder()));
 }
