@@ -68,7 +68,7 @@ class Enclosed {
     const Enclosure length =
         square(Enclosure(n[0])) + square(Enclosure(n[1])) + square(Enclosure(n[2]));
     const double wanted_squared = (length.hi * squared_).hi;
-    const double wanted = std::sqrt(wanted_squared);  // only where to go
+    const double target = std::sqrt(wanted_squared);  // only where to go
     const auto surely_apart = [&](int i, int j, double at) {
       const Enclosure gap = (1 - at) * (at_0[i] - at_0[j]) + at * (at_1[i] - at_1[j]);
       return gap.lo > 0 && square(gap).lo > wanted_squared;
@@ -80,7 +80,7 @@ class Enclosed {
         if (surely_apart(i, j, 1)) continue;
         const double from = (at_0[i] - at_0[j]).lo, to = (at_1[i] - at_1[j]).lo;
         constexpr double safe = 1 - 0x1p-48;
-        e = std::min(e, std::max(t, (from - wanted) / (from - to) * safe));
+        e = std::min(e, std::max(t, (from - target) / (from - to) * safe));
       }
     }
     e = grid(e);

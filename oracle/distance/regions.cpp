@@ -113,8 +113,8 @@ bool conditions_hold_at(const Region& region, double t) {
 int sign_at_zero_of_other(IntegerPolynomial f, IntegerPolynomial g, double lo, double hi) {
   for (;;) {
     // x = 0 is the end that the zero is nearer to: exponents tell them apart.
-    const IntegerPolynomial seen = on_piece(f, lo, hi);
-    const int at_lo = sign_at(seen, 0), at_middle = sign_at(seen, 0.5);
+    const IntegerPolynomial piece = on_piece(f, lo, hi);
+    const int at_lo = sign_at(piece, 0), at_middle = sign_at(piece, 0.5);
     if (at_lo * at_middle > 0) std::swap(lo, hi);
     f = on_piece(f, lo, hi);
     g = on_piece(g, lo, hi);
@@ -236,9 +236,9 @@ IntegerPolynomial halved(IntegerPolynomial p) {
 
 // The half of the piece from one adjacent double towards the other, as a step of its own.
 Region half_seen_from(const IntegerPolynomial& f, const Region& region, double from, double to) {
-  const auto seen = [&](const IntegerPolynomial& p) { return halved(on_piece(p, from, to)); };
-  Region half{seen(f), {}, seen(region.positive)};
-  for (const IntegerPolynomial& g : region.not_negative) half.not_negative.push_back(seen(g));
+  const auto half_of = [&](const IntegerPolynomial& p) { return halved(on_piece(p, from, to)); };
+  Region half{half_of(f), {}, half_of(region.positive)};
+  for (const IntegerPolynomial& g : region.not_negative) half.not_negative.push_back(half_of(g));
   return half;
 }
 

@@ -129,12 +129,12 @@ std::optional<int> WindingField::crossings(const Ray& ray, int direction,
   path.max[0] = std::max(path.max[0], bounds_.max[0]);
   path.max[1] = up(path.max[1] + rise(run, direction));
   path.max[2] = up(path.max[2] + rise(run, static_cast<double>(direction) * direction));
-  std::vector<std::int32_t> met;
-  tree_->meeting(path, met);
+  std::vector<std::int32_t> candidates;
+  tree_->meeting(path, candidates);
 
   int w = 0;
   const auto& x = instant_.points();
-  for (const std::int32_t t : met) {
+  for (const std::int32_t t : candidates) {
     if (t == skipped) continue;
     const IntegerPoint a = ray.to(x[cycle_(t, 0)]), b = ray.to(x[cycle_(t, 1)]),
                        c = ray.to(x[cycle_(t, 2)]);
@@ -155,10 +155,10 @@ std::optional<int> WindingField::crossings(const Ray& ray, int direction,
 }
 
 bool WindingField::on_surface(const Ray& ray) const {
-  std::vector<std::int32_t> met;
-  tree_->meeting(ray.start, met);
+  std::vector<std::int32_t> candidates;
+  tree_->meeting(ray.start, candidates);
   const IntegerPoint here = {0, 0, 0};
-  for (const std::int32_t t : met) {
+  for (const std::int32_t t : candidates) {
     std::array<IntegerPoint, 4> points = {here};
     for (int i = 0; i < 3; ++i) points[i + 1] = ray.to(instant_.points()[cycle_(t, i)]);
     if (vertex_meets_face(points, 0, {1, 2, 3})) return true;

@@ -58,12 +58,12 @@ void for_each_meeting(std::size_t items, const BoxOf& box_of, const BoxTree& tre
                       const Workers& workers, const Accept& accept, const VisitFeatures& visit) {
   StopGate never({});
   StopGate& gate = workers.gate ? *workers.gate : never;
-  std::vector<std::vector<std::int32_t>> met(std::max(workers.jobs, 1));
+  std::vector<std::vector<std::int32_t>> partners(std::max(workers.jobs, 1));
   for_each_chunk(items, features_at_once, workers.jobs, gate,
                  [&](std::size_t begin, std::size_t end, int worker) {
                    for (std::size_t item = begin; item < end; ++item) {
-                     tree.meeting(box_of(item), met[worker]);
-                     for (const std::int32_t other : met[worker]) {
+                     tree.meeting(box_of(item), partners[worker]);
+                     for (const std::int32_t other : partners[worker]) {
                        if (gate.stopped()) return;
                        if (accept(item, other)) visit(item, other, worker);
                      }
@@ -162,7 +162,7 @@ void judge(const Holders& of_a, const Holders& of_b, const PairVisitor& visitor,
   auto some_wanted = [&] {
     for (const std::int32_t s : of_a) {
       for (const std::int32_t t : of_b) {
-        if (visitor.wanted(s, t)) return true;
+        if (visitor.matters(s, t)) return true;
       }
     }
     return false;
@@ -170,7 +170,7 @@ void judge(const Holders& of_a, const Holders& of_b, const PairVisitor& visitor,
   if (!some_wanted() || !test()) return;
   for (const std::int32_t s : of_a) {
     for (const std::int32_t t : of_b) {
-      if (visitor.wanted(s, t)) visitor.meet(s, t, worker);
+      if (visitor.matters(s, t)) visitor.meet(s, t, worker);
     }
   }
 }
@@ -201,11 +201,11 @@ void for_each_contact(const FeatureIndex& a, const FeatureIndex& b, const Featur
   against_faces(a, b, tests, workers, visitor);
   if (&a == &b) {
     for (const auto& [s, t] : same_vertices_pairs(fa.faces)) {
-      if (visitor.wanted(s, t)) visitor.meet(s, t, 0);
+      if (visitor.matters(s, t)) visitor.meet(s, t, 0);
     }
   } else {
     const PairVisitor swapped = {
-        [&](std::int32_t s, std::int32_t t) { return visitor.wanted(t, s); },
+        [&](std::int32_t s, std::int32_t t) { return visitor.matters(t, s); },
         [&](std::int32_t s, std::int32_t t, int worker) { visitor.meet(t, s, worker); }};
     against_faces(b, a, tests, workers, swapped);
   }

@@ -118,7 +118,7 @@ struct PairVisitor {
   // Says whether a contact of these two triangles matters. Two features are tested only if it does
   // for some pair of triangles that hold them. With several jobs both functions are called from
   // several threads.
-  std::function<bool(std::int32_t of_a, std::int32_t of_b)> wanted;
+  std::function<bool(std::int32_t of_a, std::int32_t of_b)> matters;
   // Called for each wanted pair in contact; often several times, because different features meet.
   std::function<void(std::int32_t of_a, std::int32_t of_b, int worker)> meet;
 };

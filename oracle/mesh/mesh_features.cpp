@@ -104,16 +104,16 @@ std::vector<Loop> boundary_loops(const detector::TrianglesView& triangles) {
   const std::vector<DirectedEdge> edges = unmatched_edges(triangles);
   std::vector<std::uint8_t> used(edges.size(), 0);
   // The edges that leave a vertex are one range of `edges`. The used ones are its front part,
-  // because the lowest is always taken. If i is the first place of the range, taken[i] is their
+  // because the lowest is always taken. If i is the first place of the range, used_from[i] is their
   // number.
-  std::vector<std::size_t> taken(edges.size() + 1, 0);
+  std::vector<std::size_t> used_from(edges.size() + 1, 0);
   auto first_from = [&](std::int32_t vertex) {
     const auto at = std::lower_bound(edges.begin(), edges.end(), DirectedEdge{vertex, -1});
     return static_cast<std::size_t>(at - edges.begin());
   };
   // The place of the lowest unused edge that leaves the vertex; edges.size() when there is none.
   auto lowest_from = [&](std::int32_t vertex) {
-    const std::size_t first = first_from(vertex), i = first + taken[first];
+    const std::size_t first = first_from(vertex), i = first + used_from[first];
     return i < edges.size() && edges[i][0] == vertex ? i : edges.size();
   };
   std::vector<Loop> loops;
@@ -122,7 +122,7 @@ std::vector<Loop> boundary_loops(const detector::TrianglesView& triangles) {
     Loop& loop = loops.emplace_back();
     for (std::size_t e = start; e != edges.size(); e = lowest_from(edges[e][1])) {
       used[e] = 1;
-      ++taken[first_from(edges[e][0])];
+      ++used_from[first_from(edges[e][0])];
       loop.push_back(edges[e][0]);
     }
   }

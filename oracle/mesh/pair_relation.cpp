@@ -46,7 +46,7 @@ bool PairRelation::bodies_meet(std::int32_t u, std::int32_t v) const {
 bool PairRelation::are_joined(std::span<const std::int32_t> a,
                               std::span<const std::int32_t> b) const {
   if (counted_.rings == 0) return false;
-  std::set<std::int32_t> seen(a.begin(), a.end());
+  std::set<std::int32_t> reach(a.begin(), a.end());
   Vertices ring(a.begin(), a.end());
   for (std::int32_t edges = 0; edges < counted_.rings && !ring.empty(); ++edges) {
     for (const std::int32_t v : ring) {
@@ -56,7 +56,7 @@ bool PairRelation::are_joined(std::span<const std::int32_t> a,
     Vertices next;
     for (const std::int32_t v : ring) {
       for (const std::int32_t u : neighbours_[v]) {
-        if (seen.insert(u).second) next.push_back(u);
+        if (reach.insert(u).second) next.push_back(u);
       }
     }
     ring = std::move(next);

@@ -23,12 +23,12 @@ class StepJudge {
       : motion_(motion),
         features_(mesh_features(triangles)),
         gate_(options.stop),
-        asked_(options.features),
+        asked_features_(options.features),
         workers_(std::max(options.jobs, 1)) {
     if (options.counted && !options.counted->count_all())
       counted_.emplace(*options.counted, features_);
     if (options.tested && !options.tested->count_all()) tested_.emplace(*options.tested, features_);
-    tells_apart_ = asked_ != AskedFeatures::all || tested_;
+    tells_apart_ = asked_features_ != AskedFeatures::all || tested_;
   }
 
   StepJudgement run() {
@@ -136,7 +136,7 @@ class StepJudge {
     return !counted_ || counted_->bodies_meet(u, v);
   }
   bool asks(AskedFeatures kind) const {
-    return tells_apart_ && (asked_ == kind || asked_ == AskedFeatures::all);
+    return tells_apart_ && (asked_features_ == kind || asked_features_ == AskedFeatures::all);
   }
   // A relation of features is asked before a contact is kept. A relation of triangles is asked once
   // for each pair in contact, at the end (judgement_of).
@@ -152,14 +152,14 @@ class StepJudge {
     const auto counts = [&](const PairRelation& in) { return in.counts_faces(a, b); };
     if (!passes(counted_, counts)) return;
     worker.pairs.add(a, b, {0, 0}, feature);
-    if (tells_apart_ && asked_ == AskedFeatures::all && passes(tested_, counts))
+    if (tells_apart_ && asked_features_ == AskedFeatures::all && passes(tested_, counts))
       worker.asked_pairs.add(a, b, {0, 0}, feature);
   }
 
   const detector::SteppedMesh& motion_;
   const MeshFeatures features_;
   StopGate gate_;
-  const AskedFeatures asked_;
+  const AskedFeatures asked_features_;
   Relation counted_, tested_;
   bool tells_apart_ = false;  // whether asked_pairs is asked for
   std::vector<FoundPairs> workers_;

@@ -278,8 +278,8 @@ IntegerPolynomial common_divisor(const IntegerPolynomial& p, const IntegerPolyno
     bool stable = modulus != 1;
     for (std::size_t i = 0; i < common.size(); ++i) {
       Integer& x = found.c[i];
-      const Residue wanted = common[i] * scale % prime;
-      const Residue by = (wanted + prime - residue(x, prime)) % prime * per_modulus % prime;
+      const Residue target = common[i] * scale % prime;
+      const Residue by = (target + prime - residue(x, prime)) % prime * per_modulus % prime;
       stable = stable && by == 0;
       mpz_addmul_ui(x.get_mpz_t(), modulus.get_mpz_t(), by);
       if (x > half) x -= next_modulus;

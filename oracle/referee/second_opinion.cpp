@@ -150,21 +150,21 @@ class Second {
   void check_pair_at(TrianglePair pair, const detector::PairContact* judged, const StaticTime& time,
                      SecondOpinion& found) const {
     ++found.static_checks;
-    const bool met = triangles_meet(motion_, triangles_, pair, time);
+    const bool is_contact = triangles_meet(motion_, triangles_, pair, time);
     auto report = [&](ContradictionKind kind, bool by_judgement) {
-      found.contradictions.push_back({kind, {}, pair, time, by_judgement, met});
+      found.contradictions.push_back({kind, {}, pair, time, by_judgement, is_contact});
     };
     if (!judged) {
-      if (met) report(ContradictionKind::static_pair, false);
+      if (is_contact) report(ContradictionKind::static_pair, false);
       return;
     }
     const detector::TimeEnclosure& first = judged->time;
     const bool is_double = first.lo == first.hi;
     const int side = compare(time, first.lo);  // the first time is lo, or above it
-    if (met && (side < 0 || (side == 0 && !is_double))) {
+    if (is_contact && (side < 0 || (side == 0 && !is_double))) {
       report(ContradictionKind::static_late, false);
     }
-    if (!met && side == 0 && is_double) report(ContradictionKind::static_apart, true);
+    if (!is_contact && side == 0 && is_double) report(ContradictionKind::static_apart, true);
   }
 
   SecondOpinion collect() {

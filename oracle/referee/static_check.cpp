@@ -125,9 +125,9 @@ bool same_corners(const detector::TrianglesView& triangles, detector::TrianglePa
   return std::is_permutation(a.begin(), a.end(), b.begin());
 }
 
-Vertices without(const Vertices& from, const Vertices& taken) {
+Vertices without(const Vertices& from, const Vertices& others) {
   Vertices rest;
-  std::set_difference(from.begin(), from.end(), taken.begin(), taken.end(),
+  std::set_difference(from.begin(), from.end(), others.begin(), others.end(),
                       std::back_inserter(rest));
   return rest;
 }
@@ -172,9 +172,9 @@ bool triangles_meet(const detector::SteppedMesh& motion, const detector::Triangl
     const Vertices face_a = without(a, to_b), face_b = without(b, to_a);
     if (face_a.empty() || face_b.empty()) continue;
     if (quick.surely_apart(face_a, face_b)) continue;
-    const bool met = std::visit([](const auto& f, const auto& g) { return meet(f, g); },
-                                shape(face_a), shape(face_b));
-    if (met) return true;
+    const bool is_contact = std::visit([](const auto& f, const auto& g) { return meet(f, g); },
+                                       shape(face_a), shape(face_b));
+    if (is_contact) return true;
   }
   return false;
 }

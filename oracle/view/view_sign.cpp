@@ -166,11 +166,11 @@ struct SignsOnRange {
 
   // 1 or -1 when the view function surely has that sign throughout.
   int view() const {
-    for (const int wanted : {1, -1}) {
-      const bool before = h0 == wanted || g0 > 0;
-      const bool after = h1 == wanted || g1 < 0;
-      const bool between = hm == wanted || g0 < 0 || g1 > 0 || (h0 == wanted && h1 == wanted);
-      if (before && after && between) return wanted;
+    for (const int sign : {1, -1}) {
+      const bool before = h0 == sign || g0 > 0;
+      const bool after = h1 == sign || g1 < 0;
+      const bool between = hm == sign || g0 < 0 || g1 > 0 || (h0 == sign && h1 == sign);
+      if (before && after && between) return sign;
     }
     return 0;
   }

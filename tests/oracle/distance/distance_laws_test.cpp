@@ -110,7 +110,7 @@ Separation random_distance(Random& random) {
 // At sampled times, at the enclosure of the first time, and just before it.
 TEST(DistanceLaws, AgreesWithRationalTimes) {
   Random random(161);
-  int near = 0, later = 0, asked = 0;
+  int near = 0, later = 0, times = 0;
   constexpr int queries = 150, samples = 16;
   for (int kind = 0; kind < test::query_kinds; ++kind) {
     for (int i = 0; i < queries; ++i) {
@@ -126,7 +126,7 @@ TEST(DistanceLaws, AgreesWithRationalTimes) {
         return squared_distance_at(q, t) <= squared;
       };
       const auto expect = [&](const mpq_class& t) {
-        ++asked;
+        ++times;
         if (is_within(t)) {
           ASSERT_TRUE(answer.near && mpq_class(answer.first.lo) <= t)
               << kind << " " << i << " " << t;
@@ -149,7 +149,7 @@ TEST(DistanceLaws, AgreesWithRationalTimes) {
       for (int s = 1; s < 8; ++s) expect(mpq_class(lo) * s / 8);
     }
   }
-  std::printf("%d times asked of %d queries within d, %d of them later than 0\n", asked, near,
+  std::printf("%d times asked of %d queries within d, %d of them later than 0\n", times, near,
               later);
   EXPECT_GT(later, 100);
 }

@@ -127,17 +127,17 @@ TEST(Nearness, IgnoresWhatSharesAVertex) {
 
 TEST(Nearness, AgreesWithEmbeddingOnRandomMeshes) {
   std::mt19937_64 engine(7);
-  int met = 0;
+  int contacts = 0;
   for (int i = 0; i < 200; ++i) {
     detector::Positions x(9, 3);
     for (Eigen::Index k = 0; k < x.size(); ++k) x.data()[k] = static_cast<double>(engine() % 7);
     const auto f = triangles({{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {2, 3, 6}});
     const bool meets = any_nearer_than(x, f, 0, all).has_value();
     EXPECT_EQ(meets, !embedded(x, f)) << "i = " << i;
-    met += meets ? 1 : 0;
+    contacts += meets ? 1 : 0;
   }
-  EXPECT_GT(met, 50);
-  EXPECT_LT(met, 195);
+  EXPECT_GT(contacts, 50);
+  EXPECT_LT(contacts, 195);
 }
 
 // Contacts at an instant, beside those of a step in which nothing moves.
@@ -147,7 +147,7 @@ using test::Coordinates;
 // The integer tests against the queries over a step in which nothing moves.
 TEST(StaticContact, AgreesWithTheStepQueries) {
   test::Random random(11);
-  int met = 0, pierced = 0;
+  int contacts = 0, pierced = 0;
   for (int i = 0; i < 30000; ++i) {
     const auto kind = static_cast<Coordinates>(i % test::coordinate_kinds);
     const detector::Positions x = random_rows(random, kind, 5);
@@ -162,11 +162,11 @@ TEST(StaticContact, AgreesWithTheStepQueries) {
     EXPECT_EQ(edges_meet(points, {0, 1}, {2, 3}), ee);
     const bool through = segment_pierces_triangle(at(0), at(1), {at(2), at(3), at(4)});
     EXPECT_EQ(edge_pierces_face(points, {0, 1}, {2, 3, 4}), through);
-    met += vf + ee;
+    contacts += vf + ee;
     pierced += through;
   }
-  std::printf("%d contacts, %d pierced\n", met, pierced);
-  EXPECT_GT(met, 300);
+  std::printf("%d contacts, %d pierced\n", contacts, pierced);
+  EXPECT_GT(contacts, 300);
   EXPECT_GT(pierced, 100);
 }
 

@@ -257,9 +257,9 @@ TEST(JudgeStep, StoppedAtOnce) {
 TEST(JudgeStep, StoppedLaterKeepsWhatItFound) {
   const Step step = random_soup(9, 300, 300);
   const StepJudgement whole = judge(step);
-  int asked = 0;
+  int calls = 0;
   const StepJudgement part =
-      judge_step({step.x_t0, step.x_t1}, step.f, {1, [&] { return ++asked > 3; }});
+      judge_step({step.x_t0, step.x_t1}, step.f, {1, [&] { return ++calls > 3; }});
   EXPECT_EQ(part.answer, Answer::undecided);
   EXPECT_FALSE(part.complete);
   EXPECT_LT(part.pairs.size(), whole.pairs.size());

@@ -126,9 +126,9 @@ TEST(SecondOpinion, SameForAnyJobsAndShareIsKept) {
 TEST(SecondOpinion, StopsAndSaysSo) {
   const Step step = folding_sheet(12, 64);
   const StepJudgement judgement = judge(step);
-  std::atomic<int> asked = 0;
+  std::atomic<int> calls = 0;
   const SecondOpinion opinion = second_opinion({step.x_t0, step.x_t1}, step.f, judgement,
-                                               {1, 2, [&] { return ++asked > 1; }, {}});
+                                               {1, 2, [&] { return ++calls > 1; }, {}});
   EXPECT_FALSE(opinion.complete);
   EXPECT_TRUE(opinion.contradictions.empty());
 }

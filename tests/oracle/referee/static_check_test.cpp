@@ -123,7 +123,7 @@ TEST(TrianglesMeetNow, AgreesWithRationalArithmeticOnSmallIntegers) {
   std::mt19937 random(1);
   std::uniform_int_distribution<int> coordinate(0, 3);
   const auto f = triangles({{0, 1, 2}, {3, 4, 5}});
-  int met = 0, apart = 0, without_area = 0;
+  int contacts = 0, apart = 0, without_area = 0;
   for (int i = 0; i < 3000; ++i) {
     detector::Positions x(6, 3);
     for (Eigen::Index k = 0; k < x.size(); ++k) x.data()[k] = coordinate(random);
@@ -138,9 +138,9 @@ TEST(TrianglesMeetNow, AgreesWithRationalArithmeticOnSmallIntegers) {
       continue;
     }
     EXPECT_EQ(answer, triangles_meet({x, x}, f, {0, 1}, RationalTime{0, 1})) << x;
-    ++(answer ? met : apart);
+    ++(answer ? contacts : apart);
   }
-  EXPECT_GT(met, 500);
+  EXPECT_GT(contacts, 500);
   EXPECT_GT(apart, 500);
   EXPECT_GT(without_area, 20);
 }
