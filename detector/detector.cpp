@@ -150,8 +150,8 @@ Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView&
   if (auto problem = check_separation(options)) return std::move(*problem);
   const StopFunction callers = state.in_callers_state(stop);
   SharedStop shared(callers);
-  const StopFunction asked = shared.function();
-  PacedStop pace(asked, workers);
+  const StopFunction shared_stop = shared.function();
+  PacedStop pace(shared_stop, workers);
   if (auto problem = check_corners(triangles, positions.rows())) return std::move(*problem);
   auto problem = check_positions(positions, positions.rows());
   if (!problem && options.counted)
@@ -232,9 +232,9 @@ StepResult Detector::step(const PositionsView& x_t0, const PositionsView& x_t1,
 }
 
 StepLimit Detector::limit(const PositionsView& x_t0, const PositionsView& x_t1,
-                          const StopFunction& asked) {
+                          const StopFunction& callers) {
   const ProcessorState state;
-  const StopFunction stop = state.in_callers_state(asked);
+  const StopFunction stop = state.in_callers_state(callers);
   StepLimit limit;
   limit.positions = x_t0;
   const Arithmetic arithmetic = parts_->context.options.arithmetic;

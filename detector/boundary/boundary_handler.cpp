@@ -203,20 +203,20 @@ std::optional<std::size_t> ApexChoice::touched_by(std::size_t loop, const ApexRu
     return std::nullopt;
   }
   const std::uint64_t end = work() + most_work;
-  std::uint64_t seen = work();
+  std::uint64_t work_before = work();
   placing_ += to_place;
   const Point apex = place_apex(rule, vertices, x_);
   all_.row(surface_.first_apex + static_cast<Eigen::Index>(loop)) << apex[0], apex[1], apex[2];
   const auto ghosts = std::span(ghosts_).subspan(first_ghost_[loop], vertices.size());
   const HoleTree hole(surface_.all(), ghosts, sweep_.tree.grid(), sweep_.motion);
   const auto has_to_end = [&] {
-    const bool asks_for_end = stop_.after(work() - seen);
-    seen = work();
+    const bool asks_for_end = stop_.after(work() - work_before);
+    work_before = work();
     return asks_for_end || found_.size() >= fewest || work() >= end;
   };
   const bool went_through = sweep_hole(sweep_, hole, has_to_end, touched_, result_.counts);
   const std::size_t count = found_.size();
-  stop_.after(work() - seen);
+  stop_.after(work() - work_before);
   for (const auto t : found_) touched_[at(t)] = 0;
   found_.clear();
   if (!went_through && count < fewest) ++result_.cut_short;

@@ -60,7 +60,7 @@ struct BoxKernels {
   // face `at_start` counts the boxes at t=0 alone. Edge i is opposite to corner i. Nothing, if the
   // two triangles are apart.
   std::uint32_t (*compare_features)(const TriangleCorners& a, const TriangleCorners& b,
-                                    std::size_t to_end, const float* margin, std::uint32_t asked);
+                                    std::size_t to_end, const float* margin, std::uint32_t pairs);
 };
 
 // Those of the best instruction set that this machine has.

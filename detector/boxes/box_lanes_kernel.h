@@ -67,13 +67,13 @@ ASSAY_INLINE std::uint32_t compare_each(const BoxRows& a, const float* box_of_a,
   const std::uint32_t near_b = all_of(a) & ~apart_from<moves>(box_of_b, 1, a);
   std::uint32_t compared = static_cast<std::uint32_t>(a.count + b.count);
   for (std::size_t i = 0; i < a.count; ++i) {
-    std::uint32_t asked = sets[i] & near_a;
-    if (!(near_b >> i & 1)) asked = 0;
-    if (asked) {
-      compared += static_cast<std::uint32_t>(__builtin_popcount(asked));
-      asked &= ~apart_from<moves>(a.first + i, a.count, b);
+    std::uint32_t set = sets[i] & near_a;
+    if (!(near_b >> i & 1)) set = 0;
+    if (set) {
+      compared += static_cast<std::uint32_t>(__builtin_popcount(set));
+      set &= ~apart_from<moves>(a.first + i, a.count, b);
     }
-    sets[i] = static_cast<std::uint8_t>(asked);
+    sets[i] = static_cast<std::uint8_t>(set);
   }
   return compared;
 }
@@ -142,20 +142,20 @@ ASSAY_INLINE std::size_t lowest(std::uint32_t bits) {
 
 // Those of the corners asked for, as bits, that meet the face.
 ASSAY_INLINE std::uint32_t corners_that_meet(const TriangleCorners& corners, std::size_t to_end,
-                                             std::uint32_t asked, const FeatureLanes& other,
+                                             std::uint32_t corner_bits, const FeatureLanes& other,
                                              const Lanes& margin) {
   std::uint32_t found = 0;
-  for (; asked != 0; asked &= asked - 1) {
+  for (; corner_bits != 0; corner_bits &= corner_bits - 1) {
     FeatureLanes p;
-    corner(p, corners[lowest(asked)], to_end);
+    corner(p, corners[lowest(corner_bits)], to_end);
     grow(p, margin);
-    if (meet(p, other)) found |= asked & -asked;
+    if (meet(p, other)) found |= corner_bits & -corner_bits;
   }
   return found;
 }
 
 std::uint32_t compare_features_lanes(const TriangleCorners& a, const TriangleCorners& b,
-                                     std::size_t to_end, const float* margin, std::uint32_t asked) {
+                                     std::size_t to_end, const float* margin, std::uint32_t pairs) {
   Lanes by;
   load(by, margin);
   FeatureLanes face_a, face_b;
@@ -163,9 +163,9 @@ std::uint32_t compare_features_lanes(const TriangleCorners& a, const TriangleCor
   face(face_b, b, to_end, by);
   if (!meet(face_a, face_b)) return 0;
   constexpr std::uint32_t three = 7;
-  std::uint32_t found = corners_that_meet(a, to_end, asked & three, face_b, by);
-  found |= corners_that_meet(b, to_end, asked >> 3 & three, face_a, by) << 3;
-  std::uint32_t edges = asked >> 6 & 511, starts_a = asked >> 15 & three, starts_b = asked >> 18;
+  std::uint32_t found = corners_that_meet(a, to_end, pairs & three, face_b, by);
+  found |= corners_that_meet(b, to_end, pairs >> 3 & three, face_a, by) << 3;
+  std::uint32_t edges = pairs >> 6 & 511, starts_a = pairs >> 15 & three, starts_b = pairs >> 18;
   // The edges of b that some pair asks for, and that meet the face of a.
   std::uint32_t edges_b = (edges | edges >> 3 | edges >> 6) & three, left = edges_b | starts_b;
   FeatureLanes boxes_b[3];

@@ -195,8 +195,8 @@ class FixedSearch {
     }
     std::optional<std::size_t> first;
     for (std::size_t i = 0; i < 4; ++i) {
-      if (signs[i].known() || (first && !is_before(dependency[i], signs[i].first,
-                                                   dependency[*first], signs[*first].first))) {
+      if (signs[i].is_known() || (first && !is_before(dependency[i], signs[i].first,
+                                                      dependency[*first], signs[*first].first))) {
         continue;
       }
       const Decision found = look_at_root(piece, dependency[i], signs[i].first);
@@ -229,7 +229,7 @@ class FixedSearch {
       SignSet there;
       for (const auto& l : piece.dependency(axis, products_)) {
         const PieceSigns signs = piece_signs(l);
-        there.add(signs.known() ? signs.first : sign_at_root<W>(l, quadratic, before));
+        there.add(signs.is_known() ? signs.first : sign_at_root<W>(l, quadratic, before));
       }
       if (there.both()) return Decision::no;
       if (there.any()) return Decision::yes;
@@ -249,17 +249,17 @@ class FixedSearch {
   Decision look_at_signs(Piece& piece, bool has_root) const {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       SignSet inside;
-      bool known = true;
+      bool are_known = true;
       for (const auto& l : piece.dependency(axis, products_)) {
         const PieceSigns signs = piece_signs(l);
-        if (signs.known()) {
+        if (signs.is_known()) {
           inside.add(signs.first);
         } else {
-          known = false;
+          are_known = false;
         }
       }
       if (inside.both()) return Decision::no;
-      if (has_root && known && inside.any()) return Decision::yes;
+      if (has_root && are_known && inside.any()) return Decision::yes;
     }
     return Decision::open;
   }
@@ -270,21 +270,21 @@ class FixedSearch {
     std::optional<SignAtRoot<W>> sign_at_root;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       SignSet there;
-      bool known = true;
+      bool are_known = true;
       const auto& dependency = piece.dependency(axis, products_);
       for (const auto& l : dependency) {
         const PieceSigns signs = piece_signs(l);
-        if (signs.known()) {
+        if (signs.is_known()) {
           there.add(signs.first);
         } else if (signs.changes == 1) {
           if (!sign_at_root) sign_at_root.emplace(cubic, before, bits_);
           there.add(sign_at_root->of(l, signs.first));
         } else {
-          known = false;
+          are_known = false;
         }
       }
       if (there.both()) return Decision::no;
-      if (known && there.any()) return Decision::yes;
+      if (are_known && there.any()) return Decision::yes;
     }
     return Decision::open;
   }

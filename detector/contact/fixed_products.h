@@ -201,7 +201,7 @@ void halve_undivided(std::array<T, n> row, std::array<T, n>& left, std::array<T,
 struct PieceSigns {
   int changes = 0;
   int first = 0;  // the sign just after the beginning; 0 if the polynomial vanishes throughout
-  bool known() const { return changes == 0; }  // `first` is then the sign throughout
+  bool is_known() const { return changes == 0; }  // `first` is then the sign throughout
 };
 
 template <class T, std::size_t n>

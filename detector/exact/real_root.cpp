@@ -50,9 +50,9 @@ RealRoot enclosed(const Polynomial& f, const IsolatedRoot& root) {
 // The isolated roots of `simple`, the square-free part of f. REQUIRES that f has the sign changes
 // of_f over (0,1).
 std::vector<IsolatedRoot> isolated_roots(const Polynomial& simple, const Polynomial& f,
-                                         SignChanges of_f, Roots wanted) {
+                                         SignChanges of_f, Roots scope) {
   const bool is_f = simple.degree() == f.degree();
-  return isolate_roots(simple, is_f ? of_f : sign_changes_over_unit(simple), wanted);
+  return isolate_roots(simple, is_f ? of_f : sign_changes_over_unit(simple), scope);
 }
 
 // The double that a dyadic time is, or the two adjacent doubles around it.

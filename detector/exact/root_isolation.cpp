@@ -24,10 +24,10 @@ double split(double lo, double hi) {
 
 }  // namespace
 
-std::vector<IsolatedRoot> isolate_roots(const Polynomial& f, SignChanges over_unit, Roots wanted) {
+std::vector<IsolatedRoot> isolate_roots(const Polynomial& f, SignChanges over_unit, Roots scope) {
   std::vector<IsolatedRoot> found;
   std::vector<Part> open = {{0, 1, over_unit}};  // parts to look at; the next one is last
-  while (!open.empty() && (found.empty() || wanted == Roots::all)) {
+  while (!open.empty() && (found.empty() || scope == Roots::all)) {
     const Part part = open.back();
     open.pop_back();
     const TimeEnclosure doubles{part.lo, part.hi};
@@ -37,7 +37,7 @@ std::vector<IsolatedRoot> isolate_roots(const Polynomial& f, SignChanges over_un
     } else if (part.changes.count == 1) {
       found.push_back({lo, hi, doubles, part.changes.first});
     } else if (part.changes.count >= 2 && adjacent(part.lo, part.hi)) {
-      isolate_in_gap(f, doubles, wanted, found);
+      isolate_in_gap(f, doubles, scope, found);
     } else if (part.changes.count >= 2) {
       const double time = split(part.lo, part.hi);
       const Dyadic middle = Dyadic::of(time);
@@ -177,8 +177,8 @@ Dyadic power_of_two(int exponent) { return {1, exponent}; }
 
 class GapIsolation {
  public:
-  GapIsolation(TimeEnclosure gap, Roots wanted, std::vector<IsolatedRoot>& found)
-      : gap_(gap), wanted_(wanted), found_(found) {}
+  GapIsolation(TimeEnclosure gap, Roots scope, std::vector<IsolatedRoot>& found)
+      : gap_(gap), scope_(scope), found_(found) {}
 
   int run(const Polynomial& f) {
     const Dyadic lo = Dyadic::of(gap_.lo), hi = Dyadic::of(gap_.hi);
@@ -187,7 +187,7 @@ class GapIsolation {
     const int log_width = width.exponent + static_cast<int>(msb(width.mantissa));
     add({lo, log_width, f.over(lo, hi), {}, first_log_cells});
     const std::size_t before = found_.size();
-    while (!open_.empty() && (wanted_ == Roots::all || found_.size() == before)) {
+    while (!open_.empty() && (scope_ == Roots::all || found_.size() == before)) {
       ClusterPart part = std::move(open_.back());
       open_.pop_back();
       if (part.f.is_zero()) {
@@ -283,7 +283,7 @@ class GapIsolation {
   }
 
   TimeEnclosure gap_;
-  Roots wanted_;
+  Roots scope_;
   std::vector<IsolatedRoot>& found_;
   std::vector<ClusterPart> open_;  // parts to look at; the next one is last
   int counted_ = 0;
@@ -291,9 +291,9 @@ class GapIsolation {
 
 }  // namespace
 
-int isolate_in_gap(const Polynomial& f, TimeEnclosure gap, Roots wanted,
+int isolate_in_gap(const Polynomial& f, TimeEnclosure gap, Roots scope,
                    std::vector<IsolatedRoot>& found) {
-  return GapIsolation(gap, wanted, found).run(f);
+  return GapIsolation(gap, scope, found).run(f);
 }
 
 }  // namespace assay::detector

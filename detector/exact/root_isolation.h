@@ -102,7 +102,7 @@ enum class Roots : std::uint8_t { all, any };
 
 // The roots, ascending; with Roots::any, one of them if there is one. REQUIRES that `f` is
 // square-free and has the sign changes over_unit over (0,1).
-std::vector<IsolatedRoot> isolate_roots(const Polynomial& f, SignChanges over_unit, Roots wanted);
+std::vector<IsolatedRoot> isolate_roots(const Polynomial& f, SignChanges over_unit, Roots scope);
 
 // Tells apart roots that lie in one gap between adjacent doubles.
 //
@@ -110,7 +110,7 @@ std::vector<IsolatedRoot> isolate_roots(const Polynomial& f, SignChanges over_un
 // Returns for how many parts of the gap sign changes were counted. That number grows with the
 // logarithm of the number of bits that tell the roots apart (root_isolation.cpp), not with the
 // number of bits.
-int isolate_in_gap(const Polynomial& f, TimeEnclosure gap, Roots wanted,
+int isolate_in_gap(const Polynomial& f, TimeEnclosure gap, Roots scope,
                    std::vector<IsolatedRoot>& found);
 
 }  // namespace assay::detector

@@ -12,10 +12,10 @@ namespace {
 
 // Whether the features of four points, the first `first_group` of them and the others, are nearer
 // to each other than r.
-bool are_nearer(const std::array<const Point*, 4>& given, int first_group, double r) {
+bool are_nearer(const std::array<const Point*, 4>& input, int first_group, double r) {
   std::array<double, 13> values;
   for (std::size_t i = 0; i < 4; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) values[3 * i + k] = (*given[i])[k];
+    for (std::size_t k = 0; k < 3; ++k) values[3 * i + k] = (*input[i])[k];
   }
   values[12] = r;
   std::array<Integer, 13> scaled;

@@ -236,13 +236,13 @@ std::optional<int> winding_number(const Topology& mesh, std::span<const std::int
 std::vector<std::optional<int>> winding_numbers_outside(const Topology& mesh,
                                                         std::span<const std::int32_t> triangles,
                                                         const PositionsView& x,
-                                                        std::span<const std::int32_t> asked,
+                                                        std::span<const std::int32_t> queries,
                                                         Arithmetic arithmetic, PacedStop* pace) {
   const Crossings surface(mesh, triangles, x, arithmetic, pace);
-  std::vector<Ray> rays(asked.size());
-  for (std::size_t i = 0; i < asked.size(); ++i) {
-    rays[i].origin = surface.corners(asked[i]);
-    rays[i].outward_of = asked[i];
+  std::vector<Ray> rays(queries.size());
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    rays[i].origin = surface.corners(queries[i]);
+    rays[i].outward_of = queries[i];
   }
   count_crossings(surface, rays, arithmetic);
   std::vector<std::optional<int>> winding;

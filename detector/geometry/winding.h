@@ -25,7 +25,7 @@ std::optional<int> winding_number(const Topology& mesh, std::span<const std::int
                                   Arithmetic arithmetic = Arithmetic::exact,
                                   PacedStop* pace = nullptr);
 
-// The winding number w just outside each of the triangles `asked`, on the side of its normal. The
+// The winding number w just outside each of the triangles `queries`, on the side of its normal. The
 // layer of that triangle is (w + 1, w). REQUIRES that a triangle asked for touches no other
 // triangle of `triangles` beyond shared vertices. None for a triangle of zero area, and none if
 // `pace` was stopped. All numbers together cost about two winding numbers of points, because half
@@ -34,7 +34,7 @@ std::optional<int> winding_number(const Topology& mesh, std::span<const std::int
 std::vector<std::optional<int>> winding_numbers_outside(const Topology& mesh,
                                                         std::span<const std::int32_t> triangles,
                                                         const PositionsView& x,
-                                                        std::span<const std::int32_t> asked,
+                                                        std::span<const std::int32_t> queries,
                                                         Arithmetic arithmetic = Arithmetic::exact,
                                                         PacedStop* pace = nullptr);
 

@@ -15,10 +15,10 @@ using State = ProcessorState::State;
 #if defined(__SSE2__)
 // MXCSR as a program starts with it: nothing traps, and all else is 0. The lowest six bits only say
 // what arithmetic has met.
-constexpr State needed = 0x1F80, met = 0x3F;
+constexpr State needed = 0x1F80, flags = 0x3F;
 
 State state_now() { return _mm_getcsr(); }
-bool is_needed(State state) { return (state & ~met) == needed; }
+bool is_needed(State state) { return (state & ~flags) == needed; }
 void put(State state) { _mm_setcsr(state); }
 void put_needed() {
   if (!is_needed(state_now())) put(needed);
@@ -102,8 +102,8 @@ std::function<bool()> ProcessorState::in_callers_state(
 
 Workers::Workers(std::uint32_t threads) {
   constexpr std::uint32_t most_threads = 1024;
-  const std::uint32_t wanted = threads != 0 ? threads : std::thread::hardware_concurrency();
-  const std::size_t count = std::clamp(wanted, 1u, most_threads);
+  const std::uint32_t request = threads != 0 ? threads : std::thread::hardware_concurrency();
+  const std::size_t count = std::clamp(request, 1u, most_threads);
   if (count > 1) arena_ = ThreadArena::make(count);
   if (arena_) count_ = count;
 }

@@ -65,16 +65,16 @@ bool choose(Enum& choice, std::int32_t number) {
 
 // Copies the given options. Returns what is wrong with them, or null. The numbers of the C
 // interface are those of the enumerations in C++.
-const char* read_options(const assay_builtin_options& given, Options& options) {
+const char* read_options(const assay_builtin_options& input, Options& options) {
   constexpr std::size_t size_before_separation = offsetof(assay_builtin_options, separation);
-  if (given.struct_size != sizeof given && given.struct_size != size_before_separation)
+  if (input.struct_size != sizeof input && input.struct_size != size_before_separation)
     return "struct_size is not the size of the options";
-  if (!choose(options.culling, given.culling)) return "no such culling";
-  if (!choose(options.start, given.start)) return "no such start";
-  if (!choose(options.pairs, given.pairs)) return "no such choice of pairs";
-  if (!choose(options.arithmetic, given.arithmetic)) return "no such arithmetic";
-  options.threads = given.threads;
-  if (given.struct_size == sizeof given) options.separation = given.separation;
+  if (!choose(options.culling, input.culling)) return "no such culling";
+  if (!choose(options.start, input.start)) return "no such start";
+  if (!choose(options.pairs, input.pairs)) return "no such choice of pairs";
+  if (!choose(options.arithmetic, input.arithmetic)) return "no such arithmetic";
+  options.threads = input.threads;
+  if (input.struct_size == sizeof input) options.separation = input.separation;
   return nullptr;
 }
 
@@ -219,28 +219,28 @@ const char* assay_builtin_error_name(std::int32_t code) {
     case ASSAY_BUILTIN_NO_MEMORY:
       return "no_memory";
     default:
-      const auto known = assay::from_number<InputError>(code);
-      return known ? name_of(*known) : "unknown_error";
+      const auto error = assay::from_number<InputError>(code);
+      return error ? name_of(*error) : "unknown_error";
   }
 }
 
 std::int32_t assay_builtin_create(const std::int32_t* triangles, std::uint64_t triangle_count,
                                   const double* positions, std::uint64_t vertex_count,
-                                  const assay_builtin_options* given, assay_handle** handle,
+                                  const assay_builtin_options* input, assay_handle** handle,
                                   assay_builtin_error* error) {
   return guarded(error, [&]() -> std::int32_t {
     Options options;
-    if (const char* wrong = given ? read_options(*given, options) : nullptr)
+    if (const char* wrong = input ? read_options(*input, options) : nullptr)
       return refuse(error, ASSAY_BUILTIN_WRONG_OPTIONS, wrong);
     constexpr std::uint64_t most = std::numeric_limits<std::int32_t>::max();
     if (triangle_count > most || vertex_count > most)
       return refuse(error, ASSAY_BUILTIN_TOO_MANY, "more than 2^31 - 1 triangles or vertices");
     const auto m = static_cast<Eigen::Index>(triangle_count);
     const auto n = static_cast<Eigen::Index>(vertex_count);
-    auto made =
+    auto result =
         Detector::create(TrianglesMap(triangles, m, 3), PositionsMap(positions, n, 3), options);
-    if (!made) return refuse(error, made.error());
-    *handle = new assay_handle{std::move(made.value()), n};
+    if (!result) return refuse(error, result.error());
+    *handle = new assay_handle{std::move(result.value()), n};
     return done(error);
   });
 }
@@ -254,9 +254,9 @@ std::int32_t assay_builtin_evaluate(assay_handle* handle, const double* x_t0, co
     if (primitive_count > std::max<std::uint64_t>(1, handle->detector.topology().components.size()))
       return refuse(error, ASSAY_BUILTIN_WRONG_PRIMITIVE_COUNT,
                     "more view primitives than components");
-    std::vector<ViewPrimitive> given(static_cast<std::size_t>(primitive_count));
-    if (!given.empty()) std::memcpy(given.data(), primitives, given.size() * sizeof given[0]);
-    handle->evaluate(x_t0, x_t1, given, stop_function(stop, stop_data));
+    std::vector<ViewPrimitive> views(static_cast<std::size_t>(primitive_count));
+    if (!views.empty()) std::memcpy(views.data(), primitives, views.size() * sizeof views[0]);
+    handle->evaluate(x_t0, x_t1, views, stop_function(stop, stop_data));
     return handle->result.problem ? refuse(error, *handle->result.problem) : done(error);
   });
 }

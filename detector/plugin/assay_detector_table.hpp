@@ -248,25 +248,25 @@ const assay_detector_api* table() {
                 "void count(const CountedPairs& counted)");
   static_assert(has_evaluate<D>::value || !has_commit<D>::value, "commit() goes with evaluate()");
   static const assay_detector_api api = [] {
-    assay_detector_api made = {};
-    made.abi_version = ASSAY_DETECTOR_ABI_VERSION;
-    made.describe = &detail::describe<D>;
-    made.error_text = &detail::error_text<D>;
+    assay_detector_api functions = {};
+    functions.abi_version = ASSAY_DETECTOR_ABI_VERSION;
+    functions.describe = &detail::describe<D>;
+    functions.error_text = &detail::error_text<D>;
     if constexpr (has_evaluate<D>::value || has_candidates<D>::value || has_limit<D>::value) {
-      made.create = &detail::create<D>;
-      made.destroy = &detail::destroy<D>;
+      functions.create = &detail::create<D>;
+      functions.destroy = &detail::destroy<D>;
     }
     if constexpr (has_evaluate<D>::value) {
-      made.evaluate = &detail::evaluate<D>;
-      made.commit = &detail::commit<D>;
-      made.result = &detail::result<D>;
+      functions.evaluate = &detail::evaluate<D>;
+      functions.commit = &detail::commit<D>;
+      functions.result = &detail::result<D>;
     }
-    if constexpr (has_count<D>::value) made.count = &detail::count<D>;
-    if constexpr (has_use_threads<D>::value) made.use_threads = &detail::use_threads<D>;
-    if constexpr (has_query<D>::value) made.query = &detail::query<D>;
-    if constexpr (has_candidates<D>::value) made.candidates = &detail::candidates<D>;
-    if constexpr (has_limit<D>::value) made.limit = &detail::limit<D>;
-    return made;
+    if constexpr (has_count<D>::value) functions.count = &detail::count<D>;
+    if constexpr (has_use_threads<D>::value) functions.use_threads = &detail::use_threads<D>;
+    if constexpr (has_query<D>::value) functions.query = &detail::query<D>;
+    if constexpr (has_candidates<D>::value) functions.candidates = &detail::candidates<D>;
+    if constexpr (has_limit<D>::value) functions.limit = &detail::limit<D>;
+    return functions;
   }();
   return &api;
 }

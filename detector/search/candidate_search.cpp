@@ -56,16 +56,16 @@ double CandidateSearch::share_of_edges(bool open_alone) const {
   constexpr std::size_t most_edges = 512;
   const PairTables k = stages_.rule.candidates();
   const std::size_t edges = std::min(mesh_.edges.size(), most_edges);
-  std::size_t asked = 0, pairs = 0;
+  std::size_t candidates = 0, pairs = 0;
   for (std::size_t i = 0; i < edges; ++i) {
     const auto holders =
         mesh_.edge_triangles.row(static_cast<std::int32_t>(i * mesh_.edges.size() / edges));
     if (holders.size() < 2) continue;
     ++pairs;
-    asked += k.within.asks(memory_.marks.flags(holders[0]), memory_.marks.flags(holders[1])) &&
-             !(open_alone && contacts_.are_proved_apart(holders[0], holders[1]));
+    candidates += k.within.asks(memory_.marks.flags(holders[0]), memory_.marks.flags(holders[1])) &&
+                  !(open_alone && contacts_.are_proved_apart(holders[0], holders[1]));
   }
-  return pairs == 0 ? 0 : static_cast<double>(asked) / static_cast<double>(pairs);
+  return pairs == 0 ? 0 : static_cast<double>(candidates) / static_cast<double>(pairs);
 }
 
 // Fans cost what a few hundred of the pairs cost that they leave out of a thousand triangles.

@@ -215,9 +215,9 @@ std::optional<bool> FeatureContacts::found_ignored(const StopFunction& stop) con
     return std::any_of(lanes_.begin(), lanes_.end(),
                        [](const auto& lane) { return lane->found_ignored; });
   }
-  std::size_t seen = 0;
+  std::size_t count = 0;
   for (const auto& contact : contacts_.held()) {
-    if (seen++ % pairs_between_stops == 0 && stop && stop()) return std::nullopt;
+    if (count++ % pairs_between_stops == 0 && stop && stop()) return std::nullopt;
     const auto [a, b] = contact.pair;
     if (mesh_.component_of_triangle[at(a)] == mesh_.component_of_triangle[at(b)] &&
         !relation_->counts(mesh_, contact.pair)) {
@@ -396,11 +396,11 @@ void PairContacts::add(const PairContact& contact) {
 bool PairContacts::make_room(const StopFunction& stop) {
   settle();
   // If less than a fifth of it is free the list grows. Else it would be sorted too often.
-  const std::size_t wanted = with_room(all_.size());
-  if (all_.capacity() >= wanted) return true;
+  const std::size_t capacity = with_room(all_.size());
+  if (all_.capacity() >= capacity) return true;
   constexpr std::size_t at_once = 16'384;  // 768 KB
   std::vector<PairContact> larger;
-  larger.reserve(wanted);
+  larger.reserve(capacity);
   for (auto next = all_.begin(); next != all_.end();) {
     const auto end = next + std::min<std::ptrdiff_t>(at_once, all_.end() - next);
     larger.insert(larger.end(), next, end);
@@ -416,20 +416,20 @@ bool PairContacts::make_room(const StopFunction& stop) {
 void PairContacts::settle() {
   const auto late = all_.begin() + static_cast<std::ptrdiff_t>(settled_);
   std::sort(late, all_.end(), is_before);
-  auto kept = late;
+  auto new_end = late;
   auto place = all_.begin();
   for (auto next = late; next != all_.end(); ++next) {
-    if (kept != late && std::prev(kept)->pair == next->pair) continue;
+    if (new_end != late && std::prev(new_end)->pair == next->pair) continue;
     place = std::lower_bound(place, late, next->pair,
                              [](const PairContact& x, TrianglePair pair) { return x.pair < pair; });
     if (place == late || place->pair != next->pair) {
       new_.push_back(next->pair);
-      *kept++ = *next;
+      *new_end++ = *next;
     } else if (is_before(*next, *place)) {
       *place = *next;
     }
   }
-  all_.erase(kept, all_.end());
+  all_.erase(new_end, all_.end());
   merge_late(all_.size() - settled_);
   settled_ = all_.size();
 }

@@ -100,7 +100,7 @@ class FeatureContacts {
   FeatureContacts& operator=(const FeatureContacts&) = delete;
 
   // Says which types the search asks for whose candidates come next.
-  void ask(const AskedTypes& asked) { pairs_.ask(asked); }
+  void ask(const AskedTypes& relations) { pairs_.ask(relations); }
 
   // Sorts what is found by this relation, which must outlive this object; null: everything counts.
   // REQUIRES that no candidate has come yet.

@@ -96,9 +96,9 @@ bool Representatives::choose_all(const Topology& mesh, const std::vector<Triangl
   edge_types_.resize(mesh.edges.size());
   const auto types_of = [&](std::span<const std::int32_t> holders) {
     if (one_type) return holders.empty() ? TypeSet{0} : set_of(types[0]);
-    TypeSet seen = 0;
-    for (const auto t : holders) seen |= set_of(types[at(t)]);
-    return seen;
+    TypeSet set = 0;
+    for (const auto t : holders) set |= set_of(types[at(t)]);
+    return set;
   };
   const auto around_vertex = [&](std::size_t v) {
     vertex_types_[v] = types_of(mesh.vertex_triangles.row(static_cast<std::int32_t>(v)));
@@ -160,48 +160,48 @@ bool Representatives::update(const Topology& mesh, const std::vector<TriangleTyp
 TypeSet Representatives::choose(const std::vector<std::array<std::int32_t, 3>>& lists,
                                 std::span<const std::int32_t> holders, std::int32_t index,
                                 int first_bit, const std::vector<TriangleType>& types) {
-  TypeSet seen = 0;
+  TypeSet set = 0;
   for (const auto t : holders) {
     const auto& list = lists[at(t)];
     const int place = list[0] == index ? 0 : list[1] == index ? 1 : 2;
     const auto bit = static_cast<RepresentedFeatures>(1u << (first_bit + place));
     const TypeSet type = set_of(types[at(t)]);
-    features_[at(t)] = static_cast<RepresentedFeatures>(seen & type ? features_[at(t)] & ~bit
-                                                                    : features_[at(t)] | bit);
-    seen |= type;
+    features_[at(t)] = static_cast<RepresentedFeatures>(set & type ? features_[at(t)] & ~bit
+                                                                   : features_[at(t)] | bit);
+    set |= type;
   }
-  return seen;
+  return set;
 }
 
-void FeaturePairs::ask(const AskedTypes& asked) {
-  asked_ = asked;
+void FeaturePairs::ask(const AskedTypes& relations) {
+  relations_ = relations;
   // In a first search triangles of one type are all asked for, and each of their features has one
   // representative. In a closure types change from round to round.
-  asks_by_types_ = !are_of_one_type(types_) || !asked.within_before.is_empty();
+  asks_by_types_ = !are_of_one_type(types_) || !relations.within_before.is_empty();
 }
 
 bool FeaturePairs::takes(bool within, const Holder& first, const Holder& second) const {
-  if (within && asked_.within_before.holds_for_some(first.types, second.types)) return false;
+  if (within && relations_.within_before.holds_for_some(first.types, second.types)) return false;
   if (is_single(first.types) && is_single(second.types)) return true;
-  const TypeRelation& now = within ? asked_.within_now : asked_.across_now;
+  const TypeRelation& now = within ? relations_.within_now : relations_.across_now;
   return now.is_first(first.type, first.types, second.type, second.types);
 }
 
 void FeaturePairs::append(std::int32_t a, std::int32_t b, bool may_pierce,
                           std::vector<FeatureKey>& keys) const {
   const auto &p = mesh_.triangles[at(a)], &q = mesh_.triangles[at(b)];
-  const std::uint32_t asked =
+  const std::uint32_t pairs =
       represented_pairs(representatives_.of(a, mesh_), representatives_.of(b, mesh_), may_pierce) &
       without_shared_corner[shared_corners(p, q)];
-  if (asked == 0) return;
+  if (pairs == 0) return;
   const bool within =
       asks_by_types_ && mesh_.component_of_triangle[at(a)] == mesh_.component_of_triangle[at(b)];
-  if (within && asked_.within_before.holds(types_[at(a)], types_[at(b)])) return;
+  if (within && relations_.within_before.holds(types_[at(a)], types_[at(b)])) return;
   const auto floats = [&](std::int32_t v) { return points_.start(v).floats(); };
   const TriangleCorners of_a = {floats(p[0]), floats(p[1]), floats(p[2])};
   const TriangleCorners of_b = {floats(q[0]), floats(q[1]), floats(q[2])};
   const std::uint32_t found = kernels_.compare_features(of_a, of_b, points_.floats_to_end(),
-                                                        points_.margin().floats(), asked);
+                                                        points_.margin().floats(), pairs);
   if (found == 0) return;
   constexpr std::uint32_t three = 7, nine = 511;
   vertices_on_face(found & three, within, a, b, keys);

@@ -228,18 +228,18 @@ struct AskedTypes {
   TypeRelation within_before;
 
   static AskedTypes in_first_search(const PairTables& candidates) {
-    AskedTypes asked;
-    asked.within_now.add(candidates.within, type_flags::now);
-    asked.across_now.add(candidates.across, type_flags::now);
-    return asked;
+    AskedTypes relations;
+    relations.within_now.add(candidates.within, type_flags::now);
+    relations.across_now.add(candidates.across, type_flags::now);
+    return relations;
   }
   static AskedTypes in_closure(const PairTables& candidates, const PairTables& closure) {
-    AskedTypes asked;
-    asked.within_now.add(closure.within, type_flags::now);
-    asked.across_now.add(closure.across, type_flags::now);
-    asked.within_before.add(candidates.within, type_flags::first);
-    asked.within_before.add(closure.within, type_flags::earlier_round);
-    return asked;
+    AskedTypes relations;
+    relations.within_now.add(closure.within, type_flags::now);
+    relations.across_now.add(closure.across, type_flags::now);
+    relations.within_before.add(candidates.within, type_flags::first);
+    relations.within_before.add(closure.within, type_flags::earlier_round);
+    return relations;
   }
 };
 
@@ -252,7 +252,7 @@ class FeaturePairs {
 
   // Says what the searches to come ask for, with the types as they are now. Until it is called they
   // ask for everything, and nothing was asked for before.
-  void ask(const AskedTypes& asked);
+  void ask(const AskedTypes& relations);
   // From now on features are taken that are not farther apart than the separation in this motion.
   // REQUIRED before all that follows. If `pace` was stopped, nothing more must be asked.
   void fit(const SteppedMesh& motion, PacedStop* pace, double separation) {
@@ -302,7 +302,7 @@ class FeaturePairs {
   VertexFans fans_;
   std::optional<Sheets> sheets_;
   const BoxKernels& kernels_ = box_kernels();
-  AskedTypes asked_;
+  AskedTypes relations_;
   bool asks_by_types_ = false;
 };
 

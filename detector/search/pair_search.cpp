@@ -25,13 +25,13 @@ class Descent {
         counts_(counts),
         found_(hunt, lane) {}
 
-  std::vector<NodePair> cut(std::size_t wanted) {
+  std::vector<NodePair> cut(std::size_t count) {
     arrive(BoundingVolumeTree::root, BoundingVolumeTree::root);
     const auto split_into = [&](const NodePair& pair, std::vector<NodePair>& below) {
       split(pair);
       std::swap(below, stack_);
     };
-    return cut_below(std::exchange(stack_, {}), wanted, split_into, [&] { return is_ended(); });
+    return cut_below(std::exchange(stack_, {}), count, split_into, [&] { return is_ended(); });
   }
 
   // Searches all that lies below the pair.

@@ -75,11 +75,11 @@ class FoundPairs {
 // the highest first. There may be fewer if the descent ends before that. split(pair, out) appends
 // the pairs below one.
 template <class NodePair, class Split, class IsEnded>
-std::vector<NodePair> cut_below(std::vector<NodePair> left, std::size_t wanted, Split split,
+std::vector<NodePair> cut_below(std::vector<NodePair> left, std::size_t count, Split split,
                                 IsEnded is_ended) {
   std::vector<NodePair> below;
   for (std::size_t first = 0;; ++first) {
-    if (first == left.size() || left.size() - first >= wanted || is_ended()) {
+    if (first == left.size() || left.size() - first >= count || is_ended()) {
       left.erase(left.begin(), left.begin() + static_cast<std::ptrdiff_t>(first));
       return left;
     }
@@ -133,7 +133,7 @@ bool run_in_rounds(const SearchInput& input, const std::vector<NodePair>& pairs,
   return true;
 }
 
-// Runs a descent. It gives cut(wanted), which cuts it into so many pairs of nodes or a few more
+// Runs a descent. It gives cut(count), which cuts it into so many pairs of nodes or a few more
 // (fewer if it ends before that), run(pair), and finish(), which hands over what was found last and
 // says whether the search goes on. make_lane(index) makes a lane, with a descent and counts of its
 // own. False if the search has ended early.
@@ -143,13 +143,13 @@ bool run_descent(const SearchInput& input, bool takes_lanes, Descent& descent, S
   // With so many pairs of nodes for each lane, all lanes get about the same amount of work.
   constexpr std::size_t pairs_of_lane = 64;
   const bool has_lanes = takes_lanes && has_workers(input.pace);
-  const std::size_t wanted = input.between ? pairs_in_rounds
-                             : has_lanes   ? pairs_of_lane * input.pace->workers()->count()
-                                           : 1;
-  const auto pairs = descent.cut(wanted);
+  const std::size_t count = input.between ? pairs_in_rounds
+                            : has_lanes   ? pairs_of_lane * input.pace->workers()->count()
+                                          : 1;
+  const auto pairs = descent.cut(count);
   if (!descent.finish()) return false;
   std::vector<decltype(make_lane(std::size_t{0}))> lanes;
-  if (has_lanes && pairs.size() >= wanted) {
+  if (has_lanes && pairs.size() >= count) {
     for (std::size_t i = 0; i < input.pace->workers()->count(); ++i) lanes.push_back(make_lane(i));
   }
   const auto run = [&](const auto& some) {

@@ -50,8 +50,9 @@ struct Sheets::Builder {
   const PositionsView& x;
   PacedStop* pace;
   std::vector<Places>& places;
-  std::vector<std::uint8_t> seen;  // by triangle: from which sides, if no sheet of it is proved yet
-  std::size_t comparisons;         // that may still be made
+  // By triangle: from which sides it is seen, if no sheet of it is proved yet.
+  std::vector<std::uint8_t> open_sides;
+  std::size_t comparisons;  // that may still be made
   int level = 0;
   std::size_t most_edges = 0;                           // of a contour
   std::vector<std::vector<ContourEdge>> contours = {};  // of this level, by region and direction
@@ -70,7 +71,7 @@ struct Sheets::Builder {
       const int side = sure_side(a, b, c, axis) * int{size(axis) >= least};
       sides |= unsigned{side > 0} << axis | unsigned{side < 0} << (3 + axis);
     }
-    seen[t] = static_cast<std::uint8_t>(sides);
+    open_sides[t] = static_cast<std::uint8_t>(sides);
   }
 
   // Gives the triangles below a node their regions.
@@ -112,9 +113,9 @@ struct Sheets::Builder {
   void find_edge(std::int32_t edge) {
     const auto holders = mesh.edge_triangles.row(edge);
     const bool are_two = holders.size() == 2 && region_of(holders[0]) == region_of(holders[1]);
-    const unsigned both = are_two ? seen[at(holders[0])] & seen[at(holders[1])] : 0;
+    const unsigned both = are_two ? open_sides[at(holders[0])] & open_sides[at(holders[1])] : 0;
     for (const auto t : holders) {
-      if (const unsigned sides = seen[at(t)] & ~both; sides != 0) add(t, edge, sides);
+      if (const unsigned sides = open_sides[at(t)] & ~both; sides != 0) add(t, edge, sides);
     }
   }
 
@@ -141,7 +142,7 @@ struct Sheets::Builder {
   bool find_sheets() {
     constexpr std::size_t few = 256, share = 16, work_of_holders = 1, work_of_contour_edge = 8;
     const std::size_t regions = std::size_t{1} << of_lower * level;
-    most_edges = few + seen.size() / share / regions;
+    most_edges = few + open_sides.size() / share / regions;
     contours.assign(directions * regions, {});
     if (!for_each_paced(mesh.edges.size(), work_of_holders, pace,
                         [&](std::size_t e) { find_edge(static_cast<std::int32_t>(e)); })) {
@@ -154,10 +155,10 @@ struct Sheets::Builder {
       if (pace && pace->after(work_of_contour_edge * contours[i].size())) return false;
     }
     unsigned left = 0;
-    for (std::size_t t = 0; t < seen.size(); ++t) {
+    for (std::size_t t = 0; t < open_sides.size(); ++t) {
       const std::size_t region = region_of(static_cast<std::int32_t>(t));
-      places[t] |= Places(seen[t] & proved[region]) << (region_bits + directions * level);
-      left |= seen[t] &= static_cast<std::uint8_t>(~proved[region]);
+      places[t] |= Places(open_sides[t] & proved[region]) << (region_bits + directions * level);
+      left |= open_sides[t] &= static_cast<std::uint8_t>(~proved[region]);
     }
     return ++level < levels && left != 0;
   }
@@ -174,7 +175,7 @@ Sheets::Sheets(const Topology& mesh, const WideTree& tree, const PositionsView& 
   // Two triangles that pass an edge the same way do not end each other's contour.
   for (const auto& [edge, surplus] : mesh.unmatched) {
     const auto holders = mesh.edge_triangles.row(edge);
-    for (const auto t : holders) builder.seen[at(t)] &= holders.size() == 1 ? 0xff : 0;
+    for (const auto t : holders) builder.open_sides[at(t)] &= holders.size() == 1 ? 0xff : 0;
   }
   while (builder.find_sheets()) {
   }

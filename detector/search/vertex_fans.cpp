@@ -75,18 +75,18 @@ void VertexFans::prove(const Topology& mesh, const FeaturePoints& points, PacedS
   std::vector<std::uint8_t> is_proved(mesh.vertex_triangles.starts.size() - 1);
   const auto settle = [&](std::size_t number) {
     const auto v = static_cast<std::int32_t>(number);
-    unsigned seen = axes | axes << 3, once = 0, twice = 0;
+    unsigned fan = axes | axes << 3, once = 0, twice = 0;
     for (const auto t : mesh.vertex_triangles.row(v)) {
       const auto& corners = mesh.triangles[at(t)];
       const unsigned corner = corners[0] == v ? 0 : corners[1] == v ? 1 : 2;
       const unsigned counted = unsigned{sides[at(t)]} >> (6 + 3 * corner) & axes;
-      seen &= sides[at(t)];
+      fan &= sides[at(t)];
       twice |= once & counted;
       once |= counted;
     }
     // Along each axis the triangles are counted by the next one.
     const unsigned around_once = once & ~twice;
-    is_proved[number] = ((seen | seen >> 3) & (around_once >> 1 | around_once << 2) & axes) != 0;
+    is_proved[number] = ((fan | fan >> 3) & (around_once >> 1 | around_once << 2) & axes) != 0;
   };
   if (!for_all_paced(sides.size(), work_of_look, pace, look) ||
       !for_all_paced(is_proved.size(), work_of_fan, pace, settle)) {

@@ -54,12 +54,12 @@ class WideDescent {
   WideDescent(WideHunt& hunt, std::size_t lane, SearchCounts& counts)
       : hunt_(hunt), tree_(hunt.tree), counts_(counts), found_(hunt, lane) {}
 
-  std::vector<WidePair> cut(std::size_t wanted) {
+  std::vector<WidePair> cut(std::size_t count) {
     const auto split_into = [&](const WidePair& pair, std::vector<WidePair>& below) {
       split(pair);
       std::swap(below, stack_);
     };
-    return cut_below<WidePair>({{WideTree::root, WideTree::root}}, wanted, split_into,
+    return cut_below<WidePair>({{WideTree::root, WideTree::root}}, count, split_into,
                                [&] { return is_ended(); });
   }
 
@@ -163,12 +163,12 @@ class WideDescent {
 
   // The children of a node, as bits, that are asked about together with a binary node.
   std::uint8_t asked_of(const WideTree::Node& node, std::int32_t other) const {
-    std::uint8_t asked = 0;
+    std::uint8_t children = 0;
     for (std::size_t i = 0; i < node.count; ++i) {
       if (asks(tree_.binary(node.first_slot + i), other))
-        asked = static_cast<std::uint8_t>(asked | 1u << i);
+        children = static_cast<std::uint8_t>(children | 1u << i);
     }
-    return asked;
+    return children;
   }
 
   // Whether some pair below two binary nodes may be asked for.

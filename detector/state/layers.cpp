@@ -19,17 +19,17 @@ struct Piece {
 // Finds the pieces of the untouched triangles in doubt, in the order of their lowest triangles.
 class Flood {
  public:
-  Flood(const TouchedSurface& instant, std::vector<std::uint8_t>& seen,
+  Flood(const TouchedSurface& instant, std::vector<std::uint8_t>& is_seen,
         const std::vector<std::uint8_t>& clean)
-      : instant_(instant), seen_(seen), clean_(clean) {}
+      : instant_(instant), is_seen_(is_seen), clean_(clean) {}
 
-  bool is_new(std::int32_t t) const { return !instant_.touched[at(t)] && !seen_[at(t)]; }
+  bool is_new(std::int32_t t) const { return !instant_.touched[at(t)] && !is_seen_[at(t)]; }
 
   Piece from(std::int32_t seed) {
     const Topology& all = instant_.surface.all();
     const auto ghosts_begin = static_cast<std::int32_t>(instant_.surface.mesh.triangles.size());
     Piece piece{{seed}, false};
-    seen_[at(seed)] = 1;
+    is_seen_[at(seed)] = 1;
     constexpr std::uint64_t work_of_triangle = 4;  // in box tests
     for (std::size_t next = 0; next < piece.triangles.size(); ++next) {
       if (instant_.pace && instant_.pace->after(work_of_triangle)) break;
@@ -42,7 +42,7 @@ class Flood {
         if (clean_[at(other)]) {
           piece.holds_clean = true;
         } else if (is_new(other)) {
-          seen_[at(other)] = 1;
+          is_seen_[at(other)] = 1;
           piece.triangles.push_back(other);
         }
       }
@@ -52,7 +52,7 @@ class Flood {
 
  private:
   const TouchedSurface& instant_;
-  std::vector<std::uint8_t>& seen_;
+  std::vector<std::uint8_t>& is_seen_;
   const std::vector<std::uint8_t>& clean_;
 };
 
@@ -83,16 +83,16 @@ std::vector<std::optional<int>> windings_outside(
   const std::size_t attempts = instant.arithmetic == Arithmetic::exact ? 1 : most_attempts;
   for (std::size_t attempt = 0; attempt < attempts; ++attempt) {
     std::vector<std::size_t> open;
-    std::vector<std::int32_t> asked;
+    std::vector<std::int32_t> queries;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       if (winding[i]) continue;
       const auto t = representative(instant, *pieces[i], next[i]);
       if (!t) continue;
       open.push_back(i);
-      asked.push_back(*t);
+      queries.push_back(*t);
     }
-    if (asked.empty()) break;
-    const auto found = winding_numbers_outside(all, all.components[c].triangles, instant.x, asked,
+    if (queries.empty()) break;
+    const auto found = winding_numbers_outside(all, all.components[c].triangles, instant.x, queries,
                                                instant.arithmetic, instant.pace);
     for (std::size_t k = 0; k < open.size(); ++k) winding[open[k]] = found[k];
   }
@@ -130,13 +130,13 @@ std::vector<std::int32_t> layer_witnesses(const Topology& mesh, std::size_t c,
 std::uint64_t release_pieces(const TouchedSurface& at_instant, std::size_t c,
                              std::span<const std::int32_t> in_doubt,
                              const std::vector<std::int32_t>& witnesses,
-                             std::vector<std::uint8_t>& seen, std::vector<std::uint8_t>& clean) {
+                             std::vector<std::uint8_t>& is_seen, std::vector<std::uint8_t>& clean) {
   const auto release = [&](const std::vector<std::int32_t>& triangles) {
     for (const auto t : triangles) clean[at(t)] = 1;
   };
   std::vector<Piece> alone;
   {
-    Flood flood(at_instant, seen, clean);
+    Flood flood(at_instant, is_seen, clean);
     for (const auto seed : in_doubt) {
       // What a flood has released has been seen, and so has all that is linked to it.
       if (!flood.is_new(seed)) continue;
@@ -149,11 +149,11 @@ std::uint64_t release_pieces(const TouchedSurface& at_instant, std::size_t c,
     }
   }
   if (alone.empty()) return 0;
-  std::vector<const std::vector<std::int32_t>*> asked;
-  for (const auto& piece : alone) asked.push_back(&piece.triangles);
-  if (!witnesses.empty()) asked.push_back(&witnesses);
-  const auto windings = windings_outside(at_instant, c, asked);
-  const std::uint64_t winding_numbers = asked.size();
+  std::vector<const std::vector<std::int32_t>*> pieces;
+  for (const auto& piece : alone) pieces.push_back(&piece.triangles);
+  if (!witnesses.empty()) pieces.push_back(&witnesses);
+  const auto windings = windings_outside(at_instant, c, pieces);
+  const std::uint64_t winding_numbers = pieces.size();
   std::map<int, std::vector<std::int32_t>> by_layer;  // key: winding number outside
   for (std::size_t i = 0; i < alone.size(); ++i) {
     if (!windings[i]) continue;
@@ -167,11 +167,11 @@ std::uint64_t release_pieces(const TouchedSurface& at_instant, std::size_t c,
 }
 
 std::uint64_t mark_clean_by_layers(const TouchedSurface& at_instant, std::size_t c,
-                                   std::vector<std::uint8_t>& seen,
+                                   std::vector<std::uint8_t>& is_seen,
                                    std::vector<std::uint8_t>& clean) {
   const auto& own = at_instant.surface.mesh.components[c].triangles;
   for (const auto t : own) clean[at(t)] = 0;
-  return release_pieces(at_instant, c, own, {}, seen, clean);
+  return release_pieces(at_instant, c, own, {}, is_seen, clean);
 }
 
 }  // namespace assay::detector

@@ -41,17 +41,18 @@ std::vector<std::int32_t> layer_witnesses(const Topology& mesh, std::size_t c,
 // holds the lowest triangle index). To be connected would not be enough: two tetrahedra, one
 // inside the other, may share an edge (case L9_shared_edge_two_layers).
 //
-// `seen` is scratch by triangle of the mesh, 0 for those of the component. The cost is that of the
-// triangles in doubt and, if some piece holds no clean triangle, a few passes over the component
-// for the winding numbers of all such pieces together. Returns how many winding numbers that were.
+// `is_seen` is scratch by triangle of the mesh, 0 for those of the component. The cost is that of
+// the triangles in doubt and, if some piece holds no clean triangle, a few passes over the
+// component for the winding numbers of all such pieces together. Returns how many winding numbers
+// that were.
 std::uint64_t release_pieces(const TouchedSurface& at_instant, std::size_t c,
                              std::span<const std::int32_t> in_doubt,
                              const std::vector<std::int32_t>& witnesses,
-                             std::vector<std::uint8_t>& seen, std::vector<std::uint8_t>& clean);
+                             std::vector<std::uint8_t>& is_seen, std::vector<std::uint8_t>& clean);
 
 // The same at a new start, where all triangles of the component are in doubt.
 std::uint64_t mark_clean_by_layers(const TouchedSurface& at_instant, std::size_t c,
-                                   std::vector<std::uint8_t>& seen,
+                                   std::vector<std::uint8_t>& is_seen,
                                    std::vector<std::uint8_t>& clean);
 
 }  // namespace assay::detector

@@ -195,12 +195,12 @@ template <class Archive, class Committed>
 void committed_fields(Archive& archive, Committed& state) {
   rows(archive, state.positions);
   plain_list(archive, state.clean);
-  length(archive, state.met, 2 * word);
-  for (auto& pair : state.met) {
+  length(archive, state.contacts, 2 * word);
+  for (auto& pair : state.contacts) {
     field(archive, pair.a);
     field(archive, pair.b);
   }
-  field(archive, state.met_is_complete);
+  field(archive, state.contacts_are_complete);
   length(archive, state.inside, 1);
   for (auto& primitive : state.inside) {
     if (!there_is(archive, primitive)) continue;

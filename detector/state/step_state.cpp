@@ -84,7 +84,7 @@ bool fits(const StepState& state, const Surface& surface) {
   };
   return state.positions.rows() == surface.first_apex && state.positions.allFinite() &&
          state.clean.size() == triangles && state.inside.size() == components &&
-         std::all_of(state.met.begin(), state.met.end(), is_pair);
+         std::all_of(state.contacts.begin(), state.contacts.end(), is_pair);
 }
 
 }  // namespace

@@ -50,10 +50,11 @@ struct StepState {
   // step (L9). After a step without views no triangle of a component with ghosts is clean, because
   // nobody swept the ghosts (L15).
   std::vector<std::uint8_t> clean;
-  // The pairs in contact during the step whose triangles are of one component. met_is_complete
-  // says whether these are all such pairs; they are not after a collision found by K alone.
-  std::vector<TrianglePair> met;
-  bool met_is_complete = true;
+  // The pairs in contact during the step whose triangles are of one component.
+  // contacts_are_complete says whether these are all such pairs; they are not after a collision
+  // found by K alone.
+  std::vector<TrianglePair> contacts;
+  bool contacts_are_complete = true;
   // By component: its view primitive at these positions, if the winding number there is known to
   // be 1. The number stays 1 while all triangles stay positive, so L5 need not count it again.
   std::vector<std::optional<std::array<Point, 2>>> inside;

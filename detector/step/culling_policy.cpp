@@ -39,7 +39,7 @@ double saved_share(const GivenStep& step, const StepMarks& marks,
 // REQUIRES that the step goes on from one.
 std::vector<std::uint8_t> untouched_before(const GivenStep& step) {
   std::vector<std::uint8_t> untouched(step.surface.mesh.triangles.size(), 1);
-  for (const auto& pair : step.known->met) untouched[at(pair.a)] = untouched[at(pair.b)] = 0;
+  for (const auto& [a, b] : step.last_state->contacts) untouched[at(a)] = untouched[at(b)] = 0;
   return untouched;
 }
 
@@ -219,7 +219,7 @@ const std::vector<ViewAnchor>& CostModel::anchors(const std::vector<ViewAnchor>&
 double CostModel::hoped_at_a_glance(const SteppedMesh& motion) const {
   if (is_at_rest_) return 0;  // then bvh takes little: it passes over whole sheets
   const Topology& mesh = surface_.mesh;
-  double seen = 0;
+  double positive_triangles = 0;
   ViewCounts rungs;
   for (const auto& component : mesh.components) {
     const auto& [triangles, vertices, is_cycle] = component;
@@ -240,16 +240,16 @@ double CostModel::hoped_at_a_glance(const SteppedMesh& motion) const {
         break;
       ++positive;
     }
-    if (positive == sample_size) seen += static_cast<double>(triangles.size());
+    if (positive == sample_size) positive_triangles += static_cast<double>(triangles.size());
   }
-  return share_of_hope * work_of_candidate * static_cast<double>(adjacent_) * seen /
+  return share_of_hope * work_of_candidate * static_cast<double>(adjacent_) * positive_triangles /
          std::max(1.0, static_cast<double>(mesh.triangles.size()));
 }
 
-void CostModel::begin(const SteppedMesh& motion, const StepState* known, bool needs_views) {
+void CostModel::begin(const SteppedMesh& motion, const StepState* last_state, bool needs_views) {
   is_at_rest_ = motion.is_at_rest();
   if (!saves_up_ || state_.pause > 0) return;
-  if (known && !known->met_is_complete) {
+  if (last_state && !last_state->contacts_are_complete) {
     waits_ = true;
     return;
   }
@@ -263,8 +263,8 @@ void CostModel::begin(const SteppedMesh& motion, const StepState* known, bool ne
     return;
   }
   double doubts = 0;
-  if (known && !surface_.is_closed())
-    doubts = static_cast<double>(std::count(known->clean.begin(), known->clean.end(), 0));
+  if (last_state && !surface_.is_closed())
+    doubts = static_cast<double>(std::count(last_state->clean.begin(), last_state->clean.end(), 0));
   most_for_views_ = std::numeric_limits<double>::infinity();
   const double trial = work_of_point * count + work_of_doubt * doubts;
   waits_ = state_.credit < trial && state_.credit + hoped_at_a_glance(motion) < trial;
@@ -326,7 +326,7 @@ bool CostModel::worth_sweeping(const GivenStep& step, const StepMarks& marks, Pa
     return does_without(ViewUse::saving_too_little);
   // A triangle that was in contact will likely be so again, and the closure then tests it against
   // all others. If too many were, their release need not be tried.
-  if (step.known && !step.known->met.empty()) {
+  if (step.last_state && !step.last_state->contacts.empty()) {
     const auto untouched = untouched_before(step);
     share_ = saved_share(step, marks, &untouched);
     if (share_ < least_share) return does_without(ViewUse::among_dirty);
@@ -342,19 +342,19 @@ bool CostModel::worth_sweeping(const GivenStep& step, const StepMarks& marks, Pa
 bool CostModel::worth_proving(const StepMarks& marks, CandidateSearch& candidates) {
   // Proofs are about pairs of one component, and none of these are left to search.
   if (marks.has_views() && marks.all_free()) return false;
-  const double asked = candidates.open_share() * (marks.has_views() ? worth_beside_views : 1);
+  const double share = candidates.open_share() * (marks.has_views() ? worth_beside_views : 1);
   const std::size_t triangles = surface_.mesh.triangles.size();
   constexpr ProvableShares at_best = {1, 1, 1};
-  return worth_proving(at_best, asked, triangles) &&
-         worth_proving(candidates.provable_shares(), asked, triangles);
+  return worth_proving(at_best, share, triangles) &&
+         worth_proving(candidates.provable_shares(), share, triangles);
 }
 
-bool CostModel::worth_proving(const ProvableShares& provable, double asked, std::size_t triangles) {
+bool CostModel::worth_proving(const ProvableShares& provable, double share, std::size_t triangles) {
   const auto [small, medium, large] = provable;
   const double worth = worth_of_small * small + worth_of_medium * medium + worth_of_large * large;
-  const double hoped = worth * asked * static_cast<double>(adjacent_);
+  const double hoped = worth * share * static_cast<double>(adjacent_);
   const double cost = cost_of_cones + cost_of_small * (1 - medium) + cost_of_medium * (1 - large);
-  const double left = std::max(0.0, asked * static_cast<double>(expected_candidates()) - hoped);
+  const double left = std::max(0.0, share * static_cast<double>(expected_candidates()) - hoped);
   proves_ = small >= least_provable &&
             hoped >= cost * static_cast<double>(triangles) + cost_of_left * left;
   return proves_;
@@ -364,7 +364,7 @@ bool CostModel::worth_using(const GivenStep& step, const StepMarks& marks,
                             const StepCounts& counts) {
   share_ = saved_share(step, marks, &marks.clean);
   if (share_ >= least_share) return true;
-  if (!step.known) {
+  if (!step.last_state) {
     use_ = ViewUse::start_unknown;
     return false;
   }

@@ -148,7 +148,7 @@ class CostModel : public CullingPolicy {
       : surface_(surface), adjacent_(adjacent), state_(std::move(before)), saves_up_(saves_up) {}
 
   bool may_use_views() const override { return true; }
-  void begin(const SteppedMesh& motion, const StepState* known, bool needs_views) override;
+  void begin(const SteppedMesh& motion, const StepState* last_state, bool needs_views) override;
   // Not while a pause lasts, nor while they cost more than may be spent.
   bool is_due() const override { return state_.pause == 0 && !waits_; }
   double most_for_views() const override;

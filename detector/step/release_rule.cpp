@@ -67,7 +67,7 @@ bool ReleaseRule::is_free(const GivenStep& step, const StepMarks& marks, StepCos
   if (!all_positive || cost.pace.stopped()) return false;
   const ViewPrimitive& primitive = marks.primitives[c];
   const std::array<Point, 2> start = {primitive.q0.t0, primitive.q1.t0};
-  if (step.known && step.known->inside[c] == start) return true;
+  if (step.last_state && step.last_state->inside[c] == start) return true;
   ++cost.counts.winding_numbers;
   return winding_number(step.surface.all(), triangles, step.motion.vertices_t0, primitive.q0.t0,
                         arithmetic_, &cost.pace) == 1;
@@ -95,11 +95,11 @@ bool ReleaseRule::verify_start(const GivenStep& step, StepMarks& marks, StepCost
         !step.boundary.sweep(still, step.ghosts(at(c)), step.stop, touched, cost.counts.ghosts))
       return false;
   }
-  std::vector<std::uint8_t> seen(step.surface.all().triangles.size(), 0);
+  std::vector<std::uint8_t> is_seen(step.surface.all().triangles.size(), 0);
   for (const auto c : components) {
     if (cost.pace.after(work_of_component)) return false;
     mark_clean_by_layers({step.surface, step.motion.vertices_t0, touched, arithmetic_, &cost.pace},
-                         at(c), seen, marks.clean);
+                         at(c), is_seen, marks.clean);
   }
   return !cost.pace.stopped();
 }
@@ -129,10 +129,10 @@ bool ReleaseRule::release(const GivenStep& step, StepMarks& marks, StepCost& cos
     }
     cost.counts.release.in_doubt += in_doubt[i].size();
   }
-  if (!step.known->met_is_complete) {
+  if (!step.last_state->contacts_are_complete) {
     if (!release_without_history(step, marks, cost, components)) return false;
   } else {
-    std::vector<std::uint8_t> touched(step.surface.mesh.triangles.size(), 0), seen(touched);
+    std::vector<std::uint8_t> touched(step.surface.mesh.triangles.size(), 0), is_seen(touched);
     if (!add_lasting_contacts(step, cost, touched)) return false;
     const FloatGrid grid(step.motion.at_start());
     for (std::size_t i = 0; i < components.size(); ++i) {
@@ -142,7 +142,7 @@ bool ReleaseRule::release(const GivenStep& step, StepMarks& marks, StepCost& cos
       if (cost.pace.after(work_of_component)) return false;
       cost.counts.release.winding_numbers +=
           release_pieces({step.surface, step.motion.vertices_t0, touched, arithmetic_, &cost.pace},
-                         c, in_doubt[i], witnesses(step, marks, c), seen, marks.clean);
+                         c, in_doubt[i], witnesses(step, marks, c), is_seen, marks.clean);
     }
     if (cost.pace.stopped()) return false;
   }
@@ -179,14 +179,14 @@ void ReleaseRule::settle(const GivenStep& step, const StepMarks& marks,
                  [](std::uint8_t was_clean, std::uint8_t touched) -> std::uint8_t {
                    return was_clean != 0 && touched == 0;
                  });
-  state.met_is_complete = complete || pairs.empty();
-  if (!state.met_is_complete) std::fill(clean.begin(), clean.end(), 0);
+  state.contacts_are_complete = complete || pairs.empty();
+  if (!state.contacts_are_complete) std::fill(clean.begin(), clean.end(), 0);
   for (const auto& [pair, time, feature] : pairs) {
     const bool own =
         mesh.component_of_triangle[at(pair.a)] == mesh.component_of_triangle[at(pair.b)];
     if (!own) continue;
     clean[at(pair.a)] = clean[at(pair.b)] = 0;
-    state.met.push_back(pair);
+    state.contacts.push_back(pair);
   }
 }
 
@@ -207,7 +207,7 @@ bool add_lasting_contacts(const GivenStep& step, StepCost& cost,
   const FacePairTest faces(step.motion.at_start(), step.elementary, true);
   GhostCounts counts;
   std::size_t tests = 0;
-  for (const auto& [a, b] : step.known->met) {
+  for (const auto& [a, b] : step.last_state->contacts) {
     if (touched[at(a)] && touched[at(b)]) continue;
     if (tests++ % tests_between_stops == 0 && step.stop && step.stop()) return false;
     if (faces.meet(triangles[at(a)], triangles[at(b)], counts)) touched[at(a)] = touched[at(b)] = 1;

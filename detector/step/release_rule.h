@@ -48,9 +48,9 @@ class ReleaseRule {
   virtual bool verify_start(const GivenStep& step, StepMarks& marks, StepCost& cost,
                             const std::vector<std::int32_t>& components) const;
 
-  // L9 at t=0 of a step that goes on from step.known, for the components listed. Their triangles
-  // whose marks.clean is 0 are in doubt by L8; it is set to 1 for those released. False if
-  // stopped. The cost is that of the triangles in doubt (layers.h).
+  // L9 at t=0 of a step that goes on from step.last_state, for the components listed. Their
+  // triangles whose marks.clean is 0 are in doubt by L8; it is set to 1 for those released. False
+  // if stopped. The cost is that of the triangles in doubt (layers.h).
   virtual bool release(const GivenStep& step, StepMarks& marks, StepCost& cost,
                        const std::vector<std::int32_t>& components) const;
 
@@ -72,8 +72,8 @@ class ReleaseRule {
                            std::size_t component) const;
 
   // Which of the triangles in doubt may touch a ghost of their component at t=0 of a step that
-  // goes on from step.known: all of them. Being in no pair says nothing, because a triangle may
-  // hang out of a hole, with a ghost through it, and be in no pair.
+  // goes on from step.last_state: all of them. Being in no pair says nothing, because a triangle
+  // may hang out of a hole, with a ghost through it, and be in no pair.
   virtual std::vector<std::int32_t> may_touch_ghosts(
       const GivenStep& step, const std::vector<std::int32_t>& in_doubt) const;
 
@@ -98,8 +98,8 @@ class ReleaseRule {
 //   Mesh against ghosts: a triangle that a ghost meets at the end was touched during the step, or
 //   it was pierced since before the step and so was dirty (L11). Either way it is in doubt.
 //
-// Sets touched[t] for the triangles of those pairs in step.known->met that still meet at t=0.
-// False if stopped. Costs at most 15 elementary tests a pair.
+// Sets touched[t] for the triangles of those pairs in step.last_state->contacts that still meet at
+// t=0. False if stopped. Costs at most 15 elementary tests a pair.
 bool add_lasting_contacts(const GivenStep& step, StepCost& cost,
                           std::vector<std::uint8_t>& touched);
 

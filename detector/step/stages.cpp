@@ -19,7 +19,7 @@ Stages standard_stages(const Options& options) {
     stages.pair_search = std::make_shared<NormalConeSearch>();
   } else if (culling == Culling::automatic) {
     stages.pair_search =
-        std::make_shared<NormalConeSearch>(NormalConeSearch::Asked::of_four_triangles_or_more);
+        std::make_shared<NormalConeSearch>(NormalConeSearch::Scope::of_four_triangles_or_more);
   } else {
     stages.pair_search = std::make_shared<WideSearch>();
   }

@@ -145,8 +145,8 @@ bool run_stages(StepRun& step, const SteppedMesh& mesh, std::span<const ViewPrim
 // The policy of the culling asked for, made without allocating.
 class PolicyOfStep {
  public:
-  PolicyOfStep(StepContext& context, const std::optional<StepState>& known)
-      : PolicyOfStep(context, known ? known->policy : PolicyState{}) {}
+  PolicyOfStep(StepContext& context, const std::optional<StepState>& state)
+      : PolicyOfStep(context, state ? state->policy : PolicyState{}) {}
   CullingPolicy& policy() {
     if (model_) return *model_;
     return fixed_;
@@ -185,14 +185,14 @@ bool move_ghosts(const StepContext& context, const SteppedMesh& mesh, PacedStop&
 
 }  // namespace
 
-FirstViews::Made FirstViews::make(StepContext& context, PacedStop& pace, double most) {
-  if (!x_) return work_ <= most ? Made::yes : Made::too_dear;
-  if (work_ >= most) return Made::too_dear;
+FirstViews::Making FirstViews::make(StepContext& context, PacedStop& pace, double most) {
+  if (!x_) return work_ <= most ? Making::yes : Making::too_dear;
+  if (work_ >= most) return Making::too_dear;
   const Surface& surface = context.surface;
   constexpr std::uint64_t between = ApexChoice::work_between_asks;
   // Once the stop function has asked for an end it is not asked again.
-  const StopFunction asked = [&] { return pace.after(between); };
-  PacedStop counted(asked, between, most);
+  const StopFunction stop = [&] { return pace.after(between); };
+  PacedStop counted(stop, between, most);
   const StopFunction paced = [&] { return counted.after(between); };
   std::vector<ApexRule> rules;
   if (!surface.is_closed())
@@ -202,13 +202,13 @@ FirstViews::Made FirstViews::make(StepContext& context, PacedStop& pace, double 
   std::vector<ViewAnchor> anchors;
   if (!counted.stopped())
     anchors = place_anchors(surface, rules, context.options.culling, *x_, counted);
-  if (pace.stopped()) return Made::stopped;
+  if (pace.stopped()) return Making::stopped;
   if (counted.stopped() || counted.spent() > most) {
     work_ = most;
-    return Made::too_dear;
+    return Making::too_dear;
   }
   replace(std::move(anchors), std::move(rules), counted.spent());
-  return Made::yes;
+  return Making::yes;
 }
 
 void FirstViews::replace(std::vector<ViewAnchor> anchors, std::vector<ApexRule> rules,
@@ -219,21 +219,21 @@ void FirstViews::replace(std::vector<ViewAnchor> anchors, std::vector<ApexRule> 
   x_.reset();
 }
 
-StepResult evaluate_step(StepContext& context, const std::optional<StepState>& known,
-                         const SteppedMesh& given, const StepQuestion& question,
-                         std::span<const ViewPrimitive> primitives, const StopFunction& asked,
+StepResult evaluate_step(StepContext& context, const std::optional<StepState>& state,
+                         const SteppedMesh& input, const StepQuestion& question,
+                         std::span<const ViewPrimitive> primitives, const StopFunction& callers,
                          std::optional<StepState>& next) {
   // Equal ends are one array from here on, so what is computed of one need not be of the other.
-  const bool rests = given.vertices_t0.rows() == given.vertices_t1.rows() &&
-                     (given.is_at_rest() || given.vertices_t0 == given.vertices_t1);
-  const SteppedMesh mesh = rests ? given.at_start() : given;
-  SharedStop shared(asked);
+  const bool rests = input.vertices_t0.rows() == input.vertices_t1.rows() &&
+                     (input.is_at_rest() || input.vertices_t0 == input.vertices_t1);
+  const SteppedMesh mesh = rests ? input.at_start() : input;
+  SharedStop shared(callers);
   const StopFunction stop = shared.function();
   PacedStop pace(stop, context.workers);
   if (auto problem = check_step_input(context.surface, mesh, primitives, pace))
     return no_answer(std::move(problem));
-  const bool goes_on = known && context.stages.release->still_holds(*known, mesh.vertices_t0, pace);
-  PolicyOfStep policy_of_step(context, known);
+  const bool goes_on = state && context.stages.release->still_holds(*state, mesh.vertices_t0, pace);
+  PolicyOfStep policy_of_step(context, state);
   CullingPolicy& policy = policy_of_step.policy();
   double total = 0;
   StepResult result;
@@ -241,18 +241,18 @@ StepResult evaluate_step(StepContext& context, const std::optional<StepState>& k
     Stopwatch watch(total);
     MovedGhosts ghosts;
     const bool needs_views = primitives.empty() || !context.surface.is_closed();
-    policy.begin(mesh, goes_on ? &*known : nullptr, needs_views);
+    policy.begin(mesh, goes_on ? &*state : nullptr, needs_views);
     if (needs_views && policy.is_due()) {
-      const auto made = context.views.make(context, pace, policy.most_for_views());
-      if (made == FirstViews::Made::stopped) return no_answer();
-      policy.pay_for_views(made == FirstViews::Made::yes, context.views.work());
+      const auto making = context.views.make(context, pace, policy.most_for_views());
+      if (making == FirstViews::Making::stopped) return no_answer();
+      policy.pay_for_views(making == FirstViews::Making::yes, context.views.work());
     }
     const bool moves_ghosts = !context.surface.is_closed() && policy.is_due();
     if (moves_ghosts && !move_ghosts(context, mesh, pace, ghosts)) return no_answer();
     const SteppedMesh motion = moves_ghosts ? SteppedMesh{ghosts.all_t0, ghosts.all_t1} : mesh;
-    StepRun step(context, goes_on ? &*known : nullptr, motion, question, policy, stop);
+    StepRun step(context, goes_on ? &*state : nullptr, motion, question, policy, stop);
     const bool completed = run_stages(step, mesh, primitives);
-    result = step.finish(completed, given, primitives.empty(), next);
+    result = step.finish(completed, input, primitives.empty(), next);
     if (!result.primitives.empty()) result.apexes = std::move(ghosts.apexes);
   }
   result.times.total = total;

@@ -25,11 +25,11 @@ class FirstViews {
   FirstViews() = default;
   explicit FirstViews(const PositionsView& x) : x_(x) {}
 
-  enum class Made : std::uint8_t { yes, too_dear, stopped };
+  enum class Making : std::uint8_t { yes, too_dear, stopped };
   // Makes them, unless that was done before. It leaves the boxes of the tree fitted to other
   // positions. They are too dear if they take more than `most` work, in box tests; it does not show
   // then whether they were made before. If they are not made nothing is kept of them.
-  Made make(StepContext& context, PacedStop& pace, double most);
+  Making make(StepContext& context, PacedStop& pace, double most);
   // Others in their place, from a saved state.
   void replace(std::vector<ViewAnchor> anchors, std::vector<ApexRule> rules, double work);
   // What they took, once they are made. It is counted in one thread.
@@ -67,10 +67,10 @@ struct StepQuestion {
   bool is_asked_again = true;  // the next question may begin at the same places
 };
 
-// Answers the step, going on from `known`, the state of the last commit if there is one. If the
+// Answers the step, going on from `state`, the state of the last commit if there is one. If the
 // answer is free or collision, and the step is asked about to its end, `next` is set to the state
 // at that end. REQUIRES that `next` is empty; otherwise it stays so.
-StepResult evaluate_step(StepContext& context, const std::optional<StepState>& known,
+StepResult evaluate_step(StepContext& context, const std::optional<StepState>& state,
                          const SteppedMesh& mesh, const StepQuestion& question,
                          std::span<const ViewPrimitive> primitives, const StopFunction& stop,
                          std::optional<StepState>& next);

@@ -88,10 +88,10 @@ bool find_clean_at_start(const GivenStep& step, StepMarks& marks, StepCost& cost
   std::vector<std::int32_t> to_release, to_verify;
   for (std::size_t c = 0; c < marks.free.size(); ++c) {
     bool all_clean = marks.free[c] != 0;
-    if (!all_clean && step.known) {
+    if (!all_clean && step.last_state) {
       all_clean = true;
       for (const auto t : step.own_triangles(c)) {
-        marks.clean[at(t)] = step.known->clean[at(t)];
+        marks.clean[at(t)] = step.last_state->clean[at(t)];
         all_clean &= marks.clean[at(t)] != 0;
       }
       if (!all_clean) to_release.push_back(static_cast<std::int32_t>(c));
@@ -134,19 +134,19 @@ StepState state_at_end(const GivenStep& step, const StepMarks& marks, const Pace
 
 }  // namespace
 
-StepRun::StepRun(StepContext& context, const StepState* known, const SteppedMesh& motion,
+StepRun::StepRun(StepContext& context, const StepState* last_state, const SteppedMesh& motion,
                  const StepQuestion& question, CullingPolicy& policy, const StopFunction& stop)
     : context_(context),
       mesh_(context.surface.mesh),
       policy_(policy),
-      given_{.surface = context.surface,
-             .tree = context.tree,
-             .boundary = *context.stages.boundary,
-             .elementary = *context.stages.elementary,
-             .stop = stop,
-             .motion = motion,
-             .known = known,
-             .relation = context.relation.count_all() ? nullptr : &context.relation},
+      step_{.surface = context.surface,
+            .tree = context.tree,
+            .boundary = *context.stages.boundary,
+            .elementary = *context.stages.elementary,
+            .stop = stop,
+            .motion = motion,
+            .last_state = last_state,
+            .relation = context.relation.count_all() ? nullptr : &context.relation},
       question_(question),
       cost_{.pace = PacedStop(stop, context.workers)} {
   context_.tree.forget_fit();  // the caller may have written new positions into the same arrays
@@ -155,40 +155,40 @@ StepRun::StepRun(StepContext& context, const StepState* known, const SteppedMesh
   marks_.free.assign(mesh_.components.size(), 0);
 }
 
-bool StepRun::place_primitives(const SteppedMesh& mesh, std::span<const ViewPrimitive> given) {
+bool StepRun::place_primitives(const SteppedMesh& mesh, std::span<const ViewPrimitive> input) {
   if (!policy_.is_due()) return true;
   auto& primitives = marks_.primitives;
-  if (given.empty()) {
+  if (input.empty()) {
     constexpr std::uint64_t work_of_anchor = 10;
     for (const auto& anchor :
-         policy_.anchors(context_.views.anchors(), given_.motion.vertices_t0, cost_.pace)) {
+         policy_.anchors(context_.views.anchors(), step_.motion.vertices_t0, cost_.pace)) {
       if (cost_.pace.after(work_of_anchor)) return false;
       primitives.push_back(place_view(anchor, mesh));
     }
-  } else if (given.size() == 1) {
-    primitives.assign(mesh_.components.size(), given[0]);
+  } else if (input.size() == 1) {
+    primitives.assign(mesh_.components.size(), input[0]);
   } else {
-    primitives.assign(given.begin(), given.end());
+    primitives.assign(input.begin(), input.end());
   }
   return !cost_.pace.stopped();
 }
 
 bool StepRun::classify_components() {
-  if (!policy_.is_due() || !policy_.worth_classifying(given_, marks_)) return true;
+  if (!policy_.is_due() || !policy_.worth_classifying(step_, marks_)) return true;
   Stopwatch watch(result_.times.view_test);
-  marks_.signs.assign(given_.surface.all().triangles.size(), ViewSign::zero);
+  marks_.signs.assign(step_.surface.all().triangles.size(), ViewSign::zero);
   for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
-    if (!given_.looks_within(c)) {
+    if (!step_.looks_within(c)) {
       marks_.free[c] = 1;
       continue;
     }
     // The classifier counts the work of signs itself; this is what the component takes besides.
     constexpr std::uint64_t work_beside_signs = 200;
     const bool is_classified = context_.stages.classifier->classify(
-        given_.surface.all(), given_.component(c), given_.motion, marks_.primitives[c],
-        marks_.signs, cost_.counts.view, cost_.pace);
+        step_.surface.all(), step_.component(c), step_.motion, marks_.primitives[c], marks_.signs,
+        cost_.counts.view, cost_.pace);
     if (!is_classified || cost_.pace.after(work_beside_signs)) return false;
-    marks_.free[c] = context_.stages.release->is_free(given_, marks_, cost_, c);
+    marks_.free[c] = context_.stages.release->is_free(step_, marks_, cost_, c);
     if (cost_.pace.stopped()) return false;
     cost_.counts.free_components += marks_.free[c];
   }
@@ -197,12 +197,12 @@ bool StepRun::classify_components() {
 
 bool StepRun::pays_to_sweep() {
   return !policy_.may_use_views() || marks_.all_free() ||
-         (marks_.has_views() && policy_.worth_sweeping(given_, marks_, cost_.pace));
+         (marks_.has_views() && policy_.worth_sweeping(step_, marks_, cost_.pace));
 }
 
 bool StepRun::pays_to_use() {
   return !marks_.has_views() || marks_.all_free() ||
-         policy_.worth_using(given_, marks_, cost_.counts);
+         policy_.worth_using(step_, marks_, cost_.counts);
 }
 
 void StepRun::drop_views() {
@@ -210,8 +210,8 @@ void StepRun::drop_views() {
   // caller's word (Start::clean) all triangles are dirty. Nothing is lost by that: the step tests
   // every pair anyway, and from its pairs the next step releases what is clean (L15).
   const Start start = context_.options.start;
-  if (given_.known) {
-    marks_.clean = given_.known->clean;
+  if (step_.last_state) {
+    marks_.clean = step_.last_state->clean;
   } else {
     std::fill(marks_.clean.begin(), marks_.clean.end(), start == Start::clean ? 1 : 0);
   }
@@ -224,16 +224,16 @@ void StepRun::drop_views() {
 bool StepRun::find_start() {
   if (!marks_.has_views()) return true;
   Stopwatch watch(result_.times.start);
-  return find_clean_at_start(given_, marks_, cost_, *context_.stages.release,
-                             context_.options.start, policy_.start_by());
+  return find_clean_at_start(step_, marks_, cost_, *context_.stages.release, context_.options.start,
+                             policy_.start_by());
 }
 
 bool StepRun::sweep_ghosts() {
-  if (!marks_.has_views() || marks_.all_free() || given_.surface.is_closed()) return true;
+  if (!marks_.has_views() || marks_.all_free() || step_.surface.is_closed()) return true;
   Stopwatch watch(result_.times.ghosts);
-  if (!given_.tree.fit_once(mesh_, given_.motion, cost_.pace)) return false;
-  if (!given_.tree.join_boxes(&cost_.pace)) return false;
-  GhostSweep sweep{given_.surface, given_.tree, given_.motion, given_.elementary, !given_.known};
+  if (!step_.tree.fit_once(mesh_, step_.motion, cost_.pace)) return false;
+  if (!step_.tree.join_boxes(&cost_.pace)) return false;
+  GhostSweep sweep{step_.surface, step_.tree, step_.motion, step_.elementary, !step_.last_state};
   marks_.near_ghosts.assign(mesh_.triangles.size(), 0);
   sweep.near = &marks_.near_ghosts;
   sweep.workers = cost_.pace.workers();
@@ -241,8 +241,8 @@ bool StepRun::sweep_ghosts() {
     if (marks_.free[c]) continue;
     constexpr std::uint64_t work_of_sweep = 200;
     if (cost_.pace.after(work_of_sweep)) return false;
-    if (!given_.boundary.sweep(sweep, given_.ghosts(c), given_.stop, marks_.touched,
-                               cost_.counts.ghosts)) {
+    if (!step_.boundary.sweep(sweep, step_.ghosts(c), step_.stop, marks_.touched,
+                              cost_.counts.ghosts)) {
       return false;
     }
   }
@@ -265,9 +265,9 @@ bool StepRun::mark_types() {
                 [&](std::size_t t) { types[t] = type_of(marks_, t); });
   const Stages& stages = context_.stages;
   search_.emplace(SearchStages{*stages.pair_rule, *stages.marking, *context_.pair_search,
-                               *stages.elementary, given_.relation},
-                  mesh_, given_.tree, context_.search, given_.motion, cost_.pace);
-  if (looks_for_first()) search_->look_for_first(by_time(question_.until), given_.tree);
+                               *stages.elementary, step_.relation},
+                  mesh_, step_.tree, context_.search, step_.motion, cost_.pace);
+  if (looks_for_first()) search_->look_for_first(by_time(question_.until), step_.tree);
   Stopwatch watch(result_.times.broad_phase);
   return search_->mark(types);
 }
@@ -280,7 +280,7 @@ bool StepRun::find_pairs() {
     const bool keeps = is_line_search() && !marks_.has_views();
     completed = keeps && search_->is_kept()
                     ? search_->collect_kept()
-                    : context_.pair_search->fit(given_.tree, mesh_, given_.motion, cost_.pace) &&
+                    : context_.pair_search->fit(step_.tree, mesh_, step_.motion, cost_.pace) &&
                           search_->collect(policy_.worth_proving(marks_, *search_), keeps);
   }
   // Tests are made as candidates come up, so their time is part of the time measured above.
@@ -312,7 +312,7 @@ bool StepRun::take_found() {
   if (!search_) return true;
   bool is_sorted = true;
   result_.pairs = search_->take_contacts();
-  if (given_.relation) {
+  if (step_.relation) {
     std::swap(all_contacts_, result_.pairs);
     is_sorted = search_->take_counted(all_contacts_, result_.pairs);
   }
@@ -337,9 +337,9 @@ StepResult StepRun::finish(bool completed, const SteppedMesh& mesh, bool has_own
   result_.first = least_time(result_.pairs);
   if (completed) result_.views = policy_.use();
   if (completed && question_.until == 1) {
-    const auto& contacts = given_.relation ? all_contacts_ : result_.pairs;
+    const auto& contacts = step_.relation ? all_contacts_ : result_.pairs;
     // Set whole or, if memory fails, not at all.
-    next = state_at_end(given_, marks_, cost_.pace, *context_.stages.release, contacts,
+    next = state_at_end(step_, marks_, cost_.pace, *context_.stages.release, contacts,
                         is_complete(), mesh.vertices_t1);
     StepCounts counts = cost_.counts;
     if (!is_whole()) counts.search = {}, counts.narrow = {};

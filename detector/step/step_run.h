@@ -16,12 +16,12 @@ class StepRun {
  public:
   // `motion`: of the mesh, and of its apexes if the ghosts move in this step. The references must
   // outlive this object.
-  StepRun(StepContext& context, const StepState* known, const SteppedMesh& motion,
+  StepRun(StepContext& context, const StepState* last_state, const SteppedMesh& motion,
           const StepQuestion& question, CullingPolicy& policy, const StopFunction& stop);
 
-  // Places the primitives, if they are due. `mesh` is the motion of the mesh alone; `given` holds
+  // Places the primitives, if they are due. `mesh` is the motion of the mesh alone; `input` holds
   // no primitive, one, or one for each component.
-  bool place_primitives(const SteppedMesh& mesh, std::span<const ViewPrimitive> given);
+  bool place_primitives(const SteppedMesh& mesh, std::span<const ViewPrimitive> input);
   // Gives each triangle its sign, and shows which components are free (L5). Afterwards the step
   // has views, if they are due and worth the view test.
   bool classify_components();
@@ -85,7 +85,7 @@ class StepRun {
   StepContext& context_;
   const Topology& mesh_;
   CullingPolicy& policy_;
-  const GivenStep given_;
+  const GivenStep step_;
   const StepQuestion question_;
   StepMarks marks_;
   StepCost cost_;

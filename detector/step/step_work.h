@@ -21,9 +21,9 @@ struct GivenStep {
   BoundingVolumeTree& tree;  // of the mesh
   const BoundaryHandler& boundary;
   const ElementaryTest& elementary;
-  const StopFunction& stop;  // all workers may ask it
-  SteppedMesh motion;        // rows: vertices of the mesh, then apexes
-  const StepState* known;    // the state of the last commit if this step starts there, else null
+  const StopFunction& stop;     // all workers may ask it
+  SteppedMesh motion;           // rows: vertices of the mesh, then apexes
+  const StepState* last_state;  // the state of the last commit if this step starts there, else null
   const PairRelation* relation = nullptr;  // null: every pair counts
 
   // The component together with its ghosts, which is a cycle.

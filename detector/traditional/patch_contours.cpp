@@ -182,12 +182,12 @@ class PatchMaker {
 // `count` patches with seeds spread evenly over the triangles.
 std::vector<SamplePatch> spread(const Topology& mesh, PatchMaker& patches, ContourMaker& contours,
                                 std::size_t count, std::size_t size) {
-  std::vector<SamplePatch> made;
+  std::vector<SamplePatch> result;
   for (std::size_t i = 0; i < count; ++i) {
     const auto seed = (2 * i + 1) * mesh.triangles.size() / (2 * count);
-    made.push_back(patches.make(static_cast<std::int32_t>(seed), size, contours));
+    result.push_back(patches.make(static_cast<std::int32_t>(seed), size, contours));
   }
-  return made;
+  return result;
 }
 
 }  // namespace

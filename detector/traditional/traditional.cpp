@@ -63,44 +63,44 @@ struct KeptPatches {
 
 class PatchCones : public PatchProofs {
  public:
-  PatchCones(const NormalConeSearch& scheme, KeptPatches& kept, const SteppedMesh& motion,
+  PatchCones(const NormalConeSearch& scheme, KeptPatches& patches, const SteppedMesh& motion,
              const SearchInput& input, SearchCounts& counts)
-      : PatchCones(scheme, input.tree, kept, motion, 0, counts, input.pace) {
+      : PatchCones(scheme, input.tree, patches, motion, 0, counts, input.pace) {
     if (pace_ && pace_->workers())
-      kept_.joined.resize(std::max(kept_.joined.size(), pace_->workers()->count()),
-                          kept_.joined[0]);
+      patches_.joined.resize(std::max(patches_.joined.size(), pace_->workers()->count()),
+                             patches_.joined[0]);
     is_stopped_ = !merge_cones(input.mesh, input.tree);
   }
 
   std::unique_ptr<PatchProofs> in_lane(std::size_t lane, SearchCounts& counts,
                                        PacedStop& pace) const override {
     return std::unique_ptr<PatchProofs>(
-        new PatchCones(scheme_, tree_, kept_, motion_, lane, counts, &pace));
+        new PatchCones(scheme_, tree_, patches_, motion_, lane, counts, &pace));
   }
 
   bool is_free(std::int32_t node) override {
     return !has_to_end(1) && is_asked(size(node)) &&
-           is_free(kept_.cones[at(node)], kept_.contours.of(node));
+           is_free(patches_.cones[at(node)], patches_.contours.of(node));
   }
 
   bool are_free(std::int32_t a, std::int32_t b) override {
     if (has_to_end(1) || !is_asked(size(a) + size(b))) return false;
-    const DirectionSet cone = kept_.cones[at(a)] & kept_.cones[at(b)];
+    const DirectionSet cone = patches_.cones[at(a)] & patches_.cones[at(b)];
     if (cone == 0) return false;
-    const Contour of_a = kept_.contours.of(a), of_b = kept_.contours.of(b);
+    const Contour of_a = patches_.contours.of(a), of_b = patches_.contours.of(b);
     if (of_a.empty() || of_b.empty()) return false;
     if (has_to_end(work_to_join * (of_a.size() + of_b.size()))) return false;
-    return is_free(cone, scheme_.joined(kept_.joined[lane_], of_a, of_b));
+    return is_free(cone, scheme_.joined(patches_.joined[lane_], of_a, of_b));
   }
 
   bool is_stopped() const override { return is_stopped_ || (pace_ && pace_->stopped()); }
 
  private:
-  PatchCones(const NormalConeSearch& scheme, const BoundingVolumeTree& tree, KeptPatches& kept,
+  PatchCones(const NormalConeSearch& scheme, const BoundingVolumeTree& tree, KeptPatches& patches,
              const SteppedMesh& motion, std::size_t lane, SearchCounts& counts, PacedStop* pace)
       : scheme_(scheme),
         tree_(tree),
-        kept_(kept),
+        patches_(patches),
         motion_(motion),
         moving_(motion),
         lane_(lane),
@@ -116,20 +116,20 @@ class PatchCones : public PatchProofs {
     return tree_.is_leaf(child) && tree_.is_leaf(child + 1) ? 2 : 4;
   }
   bool is_asked(int triangles) const {
-    return triangles >= 4 || scheme_.asked() == NormalConeSearch::Asked::all;
+    return triangles >= 4 || scheme_.scope() == NormalConeSearch::Scope::all;
   }
 
   // Finds the cones of all nodes. False if it was stopped.
   bool merge_cones(const Topology& mesh, const BoundingVolumeTree& tree) {
     return tree.for_each_upward(work_of_cone, pace_, [&](std::int32_t node) {
-      auto& cone = kept_.cones[at(node)];
+      auto& cone = patches_.cones[at(node)];
       if (tree.is_leaf(node)) {
         const auto& corners = mesh.triangles[at(tree.triangle(node))];
         cone = scheme_.faced(
             {motion_.path(corners[0]), motion_.path(corners[1]), motion_.path(corners[2])});
       } else {
         const auto child = at(tree.child(node));
-        cone = kept_.cones[child] & kept_.cones[child + 1];
+        cone = patches_.cones[child] & patches_.cones[child + 1];
       }
     });
   }
@@ -147,7 +147,7 @@ class PatchCones : public PatchProofs {
 
   const NormalConeSearch& scheme_;
   const BoundingVolumeTree& tree_;
-  KeptPatches& kept_;
+  KeptPatches& patches_;
   const SteppedMesh motion_;
   MovingContour moving_;
   const std::size_t lane_;
@@ -171,8 +171,8 @@ class NormalConeSearch::OfMesh : public MeshSearch {
 
   bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) override {
     if (!input.uses_proofs) return WideSearch().search(input, counts, sink);
-    if (!kept_ && !keep_contours(input)) return false;
-    PatchCones cones(scheme_, *kept_, *motion_, input, counts);
+    if (!patches_ && !keep_contours(input)) return false;
+    PatchCones cones(scheme_, *patches_, *motion_, input, counts);
     if (cones.is_stopped()) return false;
     return scheme_.descend(input, &cones, counts, sink);
   }
@@ -196,7 +196,7 @@ class NormalConeSearch::OfMesh : public MeshSearch {
     const auto maker = scheme_.contour_maker(input.mesh);
     PatchContours contours(input.mesh, input.tree, *maker, input.pace);
     if (input.pace && input.pace->stopped()) return false;
-    kept_.emplace(std::move(contours), input.mesh, input.tree);
+    patches_.emplace(std::move(contours), input.mesh, input.tree);
     return true;
   }
 
@@ -222,8 +222,8 @@ class NormalConeSearch::OfMesh : public MeshSearch {
 
   const NormalConeSearch& scheme_;
   const SamplePatches samples_;
-  std::optional<KeptPatches> kept_;    // once a search has used proofs
-  std::optional<SteppedMesh> motion_;  // of the step that it was fitted to last
+  std::optional<KeptPatches> patches_;  // once a search has used proofs
+  std::optional<SteppedMesh> motion_;   // of the step that it was fitted to last
 };
 
 std::unique_ptr<MeshSearch> NormalConeSearch::prepare(const Topology& mesh,

@@ -23,9 +23,9 @@ class NormalConeSearch : public TreeSearch {
  public:
   // The patches for which proofs are attempted. A proof costs about what four candidates cost, and
   // in a patch of fewer than four triangles it leaves out fewer than that.
-  enum class Asked : std::uint8_t { all, of_four_triangles_or_more };
-  explicit NormalConeSearch(Asked asked = Asked::all) : asked_(asked) {}
-  Asked asked() const { return asked_; }
+  enum class Scope : std::uint8_t { all, of_four_triangles_or_more };
+  explicit NormalConeSearch(Scope scope = Scope::all) : scope_(scope) {}
+  Scope scope() const { return scope_; }
 
   // The result proves patches apart; without it this is a TreeSearch. Its first search that uses
   // proofs finds the contours of all nodes, 0.3 us a triangle. They depend on the mesh and the tree
@@ -50,7 +50,7 @@ class NormalConeSearch : public TreeSearch {
 
  private:
   class OfMesh;  // what prepare() makes
-  Asked asked_;
+  Scope scope_;
 };
 
 }  // namespace assay::detector

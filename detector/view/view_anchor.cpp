@@ -336,11 +336,11 @@ Point combine(const AffineWeights& affine, const PositionsView& x) {
   return q;
 }
 
-Effort effort_for(const Component& component, const Topology& mesh, Effort wanted) {
+Effort effort_for(const Component& component, const Topology& mesh, Effort effort) {
   constexpr std::size_t few_components = 64, triangles_a_search = 16, small = 64;
   const bool too_many =
       mesh.components.size() > few_components + mesh.triangles.size() / triangles_a_search;
-  return too_many && component.triangles.size() < small ? Effort::least : wanted;
+  return too_many && component.triangles.size() < small ? Effort::least : effort;
 }
 
 ViewAnchor make_view_anchor(ViewKind kind, const Topology& mesh, const Component& component,

@@ -53,10 +53,10 @@ enum class Effort : std::uint8_t {
 };
 
 // The effort for a component: `least` for a small one if the mesh has many components, as a soup
-// of triangles has, `wanted` for all others. A search takes 0.1 ms and more, however small the
+// of triangles has, `effort` for all others. A search takes 0.1 ms and more, however small the
 // component is. For many small components that would be more than their steps take. In this way
 // the searches take at most 6 us a triangle beside what large components take.
-Effort effort_for(const Component& component, const Topology& mesh, Effort wanted);
+Effort effort_for(const Component& component, const Topology& mesh, Effort effort);
 
 // The best place that a search (view_search.h) finds for the component of `mesh`, ghosts included,
 // at these positions. A place of winding number 1 is preferred if it makes at most 5 % fewer of

@@ -117,10 +117,10 @@ template <class Put>
 bool run_in_lanes(const Rungs& rungs, std::span<const std::int32_t> triangles, const Put& put,
                   const PacedStop& pace, ViewCounts& counts) {
   struct Lane {
-    Lane(const Rungs& all, const StopFunction& stop) : asked(stop), rungs(all) {
-      rungs.ask(&asked);
+    Lane(const Rungs& all, const StopFunction& stop) : own_pace(stop), rungs(all) {
+      rungs.ask(&own_pace);
     }
-    PacedStop asked;
+    PacedStop own_pace;
     Rungs rungs;
   };
   std::vector<std::unique_ptr<Lane>> lanes;

@@ -54,7 +54,7 @@ struct OneSideDirty : ReleaseRule {
     ReleaseRule::settle(step, marks, {}, true, state);
     for (const auto& contact : pairs) {
       state.clean[at(contact.pair.a)] = 0;
-      state.met.push_back(contact.pair);
+      state.contacts.push_back(contact.pair);
     }
   }
 };
@@ -78,7 +78,7 @@ struct OnlyMetAgainstGhosts : ReleaseRule {
       const GivenStep& step, const std::vector<std::int32_t>& in_doubt) const override {
     std::vector<std::int32_t> met;
     const auto is_met = [&](std::int32_t t) {
-      return std::any_of(step.known->met.begin(), step.known->met.end(),
+      return std::any_of(step.last_state->contacts.begin(), step.last_state->contacts.end(),
                          [&](const auto& pair) { return pair.a == t || pair.b == t; });
     };
     std::copy_if(in_doubt.begin(), in_doubt.end(), std::back_inserter(met), is_met);

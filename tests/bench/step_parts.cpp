@@ -32,10 +32,10 @@ corpus::Sequence bench_step(const std::string& name, int triangles, int frames, 
 }
 
 const std::optional<corpus::Sequence>& step_named(const std::string& name) {
-  static std::map<std::string, std::optional<corpus::Sequence>> made;
-  if (const auto found = made.find(name); found != made.end()) return found->second;
+  static std::map<std::string, std::optional<corpus::Sequence>> cache;
+  if (const auto found = cache.find(name); found != cache.end()) return found->second;
   constexpr double hardly = 1e-5;
-  auto& step = made[name];
+  auto& step = cache[name];
   const int triangles = sized(20'000);
   if (name.starts_with("rod-twist")) {
     std::vector<std::string> unused;
@@ -81,13 +81,13 @@ StepParts::StepParts(const corpus::Sequence& step)
 }
 
 StepParts* StepParts::of(const std::string& name, benchmark::State& state) {
-  static std::map<std::string, std::unique_ptr<StepParts>> made;
+  static std::map<std::string, std::unique_ptr<StepParts>> cache;
   const auto& step = step_named(name);
   if (!step) {
     state.SkipWithError(why_absent(name));
     return nullptr;
   }
-  auto& parts = made[name];
+  auto& parts = cache[name];
   if (!parts) parts = std::make_unique<StepParts>(*step);
   return parts.get();
 }

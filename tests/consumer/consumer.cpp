@@ -13,16 +13,16 @@ int main() {
   Positions x_t1 = x_t0;
   x_t1(3, 2) = -2;
 
-  auto made = Detector::create(triangles, x_t0, {});
-  if (!made) return 1;
-  const StepResult result = made.value().step(x_t0, x_t1);
+  auto detector = Detector::create(triangles, x_t0, {});
+  if (!detector) return 1;
+  const StepResult result = detector.value().step(x_t0, x_t1);
   std::printf("%s at t = %g, %zu pairs\n",
               result.answer == Answer::collision ? "collision" : "free", result.first.lo,
               result.pairs.size());
   if (result.answer != Answer::collision || result.first.lo != 0.5) return 1;
 
   // What is kept of it as bytes serves another detector of the same mesh.
-  const auto saved = SavedState::read(made.value().state().bytes());
+  const auto saved = SavedState::read(detector.value().state().bytes());
   auto other = Detector::create(triangles, x_t0, {});
   return saved && other && !other.value().restore(saved.value()) ? 0 : 1;
 }

@@ -204,10 +204,10 @@ TEST(Arithmetic, EachAnswersAStep) {
   for (const auto arithmetic : all_values<Arithmetic>) {
     for (const auto culling :
          {Culling::view_point, Culling::view_line, Culling::normal_cone, Culling::bvh}) {
-      auto made =
+      auto detector =
           Detector::create(octahedron(), x, {culling, Start::verified, Pairs::all, arithmetic});
-      EXPECT_EQ(made.value().evaluate(x, squeezed).answer, Answer::free);
-      const auto result = made.value().evaluate(x, through);
+      EXPECT_EQ(detector.value().evaluate(x, squeezed).answer, Answer::free);
+      const auto result = detector.value().evaluate(x, through);
       EXPECT_EQ(result.answer, Answer::collision);
       EXPECT_NEAR(result.first.lo, 2 / 3., 1e-6);
       EXPECT_GE(result.first.hi, 2 / 3. - 1e-6);

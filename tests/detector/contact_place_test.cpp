@@ -101,9 +101,9 @@ TEST(ContactPlace, IsWithinItsErrorOfBothTriangles) {
   int with_normal = 0, rough = 0, contacts = 0;
   for (std::uint64_t i = 0; i < steps; ++i) {
     const auto motion = random_motion(random, static_cast<int>(i % 15));
-    auto made = Detector::create(motion.f, motion.x_t0, {});
-    ASSERT_TRUE(made) << i;
-    for (const auto& contact : made.value().step(motion.x_t0, motion.x_t1).pairs) {
+    auto detector = Detector::create(motion.f, motion.x_t0, {});
+    ASSERT_TRUE(detector) << i;
+    for (const auto& contact : detector.value().step(motion.x_t0, motion.x_t1).pairs) {
       const double t = contact.time.lo;
       const auto place = contact_place({motion.x_t0, motion.x_t1}, motion.f, contact);
       Rational error = 0;

@@ -13,15 +13,15 @@ using tests::expect_same_contacts, tests::octahedron, tests::octahedron_position
 
 Detector make(const Triangles& t, const Positions& x, Culling culling = Culling::view_point,
               Start start = Start::verified, Pairs pairs = Pairs::all) {
-  auto made = Detector::create(t, x, {culling, start, pairs});
-  EXPECT_TRUE(made.has_value());
-  return std::move(made.value());
+  auto result = Detector::create(t, x, {culling, start, pairs});
+  EXPECT_TRUE(result.has_value());
+  return std::move(result.value());
 }
 
 InputError create_error(const Triangles& t, const Positions& x) {
-  auto made = Detector::create(t, x, {});
-  EXPECT_FALSE(made.has_value());
-  return made.error().error;
+  auto result = Detector::create(t, x, {});
+  EXPECT_FALSE(result.has_value());
+  return result.error().error;
 }
 
 // A simulation writes each step into the same two arrays.
@@ -81,10 +81,11 @@ TEST(Detector, L12_MeshesBeyondTheIndicesAreRefused) {
     return Eigen::Map<const Positions>(&coordinate, count, 3);
   };
   const auto too_large = [](const TrianglesView& t, const PositionsView& x) {
-    const auto made = Detector::create(t, x, {});
-    EXPECT_FALSE(made.has_value());
-    EXPECT_EQ(made.error().error, InputError::mesh_too_large);
-    EXPECT_NE(made.error().message.find("178956970"), std::string::npos) << made.error().message;
+    const auto result = Detector::create(t, x, {});
+    EXPECT_FALSE(result.has_value());
+    EXPECT_EQ(result.error().error, InputError::mesh_too_large);
+    EXPECT_NE(result.error().message.find("178956970"), std::string::npos)
+        << result.error().message;
   };
   too_large(many_triangles(most_triangles + 1), octahedron_positions(1));
   too_large(many_triangles(715'827'883), octahedron_positions(1));
@@ -384,15 +385,15 @@ bool same(const ViewPrimitive& a, const ViewPrimitive& b) {
 class Given : public testing::TestWithParam<Culling> {
  protected:
   // The step from these primitives, and the same without any views.
-  StepResult run(std::vector<ViewPrimitive> given) {
+  StepResult run(std::vector<ViewPrimitive> input) {
     const Positions x_t0 = two_octahedra(2, octahedron_positions(2)),
                     x_t1 = two_octahedra(3, pushed_octahedron());
     const auto step = [&](Culling culling, std::span<const ViewPrimitive> primitives) {
-      auto made = Detector::create(two_octahedra(), x_t0, {culling, Start::verified});
-      return made.value().step(x_t0, x_t1, primitives);
+      auto detector = Detector::create(two_octahedra(), x_t0, {culling, Start::verified});
+      return detector.value().step(x_t0, x_t1, primitives);
     };
     const auto expected = step(Culling::none, {});
-    auto result = step(GetParam(), given);
+    auto result = step(GetParam(), input);
     EXPECT_EQ(result.answer, Answer::collision);
     expect_same_contacts(result, expected);
     return result;
@@ -426,8 +427,7 @@ TEST_P(Given, L3L10_OneForEachComponent) {
 }
 
 TEST_P(Given, L5_AGivenPrimitiveThatMovesOnIsKnownToBeInside) {
-  auto made = Detector::create(octahedron(), octahedron_positions(2), {GetParam(), Start::clean});
-  Detector& detector = made.value();
+  Detector detector = make(octahedron(), octahedron_positions(2), GetParam(), Start::clean);
   const Positions x = octahedron_positions(2);
   EXPECT_EQ(detector.step(x, x, {&moving_line, 1}).counts.winding_numbers, 1u);
   // It starts where it ended: nothing to count. It starts elsewhere: counted again.
@@ -439,13 +439,13 @@ TEST_P(Given, L5_AGivenPrimitiveThatMovesOnIsKnownToBeInside) {
 
 TEST_P(Given, MustBeFiniteAndAsManyAsComponents) {
   const Positions x = two_octahedra(2, octahedron_positions(2));
-  auto made = Detector::create(two_octahedra(), x, {GetParam()});
+  auto result = Detector::create(two_octahedra(), x, {GetParam()});
   ViewPrimitive infinite = moving_line;
   infinite.q1.t1[2] = INFINITY;
-  EXPECT_EQ(made.value().evaluate(x, x, {&infinite, 1}).problem->error,
+  EXPECT_EQ(result.value().evaluate(x, x, {&infinite, 1}).problem->error,
             InputError::non_finite_coordinate);
   const std::vector<ViewPrimitive> three(3, fixed_point);
-  EXPECT_EQ(made.value().evaluate(x, x, three).problem->error, InputError::wrong_primitive_count);
+  EXPECT_EQ(result.value().evaluate(x, x, three).problem->error, InputError::wrong_primitive_count);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cullings, Given,

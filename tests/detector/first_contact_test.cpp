@@ -43,8 +43,8 @@ TEST_P(FirstContact, L6_IsThatOfAllPairs) {
     const int size = 3 + i % 12;
     const Moving mesh(random.sheets(2 + i % 2, size, i % 3 == 0), size, i % 4 == 0 ? 0 : 9);
     const auto all = mesh.detector({GetParam()}).evaluate(mesh.x_t0, mesh.x_t1);
-    auto asked = mesh.detector({GetParam(), Start::verified, Pairs::first});
-    const auto first = asked.evaluate(mesh.x_t0, mesh.x_t1);
+    auto detector = mesh.detector({GetParam(), Start::verified, Pairs::first});
+    const auto first = detector.evaluate(mesh.x_t0, mesh.x_t1);
     ASSERT_EQ(first.answer, all.answer);
     if (all.answer != Answer::collision) continue;
     ++collisions;
@@ -155,7 +155,7 @@ TEST(FirstContact, L15_AfterACollisionNothingIsKnown) {
     ASSERT_FALSE(detector.commit());
     const SavedState saved = detector.state();
     const auto& state = *saved.fields().committed;
-    EXPECT_FALSE(state.met_is_complete);
+    EXPECT_FALSE(state.contacts_are_complete);
     EXPECT_EQ(std::count(state.clean.begin(), state.clean.end(), 1), 0);
   }
 }

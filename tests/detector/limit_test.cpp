@@ -161,12 +161,12 @@ Gone go(const ClosePass& pass) {
 }
 
 TEST(DetectorLimit, L17_WhereSomethingIsPassedCloselyItGoesNearlyAsFarAsItCan) {
-  const auto known = known_close_passes();
-  for (std::size_t i = 0; i < known.size(); ++i) {
-    const auto gone = go(known[i]);
+  const auto passes = known_close_passes();
+  for (std::size_t i = 0; i < passes.size(); ++i) {
+    const auto gone = go(passes[i]);
     // Along the sliver the free places lie apart.
-    EXPECT_TRUE(gone.is_far || (i == 0 && gone.share > 0.7)) << known[i].name;
-    EXPECT_TRUE(gone.is_short) << known[i].name;
+    EXPECT_TRUE(gone.is_far || (i == 0 && gone.share > 0.7)) << passes[i].name;
+    EXPECT_TRUE(gone.is_short) << passes[i].name;
   }
   std::size_t tried_again = 0;
   for (std::uint64_t seed = 0; seed < 1000; ++seed) {

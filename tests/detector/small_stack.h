@@ -40,8 +40,8 @@ struct Run {
 
 // Counts from this frame downwards. The page below what the body is given cannot be written: a body
 // that uses more crashes.
-inline void* run(void* given) {
-  Run& run = *static_cast<Run*>(given);
+inline void* run(void* data) {
+  Run& run = *static_cast<Run*>(data);
   std::byte here{};
   const auto from_block = static_cast<std::size_t>(&here - run.block);
   const std::size_t guard = (from_block - given_stack_bytes) / page * page - page;

@@ -130,9 +130,9 @@ TEST(Apex, OfEachHoleIsPlacedByTheRuleOfThatHole) {
 // A flat sheet is cut by the fan from its centroid; a raised apex touches nothing.
 TEST(Apex, TheRuleThatTouchesLeastIsTaken) {
   const Positions x = tests::flat_squares(3);
-  auto made =
+  auto detector =
       Detector::create(tests::squares(3, 3), x, {Culling::view_point, Start::verified, Pairs::all});
-  const StepResult result = made.value().step(x, x);
+  const StepResult result = detector.value().step(x, x);
   EXPECT_EQ(result.violated, 0u);
   EXPECT_EQ(result.dirty, 0u);
   EXPECT_EQ(result.answer, Answer::free);
@@ -152,8 +152,8 @@ TEST(GhostSweep, L11_WhatPassesTheHoleIsViolatedAndStaysDirty) {
     x_t1.row(v) = out;
     break;
   }
-  auto made = Detector::create(t, x_t0, {Culling::view_point, Start::verified, Pairs::all});
-  auto& detector = made.value();
+  auto result = Detector::create(t, x_t0, {Culling::view_point, Start::verified, Pairs::all});
+  auto& detector = result.value();
   EXPECT_EQ(detector.step(x_t0, x_t0).violated, 0u);
   const StepResult passing = detector.step(x_t0, x_t1);
   EXPECT_GE(passing.violated, 1u);
@@ -306,9 +306,9 @@ TEST(ApexChoice, AHoleThatAFewTrianglesLeaveKeepsItsCentroid) {
 }
 
 TEST(ApexChoice, IsStopped) {
-  int asked = 0;
-  const auto all = choose(soup(20), [&] { return ++asked, false; });
-  EXPECT_GE(static_cast<std::uint64_t>(asked), all.counts.work() / 800'000);
+  int calls = 0;
+  const auto all = choose(soup(20), [&] { return ++calls, false; });
+  EXPECT_GE(static_cast<std::uint64_t>(calls), all.counts.work() / 800'000);
   const auto cut = choose(soup(20), [&] { return true; });
   EXPECT_LT(4 * cut.counts.work(), all.counts.work());
 }
@@ -322,12 +322,12 @@ TEST(Create, IsStoppedAtEachAsking) {
           Detector::create(mesh.triangles, mesh.x, {culling}, [&] { return ++all, false; }));
       ASSERT_GT(all, 2);
       for (int n = 1; n <= all; n += 1 + all / 10) {
-        int asked = 0;
-        const auto made =
-            Detector::create(mesh.triangles, mesh.x, {culling}, [&] { return ++asked == n; });
-        ASSERT_FALSE(made) << n << " of " << all;
-        EXPECT_EQ(made.error().error, InputError::stopped);
-        EXPECT_EQ(asked, n) << "and nothing is asked afterwards";
+        int calls = 0;
+        const auto result =
+            Detector::create(mesh.triangles, mesh.x, {culling}, [&] { return ++calls == n; });
+        ASSERT_FALSE(result) << n << " of " << all;
+        EXPECT_EQ(result.error().error, InputError::stopped);
+        EXPECT_EQ(calls, n) << "and nothing is asked afterwards";
       }
     }
   }
@@ -340,11 +340,11 @@ TEST(Create, OfASoupSearchesNoPlaceForEachTriangle) {
   for (const int n : {10, 20}) {
     const Mesh triangles = soup(n);
     for (const auto culling : {Culling::automatic, Culling::view_point, Culling::view_line}) {
-      std::uint64_t asked = 0;
+      std::uint64_t calls = 0;
       ASSERT_TRUE(Detector::create(triangles.triangles, triangles.x, {culling},
-                                   [&] { return ++asked, false; }));
+                                   [&] { return ++calls, false; }));
       const auto count = static_cast<std::uint64_t>(triangles.triangles.rows());
-      EXPECT_LT(asked * PacedStop::usual_interval, 4'000 * count) << n;
+      EXPECT_LT(calls * PacedStop::usual_interval, 4'000 * count) << n;
     }
   }
 }

@@ -48,18 +48,18 @@ class SharedSweep : public testing::Test {
     swept.touched.assign(surface.mesh.triangles.size(), 0);
     swept.near = swept.touched;
     const ElementaryTest elementary;
-    GhostSweep given{surface, tree, motion, elementary};
-    given.near = &swept.near;
+    GhostSweep input{surface, tree, motion, elementary};
+    input.near = &swept.near;
     std::vector<std::int32_t> ghosts;
     for (auto t = surface.mesh.triangles.size(); t < surface.all().triangles.size(); ++t)
       ghosts.push_back(static_cast<std::int32_t>(t));
-    EXPECT_TRUE(run(given, ghosts, swept));
+    EXPECT_TRUE(run(input, ghosts, swept));
     return swept;
   }
   Swept by_handler(const Workers* workers) const {
-    return sweep([&](GhostSweep given, const std::vector<std::int32_t>& ghosts, Swept& swept) {
-      given.workers = workers;
-      return BoundaryHandler().sweep(given, ghosts, {}, swept.touched, swept.counts);
+    return sweep([&](GhostSweep input, const std::vector<std::int32_t>& ghosts, Swept& swept) {
+      input.workers = workers;
+      return BoundaryHandler().sweep(input, ghosts, {}, swept.touched, swept.counts);
     });
   }
 
@@ -69,12 +69,12 @@ class SharedSweep : public testing::Test {
 
 TEST_F(SharedSweep, TouchesWhatOneSweepOfTheWholeTouches) {
   const Swept whole =
-      sweep([](const GhostSweep& given, const std::vector<std::int32_t>& ghosts, Swept& swept) {
+      sweep([](const GhostSweep& input, const std::vector<std::int32_t>& ghosts, Swept& swept) {
         const auto holes =
-            make_hole_trees(given.surface.all(), ghosts, given.tree.grid(), given.motion);
+            make_hole_trees(input.surface.all(), ghosts, input.tree.grid(), input.motion);
         EXPECT_EQ(holes.size(), 2u);
         return std::all_of(holes.begin(), holes.end(), [&](const HoleTree& hole) {
-          return sweep_hole(given, hole, {}, swept.touched, swept.counts);
+          return sweep_hole(input, hole, {}, swept.touched, swept.counts);
         });
       });
   const auto touched = std::count(whole.touched.begin(), whole.touched.end(), 1);
@@ -105,10 +105,10 @@ TEST_F(SharedSweep, ThreadsDoNotShow) {
 // Whichever thread is at work when the stop function asks for an end, the sweep says so.
 TEST_F(SharedSweep, ThatIsStoppedSaysSo) {
   const Workers workers(2);
-  sweep([&](GhostSweep given, const std::vector<std::int32_t>& ghosts, Swept& swept) {
-    given.workers = &workers;
+  sweep([&](GhostSweep input, const std::vector<std::int32_t>& ghosts, Swept& swept) {
+    input.workers = &workers;
     EXPECT_FALSE(BoundaryHandler().sweep(
-        given, ghosts, [] { return true; }, swept.touched, swept.counts));
+        input, ghosts, [] { return true; }, swept.touched, swept.counts));
     return true;
   });
 }

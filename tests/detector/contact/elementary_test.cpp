@@ -163,13 +163,13 @@ TEST(ElementaryTest, CoplanarThroughoutIsRecognised) {
 
 // Whether a contact is surely later than a bound, against the exact first time.
 
-struct Told {
+struct Counts {
   int before = 0, by_doubles = 0, by_integers = 0;
 };
 
 // Asks about bounds around the first contact time and elsewhere. None at or after that time may be
 // told to be before it.
-void ask_about(const FourPoints& query, Told& told) {
+void ask_about(const FourPoints& query, Counts& counts) {
   const auto contact = test_contact(query, Want::first_time);
   const auto& [lo, hi] = contact.time;
   for (const double until : {0., lo, hi, lo / 2, std::nextafter(lo, 0.), .25, .75, 1.}) {
@@ -178,16 +178,16 @@ void ask_about(const FourPoints& query, Told& told) {
     if (!is_later) {
       EXPECT_EQ(later, Later::no) << until << " of " << lo;
     } else {
-      ++told.before;
-      told.by_doubles += later == Later::by_doubles;
-      told.by_integers += later == Later::by_integers;
+      ++counts.before;
+      counts.by_doubles += later == Later::by_doubles;
+      counts.by_integers += later == Later::by_integers;
     }
   }
 }
 
 TEST(ContactUntil, NeverPassesAContact) {
   tests::QueryDraw draw(37);
-  Told fine, coarse, large;
+  Counts fine, coarse, large;
   for (int i = 0; i < 20'000; ++i) {
     ask_about(draw.query([&] { return draw.full(); }), fine);
     ask_about(draw.query([&] { return static_cast<double>(draw.between(-3, 3)); }), coarse);

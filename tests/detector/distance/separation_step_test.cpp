@@ -218,10 +218,10 @@ TEST(SeparationStep, L16_DistancesOfAnySize) {
 TEST(SeparationStep, WrongSeparationsAreRefusedByName) {
   const Positions x = octahedron_positions(2);
   const auto refusal = [&](const Options& options) {
-    const auto made = Detector::create(octahedron(), x, options);
-    EXPECT_FALSE(made);
-    EXPECT_EQ(made.error().error, InputError::wrong_separation);
-    return made.error().message;
+    const auto result = Detector::create(octahedron(), x, options);
+    EXPECT_FALSE(result);
+    EXPECT_EQ(result.error().error, InputError::wrong_separation);
+    return result.error().message;
   };
   constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const double d : {-1.0, infinity, std::nan("")})

@@ -41,9 +41,9 @@ inline Exact operator*(const Exact& a, const Exact& b) {
 inline double magnitude(const Exact& a) {
   Wide number = abs(a.number);
   if (number == 0) return 0;
-  constexpr unsigned kept = 64;
+  constexpr unsigned precision = 64;
   const unsigned bits = msb(number);
-  const unsigned shift = bits > kept ? bits - kept : 0;
+  const unsigned shift = bits > precision ? bits - precision : 0;
   number >>= shift;
   return std::ldexp(number.convert_to<double>(), a.exponent + static_cast<int>(shift));
 }

@@ -22,11 +22,11 @@ std::optional<InputError> error_of(const CountedPairs& counted) {
   const auto problem = check_counted_pairs(counted, triangles, vertices);
   Options options;
   options.counted = &counted;
-  const auto made = Detector::create(triangles, places(), options);
-  EXPECT_EQ(made.has_value(), !problem);
+  const auto result = Detector::create(triangles, places(), options);
+  EXPECT_EQ(result.has_value(), !problem);
   if (!problem) return std::nullopt;
-  EXPECT_EQ(made.error().error, problem->error);
-  EXPECT_EQ(made.error().message, problem->message);
+  EXPECT_EQ(result.error().error, problem->error);
+  EXPECT_EQ(result.error().message, problem->message);
   EXPECT_FALSE(problem->message.empty());
   return problem->error;
 }
@@ -111,7 +111,7 @@ TEST(CountedPairs, WrongListsAreRefusedByName) {
 // A state knows nothing of components that nothing is looked for in, and of the rest of a relation
 // it is independent.
 TEST(CountedPairs, AStateIsOfTheBodiesThatMeetThemselves) {
-  const auto made = [](const CountedPairs* counted) {
+  const auto make = [](const CountedPairs* counted) {
     Options options;
     options.counted = counted;
     auto detector = Detector::create(triangles, places(), options);
@@ -124,7 +124,7 @@ TEST(CountedPairs, AStateIsOfTheBodiesThatMeetThemselves) {
   cloth_alone.body = {0, 0, 0, 0, 1, 1, 1};
   cloth_alone.apart = {{0, 0}};
   both_alone.apart = {{0, 0}};
-  Detector every = made(nullptr), ringed = made(&rings), alone = made(&cloth_alone);
+  Detector every = make(nullptr), ringed = make(&rings), alone = make(&cloth_alone);
   EXPECT_FALSE(every.restore(ringed.state()));
   EXPECT_FALSE(ringed.restore(every.state()));
   for (Detector* other : {&every, &ringed}) {
@@ -132,8 +132,8 @@ TEST(CountedPairs, AStateIsOfTheBodiesThatMeetThemselves) {
     EXPECT_EQ(alone.restore(other->state())->error, InputError::foreign_state);
     EXPECT_EQ(other->restore(alone.state())->error, InputError::foreign_state);
   }
-  EXPECT_EQ(made(&both_alone).restore(alone.state())->error, InputError::foreign_state);
-  EXPECT_FALSE(made(&cloth_alone).restore(alone.state()));
+  EXPECT_EQ(make(&both_alone).restore(alone.state())->error, InputError::foreign_state);
+  EXPECT_FALSE(make(&cloth_alone).restore(alone.state()));
 }
 
 }  // namespace

@@ -15,21 +15,21 @@ constexpr std::uint64_t interval = 2'000;
 // Asks so often that between two askings lies no more than `interval` and a piece of a loop, if its
 // work is at least `work`; and nothing is asked after the answer that ends it.
 void expect_paced(std::uint64_t work, const std::function<void(PacedStop&)>& make) {
-  std::uint64_t asked = 0;
-  const StopFunction count = [&] { return ++asked, false; };
+  std::uint64_t calls = 0;
+  const StopFunction count = [&] { return ++calls, false; };
   PacedStop goes_on(count, interval);
   make(goes_on);
   constexpr std::uint64_t largest_piece = 1024 * 25;
-  EXPECT_GE(asked, work / (interval + largest_piece));
-  ASSERT_GE(asked, 3u);
-  const std::uint64_t all = asked;
+  EXPECT_GE(calls, work / (interval + largest_piece));
+  ASSERT_GE(calls, 3u);
+  const std::uint64_t all = calls;
   for (const std::uint64_t n : {std::uint64_t{1}, all / 2, all}) {
-    asked = 0;
-    const StopFunction end = [&] { return ++asked >= n; };
+    calls = 0;
+    const StopFunction end = [&] { return ++calls >= n; };
     PacedStop ends(end, interval);
     make(ends);
     EXPECT_TRUE(ends.stopped());
-    EXPECT_EQ(asked, n);
+    EXPECT_EQ(calls, n);
   }
 }
 
@@ -111,7 +111,7 @@ TEST_F(Paced, LoopsOfASoup) {
 
 TEST_F(Paced, TreeAndItsBoxes) {
   expect_paced(80 * count_, [&](PacedStop& pace) {
-    const BoundingVolumeTree made(topology_, mesh_.x_t0, &pace);
+    const BoundingVolumeTree tree(topology_, mesh_.x_t0, &pace);
   });
   BoundingVolumeTree tree(topology_, mesh_.x_t0);
   expect_paced(8 * count_, [&](PacedStop& pace) {

@@ -197,8 +197,8 @@ TEST(ProcessorState, ThreadsHaveTheSameState) {
     for (const std::uint32_t threads : {1, 2}) {
       Options options;
       options.arithmetic = arithmetic, options.threads = threads;
-      const auto wanted = answers(mesh, {.arithmetic = arithmetic});
-      EXPECT_EQ(answers(mesh, options), wanted);
+      const auto expected = answers(mesh, {.arithmetic = arithmetic});
+      EXPECT_EQ(answers(mesh, options), expected);
       expect_same_in_each_state([&] { return answers(mesh, options); });
     }
   }
@@ -217,13 +217,13 @@ TEST(ProcessorState, StopFunctionsRunInTheCallersState) {
   const auto mesh = folded_sheet();
   for (const auto& [name, set_state] : odd_states) {
     for (const std::uint32_t threads : {1, 2}) {
-      int asked = 0, in_callers = 0;
+      int calls = 0, in_callers = 0;
       bool is_left = false;
       {
         const Meanwhile odd(set_state);
         const auto callers = state_now();
         const StopFunction stop = [&] {
-          ++asked;
+          ++calls;
           in_callers += state_now() == callers ? 1 : 0;
           return false;
         };
@@ -235,8 +235,8 @@ TEST(ProcessorState, StopFunctionsRunInTheCallersState) {
         detector.limit(mesh.x_t0, mesh.x_t1, stop);
         is_left = state_now() == callers;
       }
-      EXPECT_GT(asked, 10) << name;
-      EXPECT_EQ(in_callers, asked) << name;
+      EXPECT_GT(calls, 10) << name;
+      EXPECT_EQ(in_callers, calls) << name;
       EXPECT_TRUE(is_left) << name;
     }
   }
@@ -245,24 +245,24 @@ TEST(ProcessorState, StopFunctionsRunInTheCallersState) {
 TEST(ProcessorState, AStopFunctionChangesNothingOfIt) {
   const auto mesh = greatest_pair();
   const auto usual = state_now();
-  const auto asked = [&](const StopFunction& stop) {
+  const auto run = [&](const StopFunction& stop) {
     Numbers numbers;
     auto detector = Detector::create(mesh.triangles, mesh.x_t0, {}, stop).value();
     numbers.add(detector.step(mesh.x_t0, mesh.x_t1, {}, stop));
     numbers.add(detector.limit(mesh.x_t0, mesh.x_t1, stop));
     return numbers.list;
   };
-  const auto wanted = asked({});
+  const auto expected = run({});
   for (const auto& [name, set_state] : odd_states) {
     // The stop function changes the x87 unit, too, of which the detector knows nothing.
     const Meanwhile of_this_round([] {});
     int times = 0;
-    EXPECT_EQ(asked([&] {
+    EXPECT_EQ(run([&] {
                 ++times;
                 set_state();
                 return false;
               }),
-              wanted)
+              expected)
         << name;
     EXPECT_GT(times, 0);
     EXPECT_EQ(state_now(), usual) << name;
@@ -320,7 +320,7 @@ class OddThread : public ThreadArena {
 TEST(ProcessorState, EachThreadHasItsOwn) {
   const auto mesh = folded_sheet();
   const Options options{.arithmetic = Arithmetic::bounded};
-  const auto asked = [&](Workers workers) {
+  const auto run = [&](Workers workers) {
     auto detector = assemble(mesh.triangles, mesh.x_t0, options, standard_stages(options), {},
                              std::move(workers))
                         .value();
@@ -328,10 +328,10 @@ TEST(ProcessorState, EachThreadHasItsOwn) {
     numbers.add(detector.step(mesh.x_t0, mesh.x_t1));
     return numbers.list;
   };
-  const auto wanted = asked(Workers());
+  const auto expected = run(Workers());
   for (const auto& [name, set_state] : odd_states) {
     bool is_left = true;
-    EXPECT_EQ(asked(Workers(std::make_unique<OddThread>(set_state, is_left), 2)), wanted) << name;
+    EXPECT_EQ(run(Workers(std::make_unique<OddThread>(set_state, is_left), 2)), expected) << name;
     EXPECT_TRUE(is_left) << name;
   }
 }
@@ -342,23 +342,23 @@ TEST_F(BuiltinDetector, AnswersInAnyStateOfTheProcessor) {
   expect_same_in_each_state([&] {
     Numbers numbers;
     const auto add_result = [&](const Handle& handle) {
-      assay_result told = {};
-      table().result(handle.get(), &told);
-      numbers.add(static_cast<std::uint64_t>(told.answer));
-      numbers.add(TimeEnclosure{told.first_lo, told.first_hi});
-      for (std::uint64_t i = 0; i < 2 * told.pair_count; ++i) numbers.add(told.pair_times[i]);
+      assay_result result = {};
+      table().result(handle.get(), &result);
+      numbers.add(static_cast<std::uint64_t>(result.answer));
+      numbers.add(TimeEnclosure{result.first_lo, result.first_hi});
+      for (std::uint64_t i = 0; i < 2 * result.pair_count; ++i) numbers.add(result.pair_times[i]);
     };
-    assay_handle* made = nullptr;
-    assay_builtin_create(mesh.triangles.data(), 2, x_t0, 6, nullptr, &made, &error);
-    const Handle handle(made);
-    assay_builtin_evaluate(made, x_t0, x_t1, nullptr, 0, nullptr, nullptr, &error);
+    assay_handle* detector = nullptr;
+    assay_builtin_create(mesh.triangles.data(), 2, x_t0, 6, nullptr, &detector, &error);
+    const Handle handle(detector);
+    assay_builtin_evaluate(detector, x_t0, x_t1, nullptr, 0, nullptr, nullptr, &error);
     add_result(handle);
-    assay_builtin_commit(made, &error);
+    assay_builtin_commit(detector, &error);
     for (const auto byte : save(handle)) numbers.add(std::uint64_t{byte});
-    assay_builtin_first_contact(made, x_t0, x_t1, 1, nullptr, nullptr, &error);
+    assay_builtin_first_contact(detector, x_t0, x_t1, 1, nullptr, nullptr, &error);
     add_result(handle);
     assay_limit limit = {};
-    assay_builtin_limit(made, x_t0, x_t1, &limit, nullptr, nullptr, &error);
+    assay_builtin_limit(detector, x_t0, x_t1, &limit, nullptr, nullptr, &error);
     numbers.add(limit.share);
     for (int i = 0; i < 18; ++i) numbers.add(limit.positions[i]);
     return numbers.list;

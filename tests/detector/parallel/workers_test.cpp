@@ -11,13 +11,13 @@ TEST(Workers, CoverEachItemOnceInLanesBelowTheirCount) {
     const Workers workers(threads);
     EXPECT_TRUE(workers.count() == threads || workers.is_alone());
     for (const std::size_t count : {0, 1, 7, 8, 9, 1000}) {
-      std::vector<std::atomic<int>> seen(count);
+      std::vector<std::atomic<int>> visits(count);
       workers.share_out(count, 8, [&](const LoopPiece& piece) {
         EXPECT_LT(piece.lane, workers.count());
         EXPECT_LE(piece.end - piece.begin, 8u);
-        for (std::size_t i = piece.begin; i < piece.end; ++i) ++seen[i];
+        for (std::size_t i = piece.begin; i < piece.end; ++i) ++visits[i];
       });
-      for (const auto& times : seen) EXPECT_EQ(times, 1) << threads << " threads, " << count;
+      for (const auto& times : visits) EXPECT_EQ(times, 1) << threads << " threads, " << count;
     }
   }
 }
@@ -46,10 +46,10 @@ TEST(Workers, ZeroIsAllThatTheMachineHas) { EXPECT_GE(Workers(0).count(), 1u); }
 
 TEST(SharedStop, IsAskedByTheCallerAloneAndHeardByAll) {
   const auto caller = std::this_thread::get_id();
-  int asked = 0;
+  int calls = 0;
   const StopFunction stop = [&] {
     EXPECT_EQ(std::this_thread::get_id(), caller);
-    return ++asked > 3;
+    return ++calls > 3;
   };
   SharedStop shared(stop);
   const StopFunction heard = shared.function();
@@ -63,7 +63,7 @@ TEST(SharedStop, IsAskedByTheCallerAloneAndHeardByAll) {
   EXPECT_TRUE(heard());
   EXPECT_TRUE(in_another_thread());
   EXPECT_TRUE(heard());
-  EXPECT_EQ(asked, 4);
+  EXPECT_EQ(calls, 4);
   const StopFunction none;
   EXPECT_FALSE(SharedStop(none).function());
 }

@@ -198,17 +198,17 @@ TEST(Adapter, AHandleLivesFromCreateToDestroy) {
 TEST(Adapter, AResultStaysUntilTheNextStepOfItsHandle) {
   OneHandle one, other;
   EXPECT_EQ(one.evaluate(touches), ASSAY_OK);
-  const assay_result kept = one.result();
+  const assay_result result = one.result();
   EXPECT_EQ(other.evaluate(is_free), ASSAY_OK);
   EXPECT_EQ(other.result().answer, ASSAY_FREE);
   EXPECT_EQ(other.result().pairs, nullptr);
-  EXPECT_EQ(kept.answer, ASSAY_COLLISION);
-  EXPECT_EQ(kept.first_lo, .25);
-  EXPECT_EQ(kept.first_hi, .5);
-  ASSERT_EQ(kept.pair_count, 2u);
-  const std::vector<std::int32_t> pairs(kept.pairs, kept.pairs + 4);
+  EXPECT_EQ(result.answer, ASSAY_COLLISION);
+  EXPECT_EQ(result.first_lo, .25);
+  EXPECT_EQ(result.first_hi, .5);
+  ASSERT_EQ(result.pair_count, 2u);
+  const std::vector<std::int32_t> pairs(result.pairs, result.pairs + 4);
   EXPECT_EQ(pairs, (std::vector<std::int32_t>{0, 1, 2, 1}));
-  const std::vector<double> times(kept.pair_times, kept.pair_times + 4);
+  const std::vector<double> times(result.pair_times, result.pair_times + 4);
   EXPECT_EQ(times, (std::vector<double>{.25, .5, .75, 1}));
   EXPECT_EQ(one.evaluate(without_times), ASSAY_OK);
   EXPECT_EQ(one.result().pair_count, 2u);

@@ -65,8 +65,8 @@ TEST_F(BuiltinDetector, EveryOptionReachesTheDetector) {
                            sets.view_positive, sets.against_all, sets.dirty);
   };
   const auto in_cpp = [&](const Options& options) {
-    auto made = Detector::create(triangles, in, options);
-    const auto r = made.value().evaluate(in, hit);
+    auto detector = Detector::create(triangles, in, options);
+    const auto r = detector.value().evaluate(in, hit);
     return std::make_tuple(
         std::int32_t{r.answer == Answer::collision ? ASSAY_COLLISION : ASSAY_FREE}, r.first.lo,
         r.first.hi, std::uint64_t{r.pairs.size()}, std::uint64_t{r.view_positive},
@@ -98,8 +98,8 @@ TEST_F(BuiltinDetector, EveryOptionReachesTheDetector) {
 TEST_F(BuiltinDetector, PlacesAreThoseOfTheDetector) {
   const auto handle = make(Culling::bvh);
   const auto count = evaluate(handle, in, hit).pair_count;
-  auto made = Detector::create(triangles, in, {Culling::bvh});
-  const auto pairs = made.value().evaluate(in, hit).pairs;
+  auto detector = Detector::create(triangles, in, {Culling::bvh});
+  const auto pairs = detector.value().evaluate(in, hit).pairs;
   ASSERT_EQ(count, pairs.size());
   ASSERT_GT(count, 0U);
   assay_contact_place place = {};
@@ -123,13 +123,13 @@ TEST_F(BuiltinDetector, SetsAreThoseOfTheDetector) {
   const Positions& out = x_out;
   const assay_builtin_options c = {sizeof c, ASSAY_CULLING_VIEW_POINT, 0, 0, 0, 2, 0};
   const auto handle = make(&c, 7);
-  auto made = Detector::create(triangles.bottomRows(7), in, {Culling::view_point});
+  auto detector = Detector::create(triangles.bottomRows(7), in, {Culling::view_point});
   const Positions* from = &in;
   for (const auto* x : {&in, &out, &out, &in, &in}) {
     evaluate(handle, *from, *x);
     ASSERT_EQ(assay_builtin_commit(handle.get(), &error), ASSAY_OK);
     const auto sets = sets_of(handle);
-    const auto expected = made.value().step(*from, *x);
+    const auto expected = detector.value().step(*from, *x);
     EXPECT_EQ(sets.view_positive + sets.view_negative + sets.view_zero + sets.against_all, 7u);
     EXPECT_EQ(sets.view_negative, expected.view_negative);
     EXPECT_EQ(sets.view_zero, expected.view_zero);
@@ -193,8 +193,8 @@ TEST_F(BuiltinDetector, WrongInputIsRefusedByName) {
 
   const auto handle = make(nullptr);
   const auto evaluate_with = [&](const Positions& x, std::uint64_t primitives) {
-    const std::vector<assay_view_primitive> given(2);
-    return assay_builtin_evaluate(handle.get(), in.data(), x.data(), given.data(), primitives,
+    const std::vector<assay_view_primitive> views(2);
+    return assay_builtin_evaluate(handle.get(), in.data(), x.data(), views.data(), primitives,
                                   nullptr, nullptr, &error);
   };
   expect_refused(evaluate_with(infinite, 0), ASSAY_BUILTIN_NON_FINITE_COORDINATE);

@@ -180,14 +180,14 @@ TEST_F(Record, BeginSaysWhichPairsCount) {
   counted = {1, body, 1, apart, 2, 0.5, rest.data(), 1, pairs, 1, faces, 1, edges};
   settings.overwrite = 1;
   ASSERT_EQ(begin(&counted), ASSAY_OK);
-  auto told = end()[0]["counted"];
-  EXPECT_EQ(int32s(told["body"]), std::vector<std::int32_t>(body, body + 4));
-  EXPECT_EQ(int32s(told["apart"]), std::vector<std::int32_t>(apart, apart + 2));
-  EXPECT_EQ(doubles(told["rest"]), rest);
-  EXPECT_EQ(int32s(told["triangle_pairs"]), std::vector<std::int32_t>(pairs, pairs + 2));
-  EXPECT_EQ(int32s(told["vertex_faces"]), std::vector<std::int32_t>(faces, faces + 2));
-  EXPECT_EQ(int32s(told["edge_pairs"]), std::vector<std::int32_t>(edges, edges + 4));
-  EXPECT_EQ(told.size(), 9u);
+  auto record = end()[0]["counted"];
+  EXPECT_EQ(int32s(record["body"]), std::vector<std::int32_t>(body, body + 4));
+  EXPECT_EQ(int32s(record["apart"]), std::vector<std::int32_t>(apart, apart + 2));
+  EXPECT_EQ(doubles(record["rest"]), rest);
+  EXPECT_EQ(int32s(record["triangle_pairs"]), std::vector<std::int32_t>(pairs, pairs + 2));
+  EXPECT_EQ(int32s(record["vertex_faces"]), std::vector<std::int32_t>(faces, faces + 2));
+  EXPECT_EQ(int32s(record["edge_pairs"]), std::vector<std::int32_t>(edges, edges + 4));
+  EXPECT_EQ(record.size(), 9u);
 }
 
 TEST_F(Record, StepHoldsWhatItWasGiven) {
@@ -246,9 +246,9 @@ TEST_F(Record, FloatsStayFloatsAndNoNumberIsMended) {
   x1[3] = std::numeric_limits<float>::quiet_NaN();
   ASSERT_EQ(assay_record_step(&recorder, step({rest.data(), 0}, {x1.data(), 1})), ASSAY_OK);
   const auto records = end();
-  const auto told = floats(records[1]["x1"]);
-  ASSERT_EQ(told.size(), 12u);
-  EXPECT_EQ(std::memcmp(told.data(), x1.data(), 48), 0);
+  const auto numbers = floats(records[1]["x1"]);
+  ASSERT_EQ(numbers.size(), 12u);
+  EXPECT_EQ(std::memcmp(numbers.data(), x1.data(), 48), 0);
 }
 
 TEST_F(Record, NotesStandBeforeTheirStep) {
@@ -275,7 +275,7 @@ TEST_F(Record, TextIsAlwaysUtf8) {
       {"\xF5\x80\x80\x80", "????"},  // no first byte
       {"\xE2\x82", "??"},            // cut
       {"a\xE2\x82z", "a??z"}};
-  for (const auto& [text, told] : texts)
+  for (const auto& [text, expected] : texts)
     ASSERT_EQ(assay_record_note(&recorder, text.c_str()), ASSAY_OK);
   const auto records = end();
   for (std::size_t i = 0; i < texts.size(); ++i)

@@ -76,10 +76,10 @@ TEST_F(StoppedMarking, IsForgotten) {
   int stopped = 0;
   for (std::uint64_t n = 1; n < 4; ++n) {
     SearchMemory memory(tree_);
-    std::uint64_t asked = 0;
-    const StopFunction stop = [&] { return ++asked == n; };
+    std::uint64_t calls = 0;
+    const StopFunction stop = [&] { return ++calls == n; };
     stopped += !search(memory, stop).mark(types);
-    EXPECT_LE(asked, n);
+    EXPECT_LE(calls, n);
     EXPECT_EQ(found(memory, types), expected) << n;
   }
   EXPECT_GE(stopped, 2);
@@ -109,18 +109,18 @@ TEST(PairContacts, KeepsTheFirstContactOfEachPair) {
     std::mt19937 draw(7);
     PairContacts contacts;
     std::map<TrianglePair, ContactOrder> first;
-    std::vector<TrianglePair> seen;
+    std::vector<TrianglePair> pairs;
     for (int i = 0; i < 40'000; ++i) {
       const auto c = drawn_contact(draw, triangles);
       contacts.add(c);
       const auto [place, is_new] = first.try_emplace(c.pair, order_of(c));
       if (!is_new) place->second = std::min(place->second, order_of(c));
       if (i % 9'999 != 0) continue;
-      for (const auto& pair : contacts.take_new_pairs()) seen.push_back(pair);
-      EXPECT_EQ(seen.size(), first.size());
+      for (const auto& pair : contacts.take_new_pairs()) pairs.push_back(pair);
+      EXPECT_EQ(pairs.size(), first.size());
     }
-    std::sort(seen.begin(), seen.end());
-    EXPECT_EQ(std::adjacent_find(seen.begin(), seen.end()), seen.end()) << "each is new once";
+    std::sort(pairs.begin(), pairs.end());
+    EXPECT_EQ(std::adjacent_find(pairs.begin(), pairs.end()), pairs.end()) << "each is new once";
     const auto all = contacts.take();
     ASSERT_EQ(all.size(), first.size());
     auto expected = first.begin();
@@ -159,13 +159,13 @@ TEST(PairContacts, TakeLittleBesideTheResult) {
 TEST(PairContacts, AskWhileTheyGrowAndLoseNothing) {
   constexpr std::int32_t count = 200'000;
   PairContacts contacts;
-  std::uint64_t asked = 0, stopped = 0;
+  std::uint64_t calls = 0, stopped = 0;
   for (std::int32_t i = 0; i < count; ++i) {
     const std::size_t before = contacts.bytes();
-    const std::uint64_t asked_before = asked;
+    const std::uint64_t calls_before = calls;
     bool has_stopped = false;
     const StopFunction stop = [&] {
-      const bool stops = ++asked % 3 == 0 && !has_stopped;
+      const bool stops = ++calls % 3 == 0 && !has_stopped;
       has_stopped = has_stopped || stops;
       return stops;
     };
@@ -175,7 +175,7 @@ TEST(PairContacts, AskWhileTheyGrowAndLoseNothing) {
     }
     if (contacts.bytes() > before) {
       constexpr std::size_t at_once = std::size_t{1} << 20;
-      EXPECT_GE((asked - asked_before) * at_once, contacts.bytes() - before);
+      EXPECT_GE((calls - calls_before) * at_once, contacts.bytes() - before);
     }
     PairContact c;
     c.pair = {count - i, count - i + 1};

@@ -134,14 +134,14 @@ class Sequence {
       EXPECT_LE(found.size() - before, FeaturePairs::max_keys);
       return true;
     });
-    std::set<FeatureKey> wanted;
+    std::set<FeatureKey> expected;
     ExhaustiveSearch().search(input, counts, [&](std::int32_t a, std::int32_t b) {
-      brute_force_.add(a, b, may_pierce(a, b), wanted);
+      brute_force_.add(a, b, may_pierce(a, b), expected);
       return true;
     });
     std::set<FeatureKey> fresh;
-    for (const auto key : wanted) {
-      if (known_.insert(key).second) fresh.insert(key);
+    for (const auto key : expected) {
+      if (keys_.insert(key).second) fresh.insert(key);
     }
     EXPECT_EQ(std::set<FeatureKey>(found.begin(), found.end()), fresh);
     EXPECT_EQ(found.size(), fresh.size()) << "some feature pair twice";
@@ -150,7 +150,7 @@ class Sequence {
 
   // A step: K, then rounds of the closure in which random triangles join H.
   std::size_t step(const PairRule& rule, const std::vector<TriangleType>& start) {
-    known_.clear();
+    keys_.clear();
     mark(start);
     std::vector<TriangleType> types = start;
     pairs_.ask(AskedTypes::in_first_search(rule.candidates()));
@@ -177,7 +177,7 @@ class Sequence {
   SearchMemory memory_;
   FeaturePairs pairs_;
   BruteForce brute_force_;
-  std::set<FeatureKey> known_;
+  std::set<FeatureKey> keys_;
 };
 
 TEST(FeaturePairs, L7_AreThoseOfAllCandidatesEachOnce) {

@@ -57,33 +57,33 @@ class AskedAgain : public testing::TestWithParam<Culling> {
 };
 
 TEST_P(AskedAgain, L20_AShorterStepIsAnsweredAsIfItWereTheFirst) {
-  int kept = 0, collisions = 0, inside = 0;
+  int kept_steps = 0, collisions = 0, inside = 0;
   for (int i = 0; i < 60; ++i) {
     make(i);
     Options options{GetParam(), Start::verified, i % 5 < 2 ? Pairs::first : Pairs::all};
     options.threads = i % 7 == 0 ? 3 : 1;
     if (!chooses_views(GetParam()) && i % 6 == 1) options.separation = .05 * std::abs(x_t0_(0, 0));
-    Detector asked = detector(options);
-    const StepResult whole = asked.evaluate(x_t0_, x_t1_);
+    Detector older = detector(options);
+    const StepResult whole = older.evaluate(x_t0_, x_t1_);
     for (const double part : {1., .99, .7, .5, 1e-3}) {
       const bool is_bounded = options.pairs == Pairs::first && whole.answer == Answer::collision;
       const double share = part * (is_bounded ? whole.first.lo : 1);
       const Positions x = end_at(share, i % 2);
-      const StepResult again = asked.evaluate(x_t0_, x);
+      const StepResult again = older.evaluate(x_t0_, x);
       Detector fresh = detector(options);
       const StepResult expected = fresh.evaluate(x_t0_, x);
       ASSERT_EQ(again.answer, expected.answer) << i << " " << part;
       tests::expect_same_contacts(again, expected);
-      kept += was_kept(again);
+      kept_steps += was_kept(again);
       collisions += again.answer == Answer::collision;
       inside += again.first.lo > 0;
       if (chooses_views(GetParam())) continue;
-      ASSERT_EQ(asked.commit().has_value(), fresh.commit().has_value());
-      EXPECT_EQ(asked.state().bytes(), fresh.state().bytes());
-      asked.reset();
+      ASSERT_EQ(older.commit().has_value(), fresh.commit().has_value());
+      EXPECT_EQ(older.state().bytes(), fresh.state().bytes());
+      older.reset();
     }
   }
-  EXPECT_GT(kept, 100);
+  EXPECT_GT(kept_steps, 100);
   EXPECT_GT(collisions, 30);
   EXPECT_GT(inside, 20);
 }
@@ -91,9 +91,9 @@ TEST_P(AskedAgain, L20_AShorterStepIsAnsweredAsIfItWereTheFirst) {
 TEST_P(AskedAgain, WhatLeavesTheStepIsSearched) {
   make(9);
   const auto is_searched = [&](const Positions& from, const Positions& to) {
-    Detector asked = detector({GetParam()});
-    EXPECT_FALSE(was_kept(asked.evaluate(x_t0_, x_t1_)));
-    const StepResult again = asked.evaluate(from, to);
+    Detector older = detector({GetParam()});
+    EXPECT_FALSE(was_kept(older.evaluate(x_t0_, x_t1_)));
+    const StepResult again = older.evaluate(from, to);
     tests::expect_same_contacts(again, detector({GetParam()}).evaluate(from, to));
     return !was_kept(again);
   };
@@ -103,9 +103,9 @@ TEST_P(AskedAgain, WhatLeavesTheStepIsSearched) {
   EXPECT_TRUE(is_searched(x_t0_, end_at(-.1, 0))) << "back";
   EXPECT_TRUE(is_searched(x_t0_, end_at(.5, 9))) << "beside the way";
   EXPECT_TRUE(is_searched(end_at(.1, 0), end_at(.5, 0))) << "from another place";
-  Detector asked = detector({GetParam()});
-  EXPECT_FALSE(was_kept(asked.step(x_t0_, x_t1_)));
-  EXPECT_FALSE(was_kept(asked.evaluate(x_t0_, end_at(.5, 0)))) << "after step, which keeps nothing";
+  Detector older = detector({GetParam()});
+  EXPECT_FALSE(was_kept(older.step(x_t0_, x_t1_)));
+  EXPECT_FALSE(was_kept(older.evaluate(x_t0_, end_at(.5, 0)))) << "after step, which keeps nothing";
 }
 
 // Boxes that hardly are apart, and a step that ends as far off as it may: below what lies there.
@@ -124,11 +124,11 @@ TEST_P(AskedAgain, L20_WhatIsHardlyApartIsKept) {
   Positions along = x;
   along.middleRows(3, 3).col(0).array() += .5;
   for (const double below : {0x1p-27, -0x1p-27}) {
-    Detector asked = std::move(Detector::create(three, x, {GetParam()}).value());
-    ASSERT_EQ(asked.evaluate(x, along).answer, Answer::free);
+    Detector older = std::move(Detector::create(three, x, {GetParam()}).value());
+    ASSERT_EQ(older.evaluate(x, along).answer, Answer::free);
     Positions half = .5 * x + .5 * along;
     half.middleRows(3, 3).col(2).array() = -below;
-    const StepResult again = asked.evaluate(x, half);
+    const StepResult again = older.evaluate(x, half);
     EXPECT_TRUE(was_kept(again));
     EXPECT_EQ(again.answer, below > 0 ? Answer::collision : Answer::free);
   }
@@ -139,10 +139,10 @@ TEST_P(AskedAgain, L20_BeyondAFirstContactNothingIsKept) {
   int beyond = 0;
   for (int i = 0; i < 40; i += 2) {
     make(i);
-    Detector asked = detector({GetParam(), Start::verified, Pairs::all});
-    const StepResult first = asked.first_contact(x_t0_, x_t1_, 1);
+    Detector older = detector({GetParam(), Start::verified, Pairs::all});
+    const StepResult first = older.first_contact(x_t0_, x_t1_, 1);
     if (first.answer != Answer::collision || first.first.hi >= .25) continue;
-    const StepResult all = asked.evaluate(x_t0_, end_at(.75, 0));
+    const StepResult all = older.evaluate(x_t0_, end_at(.75, 0));
     tests::expect_same_contacts(all, detector({GetParam()}).evaluate(x_t0_, end_at(.75, 0)));
     beyond += !was_kept(all);
   }

@@ -24,20 +24,20 @@ void expect_marked(const BoundingVolumeTree& tree, const Marks& marks,
   }
 }
 
-void expect_same(const Topology& mesh, const Representatives& kept,
+void expect_same(const Topology& mesh, const Representatives& representatives,
                  const std::vector<TriangleType>& types) {
   Representatives fresh(mesh);
   std::vector<std::int32_t> all(mesh.triangles.size());
   for (std::size_t t = 0; t < all.size(); ++t) all[t] = static_cast<std::int32_t>(t);
   fresh.update(mesh, types, all);
-  for (const auto t : all) ASSERT_EQ(kept.of(t, mesh), fresh.of(t, mesh));
+  for (const auto t : all) ASSERT_EQ(representatives.of(t, mesh), fresh.of(t, mesh));
   for (std::size_t v = 0; v + 1 < mesh.vertex_triangles.starts.size(); ++v) {
     const auto vertex = static_cast<std::int32_t>(v);
-    ASSERT_EQ(kept.types_of_vertex(vertex), fresh.types_of_vertex(vertex));
+    ASSERT_EQ(representatives.types_of_vertex(vertex), fresh.types_of_vertex(vertex));
   }
   for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
     const auto edge = static_cast<std::int32_t>(e);
-    ASSERT_EQ(kept.types_of_edge(edge), fresh.types_of_edge(edge));
+    ASSERT_EQ(representatives.types_of_edge(edge), fresh.types_of_edge(edge));
   }
 }
 
@@ -198,12 +198,12 @@ TEST(Search, L3_PairsAreThoseAskedForWithAndWithoutSkipping) {
       SearchCounts on, off, exhaustive;
       const Pairs found = pairs_of(TreeSearch(TreeSearch::Skipping::on), input, on);
       EXPECT_EQ(found, pairs_of(TreeSearch(TreeSearch::Skipping::off), input, off));
-      Pairs wanted;
+      Pairs expected;
       for (const auto& [a, b] : pairs_of(ExhaustiveSearch(), input, exhaustive)) {
         const auto &ta = mesh.topology.triangles[at(a)], &tb = mesh.topology.triangles[at(b)];
-        if (!apart(points.box(ta), points.box(tb))) wanted.insert({a, b});
+        if (!apart(points.box(ta), points.box(tb))) expected.insert({a, b});
       }
-      EXPECT_EQ(found, wanted);
+      EXPECT_EQ(found, expected);
       EXPECT_EQ(off.skipped + off.child_counts, 0u);
       with += on.box_tests;
       without += off.box_tests;
@@ -242,11 +242,11 @@ TEST(Search, StopsWhereTheSinkSays) {
   const Fitted fitted(random.sheets(2, 4, true));
   const auto& [mesh, tree, marks] = fitted;
   const PairTables tables = EveryPair().candidates();
-  int seen = 0;
+  int calls = 0;
   SearchCounts counts;
   EXPECT_FALSE(TreeSearch().search({mesh.topology, tree, marks, tables}, counts,
-                                   [&](auto, auto) { return ++seen < 3; }));
-  EXPECT_EQ(seen, 3);
+                                   [&](auto, auto) { return ++calls < 3; }));
+  EXPECT_EQ(calls, 3);
 }
 
 // Searches of the tree: by one box, and what they cost.
@@ -268,10 +268,10 @@ TEST(SearchBox, FindsWhatIsNotApartAndStopsWhenTold) {
     EXPECT_TRUE(search_box(tree, box, counts, all));
     EXPECT_EQ(found, expected);
     EXPECT_EQ(counts.candidate_pairs, expected.size());
-    std::size_t seen = 0;
-    const auto half = [&](std::int32_t) { return ++seen < (expected.size() + 1) / 2; };
+    std::size_t calls = 0;
+    const auto half = [&](std::int32_t) { return ++calls < (expected.size() + 1) / 2; };
     EXPECT_FALSE(search_box(tree, box, counts, half));
-    EXPECT_EQ(seen, (expected.size() + 1) / 2);
+    EXPECT_EQ(calls, (expected.size() + 1) / 2);
   }
 }
 

@@ -266,12 +266,12 @@ TEST(Sheets, AStopEndsTheSearchForThem) {
   const Topology mesh = make_topology(squares(40, 40), 1681);
   const Positions x = flat_squares(40);
   const BoundingVolumeTree tree(mesh, x);
-  for (int asked = 1; asked < 7; ++asked) {
+  for (int last = 1; last < 7; ++last) {
     int calls = 0;
-    const StopFunction stop = [&] { return ++calls == asked; };
+    const StopFunction stop = [&] { return ++calls == last; };
     PacedStop pace(stop, 1000);
     const Sheets sheets(mesh, tree.wide(), x, &pace);
-    EXPECT_EQ(calls, asked);
+    EXPECT_EQ(calls, last);
     EXPECT_TRUE(pace.stopped());
   }
 }
@@ -291,9 +291,9 @@ TEST(Sheets, L14_ThePairsOfAMeshAtRestAreThoseOfOneThatHardlyMoves) {
     Options options;
     options.culling = Culling::bvh;
     const auto pairs = [&](const Positions& end) {
-      auto made = Detector::create(mesh.rows(), mesh.x_t0, options);
+      auto detector = Detector::create(mesh.rows(), mesh.x_t0, options);
       std::vector<TrianglePair> found;
-      for (const auto& contact : made.value().evaluate(mesh.x_t0, end).pairs)
+      for (const auto& contact : detector.value().evaluate(mesh.x_t0, end).pairs)
         found.push_back(contact.pair);
       return found;
     };

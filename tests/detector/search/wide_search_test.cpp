@@ -87,10 +87,10 @@ TEST(WideSearch, EndsWhereTheSinkSaysSo) {
   const Fitted fitted(random.sheets(2, 20, false));
   const SearchInput input{fitted.mesh.topology, fitted.tree, fitted.marks, everything};
   SearchCounts counts;
-  std::size_t seen = 0;
+  std::size_t calls = 0;
   EXPECT_FALSE(
-      WideSearch().search(input, counts, [&](std::int32_t, std::int32_t) { return ++seen < 5; }));
-  EXPECT_EQ(seen, 5u);
+      WideSearch().search(input, counts, [&](std::int32_t, std::int32_t) { return ++calls < 5; }));
+  EXPECT_EQ(calls, 5u);
 }
 
 // Each bit against the comparison of two boxes by itself, for all numbers of children.
@@ -112,45 +112,45 @@ TEST(BoxLanes, L3_EachLaneComparesTwoBoxes) {
     BoxRows view() const { return {rows.data(), boxes.size()}; }
   };
   const auto side = [&](std::size_t count) {
-    Side made;
+    Side result;
     for (std::size_t i = 0; i < count; ++i) {
       Box box;
       for (std::size_t k = 0; k < box_lanes::rows; ++k)
         box[k] = k / 3 % 2 == 0 ? number() : box[k - 3] + static_cast<float>(engine() % 3);
-      made.boxes.push_back(box);
+      result.boxes.push_back(box);
     }
-    made.bounds = made.boxes[0];
-    made.rows.assign(box_lanes::rows * count + box_lanes::width, 0);
+    result.bounds = result.boxes[0];
+    result.rows.assign(box_lanes::rows * count + box_lanes::width, 0);
     for (std::size_t k = 0; k < box_lanes::rows; ++k) {
       for (std::size_t i = 0; i < count; ++i) {
-        made.rows[k * count + i] = made.boxes[i][k];
-        made.bounds[k] = k / 3 % 2 == 0 ? std::min(made.bounds[k], made.boxes[i][k])
-                                        : std::max(made.bounds[k], made.boxes[i][k]);
+        result.rows[k * count + i] = result.boxes[i][k];
+        result.bounds[k] = k / 3 % 2 == 0 ? std::min(result.bounds[k], result.boxes[i][k])
+                                          : std::max(result.bounds[k], result.boxes[i][k]);
       }
     }
-    return made;
+    return result;
   };
   std::size_t meet = 0, kept_apart = 0;
   for (int round = 0; round < 3000; ++round) {
     const Side a = side(1 + engine() % 8), b = side(1 + engine() % 8);
-    LaneSets asked, plain, best;
+    LaneSets sets, plain, best;
     for (std::size_t i = 0; i < box_lanes::width; ++i)
-      plain[i] = best[i] = asked[i] = static_cast<std::uint8_t>(engine() % 256);
+      plain[i] = best[i] = sets[i] = static_cast<std::uint8_t>(engine() % 256);
     const auto compared = plain_box_kernels().compare_all(a.view(), a.bounds.data(), b.view(),
                                                           b.bounds.data(), plain);
     EXPECT_EQ(box_kernels().compare_all(a.view(), a.bounds.data(), b.view(), b.bounds.data(), best),
               compared);
     for (std::size_t i = 0; i < a.boxes.size(); ++i) {
-      std::uint32_t wanted = 0;
+      std::uint32_t expected = 0;
       for (std::size_t j = 0; j < b.boxes.size(); ++j) {
-        if (asked[i] >> j & 1 && !apart(a.boxes[i], b.boxes[j])) wanted |= 1u << j;
+        if (sets[i] >> j & 1 && !apart(a.boxes[i], b.boxes[j])) expected |= 1u << j;
       }
-      ASSERT_EQ(plain[i], wanted);
-      ASSERT_EQ(best[i], wanted);
-      meet += wanted != 0;
-      kept_apart += wanted == 0;
+      ASSERT_EQ(plain[i], expected);
+      ASSERT_EQ(best[i], expected);
+      meet += expected != 0;
+      kept_apart += expected == 0;
       const auto alone = plain_box_kernels().compare_one(a.boxes[i].data(), b.view());
-      EXPECT_EQ(alone & asked[i], wanted);
+      EXPECT_EQ(alone & sets[i], expected);
       EXPECT_EQ(box_kernels().compare_one(a.boxes[i].data(), b.view()), alone);
     }
   }

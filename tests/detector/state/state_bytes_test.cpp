@@ -32,16 +32,16 @@ void seal(Bytes& bytes) {
 // An octahedron with a hole whose tip has gone through it: some triangles are dirty.
 Detector passed(Culling culling, int steps = 2) {
   const Positions in = octahedron_positions(2), out = tip_at(1.5);
-  auto made = Detector::create(octahedron().bottomRows(7), in, {culling});
-  for (int s = 0; s < steps; ++s) made.value().step(s % 2 ? out : in, s % 2 ? in : out);
-  return std::move(made.value());
+  auto result = Detector::create(octahedron().bottomRows(7), in, {culling});
+  for (int s = 0; s < steps; ++s) result.value().step(s % 2 ? out : in, s % 2 ? in : out);
+  return std::move(result.value());
 }
 
 // Every field, the optional ones present.
 StateFields full_state() {
   StateFields state = passed(Culling::view_line).state().fields();
-  state.committed->met = {{0, 3}, {2, 5}};
-  state.committed->met_is_complete = false;
+  state.committed->contacts = {{0, 3}, {2, 5}};
+  state.committed->contacts_are_complete = false;
   state.committed->inside[0] = {{{1, -0.0, 0x1p-1074}, {-2, .1, 4}}};
   auto& policy = state.committed->policy;
   policy.anchors = std::make_shared<const std::vector<ViewAnchor>>(state.anchors);
@@ -79,8 +79,8 @@ TEST(StateBytes, AreTheSameStateAgain) {
   const StepState &a = *again.committed, &b = *state.committed;
   EXPECT_TRUE(a.holds_at(b.positions));
   EXPECT_EQ(a.clean, b.clean);
-  EXPECT_EQ(a.met, b.met);
-  EXPECT_EQ(a.met_is_complete, b.met_is_complete);
+  EXPECT_EQ(a.contacts, b.contacts);
+  EXPECT_EQ(a.contacts_are_complete, b.contacts_are_complete);
   EXPECT_EQ(a.inside, b.inside);
   EXPECT_TRUE(std::signbit((*a.inside[0])[0][1]));
   ASSERT_TRUE(a.policy.anchors);
@@ -266,9 +266,9 @@ TEST(StateBytes, WhatContradictsTheMeshIsRefused) {
   expect_damaged("a position", [&](auto& s) { s.committed->positions(2, 1) = nan; });
   expect_damaged("clean", [](auto& s) { s.committed->clean.pop_back(); });
   expect_damaged("inside", [](auto& s) { s.committed->inside.clear(); });
-  expect_damaged("a pair below", [](auto& s) { s.committed->met[0].a = -1; });
-  expect_damaged("a pair above", [](auto& s) { s.committed->met[1].b = 7; });
-  expect_damaged("a pair turned", [](auto& s) { s.committed->met[1] = {5, 2}; });
+  expect_damaged("a pair below", [](auto& s) { s.committed->contacts[0].a = -1; });
+  expect_damaged("a pair above", [](auto& s) { s.committed->contacts[1].b = 7; });
+  expect_damaged("a pair turned", [](auto& s) { s.committed->contacts[1] = {5, 2}; });
   expect_damaged("an apex", [&](auto& s) { s.apex_rules[0].height = nan; });
   expect_damaged("a vertex", [](auto& s) { s.anchors[0].ends[1].vertices[0] = 6; });
   expect_damaged("a weight", [&](auto& s) { s.anchors[0].ends[0].weights[0] = nan; });
@@ -310,9 +310,9 @@ void expect_taken_back(Detector& detector, const ScaledMesh& mesh, Culling culli
   ASSERT_TRUE(read.has_value()) << read.error().message;
   const auto refused = detector.restore(read.value());
   ASSERT_FALSE(refused.has_value()) << refused->message;
-  auto made = Detector::create(mesh.triangles, x, {culling});
-  ASSERT_TRUE(made.has_value());
-  Detector& other = made.value();
+  auto result = Detector::create(mesh.triangles, x, {culling});
+  ASSERT_TRUE(result.has_value());
+  Detector& other = result.value();
   const auto refused_by_other = other.restore(saved);
   ASSERT_FALSE(refused_by_other.has_value()) << refused_by_other->message;
   const StepResult a = detector.evaluate(x, next), b = other.evaluate(x, next);
@@ -322,12 +322,12 @@ void expect_taken_back(Detector& detector, const ScaledMesh& mesh, Culling culli
 
 void expect_states_at(const ScaledMesh& mesh, const Positions& x, const Positions& next) {
   for (const auto culling : all_values<Culling>) {
-    auto made = Detector::create(mesh.triangles, x, {culling});
-    ASSERT_TRUE(made.has_value());
-    expect_taken_back(made.value(), mesh, culling, x, next);
+    auto result = Detector::create(mesh.triangles, x, {culling});
+    ASSERT_TRUE(result.has_value());
+    expect_taken_back(result.value(), mesh, culling, x, next);
     if (testing::Test::HasFatalFailure()) return;
-    ASSERT_NE(made.value().step(x, next).answer, Answer::error);
-    expect_taken_back(made.value(), mesh, culling, next, x);
+    ASSERT_NE(result.value().step(x, next).answer, Answer::error);
+    expect_taken_back(result.value(), mesh, culling, next, x);
     if (testing::Test::HasFatalFailure()) return;
   }
 }

@@ -99,17 +99,17 @@ TEST(Layers, L9_PiecesNotConnectionDecide) {
   const Surface surface = make_surface(t, 6);
   ASSERT_EQ(surface.mesh.components.size(), 1u);
   ASSERT_TRUE(surface.is_closed());
-  std::vector<std::uint8_t> clean(8, 2), seen(8, 0), untouched(8, 0);
-  mark_clean_by_layers({surface, x, untouched}, 0, seen, clean);
+  std::vector<std::uint8_t> clean(8, 2), is_seen(8, 0), untouched(8, 0);
+  mark_clean_by_layers({surface, x, untouched}, 0, is_seen, clean);
   EXPECT_EQ(clean, (std::vector<std::uint8_t>{1, 1, 1, 1, 0, 0, 0, 0}))
       << "as many triangles in each layer: the one with triangle 0 is common";
 }
 
 TEST(Layers, L9_TouchedTrianglesStayDirty) {
   const Surface surface = make_surface(octahedron(), 6);
-  std::vector<std::uint8_t> touched(8, 0), clean(8, 0), seen(8, 0);
+  std::vector<std::uint8_t> touched(8, 0), clean(8, 0), is_seen(8, 0);
   touched[2] = 1;
-  mark_clean_by_layers({surface, octahedron_positions(1), touched}, 0, seen, clean);
+  mark_clean_by_layers({surface, octahedron_positions(1), touched}, 0, is_seen, clean);
   EXPECT_EQ(clean, (std::vector<std::uint8_t>{1, 1, 0, 1, 1, 1, 1, 1}));
 }
 
@@ -123,21 +123,21 @@ TEST(Layers, L9_AFloodGoesBothWaysOverAnEdge) {
     mixed.row(t) = sphere.row(t * stride % sphere.rows());
   const Surface surface = make_surface(mixed, tests::sphere(1).rows());
   ASSERT_TRUE(surface.is_closed());
-  std::vector<std::uint8_t> clean(count, 0), seen(count, 0);
+  std::vector<std::uint8_t> clean(count, 0), is_seen(count, 0);
   const std::vector<std::uint8_t> untouched(count, 0);
-  EXPECT_EQ(mark_clean_by_layers({surface, tests::sphere(1), untouched}, 0, seen, clean), 1u);
+  EXPECT_EQ(mark_clean_by_layers({surface, tests::sphere(1), untouched}, 0, is_seen, clean), 1u);
   EXPECT_EQ(clean, std::vector<std::uint8_t>(count, 1));
 }
 
 // What hangs together with a clean triangle has its layer: no winding number is counted.
 TEST(Layers, L9_APieceBesideACleanTriangleNeedsNoWindingNumber) {
   const Surface surface = make_surface(octahedron(), 6);
-  std::vector<std::uint8_t> clean = {1, 1, 0, 0, 0, 0, 1, 1}, seen(8, 0);
+  std::vector<std::uint8_t> clean = {1, 1, 0, 0, 0, 0, 1, 1}, is_seen(8, 0);
   const std::vector<std::uint8_t> untouched(8, 0);
   const std::vector<std::int32_t> in_doubt = {2, 3, 4, 5};
-  EXPECT_EQ(
-      release_pieces({surface, octahedron_positions(1), untouched}, 0, in_doubt, {0}, seen, clean),
-      0u);
+  EXPECT_EQ(release_pieces({surface, octahedron_positions(1), untouched}, 0, in_doubt, {0}, is_seen,
+                           clean),
+            0u);
   EXPECT_EQ(clean, std::vector<std::uint8_t>(8, 1));
 }
 
@@ -153,8 +153,8 @@ Positions with_flat_first() {
 TEST(Layers, L9_APieceOfUnknownLayerHoldsUpNoOther) {
   const Surface surface = make_surface(octahedron(), 6);
   const std::vector<std::uint8_t> touched = {0, 1, 1, 1, 1, 1, 0, 1};
-  std::vector<std::uint8_t> clean(8, 0), seen(8, 0);
-  mark_clean_by_layers({surface, with_flat_first(), touched}, 0, seen, clean);
+  std::vector<std::uint8_t> clean(8, 0), is_seen(8, 0);
+  mark_clean_by_layers({surface, with_flat_first(), touched}, 0, is_seen, clean);
   EXPECT_EQ(clean, (std::vector<std::uint8_t>{0, 0, 0, 0, 0, 0, 1, 0}));
 }
 
@@ -165,9 +165,9 @@ TEST(Layers, L9_DoublesTryMoreThanOneTriangle) {
   Positions x = tests::sphere(1);
   x.row(sphere(0, 2)) = .5 * (x.row(sphere(0, 0)) + x.row(sphere(0, 1)));
   const Surface surface = make_surface(sphere, x.rows());
-  std::vector<std::uint8_t> clean(count, 0), seen(count, 0);
+  std::vector<std::uint8_t> clean(count, 0), is_seen(count, 0);
   const std::vector<std::uint8_t> untouched(count, 0);
-  mark_clean_by_layers({surface, x, untouched, Arithmetic::bounded}, 0, seen, clean);
+  mark_clean_by_layers({surface, x, untouched, Arithmetic::bounded}, 0, is_seen, clean);
   EXPECT_EQ(clean, std::vector<std::uint8_t>(count, 1));
 }
 
@@ -205,14 +205,14 @@ TEST(StepState, L15_AfterAStepWithoutViewsOnlyClosedComponentsAreClean) {
       both << open, closed.array() + 6;
     }
     const Positions one = octahedron_positions(1), x = tests::side_by_side(one, one, 9);
-    auto made = Detector::create(both, x, {Culling::view_auto, Start::clean});
-    ASSERT_TRUE(made);
+    auto detector = Detector::create(both, x, {Culling::view_auto, Start::clean});
+    ASSERT_TRUE(detector);
     const MovingPoint far = {{90, 60, 30}, {90, 60, 30}};
     const ViewPrimitive outside = {far, far};
-    const auto result = made.value().step(x, x, {&outside, 1});
+    const auto result = detector.value().step(x, x, {&outside, 1});
     ASSERT_TRUE(result.primitives.empty()) << "ghosts cost more than the views save";
     ASSERT_EQ(result.answer, Answer::free);
-    const auto clean = made.value().state().fields().committed->clean;
+    const auto clean = detector.value().state().fields().committed->clean;
     for (std::size_t t = 0; t < 15; ++t) {
       const bool is_of_closed = closed_first ? t < 8 : t >= 7;
       EXPECT_EQ(clean[t], is_of_closed ? 1 : 0) << t;
@@ -224,7 +224,7 @@ TEST(Release, L5_ReleasesWithWindingOneOnly) {
   BareStep still(octahedron(), octahedron_positions(1));
   const auto released_from = [&](const Point& q) {
     still.marks.primitives = {{{q, q}, {q, q}}};
-    return ReleaseRule().released_at_start(still.given, still.marks, still.cost, 0);
+    return ReleaseRule().released_at_start(still.step, still.marks, still.cost, 0);
   };
   EXPECT_TRUE(released_from({0, 0, 0}));
   EXPECT_FALSE(released_from({2, 0, 0}));
@@ -234,7 +234,7 @@ TEST(Release, L9_FindsStaticContactsOfAStartInContact) {
   BareStep still(octahedron(), tests::pushed_octahedron());
   auto& clean = still.marks.clean;
   clean.assign(8, 2);
-  ASSERT_TRUE(ReleaseRule().verify_start(still.given, still.marks, still.cost, {0}));
+  ASSERT_TRUE(ReleaseRule().verify_start(still.step, still.marks, still.cost, {0}));
   // Edge (1,4) of triangles 1 and 2 pierces triangle 4.
   EXPECT_EQ(clean[1], 0);
   EXPECT_EQ(clean[2], 0);
@@ -251,12 +251,12 @@ TEST(Release, L8_ContactsAndTouchesMakeDirty) {
   marks.touched[3] = 1;
   const std::vector<PairContact> pairs = {{{0, 6}, {}, {}}};
   StepState state;
-  ReleaseRule().settle(still.given, marks, pairs, true, state);
+  ReleaseRule().settle(still.step, marks, pairs, true, state);
   EXPECT_EQ(state.clean, (std::vector<std::uint8_t>{0, 1, 1, 0, 1, 1, 0, 0}));
-  EXPECT_EQ(state.met, (std::vector<TrianglePair>{{0, 6}}));
-  EXPECT_TRUE(state.met_is_complete);
-  ReleaseRule().settle(still.given, marks, pairs, false, state);
-  EXPECT_FALSE(state.met_is_complete);
+  EXPECT_EQ(state.contacts, (std::vector<TrianglePair>{{0, 6}}));
+  EXPECT_TRUE(state.contacts_are_complete);
+  ReleaseRule().settle(still.step, marks, pairs, false, state);
+  EXPECT_FALSE(state.contacts_are_complete);
   EXPECT_EQ(std::count(state.clean.begin(), state.clean.end(), 1), 0)
       << "an incomplete set vouches for none";
 }

@@ -23,7 +23,7 @@ struct BareStep {
   detector::BoundaryHandler boundary;
   detector::ElementaryTest elementary;
   detector::StopFunction stop;
-  detector::GivenStep given{surface, tree, boundary, elementary, stop, {x_t0, x_t1}, nullptr};
+  detector::GivenStep step{surface, tree, boundary, elementary, stop, {x_t0, x_t1}, nullptr};
   detector::StepMarks marks;
   detector::StepCost cost{.pace = detector::PacedStop(stop)};
 };

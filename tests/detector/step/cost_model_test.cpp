@@ -14,9 +14,9 @@ using tests::expect_same_contacts, tests::octahedron, tests::octahedron_position
 
 Detector make(const Triangles& t, const Positions& x, Culling culling = Culling::view_auto,
               Start start = Start::clean) {
-  auto made = Detector::create(t, x, {culling, start});
-  EXPECT_TRUE(made.has_value());
-  return std::move(made.value());
+  auto result = Detector::create(t, x, {culling, start});
+  EXPECT_TRUE(result.has_value());
+  return std::move(result.value());
 }
 
 bool has_no_views(const StepResult& r) {
@@ -243,9 +243,9 @@ TEST(CostModel, L5_ChoosesAgainWhereThePrimitiveNoLongerPays) {
   EXPECT_NE(again.primitives[0].q0.t0, worn.primitives[0].q0.t1);
   EXPECT_EQ(again.view_positive, count);
   EXPECT_EQ(again.counts.winding_numbers, 1u) << "not that of the primitive before";
-  const auto kept = detector.step(pulled, pulled);
-  EXPECT_EQ(kept.primitives[0].q0.t0, again.primitives[0].q0.t1);
-  EXPECT_EQ(kept.counts.winding_numbers, 0u);
+  const auto next = detector.step(pulled, pulled);
+  EXPECT_EQ(next.primitives[0].q0.t0, again.primitives[0].q0.t1);
+  EXPECT_EQ(next.counts.winding_numbers, 0u);
 }
 
 // Contacts, rests and looks, all of them.
@@ -260,13 +260,13 @@ std::vector<Positions> eventful_frames() {
 
 TEST(CostModel, EvaluateLeavesTheChoiceAloneAndResetForgetsIt) {
   const auto frames = eventful_frames();
-  Detector plain = make(octahedron(), frames[0]), asked = make(octahedron(), frames[0]);
+  Detector plain = make(octahedron(), frames[0]), evaluator = make(octahedron(), frames[0]);
   int without = 0, with = 0;
   const auto play = [&] {
     for (std::size_t f = 0; f + 1 < frames.size(); ++f) {
-      for (std::size_t other = 0; other < 6; ++other) asked.evaluate(frames[f], frames[other]);
+      for (std::size_t other = 0; other < 6; ++other) evaluator.evaluate(frames[f], frames[other]);
       const auto expected = plain.step(frames[f], frames[f + 1]);
-      expect_same_bytes(asked.step(frames[f], frames[f + 1]), expected);
+      expect_same_bytes(evaluator.step(frames[f], frames[f + 1]), expected);
       ++(has_no_views(expected) ? without : with);
     }
   };
@@ -274,7 +274,7 @@ TEST(CostModel, EvaluateLeavesTheChoiceAloneAndResetForgetsIt) {
   EXPECT_GT(without, 3);
   EXPECT_GT(with, 3);
   plain.reset();
-  asked = make(octahedron(), frames[0]);
+  evaluator = make(octahedron(), frames[0]);
   play();
 }
 

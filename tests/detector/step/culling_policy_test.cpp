@@ -26,7 +26,7 @@ struct TwoOpen : BareStep {
         1. / 3, 1. / 3, 1. / 3, 10 + 1. / 3, 1. / 3, 1. / 3;  // two apexes
     return x;
   }
-  StepMarks seen(bool first_is_free, bool second_is_free) const {
+  StepMarks marks_with(bool first_is_free, bool second_is_free) const {
     StepMarks all;
     all.primitives.resize(2);
     all.signs.assign(surface.all().triangles.size(), ViewSign::positive);
@@ -40,9 +40,9 @@ std::uint64_t least_pairs(bool first_is_free, bool second_is_free, double overhe
   TwoOpen mesh;
   PolicyState before;
   before.overhead = overhead;
-  const StepMarks marks = mesh.seen(first_is_free, second_is_free);
+  const StepMarks marks = mesh.marks_with(first_is_free, second_is_free);
   for (std::uint64_t pairs = 0; pairs < 10'000; ++pairs) {
-    if (CostModel(mesh.surface, pairs, before).worth_sweeping(mesh.given, marks, mesh.cost.pace))
+    if (CostModel(mesh.surface, pairs, before).worth_sweeping(mesh.step, marks, mesh.cost.pace))
       return pairs;
   }
   return 10'000;
@@ -60,22 +60,22 @@ TEST(ViewPolicy, GhostsOfFreeComponentsAreNoWork) {
 // Where nothing was known of the start, that too much is dirty says nothing against views.
 TEST(ViewPolicy, L15_DirtyAtAnUnknownStartTheNextStepIsLookedAt) {
   TwoOpen mesh;
-  StepMarks marks = mesh.seen(true, false);
+  StepMarks marks = mesh.marks_with(true, false);
   marks.clean.assign(mesh.surface.mesh.triangles.size(), 0);
   CostModel policy(mesh.surface, 1'000'000, {});
-  ASSERT_TRUE(policy.worth_sweeping(mesh.given, marks, mesh.cost.pace));
-  EXPECT_FALSE(policy.worth_using(mesh.given, marks, {}));
+  ASSERT_TRUE(policy.worth_sweeping(mesh.step, marks, mesh.cost.pace));
+  EXPECT_FALSE(policy.worth_using(mesh.step, marks, {}));
   EXPECT_EQ(policy.use(), ViewUse::start_unknown);
   EXPECT_EQ(policy.next({}, 0, true).pause, 0u);
   const StepState state;
-  mesh.given.known = &state;
-  CostModel known(mesh.surface, 1'000'000, {});
-  ASSERT_TRUE(known.worth_sweeping(mesh.given, marks, mesh.cost.pace));
-  EXPECT_FALSE(known.worth_using(mesh.given, marks, {}));
-  EXPECT_EQ(known.use(), ViewUse::among_dirty);
-  EXPECT_EQ(known.next({}, 0, true).pause, 1u);
+  mesh.step.last_state = &state;
+  CostModel later_policy(mesh.surface, 1'000'000, {});
+  ASSERT_TRUE(later_policy.worth_sweeping(mesh.step, marks, mesh.cost.pace));
+  EXPECT_FALSE(later_policy.worth_using(mesh.step, marks, {}));
+  EXPECT_EQ(later_policy.use(), ViewUse::among_dirty);
+  EXPECT_EQ(later_policy.next({}, 0, true).pause, 1u);
   marks.clean.assign(mesh.surface.mesh.triangles.size(), 1);
-  EXPECT_TRUE(known.worth_using(mesh.given, marks, {}));
+  EXPECT_TRUE(later_policy.worth_using(mesh.step, marks, {}));
 }
 
 // A pair left out saves a third of its cost.
@@ -83,14 +83,14 @@ TEST(ViewPolicy, L15_DirtyAtAnUnknownStartTheNextStepIsLookedAt) {
 TEST(ViewPolicy, WhereTooMuchWasInContactReleaseIsNotTried) {
   TwoOpen mesh;
   StepState state;
-  mesh.given.known = &state;
-  const StepMarks marks = mesh.seen(false, false);
+  mesh.step.last_state = &state;
+  const StepMarks marks = mesh.marks_with(false, false);
   for (const auto& [in_contact, is_swept] :
        {std::pair(0, true), {2, true}, {8, true}, {12, false}, {14, false}}) {
-    state.met.clear();
-    for (std::int32_t t = 0; t < in_contact; t += 2) state.met.push_back({t, t + 1});
+    state.contacts.clear();
+    for (std::int32_t t = 0; t < in_contact; t += 2) state.contacts.push_back({t, t + 1});
     CostModel policy(mesh.surface, 1'000'000, {});
-    EXPECT_EQ(policy.worth_sweeping(mesh.given, marks, mesh.cost.pace), is_swept) << in_contact;
+    EXPECT_EQ(policy.worth_sweeping(mesh.step, marks, mesh.cost.pace), is_swept) << in_contact;
     EXPECT_EQ(policy.use(), is_swept ? ViewUse::used : ViewUse::among_dirty);
   }
 }
@@ -163,11 +163,11 @@ TEST(ViewPolicy, ChoosingAnchorsIsWorkThatCanBeStopped) {
   PolicyState state;
   state.anchors_are_due = true;
   constexpr std::uint64_t work_of_each = 400;
-  int asked = 0;
-  const StopFunction stop = [&] { return ++asked, false; };
+  int calls = 0;
+  const StopFunction stop = [&] { return ++calls, false; };
   PacedStop pace(stop, work_of_each);
   CostModel(mesh.surface, 100, state).anchors({}, mesh.x_t0, pace);
-  EXPECT_GE(asked, 2) << "once for each component";
+  EXPECT_GE(calls, 2) << "once for each component";
 }
 
 // When the cost model has a look at views at all: the sample of a large component, what is hoped
@@ -217,7 +217,7 @@ bool is_looked_at(const LayeredSheet& sheet, std::uint64_t pairs, int small = 0)
   BareStep bare(t, x_t0, x_t1, x_t0.rows());
   const MovingPoint middle = tests::still({24, 24, 0});
   bare.marks.primitives.assign(bare.surface.mesh.components.size(), {middle, middle});
-  return CostModel(bare.surface, pairs, {}).worth_classifying(bare.given, bare.marks);
+  return CostModel(bare.surface, pairs, {}).worth_classifying(bare.step, bare.marks);
 }
 
 constexpr std::uint64_t any_number = 1'000'000'000;
@@ -261,9 +261,9 @@ struct SeenPositive : BareStep {
 // Views that have a cost and nothing to save.
 PolicyState after_a_loss(PolicyState before) {
   before.overhead = 1;
-  SeenPositive seen;
-  CostModel policy(seen.surface, 0, before);
-  EXPECT_FALSE(policy.worth_sweeping(seen.given, seen.marks, seen.cost.pace));
+  SeenPositive mesh;
+  CostModel policy(mesh.surface, 0, before);
+  EXPECT_FALSE(policy.worth_sweeping(mesh.step, mesh.marks, mesh.cost.pace));
   return policy.next({}, 0, true);
 }
 
@@ -285,7 +285,7 @@ class Saved : public testing::Test, protected SeenPositive {
     marks.clean.assign(8, 0);
     std::fill_n(marks.clean.begin(), clean, std::uint8_t{1});
     CostModel policy(surface, 0, {});
-    policy.worth_using(given, marks, {});
+    policy.worth_using(step, marks, {});
     StepCounts counts;
     counts.search.candidate_pairs = of_k + closure;
     policy.record_cost(counts, of_k);
@@ -309,9 +309,9 @@ TEST_F(Saved, AllAndNothingIsLeft) {
 // What culling auto may lose to culling bvh.
 class Account : public testing::Test, protected SeenPositive {
  protected:
-  CostModel saver(const PolicyState& before, const StepState* known = nullptr) {
+  CostModel saver(const PolicyState& before, const StepState* last_state = nullptr) {
     CostModel policy(surface, 1000, before, true);
-    policy.begin(given.motion, known, true);
+    policy.begin(step.motion, last_state, true);
     return policy;
   }
 };
@@ -363,7 +363,7 @@ TEST_F(Account, WhatDependsOnTheTreeEarnsNothing) {
   ASSERT_TRUE(proves.worth_proving({1, 1, 1}, 1, 0));
   EXPECT_EQ(proves.next(counts, 0, true).credit, -1);
   CostModel rests = saver(before);
-  rests.begin(given.motion.at_start(), nullptr, true);
+  rests.begin(step.motion.at_start(), nullptr, true);
   EXPECT_EQ(rests.next(counts, 0, true).credit, -1);
   const double earned = saver(before).next(counts, 0, true).credit;
   counts.search.box_tests = counts.ghosts.box_tests = 1000;
@@ -374,7 +374,7 @@ TEST_F(Account, WhatDependsOnTheTreeEarnsNothing) {
 TEST_F(Account, AFreeStepEarnsWhatItSavesAndPaysForItsViews) {
   CostModel policy = saver({});
   policy.pay_for_views(true, 5'000);
-  ASSERT_TRUE(policy.worth_classifying(given, marks));
+  ASSERT_TRUE(policy.worth_classifying(step, marks));
   StepCounts counts;
   counts.free_components = 1;
   EXPECT_DOUBLE_EQ(policy.next(counts, 0, true).credit, 8'000 - 5'000 + 1.05 * 4.4 * 1000 - 2 * 8);
@@ -393,13 +393,13 @@ TEST_F(Account, ASearchWithViewsEarnsWhatItSaves) {
 
 // To verify the start anew would cost more than views save.
 TEST_F(Account, AStartOfWhichAFirstContactIsKnownIsNotVerified) {
-  StepState known;
-  known.met_is_complete = false;
+  StepState last_state;
+  last_state.contacts_are_complete = false;
   PolicyState state;
   state.has_views = true;
-  EXPECT_FALSE(saver(state, &known).is_due());
-  known.met_is_complete = true;
-  EXPECT_TRUE(saver(state, &known).is_due());
+  EXPECT_FALSE(saver(state, &last_state).is_due());
+  last_state.contacts_are_complete = true;
+  EXPECT_TRUE(saver(state, &last_state).is_due());
 }
 
 // Culling auto proves patches apart (L14) where counts say that it pays, and nowhere else.
@@ -483,7 +483,7 @@ TEST(ProofsPolicy, PatchesOfFewerThanFourTrianglesAreNotAskedFor) {
   strip << 0, 1, 2, 1, 3, 2;
   Positions x(4, 3);
   x << 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0;
-  const NormalConeSearch all, few(NormalConeSearch::Asked::of_four_triangles_or_more);
+  const NormalConeSearch all, few(NormalConeSearch::Scope::of_four_triangles_or_more);
   const Topology mesh = make_topology(strip, 4);
   BoundingVolumeTree tree(mesh, x);
   const Marks marks(tree);

@@ -63,14 +63,14 @@ TEST(Release, L9_LastingContactsAreCounted) {
   Positions through = in;
   through.row(5) << .5, .25, 3;
   Detector detector = make(with_points(), in, octahedron());
-  const auto met = detector.step(in, through);
-  ASSERT_GT(met.pairs.size(), 2u);
+  const auto result = detector.step(in, through);
+  ASSERT_GT(result.pairs.size(), 2u);
   const auto still = detector.evaluate(through, through);
   std::set<TrianglePair> last;
   for (const auto& contact : still.pairs) last.insert(contact.pair);
   std::uint64_t looked_at = 0;
   std::set<std::int32_t> touched;
-  for (const auto& [pair, time, feature] : met.pairs) {
+  for (const auto& [pair, time, feature] : result.pairs) {
     if (touched.contains(pair.a) && touched.contains(pair.b)) continue;
     ++looked_at;
     if (last.contains(pair)) touched.insert({pair.a, pair.b});

@@ -20,7 +20,7 @@ class Trace {
   void note(const char* phase) {
     if (notes_.empty() || notes_.back() != phase) notes_.emplace_back(phase);
   }
-  Notes taken() { return std::exchange(notes_, {}); }
+  Notes take() { return std::exchange(notes_, {}); }
 
  private:
   Notes notes_;
@@ -168,16 +168,16 @@ Stages noted_stages(const Options& options, Trace& trace) {
 class Traced {
  public:
   Traced(const Triangles& triangles, const Positions& x, Options options = {}) {
-    auto made = assemble(triangles, x, options, noted_stages(options, trace_));
-    EXPECT_TRUE(made.has_value());
-    detector_ = std::make_unique<Detector>(std::move(made.value()));
+    auto detector = assemble(triangles, x, options, noted_stages(options, trace_));
+    EXPECT_TRUE(detector.has_value());
+    detector_ = std::make_unique<Detector>(std::move(detector.value()));
     detector_->state();  // makes what the first step with views would make
-    trace_.taken();
+    trace_.take();
   }
   Notes step(const Positions& x_t0, const Positions& x_t1, Answer expected) {
     result = detector_->step(x_t0, x_t1, view_);
     EXPECT_EQ(result.answer, expected);
-    return trace_.taken();
+    return trace_.take();
   }
   // Whatever the search for a view primitive would choose.
   void view_from(const Point& q) { view_ = {{{q, q}, {q, q}}}; }

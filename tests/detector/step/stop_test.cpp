@@ -27,10 +27,10 @@ void stop_everywhere(Detector& detector, const Positions& x_t0, const Positions&
   const auto forget = [&] { detector.evaluate(x_t1, x_t0); };
   const auto stop_at = [&](int n) {
     SCOPED_TRACE(n);
-    int asked = 0;
-    const auto stop = [&] { return ++asked == n; };
+    int calls = 0;
+    const auto stop = [&] { return ++calls == n; };
     EXPECT_EQ(detector.evaluate(x_t0, x_t1, {}, stop).answer, Answer::undecided);
-    EXPECT_EQ(asked, n) << "and nothing is asked afterwards";
+    EXPECT_EQ(calls, n) << "and nothing is asked afterwards";
     ASSERT_TRUE(detector.commit()) << "nothing to commit";
   };
   for (int n = 1; n <= all; ++n) {
@@ -85,11 +85,11 @@ TEST(StopInASoup, IsAskedAcrossComponents) {
     x.row(3 * i + 2) << i, .5, .125;
   }
   auto detector = make(triangles, x, {Culling::view_point});
-  std::uint64_t asked = 0;
-  const StepResult result = detector.evaluate(x, x, {}, [&] { return ++asked, false; });
+  std::uint64_t calls = 0;
+  const StepResult result = detector.evaluate(x, x, {}, [&] { return ++calls, false; });
   ASSERT_GE(result.counts.view.exact, std::uint64_t{count});
-  EXPECT_GE(asked, result.counts.view.exact * 600 / PacedStop::usual_interval);
-  EXPECT_LE(asked, std::uint64_t{count}) << "and not for each component";
+  EXPECT_GE(calls, result.counts.view.exact * 600 / PacedStop::usual_interval);
+  EXPECT_LE(calls, std::uint64_t{count}) << "and not for each component";
 }
 
 INSTANTIATE_TEST_SUITE_P(Cullings, Stop,
@@ -125,17 +125,17 @@ class StopInAStep : public testing::TestWithParam<Culling> {};
 TEST(StopInALargeMesh, IsAskedInCreate) {
   const Positions x = bent(6);
   const Options options{Culling::automatic};
-  std::uint64_t asked = 0;
-  ASSERT_TRUE(Detector::create(bent_sheet, x, options, [&] { return ++asked, false; }));
+  std::uint64_t calls = 0;
+  ASSERT_TRUE(Detector::create(bent_sheet, x, options, [&] { return ++calls, false; }));
   // Checks, adjacency and tree alone.
-  EXPECT_GE(asked, 150 * triangle_count / PacedStop::usual_interval);
-  const std::uint64_t all = asked;
+  EXPECT_GE(calls, 150 * triangle_count / PacedStop::usual_interval);
+  const std::uint64_t all = calls;
   for (std::uint64_t n = 1; n <= all; ++n) {
-    asked = 0;
-    const auto stopped = Detector::create(bent_sheet, x, options, [&] { return ++asked == n; });
+    calls = 0;
+    const auto stopped = Detector::create(bent_sheet, x, options, [&] { return ++calls == n; });
     ASSERT_FALSE(stopped) << n;
     EXPECT_EQ(stopped.error().error, InputError::stopped);
-    EXPECT_EQ(asked, n) << "and nothing is asked afterwards";
+    EXPECT_EQ(calls, n) << "and nothing is asked afterwards";
   }
 }
 
@@ -143,21 +143,21 @@ TEST_P(StopInAStep, OfALargeMeshIsAsked) {
   const Positions x_t0 = bent(6.1), x_t1 = bent(6.3);
   const Options options{GetParam(), Start::clean};
   auto detector = make(bent_sheet, x_t0, options);
-  std::uint64_t asked = 0;
-  const auto count = [&] { return ++asked, false; };
+  std::uint64_t calls = 0;
+  const auto count = [&] { return ++calls, false; };
   const StepResult whole = detector.evaluate(x_t0, x_t1, {}, count);
   ASSERT_EQ(whole.answer, Answer::collision);
   // Boxes, marks and representatives alone.
-  EXPECT_GE(asked, 40 * triangle_count / PacedStop::usual_interval);
-  const std::uint64_t all = asked;
+  EXPECT_GE(calls, 40 * triangle_count / PacedStop::usual_interval);
+  const std::uint64_t all = calls;
   const std::uint64_t apart = std::max<std::uint64_t>(all / 24, 1);
   for (std::uint64_t n = 1; n <= all; n += apart) {
     SCOPED_TRACE(n);
     auto other = make(bent_sheet, x_t0, options);
-    asked = 0;
-    EXPECT_EQ(other.evaluate(x_t0, x_t1, {}, [&] { return ++asked == n; }).answer,
+    calls = 0;
+    EXPECT_EQ(other.evaluate(x_t0, x_t1, {}, [&] { return ++calls == n; }).answer,
               Answer::undecided);
-    EXPECT_EQ(asked, n) << "and nothing is asked afterwards";
+    EXPECT_EQ(calls, n) << "and nothing is asked afterwards";
     const StepResult again = other.evaluate(x_t0, x_t1);
     tests::expect_same_contacts(again, whole);
     EXPECT_EQ(again.counts.narrow.elementary_tests, whole.counts.narrow.elementary_tests);

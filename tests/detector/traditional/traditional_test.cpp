@@ -15,9 +15,9 @@ using PairSet = std::set<std::pair<std::int32_t, std::int32_t>>;
 
 StepResult step(const Triangles& rows, const Positions& x_t0, const Positions& x_t1,
                 Culling culling) {
-  auto made = Detector::create(rows, x_t0, {culling});
-  EXPECT_TRUE(made.has_value());
-  return made.value().step(x_t0, x_t1);
+  auto detector = Detector::create(rows, x_t0, {culling});
+  EXPECT_TRUE(detector.has_value());
+  return detector.value().step(x_t0, x_t1);
 }
 
 PairSet candidates(const PairSearch& search, const Topology& mesh, const Positions& x_t0,

@@ -115,11 +115,11 @@ TEST(ViewAnchorWork, IsLessThanTwoStepsOfBvh) {
   const Topology mesh = make_topology(revolved(count), x.rows());
   const auto work_of = [&](auto choose) {
     constexpr std::uint64_t interval = 100'000;  // more than is done between two askings
-    std::uint64_t asked = 0;
-    const StopFunction stop = [&] { return ++asked, false; };
+    std::uint64_t calls = 0;
+    const StopFunction stop = [&] { return ++calls, false; };
     PacedStop pace(stop, interval);
     choose(&pace);
-    return (asked + 1) * interval / mesh.triangles.size();
+    return (calls + 1) * interval / mesh.triangles.size();
   };
   const auto& tube = mesh.components[0];
   for (const auto kind : {ViewKind::point, ViewKind::line}) {

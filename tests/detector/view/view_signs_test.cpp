@@ -67,11 +67,11 @@ TEST(ViewTest, AStopIsAskedByTheWorkOfIntegers) {
     return classify(mesh, mesh.components[0], {x, x}, point_at({.25, .5, 0}), signs, counts,
                     best_instruction_set(), Arithmetic::exact, &pace);
   };
-  std::uint64_t asked = 0;
+  std::uint64_t calls = 0;
   ViewCounts whole, ended;
-  ASSERT_TRUE(run([&] { return ++asked, false; }, whole));
+  ASSERT_TRUE(run([&] { return ++calls, false; }, whole));
   ASSERT_EQ(whole.exact, std::uint64_t{count});
-  EXPECT_GE(asked, whole.exact * 20'000 / PacedStop::usual_interval);
+  EXPECT_GE(calls, whole.exact * 20'000 / PacedStop::usual_interval);
   EXPECT_FALSE(run([] { return true; }, ended));
   EXPECT_LT(ended.exact, 20u);
 }

@@ -41,9 +41,9 @@ struct Work {
     const StepCounts& counts = result.counts;
     tests = counts.search.box_tests + counts.narrow.elementary_tests + counts.ghosts.pairs +
             counts.ghosts.elementary_tests + counts.release.pairs + counts.release.elementary_tests;
-    const StepState& kept = *saved.committed;
-    state = static_cast<std::size_t>(kept.positions.size()) + kept.clean.size() + kept.met.size() +
-            kept.inside.size() + saved.apex_rules.size() + saved.anchors.size();
+    const StepState& end = *saved.committed;
+    state = static_cast<std::size_t>(end.positions.size()) + end.clean.size() + end.inside.size() +
+            end.contacts.size() + saved.apex_rules.size() + saved.anchors.size();
   }
   Work& operator+=(const Work& other) {
     against_all += other.against_all;

@@ -34,7 +34,7 @@ Batch make_batch(std::size_t count, const Coordinate& coordinate) {
   return batch;
 }
 
-std::vector<LaneRung> asked(QueryKernel kernel, const Batch& batch) {
+std::vector<LaneRung> rungs_of(QueryKernel kernel, const Batch& batch) {
   std::vector<LaneRung> rungs(batch.queries.size() + 1, LaneRung::axis);
   const std::size_t count = batch.queries.size();
   kernel(query_input(batch.motion()), batch.queries.data(), count, rungs.data());
@@ -70,8 +70,8 @@ void ask_about(const Batch& batch, Settled& settled) {
   const QueryKernels &best = query_kernels(), &plain = plain_query_kernels();
   for (const int group : {1, 2}) {
     const auto kernel = group == 1 ? &QueryKernels::vertex_face : &QueryKernels::edge_edge;
-    const auto rungs = asked(plain.*kernel, batch);
-    ASSERT_EQ(asked(best.*kernel, batch), rungs);
+    const auto rungs = rungs_of(plain.*kernel, batch);
+    ASSERT_EQ(rungs_of(best.*kernel, batch), rungs);
     for (std::size_t i = 0; i < rungs.size(); ++i) {
       const FourPoints query = batch.query(i, group);
       ASSERT_EQ(rungs[i], expected(query)) << "query " << i << ", first group " << group;
@@ -80,8 +80,8 @@ void ask_about(const Batch& batch, Settled& settled) {
       ++settled.queries;
     }
   }
-  const auto rungs = asked(plain.piercing, batch);
-  ASSERT_EQ(asked(best.piercing, batch), rungs);
+  const auto rungs = rungs_of(plain.piercing, batch);
+  ASSERT_EQ(rungs_of(best.piercing, batch), rungs);
   for (std::size_t i = 0; i < rungs.size(); ++i) {
     const auto& v = batch.queries[i].v;
     const auto point = [&](std::size_t p) { return batch.motion().start(v[p]); };
@@ -133,7 +133,7 @@ TEST(QueryLanes, ReadRowsAtAnyStride) {
     std::vector<LaneRung> rungs(batch.queries.size());
     (query_kernels().*kernel)(query_input({wide, batch.x_t1}), batch.queries.data(), rungs.size(),
                               rungs.data());
-    EXPECT_EQ(rungs, asked(query_kernels().*kernel, batch));
+    EXPECT_EQ(rungs, rungs_of(query_kernels().*kernel, batch));
   }
 }
 
