@@ -172,12 +172,15 @@ TEST_P(Vectors, AreProvedAgain) {
   }
 }
 
-constexpr const char* groups[] = {"vertex-face-double",  "vertex-face-distance-double",
-                                  "edge-edge-double",    "edge-edge-distance-double",
-                                  "steps-double",        "limits-double",
-                                  "vertex-face-float32", "vertex-face-distance-float32",
-                                  "edge-edge-float32",   "edge-edge-distance-float32",
-                                  "steps-float32",       "limits-float32"};
+constexpr const char* groups[] = {"vertex-face-double",   "vertex-face-distance-double",
+                                  "edge-edge-double",     "edge-edge-distance-double",
+                                  "steps-double",         "limits-double",
+                                  "vertex-face-float32",  "vertex-face-distance-float32",
+                                  "edge-edge-float32",    "edge-edge-distance-float32",
+                                  "steps-float32",        "limits-float32",
+                                  "vertex-face-findings", "vertex-face-distance-findings",
+                                  "edge-edge-findings",   "steps-findings",
+                                  "limits-findings"};
 INSTANTIATE_TEST_SUITE_P(Groups, Vectors, testing::ValuesIn(groups), [](const auto& group) {
   std::string name = group.param;
   std::replace(name.begin(), name.end(), '-', '_');
