@@ -1,6 +1,6 @@
 // Where two triangles in contact meet, for who responds to a contact: the point, its barycentric
 // coordinates in both, the normal. It is computed when it is asked for, in doubles with bounds; no
-// answer of the detector rests on it.
+// answer of the detector rests on it. This asks for the place of each contact of a result:
 //
 //   for (const PairContact& contact : result.pairs)
 //     respond(contact, contact_place({x_t0, x_t1}, triangles, contact));

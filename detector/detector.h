@@ -1,4 +1,5 @@
-// The production detector: view-based continuous self-collision detection of a deforming mesh.
+// The production detector: view-based continuous self-collision detection of a deforming mesh. It
+// is made for a mesh once, and then asked about one step after another:
 //
 //   auto detector = Detector::create(triangles, positions, {});   // Expected<Detector>
 //   StepResult result = detector.value().step(x_t0, x_t1);

@@ -1,4 +1,11 @@
-// What a user of the detector chooses.
+// What a user of the detector chooses. Whatever is not set has its default:
+//
+//   Options options;
+//   options.pairs = Pairs::first;
+//   options.threads = 0;  // as many as the machine has
+//   Detector detector = Detector::create(triangles, positions, options).value();
+//   const StepResult result = detector.step(x_t0, x_t1);
+//   use(result.first);
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,9 @@
 // What a step reports. If a separation was asked for (Options::separation), "in contact" means here
-// that two triangles come within that distance.
+// that two triangles come within that distance. The answer says what else is set:
+//
+//   if (result.answer == Answer::error) report(result.problem->message);
+//   if (result.answer == Answer::collision) use(result.first.lo, result.first.hi);
+//   for (const PairContact& contact : result.pairs) use(contact.pair.a, contact.pair.b);
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,15 @@
 // Which pairs count (L19): what a user leaves out of the question whether a mesh meets itself.
 //
 // A pair that does not count is never reported, and it makes no step a collision. Everything counts
-// by default. This is plain data; mesh_checks.h says what is refused.
+// by default. This is plain data; mesh_checks.h says what is refused. A detector is told of it when
+// it is made:
+//
+//   CountedPairs counted;
+//   counted.rings = 1;                  // leaves out triangles that share a vertex
+//   counted.triangle_pairs = {{0, 5}};  // and these two
+//   Options options;
+//   options.counted = &counted;
+//   Detector detector = Detector::create(triangles, positions, options).value();
 #pragma once
 
 #include <array>

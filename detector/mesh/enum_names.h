@@ -1,4 +1,4 @@
-// The list of an enum: its values, each with its name, written once beside the enum.
+// The list of an enum is its values, each with its name, written once beside the enum:
 //
 //   enum class Start : std::uint8_t { verified, clean, unknown };
 //   constexpr auto names_of(Start) {

@@ -1,6 +1,9 @@
 // The conditions that the detector's input has to meet. By L12 the answer is never `free` on a
 // guess: input that is in doubt is refused with a named error, or it is answered without trust in
-// it. It is never repaired in silence.
+// it. It is never repaired in silence. A program can ask before it makes a detector:
+//
+//   if (auto problem = check_triangles(triangles, positions.rows())) report(problem->message);
+//   if (auto problem = check_positions(x_t1, positions.rows())) report(problem->message);
 #pragma once
 
 #include <optional>

@@ -3,7 +3,11 @@
 //
 // The unit of work is what a box test costs, about 5 ns. Callers count their work roughly. A stop
 // function may ask the system how much memory there is, which takes 10 us. Once it has returned
-// true it is not asked again.
+// true it is not asked again. What was stopped is of no use:
+//
+//   PacedStop pace(stop);  // a StopFunction, which has to outlive it
+//   const Topology mesh = make_topology(triangles, positions.rows(), pace);
+//   if (!pace.stopped()) use(mesh);
 #pragma once
 
 #include <algorithm>

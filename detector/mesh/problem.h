@@ -1,5 +1,9 @@
 // The named errors of the detector's interface. They are values: nothing in detector/ throws on
-// bad input.
+// bad input. A caller asks whether there is a detector, and else why not:
+//
+//   const Expected<Detector> made = Detector::create(triangles, positions, {});
+//   if (!made && made.error().error == InputError::no_triangles) return;  // nothing can collide
+//   if (!made) return report(made.error().message);
 #pragma once
 
 #include <boost/outcome/basic_result.hpp>

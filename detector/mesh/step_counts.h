@@ -1,5 +1,9 @@
 // How much each stage of a step had to do, as counts. Counts do not depend on the machine; times
-// do.
+// do. Both stand in the result of a step:
+//
+//   const ContactRungCounts& rungs = result.counts.narrow.rungs;
+//   use(rungs.by_integers(), rungs.total());  // feature pairs
+//   use(result.times.narrow_phase, result.times.total);
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,10 @@
-// Plain data of one step: features, contacts, view primitives, answers. No arithmetic.
+// Plain data of one step: features, contacts, view primitives, answers. No arithmetic. A step is
+// viewed from a place, and its contacts tell which vertices meet:
+//
+//   const ViewPrimitive origin = {{{0, 0, 0}, {0, 0, 0}}, {{0, 0, 0}, {0, 0, 0}}};
+//   const StepResult result = detector.evaluate(x_t0, x_t1, {&origin, 1});
+//   for (const PairContact& contact : result.pairs)
+//     if (contact.feature.kind == FeatureKind::vertex_face) use(contact.feature.vertices[0]);
 #pragma once
 
 #include <array>

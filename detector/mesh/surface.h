@@ -1,4 +1,9 @@
-// The closed-up surface S = M + G: the mesh and the ghost triangles that close it.
+// The closed-up surface S = M + G: the mesh and the ghost triangles that close it. A detector has
+// that of its mesh:
+//
+//   const Surface& surface = detector.surface();
+//   for (const Loop& loop : surface.loops) use(loop.size());
+//   if (!surface.is_closed()) use(surface.ghost_count());
 #pragma once
 
 #include <span>

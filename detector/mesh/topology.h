@@ -1,4 +1,9 @@
-// Adjacency of a triangle mesh: edges, incidences, components, and which components are cycles.
+// Adjacency of a triangle mesh: edges, incidences, components, and which components are cycles. It
+// is of use without a detector too:
+//
+//   const Topology mesh = make_topology(triangles, positions.rows());
+//   for (const Component& component : mesh.components) use(component.is_cycle);
+//   for (const std::int32_t t : mesh.vertex_triangles.row(0)) use(mesh.triangles[at(t)]);
 #pragma once
 
 #include <array>

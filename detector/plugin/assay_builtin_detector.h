@@ -1,5 +1,5 @@
 /* The built-in detector in C. It is for programs in C, and for programs that use any detector
- * through the interface of assay_detector.h. C99 or C++; link assay::detector.
+ * through the interface of assay_detector.h. C99 or C++; link assay::detector. It is made so:
  *
  *   assay_builtin_options options = ASSAY_BUILTIN_DEFAULTS;
  *   assay_builtin_error error;
@@ -191,8 +191,7 @@ typedef struct assay_builtin_sets {
 } assay_builtin_sets;
 void assay_builtin_get_sets(const assay_handle* handle, assay_builtin_sets* sets);
 
-/* Forgets the committed steps: the next step is a new start. What the table's result tells stays.
- * */
+/* Forgets the committed steps: the next one is a new start. What the table's result tells stays. */
 void assay_builtin_reset(assay_handle* handle);
 
 /* Writes the committed state into a buffer of `capacity` bytes, to be kept or sent. The bytes are

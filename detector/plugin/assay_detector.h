@@ -1,6 +1,13 @@
 /* The C interface of a detector that wants to be certified: a shared library with one symbol,
  * assay_detector(), which returns a table of functions. C99 or C++; no library is needed to build
- * one. tests/plugins/example.c is a complete one; README.md beside this file has one in C++.
+ * one. tests/plugins/example.c is one, README.md here has another in C++. A host calls it so:
+ *
+ *   const assay_detector_api* detector = assay_detector();
+ *   if (detector->create(triangles, m, positions, n, &handle, &message)) return report(message);
+ *   if (detector->evaluate(handle, x_t0, x_t1) == ASSAY_OK &&
+ *       detector->result(handle, &result) == ASSAY_OK)
+ *     use(result.answer);
+ *   detector->destroy(handle);
  *
  * A detector is told a mesh once and then steps of it: over t in [0,1] every vertex moves linearly
  * from x_t0 to x_t1. It answers whether the mesh touches itself, when first, and which triangles.
@@ -23,9 +30,8 @@
  * step); destroy. A step usually starts where the last committed one ended. When it starts
  * elsewhere, it is a new start: nothing carried from earlier steps may be trusted.
  *
- * LEFT OUT. A step that the description's contract leaves out is never put to the detector. If,
- * say, the contract leaves out steps that start in contact, such a step is skipped, and the next
- * one is a new start.
+ * LEFT OUT. A step that the description's contract leaves out, such as one that starts in contact,
+ * is never put to the detector, and the next one is a new start.
  *
  * PARTS. A library may hold less than a detector of whole steps: one elementary query
  * (vertex-face, edge-edge), the candidate pairs of a broad phase, or a limiter, which says how far
@@ -190,16 +196,14 @@ typedef struct assay_description {
                         separation` wherever a claim says `in contact`. It wants
                         ASSAY_ADJACENCY_NO_SHARED_VERTEX, as neighbours are near throughout. The
                         elementary query is asked the same of two features. */
-  /* What the detector leaves out by itself, besides neighbours (adjacency). At rest
-   * the mesh is as in the positions that create is given. */
+  /* What it leaves out by itself, besides neighbours. At rest the mesh is as create is given it. */
   int32_t counts;       /* ASSAY_COUNTS_...: what rings and rest_distance are of */
   int32_t rings;        /* pairs joined by a path of fewer edges of the mesh; 0: none */
   double rest_distance; /* pairs nearer to each other at rest, user's units; 0: none */
   int32_t limit_gives;  /* ASSAY_LIMIT_...: where the caller stops who is told a share alone */
   double progress;      /* what ASSAY_CLAIM_PROGRESS promises: above 0, at most 1; else 0 */
   int32_t motion;       /* ASSAY_MOTION_... */
-  /* How much the detector holds; 0: as much as there is. Beyond one of them it may answer
-   * ASSAY_BEYOND_CAPACITY. */
+  /* How much it holds; 0: as much as there is. Beyond one it may answer ASSAY_BEYOND_CAPACITY. */
   uint64_t capacity_triangles;  /* of the mesh */
   uint64_t capacity_contacts;   /* pairs of triangles in contact during the step that its contract
                                    does not leave out */
@@ -289,8 +293,7 @@ typedef struct assay_limit {
 typedef struct assay_detector_api {
   uint32_t abi_version; /* ASSAY_DETECTOR_ABI_VERSION */
 
-  /* What the detector is and claims. Valid as long as the library is loaded; the same at every
-   * call. */
+  /* What the detector is and claims: the same at every call, valid while the library is loaded. */
   const assay_description* (*describe)(void);
 
   /* Makes a handle for a mesh. triangles: triangle_count x 3 vertex indices, counter-clockwise
@@ -343,14 +346,12 @@ typedef struct assay_detector_api {
    * later must be copied. A library without this function is asked about all pairs. */
   int32_t (*count)(assay_handle* handle, const assay_counted_pairs* counted);
 
-  /* How far the step from x_t0 towards x_t1 may be gone. This is a part of its own (PARTS above).
-   * It carries nothing from step to step. */
+  /* How far the step may be gone. A part of its own (PARTS): it carries nothing between steps. */
   int32_t (*limit)(assay_handle* handle, const double* x_t0, const double* x_t1,
                    assay_limit* limit);
 } assay_detector_api;
 
-/* The one symbol that a plug-in exports. Returns a table that is valid as long as the library is
- * loaded. */
+/* The one symbol that a plug-in exports. The table is valid as long as the library is loaded. */
 ASSAY_DETECTOR_EXPORT const assay_detector_api* assay_detector(void);
 
 #ifdef __cplusplus

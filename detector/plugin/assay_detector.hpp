@@ -1,4 +1,4 @@
-// The C interface of assay_detector.h for a detector in C++17: one class and one line.
+// The C interface of assay_detector.h for a detector in C++17, one class and one line:
 //
 //   class Mine {
 //    public:

@@ -1,6 +1,12 @@
 // Makes the C interface's table of functions for a class: each function of the table calls the
 // class in C++. assay_detector.hpp includes this file and says what a class may have; do not
-// include it alone.
+// include it alone. A test of a class needs no library to be loaded:
+//
+//   const assay_detector_api* detector = assay::plugin::detail::table<Mine>();
+//   if (detector->create(triangles, m, positions, n, &handle, &message) != ASSAY_OK)
+//     return report(message);
+//   use(detector->evaluate(handle, x_t0, x_t1));
+//   detector->destroy(handle);
 #ifndef ASSAY_DETECTOR_TABLE_HPP
 #define ASSAY_DETECTOR_TABLE_HPP
 

@@ -1,12 +1,13 @@
 /* Records what a simulator does: its mesh, each of its steps, and what its own collision detector
  * answered, in a log that `assay check` reads. C99 or C++11; this header and assay_detector.h
- * beside it are all that is needed, and nothing is linked.
+ * beside it are all that is needed, and nothing is linked. It is used so:
  *
  *   assay_recorder recorder;
  *   assay_record_settings settings = {"steps.log", 1, 0};
- *   assay_record_begin(&recorder, &settings, &description, triangles, m, positions, n, NULL);
- *   for each step: assay_record_step(&recorder, &step);
- *   assay_record_end(&recorder);
+ *   assay_record_array start = {positions, 0};
+ *   assay_record_begin(&recorder, &settings, &description, triangles, m, start, n, NULL);
+ *   while (simulate(&step)) assay_record_step(&recorder, &step);
+ *   if (assay_record_end(&recorder) != ASSAY_OK) report(assay_record_error(&recorder));
  *
  * The form of the log is told in corpus/README.md (Step logs). Positions are recorded as they are,
  * those that are not finite too: what a simulator did is not mended.
@@ -15,8 +16,7 @@
  * has returned. The recorder allocates a copy of the path, and the positions of one frame if steps
  * are left out. assay_record_end frees them.
  *
- * THREADS. A recorder is used by one thread at a time; different recorders know nothing of each
- * other.
+ * THREADS. A recorder is used by one thread at a time, and knows nothing of other recorders.
  *
  * ERRORS. Each function that returns int32_t returns ASSAY_OK, or one of the numbers below;
  * assay_record_error tells one line about it. After a call that was refused nothing is written,
