@@ -11,7 +11,6 @@
 #include <string>
 
 #include "corpus/files.h"
-#include "corpus/frame_order.h"
 
 namespace assay::corpus {
 

@@ -11,7 +11,6 @@
 #include "corpus/formats/sequences.h"
 #include "corpus/formats/step_log.h"
 #include "corpus/formats/text_lines.h"
-#include "corpus/frame_order.h"
 #include "detector/mesh/mesh_checks.h"
 #include "detector/mesh/step_types.h"
 

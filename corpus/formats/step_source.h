@@ -99,8 +99,8 @@ struct BodyFiles {
   // twice. The vertices keep their numbers.
   bool weld = false;
 };
-// As steps_of_files, the files of each body in the order of frame_order.h. The relation of the
-// steps has the bodies. REQUIRES a body, and a file of each.
+// As steps_of_files, the files of each body in the order of their numbers. The relation of
+// the steps has the bodies. REQUIRES a body, and a file of each.
 Expected<std::unique_ptr<StepSource>> steps_of_bodies(const BodyFiles& bodies);
 
 // What a file is for: by the bytes that it begins with, and by its name where these do not tell, or

@@ -4,18 +4,165 @@
 // The strength turns one knob, and a greater strength is harder. At strength s the knob stands at
 // 2^(exponent_at_0 + slope * s); what that measures depends on the family: a gap in units of the
 // grid, an offset over the size, a scale, a number. One unit of the grid is an ulp of a coordinate
-// of 2^52 units; coordinates are below 2^53 (grid_mesh.h). If things in a family can touch, one
-// strength after the strongest ends the scale: exact touching, a gap of 0.
+// of 2^52 units; coordinates are below 2^53. If things in a family can touch, one strength after the
+// strongest ends the scale: exact touching, a gap of 0. What the cases are made of stands first.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "corpus/cases/case_file.h"
-#include "corpus/hard/grid_mesh.h"
 
 namespace assay::corpus {
+
+// Hard cases are made on a grid of integers and then bent out of the axes, without any rounding.
+//
+// Each family is built where its answer is plain to see: a face in the plane z = 0, a vertex that
+// comes down on it. There double arithmetic would be right for free, because most products are 0.
+// So an integer map of determinant 1 (three shears, a cyclic change of axes, a shift) is applied
+// at the end. As an affine map it changes neither contacts nor their times nor the view signs of a
+// point, and the coordinates stay integers below 2^53, that is exact doubles that fill the
+// mantissa. At last each axis is scaled by a power of two.
+
+// The free choices of a hard case: integers that depend on its family, strength and variant alone.
+// They are the same on every platform as long as no two draws are arguments or operands of one
+// expression, because these have no order (items of a braced list have one).
+//
+// SplitMix64, seeded by FNV-1a of the family's name.
+class Variation {
+ public:
+  Variation(std::string_view family, int strength, int variant) {
+    for (const char c : family) {
+      state_ = (state_ ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+    }
+    // States of neighbouring strengths and variants are far apart.
+    constexpr std::uint64_t strength_stride = 0xd1342543de82ef95u,
+                            variant_stride = 0x2545f4914f6cdd1d;
+    state_ ^= static_cast<std::uint64_t>(strength + 1) * strength_stride;
+    state_ ^= static_cast<std::uint64_t>(variant + 1) * variant_stride;
+    next();
+  }
+  // A number in lo .. hi; the bias of the remainder does no harm here.
+  std::int64_t between(std::int64_t lo, std::int64_t hi) {
+    const auto n = static_cast<std::uint64_t>(hi - lo) + 1;
+    return lo + static_cast<std::int64_t>(next() % n);
+  }
+  std::int64_t sign() { return next() & 1 ? 1 : -1; }
+
+ private:
+  std::uint64_t next() {
+    state_ += 0x9e3779b97f4a7c15u;
+    std::uint64_t z = state_;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+  }
+  std::uint64_t state_ = 0xcbf29ce484222325u;
+};
+
+// In units of the grid.
+struct GridPoint {
+  std::int64_t x = 0, y = 0, z = 0;
+  friend GridPoint operator+(const GridPoint& a, const GridPoint& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+  }
+};
+
+struct GridVertex {
+  GridPoint t0, t1;
+};
+inline GridVertex at_rest(const GridPoint& p) { return {p, p}; }
+// The vertex at a constant offset from `tip`, which moves along with it.
+inline GridVertex carried(const GridVertex& tip, const GridPoint& offset) {
+  return {tip.t0 + offset, tip.t1 + offset};
+}
+
+struct GridMesh {
+  std::vector<GridVertex> vertices;
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  std::vector<GridVertex> view;  // none, a point, or the two ends of a line
+
+  std::int32_t add(const GridVertex& vertex);
+  // Adds a triangle with three vertices of its own, anticlockwise in the order given.
+  void add_triangle(const std::array<GridVertex, 3>& corners);
+  // Adds a tetrahedron with four vertices of its own, whose triangles face outward at t=0. Its
+  // i-th triangle lies opposite to corner i.
+  void add_tetrahedron(const std::array<GridVertex, 4>& corners);
+};
+
+// x -> shift + C S3 S2 S1 x, with shears S and a cyclic change of axes C. Before the shift no
+// coordinate grows by more than the factor `growth`.
+struct GridMap {
+  static constexpr std::int64_t growth = 37;
+
+  std::array<std::array<std::int64_t, 2>, 3> shears{};  // each in -2 .. 2
+  int turns = 0;                                        // how often C turns the axes by one
+  GridPoint shift;
+
+  // A map whose shears have no coefficient 0.
+  static GridMap any(Variation& vary);
+  // A change of axes alone. It is for view-lines, because no shear keeps their nearest points.
+  static GridMap of_axes(Variation& vary);
+  GridPoint operator()(GridPoint p) const;
+};
+
+// What the construction tells of a case; first_time and view_signs only if it tells them.
+using KnownFacts = ExpectedStep;
+
+// One step of the mapped mesh, with coordinate i multiplied by 2^exponents[i]. If that is not
+// exact the process ends; the tests make every case.
+Case grid_case(const GridMesh& mesh, const GridMap& map, const std::array<int, 3>& exponents,
+               KnownFacts facts);
+
+// These exponents bring coordinates of usual_size to about 1.
+inline constexpr std::array<int, 3> to_size_one = {-46, -46, -46};
+
+// grid_case under some GridMap::any, with coordinates of about 1.
+Case sheared_case(const GridMesh& mesh, Variation& vary, KnownFacts facts);
+
+// The two solids of most hard cases: a block with a face in the plane z = 0, and a spike above it.
+//
+// Why their answers are plain: the block lies in z <= 0 and the spike above its tip (or its lower
+// edge), so nothing meets before the tip or edge reaches z = 0. In a case that is to miss beside
+// the block, a plane of constant x or y lies between the two all the time.
+
+// 2^exponent units.
+inline std::int64_t two_to(int exponent) { return std::int64_t{1} << exponent; }
+
+// The usual size of a solid. With growth (37) and heights up to twice that size, coordinates are
+// below 2^52.
+inline constexpr int usual_exponent = 45;
+inline constexpr std::int64_t usual_size = std::int64_t{1} << usual_exponent;
+
+// A triangle in z = 0 whose inside holds all points within reach / 8 of the origin. Its corners
+// are at most `reach` away along each axis. REQUIRES reach >= 32.
+std::array<GridPoint, 3> wide_face(Variation& vary, std::int64_t reach);
+
+// Adds the block under a wide face; its fourth corner is `depth` deep, near the axis.
+void add_block(GridMesh& mesh, Variation& vary, std::int64_t reach, std::int64_t depth);
+
+// To which side of its tip a spike may reach.
+enum class Side { all_around, positive_y, negative_y };
+
+// Adds a tetrahedron that moves along with its tip. The other corners are up to `reach` away along
+// x and y, to this side only, and `height` to 3 `height` above the tip.
+void add_spike(GridMesh& mesh, Variation& vary, const GridVertex& tip, std::int64_t reach,
+               std::int64_t height, Side side);
+
+// A place at height z, straight over or under the inside of every wide face of this reach.
+GridPoint under_the_face(Variation& vary, std::int64_t reach, std::int64_t z);
+
+// A vertex at (p.x, p.y) that goes from height z_t0 to z_t1.
+GridVertex falling(const GridPoint& p, std::int64_t z_t0, std::int64_t z_t1);
+
+KnownFacts known_free();
+// A collision at this first time, which is a double; without it, the first time is not stated.
+KnownFacts known_collision(double first);
+KnownFacts known_collision();
 
 struct HardFamily {
   std::string_view name;

@@ -1,7 +1,6 @@
 #include <array>
 #include <cmath>
 
-#include "corpus/scenes/moving_meshes.h"
 #include "corpus/scenes/shapes.h"
 
 namespace assay::corpus {

@@ -1,4 +1,3 @@
-#include "corpus/scenes/moving_meshes.h"
 
 #include <algorithm>
 #include <array>

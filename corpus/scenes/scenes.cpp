@@ -7,7 +7,6 @@
 #include <string>
 #include <utility>
 
-#include "corpus/scenes/moving_meshes.h"
 #include "corpus/scenes/shapes.h"
 
 namespace assay::corpus {

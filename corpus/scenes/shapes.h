@@ -1,6 +1,6 @@
-// Rest shapes of the scenes. `size` is the wanted number of triangles, and each shape takes the
-// nearest number that it can have. Closed shapes are cycles with outward normals. What they and the
-// motions of scenes compute with stands last: sine and cosine.
+// Shapes of the scenes: at rest, and as meshes that move. Of a rest shape `size` is the wanted
+// number of triangles, and each takes the nearest number that it can have. Closed shapes are cycles
+// with outward normals. What shapes and motions compute with stands last: sine and cosine.
 #pragma once
 
 #include <algorithm>
@@ -105,6 +105,118 @@ class MeshMaker {
   std::vector<double> coordinates_;
   std::vector<std::int32_t> corners_;
 };
+
+// Scenes that are a mesh for every s in [0,1], the scene's own time, or for every place of a tip.
+//
+// The first are of the kinds that fill a collision detector with work: many layers, many bodies, a
+// body wound about itself, many thin strips. At s = 0 nothing touches. How far anything moves, and
+// how thick and close it is, does not depend on `size`, which is the wanted number of triangles;
+// where a shape has a number of parts, a larger size has more of them. Fields for the scenes that
+// move the vertices of one mesh follow.
+
+// Square sheets one over the other, in the same folds, and nearer than they are moved: each slides
+// and bulges in its own way. 50 of them from 1,600 triangles on, else fewer.
+Mesh layered_cloth(int size, double s);
+
+// Spheres of 80 triangles and several radii on a cubic grid, which draws together while they turn.
+// 1,000 of them at 80,000 triangles.
+Mesh pile_of_bodies(int size, double s);
+
+// A closed tube along a trefoil knot. The knot is drawn together while the tube stays as thick as
+// it is. It is twelve times as many pieces long as around.
+Mesh tightening_knot(int size, double s);
+
+// Strips of 48 triangles that hang down side by side, all bent alike, and are combed: the columns
+// lean to one side and to the other in turn. 5,000 of them at 240,000 triangles.
+Mesh combed_hair(int size, double s);
+
+// A box with a square hole in its lid and an arm that grows out of a side wall, over the lid, and
+// reaches through the hole: one connected, unclosed surface (its only boundary is the hole's rim).
+//
+// The box is [-1,1]^3, the hole |x|, |y| < 1/3 at z = 1; the arm is 0.2 wide. Edges are of about
+// one length all over, 2 / (3 b) for a resolution b >= 1, and the arm has k = max(1, b / 3) of
+// them on each of its four sides. There are 106 b^2 + 80 b k - 2 k^2 + 12 k triangles. When the
+// arm is deepest at most 16 b k + 12 k of them are inside: below 5 % if b is 3 or more (1,204
+// triangles).
+struct BoxWithArm {
+  explicit BoxWithArm(int size);
+
+  Mesh mesh;  // with the arm at `tip_outside`
+
+  // The positions when the tip of the arm is at height z over the hole's middle. The arm touches
+  // nothing for deepest_tip <= z <= tip_outside.
+  detector::Positions with_tip(double z) const;
+
+  static constexpr double tip_outside = 1.25;
+  static constexpr double deepest_tip = -0.45;
+
+ private:
+  int resolution_;
+  std::int32_t first_sliding_ = 0;  // vertices from here on are the rings that follow the tip
+};
+
+// Fields that move each vertex by itself. All of them are the identity at s = 0.
+//
+// s in [0,1] is the scene's own time. `Extent` scales a field to the mesh that it is applied to.
+
+struct Extent {
+  detector::Point centre = {0, 0, 0};
+  double radius = 1;     // half the longest side of the box around the mesh
+  std::size_t axis = 2;  // of that side
+};
+
+// Middle, half-length and axis of the box around a mesh; a mesh without extent gets radius 1.
+Extent extent_of(const detector::PositionsView& positions);
+
+using Field = detector::Point (*)(const detector::Point& x, double s, const Extent& extent);
+
+// Moves each vertex along its ray from the centre, by about 25 % and unevenly: out, back, and
+// inward. A mesh that is positive from the centre stays so, between the frames too.
+detector::Point breathe(const detector::Point& x, double s, const Extent& extent);
+
+// Bends the long axis into an arc, at the end of 1.02 turns of a circle, so that a tube's ends
+// meet.
+detector::Point bend(const detector::Point& x, double s, const Extent& extent);
+
+// Turns each place about the long axis in proportion to its height, one turn from end to end.
+detector::Point twist(const detector::Point& x, double s, const Extent& extent);
+
+// Shrinks and adds waves that fold the surface over itself.
+detector::Point crumple(const detector::Point& x, double s, const Extent& extent);
+
+// The fields below are for shapes of this room, in their own coordinates; they do not use
+// `extent`.
+// Pushes the cap around +z down through the sphere and out at the other side.
+detector::Point dent(const detector::Point& x, double s, const Extent& extent);
+// Presses the torus's hole shut at x = 0.
+detector::Point pinch(const detector::Point& x, double s, const Extent& extent);
+// Rolls the sheet up about a line x = 0.15 until its free edge comes down on it.
+detector::Point fold(const detector::Point& x, double s, const Extent& extent);
+// Narrows the tube to a waist around z = 0, at the end 40 % as wide.
+detector::Point narrow(const detector::Point& x, double s, const Extent& extent);
+
+// Takes unclosed surfaces through their own holes, or around them, and back again.
+//
+// These are fields too, for shapes of this room in their own coordinates, but periodic: the places
+// at s = 1 are those at s = 0, bit by bit, so that a sequence can be played again and again. Fields
+// of a tube take tube_shape (radius 0.5, z from -3 to 3). There is no contact if a step is at most
+// a fortieth of the period.
+
+// Rolls the tube's upper end outward and down over the tube until all of it is inside out. The
+// identity at s = 0.
+detector::Point turn_inside_out(const detector::Point& x, double s, const Extent& extent);
+
+// Tapers the tube to the upper end, cuts it obliquely there, and bends it to an arc: of 0.85 turns
+// at s = 0, and of 1.1 turns at s = 1/2, when the narrow end is inside of the wide one. While it
+// goes in, the fans over the two ends cross.
+detector::Point bite_tail(const detector::Point& x, double s, const Extent& extent);
+
+// Winds ribbon_shape up to a spiral, of 1.25 turns at s = 0 and of 2.75 at s = 1/2. Its own fan
+// lies right across it.
+detector::Point wind(const detector::Point& x, double s, const Extent& extent);
+
+// The height of a ball over the tube's middle: it goes along the axis from -4.5 to 4.5 and back.
+double ball_height(double s);
 
 // Sine and cosine of a part of a turn, from + - * / and floor only. Libraries differ in the last
 // bit of std::sin, and a scene must be the same mesh everywhere.

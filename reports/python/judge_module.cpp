@@ -10,7 +10,6 @@
 
 #include "corpus/cases/case_file.h"
 #include "corpus/formats/sequences.h"
-#include "corpus/frame_order.h"
 #include "detector/mesh/mesh_checks.h"
 #include "oracle/distance/step_distance.h"
 #include "properties/campaign/gates/findings.h"

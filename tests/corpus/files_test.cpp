@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "corpus/digest.h"
-#include "corpus/frame_order.h"
+#include "corpus/formats/sequences.h"
 #include "corpus/problem.h"
 #include "tests/corpus/scratch.h"
 

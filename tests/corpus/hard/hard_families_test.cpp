@@ -1,7 +1,6 @@
 // The hard families by themselves: strengths turn their knob, cases are the same every time.
 #include "corpus/hard/hard_families.h"
 
-#include "corpus/hard/grid_mesh.h"
 #include "tests/test.h"
 
 namespace assay::corpus {

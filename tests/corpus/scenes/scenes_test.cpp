@@ -1,6 +1,5 @@
 #include "corpus/scenes/scenes.h"
 
-#include "corpus/scenes/moving_meshes.h"
 #include "corpus/scenes/shapes.h"
 #include "tests/problem_words.h"
 

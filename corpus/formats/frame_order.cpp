@@ -1,5 +1,3 @@
-#include "corpus/frame_order.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <map>
 #include <string_view>
 
+#include "corpus/formats/sequences.h"
 #include "corpus/formats/text_lines.h"
 #include "corpus/problem.h"
 
