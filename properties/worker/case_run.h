@@ -97,7 +97,7 @@ struct CaseRun {
   // repeated), or before it began.
   std::uint64_t disturbances = 0;
   // The processor time of the last attempt: that of the worker with its threads, and that of the
-  // processes that it started if the run was long enough to look at them (worker_watch.h).
+  // processes that it started if the run was long enough to look at them (child_process.h).
   double processor_seconds = 0;
   // The last lines that a plug-in printed since the run before this one was heard
   // (isolation.h). Of cases that were sent together they may be of a later one.

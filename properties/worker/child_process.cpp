@@ -1,5 +1,6 @@
 #include "properties/worker/child_process.h"
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
@@ -11,15 +12,20 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <memory>
 #include <new>
+#include <sstream>
 #include <stdexcept>
 #include <system_error>
 #include <thread>
+#include <vector>
 
 extern char** environ;
-namespace assay::properties {
 
+namespace assay::properties {
 namespace {
 
 ChildEnd end_of(int status) {
@@ -195,6 +201,220 @@ CopyRun in_a_copy(const std::function<void(const Say&)>& work) {
   if (const auto at = run.said.find(threw); at != std::string::npos)
     throw std::runtime_error(run.said.substr(at + 1));
   return run;
+}
+
+ProcessorTime::ProcessorTime(pid_t process, pid_t worker)
+    : process_(process), worker_(worker > 0 ? worker : process) {
+  clockid_t clock;
+  if (::clock_getcpuclockid(worker_, &clock) == 0) clock_ = clock;
+  begin_ = own_seconds();
+}
+
+double ProcessorTime::own_seconds() const {
+  timespec now = {};
+  if (!clock_ || ::clock_gettime(*clock_, &now) != 0) return begin_;
+  constexpr double nanosecond = 1e-9;
+  return static_cast<double>(now.tv_sec) + nanosecond * static_cast<double>(now.tv_nsec);
+}
+
+double ProcessorTime::seconds() const { return own_seconds() - begin_ + of_others_; }
+
+double ProcessorTime::lap() {
+  const double now = own_seconds();
+  const double used = now - begin_ + of_others_;
+  begin_ = now;
+  of_others_before_.reset();
+  of_others_ = 0;
+  return used;
+}
+
+ProcessTree ProcessorTime::look() {
+  const ProcessTree tree = look_at(process_, worker_);
+  if (!of_others_before_) of_others_before_ = tree.descendant_seconds;
+  // The sum falls if a process ends for which nobody waits, so the greatest value is kept.
+  of_others_ = std::max(of_others_, tree.descendant_seconds - *of_others_before_);
+  return tree;
+}
+
+namespace {
+
+// One line of /proc/ID/stat, of a process or of a thread; see proc(5).
+struct Row {
+  pid_t id = 0, parent = 0, group = 0;
+  char state = 0;
+  unsigned long used = 0, used_in_system = 0;              // in ticks, by itself
+  unsigned long waited_for = 0, waited_for_in_system = 0;  // in ticks, by children that ended
+  long threads = 0;
+};
+
+std::optional<Row> read_row(const std::string& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return std::nullopt;  // the process has ended by now
+  std::array<char, 1024> text;
+  const ssize_t size = ::read(file, text.data(), text.size() - 1);
+  ::close(file);
+  if (size <= 0) return std::nullopt;
+  text[static_cast<std::size_t>(size)] = 0;
+  // The name stands in brackets and may hold any character, so the last bracket is searched.
+  const char* after_name = std::strrchr(text.data(), ')');
+  if (!after_name) return std::nullopt;
+  Row row;
+  constexpr int fields = 8;
+  const int got = std::sscanf(
+      after_name + 1, " %c %d %d %*d %*d %*d %*u %*u %*u %*u %*u %lu %lu %lu %lu %*d %*d %ld",
+      &row.state, &row.parent, &row.group, &row.used, &row.used_in_system, &row.waited_for,
+      &row.waited_for_in_system, &row.threads);
+  if (got != fields) return std::nullopt;
+  return row;
+}
+
+// The rows of everything in a folder whose name is a number: the processes of /proc, or the
+// threads of /proc/ID/task.
+std::vector<Row> rows_in(const std::string& folder) {
+  std::vector<Row> rows;
+  const std::unique_ptr<DIR, int (*)(DIR*)> open(::opendir(folder.c_str()), ::closedir);
+  if (!open) return rows;
+  while (const dirent* entry = ::readdir(open.get())) {
+    const char* name = entry->d_name;
+    if (*name < '0' || *name > '9') continue;
+    auto row = read_row(folder + "/" + name + "/stat");
+    if (!row) continue;
+    row->id = static_cast<pid_t>(std::atol(name));
+    rows.push_back(*row);
+  }
+  return rows;
+}
+
+// Selects the root and its descendants from all processes.
+std::vector<Row> tree_of(pid_t root, std::vector<Row> all) {
+  std::vector<Row> tree;
+  const auto belongs = [&](const Row& row) {
+    return row.id == root || row.group == root ||
+           std::any_of(tree.begin(), tree.end(),
+                       [&](const Row& member) { return member.id == row.parent; });
+  };
+  // A child may stand before its parent, because numbers are used again.
+  for (bool found = true; found;) {
+    const auto rest = std::stable_partition(all.begin(), all.end(), belongs);
+    found = rest != all.begin();
+    tree.insert(tree.end(), all.begin(), rest);
+    all.erase(all.begin(), rest);
+  }
+  return tree;
+}
+
+// The states: S and D wait, T is stopped, I is a thread of the system that waits, Z and X have
+// ended. One that a debugger holds (t) does not wait, so that it is not ended so soon.
+bool waits(const Row& row) { return std::strchr("SDTIZX", row.state) != nullptr; }
+
+bool all_wait(const Row& process) {
+  if (process.threads <= 1) return waits(process);
+  const auto threads = rows_in("/proc/" + std::to_string(process.id) + "/task");
+  return std::all_of(threads.begin(), threads.end(), waits);
+}
+
+}  // namespace
+
+ProcessTree look_at(pid_t root, pid_t apart) {
+  const auto tree = tree_of(root, rows_in("/proc"));
+  unsigned long ticks = 0;
+  for (const auto& member : tree) {
+    ticks += member.waited_for + member.waited_for_in_system;
+    if (member.id != root && member.id != apart) ticks += member.used + member.used_in_system;
+  }
+  ProcessTree seen;
+  seen.descendant_seconds =
+      static_cast<double>(ticks) / static_cast<double>(::sysconf(_SC_CLK_TCK));
+  seen.is_asleep = !tree.empty() && std::all_of(tree.begin(), tree.end(), all_wait);
+  return seen;
+}
+
+namespace {
+
+constexpr double shortest_wait = 1e-3;  // seconds
+
+// The wait before the first look. The processor time that children of the worker used for the case
+// before that look is not counted, so the look comes early. Most cases are over by then, so it
+// costs them nothing.
+double first_wait(double limit) { return std::clamp(limit / 10, shortest_wait, .05); }
+
+// The wait between two looks. It is long enough to tell sleep from a pause, and long enough that a
+// look costs nothing.
+double longest_wait(double limit) { return std::clamp(limit / 10, shortest_wait, 1.); }
+
+double seconds_between(std::chrono::steady_clock::time_point from,
+                       std::chrono::steady_clock::time_point to) {
+  return std::chrono::duration<double>(to - from).count();
+}
+
+}  // namespace
+
+WorkerWatch::WorkerWatch(const ChildProcess& worker, double seconds, pid_t plugin)
+    : worker_(worker), limit_(seconds), time_(worker.id(), plugin) {
+  begin();
+}
+
+void WorkerWatch::begin() {
+  used_ = watched_ = asleep_ = 0;
+  end_ = End::none;
+  plan_next_look(Clock::now(), first_wait(limit_));
+}
+
+double WorkerWatch::next_case() {
+  const double used = time_.lap();
+  begin();
+  return used;
+}
+
+void WorkerWatch::plan_next_look(Clock::time_point now, double seconds) {
+  last_look_ = now;
+  next_look_ = now + std::chrono::duration_cast<Clock::duration>(
+                         std::chrono::duration<double>(std::max(seconds, shortest_wait)));
+}
+
+std::optional<std::chrono::milliseconds> WorkerWatch::patience() {
+  const auto now = Clock::now();
+  if (end_ == End::none && now >= next_look_) look(now);
+  if (end_ == End::ended) return std::chrono::milliseconds(0);
+  if (end_ != End::none) return std::nullopt;
+  return std::chrono::ceil<std::chrono::milliseconds>(next_look_ - now);
+}
+
+void WorkerWatch::look(Clock::time_point now) {
+  // A look that comes late was held up, because the host or the machine was stopped, and perhaps
+  // so was the worker. So it counts for at most twice the time that was planned.
+  const double since =
+      std::min(seconds_between(last_look_, now), 2 * seconds_between(last_look_, next_look_));
+  const bool is_first = watched_ == 0;
+  const ProcessTree tree = time_.look();
+  const double used = time_.seconds();
+  watched_ += since;
+  // Threads that wait with a time-out wake up now and then and go to sleep again, so a little use
+  // of the processor still counts as sleep. A process that gets no processor is seen as runnable,
+  // not as asleep.
+  constexpr double idle_share = .01;
+  if (!is_first && tree.is_asleep && used - used_ <= idle_share * since) asleep_ += since;
+  used_ = used;
+  if (used_ >= limit_) {
+    end_ = End::used_up;
+  } else if (asleep_ >= asleep_limit * limit_) {
+    end_ = End::asleep;
+  } else if (watched_ >= wall_limit * limit_) {
+    end_ = End::endless;
+  } else if (worker_.has_ended()) {
+    end_ = End::ended;
+  }
+  const double processors = std::max(1u, std::thread::hardware_concurrency());
+  const double earliest = std::max((limit_ - used_) / processors, limit_ / 100);
+  plan_next_look(now, std::min(earliest, longest_wait(limit_)));
+}
+
+std::string WorkerWatch::why() const {
+  std::ostringstream text;
+  text << "no answer in " << limit_ << " s of processor time";
+  if (end_ == End::asleep) text << ": asleep for " << asleep_limit * limit_ << " s";
+  if (end_ == End::endless) text << ", nor in " << wall_limit * limit_ << " s";
+  return text.str();
 }
 
 }  // namespace assay::properties

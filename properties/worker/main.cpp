@@ -22,10 +22,9 @@
 #include <vector>
 
 #include "properties/words.h"
-#include "properties/worker/channel.h"
 #include "properties/worker/messages.h"
+#include "properties/worker/plugin/judged_library.h"
 #include "properties/worker/plugin/plugin_host.h"
-#include "properties/worker/plugin/python_word.h"
 
 namespace {
 

@@ -3,17 +3,23 @@
 // data travels as it lies in memory.
 //
 // What a message holds is listed once, below and beside the types (fields.h), for both directions.
+// The channel that carries messages stands last.
 #pragma once
+
+#include <sys/types.h>
 
 #include <Eigen/Core>
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "corpus/cases/case_file.h"
@@ -273,5 +279,51 @@ inline constexpr std::uint64_t longest_hello = 4 * longest_reply_text;
 
 // Whether all that the run of a case says is about that case: its steps, triangles and vertices.
 bool fits(const CaseRun& run, const corpus::Case& c);
+
+// A stream socket that carries whole messages: 8 bytes of length, then the bytes. Never raises
+// SIGPIPE.
+
+// too_long: the other end began a message of more bytes than there may be.
+enum class Transfer { done, closed, timed_out, too_long };
+
+// Is asked before each wait how long to wait at most before asking again. If it returns nothing,
+// waiting is over; if 0, it is over when nothing is there to be read. An empty function waits for
+// ever.
+using Patience = std::function<std::optional<std::chrono::milliseconds>()>;
+
+class Channel {
+ public:
+  explicit Channel(int descriptor) : descriptor_(descriptor) {}
+  Channel(Channel&& other) noexcept
+      : descriptor_(std::exchange(other.descriptor_, -1)),
+        sender_(other.sender_),
+        received_(std::move(other.received_)) {}
+  Channel& operator=(Channel&&) = delete;
+  ~Channel();  // closes
+
+  // Two connected channels, both closed on exec; nothing if the system has no more. The first one
+  // tells its senders.
+  static std::optional<std::pair<Channel, Channel>> connected();
+
+  int descriptor() const { return descriptor_; }
+  // The process that sent what was received last, as this process sees it; 0: unknown.
+  pid_t sender() const { return sender_; }
+  Transfer send(const std::string& message, const Patience& patience = {});
+  // Receives a message of at most `most` bytes. Memory is taken only for what has come, and not
+  // for what was announced.
+  Transfer receive(std::string& message, const Patience& patience = {},
+                   std::uint64_t most = ~std::uint64_t{0});
+  // Whether the other end has closed, without waiting.
+  bool is_closed() const;
+
+ private:
+  Transfer wait_for(short events, const Patience& patience) const;
+
+  ssize_t read_some(char* bytes, std::size_t size);
+
+  int descriptor_;
+  pid_t sender_ = 0;
+  std::string received_;  // bytes received beyond the last message
+};
 
 }  // namespace assay::properties

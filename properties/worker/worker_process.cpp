@@ -6,12 +6,9 @@
 #include <algorithm>
 #include <thread>
 
-#include "properties/worker/channel.h"
 #include "properties/worker/child_process.h"
 #include "properties/worker/messages.h"
 #include "properties/worker/plugin/judged_library.h"
-#include "properties/worker/plugin/python_word.h"
-#include "properties/worker/worker_watch.h"
 
 namespace assay::properties {
 

@@ -26,7 +26,7 @@ inline constexpr double longest_loading = 10;
 struct WorkerLimits {
   // Limits the processor time of one case in one configuration: that of the worker with its
   // threads and of the processes that it starts. Beyond it the worker is killed; it is also killed
-  // if it sleeps or does not end (worker_watch.h). Loading a plug-in has the same limit, or
+  // if it sleeps or does not end (child_process.h). Loading a plug-in has the same limit, or
   // longest_loading if that is less.
   double seconds = 10;
   std::uint64_t bytes = 0;  // address space of a process; 0: no limit

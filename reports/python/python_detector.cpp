@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "detector/plugin/assay_detector.hpp"
-#include "properties/worker/plugin/python_word.h"
+#include "properties/worker/plugin/judged_library.h"
 #include "reports/python/contract_members.h"
 
 namespace assay::python {

@@ -13,7 +13,7 @@
 
 #include "commit.h"
 #include "oracle/libraries.h"
-#include "properties/worker/plugin/python_word.h"
+#include "properties/worker/plugin/judged_library.h"
 
 namespace assay::reports {
 

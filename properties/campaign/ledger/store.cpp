@@ -11,7 +11,7 @@
 
 #include "properties/campaign/ledger/binding.h"
 #include "properties/campaign/ledger/row_fields.h"
-#include "properties/worker/plugin/python_word.h"
+#include "properties/worker/plugin/judged_library.h"
 
 namespace assay::properties {
 namespace {

@@ -13,7 +13,6 @@
 #include <optional>
 
 #include "corpus/digest.h"
-#include "properties/worker/plugin/python_word.h"
 
 namespace assay::properties {
 

@@ -1,9 +1,9 @@
-#include "properties/worker/plugin/python_word.h"
-
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
 #include <fstream>
+
+#include "properties/worker/plugin/judged_library.h"
 
 namespace assay::properties {
 

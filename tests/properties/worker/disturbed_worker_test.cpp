@@ -9,7 +9,6 @@
 #include "properties/worker/child_process.h"
 #include "properties/worker/plugin/query_case.h"
 #include "properties/worker/worker_process.h"
-#include "properties/worker/worker_watch.h"
 #include "tests/properties/small_case.h"
 #include "tests/properties/worker/worker_cases.h"
 

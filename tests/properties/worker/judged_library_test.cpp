@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include "corpus/digest.h"
-#include "properties/worker/plugin/python_word.h"
 #include "properties/worker/worker_process.h"
 #include "tests/problem_words.h"
 #include "tests/properties/worker/worker_cases.h"

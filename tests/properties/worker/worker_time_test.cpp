@@ -6,10 +6,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "properties/worker/channel.h"
 #include "properties/worker/child_process.h"
+#include "properties/worker/messages.h"
 #include "properties/worker/worker_process.h"
-#include "properties/worker/worker_watch.h"
 #include "tests/properties/small_case.h"
 #include "tests/properties/worker/worker_cases.h"
 
