@@ -1,9 +1,9 @@
-#include "reports/bench/bench_report.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdlib>
+
+#include "reports/bench/compared/comparison.h"
 
 namespace assay::reports {
 

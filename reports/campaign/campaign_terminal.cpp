@@ -13,7 +13,6 @@
 #include "properties/worker/worker_process.h"
 #include "reports/bench/cases.h"
 #include "reports/campaign/campaign_text.h"
-#include "reports/campaign/own_checks.h"
 #include "reports/terminal/options.h"
 #include "reports/terminal/work.h"
 

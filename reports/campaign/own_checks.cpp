@@ -1,5 +1,3 @@
-#include "reports/campaign/own_checks.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,6 +18,7 @@
 #include "properties/worker/worker_process.h"
 #include "reports/bench/cases.h"
 #include "reports/bench/sweep.h"
+#include "reports/campaign/campaign_terminal.h"
 
 namespace assay::reports {
 

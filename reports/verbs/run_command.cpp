@@ -17,7 +17,6 @@
 #include "properties/queries/self_check.h"
 #include "reports/campaign/campaign_terminal.h"
 #include "reports/campaign/campaign_text.h"
-#include "reports/campaign/own_checks.h"
 #include "reports/certificate/statement.h"
 #include "reports/terminal/words.h"
 #include "reports/terminal/work.h"

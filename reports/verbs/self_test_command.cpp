@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "properties/queries/self_check.h"
-#include "reports/campaign/own_checks.h"
+#include "reports/campaign/campaign_terminal.h"
 #include "reports/terminal/words.h"
 #include "reports/terminal/work.h"
 #include "reports/verbs/verbs.h"
