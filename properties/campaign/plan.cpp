@@ -3,12 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/outcome/try.hpp>
 
+#include "corpus/files.h"
+#include "corpus/json_fields.h"
+#include "corpus/problem.h"
+#include "detector/mesh/problem.h"
 #include "properties/generators/families.h"
 #include "properties/queries/query_families.h"
+#include "properties/words.h"
 
 namespace assay::properties {
-
 namespace {
 
 // Every generic family gets the first number of cases, every other family the second.
@@ -156,6 +161,249 @@ CampaignPlan query_plan(CampaignPlan plan) {
   plan.law_premises = 0;
   plan.tetrahedron_seconds = 0;
   return plan;
+}
+
+// Campaign files: schema `assay-campaign/1`.
+
+namespace {
+
+using corpus::JsonField, corpus::Refused;
+using Json = corpus::Json;
+
+constexpr const char* schema = "assay-campaign/1";
+constexpr corpus::Below most_cases{1'000'000'000}, most_repeated_triangles{1'000'000};
+
+// What a number has to be, and how that is said.
+struct Rule {
+  bool (*holds)(double);
+  const char* expected;
+};
+constexpr Rule at_least_0 = {[](double x) { return x >= 0; }, "a number of at least 0 expected"};
+constexpr Rule above_0 = {[](double x) { return x > 0; }, "a number above 0 expected"};
+constexpr Rule is_bound = {[](double x) { return x >= 0 && x < 1; }, "0 <= bound < 1 expected"};
+constexpr Rule is_power = {[](double x) { return x > 0 && x <= 1; }, "0 < power <= 1 expected"};
+
+// The value null says that there is no limit. It has to be stated, so that nobody leaves the limit
+// out by mistake.
+struct Seconds {
+  double& value;
+};
+// Takes the same numbers as the option --memory.
+struct Bytes {
+  std::uint64_t& value;
+};
+
+// The fields of a plan and of its parts, each named here and nowhere else. An archive reads those
+// that `must` be there and those that `may`, or writes all of them.
+template <class Archive>
+void fields(Archive& archive, StratumPlan& stratum) {
+  archive.must("family", stratum.family);
+  archive.must("cases", stratum.cases, most_cases);
+  archive.may("bound", stratum.wanted_bound, is_bound);
+}
+
+template <class Archive>
+void fields(Archive& archive, Policy& policy) {
+  archive.may("power", policy.power, is_power);
+  archive.may("self_test_queries", policy.self_test_queries, most_cases);
+  archive.may("repeated_triangles", policy.repeated_triangles, most_repeated_triangles);
+  archive.may("speed_limits", policy.speed_limits);
+}
+
+template <class Archive>
+void fields(Archive& archive, CampaignPlan& plan) {
+  archive.must("name", plan.name);
+  archive.must("strata", plan.strata);
+  archive.may("seconds", Seconds{plan.seconds});
+  archive.may("case_seconds", plan.case_seconds, at_least_0);
+  archive.may("case_bytes", Bytes{plan.case_bytes});
+  archive.may("laws_every", plan.laws_every, most_cases);
+  archive.may("law_premises", plan.law_premises, most_cases);
+  archive.may("fault_cases", plan.fault_cases, most_cases);
+  archive.may("fault_seeds", plan.fault_seeds, most_cases);
+  archive.may("tetrahedron_seconds", plan.tetrahedron_seconds, at_least_0);
+  archive.may("shrink_share", plan.shrink_share, at_least_0);
+  archive.may("search", plan.search, most_cases);
+  archive.may("policy", plan.policy);
+}
+
+class PlanWriter {
+ public:
+  template <class T, class... Rules>
+  void must(const char* name, const T& x, const Rules&...) {
+    write(json[name], x);
+  }
+  template <class T, class... Rules>
+  void may(const char* name, const T& x, const Rules&...) {
+    write(json[name], x);
+  }
+  template <class T>
+  static Json written(T x) {
+    PlanWriter writer;
+    fields(writer, x);
+    return writer.json;
+  }
+
+ private:
+  static void write(Json& out, const auto& x) { out = x; }
+  static void write(Json& out, const Seconds& x) { out = x.value > 0 ? Json(x.value) : Json(); }
+  static void write(Json& out, const Bytes& x) { out = x.value; }
+  static void write(Json& out, const Policy& policy) { out = written(policy); }
+  static void write(Json& out, const std::vector<StratumPlan>& strata) {
+    out = Json::array();
+    for (const StratumPlan& stratum : strata) out.push_back(written(stratum));
+  }
+  static void write(Json& out, const std::vector<SpeedLimit>& limits) {
+    out = Json::object();
+    for (const auto& [figure, limit] : limits) out[figure] = limit;
+  }
+
+  Json json;
+};
+
+class PlanReader : public corpus::JsonReader<PlanReader> {
+ public:
+  using JsonReader::JsonReader, JsonReader::read;
+
+  // Reads all fields of an object. An unknown key is refused, because a misspelt limit must not
+  // pass for a limit that was not stated; `known` has those that are not read here.
+  template <class T>
+  static void read_all(const JsonField& object, T& x, Json known = Json::object()) {
+    if (!object.json().is_object()) throw Refused{object.problem("an object expected")};
+    known.update(PlanWriter::written(x));
+    for (const auto& [key, value] : object.json().items()) {
+      if (!known.contains(key)) throw Refused{object.problem("no field '" + key + "' is known")};
+    }
+    PlanReader reader(object);
+    fields(reader, x);
+  }
+
+  static void read(const JsonField& field, double& x, const Rule& rule) {
+    read(field, x);
+    if (!rule.holds(x)) throw Refused{field.problem(rule.expected)};
+  }
+  static void read(const JsonField& field, const Seconds& x) {
+    if (!field.json().is_null()) read(field, x.value, at_least_0);
+  }
+  static void read(const JsonField& field, const Bytes& x) {
+    constexpr std::uint64_t most = std::uint64_t{1} << 60;
+    if (!field.json().is_number_unsigned() || field.json().get<std::uint64_t>() > most)
+      throw Refused{field.problem("a whole number of bytes expected")};
+    x.value = field.json().get<std::uint64_t>();
+  }
+  static void read(const JsonField& field, Policy& policy) { read_all(field, policy); }
+  static void read(const JsonField& field, std::vector<StratumPlan>& strata) {
+    const auto size = corpus::want(field.size());
+    for (std::size_t i = 0; i < size; ++i) {
+      StratumPlan stratum;
+      read_all(field.item(i), stratum);
+      const auto family = field.item(i).at("family").value();
+      if (!find_family(stratum.family)) throw Refused{family.problem("no family of this name")};
+      if (std::any_of(strata.begin(), strata.end(),
+                      [&](const StratumPlan& other) { return other.family == stratum.family; }))
+        throw Refused{family.problem("this family is there already")};
+      strata.push_back(std::move(stratum));
+    }
+  }
+  static void read(const JsonField& field, std::vector<SpeedLimit>& limits) {
+    if (!field.json().is_object()) throw Refused{field.problem("an object expected")};
+    for (const auto& [figure, value] : field.json().items()) {
+      if (std::find(std::begin(speed_figures), std::end(speed_figures), figure) ==
+          std::end(speed_figures))
+        throw Refused{field.problem("no figure '" + figure + "' is known")};
+      limits.push_back({figure, 0});
+      read(corpus::want(field.at(figure)), limits.back().limit, above_0);
+    }
+  }
+};
+
+// Returns what is wrong with the plan as a whole, if anything is.
+std::optional<corpus::Problem> fault_of(const JsonField& top, const CampaignPlan& plan) {
+  const auto name_letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
+  // The name becomes part of ids and of file names.
+  if (plan.name.empty() || plan.name.find_first_not_of(name_letters) != std::string::npos)
+    return top.at("name").value().problem("a name of letters, digits, '-', '_' and '.' expected");
+  const bool has_no_limit = top.has("seconds") && top.json()["seconds"].is_null();
+  if (!has_no_limit && plan.seconds <= 0) return top.problem("seconds above 0, or null, expected");
+  if (plan.case_seconds <= 0) return top.problem("case_seconds above 0 expected");
+  if (plan.shrink_share > 1) return top.problem("shrink_share of at most 1 expected");
+  if ((plan.fault_cases > 0) != (plan.fault_seeds > 0))
+    return top.problem("fault_cases and fault_seeds belong together");
+  const bool has_cases = std::any_of(plan.strata.begin(), plan.strata.end(),
+                                     [](const StratumPlan& s) { return s.cases > 0; });
+  if (!has_cases && plan.fault_cases == 0 && plan.tetrahedron_seconds == 0 && plan.search == 0)
+    return top.problem("there is nothing to do");
+  return std::nullopt;
+}
+
+}  // namespace
+
+corpus::Expected<CampaignPlan> parse_plan(const std::string& text,
+                                          const std::filesystem::path& name) try {
+  const auto json = corpus::want(corpus::parse_json(text, name));
+  const JsonField top(json, name);
+  const auto schema_field = corpus::want(top.at("schema"));
+  if (schema_field.json() != schema) return schema_field.problem(std::string(schema) + " expected");
+  CampaignPlan plan;
+  PlanReader::read_all(top, plan, {{"schema", schema}, {"about", ""}});
+  if (auto fault = fault_of(top, plan)) return *fault;
+  return plan;
+} catch (const Refused& refused) {
+  return refused.problem;
+}
+
+std::string plan_text(const CampaignPlan& plan) {
+  Json json = {{"schema", schema}};
+  json.update(PlanWriter::written(plan));
+  return json.dump();
+}
+
+namespace {
+
+// Whether options of a run and the detector's parts make the plan of the named one: options limit a
+// case; a plug-in is not asked what the built-in detector is, and no relations where it takes none;
+// its query is judged beside the steps, or alone. Their times may differ: a campaign that was
+// stopped by --time keeps its name.
+bool is_made_of(CampaignPlan plan, const CampaignPlan& named) {
+  plan.seconds = 0;
+  plan.case_seconds = named.case_seconds;
+  plan.case_bytes = named.case_bytes;
+  const CampaignPlan of_plugin = without_questions(named);
+  const auto variants = {named,
+                         of_plugin,
+                         without_relations(of_plugin),
+                         with_queries(of_plugin),
+                         with_queries(without_relations(of_plugin)),
+                         query_plan(of_plugin)};
+  return std::any_of(variants.begin(), variants.end(), [&](CampaignPlan variant) {
+    variant.seconds = 0;
+    return plan_text(plan) == plan_text(variant);
+  });
+}
+
+}  // namespace
+
+corpus::Expected<CampaignPlan> read_plan(const std::filesystem::path& file) {
+  BOOST_OUTCOME_TRY(bytes, corpus::read_bytes(file));
+  BOOST_OUTCOME_TRY(plan, parse_plan(bytes, file));
+  for (const auto& named : named_plans()) {
+    if (plan.name == named.name && !is_made_of(plan, named))
+      return corpus::problem_in(file, "is another plan than the built-in campaign of its name");
+  }
+  return plan;
+}
+
+corpus::Expected<CampaignPlan> find_plan(const std::string& name_or_file) {
+  for (const auto& plan : named_plans()) {
+    if (plan.name == name_or_file) return plan;
+  }
+  std::error_code ignored;
+  if (!std::filesystem::exists(name_or_file, ignored)) {
+    return corpus::problem_in(
+        name_or_file, "is no campaign and no file" +
+                          corpus::did_you_mean(corpus::names_among(named_plans()), name_or_file));
+  }
+  return read_plan(name_or_file);
 }
 
 }  // namespace assay::properties

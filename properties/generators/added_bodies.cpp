@@ -1,5 +1,3 @@
-#include "properties/generators/added_bodies.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,6 +5,7 @@
 #include "detector/mesh/for_all.h"
 #include "properties/changes/changes.h"
 #include "properties/generators/draft.h"
+#include "properties/generators/parts.h"
 #include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {

@@ -83,7 +83,7 @@ struct Draft {
   // Vertices from this index on belong to a second piece; 0 if there is one piece only.
   std::int32_t second_piece = 0;
   Points holes;                   // centres of holes at the start
-  std::vector<Landing> landings;  // to be met when the draft gets its numbers (everyday.h)
+  std::vector<Landing> landings;  // to be met when the draft gets its numbers (parts.h)
   Points closing;                 // by vertex, the way on which the shape closes to a ring; or none
   std::vector<Point> q0, q1;      // view primitive by frame; q1 empty: a point; both: none
   std::vector<std::string> tags;

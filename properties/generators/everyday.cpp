@@ -1,4 +1,3 @@
-#include "properties/generators/everyday.h"
 
 #include <algorithm>
 #include <cmath>

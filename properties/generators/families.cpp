@@ -8,7 +8,6 @@
 
 #include "oracle/mesh/step.h"
 #include "properties/generators/draft.h"
-#include "properties/generators/everyday.h"
 #include "properties/generators/parts.h"
 #include "properties/random.h"
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "detector/mesh/topology.h"
-#include "properties/generators/everyday.h"
 #include "properties/random.h"
 
 namespace assay::properties {

@@ -1,11 +1,16 @@
 // What random meshes are made of, one after the other: a rest shape, its motion, what is aimed in
-// it, the kind of its numbers; and which of its pairs count.
+// it, the kind of its numbers; which of its pairs count; and bodies that are added far from it.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <span>
 
+#include "corpus/cases/case_file.h"
 #include "detector/mesh/enum_names.h"
+#include "detector/mesh/step_types.h"
 #include "properties/generators/draft.h"
+#include "properties/random.h"
 
 namespace assay::properties {
 
@@ -125,6 +130,72 @@ void make_denormal(Random& random, Draft& draft);
 // frame or in all. Tagged "menu:...".
 void miss_nearly(Random& random, Draft& draft);
 
+// Everyday numbers: lengths, places and ends as programs make them.
+//
+// Sizes are 10^-4 to 10^6 and no powers of two. Places are decimals, inches, quotients or float32,
+// or are turned by any angle; ends come from x + v dt, from x + dx, or are rounded as places are.
+// So mantissas are full and x0 + (x1 - x0) is often not x1, and yet much is level, as floors and
+// boxes are. Detectors that round on the way to their arithmetic err here. They err neither at
+// random places, where nothing is level, nor at small integers, where nothing is rounded.
+
+// Returns a size between 10^-4 and 10^6: three digits times a power of ten.
+double everyday_size(Random& random);
+
+// Returns the double `units` units of the last place from `c` in the direction of the sign of
+// `towards`, or in the opposite one if `units` is negative. A unit of 0 is one of 1.
+double units_beyond(double c, int units, double towards);
+
+// Moves the first `first_group` of four points, which come by `way`, along one axis: to where they
+// touch the other points or have passed them by less than a unit of the last place, and `units`
+// units beyond. One point touches a face and two touch an edge, by the exact sign of their volume.
+void put_on(std::array<Point, 4>& x, std::size_t first_group, const Point& way, int units);
+
+// Draws how far beyond a feature something ends: 0 for two of three, else 1 to 16 units of the
+// last place, or now and then 1 to 4 short of it.
+int units_at_a_feature(Random& random);
+
+// The numbers of one program, drawn once for a case.
+class EverydayNumbers {
+ public:
+  explicit EverydayNumbers(Random& random);
+
+  // The place of a point that is given in units of the size.
+  Point place(const Point& x) const;
+  // Where a vertex ends that is at `x0` and moves by `way`, which is given in units of the size.
+  Point end(const Point& x0, const Point& way) const;
+  // Whether coordinates that are equal stay equal in places and ends.
+  bool keeps_levels() const { return !is_turned_; }
+  const char* tag() const;
+
+ private:
+  enum Rounding { none, decimals, inches, quotient, float32 };
+  enum Motion { velocity, sum, rounded_end };
+  double rounded(double c) const;
+  Point turned(const Point& x) const;
+
+  double size_;
+  Rounding rounding_;
+  Motion motion_;
+  int grain_ = 0;                // places are multiples of 10^grain_ ...
+  double multiplier_ = 1;        // ... times this
+  double divisor_ = 1;           // ... over this
+  double time_step_ = 1;         // of a motion by velocity
+  Point offset_ = {0, 0, 0};     // of the whole scene, in units of the size
+  bool is_turned_;               // by any angle, before places are rounded
+  std::array<Point, 3> rows_{};  // of the turn
+};
+
+// Gives a draft everyday numbers, and lets its landings meet. Frames, view and axis are in units of
+// the size before.
+void use_everyday_numbers(Random& random, Draft& draft);
+
+// Makes two pieces of about `size` triangles together, in units of the size: one rests or rises,
+// has a level top, and the other comes down on it. A vertex or a level edge of the upper piece
+// lands on the top, on its border or at its corner, where a step ends; or the piece goes on through
+// the top, slides along it, begins there, or stays and leaves again. A third of the open pieces is
+// flat and mostly slides within the plane of the top.
+Draft falling_piece(Random& random, bool closed, int size);
+
 // Relations between pairs for random cases: which pairs count (detector/mesh/counted_pairs.h).
 
 // Gives the case a relation that leaves something out: bodies, which are its components, of which
@@ -149,5 +220,35 @@ constexpr auto names_of(LeftOut) {
 // out.
 detector::CountedPairs relation_without(LeftOut left_out, Random& random, const corpus::Case& c,
                                         std::span<const detector::PairContact> in_contact);
+
+// Bodies that are added to a case, far from its own.
+
+// Two triangles without a common vertex that come within a distance d, only just do, or only just
+// do not. They move rigidly over a step: a0 a1 a2 at rest, and b0 b1 b2. Their nearest features lie
+// in a known direction, so their distance is known without rounding: it is d, the double before or
+// after d, a share of 2^-20 less, or half of d; at the end of the step, at its start, throughout,
+// or at the middle alone. The features are a vertex and a face, edge or vertex, or two edges,
+// crossing or parallel.
+struct Approach {
+  std::array<detector::MovingPoint, 3> a, b;
+};
+Approach draw_approach(Random& random, double d);
+
+// Adds the two triangles of an approach to the mesh, far from it, in one step of its script; what
+// was expected of the case is dropped. A query (query_case.h) becomes one of the features of an
+// approach instead: b0 and the face a, or the edges a0a1 and b0b1. A mesh with coordinates above
+// most_aimed stays as it is. REQUIRES a step, and d from least_aimed to most_aimed.
+corpus::Case with_approach(corpus::Case c, double d, Random& random);
+inline constexpr double least_aimed = 0x1p-900, most_aimed = 0x1p900;
+
+// A body that makes a small case large, so that a detector shares its work out to several threads.
+//
+// The case with a sheet of 12,544 vertices behind its own, far from it: some loops over vertices
+// then have four pieces (detector/mesh/for_all.h), so that with two or three threads some lane
+// takes two of them. Seen from above the sheet is a grid that rests; its heights change from frame
+// to frame. So it meets nothing, and it has no two triangles without a common vertex that come
+// within `apart`: what a step answers is what it answers without the sheet. In a relation it is a
+// body of its own. Views and facts are dropped. Nothing if coordinates are too large or too small.
+std::optional<corpus::Case> with_far_body(corpus::Case c, double apart);
 
 }  // namespace assay::properties

@@ -16,7 +16,7 @@ namespace assay::properties {
 
 // What the oracle found in a step, as a contract sees it, and the places of contact at one time.
 // Whatever shows or judges a detector's step takes the oracle's facts from here, so that a contract
-// is obeyed everywhere (step_truth.cpp).
+// is obeyed everywhere.
 
 struct StepTruth {
   // The pairs that count, ascending, each with the first time at which it does.

@@ -9,7 +9,6 @@
 
 #include "detector/assembly.h"
 #include "properties/laws/facts/case_facts.h"
-#include "properties/laws/facts/view_values.h"
 #include "properties/laws/law.h"
 #include "properties/laws/metamorphic/pinned_run.h"
 #include "properties/laws/step_law.h"

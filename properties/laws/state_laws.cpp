@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "properties/laws/facts/carried_state.h"
+#include "properties/laws/facts/case_facts.h"
 #include "properties/laws/metamorphic/change_laws.h"
 #include "properties/laws/step_law.h"
 

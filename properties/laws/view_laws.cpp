@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "properties/laws/facts/view_values.h"
+#include "properties/laws/facts/case_facts.h"
 #include "properties/laws/step_law.h"
 #include "properties/random.h"
 

@@ -9,7 +9,6 @@
 #include <span>
 
 #include "properties/changes/changes.h"
-#include "properties/reducer/passes/passes.h"
 #include "properties/reducer/search.h"
 #include "properties/worker/plugin/query_case.h"
 

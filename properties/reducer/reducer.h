@@ -1,6 +1,6 @@
 // The reducer: from a failing case to the smallest one that fails with the same signature.
 //
-// It is a list of passes (passes.h) run in a fixed order to a fixed point. A pass proposes cases;
+// It is a list of passes (search.h) run in a fixed order to a fixed point. A pass proposes cases;
 // one is kept when it is smaller (MeshSize) and the judge finds the same signature in it. No
 // proposal is judged twice, only valid cases are judged (case_edits.h). The same case, judge and
 // limit of calls give the same bytes; a limit of time only ends the search earlier.
@@ -49,7 +49,7 @@ struct Reduction {
   double seconds = 0;
   bool fixed_point = false;  // no pass finds anything smaller; false if a limit ended it
   // Above 0: only its size shows the failure. So many triangles of the case fail, and no fewer that
-  // were tried (cut_large_mesh of passes.h).
+  // were tried (cut_large_mesh of search.h).
   std::size_t fails_from = 0;
   std::vector<PassStatistics> passes;
 };

@@ -1,6 +1,8 @@
-// The reducer's search: the best case so far, and the judge behind a cache and limits.
+// The reducer's search: the best case so far, and the judge behind a cache and limits; and the
+// passes, which propose cases to it.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <unordered_map>
@@ -102,5 +104,87 @@ void try_halves(const ReductionSearch& search, Size size, TryRange try_range) {
     if (chunk == 1 || search.ended()) return;
   }
 }
+
+// The passes of the reducer, in the order in which they run. Each pass proposes cases to the
+// search, which keeps the best one. Whether a pass made progress shows in the size of that case.
+//
+// To add one: a function here, a row in reducer/reducer.cpp, a test in
+// tests/properties/reducer/reducer_passes_test.
+
+// mesh_passes.cpp: a mesh of more than 1,000 triangles is cut before any pass begins, which would
+// take too long: to the least number of triangles around the reported pair that still fails, found
+// by doubling and then halving, and by halves and quarters that are left out. A failure of the same
+// claim and kind counts as the same, because another contact may now come first. If more than 1,000
+// triangles are left in the end, only size shows the failure, and their number is returned. It
+// returns 0 if fewer are left, and if a limit ended the search.
+std::size_t cut_large_mesh(ReductionSearch& search);
+
+// step_passes.cpp: passes that shorten the sequence.
+void drop_later_steps(ReductionSearch& search);  // those after the step that shows the failure
+void drop_steps(ReductionSearch& search);        // halves, then one by one
+void merge_steps(ReductionSearch& search);       // from the start of one step to the end of next
+
+// mesh_passes.cpp: passes for any mesh. They do not keep a closed mesh closed, except
+// drop_components.
+void drop_components(ReductionSearch& search);  // halves, then one by one; the exception
+void keep_rings(ReductionSearch& search);       // the reported pair and 0, 1, 2 .. rings around it
+void drop_faces(ReductionSearch& search);       // halves, then one by one, far ones first
+void drop_unused_vertices(ReductionSearch& search);
+void drop_ghosts(ReductionSearch& search);  // ghosts that the case states
+
+// There too: passes that keep a closed mesh closed (a cycle stays a cycle).
+void cone_outside(ReductionSearch& search);   // all vertices outside a ring become one vertex
+void cut_and_close(ReductionSearch& search);  // rings around the pair, their loops closed by fans
+void merge_balls(ReductionSearch& search);    // groups of neighbours become one vertex each
+void collapse_to_parents(ReductionSearch& search);  // many edges at once, each towards the pair
+void collapse_edges(ReductionSearch& search);       // one edge at a time, towards either end
+void merge_twice(ReductionSearch& search);          // two collapses at once, of small meshes
+void remove_and_close(ReductionSearch& search);     // a face or a vertex star, closed by a fan
+
+// small_meshes.cpp: the mesh is replaced by a triangulated sphere over some of its own vertices.
+void try_spheres_of_pair(ReductionSearch& search);  // over vertices of the pair: few proposals
+void try_small_spheres(ReductionSearch& search);    // also over vertices around it: thousands
+
+// There too: all triangulated spheres with few vertices.
+
+using SphereMesh = std::vector<std::array<std::int32_t, 3>>;  // oriented alike; a cycle
+
+// Every triangulation of the sphere with the vertices 0 .. n-1, for 4 <= n <= 7: there are 1, 10,
+// 195 and 5712 (vertices labelled, no two triangles with the same corners, mirror images not
+// listed apart). They are found by edge flips, under which they are connected (Wagner 1936), and
+// are made once.
+const std::vector<SphereMesh>& sphere_meshes(int vertices);
+
+SphereMesh mirrored(SphereMesh mesh);
+
+// The mesh with the edge of corners i and i+1 of triangle t flipped, so that it joins the two
+// opposite vertices. Empty if that edge is not shared by exactly two triangles, or if the new edge
+// exists already.
+SphereMesh flipped(const SphereMesh& mesh, std::size_t t, std::size_t i);
+
+// step_passes.cpp: vertices that moved are put to rest.
+void freeze_vertices(ReductionSearch& search);  // halves, then one by one, at either end's place
+
+// There too: the relation says less.
+void simplify_relation(ReductionSearch& search);  // without it, without its parts, at rest at first
+
+// There too: passes on the view primitive that the case states.
+void simplify_view(ReductionSearch& search);  // fixed, a point, at the origin
+void drop_view(ReductionSearch& search);      // the detector's own one serves as well
+
+// number_passes.cpp: passes that make coordinates simpler.
+void translate(ReductionSearch& search);          // along each axis, so that many become 0
+void round_all(ReductionSearch& search);          // all coordinates to a grid of few integers
+void round_vertices(ReductionSearch& search);     // one vertex at a time, fewer digits
+void simplify_numbers(ReductionSearch& search);   // one coordinate at a time, towards 0
+void simplify_together(ReductionSearch& search);  // a few coordinates at once, at random
+
+// escape.cpp: random changes from which a smaller mesh can be reached, for when all other passes
+// are stuck. The same case always gets the same changes.
+void escape(ReductionSearch& search);
+
+// number_passes.cpp: numbers vertices and triangles in the order of their first use. The size
+// stays.
+void canonical_order(ReductionSearch& search);
 
 }  // namespace assay::properties

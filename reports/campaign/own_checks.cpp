@@ -10,7 +10,6 @@
 #include "corpus/scenes/scenes.h"
 #include "properties/campaign/plan.h"
 #include "properties/campaign/trials/trials.h"
-#include "properties/judging/case_check.h"
 #include "properties/judging/exam.h"
 #include "properties/judging/step_measures.h"
 #include "properties/queries/self_check.h"

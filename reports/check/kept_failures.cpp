@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "properties/campaign/phases/shrink.h"
+#include "properties/campaign/phases/phases.h"
 #include "properties/judging/contracted_case.h"
 #include "properties/judging/exam.h"
 #include "properties/judging/subject.h"

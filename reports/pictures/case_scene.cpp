@@ -7,7 +7,7 @@
 
 #include "detector/contact_place.h"
 #include "detector/mesh/mesh_checks.h"
-#include "properties/judging/case_check.h"
+#include "properties/judging/case_options.h"
 #include "properties/judging/exam.h"
 #include "properties/worker/plugin/query_case.h"
 #include "reports/terminal/option_words.h"

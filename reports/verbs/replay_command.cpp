@@ -11,7 +11,7 @@
 #include "properties/campaign/request.h"
 #include "properties/campaign/trials/trials.h"
 #include "properties/generators/draft.h"
-#include "properties/judging/case_check.h"
+#include "properties/judging/case_options.h"
 #include "properties/judging/exam.h"
 #include "properties/queries/query_families.h"
 #include "properties/reducer/reducer.h"

@@ -1,9 +1,10 @@
 // `assay shrink` looks for the smallest case that fails as this one does.
 #include <fmt/format.h>
 
-#include "properties/campaign/phases/shrink.h"
+#include "properties/campaign/phases/phases.h"
 #include "properties/campaign/trials/trials.h"
-#include "properties/judging/case_check.h"
+#include "properties/judging/case_options.h"
+#include "properties/judging/exam.h"
 #include "properties/reducer/reducer.h"
 #include "properties/worker/plugin/query_case.h"
 #include "reports/check/step_answers.h"

@@ -9,7 +9,7 @@
 #include "properties/campaign/trials/trials.h"
 #include "properties/generators/draft.h"
 #include "properties/generators/families.h"
-#include "properties/laws/facts/carried_state.h"
+#include "properties/laws/facts/case_facts.h"
 #include "properties/queries/query_families.h"
 #include "properties/worlds/small_steps.h"
 #include "tests/mutation/settings.h"

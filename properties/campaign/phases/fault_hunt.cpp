@@ -6,7 +6,6 @@
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/ledger/database.h"
 #include "properties/campaign/phases/phases.h"
-#include "properties/campaign/phases/shrink.h"
 #include "properties/campaign/trials/trials.h"
 #include "properties/generators/draft.h"
 #include "properties/generators/families.h"

@@ -9,7 +9,6 @@
 
 #include "properties/campaign/ledger/binding.h"
 #include "properties/campaign/ledger/database.h"
-#include "properties/campaign/phases/shrink.h"
 #include "properties/random.h"
 #include "properties/worker/isolation.h"
 #include "properties/worlds/tetrahedron_world.h"

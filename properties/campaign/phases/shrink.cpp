@@ -1,5 +1,3 @@
-#include "properties/campaign/phases/shrink.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 
 #include "detector/detector.h"
 #include "properties/campaign/ledger/database.h"
+#include "properties/campaign/phases/phases.h"
 #include "properties/campaign/trials/trials.h"
 #include "properties/worker/child_process.h"
 

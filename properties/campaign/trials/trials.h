@@ -45,7 +45,7 @@ struct PlannedCase {
 // every fourth case has to have a contact that counts, and is drawn again until it has one. At most
 // most_redrawn attempts are made, each deterministic; of them at most most_without_contact on cases
 // that the contract takes, and then the last of these stays. The case is brought into the contract
-// (below). Under a contract with a separation every second case is aimed at that (added_bodies.h),
+// (below). Under a contract with a separation every second case is aimed at that (parts.h),
 // and a case of which every step starts within it does not serve. Without a contract this is, of a
 // mesh, the case of the id.
 inline constexpr std::uint64_t most_redrawn = 200, most_without_contact = 40;

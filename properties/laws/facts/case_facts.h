@@ -1,25 +1,105 @@
 // What the laws ask of one case in one configuration: the detector's results, and beside them the
-// oracle's view of the same steps. Each fact is computed when it is first asked for, once.
+// oracle's view of the same steps. Each fact is computed when it is first asked for, once. Exact
+// view values stand first, and what is asked of one instant of a state last.
 #pragma once
 
+#include <algorithm>
+#include <boost/multiprecision/cpp_int.hpp>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <set>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "corpus/cases/case_file.h"
 #include "detector/detector.h"
+#include "detector/mesh/step_types.h"
+#include "detector/mesh/topology.h"
 #include "detector/step/stages.h"
 #include "detector/traditional/traditional.h"
 #include "oracle/instant/layers.h"
 #include "oracle/mesh/step.h"
 #include "oracle/view/view_sign.h"
-#include "properties/laws/facts/view_values.h"
 #include "properties/numbering.h"
 
 namespace assay::properties {
+
+// Exact values of the view function at one time, by the clamp form of L1 and by regions.
+//
+// All coordinates are integers in one unit, which is a power of two over the denominator of the
+// time. So the values are rationals with one common denominator, |d|^2, and only the numerators
+// are kept.
+
+using ExactInteger = boost::multiprecision::cpp_int;
+using ExactPoint = std::array<ExactInteger, 3>;
+
+// Where a point lies along the axis of the segment q0q1, which decides from where it is seen.
+enum class Region : std::uint8_t {
+  r0,  // before q0: view from q0
+  r1,  // beyond q1: view from q1
+  r2,  // the slab between: view from the foot of the perpendicular
+};
+
+class ExactView {
+ public:
+  // Takes a triangle and its primitive at t = eighths / 8. REQUIRES finite coordinates.
+  ExactView(const std::array<detector::MovingPoint, 3>& triangle,
+            const detector::ViewPrimitive& primitive, int eighths);
+
+  // A corner of the triangle, or the point with these weights (w0 + w1 + w2 = 2^4); both times
+  // 2^4.
+  ExactPoint corner(int i) const;
+  ExactPoint inner_point(const std::array<int, 3>& sixteenths) const;
+
+  // (x - n(x)).N for a point of the triangle that is given times 2^4. The values of all points of
+  // one ExactView have the same positive factor.
+  ExactInteger by_clamp(const ExactPoint& x) const;   // (1-s) f0 + s f1
+  ExactInteger by_region(const ExactPoint& x) const;  // from q0, from q1, from the foot
+  Region region_of(const ExactPoint& x) const;
+
+  bool has_zero_area() const;
+
+ private:
+  ExactInteger axial(const ExactPoint& x) const;  // times |d|^2
+  std::array<ExactPoint, 3> triangle_;            // all of these times 2^4
+  ExactPoint q0_, q1_, d_, normal_;
+  ExactInteger length2_;  // |d|^2, or 1 for a point
+};
+
+// The smallest and the largest magnitude of the values that a law rests on in one step, such as the
+// determinants whose signs it compares. A value near 0 beside large ones means that the law was
+// tried close to where rounding could break it.
+
+// The range of magnitudes, none of them negative. At first it holds no value.
+struct ValueRange {
+  double smallest = std::numeric_limits<double>::infinity();
+  double largest = 0;
+
+  void widen(double size) { widen({size, size}); }
+  void widen(const ValueRange& other) {
+    smallest = std::min(smallest, other.smallest);
+    largest = std::max(largest, other.largest);
+  }
+};
+
+inline constexpr double close_share = 0.01;
+// Whether the smallest is at most 1 % of the largest.
+inline bool is_close(const ValueRange& range) {
+  return range.smallest <= close_share * range.largest;
+}
+
+// The values are |(x - n(x)).N| at the vertices of the triangles, at 17 times of the step. A sign
+// change of a triangle counts as 0. They are in units of the step's own, so that nothing
+// overflows.
+//
+// Looks at the triangles given (indices into `surface`), all seen from one primitive. The rows of
+// x are the vertices of the surface. About 0.5 us a triangle.
+ValueRange view_range(const detector::Topology& surface, std::span<const std::int32_t> triangles,
+                      const detector::SteppedMesh& motion,
+                      const detector::ViewPrimitive& primitive);
 
 // The patches of a step that the traditional scheme certifies, found by the scheme's own tests.
 //
@@ -201,5 +281,54 @@ constexpr auto names_of(PairBlock) {
                                           {negative_negative, "V- V-"}});
 }
 PairBlock block_of(detector::ViewSign a, detector::ViewSign b, bool either_violated);
+
+// What the laws of state ask of one instant: which triangles share a layer, and which of them the
+// detector may have released (taken as clean again).
+
+using TriangleFlags = std::vector<std::uint8_t>;  // by triangle of the mesh, 0 or 1
+
+// Says what contradicts that the triangles marked in `held` are untouched and that those of one
+// component share a layer. Empty if nothing contradicts it.
+std::string what_is_not_clean(const CaseFacts& facts, const oracle::LayerState& layers,
+                              const TriangleFlags& held);
+
+// Which triangles of `in_question` are clean at the start of step s, by the oracle. Such a
+// triangle is untouched, and lies in the layer of those other triangles of its component that were
+// carried on as clean; if there are none, it lies in the common layer (L9). REQUIRES has_views(s).
+TriangleFlags may_be_clean(CaseFacts& facts, std::size_t s, const TriangleFlags& in_question);
+
+// Whether account_of_dirty can be kept for step s: the arithmetic, the release and the test of
+// ghosts are the exact ones, and this step and those that it continues are judged and trusted. A
+// step without views has an account too, although it shows no doubts.
+bool has_account(CaseFacts& facts, std::size_t s);
+
+// L5 at the instant at which the step starts: all of S is positive, and the winding number is 1.
+// REQUIRES has_views(s).
+bool is_free_by_view_at_start(CaseFacts& facts, std::size_t s, std::size_t component);
+
+// What is dirty by the oracle at a new start, of which nothing is known: the triangles that are
+// not clean by its layers. Layers are not asked for with start unknown, nor with start verified
+// under a culling that chooses views (view-auto, auto): there all components are dirty that are
+// not free by view. REQUIRES has_views(s).
+TriangleFlags dirty_at_a_new_start(CaseFacts& facts, std::size_t s);
+
+// What is dirty at the start of step s, by L8, L9 and L15 and the oracle alone. At a new start it
+// is dirty_at_a_new_start. Otherwise a triangle is dirty if it was in doubt after the step before
+// (dirty by this account, touched by a ghost, or in contact with its own component), and is not
+// now untouched and in the common layer. That layer is the one of the triangles that are not in
+// doubt; in a component without any, it is the layer of most untouched triangles.
+//
+// A step without views releases nothing. At a new start all of its triangles are dirty, unless the
+// caller vouched for the start; otherwise those that were in doubt after the step before. REQUIRES
+// has_account(s).
+TriangleFlags account_of_dirty(CaseFacts& facts, std::size_t s);
+// The triangles that are in doubt after step s: those that were dirty at its start, were touched
+// by a ghost, or were in contact with their own component. After a collision in a step with views
+// of which not all pairs were asked for, all are in doubt. A step without views sweeps no ghosts,
+// so after it all triangles of a component with ghosts are in doubt. REQUIRES has_account(s).
+TriangleFlags in_doubt_after(CaseFacts& facts, std::size_t s);
+
+// By triangle; 1: the result of step s marks it with doubt::dirty.
+TriangleFlags dirty_triangles(const CaseFacts& facts, std::size_t s);
 
 }  // namespace assay::properties

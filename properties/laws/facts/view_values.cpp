@@ -1,10 +1,9 @@
-#include "properties/laws/facts/view_values.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <span>
 
+#include "properties/laws/facts/case_facts.h"
 #include "properties/numbering.h"
 
 namespace assay::properties {

@@ -9,7 +9,7 @@
 #include "detector/assembly.h"
 #include "oracle/mesh/pair_relation.h"
 #include "properties/changes/changes.h"
-#include "properties/generators/added_bodies.h"
+#include "properties/generators/parts.h"
 #include "properties/judging/agreement.h"
 #include "properties/judging/contracted_case.h"
 #include "properties/judging/verdict.h"

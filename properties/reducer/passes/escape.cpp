@@ -1,4 +1,4 @@
-// The pass that leads out of a local minimum (passes.h).
+// The pass that leads out of a local minimum (reducer/search.h).
 //
 // It walks at random among cases of any size that fail alike, and from each tries the cheapest
 // steps down. Between walks it merges two vertices of the best case and changes some coordinates
@@ -10,8 +10,8 @@
 #include "properties/changes/changes.h"
 #include "properties/random.h"
 #include "properties/reducer/case_edits.h"
-#include "properties/reducer/passes/passes.h"
 #include "properties/reducer/reducer.h"
+#include "properties/reducer/search.h"
 
 namespace assay::properties {
 namespace {

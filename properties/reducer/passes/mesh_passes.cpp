@@ -1,11 +1,10 @@
 // Passes that drop triangles, whether or not the mesh stays closed; and the cut of a mesh of very
-// many triangles (passes.h).
+// many triangles (reducer/search.h).
 #include <algorithm>
 #include <vector>
 
 #include "detector/mesh/topology.h"
 #include "properties/reducer/case_edits.h"
-#include "properties/reducer/passes/passes.h"
 #include "properties/reducer/search.h"
 
 namespace assay::properties {
@@ -167,8 +166,8 @@ void drop_ghosts(ReductionSearch& search) {
   search.offer(without);
 }
 
-// Smaller meshes that stay closed where they are closed; passes.h tells what each pass does. All
-// passes but the cuts identify vertices (merge_vertices), under which a cycle stays a cycle.
+// Smaller meshes that stay closed where they are closed; reducer/search.h tells what each pass
+// does. All passes but the cuts identify vertices (merge_vertices), under which a cycle stays one.
 
 namespace {
 

@@ -1,5 +1,5 @@
 // Passes that make coordinates simpler, and the one that gives the mesh its canonical numbering
-// (passes.h).
+// (reducer/search.h).
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include "properties/changes/changes.h"
 #include "properties/random.h"
 #include "properties/reducer/case_edits.h"
-#include "properties/reducer/passes/passes.h"
 #include "properties/reducer/reducer.h"
+#include "properties/reducer/search.h"
 
 namespace assay::properties {
 

@@ -1,4 +1,4 @@
-// Passes that try triangulated spheres over a few vertices of the case itself (passes.h).
+// Passes that try triangulated spheres over a few vertices of the case itself (reducer/search.h).
 //
 // The four moving points of a contact, taken as a tetrahedron, have the same contact at the same
 // time. So if the failure lies in how a contact is looked for, a tetrahedron is often the whole
@@ -7,7 +7,6 @@
 #include <set>
 
 #include "properties/reducer/case_edits.h"
-#include "properties/reducer/passes/passes.h"
 #include "properties/reducer/search.h"
 
 namespace assay::properties {

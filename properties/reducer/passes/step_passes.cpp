@@ -1,9 +1,8 @@
 // Passes that drop steps, make the view primitive and the relation simpler, and let vertices rest
-// (passes.h).
+// (reducer/search.h).
 
 #include "properties/changes/changes.h"
 #include "properties/reducer/case_edits.h"
-#include "properties/reducer/passes/passes.h"
 #include "properties/reducer/search.h"
 
 namespace assay::properties {

@@ -1,12 +1,12 @@
 // Detectors of others (corpus/peers) in a small campaign: what corpus/peers/README.md expects of
 // each comes, what their contracts leave out does not, and each failure keeps its cause when it is
 // shrunk.
-#include "properties/campaign/phases/shrink.h"
+#include "properties/campaign/phases/phases.h"
 #include "properties/campaign/trials/trials.h"
 #include "properties/generators/families.h"
-#include "properties/judging/case_check.h"
 #include "properties/judging/cause.h"
 #include "properties/judging/contracted_case.h"
+#include "properties/judging/exam.h"
 #include "tests/properties/campaign/campaign_request.h"
 #include "tests/reports/program.h"
 

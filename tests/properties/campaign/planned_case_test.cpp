@@ -2,11 +2,11 @@
 // far a step may be gone, and what comes within a distance. A wrong answer is found there.
 #include "detector/distance/nearness.h"
 #include "properties/campaign/ledger/tally.h"
-#include "properties/campaign/phases/shrink.h"
+#include "properties/campaign/phases/phases.h"
 #include "properties/campaign/trials/trials.h"
 #include "properties/generators/families.h"
-#include "properties/judging/case_check.h"
 #include "properties/judging/case_options.h"
+#include "properties/judging/exam.h"
 #include "properties/queries/query_families.h"
 #include "properties/worker/case_run.h"
 #include "tests/curated_cases.h"

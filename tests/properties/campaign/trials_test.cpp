@@ -4,10 +4,9 @@
 
 #include "properties/campaign/ledger/tally.h"
 #include "properties/campaign/phases/phases.h"
-#include "properties/campaign/phases/shrink.h"
 #include "properties/generators/draft.h"
 #include "properties/generators/families.h"
-#include "properties/judging/case_check.h"
+#include "properties/judging/exam.h"
 #include "properties/queries/query_families.h"
 #include "properties/worker/worker_process.h"
 #include "tests/problem_words.h"

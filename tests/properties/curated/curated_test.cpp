@@ -6,7 +6,7 @@
 #include "detector/contact/elementary.h"
 #include "detector/mesh/topology.h"
 #include "detector/view/view_signs.h"
-#include "properties/judging/case_check.h"
+#include "properties/judging/exam.h"
 #include "tests/curated_cases.h"
 #include "tests/test.h"
 

@@ -6,7 +6,7 @@
 #include "corpus/queries/query_csv.h"
 #include "detector/contact/elementary.h"
 #include "detector/detector.h"
-#include "properties/judging/case_check.h"
+#include "properties/judging/exam.h"
 #include "properties/queries/query_families.h"
 #include "properties/worlds/small_steps.h"
 #include "tests/curated_cases.h"

@@ -8,7 +8,7 @@
 #include "detector/plugin/assay_builtin_detector.h"
 #include "detector/state/step_state.h"
 #include "properties/judging/agreement.h"
-#include "properties/judging/case_check.h"
+#include "properties/judging/exam.h"
 #include "properties/laws/step_law.h"
 #include "tests/test.h"
 

@@ -7,7 +7,6 @@
 #include "detector/mesh/mesh_checks.h"
 #include "oracle/distance/step_distance.h"
 #include "oracle/mesh/mesh_features.h"
-#include "properties/generators/added_bodies.h"
 #include "properties/generators/families.h"
 #include "properties/generators/parts.h"
 #include "properties/judging/exam.h"

@@ -4,7 +4,7 @@
 #include "oracle/mesh/step.h"
 #include "properties/generators/draft.h"
 #include "properties/generators/families.h"
-#include "properties/judging/case_check.h"
+#include "properties/judging/exam.h"
 #include "tests/meshes.h"
 #include "tests/test.h"
 

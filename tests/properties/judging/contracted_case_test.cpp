@@ -1,8 +1,8 @@
 #include "properties/judging/contracted_case.h"
 
 #include "properties/campaign/trials/trials.h"
-#include "properties/judging/case_check.h"
 #include "properties/judging/case_options.h"
+#include "properties/judging/exam.h"
 #include "properties/worker/plugin/query_case.h"
 #include "tests/curated_cases.h"
 #include "tests/meshes.h"

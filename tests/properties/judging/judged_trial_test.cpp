@@ -1,7 +1,8 @@
 // What is said of hand-made runs of a case.
 #include "properties/campaign/trials/trials.h"
-#include "properties/judging/case_check.h"
+#include "properties/judging/case_options.h"
 #include "properties/judging/cause.h"
+#include "properties/judging/exam.h"
 #include "tests/properties/small_case.h"
 #include "tests/sinking_corner.h"
 

@@ -11,7 +11,7 @@
 #include "oracle/mesh/mesh_features.h"
 #include "oracle/view/touched_by_ghosts.h"
 #include "oracle/view/view_sign.h"
-#include "properties/laws/facts/carried_state.h"
+#include "properties/laws/facts/case_facts.h"
 #include "properties/random.h"
 #include "properties/worlds/small_steps.h"
 #include "tests/curated_cases.h"

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "detector/assembly.h"
-#include "properties/generators/added_bodies.h"
+#include "properties/generators/parts.h"
 #include "tests/properties/laws/judged_case.h"
 
 namespace assay::properties {

@@ -7,7 +7,7 @@
 #include "detector/step/stages.h"
 #include "properties/faults/fault.h"
 #include "properties/generators/draft.h"
-#include "properties/laws/facts/view_values.h"
+#include "properties/laws/facts/case_facts.h"
 #include "properties/laws/law.h"
 #include "tests/properties/laws/judged_case.h"
 

@@ -9,7 +9,8 @@
 #include <rapidcheck.h>
 
 #include "properties/generators/draft.h"
-#include "properties/judging/case_check.h"
+#include "properties/judging/case_options.h"
+#include "properties/judging/exam.h"
 #include "properties/laws/facts/case_facts.h"
 #include "properties/laws/law.h"
 #include "tests/curated_cases.h"

@@ -6,8 +6,8 @@
 #include "corpus/scenes/shapes.h"
 #include "oracle/mesh/mesh_features.h"
 #include "properties/reducer/case_edits.h"
-#include "properties/reducer/passes/passes.h"
 #include "properties/reducer/reducer.h"
+#include "properties/reducer/search.h"
 #include "tests/meshes.h"
 #include "tests/test.h"
 

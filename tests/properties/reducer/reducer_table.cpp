@@ -10,7 +10,6 @@
 #include <string>
 
 #include "properties/campaign/phases/phases.h"
-#include "properties/campaign/phases/shrink.h"
 #include "properties/reducer/reducer.h"
 #include "tests/curated_cases.h"
 #include "tests/properties/reducer/toy_faults.h"

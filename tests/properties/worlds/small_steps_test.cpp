@@ -11,7 +11,7 @@
 #include "detector/search/pair_relation.h"
 #include "oracle/view/view_sign.h"
 #include "properties/judging/agreement.h"
-#include "properties/judging/case_check.h"
+#include "properties/judging/exam.h"
 #include "properties/worlds/tetrahedron_world.h"
 #include "tests/asked.h"
 #include "tests/curated_cases.h"

@@ -2,7 +2,7 @@
 // one that crashes; and the meshes of corpus/peers, each of which shows a peer's worst miss.
 #include "corpus/scenes/scenes.h"
 #include "oracle/referee/distance_referee.h"
-#include "properties/judging/case_check.h"
+#include "properties/judging/exam.h"
 #include "reports/bench/compared/comparison.h"
 #include "tests/reports/program.h"
 
