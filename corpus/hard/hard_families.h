@@ -4,8 +4,9 @@
 // The strength turns one knob, and a greater strength is harder. At strength s the knob stands at
 // 2^(exponent_at_0 + slope * s); what that measures depends on the family: a gap in units of the
 // grid, an offset over the size, a scale, a number. One unit of the grid is an ulp of a coordinate
-// of 2^52 units; coordinates are below 2^53. If things in a family can touch, one strength after the
-// strongest ends the scale: exact touching, a gap of 0. What the cases are made of stands first.
+// of 2^52 units; coordinates are below 2^53. If things in a family can touch, one strength after
+// the strongest ends the scale: exact touching, a gap of 0. What the cases are made of stands
+// first.
 #pragma once
 
 #include <array>

@@ -125,7 +125,8 @@ class FloatGrid {
   // before. Let D = d scale, m = D (1 + 2^-20) + 2^-20, and a margin or a bound of a grown box be
   // rounded by 2^-24 (2 + m) at most. Boxes are compared after two such roundings. So the order
   // proves that the scaled coordinates differ by more than
-  //   m - 2 * 2^-24 (2 + m) - 2 * 2^-23 > D (1 + 2^-20 - 2^-22) + 2^-20 - 2^-21 - 2^-40 > D + 2^-22.
+  //   m - 2 * 2^-24 (2 + m) - 2 * 2^-23 > D (1 + 2^-20 - 2^-22) + 2^-20 - 2^-21 - 2^-40
+  //                                     > D + 2^-22.
   // The rounding of m itself, by 2^-24 m, is covered in the same way. A margin may be infinite.
   FloatLanes margin(double d) const {
     const auto by = [&](int k) { return margin_of(d * scale_[k]); };
@@ -139,8 +140,8 @@ class FloatGrid {
   }
 
   // How far off positions may be, by axis, for what boxes with a margin told apart: 2^-26 of the
-  // unit, less what comparing them is off by (kept_features.h). Negative where that is more, and NaN
-  // where the unit is no double: nothing is as near as that.
+  // unit, less what comparing them is off by (kept_features.h). Negative where that is more, and
+  // NaN where the unit is no double: nothing is as near as that.
   std::array<double, 3> tolerance() const {
     const auto r = [&](int k) {
       const double unit = 1 / scale_[k], largest = std::abs(centre_[k]) + 2 * unit;

@@ -144,9 +144,9 @@ class FeatureContacts {
   // false if `stop` asked for an end; the contacts found until then are kept.
   bool run(const StopFunction& stop, const PacedStop* pace = nullptr);
 
-  // From now on the feature pairs that are taken are listed, one lane's in this room, but edges that
-  // are seen at once to pierce nothing at t=0. take_keys() gives them, in any order; if there are
-  // more than `most` it gives more than that. REQUIRES that no candidate has come yet.
+  // From now on the feature pairs that are taken are listed, one lane's in this room, but edges
+  // that are seen at once to pierce nothing at t=0. take_keys() gives them, in any order; if there
+  // are more than `most` it gives more than that. REQUIRES that no candidate has come yet.
   void list_keys(std::size_t most, std::vector<FeatureKey> room) {
     most_keys_ = most;
     lanes_[0]->listed = std::move(room);

