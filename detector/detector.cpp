@@ -288,6 +288,7 @@ StepLimit Detector::limit(const PositionsView& x_t0, const PositionsView& x_t1,
 void Detector::reset() {
   parts_->committed.reset();
   parts_->evaluated.reset();
+  parts_->context.search.near.forget();
 }
 
 SavedState Detector::state() const {

@@ -136,7 +136,7 @@ class Detector {
   // independent); damaged_state, if it contradicts the mesh. After an error nothing has changed.
   std::optional<Problem> restore(const SavedState& state);
 
-  // Forgets the state: the next step is a new start.
+  // Forgets the state, and what it has kept: the next step is a new start.
   void reset();
 
   const Topology& topology() const;

@@ -81,6 +81,23 @@ void step_by(benchmark::State& state, const char* name, const Options& options) 
     state.SkipWithError("other pairs");
 }
 
+// Half of a step, asked after the whole one from the same start (L20), beside the same asked alone.
+void ask_again(benchmark::State& state, const char* name, Pairs pairs, bool is_kept) {
+  const auto& step = step_named(name);
+  if (!step) return state.SkipWithError(why_absent(name));
+  const Positions &x_t0 = step->frames[0], half = (x_t0 + step->frames[1]) / 2;
+  auto options = options_of(Culling::bvh);
+  options.pairs = pairs;
+  auto detector = Detector::create(step->triangles, x_t0, options).value();
+  StepResult result = detector.evaluate(x_t0, step->frames[1]);
+  for (auto _ : state) {
+    if (!is_kept) detector.reset();
+    result = detector.evaluate(x_t0, half);
+  }
+  show_each(state, static_cast<std::size_t>(step->triangles.rows()));
+  show_counts(state, result);
+}
+
 void step_with_skipping(benchmark::State& state, const char* name, TreeSearch::Skipping skipping) {
   if (!step_named(name)) return state.SkipWithError(why_absent(name));
   const auto options = bench_options(Culling::view_point);
@@ -341,6 +358,11 @@ void add_parts_of_steps() {
     add("stages/2_descent" + of, stage, name, descend);
     add("stages/3_feature_pairs" + of, stage, name, find_features);
     add("stages/4_step" + of, step_by, name, options_of(Culling::bvh));
+    for (const auto pairs : all_values<Pairs>) {
+      const auto asked = "/" + std::string(name_of(pairs)) + of;
+      add("asked_again/half_step_after_the_whole" + asked, ask_again, name, pairs, true);
+      add("asked_again/half_step_alone" + asked, ask_again, name, pairs, false);
+    }
     add("stages/boxes_of_candidates_in_a_bare_loop" + of, stage, name,
         [](StepParts& parts) { benchmark::DoNotOptimize(parts.compare_again()); });
     for (const auto culling : all_values<Culling>) {
