@@ -224,9 +224,7 @@ std::optional<Problem> Detector::commit() {
 
 StepResult Detector::step(const PositionsView& x_t0, const PositionsView& x_t1,
                           std::span<const ViewPrimitive> primitives, const StopFunction& stop) {
-  const ProcessorState state;
-  StepResult result = parts_->answer({x_t0, x_t1}, {parts_->context.options.pairs, 1, false},
-                                     primitives, state.in_callers_state(stop));
+  StepResult result = evaluate(x_t0, x_t1, primitives, stop);
   if (parts_->evaluated) commit();
   return result;
 }

@@ -70,9 +70,8 @@ class Detector {
   Detector& operator=(Detector&&) noexcept;
   ~Detector();
 
-  // Answers a step and leaves the state as it is. In exact arithmetic, without views, it keeps what
-  // it has found near. A shorter step from the same start, asked next, is then answered from that,
-  // in 0.03 to 0.4 of the time (L20), by first_contact and limit too.
+  // Answers a step and leaves the state as it is. With Options::keeps_near a shorter step from the
+  // same start, asked next, takes a part of the time.
   // primitives: none (the detector then places its own), one for all components, or one for each
   // component in the order of topology().components. Each is a point or a line, fixed or moving,
   // and may be another one in each step. With `automatic` and `view_auto` they serve only in the
@@ -97,7 +96,7 @@ class Detector {
   // is no such step or if its evaluation had no answer (error, undecided).
   std::optional<Problem> commit();
 
-  // Evaluates, and commits if there is an answer. It keeps nothing for a next question.
+  // Evaluates, and commits if there is an answer.
   StepResult step(const PositionsView& x_t0, const PositionsView& x_t1,
                   std::span<const ViewPrimitive> primitives = {}, const StopFunction& stop = {});
 
@@ -118,7 +117,7 @@ class Detector {
   // The state stays as it is, and commit() advances it to `positions` if share is above 0.
   // Errors: those of evaluate; proves_nothing with arithmetic double_precision or single_precision.
   // Cost: first_contact of the step and, unless that is free, of each place that is tried. That is
-  // one nearly always, 19 at most, and each is a shorter step from the same start (evaluate).
+  // one nearly always, 19 at most, and each is a shorter step from the same start (keeps_near).
   StepLimit limit(const PositionsView& x_t0, const PositionsView& x_t1,
                   const StopFunction& stop = {});
 

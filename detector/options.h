@@ -90,6 +90,12 @@ struct Options {
   // REQUIRES, else create() refuses it with wrong_separation: it is finite and not negative; with
   // one above 0 the culling is bvh or none, and the arithmetic exact.
   double separation = 0;
+  // Whether evaluate, first_contact and limit keep the pairs of features that they found near. A
+  // shorter step from the same start, asked next, is then answered from these, in 0.03 to 0.4 of
+  // the time, where the arithmetic is exact and the step has no views (L20). Answers, pairs and
+  // times are the same; counts are not, nor what `automatic` decides by them. Up to 300 bytes a
+  // triangle, and up to 2 % of a first question.
+  bool keeps_near = false;
 };
 
 // Calls `visit` with the name of each option that is one of a list of values, and with the option.

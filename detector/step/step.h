@@ -63,8 +63,7 @@ struct StepContext {
 // What a step is asked for.
 struct StepQuestion {
   Pairs pairs;
-  double until = 1;            // with Pairs::first: a later contact is of no interest
-  bool is_asked_again = true;  // the next question may begin at the same places
+  double until = 1;  // with Pairs::first: a later contact is of no interest
 };
 
 // Answers the step, going on from `state`, the state of the last commit if there is one. If the

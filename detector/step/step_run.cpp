@@ -277,7 +277,7 @@ bool StepRun::find_pairs() {
   bool completed = true;
   {
     Stopwatch watch(times.broad_phase);
-    const bool keeps = is_line_search() && !marks_.has_views();
+    const bool keeps = keeps_near();
     completed = keeps && search_->is_kept()
                     ? search_->collect_kept()
                     : context_.pair_search->fit(step_.tree, mesh_, step_.motion, cost_.pace) &&

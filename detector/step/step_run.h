@@ -63,8 +63,9 @@ class StepRun {
   bool take_found();
   // Whether what is near is kept for a next question. Where times are not unique, it would depend
   // on it which pairs are found.
-  bool is_line_search() const {
-    return question_.is_asked_again && context_.options.arithmetic == Arithmetic::exact;
+  bool keeps_near() const {
+    return context_.options.keeps_near && context_.options.arithmetic == Arithmetic::exact &&
+           !marks_.has_views();
   }
   // Whether the first contact alone is looked for.
   bool looks_for_first() const { return question_.pairs == Pairs::first; }

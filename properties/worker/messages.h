@@ -164,9 +164,9 @@ class Wire : public NamedFields<Wire<reads>> {
 // The relation that counts is the case's, and travels with it.
 template <class Archive>
 void fields(Archive& archive, detector::Options& options) {
-  auto& [culling, start, pairs, arithmetic, threads, counted, separation] = options;
+  auto& [culling, start, pairs, arithmetic, threads, counted, separation, keeps_near] = options;
   archive("culling", culling, "start", start, "pairs", pairs, "arithmetic", arithmetic, "threads",
-          threads, "separation", separation);
+          threads, "separation", separation, "keeps_near", keeps_near);
 }
 ASSAY_FIELDS(detector::Problem, error, message)
 ASSAY_FIELDS(detector::StepResult, answer, problem, first, pairs, view_positive, view_negative,

@@ -86,8 +86,8 @@ void ask_again(benchmark::State& state, const char* name, Pairs pairs, bool is_k
   const auto& step = step_named(name);
   if (!step) return state.SkipWithError(why_absent(name));
   const Positions &x_t0 = step->frames[0], half = (x_t0 + step->frames[1]) / 2;
-  auto options = options_of(Culling::bvh);
-  options.pairs = pairs;
+  auto options = options_of(Culling::bvh, Arithmetic::exact, 1, pairs);
+  options.keeps_near = true;
   auto detector = Detector::create(step->triangles, x_t0, options).value();
   StepResult result = detector.evaluate(x_t0, step->frames[1]);
   for (auto _ : state) {

@@ -8,7 +8,8 @@ namespace {
 
 using tests::octahedron, tests::octahedron_positions, tests::tip_at;
 
-Detector make(const Triangles& triangles, const Positions& x, const Options& options) {
+Detector make(const Triangles& triangles, const Positions& x, Options options) {
+  options.keeps_near = true;
   return std::move(Detector::create(triangles, x, options).value());
 }
 

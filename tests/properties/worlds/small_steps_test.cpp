@@ -138,9 +138,9 @@ TEST(SmallSteps, L20_AskedAgainIsAnsweredAlike) {
     const auto pairs = i % 3 == 0 ? detector::Pairs::first : detector::Pairs::all;
     const auto make = [&] {
       const auto culling = i % 2 == 0 ? Culling::bvh : Culling::automatic;
-      return std::move(detector::Detector::create(step.triangles, step.x_t0,
-                                                  {culling, detector::Start::verified, pairs})
-                           .value());
+      detector::Options options{culling, detector::Start::verified, pairs};
+      options.keeps_near = true;
+      return std::move(detector::Detector::create(step.triangles, step.x_t0, options).value());
     };
     auto asked = make(), fresh = make();
     asked.evaluate(step.x_t0, step.x_t1);
