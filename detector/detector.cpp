@@ -175,7 +175,9 @@ Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView&
   }
   BoundingVolumeTree tree(surface.mesh, positions, &pace);
   if (pace.now()) return stopped();
-  tree.grow_boxes(stages.elementary->separation());
+  // What is kept needs a margin (L20).
+  tree.grow_boxes(std::max(stages.elementary->separation(),
+                           options.keeps_near ? FloatGrid::least_distance : 0));
   SearchMemory search(tree);
   auto mesh_search = stages.pair_search->prepare(surface.mesh, tree, pace);
   if (pace.now()) return stopped();

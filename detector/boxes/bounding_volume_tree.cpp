@@ -379,9 +379,7 @@ bool BoundingVolumeTree::refit(const Topology& mesh, const SteppedMesh& motion, 
   RoundedPositions points;  // taken last, and given back before the search takes room for its own
   if (!points.assign(motion, pace)) return false;
   grid_ = points.grid();
-  const double distance = separation_ + slack;
-  const FloatLanes by =
-      motion.is_at_rest() && distance == 0 ? FloatLanes{} : grid_.margin(distance) / 2;
+  const FloatLanes by = grid_.margin(separation_ + slack) / 2;
   if (!wide_.refit(mesh, points, by, pace)) return false;
   if (slack == 0) fitted_to_ = Arrays(motion);
   return true;

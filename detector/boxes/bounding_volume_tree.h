@@ -170,6 +170,7 @@ class BoundingVolumeTree {
     separation_ = distance;
     forget_fit();
   }
+  double grown_by() const { return separation_; }
   // Makes the boxes those of the triangles as they move over the step. O(M): one pass over the
   // nodes from the last to the first.
   void refit(const Topology& mesh, const SteppedMesh& motion);

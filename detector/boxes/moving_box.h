@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -117,7 +118,7 @@ class FloatGrid {
     return {start, motion.is_at_rest() ? start : (*this)(motion.vertices_t1, vertex)};
   }
 
-  // Margins in floats for a distance d of 0 or more. Points that are ordered by more than margin(d)
+  // Margins in floats for a distance d, 0 for d = 0. Points that are ordered by more than margin(d)
   // along an axis, or whose boxes are apart although each was grown by half of it, are farther
   // apart than d along that axis, by 2^-22 or more of what the grid brings to 1.
   //
@@ -130,8 +131,10 @@ class FloatGrid {
   // The rounding of m itself, by 2^-24 m, is covered in the same way. A margin may be infinite.
   FloatLanes margin(double d) const {
     const auto by = [&](int k) { return margin_of(d * scale_[k]); };
-    return FloatLanes{by(0), by(1), by(2), 0};
+    return d == 0 ? FloatLanes{} : FloatLanes{by(0), by(1), by(2), 0};
   }
+  // The least distance that has a margin.
+  static constexpr double least_distance = std::numeric_limits<double>::denorm_min();
   // The same for sums of coordinates along the diagonals (feature_pairs.h), with the margin that
   // these need for d = 0: along a diagonal a distance of d is sqrt(3) d.
   float diagonal_margin(double d) const {

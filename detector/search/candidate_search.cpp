@@ -78,7 +78,9 @@ void CandidateSearch::prove_apart() {
 }
 
 void CandidateSearch::fit_features() {
-  if (!std::exchange(has_features_, true)) contacts_.take_near_in(motion_, 0, &pace_);
+  // Features have a margin where boxes have one.
+  const double slack = tree_.grown_by() > 0 ? FloatGrid::least_distance : 0;
+  if (!std::exchange(has_features_, true)) contacts_.take_near_in(motion_, slack, &pace_);
 }
 
 void CandidateSearch::look_for_first(const TimeBound& bound, BoundingVolumeTree& tree) {

@@ -270,7 +270,7 @@ void FeaturePoints::assign(const SteppedMesh& motion, PacedStop* pace, double se
   if (pace && pace->stopped()) return;
   const float along = grid_.diagonal_margin(separation);
   margin_.diagonals = FloatLanes{along, along, along, along};
-  margin_.axes = motion.is_at_rest() && separation == 0 ? FloatLanes{} : grid_.margin(separation);
+  margin_.axes = grid_.margin(separation);
   const auto count = static_cast<std::size_t>(motion.size());
   const std::size_t ends = motion.is_at_rest() ? 1 : 2;
   if (ends_ < ends) points_ = std::make_unique_for_overwrite<FeaturePoint[]>(ends * count);

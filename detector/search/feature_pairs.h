@@ -166,8 +166,7 @@ class FeaturePoints {
   }
   // Makes them those of another motion of as many vertices, in the same memory.
   void assign(const SteppedMesh& motion, PacedStop* pace, double separation);
-  // By how much features have to be apart that are farther apart than the separation. Along the
-  // axes 0 if that is 0 and the mesh is at rest.
+  // By how much features have to be apart that are farther apart than the separation.
   const FeatureMargin& margin() const { return margin_; }
   const FloatGrid& grid() const { return grid_; }
   const FeaturePoint& start(std::int32_t vertex) const { return points_[ends_ * at(vertex)]; }

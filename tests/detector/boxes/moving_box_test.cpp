@@ -151,8 +151,7 @@ TEST(MovingBox, NodesHoldTheirTriangles) {
     ASSERT_EQ(tree.node_count(), 55u);
     for (std::int32_t t = 0; t < 28; ++t) {
       const MovingBox box =
-          grown(tree.box_of_triangle(mesh.triangles[static_cast<std::size_t>(t)], {p.x_t0, p.x_t1}),
-                tree.grid().margin(0) / 2);
+          tree.box_of_triangle(mesh.triangles[static_cast<std::size_t>(t)], {p.x_t0, p.x_t1});
       std::int32_t node = tree.leaf_of(t);
       ASSERT_EQ(tree.triangle(node), t);
       expect_same_box(box, tree.box(node), "of a leaf it is the box");

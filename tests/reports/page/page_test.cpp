@@ -356,7 +356,7 @@ TEST_F(Runs, ASceneUnderADistanceHasTheNearestPointsAndTheBodies) {
   const auto& step = scene["steps"][0];
   const auto& exact = step["oracle"]["pairs"][0];
   EXPECT_EQ(exact["distance"], 0.5);
-  EXPECT_EQ(exact["places"], Json::parse("[[1.0, 1.0, 0.5], [1.0, 1.0, 0.0]]"));
+  EXPECT_EQ(exact["places"], Json::parse("[[1.0, 1.0, 0.0], [1.0, 1.0, 0.5]]"));
   const auto& late = step["detector"]["pairs"][0];
   EXPECT_EQ(late["time"][0], 1.0);
   EXPECT_EQ(late["distance"], 0.0);
