@@ -1,6 +1,6 @@
-// Where two triangles in contact meet, for who responds to a contact: the point, its barycentric
-// coordinates in both, the normal. It is computed when it is asked for, in doubles with bounds; no
-// answer of the detector rests on it. This asks for the place of each contact of a result:
+// Computes where two triangles in contact meet, for programs that respond to contacts: the point,
+// its barycentric coordinates in both triangles, the normal. It is computed in doubles with bounds;
+// no answer of the detector rests on it. This asks for the place of each contact of a result:
 //
 //   for (const PairContact& contact : result.pairs)
 //     respond(contact, contact_place({x_t0, x_t1}, triangles, contact));
@@ -13,7 +13,7 @@
 
 namespace assay::detector {
 
-// All of it is at the time contact.time.lo.
+// The place of a contact at the time contact.time.lo.
 struct ContactPlace {
   Point point{};
   // The weights of the corners of each triangle of the pair, in the order of the mesh: >= 0, and
@@ -23,15 +23,16 @@ struct ContactPlace {
   // triangle. Mostly 2^-48 of the largest coordinate of the two; more where two edges are nearly
   // parallel, or the two do not meet.
   double error = 0;
-  // The unit normal of the face, on the side from which its corners go counter-clockwise; of two
-  // edges a and b in the direction of (a1 - a0) x (b1 - b0). No coordinate is off by more than
-  // normal_error. Nothing where that bound would be 0.5 or more.
+  // The unit normal of the face, on the side from which its corners go counter-clockwise. For two
+  // edges a and b, it has the direction of (a1 - a0) x (b1 - b0). No coordinate is off by more than
+  // normal_error. There is no normal if that bound would be 0.5 or more.
   std::optional<Point> normal;
   double normal_error = 0;
 };
 
-// REQUIRES a contact of these triangles whose feature is named, and finite positions. Of triangles
-// with the same vertices it is the place of one of these. 0.5 to 1 us, no allocation.
+// Returns the place of a contact. Two triangles with the same vertices meet at the first of these.
+// REQUIRES a contact of these triangles whose feature is named, and finite positions. 0.5 to 1 us,
+// no allocation.
 ContactPlace contact_place(const SteppedMesh& motion, const TrianglesView& triangles,
                            const PairContact& contact);
 

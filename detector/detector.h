@@ -13,10 +13,10 @@
 // From step to step the detector carries a state: which triangles are clean and which are dirty
 // (L8, L9). It is valid at exactly the positions where the last committed step ended. evaluate()
 // leaves it alone, commit() advances it to the end of the step evaluated last, and step() does
-// both. A step that starts at other positions, be it in one bit, is treated as a new start. Each
-// call completes or leaves the state unchanged. An instance serves one thread at a time, and there
-// are no globals. Answers do not depend on how the caller's processor rounds or treats denormals,
-// and calls leave it as it was; a stop function runs as the caller has it.
+// both. A step that starts at other positions, even if one bit differs, is treated as a new start.
+// Each call completes or leaves the state unchanged. An instance serves one thread at a time, and
+// there are no globals. Answers do not depend on the caller's rounding mode or treatment of
+// denormals. Calls restore both at the end, and a stop function runs under the caller's.
 #pragma once
 
 #include <memory>
@@ -43,9 +43,9 @@ class SavedState {
   // The bytes are the same on every machine: 24 for each vertex, 1 for each triangle, 16 for each
   // pair in contact, and some for the components and holes. O(M).
   std::vector<std::uint8_t> bytes() const;
-  // Errors: damaged_state, other_state_version. Whether the state is of the right mesh is checked
-  // by restore(). Reading takes no more memory than a few times the bytes that are there, whatever
-  // lengths they claim. O(M).
+  // Errors: damaged_state, other_state_version. It is restore() that checks whether the state is of
+  // the right mesh. Reading takes no more memory than a few times the size of `bytes`, whatever
+  // lengths the bytes claim. O(M).
   static Expected<SavedState> read(std::span<const std::uint8_t> bytes);
 
   const StateFields& fields() const { return *fields_; }
@@ -56,13 +56,13 @@ class SavedState {
 
 class Detector {
  public:
-  // Errors: those of check_triangles, check_positions and, for options.counted,
+  // Makes a detector. Errors: those of check_triangles, check_positions and, for options.counted,
   // check_counted_pairs. The tree is made from `positions` (preprocessing, O(M log M)), and so are
   // view anchors and apexes when views are first due. Any positions of the mesh will do; those of
   // the first frame are best.
   static Expected<Detector> create(const TrianglesView& triangles, const PositionsView& positions,
                                    const Options& options);
-  // The same, and `stop` can end it, with the error `stopped`. It is asked after every few
+  // The same, but `stop` can end it with the error `stopped`. `stop` is asked every few
   // milliseconds of work, except in the few plain passes that check indices and coordinates.
   static Expected<Detector> create(const TrianglesView& triangles, const PositionsView& positions,
                                    const Options& options, const StopFunction& stop);
@@ -70,24 +70,24 @@ class Detector {
   Detector& operator=(Detector&&) noexcept;
   ~Detector();
 
-  // Answers a step and leaves the state as it is. With Options::keeps_near a shorter step from the
-  // same start, asked next, takes a part of the time.
+  // Answers a step and leaves the state as it is. With Options::keeps_near, a shorter step from the
+  // same start that is evaluated next takes only part of the time.
   // primitives: none (the detector then places its own), one for all components, or one for each
   // component in the order of topology().components. Each is a point or a line, fixed or moving,
-  // and may be another one in each step. With `automatic` and `view_auto` they serve only in the
-  // steps that use views.
+  // and may differ from step to step. With `automatic` and `view_auto`, primitives serve only in
+  // the steps that use views.
   // `stop` ends long work with the answer undecided.
   // Errors: wrong_frame_size, wrong_primitive_count, non_finite_coordinate.
   StepResult evaluate(const PositionsView& x_t0, const PositionsView& x_t1,
                       std::span<const ViewPrimitive> primitives = {},
                       const StopFunction& stop = {});
 
-  // Whether there is a contact by the time `until`, and which is first: an evaluate that asks for
-  // Pairs::first, whatever the options say. `free` says that there is none at any time in
-  // [0, until]; a contact at `until` is one. A search that already knows a contact at some time
-  // gives that time for `until`, and nothing later is looked at.
-  // There is something to commit afterwards only if `until` is 1, because nothing is known of the
-  // rest of the step otherwise.
+  // Answers whether there is a contact by the time `until`, and which one is first. This is
+  // evaluate() with Pairs::first, whatever the options say. `free` means that there is no contact
+  // in [0, until]; a contact at `until` itself counts. A search that already knows a contact at
+  // some time gives that time for `until`, and nothing later is looked at.
+  // The step can be committed afterwards only if `until` is 1, because otherwise nothing is known
+  // of the rest of the step.
   // Errors: those of evaluate; wrong_bound, if `until` is not in [0,1].
   StepResult first_contact(const PositionsView& x_t0, const PositionsView& x_t1, double until = 1,
                            const StopFunction& stop = {});
@@ -100,47 +100,47 @@ class Detector {
   StepResult step(const PositionsView& x_t0, const PositionsView& x_t1,
                   std::span<const ViewPrimitive> primitives = {}, const StopFunction& stop = {});
 
-  // How far the mesh may go from x_t0 towards x_t1: to positions to which the straight way is free,
-  // the rounding of these positions included. It is for line searches and step limiters:
+  // Returns how far the mesh may go from x_t0 towards x_t1: positions, already rounded, to which
+  // the straight way is free. It is for line searches and step limiters:
   //
   //   const StepLimit limit = detector.limit(x, x + direction);
   //   x = limit.positions;
   //   detector.commit();
   //
-  // A step that is free is taken whole. Of another one 0.95 of the first contact time is taken, if
-  // rounding does not bring that place into contact. It may, where the way passes something within
-  // a few units in the last place of its coordinates. Then up to 18 nearer places are tried, and
-  // where the places that are free lie at least somewhat together, 0.98 of the farthest of them is
-  // taken or more. Whenever less than 0.93 of the time is taken, `is_short` says so. With share 0
-  // the mesh stays: it is in contact at the start, or all places that were tried are. With a
-  // separation, read `within it` for `contact`.
+  // A free step is taken whole. Of any other step, 0.95 of the first contact time is taken, unless
+  // rounding brings that place into contact. That can happen where the way passes something within
+  // a few units in the last place of its coordinates. Then up to 18 nearer places are tried. If the
+  // free places lie at least somewhat together, 0.98 of the farthest free place or more is taken.
+  // Whenever less than 0.93 of the time is taken, `is_short` says so. Share 0 means that the mesh
+  // stays: there is a contact at the start, or at every place that was tried. With a separation,
+  // read `within the separation` for `in contact`.
   // The state stays as it is, and commit() advances it to `positions` if share is above 0.
   // Errors: those of evaluate; proves_nothing with arithmetic double_precision or single_precision.
-  // Cost: first_contact of the step and, unless that is free, of each place that is tried. That is
-  // one nearly always, 19 at most, and each is a shorter step from the same start (keeps_near).
+  // Cost: first_contact of the step and, unless that is free, of each place that is tried: nearly
+  // always one, 19 at most. Each of these is a shorter step from the same start (keeps_near).
   StepLimit limit(const PositionsView& x_t0, const PositionsView& x_t1,
                   const StopFunction& stop = {});
 
-  // Everything that later steps rest on: the state of the last commit, and the rules that place
-  // view primitives and apexes. If no step has asked for these yet they are chosen now, which takes
-  // up to two steps of culling bvh.
+  // Returns everything that later steps rest on: the state of the last commit, and the rules that
+  // place view primitives and apexes. If no step has needed these rules yet, they are chosen now,
+  // which takes up to two steps of culling bvh.
   SavedState state() const;
 
-  // Goes on from a saved state. Further results equal those of the detector that was saved bit by
-  // bit if both detectors were made with the same options from the same positions. From other
-  // positions their counts may differ, and, unless the arithmetic is exact, what is a false
-  // alarm: normal cones prove other patches free. A step that was evaluated and not committed is
-  // dropped. Error: foreign_state, if the state is of another mesh or culling, or if other bodies
-  // do not meet themselves (Options::counted; of the rest of that relation a state is
-  // independent); damaged_state, if it contradicts the mesh. After an error nothing has changed.
+  // Goes on from a saved state. If both detectors were made with the same options from the same
+  // positions, further results equal those of the saved detector bit by bit. If the positions were
+  // others, counts may differ and, unless the arithmetic is exact, false alarms too, because normal
+  // cones prove other patches free. A step that was evaluated and not committed is dropped. Errors:
+  // foreign_state, if the state is of another mesh or culling, or if other bodies do not meet
+  // themselves (Options::counted; a state does not depend on the rest of that relation);
+  // damaged_state, if it contradicts the mesh. After an error nothing has changed.
   std::optional<Problem> restore(const SavedState& state);
 
-  // Forgets the state, and what it has kept: the next step is a new start.
+  // Forgets the state and all that was kept: the next step is a new start.
   void reset();
 
   const Topology& topology() const;
-  // The mesh with the ghosts that close it. With a culling without views the first call makes them:
-  // O(M) for M triangles.
+  // Returns the mesh with the ghosts that close it. If the culling has no views, the first call
+  // makes the ghosts: O(M) for M triangles.
   const Surface& surface() const;
 
  private:

@@ -28,14 +28,14 @@ enum class ViewUse : std::uint8_t {
   used,
   not_asked_for,      // the culling has no views, or the step was refused or stopped before
   resting,            // views have not paid in the steps before
-  start_unknown,      // a new start that shows too little clean; the next step knows more (L15)
-  hopeless,           // of a sample of triangles, doubles can tell too few signs
+  start_unknown,      // too few triangles are known to be clean at a new start (L15)
+  hopeless,           // doubles can tell too few signs in a sample of triangles
   saving_too_little,  // too few triangles are of one sign
   among_ghosts,       // too many triangles are near ghosts
   among_dirty,        // too few triangles are clean
-  saving_up,          // steps before have not saved what they cost (step/culling_policy.h)
+  saving_up,          // earlier steps have not saved the cost of views (step/culling_policy.h)
 };
-// Their names follow the words "no views, ".
+// In texts these names follow the words "no views, ".
 constexpr auto names_of(ViewUse) {
   using enum ViewUse;
   return std::to_array<Named<ViewUse>>(
@@ -53,9 +53,9 @@ constexpr auto names_of(ViewUse) {
 struct StepResult {
   Answer answer = Answer::error;
   std::optional<Problem> problem;  // when answer is error
-  // The first contact time, set when answer is collision. In exact arithmetic it is its unique
-  // enclosure, in bounded arithmetic an interval that holds it if there is a contact at all, in
-  // double and float a time without promise.
+  // The first contact time, set when answer is collision. In exact arithmetic it is the unique
+  // enclosure of that time, in bounded arithmetic an interval that holds that time if there is a
+  // contact at all, in double and float a time without promise.
   TimeEnclosure first;
   std::vector<PairContact> pairs;  // ascending by pair, each with its first time
 
@@ -81,19 +81,20 @@ struct StepResult {
 
 // How far a caller may go in a step (L17).
 struct StepLimit {
-  // `free`: to the end of the step. `collision`: to `positions`, and no farther is promised.
-  // `undecided` (stopped) and `error`: nowhere.
+  // `free`: the caller may go to the end of the step. `collision`: to `positions`; nothing is
+  // promised beyond. `undecided` (stopped) and `error`: nowhere.
   Answer answer = Answer::error;
   std::optional<Problem> problem;  // when answer is error
-  // The share of the step that was taken: 1 if it is free, else less than the first contact time.
+  // The share of the step that was taken: 1 if the step is free, else less than the first contact
+  // time.
   double share = 0;
   // Where the caller may go: x_t1 in every bit if the step is free, else x_t0 + share (x_t1 - x_t0)
   // with its rounding. The straight way from x_t0 to here is free. Equal to x_t0 with share 0.
   Positions positions;
   TimeEnclosure first;  // the first contact time of the whole step, when answer is collision
-  // Whether less than 0.93 of that time is taken although the mesh starts without a contact:
-  // rounding brought each place beyond that was tried into contact. A free one may lie between
-  // them.
+  // Whether less than 0.93 of the time `first` is taken although the mesh starts without a contact.
+  // Rounding then brought every farther place that was tried into contact; a free place may lie
+  // between these.
   bool is_short = false;
 };
 

@@ -1,5 +1,5 @@
-// The stage of the detector that handles holes: it makes ghosts, places their apexes, and finds
-// what they touch.
+// The stage of the detector that handles holes: it makes ghosts, places their apexes, and finds the
+// triangles that ghosts touch.
 #pragma once
 
 #include <array>
@@ -23,15 +23,15 @@ struct ApexRule {
   double height = 0;
 };
 
-// The rules to choose from. Of several that are equally good the first is taken.
+// The rules to choose from. If several are equally good, the first of them is taken.
 inline constexpr std::array<ApexRule, 5> apex_rules = {{{0.0}, {0.25}, {-0.25}, {1.0}, {-1.0}}};
 
-// The place of the apex in one frame. It is computed in doubles, summed in the order of the loop,
-// so it has the same bytes on every machine. If the mean normal vanishes or overflows it is the
-// centroid. It is finite for finite positions.
+// Returns the place of the apex in one frame. The place is computed in doubles, summed in the order
+// of the loop, so it has the same bytes on every machine. It is the centroid if the mean normal
+// vanishes or overflows, and it is finite for finite positions.
 Point place_apex(const ApexRule& rule, const Loop& loop, const PositionsView& x);
 
-// The rows of x and, below them, the apexes at t=0 or, with at_end, at t=1.
+// Returns the rows of x and, below them, the places of the apexes: at t=1 if at_end, else at t=0.
 Positions with_apexes(const PositionsView& x, const std::vector<MovingPoint>& apexes, bool at_end);
 
 // Chooses for each loop the rule that places its apex: the one whose ghosts touch fewest triangles
@@ -40,12 +40,12 @@ Positions with_apexes(const PositionsView& x, const std::vector<MovingPoint>& ap
 // A bad apex costs dirty triangles but never makes an answer wrong, because L11 asks only for
 // ghosts that close the loops, wherever they stand. So the choice may take no more work than a
 // step of culling bvh. It counts its work and looks at no clock. Loops are handled from the
-// shortest to the longest. Each gets a share of the work that is left, in proportion to its
+// shortest to the longest. Each loop gets a share of the work that is left, in proportion to its
 // length, and its rules divide the share evenly. A rule that does not finish within its part is
 // passed over. If no rule finishes, the loop keeps the first one, its centroid.
 //
-// An example where none finishes is the loop around a fan of n triangles at one hub. The boxes of
-// its ghosts and triangles all hold a place near the hub, so n^2 pairs come up. A step of this
+// An example where no rule finishes is the loop around a fan of n triangles at one hub. The boxes
+// of its ghosts and triangles all hold a place near the hub, so n^2 pairs come up. A step of this
 // mesh under bvh is quadratic for the same reason (34 s at n = 20,000), because candidates are
 // found by boxes of triangles. With boxes of edges and vertices the n vertices would be apart from
 // the n faces, because an edge at the rim is as short as its triangle is narrow, but the edges at
@@ -58,12 +58,12 @@ class ApexChoice {
     std::size_t cut_short = 0;  // sweeps that were ended because they took too much work
   };
 
-  // The work that the choice may take, in the units of GhostCounts::work (box tests): so much for
-  // each triangle and ghost, and a base of 1 ms. A step of bvh takes 0.8 to 1.4 us a triangle, as
-  // 160 to 280 box tests do.
+  // The work that the choice may take, in the units of GhostCounts::work (box tests):
+  // work_per_triangle for each triangle and ghost, and base_work (1 ms) once. A step of bvh takes
+  // 0.8 to 1.4 us a triangle, as 160 to 280 box tests do.
   static constexpr std::uint64_t work_per_triangle = 200, base_work = 200'000;
 
-  // The stop function is asked after so much work of the choice.
+  // The stop function is asked each time the choice has done this much work.
   static constexpr std::uint64_t work_between_asks = 10'000;
 
   // REQUIRES the tree of the mesh, refitted to x. The references must outlive this object.
@@ -75,14 +75,14 @@ class ApexChoice {
 
  private:
   ApexRule choose(std::size_t loop, std::uint64_t share);
-  // How many triangles the ghosts of the loop touch under this rule. Nothing if these are not
-  // fewer than `fewest`, or if it takes more than `most_work` to find out.
+  // Returns how many triangles the ghosts of the loop touch under this rule; nothing if the number
+  // is not below `fewest`, or if counting them takes more than `most_work`.
   std::optional<std::size_t> touched_by(std::size_t loop, const ApexRule& rule, std::size_t fewest,
                                         std::uint64_t most_work);
   std::uint64_t work() const { return result_.counts.work() + placing_; }
 
   const Surface& surface_;
-  Positions all_;  // of the mesh, and below it the apexes that are tried
+  Positions all_;  // of the mesh, and below them those of the apexes that are tried
   PositionsView x_, view_of_all_;
   PacedStop stop_;
   GhostSweep sweep_;
@@ -97,25 +97,27 @@ class BoundaryHandler {
  public:
   virtual ~BoundaryHandler() = default;
 
-  // The mesh with its ghosts. If `pace` was stopped, it must not be used.
+  // Returns the mesh with its ghosts. If `pace` was stopped, the result must not be used.
   virtual Surface close_up(const TrianglesView& triangles, Eigen::Index vertex_count,
                            PacedStop& pace) const;
 
-  // The rule that places the apex of each loop for the life of a detector: one whose ghosts touch
-  // few triangles at x (ApexChoice). If `stop` asked for an end, it must not be used.
+  // Chooses for each loop the rule that places its apex for the life of a detector: one whose
+  // ghosts touch few triangles at x (ApexChoice). If `stop` asked for an end, the result must not
+  // be used.
   virtual std::vector<ApexRule> choose_apexes(const Surface& surface, BoundingVolumeTree& tree,
                                               const PositionsView& x,
                                               const ElementaryTest& elementary,
                                               const StopFunction& stop = {}) const;
 
-  // The apex of each loop over a step. Its place at either end depends on that frame alone, so
-  // each step finds it where the last one left it.
+  // Returns the path of each loop's apex over a step. The place of an apex at either end depends on
+  // that frame alone, so each step finds the apex where the last step left it.
   virtual std::vector<MovingPoint> place_apexes(const Surface& surface,
                                                 const std::vector<ApexRule>& rules,
                                                 const SteppedMesh& motion) const;
 
-  // Sets touched[t] of the triangles that the given ghosts touch (L11), hole by hole, with a small
-  // tree for each. REQUIRES ghosts of one component. Returns false if `stop` ended it.
+  // Sets touched[t] for each triangle t that the given ghosts touch (L11). It goes hole by hole,
+  // with a small tree for each hole. REQUIRES ghosts of one component. Returns false if `stop`
+  // ended it.
   virtual bool sweep(const GhostSweep& sweep, std::span<const std::int32_t> ghosts,
                      const StopFunction& stop, std::vector<std::uint8_t>& touched,
                      GhostCounts& counts) const;

@@ -1,4 +1,4 @@
-// Which triangles of the mesh the ghosts touch (L11).
+// Finds the triangles of the mesh that the ghosts touch (L11).
 #pragma once
 
 #include <span>
@@ -13,7 +13,7 @@
 
 namespace assay::detector {
 
-// Whether two triangles of the surface, of the mesh or ghosts, meet, tested feature by feature.
+// Tests, feature by feature, whether two triangles of the surface meet: mesh triangles or ghosts.
 class FacePairTest {
  public:
   using Corners = std::array<std::int32_t, 3>;
@@ -24,8 +24,9 @@ class FacePairTest {
   FacePairTest(const SteppedMesh& motion, const ElementaryTest& elementary, bool piercing_at_start)
       : motion_(motion), elementary_(elementary), pierces_too_(piercing_at_start) {}
 
-  // Whether closed faces of the two (vertices, edges, triangles) that share no vertex meet at some
-  // time of the step. Makes up to 15 elementary tests, most of which are settled by axis order.
+  // Returns whether, at some time of the step, a closed face of `a` meets one of `b` with which it
+  // shares no vertex. A face is a vertex, an edge or the triangle. Makes up to 15 elementary tests,
+  // most of them settled by axis order.
   bool meet(const Corners& a, const Corners& b, GhostCounts& counts) const;
 
  private:
@@ -56,8 +57,8 @@ class HoleTree {
   std::int32_t ghost(std::size_t leaf) const { return ghosts_[leaf + 1 - ghosts_.size()]; }
   const MovingBox& box(std::size_t node) const { return boxes_[node]; }
 
-  // Calls visit(ghost) for the ghosts whose box is not apart from `box`, until it returns true.
-  // Returns whether it did.
+  // Calls visit(ghost) for the ghosts whose box is not apart from `box`, until a call returns true.
+  // Returns whether one did.
   template <class Visit>
   bool any_near(const MovingBox& box, Visit visit) const {
     return any_near(root, box, visit);
@@ -79,13 +80,13 @@ class HoleTree {
 std::vector<HoleTree> make_hole_trees(const Topology& all, std::span<const std::int32_t> ghosts,
                                       const FloatGrid& grid, const SteppedMesh& motion);
 
-// For sweeps in which nothing moves: whether to leave out also the triangles on one side of a
-// ghost's plane. These are then not `near` either. `strict` leaves out what lies strictly on one
-// side. `grazing` leaves out besides what, within rounding errors, touches the plane from one side
-// without lying in it; then some triangles that a ghost touches may be missed.
+// For sweeps in which nothing moves: whether to leave out triangles on one side of a ghost's plane
+// too. These are then not `near` either. `strict` leaves out the triangles strictly on one side.
+// `grazing` also leaves out those that, within rounding errors, touch the plane from one side
+// without lying in it. It may miss some triangles that a ghost touches.
 enum class ByPlanes : std::uint8_t { no, strict, grazing };
 
-// What a sweep works on, and how.
+// The input of a sweep and its options.
 struct GhostSweep {
   const Surface& surface;
   const BoundingVolumeTree& tree;  // of the mesh, refitted to the step
@@ -98,26 +99,26 @@ struct GhostSweep {
   // If given, gets the triangles that the sweep has set as touched, each once.
   std::vector<std::int32_t>* found = nullptr;
   ByPlanes by_planes = ByPlanes::no;
-  // The stop function is asked at the first pair, and then after so much work (GhostCounts::work),
-  // which takes about a millisecond.
+  // The stop function is asked at the first pair, and then each time this much work was done
+  // (GhostCounts::work), which takes about a millisecond.
   std::uint64_t work_between_stops = PacedStop::usual_interval;
-  // If given, they share the mesh out among them (BoundaryHandler::sweep).
+  // If given, these workers share the mesh out among them (BoundaryHandler::sweep).
   const Workers* workers = nullptr;
 };
 
 // Sets touched[t] of each mesh triangle t that a ghost of the hole touches at any time in [0,1].
-// They touch if closed faces of the two that share no vertex meet; triangles next to the loop and
-// degenerate ghosts are no exceptions. Only triangles of the hole's own component are looked at.
-// Those that are set already are not tested again. REQUIRES a hole tree of this step and of the
-// grid of sweep.tree.
+// A triangle and a ghost touch if closed faces of the two that share no vertex meet; triangles next
+// to the loop and degenerate ghosts are no exceptions. Only triangles of the hole's own component
+// are looked at. A triangle that is set already is not tested again. REQUIRES a hole tree of this
+// step and of the grid of sweep.tree.
 // Descends the hole's tree against the component's part of the mesh's tree, with up to 15
-// elementary tests for each pair whose boxes meet. False if stopped.
+// elementary tests for each pair whose boxes meet. Returns false if stopped.
 bool sweep_hole(const GhostSweep& sweep, const HoleTree& hole, const StopFunction& stop,
                 std::vector<std::uint8_t>& touched, GhostCounts& counts);
 
 // The same for the triangles below one node of the mesh's tree, which must be of the hole's
-// component. Sweeps below nodes of which none is above another may run at the same time, unless
-// sweep.found is given.
+// component. Sweeps below several nodes may run at the same time if no node is above another one
+// and sweep.found is not given.
 bool sweep_hole_below(std::int32_t node, const GhostSweep& sweep, const HoleTree& hole,
                       const StopFunction& stop, std::vector<std::uint8_t>& touched,
                       GhostCounts& counts);

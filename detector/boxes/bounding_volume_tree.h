@@ -1,13 +1,13 @@
 // The bounding volume tree over the triangles of a mesh. It is built once for a topology, and
-// fitted to every step that searches. What is fitted is its wide form (WideTree), which most
-// searches read. The boxes of its own nodes are joined from that when a step needs them.
+// fitted to every step that searches. Fitting sets the boxes of its wide form (WideTree), which
+// most searches read. The boxes of the binary nodes are joined from these when a step needs them.
 //
 // Nodes are numbered so that the two children of a node come after it and are neighbours (2k+1 and
 // 2k+2 for some k), and so that all nodes below a node have consecutive numbers. A search
 // therefore reads both children from neighbouring cache lines, and boxes are joined by a backward
 // pass over one subtree after the other. Components are split from each other before their
-// triangles are, so only the topmost nodes hold triangles of several components. Memory: 92 bytes
-// a triangle, 70 of them the wide form; 128 more once its own boxes are joined.
+// triangles are, so only the topmost nodes hold triangles of several components. Memory: 92 bytes a
+// triangle, 70 of them the wide form; 128 more once the boxes of binary nodes are joined.
 #pragma once
 
 #include <cassert>
@@ -39,10 +39,10 @@ inline MovingBox box_of(const BoxRows& rows, std::size_t i) {
 // The bounding volume tree as a search reads it: with up to eight children a node, whose boxes lie
 // side by side, so that vector instructions compare one box with all of them at once.
 //
-// It is made of the binary tree. A node whose triangles are of one component and at most eight
-// holds these triangles; another node holds up to eight nodes below it, the largest of which were
-// opened first. Each child keeps the number of its binary node, by which flags, components and
-// patches are found.
+// It is made of the binary tree. A node holds its triangles if they are at most eight, all of one
+// component. Any other node holds up to eight nodes below it; these are found by opening the
+// largest one again and again. Each child keeps the number of its binary node, by which flags,
+// components and patches are found.
 //
 // The boxes of a node with n children are twelve rows of n floats: the three lower bounds at t=0,
 // the upper ones at t=0, and the same at t=1, unless the mesh is at rest. Rows follow each other
@@ -77,9 +77,9 @@ class WideTree {
   }
   const float* box(std::int32_t n) const { return own_.get() + rows() * at(n); }
 
-  // Takes memory for the boxes. A mesh that is only looked at where it rests takes half of it.
+  // Allocates memory for the boxes. A mesh that is only looked at at rest takes half as much.
   void make_room(bool at_rest);
-  // Makes the boxes those of the triangles, each grown by this on all sides. False if `pace` was
+  // Fits the boxes to the triangles, each grown by `by` on all sides. Returns false if `pace` was
   // stopped. REQUIRES room for a motion like that of the points.
   bool refit(const Topology& mesh, const RoundedPositions& points, FloatLanes by, PacedStop& pace);
 
@@ -97,8 +97,8 @@ class WideTree {
   std::vector<std::int32_t> binary_of_;  // by node
   std::vector<Slot> slots_;
   std::unique_ptr<float[]> boxes_, own_;  // the first refit writes them
-  std::size_t room_ = 0;                  // in boxes_: as many as refits have asked for so far
-  std::size_t end_ = 0;                   // of a box, the first row of its bounds at t=1 (BoxRows)
+  std::size_t room_ = 0;                  // of boxes_: the most that refits have asked for
+  std::size_t end_ = 0;                   // the first row of a box's bounds at t=1 (BoxRows)
   std::vector<std::int32_t> inner_;       // the nodes that hold nodes, ascending
 };
 
@@ -127,9 +127,9 @@ class BoundingVolumeTree {
   // The node that holds all triangles of the component, and no others.
   std::int32_t root_of(std::int32_t component) const { return component_root_[at(component)]; }
 
-  // Calls body(node) for each node, for children before their parents and otherwise in any order.
-  // The workers of the pace share subtrees out among them; one thread does the nodes above these
-  // last. `work_of_node` is what one call costs (paced_stop.h). False if it was stopped.
+  // Calls body(node) for each node: for children before their parents, otherwise in any order. The
+  // workers of the pace share out subtrees; then one thread does the nodes above these. A call
+  // costs `work_of_node` (paced_stop.h). Returns false if the pace was stopped.
   template <class Body>
   bool for_each_upward(std::uint64_t work_of_node, PacedStop* pace, Body body) const {
     const auto below = [&](std::size_t block) {
@@ -156,30 +156,31 @@ class BoundingVolumeTree {
     return boxes_[at(node)];
   }
   // Joins the boxes of all nodes from those of the wide tree, unless that was done since the last
-  // refit. Few steps need them: those that sweep ghosts or prove patches apart. One thread calls
-  // it, before several ask for boxes. O(M). False if `pace` was stopped.
+  // refit. Only steps that sweep ghosts or prove patches apart need these boxes. One thread calls
+  // this before several threads ask for boxes. O(M). Returns false if `pace` was stopped.
   bool join_boxes(PacedStop* pace) const;
-  // The box of any triangle, a ghost for example, on the same grid as the boxes of the nodes and
-  // so comparable with them. Corners are rows of the two views.
+  // Returns the box of any triangle, a ghost for example. It is on the grid of the nodes' boxes, so
+  // it can be compared with them. Corners are rows of the two views.
   MovingBox box_of_triangle(const std::array<std::int32_t, 3>& corners,
                             const SteppedMesh& motion) const;
 
-  // From the next refit on, the boxes of triangles that come within `distance` of each other are
-  // not apart.
+  // Grows boxes from the next refit on, so that triangles that come within `distance` of each other
+  // have boxes that are not apart.
   void grow_boxes(double distance) {
     separation_ = distance;
     forget_fit();
   }
   double grown_by() const { return separation_; }
-  // Makes the boxes those of the triangles as they move over the step. O(M): one pass over the
-  // nodes from the last to the first.
+  // Fits the boxes to the triangles as they move over the step. O(M): one pass over the nodes from
+  // the last to the first.
   void refit(const Topology& mesh, const SteppedMesh& motion);
-  // The same. False if `pace` was stopped; some boxes are then those of another step. With a slack
-  // the boxes are grown as if so much were added to the distance; no later fit_once rests on them.
+  // The same. Returns false if `pace` was stopped; some boxes are then those of another step. The
+  // boxes are grown as if `slack` were added to the distance. With a slack, no later fit_once
+  // reuses them.
   bool refit(const Topology& mesh, const SteppedMesh& motion, PacedStop& pace, double slack = 0);
-  // Does nothing if the boxes were last fitted to the same arrays of positions; else as refit. So
-  // the stages of a step that search the same motion fit the boxes once. REQUIRES that positions in
-  // these arrays have not changed since forget_fit().
+  // Refits the boxes, unless they were last fitted to the same arrays of positions. So the stages
+  // of a step that search the same motion fit the boxes once. REQUIRES that positions in these
+  // arrays have not changed since forget_fit().
   bool fit_once(const Topology& mesh, const SteppedMesh& motion, PacedStop& pace);
   void forget_fit() { fitted_to_.reset(); }
 

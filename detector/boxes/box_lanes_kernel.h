@@ -33,8 +33,8 @@ ASSAY_INLINE std::uint32_t bits_of(const LaneMask& mask) {
 #endif
 }
 
-// The boxes of b that the box is apart from: strictly ordered along an axis, in the same sense at
-// both ends of the step. The bounds of the box are `stride` apart.
+// Returns, as bits, the boxes of b that the box is apart from: strictly ordered along an axis, in
+// the same sense at both ends of the step. The bounds of the box are `stride` apart.
 template <bool moves>
 ASSAY_INLINE std::uint32_t apart_from(const float* box, std::size_t stride, const BoxRows& b) {
   LaneMask apart = {};
@@ -140,7 +140,7 @@ ASSAY_INLINE std::size_t lowest(std::uint32_t bits) {
   return static_cast<std::size_t>(__builtin_ctz(bits));
 }
 
-// Those of the corners asked for, as bits, that meet the face.
+// Returns those of the corners in corner_bits whose boxes meet the box `other`, as bits.
 ASSAY_INLINE std::uint32_t corners_that_meet(const TriangleCorners& corners, std::size_t to_end,
                                              std::uint32_t corner_bits, const FeatureLanes& other,
                                              const Lanes& margin) {

@@ -1,8 +1,8 @@
 // Boxes that move with a step, in floats, and the one test that a search makes of them.
 //
 // Coordinates are rounded to floats by functions f_x, f_y, f_z, one for each axis, that keep order
-// (FloatGrid below): x <= y gives f(x) <= f(y). So f(x) < f(y) proves x < y. What touches or meets
-// in doubles is never told apart in floats, and no outward rounding is needed.
+// (FloatGrid below): x <= y gives f(x) <= f(y). So f(x) < f(y) proves x < y. So two things that
+// touch or meet in doubles are never apart in floats, and no outward rounding is needed.
 //
 // A box keeps its bounds at t=0 and at t=1. Two boxes are `apart` when they are strictly ordered
 // along an axis, in the same sense at both ends. Every point moves linearly, so nothing inside the
@@ -77,7 +77,7 @@ struct Bounds {
   Point lo, hi;
 };
 
-// Of the points point(0), ..., point(count - 1). REQUIRES one or more.
+// Returns the bounds of the points point(0), ..., point(count - 1). REQUIRES count > 0.
 template <class PointOf>
 Bounds bounds_of(std::size_t count, PointOf point, PacedStop* pace) {
   const auto widen = [](Bounds& bounds, const Point& lo, const Point& hi) {
@@ -96,14 +96,14 @@ Bounds bounds_of(std::size_t count, PointOf point, PacedStop* pace) {
 
 // The functions f, by axis: f(x) = (x - centre) * scale, rounded to double twice and to float
 // once. Each of the three roundings keeps order. Finite doubles give floats or infinities, never
-// NaN. The centre lies between positions of the step, so the differences of these from it do not
-// overflow. Those of other points may, to infinities that are still in order.
+// NaN. The centre lies between positions of the step, so their differences from the centre do not
+// overflow. Those of other points may overflow, to infinities that are still in order.
 class FloatGrid {
  public:
   FloatGrid() = default;
-  // The grid of a step: its centre is the middle of all positions, and its scale, by axis, a power
-  // of two that brings them near 1. So no accuracy is lost by where a mesh lies or how large it
-  // is. O(N).
+  // Makes the grid of a step. Its centre is the middle of all positions. Its scale on each axis is
+  // a power of two that brings them near 1. So accuracy does not depend on where a mesh lies or how
+  // large it is. O(N).
   // If `pace` was stopped, it must not be used.
   explicit FloatGrid(const SteppedMesh& motion, PacedStop* pace = nullptr);
 
@@ -118,9 +118,10 @@ class FloatGrid {
     return {start, motion.is_at_rest() ? start : (*this)(motion.vertices_t1, vertex)};
   }
 
-  // Margins in floats for a distance d, 0 for d = 0. Points that are ordered by more than margin(d)
-  // along an axis, or whose boxes are apart although each was grown by half of it, are farther
-  // apart than d along that axis, by 2^-22 or more of what the grid brings to 1.
+  // Returns margins in floats for a distance d, 0 for d = 0. Two points are farther apart than d
+  // along an axis if they are ordered along it by more than margin(d), or if their boxes are apart
+  // although each was grown by half of margin(d). They are farther by 2^-22 or more of the length
+  // that the grid brings to 1.
   //
   // f(x) is off by at most 2^-23: |(x - centre) scale| <= 2 is rounded to float, and to double
   // before. Let D = d scale, m = D (1 + 2^-20) + 2^-20, and a margin or a bound of a grown box be
@@ -135,16 +136,17 @@ class FloatGrid {
   }
   // The least distance that has a margin.
   static constexpr double least_distance = std::numeric_limits<double>::denorm_min();
-  // The same for sums of coordinates along the diagonals (feature_pairs.h), with the margin that
-  // these need for d = 0: along a diagonal a distance of d is sqrt(3) d.
+  // The same for sums of coordinates along the diagonals (feature_pairs.h). It includes the margin
+  // that sums need for d = 0. At a distance of d, the sums differ by sqrt(3) d at most.
   float diagonal_margin(double d) const {
     constexpr double root = 1.7320508075688774;
     return margin_of(root * (d * common_scale_));
   }
 
-  // How far off positions may be, by axis, for what boxes with a margin told apart: 2^-26 of the
-  // unit, less what comparing them is off by (kept_features.h). Negative where that is more, and
-  // NaN where the unit is no double: nothing is as near as that.
+  // Returns, by axis, how far positions may be off if features that boxes with a margin told apart
+  // are to stay apart: 2^-26 of the unit, less the error of comparing positions (kept_features.h).
+  // It is negative if that error is larger, and NaN if the unit is no double: no position is so
+  // near.
   std::array<double, 3> tolerance() const {
     const auto r = [&](int k) {
       const double unit = 1 / scale_[k], largest = std::abs(centre_[k]) + 2 * unit;
@@ -153,8 +155,8 @@ class FloatGrid {
     return {r(0), r(1), r(2)};
   }
 
-  // (x - centre), multiplied by one power of two for all axes. Each coordinate is at most 2 in
-  // size for positions of the step.
+  // Returns (x - centre), multiplied by one power of two for all axes. Each coordinate is at most 2
+  // in size for positions of the step.
   Point scaled(const PositionsView& x, std::int32_t vertex) const {
     const auto y = [&](int k) { return (x(vertex, k) - centre_[k]) * common_scale_; };
     return {y(0), y(1), y(2)};
@@ -170,7 +172,7 @@ class FloatGrid {
   double common_scale_ = 1;  // the least of the three
 };
 
-// All vertices of a step; each once if it is at rest.
+// The rounded places of all vertices of a step: two for each vertex, or one if the mesh is at rest.
 class RoundedPositions {
  public:
   RoundedPositions() = default;
@@ -193,11 +195,11 @@ class RoundedPositions {
 
  private:
   FloatGrid grid_;
-  std::size_t ends_ = 2;  // the places kept of a vertex
+  std::size_t ends_ = 2;  // places of each vertex: 2, or 1 at rest
   std::unique_ptr<FloatLanes[]> points_;
 };
 
-// A step as far as a time `until`, for boxes that need to cover no more of it.
+// A step cut off at a time `until`, for boxes that need to cover no more than this part.
 //
 // Its ends are the places at t=0 and those at `until`, as doubles compute them:
 //   x0 + until (x1 - x0), or (1 - until) x0 + until x1 if x1 - x0 overflows,
@@ -205,16 +207,16 @@ class RoundedPositions {
 // = 2^-53. In the first form the difference, at most 2 M, is off by 2 M u; the product by another
 // 2 M u, and by 2^-1075 if it underflows; the sum by M u: less than 8 M u + 2^-1073 in all, with
 // the products of errors. In the second form each product, at most M, is off by 2 M u and
-// 2^-1075, and the sum by M u: less than that too. To bring a place between x0 and x1, where the
-// true one lies, does not take it farther from that one.
+// 2^-1075, and the sum by M u: less than that too. Moving a computed place to between x0 and x1,
+// where the true place lies, does not take it farther from the true place.
 //
 // So each coordinate is off by e = 2^-50 M + 2^-1073 at most, at `until`, and by less before that,
 // because both motions are linear and begin at one place. A point is off by sqrt(3) e at most, and
 // two features that come within d of each other by `until` do so within d + 2 sqrt(3) e in the
-// motion that is computed. The slack is 4 e or more. For `until` 0 the places are exact, and it is
-// 0.
+// motion that is computed. The slack is 4 e or more. If `until` is 0, the places are exact and the
+// slack is 0.
 
-// The place on the way between two coordinates, as above; for a share in [0,1].
+// Returns the place on the way between two coordinates, computed as above. REQUIRES share in [0,1].
 double place_between(double from, double to, double share);
 
 class ShortenedStep {

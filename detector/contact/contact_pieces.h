@@ -9,8 +9,8 @@
 // At a root of F there is no contact if one L_k,i > 0 and another < 0 for some axis k. There is a
 // contact if for some axis all L_k,i have one sign and are not all zero.
 //
-// Error bounds, in the notation of bernstein.h. All u_j have the bounds M_k. The n of one of the
-// two products in a middle coefficient of F is an end of the step.
+// Error bounds, in the notation of bernstein.h. All u_j have the bounds M_k. A middle coefficient
+// of F has two products; one of them takes n at an end of the step.
 //
 //   quantity      | operations                      | error in u               | size
 //   lam_1..3      | cross, middle                   | 10 MM                    | 2 MM
@@ -44,7 +44,8 @@ constexpr auto quadratic_error(int depth) {
 template <class Number>
 struct ContactPiece {
   CubicOf<Number> f;
-  // L_k,i of the notation, by axis k: coefficients, each of all four points i side by side.
+  // L_k,i of the notation, by axis k. Each coefficient holds those of all four points i side by
+  // side.
   std::array<QuadraticOf<std::array<Number, 4>>, 3> dependencies;
   Number lo, hi;  // dyadic: exact
 };
@@ -56,10 +57,11 @@ struct ContactPiece {
 //   void contact(const Piece&, Number f_bound, int f_lo);
 //
 // A piece that is surely without contact is passed over. A piece that the signs do not settle is
-// split if may_halve() returns true; it is told whether the signs of F at both ends are sure. If
-// not, the search calls open(piece), and ends if that returns true. contact() is called for a piece
-// with a contact at each root of F: F changes its sign over the piece, beginning with the sign
-// f_lo, and its coefficients are off by at most f_bound. After contact() the search ends.
+// split if may_halve() returns true; ends_are_sure says whether the signs of F at both ends are
+// sure. If may_halve() returns false, open(piece) is called, and the search ends if that returns
+// true. contact() is called for a piece with a contact at each root of F: F changes its sign over
+// the piece, beginning with the sign f_lo, and its coefficients are off by at most f_bound. After
+// contact() the search ends.
 template <class Bounds, class Search>
 class ContactPieces {
  public:
@@ -144,7 +146,7 @@ class ContactPieces {
     }
   }
 
-  // Looks at a piece of this depth. True if the search has to end.
+  // Looks at a piece of this depth. Returns true if the search has to end.
   bool visit(const Piece& piece, int depth) {
     const Number f_bound = cubic_error<Bounds>(depth) * f_scale_;
     if (sure_sign(piece.f, f_bound) != 0) return false;
@@ -193,9 +195,8 @@ class ContactPieces {
   Number f_scale_ = 0;
 };
 
-// A guess of a root in [0,1] of a cubic whose values at 0 and 1 differ in sign. It makes Newton
-// steps, and halves where a step would leave the bracket. It does not promise how near the guess
-// is.
+// Guesses a root in [0,1] of a cubic whose values at 0 and 1 differ in sign. It makes Newton steps,
+// and halves where a step would leave the bracket. How near the guess is is not promised.
 template <class Number>
 Number guess_root(const CubicOf<Number>& b) {
   const Number c1 = 3 * (b[1] - b[0]), c2 = 3 * (b[2] - 2 * b[1] + b[0]);

@@ -18,7 +18,7 @@ namespace assay::detector {
 
 struct ContactResult {
   bool contact = false;
-  TimeEnclosure time;                    // first contact time; set when contact and wanted
+  TimeEnclosure time;                    // first contact time; set if there is one and wanted
   ContactRung rung = ContactRung::axis;  // which rung decided whether there is a contact
 };
 
@@ -35,17 +35,18 @@ ContactResult test_contact_past_axis(const FourPoints& query, Want want);
 class ElementaryTest {
  public:
   virtual ~ElementaryTest() = default;
-  // The distance that is asked about: 0 asks for contacts, d > 0 for features that come within d.
+  // Returns the distance of the question: 0 asks for contacts, d > 0 for features that come within
+  // d.
   virtual double separation() const { return 0; }
-  // If not null: many queries may go through these first, and what they settle need not be asked.
-  // A stage of one's own is asked for every query, unless it says otherwise.
+  // Returns kernels for many queries at once, or null. A query that they settle need not be asked
+  // of this stage. A stage that does not override this is asked every query.
   virtual const QueryKernels* first_rungs() const { return nullptr; }
   // The axis rung (rungs.h).
   virtual bool is_apart_along_an_axis(const FourPoints& query) const;
   virtual ContactResult test(const FourPoints& query, Want want) const {
     return test_contact_past_axis(query, want);
   }
-  // The same, where a contact later than `until` is of no interest: then the answer may be no.
+  // The same, but a contact later than `until` is of no interest: the answer to it may be no.
   // REQUIRES until in [0,1], and a test whose times are unique enclosures.
   virtual ContactResult test_until(const FourPoints& query, Want want, double until) const;
   // Whether the open segment strictly pierces the open triangle at one instant. In this way the
@@ -53,7 +54,7 @@ class ElementaryTest {
   virtual bool pierces(const Point& e0, const Point& e1, const std::array<Point, 3>& face) const {
     return segment_pierces_triangle(e0, e1, face);
   }
-  // The first contact time of two triangles of which pierces() said yes at t=0.
+  // Returns the first contact time of two triangles for which pierces() returned true at t=0.
   virtual TimeEnclosure piercing_time(const Point&, const Point&,
                                       const std::array<Point, 3>&) const {
     return {0, 0};
@@ -63,13 +64,13 @@ class ElementaryTest {
 // The stage for this arithmetic.
 std::shared_ptr<const ElementaryTest> make_elementary_test(Arithmetic arithmetic);
 
-// Whether the two features of an elementary query stay apart up to a time `until`. It serves
-// searches for the first contact: they know a contact already, and the times of later ones do not
+// Says whether the two features of an elementary query stay apart up to a time `until`. It serves
+// searches for the first contact: once they know a contact, the times of later contacts do not
 // matter.
 //
-// by_doubles and by_integers: there is no contact in [0, until]. no: there is one, or this rung
-// cannot tell. 0.1 us by doubles, 0.2 to 0.6 us with integers. It allocates nothing. REQUIRES until
-// in [0,1].
+// by_doubles and by_integers: there is no contact in [0, until]. no: there is a contact, or this
+// rung cannot tell. 0.1 us by doubles, 0.2 to 0.6 us with integers. It allocates nothing. REQUIRES
+// until in [0,1].
 enum class Later : std::uint8_t { no, by_doubles, by_integers };
 Later surely_later(const FourPoints& query, double until);
 

@@ -40,7 +40,7 @@ class FixedRoot {
     c_ = {b[0], b[1] - b0_3, b[2] - (b[1] + b[1]) + b0_3, b[3] - b[2] + b[1] - b[0]};
   }
 
-  // As bracket_root: the one root in (lo, hi), where sign_lo is the sign before it.
+  // Encloses the one root in (lo, hi), as bracket_root does; sign_lo is the sign before the root.
   TimeEnclosure bracket(int sign_lo, double lo, double hi, double guess) const {
     return bracket_root([this](double t) { return sign_at(t); }, sign_lo, lo, hi,
                         sharpened(guess, lo, hi));
@@ -70,8 +70,8 @@ class FixedRoot {
     return value;
   }
 
-  // Improves the guess by one Newton step with the exact value. Mostly it is then off by less than
-  // the last place of a double.
+  // Improves the guess by one Newton step with the exact value. The result is mostly off by less
+  // than the last place of a double.
   double sharpened(double guess, double lo, double hi) const {
     if (!(guess > lo && guess < hi)) return guess;
     const Binary t = binary_of(guess);
@@ -97,11 +97,12 @@ class FixedRoot {
 };
 
 // The sign of a quadratic Q at the root p of a quadratic L in (0,1), both in Bernstein
-// coefficients. REQUIRES that L has exactly one root there, and the sign l_before before it.
+// coefficients. REQUIRES that L has exactly one root in (0,1), and the sign l_before before that
+// root.
 //
-// With L = l2 s^2 + l1 s + l0, l2 not 0, l2 Q = q2 L + R, R = a s + b. So Q has at p the sign of R,
-// or the other one if l2 < 0. If R vanishes at -b/a in (0,1), the sign of L there tells the order
-// of -b/a and p, as below. If l2 = 0, Q is computed at p = -l0/l1. With c as below:
+// With L = l2 s^2 + l1 s + l0, l2 not 0, l2 Q = q2 L + R, R = a s + b. So at p, Q has the sign of R
+// if l2 > 0, and the opposite sign if l2 < 0. If R vanishes at -b/a in (0,1), the sign of L there
+// tells the order of -b/a and p, as below. If l2 = 0, Q is computed at p = -l0/l1. With c as below:
 //
 //   quantity                          | below, in size            | bits
 //   q0..q2, l0..l2: by powers of s    | 4 * 2^(2c + 14)           | 2c + 16
@@ -132,8 +133,8 @@ int sign_at_root(const FixedQuadratic<FixedInteger<2 * W>>& quadratic,
 }
 
 // The sign of a quadratic L at the root r of a cubic F in (0,1). REQUIRES that each of them has
-// exactly one root in (0,1). It is found by a resultant: no interval has to be made small, and
-// common roots are no special case.
+// exactly one root in (0,1). The sign is found by a resultant: no interval has to be made small,
+// and common roots are no special case.
 //
 // Let p be the root of L. On (0,1) F has the sign f before r and -f after it, and L has the sign l
 // before p and -l after it. So F(p) tells the order of r and p:
@@ -174,8 +175,8 @@ int sign_at_root(const FixedQuadratic<FixedInteger<2 * W>>& quadratic,
 //   a term                        | four of these at most, multiplied  | at most 4 (9 + 1) = 40
 //   a sum of seven terms at most  | six sums                           | 40 + 6 = 46 S
 //
-// The code asks for 128 u S. If S is so small that a term may have lost bits by
-// underflow, doubles decide nothing.
+// The code uses the bound 128 u S. If S is so small that a term may have lost bits by underflow,
+// doubles decide nothing.
 template <std::size_t W>
 class SignAtRoot {
  public:
@@ -192,8 +193,8 @@ class SignAtRoot {
     for (std::size_t i = 0; i < 4; ++i) near_f_[i] = f_[i].approximate(3 * bits_);
   }
 
-  // The sign at the root of F of the L with these Bernstein coefficients. l_before: the sign of L
-  // before its own root.
+  // Returns the sign that the quadratic L with these Bernstein coefficients has at the root of F.
+  // l_before: the sign of L before its own root.
   int of(const FixedQuadratic<Minor>& quadratic, int l_before) const {
     const FixedQuadratic<L> b = {L(quadratic[0]), L(quadratic[1]), L(quadratic[2])};
     const L d0 = b[1] - b[0], d1 = b[2] - b[1];
@@ -202,7 +203,7 @@ class SignAtRoot {
   }
 
  private:
-  // Below, products of integers take no longer than balls.
+  // For a smaller W, products of integers take no longer than balls.
   static constexpr std::size_t worth_balls = 3;
   using F = FixedInteger<3 * W + 1>;
   using L = FixedInteger<2 * W + 1>;
@@ -230,7 +231,7 @@ class SignAtRoot {
   }
 
   // The same in balls, which know the size of each term, whatever the exponents of the coordinates
-  // are. Nothing where they cannot tell.
+  // are. Returns nothing if balls cannot tell.
   std::optional<int> sign_by_balls(const FixedQuadratic<L>& quadratic, int l_before) const {
     const std::array l = {Ball(quadratic[0]), Ball(quadratic[1]), Ball(quadratic[2])};
     const std::array f = {Ball(f_[0]), Ball(f_[1]), Ball(f_[2]), Ball(f_[3])};

@@ -1,8 +1,8 @@
-// The rungs of the elementary test (elementary.h). Rungs 0 and 1 of the ladder are comparisons of
-// inputs, then doubles with proved bounds. Neither ever decides wrongly. Queries that they cannot
-// decide go to the next rung. After these stands the test without integers: in doubles with proved
-// bounds (`bounded`), and in plain doubles or floats; then the rungs of integers. Only integers
-// without bound allocate.
+// The rungs of the elementary test (elementary.h). Rung 0 compares inputs; rung 1 computes in
+// doubles with proved bounds. Neither ever decides wrongly; a query that it cannot decide goes to
+// the next rung. After these two comes the test without integers, in doubles with proved bounds
+// (`bounded`) or in plain doubles or floats; then the rungs of integers. Only integers without
+// bound allocate.
 #pragma once
 
 #include <optional>
@@ -15,9 +15,9 @@
 namespace assay::detector {
 
 // The axis rung. Whether the two groups are more than `by` apart along an axis, in the same sense
-// at t=0 and at t=1. Then they are so throughout, because every point moves linearly; by 0, there
-// is no contact. Exact: a difference of doubles that is rounded to more than a double is more than
-// it. REQUIRES by >= 0. About 10 ns.
+// at t=0 and at t=1. Then they are more than `by` apart throughout, because every point moves
+// linearly; with `by` 0 this means that there is no contact. Exact, because a difference of doubles
+// is greater than a double if its rounded value is. REQUIRES by >= 0. About 10 ns.
 bool separated_along_an_axis(const FourPoints& query, double by = 0);
 
 struct FilterResult {
@@ -35,19 +35,18 @@ struct FilterResult {
 FilterResult filter_contact(const FourPoints& query, Want want);
 
 // How often pieces are halved. A halving takes 40 ns, and integers (contact_fixed.cpp) take 2 us.
-// So where the sign of the cubic is sure at both ends of a piece, halving soon finds the part with
-// the root, and the signs of the dependencies there: of 5,171 queries of a simulation it settles
-// all but 37, and two levels leave 1,097 open. Where it is not sure, as at a contact just at t=0 or
-// of points that stay coplanar, more halvings would mostly be in vain, and so they would be after a
-// piece that stays open.
+// If the sign of the cubic is sure at both ends of a piece, halving soon finds the part with the
+// root, and the signs of the dependencies there. Of 5,171 queries of a simulation, these depths
+// leave 37 open; a depth of two leaves 1,097 open. If a sign is not sure, as at a contact just at
+// t=0 or where points stay coplanar, more halvings are mostly in vain. They are also mostly in vain
+// after a piece that stays open.
 inline constexpr int max_filter_depth = 8, max_unsure_depth = 2, max_filter_halvings = 16;
 
-// In doubles with proved bounds alone; what they cannot tell counts as a contact. So it never
-// misses a contact. `rung` is `open` if it could not tell whether there is a contact, and so
-// reports one. The time is an interval of doubles that holds the first contact time if there is a
-// contact: up to lo it is proved that there is none, so lo is never late; hi is a time by which a
-// contact is certain, or 1 if none is. REQUIRES a query that separated_along_an_axis did not
-// settle. 0.1 to 5 us, no allocation.
+// Tests in doubles with proved bounds alone. If they cannot tell, `rung` is `open` and a contact is
+// reported, so no contact is ever missed. The time is an interval of doubles that holds the first
+// contact time if there is a contact. Up to lo it is proved that there is no contact, so lo is
+// never late. hi is a time by which a contact is certain, or 1 if no contact is certain. REQUIRES a
+// query that separated_along_an_axis did not settle. 0.1 to 5 us, no allocation.
 ContactResult bounded_contact(const FourPoints& query, Want want);
 
 // Encloses in doubles the first root of a cubic whose coefficients are known only up to a bound.
@@ -70,12 +69,12 @@ template <class Number>
 ContactResult plain_contact(const FourPoints& query, Want want);
 
 // The integer rungs of the elementary test: integers of fixed width, and integers without bound for
-// what these leave open. Together they decide every query. They treat every degenerate case by the
-// same few rules (contact_exact.cpp).
+// the queries that these leave open. Together they decide every query. They treat every degenerate
+// case by the same few rules (contact_exact.cpp).
 
-// Whether there is a contact, its first time if that is wanted, and the rung (fixed or unbounded)
-// that decided. If only yes or no is wanted, any time stands for a contact. Exact for all finite
-// inputs. 0.2 to 1 us for coordinates of similar magnitude.
+// Returns whether there is a contact, its first time if that is wanted, and the rung (fixed or
+// unbounded) that decided. If only yes or no is wanted, the time of a contact has no meaning. Exact
+// for all finite inputs. 0.2 to 1 us for coordinates of similar magnitude.
 ContactResult exact_contact(const FourPoints& query, Want want = Want::first_time);
 
 // The time of a contact that the filter has bracketed. REQUIRES that this time is the only root of
@@ -83,9 +82,9 @@ ContactResult exact_contact(const FourPoints& query, Want want = Want::first_tim
 // that time. 0.4 us for coordinates of similar magnitude.
 TimeEnclosure exact_bracketed_time(const FourPoints& query, double lo, double hi, double guess);
 
-// The same in integers without bound alone. The functions above fall back on these. 5 to 50 us for
-// coordinates of similar magnitude; the time grows with the spread of their exponents, to 2 ms
-// over all doubles.
+// Returns the first contact time, if there is a contact, by integers without bound alone. The
+// functions above fall back on these. 5 to 50 us for coordinates of similar magnitude; the time
+// grows with the spread of their exponents, to 2 ms over all doubles.
 std::optional<TimeEnclosure> general_first_contact(const FourPoints& query);
 TimeEnclosure general_bracketed_time(const FourPoints& query, double lo, double hi, double guess);
 

@@ -4,7 +4,7 @@
 //
 // Guarantee: for every finite input and every finite d > 0 the answer is that of exact arithmetic
 // on the doubles given. A distance of exactly d is within d, and t=0 and t=1 count. The first two
-// rungs allocate nothing; integers, which every first time after t=0 takes, do.
+// rungs allocate nothing. Integers do, and every first time after t=0 takes them.
 #pragma once
 
 #include <optional>
@@ -21,9 +21,9 @@ ContactResult test_near(const FourPoints& query, double d, Want want);
 // The stage of the detector.
 std::shared_ptr<const ElementaryTest> make_near_test(double d);
 
-// The rung of integers (geometry/near_regions.h): the first time within d, if there is one. Exact
-// for every finite input and every finite d >= 0. 3 us if the features are within d at t=0, else
-// some 100 us; up to 0.1 s where the exponents of coordinates and d spread over all doubles.
+// The rung of integers (geometry/near_regions.h). Returns the first time within d, if there is one.
+// Exact for every finite input and every finite d >= 0. 3 us if the features are within d at t=0,
+// else some 100 us; up to 0.1 s where the exponents of coordinates and d spread over all doubles.
 std::optional<TimeEnclosure> exact_near_time(const FourPoints& query, double d);
 
 // The same for features that are farther apart than d from t=0 to lo and nearer than d at hi. Only
@@ -31,7 +31,7 @@ std::optional<TimeEnclosure> exact_near_time(const FourPoints& query, double d);
 TimeEnclosure exact_near_time_between(const FourPoints& query, double d, double lo, double hi,
                                       double guess);
 
-// When two features come within a distance, in doubles with proved bounds (L16).
+// Finds when two features come within a distance, in doubles with proved bounds (L16).
 //
 // Let n be any vector. If n.(p - q) > d |n| for every corner p of the first feature and q of the
 // second one, the two are farther apart than d. The filter takes for n the vector between the
@@ -40,10 +40,10 @@ TimeEnclosure exact_near_time_between(const FourPoints& query, double d, double 
 //   pairs that stay apart are proved so in one piece.
 //   If n goes linearly from its vector at one instant to that at another, n.(p - q) is quadratic,
 //   with the Bernstein coefficients n0.w0, (n0.w1 + n1.w0) / 2, n1.w1 for w = p - q. |n| is convex,
-//   so d |n| is below the linear function that d |n0| and d |n1| are the ends of.
+//   so d |n| is below the linear function with the end values d |n0| and d |n1|.
 // The next instant is where the distance would come to d if it fell as it did between the last two
-// (the secant rule), or the end of the step. If that cannot be proved, it is the time until which
-// the n of this instant keeps the features apart.
+// (the secant rule), or the end of the step. If a piece up to there cannot be proved, the next
+// instant is the time until which the n of this instant keeps the features apart.
 //
 // Two places of the features, on the other hand, that are nearer than d prove that the features
 // are within d at that instant.
@@ -78,8 +78,8 @@ inline constexpr double length_slack = 1 + 8 * unit_roundoff;
 
 struct NearResult {
   Decision decision = Decision::open;
-  // With a yes. The features are farther apart than d from t=0 to lo, and nearer than d at hi. If
-  // lo is 0 and hi is 0, they are within d at t=0.
+  // Set if the decision is yes. The features are farther apart than d from t=0 to lo, and nearer
+  // than d at hi. If lo and hi are both 0, they are within d at t=0.
   double lo = 0, hi = 0;
   double time_guess = 0;  // a double near the first time within d
 };
@@ -87,7 +87,7 @@ struct NearResult {
 // REQUIRES d >= 0. 0.1 us for a pair that stays apart or begins near; 0.5 us else.
 NearResult filter_near(const FourPoints& query, double d);
 
-// Most of the pieces. Where so many do not come to an end, the features touch at about d.
+// The greatest number of pieces. Features that need more come no nearer than about d.
 inline constexpr int max_advances = 24;
 
 // Where two features are nearest to each other at one instant, in plain doubles.
@@ -97,9 +97,9 @@ inline constexpr int max_advances = 24;
 // The four points of a query at one instant, as they are seen from the first point.
 using SeenPoints = std::array<Vector, 3>;  // of points 1, 2, 3
 
-// Of the two features the vector from a place of the second one to a place of the first one, which
-// are about nearest to each other. Each place is in its feature, up to place_error, also if the
-// feature is only a segment or a point. 20 ns.
+// Returns the vector from a place of the second feature to a place of the first one. The two places
+// are about nearest to each other. Each lies in its feature, up to place_error, even if the feature
+// is degenerate. 20 ns.
 Vector between_nearest(const SeenPoints& x, int first_group);
 
 }  // namespace assay::detector

@@ -1,6 +1,6 @@
-// Integers without bound, and polynomials in the step's time that have them as coefficients. Those
-// of contacts and views have degree 5 at most (the middle piece of a view-line), those of distances
-// 6; the class does not limit the degree.
+// Integers without bound, and polynomials in the step's time that have them as coefficients. The
+// polynomials of contacts and views have degree 5 at most (the middle piece of a view-line), those
+// of distances 6; the class does not limit the degree.
 #pragma once
 
 #include <boost/container/small_vector.hpp>

@@ -89,7 +89,7 @@ SignChanges sign_changes_over(const Polynomial& f, const Dyadic& lo, const Dyadi
 // The changes over (0,1).
 SignChanges sign_changes_over_unit(const Polynomial& f);
 
-// Either a known time, or an open interval with one root in it, a simple one.
+// Either a known time, or an open interval that holds exactly one root, a simple one.
 struct IsolatedRoot {
   Dyadic lo, hi;          // an interval, or both the root itself if it is a time
   TimeEnclosure doubles;  // lo and hi, or the adjacent doubles around them

@@ -1,7 +1,7 @@
-// The regions of L16: when are two features within a distance, as signs of polynomials.
+// The regions of L16: signs of polynomials that say when two features are within a distance.
 //
 // The two features are within d at t exactly when one of these regions has f <= 0 with all its
-// conditions at t. There is a region for each closed face of the one and of the other.
+// conditions at t. There is a region for each pair of closed faces, one of either feature.
 //
 //   region          | f                       | g >= 0                           | > 0
 //   points p, a     | |p-a|^2 - d^2           | none                             | none
@@ -15,7 +15,7 @@
 //
 // f compares the distance of the points, lines and planes with d. The conditions say that the feet
 // of the perpendicular lie in the faces, and the strict one that the edge, the face or the pair of
-// edges is not degenerate. Where it is, f vanishes, and lower faces tell the distance.
+// edges is not degenerate. Where it is degenerate, f vanishes, and lower faces tell the distance.
 //
 // The first time within d is the least of the regions' times: 0, if f <= 0 with the conditions at
 // t=0, and the zeros of f at which the conditions hold, unless f is identically zero. Let tau > 0
@@ -23,7 +23,7 @@
 // is d, and f vanishes there. If f is identically zero, some condition fails just before tau, so
 // its g vanishes at tau: the foot is on a lower face, and the region was not of least dimension.
 //
-// The table is written once, over the numbers that it is asked in: integers at an instant,
+// The table is written once, as a template over the kind of number: integers at an instant,
 // polynomials over the step, balls over a piece of it.
 #pragma once
 
@@ -113,8 +113,8 @@ class NearRegions {
 
 enum class Near { within, nearer };  // at most the distance, or less than it
 
-// Whether the features are so near at the instant that the numbers are of: whether some region
-// holds there. The cheap ones are asked first.
+// Returns whether the features are so near at the instant of the numbers: whether some region holds
+// there. Cheap regions are tried first.
 template <class Number>
 bool some_region_holds(const NearRegions<Number>& regions, Near near) {
   for (std::size_t i = regions.size(); i-- > 0;) {
@@ -128,16 +128,16 @@ bool some_region_holds(const NearRegions<Number>& regions, Near near) {
   return false;
 }
 
-// Whether features of a mesh at rest are nearer to each other than a distance: the part of the
-// relation between pairs (mesh/counted_pairs.h) that takes arithmetic. Exact for all finite inputs:
-// decided by these regions, in integers (exact/polynomial.h).
+// Returns whether features of a mesh at rest are nearer to each other than a distance: the part of
+// the relation between pairs (mesh/counted_pairs.h) that takes arithmetic. Exact for all finite
+// inputs: decided by these regions, in integers (exact/polynomial.h).
 //
 // REQUIRES r finite. 2 to 10 us each, unless the boxes of the two tell: then 10 ns.
 bool vertex_is_nearer_to_face(const Point& p, const std::array<Point, 3>& face, double r);
 bool edges_are_nearer(const std::array<Point, 2>& a, const std::array<Point, 2>& b, double r);
 
-// The same of two triangles that share no vertex, which pierce each other or of which two features
-// are that near.
+// The same for two triangles that share no vertex: true if they pierce each other, or if a feature
+// of one is that near to a feature of the other.
 bool triangles_are_nearer(const std::array<Point, 3>& a, const std::array<Point, 3>& b, double r);
 
 }  // namespace assay::detector

@@ -1,7 +1,7 @@
 // Winding numbers of a closed component, by counting the triangles that a ray crosses.
 //
-// In exact arithmetic the numbers are exact. In bounded arithmetic they are right where they are
-// given, and there is none (nullopt) if doubles cannot tell. Plain doubles and floats promise
+// In exact arithmetic the numbers are exact. In bounded arithmetic every number returned is right,
+// and nothing (nullopt) is returned if doubles cannot tell. Plain doubles and floats promise
 // nothing.
 #pragma once
 
@@ -26,11 +26,11 @@ std::optional<int> winding_number(const Topology& mesh, std::span<const std::int
                                   PacedStop* pace = nullptr);
 
 // The winding number w just outside each of the triangles `queries`, on the side of its normal. The
-// layer of that triangle is (w + 1, w). REQUIRES that a triangle asked for touches no other
-// triangle of `triangles` beyond shared vertices. None for a triangle of zero area, and none if
-// `pace` was stopped. All numbers together cost about two winding numbers of points, because half
-// of the rays point the wrong way at the first try, and 50 ns for each triangle whose shadow a ray
-// meets.
+// layer of that triangle is (w + 1, w). REQUIRES that a triangle of `queries` touches no other
+// triangle of `triangles` beyond shared vertices. There is none for a triangle of zero area, and
+// none if `pace` was stopped. All numbers together cost about two winding numbers of points,
+// because half of the rays point the wrong way at the first try, and 50 ns for each triangle whose
+// shadow a ray meets.
 std::vector<std::optional<int>> winding_numbers_outside(const Topology& mesh,
                                                         std::span<const std::int32_t> triangles,
                                                         const PositionsView& x,

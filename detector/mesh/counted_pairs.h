@@ -1,8 +1,9 @@
-// Which pairs count (L19): what a user leaves out of the question whether a mesh meets itself.
+// Says which pairs count (L19). A user may leave pairs out of the question whether a mesh meets
+// itself.
 //
 // A pair that does not count is never reported, and it makes no step a collision. Everything counts
-// by default. This is plain data; mesh_checks.h says what is refused. A detector is told of it when
-// it is made:
+// by default. This is plain data; mesh_checks.h says which values are refused. A detector takes it
+// when it is made:
 //
 //   CountedPairs counted;
 //   counted.rings = 1;                  // leaves out triangles that share a vertex
@@ -22,10 +23,10 @@
 
 namespace assay::detector {
 
-// What the relation is a relation of. `features` are pairs of a vertex and a face, and of two
-// edges, that share no vertex; most detectors filter these. There a pair of triangles counts by its
-// counted feature pairs: it is in contact when two of them meet, and first at the least of their
-// times. An edge that pierces a face at t=0 counts if some feature pair of the two triangles does.
+// Says which pairs the relation is about. `features` are pairs of a vertex and a face, or of two
+// edges, that share no vertex; most detectors filter these. At this level a pair of triangles is in
+// contact when one of its counted feature pairs is, first at the least of their times. An edge that
+// pierces a face at t=0 counts if some feature pair of the two triangles does.
 enum class CountedLevel : std::uint8_t { triangles, features };
 constexpr auto names_of(CountedLevel) {
   using enum CountedLevel;
@@ -48,7 +49,7 @@ struct TwoEdges {
 struct CountedPairs {
   CountedLevel level = CountedLevel::triangles;
 
-  // By vertex, the number of its body; empty: all vertices are of body 0. The vertices of a
+  // The number of the body of each vertex; if empty, all vertices are of body 0. The vertices of a
   // triangle are of one body. Bodies are numbered from 0 to the greatest number that occurs.
   std::vector<std::int32_t> body;
   // Pairs of bodies that do not meet, in any order. A body paired with itself does not meet itself.
@@ -59,9 +60,9 @@ struct CountedPairs {
   // those that an edge joins, and so on.
   std::int32_t rings = 0;
 
-  // The two do not count if they are nearer to each other at rest than this, exactly: at
-  // rest_distance itself they count, and 0 leaves out nothing. Triangles that share a vertex, and
-  // triangles that pierce each other, have distance 0.
+  // The two do not count if they are nearer to each other at rest than this. The comparison is
+  // exact: at rest_distance itself they count, and 0 leaves out nothing. Triangles that share a
+  // vertex, and triangles that pierce each other, have distance 0.
   double rest_distance = 0;
   std::vector<Point> rest;  // by vertex, its place at rest; may be empty if rest_distance is 0
 

@@ -86,7 +86,7 @@ std::string all_names() {
   return text;
 }
 
-// Calls with an enum of a namespace look there and not here.
+// A call with an enum of this namespace looks for name_of here, not in the namespace around it.
 namespace detector {
 using assay::name_of;
 }

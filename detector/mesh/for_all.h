@@ -18,7 +18,7 @@
 
 namespace assay::detector {
 
-// How many items make a piece: some 10 us of work. Fewer are not worth sharing out.
+// How many items make a piece: about 10 us of work. Fewer items are not worth sharing out.
 inline constexpr std::size_t shared_piece = 4096;
 // The same for rows of positions that are only read or copied.
 inline constexpr std::size_t rows_of_piece = 32'768;
@@ -28,8 +28,9 @@ inline bool has_workers(const PacedStop* pace) {
 }
 
 // Calls run(begin, end, lane) for pieces of at most `most` items. `run` returns the work that its
-// piece took, so this is for loops whose work is known only when it is done. False if the stop
-// function ended the loop. Without a pace it never ends early, and the calling thread does it all.
+// piece took, so this is for loops whose work is known only when it is done. Returns false if the
+// stop function ended the loop. Without a pace it never ends early, and the calling thread does it
+// all.
 template <class Run>
 bool for_all_counted(std::size_t count, std::size_t most, PacedStop* pace, Run run) {
   if (!has_workers(pace) || count <= most) {
@@ -60,7 +61,8 @@ bool for_all_pieces(std::size_t count, std::size_t most, std::uint64_t work_of_e
                          });
 }
 
-// Calls body(i) for i = 0 .. count - 1, each of which costs work_of_each. False if it was ended.
+// Calls body(i) for i = 0 .. count - 1, each of which costs work_of_each. Returns false if the stop
+// function ended the loop.
 template <class Body>
 bool for_all_paced(std::size_t count, std::uint64_t work_of_each, PacedStop* pace, Body body) {
   const auto run = [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -74,8 +76,8 @@ bool for_all_paced(std::size_t count, std::uint64_t work_of_each, PacedStop& pac
 }
 
 // Starts from `zero` in each lane, calls add(sum, i) for all i, and puts the sums of the lanes
-// together with join(sum, sum). REQUIRES a sum that does not depend on the order; one of doubles
-// does.
+// together with join(sum, sum). REQUIRES a sum that does not depend on the order, so not one of
+// doubles.
 template <class Sum, class Add, class Join>
 Sum sum_over_all(std::size_t count, std::uint64_t work_of_each, PacedStop* pace, const Sum& zero,
                  Add add, Join join) {
@@ -97,9 +99,9 @@ Sum sum_over_all(std::size_t count, std::uint64_t work_of_each, PacedStop* pace,
   return sum;
 }
 
-// Lists the items 0 .. items - 1 by row, ascending in each. rows_of(item) gives the rows that the
-// item is in. Each worker has rows of its own, and looks at all items for them. False if the pace
-// was stopped.
+// Lists the items 0 .. items - 1 by row, ascending in each row. rows_of(item) gives the rows that
+// the item is in. Each worker has rows of its own, and looks at all items for them. Returns false
+// if the pace was stopped.
 template <class RowsOf>
 bool list_by_row(std::size_t items, std::size_t rows, RowsOf rows_of, Incidence& lists,
                  PacedStop& pace) {

@@ -1,6 +1,6 @@
 // The conditions that the detector's input has to meet. By L12 the answer is never `free` on a
 // guess: input that is in doubt is refused with a named error, or it is answered without trust in
-// it. It is never repaired in silence. A program can ask before it makes a detector:
+// it. It is never repaired in silence. A program can check its input before it makes a detector:
 //
 //   if (auto problem = check_triangles(triangles, positions.rows())) report(problem->message);
 //   if (auto problem = check_positions(x_t1, positions.rows())) report(problem->message);
@@ -23,22 +23,23 @@ inline constexpr Eigen::Index most_triangles = ((std::int64_t{1} << 31) - 1) / 1
 // The most vertices. Apexes are numbered after them, and there are no more apexes than triangles.
 inline constexpr Eigen::Index most_vertices = (std::int64_t{1} << 31) - 1 - most_triangles;
 
-// Nothing if all is well. Else the first error that applies, in the order no_triangles,
-// mesh_too_large, index_out_of_range, repeated_index, same_vertices_twice; its message names the
-// lowest triangle that has it. O(N + M).
+// Returns nothing if all is well, else the first error that applies, in the order no_triangles,
+// mesh_too_large, index_out_of_range, repeated_index, same_vertices_twice. Its message names the
+// lowest triangle that has this error. O(N + M).
 std::optional<Problem> check_triangles(const TrianglesView& triangles, Eigen::Index vertex_count);
-// Its two parts: all errors but the last, and same_vertices_twice alone, which compares triangles
-// and so takes ten times as long. check_repeated REQUIRES triangles that have passed check_corners.
-// Its error is `stopped` if the pace was stopped before the end.
+// The two parts of check_triangles. check_corners finds all errors but the last. check_repeated
+// finds same_vertices_twice; it compares triangles and so takes ten times as long. It REQUIRES
+// triangles that have passed check_corners. Its error is `stopped` if the pace was stopped before
+// the end.
 std::optional<Problem> check_corners(const TrianglesView& triangles, Eigen::Index vertex_count);
 std::optional<Problem> check_repeated(const TrianglesView& triangles, Eigen::Index vertex_count,
                                       PacedStop& pace);
 
-// Nothing if all is well, else wrong_frame_size or non_finite_coordinate. O(N).
+// Returns nothing if all is well, else wrong_frame_size or non_finite_coordinate. O(N).
 std::optional<Problem> check_positions(const PositionsView& positions, Eigen::Index vertex_count);
 
-// Nothing if all is well. Else the first error that applies: wrong_frame_size (bodies or places at
-// rest are not one for each vertex), index_out_of_range (in a list or a pair of bodies),
+// Returns nothing if all is well, else the first error that applies: wrong_frame_size (bodies or
+// places at rest are not one for each vertex), index_out_of_range (in a list or a pair of bodies),
 // triangle_of_two_bodies, non_finite_coordinate (at rest), or wrong_relation: rings below 0, a
 // distance that is negative or not finite, a triangle paired with itself, an edge that no triangle
 // has, a list of the other level. REQUIRES triangles that have passed check_triangles. O(N + M),

@@ -3,7 +3,7 @@
 //
 // The unit of work is what a box test costs, about 5 ns. Callers count their work roughly. A stop
 // function may ask the system how much memory there is, which takes 10 us. Once it has returned
-// true it is not asked again. What was stopped is of no use:
+// true it is not asked again. The result of stopped work must not be used:
 //
 //   PacedStop pace(stop);  // a StopFunction, which has to outlive it
 //   const Topology mesh = make_topology(triangles, positions.rows(), pace);
@@ -33,7 +33,7 @@ class PacedStop {
 
   explicit PacedStop(const StopFunction& stop, std::uint64_t interval = usual_interval)
       : stop_(stop), interval_(interval) {}
-  // The same that also ends once more than `most` work was done.
+  // The same, but it also ends once more than `most` work was done.
   PacedStop(const StopFunction& stop, std::uint64_t interval, double most)
       : stop_(stop), interval_(interval), most_(most) {}
   // For work that the workers share (for_all.h). One thread asks for all of them.
@@ -76,7 +76,7 @@ class PacedStop {
 
 // Calls body(i) for i = 0 .. count - 1, and counts work_of_each for each call. The loop runs in
 // pieces, and only between pieces is the pace asked, so that asking does not slow the body down.
-// False if the pace was stopped after some piece. Without a pace (null) all calls are made.
+// Returns false if the pace was stopped after some piece. Without a pace (null) all calls are made.
 template <class Body>
 bool for_each_paced(std::size_t count, std::uint64_t work_of_each, PacedStop* pace, Body body) {
   constexpr std::size_t of_a_piece = 1024;

@@ -1,5 +1,5 @@
 // The named errors of the detector's interface. They are values: nothing in detector/ throws on
-// bad input. A caller asks whether there is a detector, and else why not:
+// bad input. A caller asks whether there is a detector and, if not, why:
 //
 //   const Expected<Detector> made = Detector::create(triangles, positions, {});
 //   if (!made && made.error().error == InputError::no_triangles) return;  // nothing can collide
@@ -22,7 +22,7 @@ enum class InputError : std::uint8_t {
   same_vertices_twice = 4,      // two triangles have the same three vertices
   wrong_frame_size = 5,         // positions do not have the mesh's number of vertices
   non_finite_coordinate = 6,    // NaN or infinity
-  wrong_primitive_count = 7,    // not none, one, or one view primitive for each component
+  wrong_primitive_count = 7,    // the view primitives are not 0, 1, or 1 for each component
   nothing_to_commit = 8,        // commit() without a completed evaluate()
   foreign_state = 9,            // restore() with the state of another mesh or culling
   damaged_state = 10,           // the bytes are no saved state, or were cut or changed
@@ -30,10 +30,10 @@ enum class InputError : std::uint8_t {
   mesh_too_large = 12,          // more triangles or vertices than the detector's indices can number
   stopped = 13,                 // the stop function asked for an end before there was a detector
   triangle_of_two_bodies = 14,  // its vertices are of two bodies (counted_pairs.h)
-  wrong_relation = 15,          // what CountedPairs says of pairs cannot be so
-  wrong_separation = 16,        // no distance, or with options that do not answer it
+  wrong_relation = 15,          // CountedPairs holds something impossible
+  wrong_separation = 16,        // not a distance, or other options exclude it
   proves_nothing = 17,          // a limit is asked for in an arithmetic that promises nothing
-  wrong_bound = 18,             // a first contact is asked for by what is no time of the step
+  wrong_bound = 18,             // `until` of first_contact is not in [0,1]
 };
 constexpr auto names_of(InputError) {
   using enum InputError;

@@ -1,5 +1,5 @@
-// How much each stage of a step had to do, as counts. Counts do not depend on the machine; times
-// do. Both stand in the result of a step:
+// Counts how much each stage of a step had to do. Counts do not depend on the machine; times do.
+// Both stand in the result of a step:
 //
 //   const ContactRungCounts& rungs = result.counts.narrow.rungs;
 //   use(rungs.by_integers(), rungs.total());  // feature pairs
@@ -10,8 +10,8 @@
 
 namespace assay::detector {
 
-// Which rung of the elementary test decided a feature pair: the order along an axis, doubles with
-// error bounds, integers of fixed width, or integers without bound. `open` means that bounded
+// The rung of the elementary test that decided a feature pair: the order along an axis, doubles
+// with error bounds, integers of fixed width, or integers without bound. `open` means that bounded
 // arithmetic, which has no integers, could not tell and took the pair for a contact.
 enum class ContactRung : std::uint8_t { axis, filter, fixed, unbounded, open };
 
@@ -41,7 +41,7 @@ struct SearchCounts {
   std::uint64_t box_tests = 0;
   // How often the search counted the children of a node that may hold a partner.
   std::uint64_t child_counts = 0;
-  // Nodes with one such child only: the search went on to that child without a box test.
+  // Nodes with only one child that may hold a partner: the search went on to it without a box test.
   std::uint64_t skipped = 0;
   std::uint64_t contour_tests = 0;  // contour tests of patches that have a normal cone
   std::uint64_t candidate_pairs = 0;
@@ -59,7 +59,7 @@ struct SearchCounts {
 struct MarkingCounts {
   std::uint64_t changed = 0;  // triangles whose flags changed
   std::uint64_t marked = 0;   // nodes that got a flag, leaves included
-  std::uint64_t cleared = 0;  // nodes that lost one
+  std::uint64_t cleared = 0;  // nodes that lost a flag
 };
 
 struct NarrowCounts {
@@ -90,9 +90,9 @@ struct ViewCounts {
 
 struct GhostCounts {
   std::uint64_t box_tests = 0;
-  std::uint64_t pairs = 0;             // ghost and triangle, with moving boxes that are not apart
+  std::uint64_t pairs = 0;             // ghosts and triangles with moving boxes that are not apart
   std::uint64_t elementary_tests = 0;  // feature pairs of these that axis order left open
-  // The triangles of the pairs that the step itself met, each counted once.
+  // The triangles of those pairs that the sweep of the step itself met, each counted once.
   std::uint64_t near_triangles = 0;
 
   // The work in units of a box test (5 ns). For one pair up to 15 feature pairs are tested by axis

@@ -16,7 +16,7 @@
 
 namespace assay::detector {
 
-// In which numbers a step is computed. detector/README.md says what each arithmetic promises.
+// The numbers that a step is computed in. detector/README.md says what each arithmetic promises.
 enum class Arithmetic : std::uint8_t {
   exact,             // doubles with proved bounds, integers where these cannot tell: never wrong
   bounded,           // doubles with proved bounds alone: what they cannot tell counts as contact
@@ -56,8 +56,8 @@ struct TimeEnclosure {
   friend auto operator<=>(const TimeEnclosure&, const TimeEnclosure&) = default;
 };
 
-// The time by which a contact has to be, to be looked for: until == 1 leaves out none. Unique
-// enclosures tell whether a time is later. Of others, what may be earlier is not left out.
+// The latest time of contacts that are looked for; until == 1 leaves out none. Unique enclosures
+// tell whether a time is later. With other enclosures, a contact that may be earlier is kept.
 struct TimeBound {
   double until = 1;
   bool has_unique_times = true;  // as in exact arithmetic
@@ -115,7 +115,7 @@ constexpr auto names_of(Answer) {
                                        {Answer::error, "error"}});
 }
 
-// What a method says of a question that it may be unable to decide. `no` and `yes` are proved.
+// The answer of a method to a question that it may be unable to decide. `no` and `yes` are proved.
 // `open` says that this method cannot tell; another one may.
 enum class Decision : std::uint8_t { no, yes, open };
 

@@ -1,5 +1,5 @@
 // The closed-up surface S = M + G: the mesh and the ghost triangles that close it. A detector has
-// that of its mesh:
+// the surface of its mesh:
 //
 //   const Surface& surface = detector.surface();
 //   for (const Loop& loop : surface.loops) use(loop.size());
@@ -38,8 +38,8 @@ struct Surface {
   // S, or empty if there are no loops. First come the mesh's triangles, then for each loop in turn
   // one ghost (v, u, apex) for each of its edges (u, v). The apex of loop l is vertex first_apex +
   // l. Components are those of M, in the same order; the ghosts of each stand after its own
-  // triangles. A detector of a culling without views has no use for it, and makes it when it is
-  // asked for its surface.
+  // triangles. A detector whose culling has no views needs no ghosts, and makes them when its
+  // surface is asked for.
   Topology with_ghosts;
   std::int32_t first_apex = 0;  // the number of the mesh's vertices
 
@@ -52,7 +52,7 @@ struct Surface {
 Surface make_surface(const TrianglesView& triangles, Eigen::Index vertex_count);
 // The same with a pace. If `pace` was stopped the result is of no use.
 Surface make_surface(const TrianglesView& triangles, Eigen::Index vertex_count, PacedStop& pace);
-// In two parts.
+// The two parts of make_surface.
 Surface surface_without_ghosts(const TrianglesView& triangles, Eigen::Index vertex_count,
                                PacedStop& pace);
 void add_ghosts(Surface& surface, PacedStop& pace);

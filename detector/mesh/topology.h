@@ -35,9 +35,9 @@ struct Component {
   bool is_cycle = false;
 };
 
-// An edge that its triangles do not pass as often in one direction as in the other. Surplus: how
-// many pass it in ascending direction (from its lower vertex to the higher), less those that pass
-// it in descending direction.
+// An edge that its triangles pass more often in one direction than in the other. Surplus: the
+// number of triangles that pass it from its lower vertex to the higher one, less the number of
+// those that pass it the other way.
 struct UnmatchedEdge {
   std::int32_t edge, surplus;
 };

@@ -2,7 +2,7 @@
 //
 // Notation: a step runs over t in [0,1]; `_t0`, `_t1` are its two ends and every vertex moves
 // linearly between them. All coordinates are doubles taken as exact numbers, in the user's units.
-// Arrays of a program's own are read where they lie:
+// A program's own arrays are read where they lie:
 //
 //   const std::vector<double> coordinates = {0, 0, 0, 1, 0, 0, 0, 1, 0};
 //   const std::vector<std::int32_t> corners = {0, 1, 2};

@@ -20,7 +20,7 @@
 
 namespace assay::detector {
 
-// The threads themselves. They are those of oneTBB, which thread_arena.cpp alone names.
+// The threads themselves. They are those of oneTBB; only thread_arena.cpp names that library.
 class ThreadArena {
  public:
   // Null if the library was built without oneTBB.
@@ -33,13 +33,13 @@ class ThreadArena {
   };
   // Calls work.run(i, lane) for i = 0 .. count - 1, with lane < threads, and returns when all
   // calls have. No two calls run in one lane at the same time. The calling thread works too, and
-  // is one of the threads. If calls throw, the exception of one of them is thrown again, and what
-  // had not begun then may be left out.
+  // is one of the threads. If calls throw, the exception of one of them is thrown again, and calls
+  // that had not begun by then may be left out.
   virtual void run(std::size_t count, const Work& work) = 0;
 };
 
 // A piece of a loop: the items begin, ..., end - 1. Lanes are numbered from 0, and no two threads
-// work in one lane at the same time, so what is kept by lane needs no lock.
+// work in one lane at the same time, so data kept by lane need no lock.
 struct LoopPiece {
   std::size_t begin, end, lane;
 };
@@ -49,7 +49,7 @@ class Workers {
   // 0 means as many threads as the machine has. In a library built without oneTBB one thread does
   // everything.
   explicit Workers(std::uint32_t threads = 1);
-  // Works as this arena says, which has so many lanes: one that measures, for example. REQUIRES an
+  // Uses this arena, which has `lanes` lanes. It may be one that measures, for example. REQUIRES an
   // arena, and two lanes or more.
   Workers(std::unique_ptr<ThreadArena> arena, std::size_t lanes);
 
@@ -58,8 +58,8 @@ class Workers {
   bool is_alone() const { return count_ == 1; }
 
   // Calls the body for pieces that cover [0, count), each of at most `most` items, in any order
-  // and in lanes below count(). What a body throws is thrown again here. REQUIRES that no body
-  // calls share_out.
+  // and in lanes below count(). An exception that a body throws is thrown again here. REQUIRES that
+  // no body calls share_out.
   void share_out(std::size_t count, std::size_t most,
                  const std::function<void(const LoopPiece&)>& body) const;
 
@@ -76,8 +76,8 @@ class SharedStop {
   explicit SharedStop(const std::function<bool()>& stop)
       : stop_(stop), caller_(std::this_thread::get_id()) {}
 
-  // A stop function for all threads: true as soon as the user's function has returned true. Empty
-  // if the user's function is.
+  // Returns a stop function for all threads. It returns true as soon as the user's function has
+  // returned true, and it is empty if the user's function is.
   std::function<bool()> function() {
     if (!stop_) return {};
     return [this] {
@@ -114,8 +114,9 @@ class ProcessorState {
   ProcessorState(const ProcessorState&) = delete;
   ProcessorState& operator=(const ProcessorState&) = delete;
 
-  // A function that calls `function` in the state of the caller; empty if `function` is. Both this
-  // object and `function` must outlive it. Whatever `function` does to the state is undone.
+  // Returns a function that calls `function` in the state of the caller; it is empty if `function`
+  // is. Both this object and `function` must outlive the result. Whatever `function` does to the
+  // state is undone.
   std::function<bool()> in_callers_state(const std::function<bool()>& function) const;
 
  private:

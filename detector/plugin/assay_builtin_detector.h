@@ -1,5 +1,6 @@
 /* The built-in detector in C. It is for programs in C, and for programs that use any detector
- * through the interface of assay_detector.h. C99 or C++; link assay::detector. It is made so:
+ * through the interface of assay_detector.h. C99 or C++; link assay::detector. A program makes one
+ * like this:
  *
  *   assay_builtin_options options = ASSAY_BUILTIN_DEFAULTS;
  *   assay_builtin_error error;
@@ -18,8 +19,8 @@
  * in; with ASSAY_OK it then holds ASSAY_BUILTIN_NO_ERROR and an empty message. Handles and arrays
  * must not be NULL unless a function says that they may be.
  *
- * THE PROCESSOR. Answers are the same in whatever state the caller has it: if it flushes denormals,
- * rounds otherwise than to nearest, or traps. That state is put back. stop() runs in it. */
+ * THE PROCESSOR. Answers are the same whatever state the caller has set: flushing of denormals,
+ * another rounding mode, or traps. Each call puts that state back, and stop() runs in it. */
 #ifndef ASSAY_BUILTIN_DETECTOR_H
 #define ASSAY_BUILTIN_DETECTOR_H
 
@@ -33,7 +34,7 @@ extern "C" {
  * valid for ever. */
 const assay_detector_api* assay_builtin_detector(void);
 
-/* What may be wrong. A number keeps its meaning for ever; new errors get new numbers. */
+/* The errors. A number keeps its meaning for ever; new errors get new numbers. */
 enum {
   ASSAY_BUILTIN_NO_ERROR = 0,
   ASSAY_BUILTIN_NO_TRIANGLES = 1,          /* an empty mesh */
@@ -118,7 +119,8 @@ typedef struct assay_builtin_options {
 #define ASSAY_BUILTIN_DEFAULTS \
   { sizeof(assay_builtin_options), ASSAY_CULLING_AUTO, 0, 0, 0, 1, 0 }
 
-/* As the table's create. options may be NULL: the defaults. *handle is set with ASSAY_OK only. */
+/* Does what the table's create does. If options is NULL, the defaults are used. *handle is set only
+ * with ASSAY_OK. */
 int32_t assay_builtin_create(const int32_t* triangles, uint64_t triangle_count,
                              const double* positions, uint64_t vertex_count,
                              const assay_builtin_options* options, assay_handle** handle,
@@ -130,8 +132,8 @@ typedef struct assay_view_primitive {
   double q0_t0[3], q0_t1[3], q1_t0[3], q1_t1[3];
 } assay_view_primitive;
 
-/* As the table's evaluate; the table's result then tells the answer. primitive_count is 0 for the
- * detector's own places, 1 for one primitive that serves all components, or the number of
+/* Does what the table's evaluate does; the table's result then gives the answer. primitive_count is
+ * 0 for the detector's own places, 1 for one primitive that serves all components, or the number of
  * components, with the primitives in the order of the components' lowest vertices. stop is called
  * now and then with stop_data. When it returns anything but 0, the work ends with the answer
  * ASSAY_UNDECIDED. stop may be NULL. */
@@ -140,29 +142,31 @@ int32_t assay_builtin_evaluate(assay_handle* handle, const double* x_t0, const d
                                int32_t (*stop)(void* stop_data), void* stop_data,
                                assay_builtin_error* error);
 
-/* Whether there is a contact by the time `until`, from 0 to 1, and which is first; pairs are those of
- * ASSAY_PAIRS_FIRST, whatever the options say. ASSAY_FREE says that there is none in [0, until]. A
- * contact at `until` is one. Nothing later is looked at, so a caller that knows a contact at some
- * time gives that time. The table's result then tells the answer. Only after until = 1 is there
- * something to commit. stop may be NULL. */
+/* Answers whether there is a contact by the time `until`, from 0 to 1, and which one is first.
+ * Pairs are those of ASSAY_PAIRS_FIRST, whatever the options say. ASSAY_FREE means that there is no
+ * contact in [0, until]; a contact at `until` itself counts. Nothing later is looked at, so a
+ * caller that knows a contact at some time gives that time. The table's result then gives the
+ * answer. The step can be committed only after until = 1. stop may be NULL. */
 int32_t assay_builtin_first_contact(assay_handle* handle, const double* x_t0, const double* x_t1,
                                     double until, int32_t (*stop)(void* stop_data), void* stop_data,
                                     assay_builtin_error* error);
 
-/* As the table's limit: how far the step may be gone, with its rounding. A free step has share 1.
- * Another one has 0.95 of the first contact time, and less if rounding brings that into contact
- * (detector/detector.h says how much; assay_builtin_limit_is_short tells). With share 0 the mesh
- * stays: it is in contact at the start, or all places that were tried are, or stop() ended the work.
- * A commit then goes to *limit, and is refused after share 0. stop may be NULL. */
+/* Does what the table's limit does: it says how far the step may be gone, rounding included. A free
+ * step has share 1. Any other step has 0.95 of the first contact time, or less if rounding brings
+ * that place into contact (detector/detector.h says how much; assay_builtin_limit_is_short tells).
+ * Share 0 means that the mesh stays: there is a contact at the start or at every place that was
+ * tried, or stop() ended the work. A commit then goes to *limit; after share 0 it is refused. stop
+ * may be NULL. */
 int32_t assay_builtin_limit(assay_handle* handle, const double* x_t0, const double* x_t1,
                             assay_limit* limit, int32_t (*stop)(void* stop_data), void* stop_data,
                             assay_builtin_error* error);
 
-/* 1 if the limit asked for last takes less than 0.93 of the first contact time, because rounding
- * brought each place beyond that was tried into contact; else 0. */
+/* Returns 1 if the last limit takes less than 0.93 of the first contact time, because rounding
+ * brought every farther place that was tried into contact; else 0. */
 int32_t assay_builtin_limit_is_short(const assay_handle* handle);
 
-/* Where a pair of the last result meets, at the lower end of its time (detector/contact_place.h). */
+/* The place where a pair of the last result meets, at the lower end of its time. See
+ * detector/contact_place.h. */
 typedef struct assay_contact_place {
   double point[3];
   double barycentric[2][3]; /* the weights of the corners of each of the two triangles */
@@ -171,12 +175,12 @@ typedef struct assay_contact_place {
   double normal_error;      /* no coordinate of the normal is off by more; 0 where there is none */
 } assay_contact_place;
 
-/* x_t0 and x_t1 are those that were evaluated. 1, or 0 if the result has no such pair (they count
- * from 0). */
+/* Fills in the place of a pair of the last result. x_t0 and x_t1 are those that were evaluated.
+ * Returns 1, or 0 if the result has no such pair (pairs count from 0). */
 int32_t assay_builtin_place(const assay_handle* handle, const double* x_t0, const double* x_t1,
                             uint64_t pair, assay_contact_place* place);
 
-/* As the table's commit. It goes to the end of what was asked for last, a step or a limit. */
+/* Does what the table's commit does. It goes to the end of the last step or limit. */
 int32_t assay_builtin_commit(assay_handle* handle, assay_builtin_error* error);
 
 /* The view sets of the step evaluated last. If that step used no views, all sizes are 0 and doubts
@@ -191,7 +195,7 @@ typedef struct assay_builtin_sets {
 } assay_builtin_sets;
 void assay_builtin_get_sets(const assay_handle* handle, assay_builtin_sets* sets);
 
-/* Forgets the committed steps: the next one is a new start. What the table's result tells stays. */
+/* Forgets the committed steps: the next one is a new start. The table's result stays as it is. */
 void assay_builtin_reset(assay_handle* handle);
 
 /* Writes the committed state into a buffer of `capacity` bytes, to be kept or sent. The bytes are
@@ -201,11 +205,11 @@ void assay_builtin_reset(assay_handle* handle);
 int32_t assay_builtin_save(const assay_handle* handle, void* buffer, uint64_t capacity,
                            uint64_t* size, assay_builtin_error* error);
 
-/* Goes on from a saved state. Later results are those that the saved handle would give, in every
- * bit, if both handles were created with the same options from the same positions. From other
- * positions the view sets may differ, and, unless arithmetic is exact, what is a false alarm. A
- * step that was evaluated and not committed is dropped. REQUIRES, else the call is refused: the
- * handle is of the same mesh and culling. Damaged bytes are noticed, but forged ones are not. */
+/* Goes on from a saved state. If both handles were created with the same options from the same
+ * positions, later results equal those of the saved handle bit by bit. If the positions were
+ * others, the view sets may differ and, unless arithmetic is exact, the false alarms too. A step
+ * that was evaluated and not committed is dropped. REQUIRES, else the call is refused: the handle
+ * is of the same mesh and culling. Damaged bytes are noticed, but forged ones are not. */
 int32_t assay_builtin_restore(assay_handle* handle, const void* bytes, uint64_t size,
                               assay_builtin_error* error);
 

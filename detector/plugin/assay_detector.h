@@ -1,6 +1,7 @@
 /* The C interface of a detector that wants to be certified: a shared library with one symbol,
  * assay_detector(), which returns a table of functions. C99 or C++; no library is needed to build
- * one. tests/plugins/example.c is one, README.md here has another in C++. A host calls it so:
+ * one. tests/plugins/example.c is an example; README.md here has one in C++. A host calls a
+ * detector like this:
  *
  *   const assay_detector_api* detector = assay_detector();
  *   if (detector->create(triangles, m, positions, n, &handle, &message)) return report(message);
@@ -9,12 +10,13 @@
  *     use(result.answer);
  *   detector->destroy(handle);
  *
- * A detector is told a mesh once and then steps of it: over t in [0,1] every vertex moves linearly
- * from x_t0 to x_t1. It answers whether the mesh touches itself, when first, and which triangles.
- * Two triangles are in contact when a vertex, edge or face of one meets one of the other that
- * shares no vertex with it; touching counts, and so do t = 0 and t = 1. The doubles given are
- * exact numbers, in the user's units of length. Times are fractions of the step. A detector that
- * keeps a distance is asked for what comes within it (separation, in the description).
+ * A detector is given a mesh once and then steps of this mesh: over t in [0,1] every vertex moves
+ * linearly from x_t0 to x_t1. It answers whether the mesh touches itself, when it first does, and
+ * which triangles meet. Two triangles are in contact when a vertex, edge or face of one meets one
+ * of the other that shares no vertex with it; touching counts, and so do t = 0 and t = 1. The
+ * doubles given are exact numbers, in the user's units of length. Times are fractions of the step.
+ * A detector that keeps a distance is asked which triangles come within it (separation, in the
+ * description).
  *
  * MEMORY. Nothing allocated on one side is freed on the other. Arrays that the host passes are
  * valid during the call and must not be written. Arrays and texts that the detector returns are
@@ -31,7 +33,7 @@
  * elsewhere, it is a new start: nothing carried from earlier steps may be trusted.
  *
  * LEFT OUT. A step that the description's contract leaves out, such as one that starts in contact,
- * is never put to the detector, and the next one is a new start.
+ * is never given to the detector, and the next step is a new start.
  *
  * PARTS. A library may hold less than a detector of whole steps: one elementary query
  * (vertex-face, edge-edge), the candidate pairs of a broad phase, or a limiter, which says how far
@@ -68,10 +70,10 @@ enum {
   ASSAY_FAILED = 3         /* anything else */
 };
 
-/* `refused: capacity`: the mesh, or this step of it, is more than the detector holds. It is both a
- * return code, of create, evaluate, result, candidates and limit, and an answer of a step. Where
- * a number of the description's capacity is exceeded it is counted, and breaks no claim. Elsewhere
- * it is a refusal as any other. Nothing else is excused beyond the capacity: an answer that is given
+/* `refused: capacity`: the mesh, or this step of it, is more than the detector holds. It is a
+ * return code of create, evaluate, result, candidates and limit, and also an answer of a step. If a
+ * number of the description's capacity is exceeded, it is counted and breaks no claim. Otherwise it
+ * is a refusal like any other. Beyond the capacity nothing else is excused: an answer that is given
  * has to be right. */
 enum { ASSAY_BEYOND_CAPACITY = 4 };
 
@@ -92,8 +94,8 @@ enum {
                                           answered */
   ASSAY_CLAIM_CANDIDATES = 1u << 8,    /* every pair in contact is among those that the table's
                                           `candidates` gives */
-  /* Of the table's `limit`, in steps that start without a contact. With a separation, read `comes
-   * within it` for contact. */
+  /* Claims of the table's `limit`, in steps that start without a contact. With a separation, read
+   * `comes within it` for contact. */
   ASSAY_CLAIM_COMMIT_FREE = 1u << 9, /* the straight step from x_t0 to the positions that it allows
                                         has no contact */
   ASSAY_CLAIM_PATH_FREE = 1u << 10,  /* the share of the step that it allows is below t* */
@@ -139,20 +141,22 @@ enum {
                                 (first-pairs, all-pairs) are not judged */
 };
 
-/* What a relation between pairs is a relation of: of triangles, or of a vertex and a face, and of
- * two edges, that share no vertex. Of features a pair of triangles counts by its counted feature
- * pairs; an edge that pierces a face at t = 0 counts where some feature pair of the two triangles
- * does. */
+/* Says which pairs a relation is about: of triangles, or of features, which are a vertex and a
+ * face, or two edges, that share no vertex. With features, a pair of triangles counts by its
+ * counted feature pairs; an edge that pierces a face at t = 0 counts if some feature pair of the
+ * two triangles does. */
 enum { ASSAY_COUNTS_TRIANGLES = 0, ASSAY_COUNTS_FEATURES = 1 };
 
-/* How a detector is told where a step goes. With displacements, every function that has an x_t1 is
+/* How a detector is given the end of a step. With displacements, every function that has an x_t1 is
  * given x_t1 - x_t0 in its place, and vertex i moves from x to x + d, the exact sum of two float32
- * numbers. Its coordinates are float32. A limiter's share 1 means the float32 nearest to that sum. */
+ * numbers. Its coordinates are float32. A limiter's share 1 means the float32 nearest to that
+ * sum. */
 enum { ASSAY_MOTION_ENDS = 0, ASSAY_MOTION_DISPLACEMENT = 1 };
 
-/* Where a limiter that states a share of the step lets the caller stop: at positions that it gives
- * itself, or where the caller's own code computes them from the share. The host computes them as
- * that code does, in the contract's coordinates, one rounding an operation. */
+/* Where the caller stops if a limiter states a share of the step: at positions that the limiter
+ * gives itself, or at positions that the caller's own code computes from the share. The host
+ * computes the latter as that code does, in the contract's coordinates, one rounding an
+ * operation. */
 enum {
   ASSAY_LIMIT_POSITIONS = 0,  /* it gives them */
   ASSAY_LIMIT_START_PLUS = 1, /* x_t0 + share * (x_t1 - x_t0) */
@@ -161,9 +165,9 @@ enum {
 
 #define ASSAY_WIDEST_TIME_TOLERANCE 1e-3
 
-/* What the detector is called, what it claims, and its contract: all members from adjacency on. In
- * a description that is 0 from adjacency on the contract leaves nothing out. One that sets only
- * the members up to margin has the contract of version 1. */
+/* The detector's name, its claims, and its contract: all members from adjacency on. A contract
+ * whose members are all 0 leaves nothing out. A description that sets only the members up to margin
+ * has the contract of version 1. */
 typedef struct assay_description {
   const char* name;    /* one line, not empty */
   const char* version; /* one line */
@@ -178,11 +182,11 @@ typedef struct assay_description {
   int32_t start;         /* ASSAY_START_... */
   double start_distance; /* user's units; above 0 with ASSAY_START_APART, else 0 */
   /* The sizes that the detector takes, user's units. No coordinate has a magnitude above largest,
-   * because rounding goes by coordinates. No edge is shorter than least_nonzero, if it has a length
-   * at all, and so is no extent, because thresholds go by lengths; a length is the greatest
-   * difference along an axis. Single coordinates may be as small as they like. Both 0: it takes
-   * every finite number. Else 0 <= least_nonzero <= largest and largest is above 0. Meshes beyond
-   * the range are left out. */
+   * because rounding goes by coordinates. No edge and no extent that has a length at all is shorter
+   * than least_nonzero, because thresholds go by lengths; a length is the greatest difference along
+   * an axis. Single coordinates may be as small as they like. Both 0: it takes every finite number.
+   * Else 0 <= least_nonzero <= largest and largest is above 0. Meshes beyond the range are left
+   * out. */
   double least_nonzero;
   double largest;
   int32_t features;      /* ASSAY_FEATURES_... */
@@ -196,14 +200,16 @@ typedef struct assay_description {
                         separation` wherever a claim says `in contact`. It wants
                         ASSAY_ADJACENCY_NO_SHARED_VERTEX, as neighbours are near throughout. The
                         elementary query is asked the same of two features. */
-  /* What it leaves out by itself, besides neighbours. At rest the mesh is as create is given it. */
+  /* What the detector leaves out by itself, besides neighbours. The mesh at rest is that given to
+   * create. */
   int32_t counts;       /* ASSAY_COUNTS_...: what rings and rest_distance are of */
   int32_t rings;        /* pairs joined by a path of fewer edges of the mesh; 0: none */
   double rest_distance; /* pairs nearer to each other at rest, user's units; 0: none */
   int32_t limit_gives;  /* ASSAY_LIMIT_...: where the caller stops who is told a share alone */
   double progress;      /* what ASSAY_CLAIM_PROGRESS promises: above 0, at most 1; else 0 */
   int32_t motion;       /* ASSAY_MOTION_... */
-  /* How much it holds; 0: as much as there is. Beyond one it may answer ASSAY_BEYOND_CAPACITY. */
+  /* How much the detector holds; 0: any amount. Beyond one of these it may answer
+   * ASSAY_BEYOND_CAPACITY. */
   uint64_t capacity_triangles;  /* of the mesh */
   uint64_t capacity_contacts;   /* pairs of triangles in contact during the step that its contract
                                    does not leave out */
@@ -212,8 +218,8 @@ typedef struct assay_description {
                                    within the separation */
 } assay_description;
 
-/* The members of the contract, for code that treats them all alike: X(kind, name, the version since
- * which there is one). An integer is an int32_t, a real a double, a count a uint64_t. */
+/* The members of the contract, for code that treats them all alike: X(kind, name, the version that
+ * added it). An integer is an int32_t, a real a double, a count a uint64_t. */
 /* clang-format off */
 #define ASSAY_CONTRACT_MEMBERS(X) \
   X(integer, adjacency, 1) X(integer, coordinates, 1) X(real, margin, 1) X(integer, start, 2) \
@@ -282,8 +288,8 @@ typedef struct assay_candidates {
 } assay_candidates;
 
 /* How far a caller may go in a step. The host sets share to -1 and positions to NULL before the
- * call. Share 1 means x_t1 itself; share 0, or positions that are those of x_t0: the mesh stays. A
- * limiter of each vertex by itself gives positions alone. */
+ * call. Share 1 means x_t1 itself. Share 0, or the positions of x_t0, means that the mesh stays. A
+ * limiter that limits each vertex by itself gives positions alone. */
 typedef struct assay_limit {
   double share;            /* of the step, 0 to 1, or -1: not stated */
   const double* positions; /* vertex_count x 3, finite: where the caller stops. NULL: where the
@@ -296,9 +302,9 @@ typedef struct assay_detector_api {
   /* What the detector is and claims: the same at every call, valid while the library is loaded. */
   const assay_description* (*describe)(void);
 
-  /* Makes a handle for a mesh. triangles: triangle_count x 3 vertex indices, counter-clockwise
-   * seen from outside. positions: vertex_count x 3 doubles of the first frame. What is needed of
-   * them later must be copied. The mesh may be open, of several parts, or already in contact with
+  /* Makes a handle for a mesh. triangles: triangle_count x 3 vertex indices, counter-clockwise seen
+   * from outside. positions: vertex_count x 3 doubles of the first frame. The detector must copy
+   * what it needs of them later. The mesh may be open, of several parts, or already in contact with
    * itself. With a return code other than ASSAY_OK the function leaves *handle alone, and may set
    * *message to a line of static text. */
   int32_t (*create)(const int32_t* triangles, uint64_t triangle_count, const double* positions,
@@ -323,30 +329,33 @@ typedef struct assay_detector_api {
    * describe. If the detector claims deterministic, results must not depend on the number. */
   void (*use_threads)(uint32_t count);
 
-  /* Whether two features meet during the step, and when first. This elementary query is a part of
-   * its own (PARTS above), judged by `check`, `self-test` and campaigns of queries. kind:
+  /* Answers whether two features meet during the step, and when first. This elementary query is a
+   * part of its own (PARTS above), judged by `check`, `self-test` and campaigns of queries. kind:
    * ASSAY_QUERY_... x_t0 and x_t1 are 4 x 3 doubles each: the vertex and the three corners of the
    * face, or the two ends of one edge and the two ends of the other. It needs no handle. */
   int32_t (*query)(int32_t kind, const double* x_t0, const double* x_t1,
                    assay_query_result* result);
 
-  /* The pairs that may be in contact during the step. This is a broad phase, judged by
+  /* Gives the pairs that may be in contact during the step. This is a broad phase, judged by
    * ASSAY_CLAIM_CANDIDATES. It carries nothing from step to step. */
   int32_t (*candidates)(assay_handle* handle, const double* x_t0, const double* x_t1,
                         assay_candidates* candidates);
 
-  /* Why the call that failed last in this thread failed, whichever of these functions it was: one
-   * line, valid until the next call, or NULL. The host asks at once after a return code other than
-   * ASSAY_OK, after an ASSAY_ERROR without a message, and after a describe() that returns NULL. */
+  /* Returns why the last failed call of this thread failed, whichever of these functions it was:
+   * one line, valid until the next call, or NULL. The host asks at once after a return code other
+   * than ASSAY_OK, after an ASSAY_ERROR without a message, and after a describe() that returns
+   * NULL. */
   const char* (*error_text)(void);
 
   /* Since version 3. Each of these functions may be NULL. */
 
-  /* Says which pairs count, once and before the first step, if not all do. What is needed of it
-   * later must be copied. A library without this function is asked about all pairs. */
+  /* Is called with the pairs that count, once and before the first step, if not all pairs do. The
+   * detector must copy what it needs of `counted` later. A library without this function is asked
+   * about all pairs. */
   int32_t (*count)(assay_handle* handle, const assay_counted_pairs* counted);
 
-  /* How far the step may be gone. A part of its own (PARTS): it carries nothing between steps. */
+  /* Says how far the step may be gone. This is a part of its own (PARTS): it carries nothing
+   * between steps. */
   int32_t (*limit)(assay_handle* handle, const double* x_t0, const double* x_t1,
                    assay_limit* limit);
 } assay_detector_api;

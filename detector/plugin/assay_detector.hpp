@@ -28,7 +28,8 @@
 // - Refused, thrown by the constructor, means that the detector does not take this mesh.
 // - BeyondCapacity, thrown by the constructor, evaluate(), candidates() or limit(), means that this
 //   is more than the detector holds (ASSAY_BEYOND_CAPACITY).
-// - Any other exception is a failure, told with its text. If the constructor throws it, the mesh
+// - Any other exception is a failure, reported with its text. If the constructor throws it, the
+// mesh
 //   has no handle. If evaluate() throws it, the answer of the step is ASSAY_ERROR. If another
 //   function throws it, the call returns ASSAY_FAILED and error_text() has the text.
 //
@@ -84,8 +85,8 @@ struct Mesh {
   Positions positions;  // of the first frame
 };
 
-// To be thrown by the constructor for a mesh that the detector does not take. Its text is told to
-// the user.
+// To be thrown by the constructor for a mesh that the detector does not take. The user sees its
+// text.
 class Refused : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -142,7 +142,7 @@ std::int32_t evaluate(assay_handle* handle, const double* x_t0, const double* x_
   const std::int32_t code = guarded(h.line, [&] {
     h.result = h.detector.evaluate({x_t0, h.vertices}, {x_t1, h.vertices});
   });
-  // All other exceptions are told by result(), with their texts.
+  // result() reports all other exceptions, with their texts.
   if (code == ASSAY_BEYOND_CAPACITY) last_line<D>() = h.line;
   return code == ASSAY_OUT_OF_MEMORY || code == ASSAY_BEYOND_CAPACITY ? code : ASSAY_OK;
 }

@@ -1,6 +1,6 @@
 /* Records what a simulator does: its mesh, each of its steps, and what its own collision detector
  * answered, in a log that `assay check` reads. C99 or C++11; this header and assay_detector.h
- * beside it are all that is needed, and nothing is linked. It is used so:
+ * beside it are all that is needed, and nothing is linked. A simulator uses it like this:
  *
  *   assay_recorder recorder;
  *   assay_record_settings settings = {"steps.log", 1, 0};
@@ -9,8 +9,8 @@
  *   while (simulate(&step)) assay_record_step(&recorder, &step);
  *   if (assay_record_end(&recorder) != ASSAY_OK) report(assay_record_error(&recorder));
  *
- * The form of the log is told in corpus/README.md (Step logs). Positions are recorded as they are,
- * those that are not finite too: what a simulator did is not mended.
+ * corpus/README.md (Step logs) describes the form of the log. Positions are recorded as they are,
+ * even if they are not finite: a log does not mend what a simulator did.
  *
  * MEMORY. The caller owns the recorder, about 17 KB, and all arrays; none is needed once the call
  * has returned. The recorder allocates a copy of the path, and the positions of one frame if steps
@@ -19,10 +19,10 @@
  * THREADS. A recorder is used by one thread at a time, and knows nothing of other recorders.
  *
  * ERRORS. Each function that returns int32_t returns ASSAY_OK, or one of the numbers below;
- * assay_record_error tells one line about it. After a call that was refused nothing is written,
- * and the recorder is as before. A write that failed ends the log, perhaps in the middle of a
- * record: later records are refused with the same error, for a log is read up to its first damage.
- * End it, and begin another one in another file.
+ * assay_record_error tells one line about it. After a call that was refused nothing is written, and
+ * the recorder is as before. A write that failed ends the log, perhaps in the middle of a record:
+ * later records are refused with the same error, for a log is read up to its first damage. End the
+ * recorder, and begin another log in another file.
  *
  * COST. Arrays are written from the caller's memory at once, without a buffer between: a process
  * that is killed loses at most the record that it was writing. A step costs at most about twice
@@ -39,7 +39,7 @@
 
 #include "assay_detector.h"
 
-/* What may be wrong, besides ASSAY_OK and ASSAY_OUT_OF_MEMORY. A number keeps its meaning. */
+/* The errors besides ASSAY_OK and ASSAY_OUT_OF_MEMORY. A number keeps its meaning. */
 enum {
   ASSAY_RECORD_WRONG_ARGUMENT = 16, /* refused: an argument is missing or has no such value */
   ASSAY_RECORD_NO_START = 17,       /* refused: x0 is absent, and where the last step ended is not
@@ -66,7 +66,8 @@ typedef struct assay_record_array {
   int32_t is_float32; /* 0: double */
 } assay_record_array;
 
-/* A step, in the user's units. Set it to 0 as a whole, then the members that there are. */
+/* A step, in the user's units. Set the whole struct to 0, and then the members that the simulator
+ * has. */
 typedef struct assay_record_step_data {
   assay_record_array x0;        /* where it starts. Absent: where the last step ended, which are its
                                    committed positions, or else its x1 */
@@ -103,7 +104,7 @@ typedef struct assay_recorder {
 /* Opens the file and records the mesh and what its detector claims. A recorder that records must
  * be ended before it begins anew; otherwise its contents do not matter.
  *
- * description: as of a detector that is certified. triangles: triangle_count x 3 vertex indices.
+ * description: as for a detector that is certified. triangles: triangle_count x 3 vertex indices.
  * positions: those that the detector was made from. counted: which pairs count, or NULL: all. */
 static inline int32_t assay_record_begin(assay_recorder* recorder,
                                          const assay_record_settings* settings,
@@ -112,9 +113,9 @@ static inline int32_t assay_record_begin(assay_recorder* recorder,
                                          assay_record_array positions, uint64_t vertex_count,
                                          const assay_counted_pairs* counted);
 
-/* Records the next step, or counts it if it is one of those that `every` leaves out. Where x0 is
- * absent and the step before is not in the file, the recorder writes it from a copy of its own. A
- * step whose x0 is absent is refused if it is the first one, or follows one that has a dx and no
+/* Records the next step, or counts it if it is one of those that `every` leaves out. If x0 is
+ * absent and the step before is not in the file, the recorder writes x0 from a copy of its own. A
+ * step without x0 is refused if it is the first one, or if the step before has a dx and no
  * committed positions. */
 static inline int32_t assay_record_step(assay_recorder* recorder,
                                         const assay_record_step_data* step);

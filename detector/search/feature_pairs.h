@@ -4,7 +4,7 @@
 //   each triangle represents its feature (Representatives);
 //   the two share no vertex, and their boxes are not apart;
 //   no earlier search has asked for them;
-//   among all triangles that hold the two, these have the first types that the search asks for.
+//   of all triangles that hold these features, the two have the first types that it asks for.
 // Over the candidates of all searches this takes each feature pair once. Types are enough to
 // decide it: triangles that hold features whose boxes meet have boxes that meet too, so every pair
 // of them whose types are asked for is a candidate (or was proved apart, L14).
@@ -28,8 +28,8 @@
 
 namespace assay::detector {
 
-// Which triangle represents a feature, so that each feature pair is tested at one candidate pair
-// only.
+// Says which triangle represents a feature, so that each feature pair is tested at one candidate
+// pair only.
 //
 // Every vertex and every edge is represented by ONE of its triangles, and a candidate pair (A, B)
 // stands only for the pairs of features that A and B represent [Curtis, Tamstorf, Manocha: fast
@@ -50,8 +50,8 @@ namespace assay::detector {
 // so the edges come up twice, at (0,5) and at (1,5). They are tested at (0,5) alone, because
 // positive comes before zero in the order of types.
 //
-// Memory: 5 bytes a triangle. A search that compares few pairs of features spares it: what is not
-// made yet looks up what a triangle represents, as long as all triangles have one type.
+// Memory: 5 bytes a triangle. A search that compares few feature pairs does without: as long as all
+// triangles have one type, an object that is not made yet looks up what a triangle represents.
 
 // The features that a triangle represents: bit i stands for its corner i, bit 3 + i for its edge
 // opposite to corner i.
@@ -60,21 +60,22 @@ using RepresentedFeatures = std::uint8_t;
 class Representatives {
  public:
   Representatives() = default;
-  // With all triangles in V+. If `pace` was stopped, they must not be used.
+  // Begins with all triangles in V+. If `pace` was stopped, the object must not be used.
   explicit Representatives(const Topology& mesh, PacedStop* pace = nullptr);
 
-  // Makes them for these types, if they are not made yet. False if `pace` was stopped; the object
-  // must then not be used.
+  // Makes the representatives for these types, if they are not made yet. Returns false if `pace`
+  // was stopped; the object must then not be used.
   bool make(const Topology& mesh, const std::vector<TriangleType>& types, PacedStop* pace) {
     return !features_.empty() || choose_all(mesh, types, pace);
   }
-  // Chooses anew for the features of the changed triangles, by the present types of all triangles.
-  // Allocates nothing if they are made. False if `pace` was stopped; the object must then not be
-  // used.
+  // Chooses new representatives for the features of the changed triangles, by the present types of
+  // all triangles. Allocates nothing if representatives are made. Returns false if `pace` was
+  // stopped; the object must then not be used.
   bool update(const Topology& mesh, const std::vector<TriangleType>& types,
               std::span<const std::int32_t> changed, PacedStop* pace = nullptr);
 
-  // REQUIRES that they are made, or that all triangles have one type.
+  // Returns the features that the triangle represents. REQUIRES that representatives are made, or
+  // that all triangles have one type.
   RepresentedFeatures of(std::int32_t triangle, const Topology& mesh) const {
     return features_.empty() ? lowest_of(triangle, mesh) : features_[at(triangle)];
   }
@@ -137,7 +138,8 @@ constexpr std::int32_t second_of(FeatureKey key) {
 //   the nearest float g, off by at most 2^-22 (half a unit of floats in [4,8)). If
 //   g(a) + margin < g(b) in floats, with the sum's own rounding of at most 2^-22 and margin 2^-20,
 //   then the true sums differ by more than 2^-20 - 3 * 2^-22 - 2 * 2^-49 > 0.
-// So diagonals do not tell apart what lies closer than about a millionth of the mesh's size.
+// So diagonals do not tell apart features that are closer than about a millionth of the mesh's
+// size.
 
 // If features within a distance are asked for, the margins grow by that distance
 // (FloatGrid::margin).
@@ -164,14 +166,15 @@ class FeaturePoints {
                          double separation = 0) {
     assign(motion, pace, separation);
   }
-  // Makes them those of another motion of as many vertices, in the same memory.
+  // Takes the points of another motion with as many vertices, in the same memory.
   void assign(const SteppedMesh& motion, PacedStop* pace, double separation);
-  // By how much features have to be apart that are farther apart than the separation.
+  // Returns the margin: features that are apart by more than it are farther apart than the
+  // separation.
   const FeatureMargin& margin() const { return margin_; }
   const FloatGrid& grid() const { return grid_; }
   const FeaturePoint& start(std::int32_t vertex) const { return points_[ends_ * at(vertex)]; }
   const FeaturePoint& end(std::int32_t vertex) const { return (&start(vertex))[ends_ - 1]; }
-  // How many floats after those of the start the ones of the end stand.
+  // Returns how many floats after its place at t=0 a vertex's place at t=1 stands.
   std::size_t floats_to_end() const { return (ends_ - 1) * floats_of_corner; }
 
  private:
@@ -187,7 +190,7 @@ class FeaturePoints {
 // A symmetric relation between types.
 class TypeRelation {
  public:
-  // Adds the pairs of types whose flags, by this table of flags, the pair table asks for.
+  // Adds the pairs of types that the pair table asks for, where `flags` gives the flags of a type.
   void add(const PairTable& table, const type_flags::Table& flags) {
     for (std::size_t a = 0; a < triangle_types; ++a) {
       for (std::size_t b = 0; b < triangle_types; ++b) {
@@ -207,8 +210,8 @@ class TypeRelation {
     }
     return false;
   }
-  // REQUIRES that (a, b) is in the relation. Whether no pair of `in_a` x `in_b` that is in the
-  // relation comes before it, in the order by a, then by b.
+  // Returns whether (a, b) is the first pair of `in_a` x `in_b` that is in the relation, in the
+  // order by a, then by b. REQUIRES that (a, b) is in the relation.
   bool is_first(TriangleType a, TypeSet in_a, TriangleType b, TypeSet in_b) const {
     const auto below_a = static_cast<TypeSet>(in_a & (set_of(a) - 1));
     const auto below_b = static_cast<TypeSet>(in_b & (set_of(b) - 1));
@@ -249,18 +252,18 @@ class FeaturePairs {
                const std::vector<TriangleType>& types)
       : mesh_(mesh), representatives_(representatives), types_(types) {}
 
-  // Says what the searches to come ask for, with the types as they are now. Until it is called they
-  // ask for everything, and nothing was asked for before.
+  // Sets what later searches ask for, with the types as they are now. Before the first call,
+  // searches ask for everything, and no pair counts as asked for earlier.
   void ask(const AskedTypes& relations);
-  // From now on features are taken that are not farther apart than the separation in this motion.
-  // REQUIRED before all that follows. If `pace` was stopped, nothing more must be asked.
+  // Takes features, from now on, that are not farther apart than the separation in this motion.
+  // REQUIRED before the functions below. If `pace` was stopped, none of them may be called.
   void fit(const SteppedMesh& motion, PacedStop* pace, double separation) {
     points_.assign(motion, pace, separation);
   }
   const FloatGrid& grid() const { return points_.grid(); }
   // Proves pairs apart over the whole step, mostly neighbours. Sheets are looked for only if all
-  // triangles have one type: else most are not asked for. REQUIRES that it was fitted to this
-  // motion last.
+  // triangles have one type: else most pairs are not asked for. REQUIRES that the last fit() was to
+  // this motion.
   void prove_apart(const SteppedMesh& motion, const WideTree& tree, PacedStop* pace) {
     constexpr std::size_t worth_sheets = 4096;
     if (!asks_by_types_ && motion.is_at_rest() && mesh_.triangles.size() >= worth_sheets)
@@ -272,7 +275,7 @@ class FeaturePairs {
   bool are_proved_apart(std::int32_t a, std::int32_t b) const {
     return fans_.are_apart(a, b) || (sheets_ && sheets_->are_apart(a, b));
   }
-  // Null: none.
+  // Returns null if there are no sheets.
   const Sheets* sheets() const { return sheets_ ? &*sheets_ : nullptr; }
 
   // Appends the feature pairs that (a, b) stands for, at most max_keys. With may_pierce it also

@@ -7,7 +7,7 @@
 //
 // Within all other components the laws speak of ALL contacts: a contact that does not count still
 // turns triangles to the wrong side. So K, the closure and the state know nothing of the relation.
-// What they have found is sorted into what counts and what does not (L19).
+// The contacts that they find are sorted into those that count and those that do not (L19).
 #pragma once
 
 #include <array>
@@ -34,18 +34,19 @@ class PairRelation {
   // Whether pairs that do not count may be among those that a search finds.
   bool sorts_contacts() const { return sorts_contacts_; }
 
-  // Whether the bodies of two components, or that of one, let pairs of theirs count. 20 ns.
+  // Returns whether the bodies of c and d let pairs of these components count; c may be d. 20 ns.
   bool components_meet(std::int32_t c, std::int32_t d) const {
     return apart_.empty() || bodies_meet(body_of_component_[at(c)], body_of_component_[at(d)]);
   }
-  // Whether there is a component that nothing is looked for in.
+  // Returns whether there is a component in which nothing is looked for.
   bool leaves_out_components() const { return leaves_out_components_; }
-  // 0 if no component is left out; else of those that are, equal for equal ones.
+  // Returns 0 if no component is left out, else a hash of the set of components that are left out.
   std::uint64_t digest_of_left_out() const { return digest_of_left_out_; }
 
-  // Whether a pair of triangles counts; of features, whether some feature pair of theirs does.
-  // Some 50 ns; 10 to 200 us where places at rest have to be compared. Of one component, with
-  // rings, as long as it takes to walk over half as many from both: 0.3 ms for 30 rings.
+  // Returns whether a pair of triangles counts; in a relation of features, whether some feature
+  // pair of the two counts. About 50 ns; 10 to 200 us if places at rest have to be compared. For
+  // two triangles of one component, rings cost a walk over half as many rings from each: 0.3 ms for
+  // 30 rings.
   bool counts(const Topology& mesh, const TrianglePair& pair) const;
   // REQUIRES a relation of features. Edges by their numbers in the mesh.
   bool counts_vertex_face(const Topology& mesh, std::int32_t vertex, std::int32_t face) const;

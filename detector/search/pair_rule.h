@@ -1,4 +1,4 @@
-// Which triangle pairs a step looks at, and which pairs of tree nodes may hold such pairs.
+// Says which triangle pairs a step looks at, and which pairs of tree nodes may hold such pairs.
 //
 // Inside a component these are the pairs of K = (V+,V-) u (U,V0) u (U,Vv) (L3; U are ALL
 // triangles, those of V0 and Vv included). Between two components they are all pairs (L10). Pairs
@@ -35,7 +35,7 @@ class PairTable {
  public:
   // An empty table asks for nothing.
   PairTable() = default;
-  // Ask, or no longer ask, for the pairs of a triangle with flag `a` and one with flag `b`.
+  // Begin or stop asking for the pairs of a triangle with flag `a` and one with flag `b`.
   PairTable& add(std::uint8_t a, std::uint8_t b);
   PairTable& remove(std::uint8_t a, std::uint8_t b);
   static PairTable everything();
@@ -44,7 +44,7 @@ class PairTable {
   bool asks(std::uint8_t a, std::uint8_t b) const { return (partners_[a] & b) != 0; }
   // The flags that some flag of `a` asks for.
   std::uint8_t partners(std::uint8_t a) const { return partners_[a]; }
-  // Asks for what either of the two asks for.
+  // Returns the table that asks for every pair that one of the two tables asks for.
   PairTable joined_with(const PairTable& other) const;
 
  private:
@@ -64,8 +64,8 @@ class PairRule {
   virtual ~PairRule() = default;
   // For the first search: K inside a component, every pair of two components.
   virtual PairTables candidates() const;
-  // For a round of the closure: what has joined H against its whole component (U,H). No pair of
-  // two components is asked for, because the first search looked at all of them.
+  // For a round of the closure: every triangle that has joined H, against its whole component
+  // (U,H). No pair of two components is asked for, because the first search looked at all of them.
   virtual PairTables closure() const;
   // Whether triangle `t` of this contact, which is within one component, joins H. In L7 both of
   // its triangles do.
@@ -89,8 +89,8 @@ class EveryPair : public PairRule {
 //
 // The first arrow is taken when a contact of the triangle is found, the second at the end of the
 // next round. In the round between them the triangle has the flag `grown`: it is tested against its
-// whole component, and what earlier searches tested is passed over. The other types stay, because
-// V0 and Vv were tested against everything in the first search.
+// whole component, and pairs that earlier searches tested are passed over. The other types stay,
+// because V0 and Vv were tested against everything in the first search.
 //
 // Example: the first search finds V+ triangle 3 in contact with V0 triangle 7, so 3 becomes
 // positive_grown. Round 1 finds that 3 meets V+ triangle 9 too, so 3 becomes positive_joined and 9
@@ -118,7 +118,7 @@ using TypeSet = std::uint16_t;
 constexpr TypeSet set_of(TriangleType type) {
   return static_cast<TypeSet>(1u << static_cast<unsigned>(type));
 }
-// Whether it holds one type, or none.
+// Returns whether the set holds one type, or none.
 constexpr bool is_single(TypeSet types) { return (types & (types - 1)) == 0; }
 
 namespace type_flags {
@@ -129,7 +129,7 @@ constexpr std::uint8_t p = flag::positive, n = flag::negative, z = flag::zero, v
 inline constexpr Table now = {p, n, z, v, v, p | g, n | g, p, n};
 // The flags that a triangle of this type had in the first search, before the closure.
 inline constexpr Table first = {p, n, z, v, v, p, n, p, n};
-// Those that it had in some earlier round of the closure.
+// The flags that a triangle of this type had in some earlier round of the closure.
 inline constexpr Table earlier_round = {p, n, z, v, v, p, n, p | g, n | g};
 }  // namespace type_flags
 
@@ -170,11 +170,11 @@ class Marking {
  public:
   virtual ~Marking() = default;
 
-  // Sets the types of all triangles, and the flags to match. Allocates nothing. All triangles of
-  // one type, as in a step without views, take no walk over the nodes.
+  // Sets the types of all triangles, and the flags to match. Allocates nothing. If all triangles
+  // have one type, as in a step without views, the nodes are not walked over.
   void bring_to(std::span<const TriangleType> types, const BoundingVolumeTree& tree, Marks& marks,
                 MarkingCounts& counts) const;
-  // The same where only some triangles may change, each with its new type.
+  // The same if only some triangles may change, each with its new type.
   struct Change {
     std::int32_t triangle;
     TriangleType type;

@@ -1,10 +1,10 @@
-// How a descent is shared out: in lanes, and in rounds if it looks for the first contact.
+// Shares out a descent: in lanes, and in rounds if it looks for the first contact.
 //
 // A descent is cut into pairs of nodes near the root, and each worker takes one of these after the
 // other. The work for a pair of nodes does not depend on other pairs.
 //
-// What is found in one round bounds the next: contacts later than the earliest one so far are of
-// no interest, so boxes need to cover only the time up to it. A round is a share of the pairs of
+// The contacts of one round bound the next: those later than the earliest one so far are of no
+// interest, so boxes need to cover only the time up to that one. A round is a share of the pairs of
 // nodes that the descent was cut into. They are taken in an order that spreads each round over the
 // whole mesh, because contacts mostly lie side by side. Neither rounds nor order depend on the
 // number of workers, so neither do candidates and counts.
@@ -21,7 +21,7 @@
 
 namespace assay::detector {
 
-// What the lanes of a descent share.
+// The data that the lanes of a descent share.
 struct Hunt {
   Hunt(const SearchInput& searched, const PairSink& taker)
       : input(searched),
@@ -48,8 +48,8 @@ struct Hunt {
 // The candidates that one lane has found, on their way to the sink.
 class FoundPairs {
  public:
-  // A wide node has up to 64 pairs with another one. Whoever adds pairs looks after each node
-  // whether they are enough.
+  // A wide node has up to 64 pairs with another one. So are_enough() is asked once after each node,
+  // not after each pair.
   FoundPairs(Hunt& hunt, std::size_t lane)
       : hunt_(hunt),
         lane_(lane),
@@ -71,9 +71,9 @@ class FoundPairs {
   const std::unique_ptr<CandidatePair[]> found_;
 };
 
-// Cuts what lies below these pairs of nodes into as many pairs as wanted or a few more, splitting
-// the highest first. There may be fewer if the descent ends before that. split(pair, out) appends
-// the pairs below one.
+// Cuts the descent below these pairs of nodes into `count` pairs or a few more, splitting the
+// highest first. There may be fewer if the descent ends before that. split(pair, out) appends the
+// pairs below `pair`.
 template <class NodePair, class Split, class IsEnded>
 std::vector<NodePair> cut_below(std::vector<NodePair> left, std::size_t count, Split split,
                                 IsEnded is_ended) {
@@ -89,10 +89,10 @@ std::vector<NodePair> cut_below(std::vector<NodePair> left, std::size_t count, S
   }
 }
 
-// How many pairs of nodes such a search is cut into, if it does not end before that.
+// How many pairs of nodes a search in rounds is cut into, if it does not end before that.
 inline constexpr std::size_t pairs_in_rounds = 512;
 
-// The numbers below `count`, ordered by their bits reversed.
+// Returns the numbers below `count`, ordered by their reversed bits.
 inline std::vector<std::size_t> spread_numbers(std::size_t count) {
   std::vector<std::size_t> spread;
   spread.reserve(count);
@@ -108,10 +108,10 @@ inline std::vector<std::size_t> spread_numbers(std::size_t count) {
   return spread;
 }
 
-// Calls run(span of pairs) for one round after the other, and input.between() between two of them.
-// False if one of them returned false. REQUIRES input.between, and that run() has given all that it
-// found to the sink when it returns. Within a round the pairs keep their order, because neighbours
-// find what they read in the caches.
+// Calls run(span of pairs) for one round after the other, and input.between() between two rounds.
+// Returns false if a call returned false. REQUIRES input.between, and that run() has given all that
+// it found to the sink when it returns. Within a round the pairs keep their order, because
+// neighbours read the same data, which then lie in the caches.
 template <class NodePair, class Run>
 bool run_in_rounds(const SearchInput& input, const std::vector<NodePair>& pairs, Run run) {
   std::vector<std::size_t> numbers = spread_numbers(pairs.size());
@@ -133,14 +133,14 @@ bool run_in_rounds(const SearchInput& input, const std::vector<NodePair>& pairs,
   return true;
 }
 
-// Runs a descent. It gives cut(count), which cuts it into so many pairs of nodes or a few more
-// (fewer if it ends before that), run(pair), and finish(), which hands over what was found last and
+// Runs a descent. `descent` has cut(count), which cuts it into `count` pairs of nodes or a few more
+// (fewer if it ends before that); run(pair); and finish(), which hands over the last candidates and
 // says whether the search goes on. make_lane(index) makes a lane, with a descent and counts of its
-// own. False if the search has ended early.
+// own. Returns false if the search has ended early.
 template <class Descent, class MakeLane>
 bool run_descent(const SearchInput& input, bool takes_lanes, Descent& descent, SearchCounts& counts,
                  MakeLane make_lane) {
-  // With so many pairs of nodes for each lane, all lanes get about the same amount of work.
+  // With this many pairs of nodes for each lane, all lanes get about the same amount of work.
   constexpr std::size_t pairs_of_lane = 64;
   const bool has_lanes = takes_lanes && has_workers(input.pace);
   const std::size_t count = input.between ? pairs_in_rounds

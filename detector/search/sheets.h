@@ -5,8 +5,9 @@
 //
 // **L13** *for sheets. Let S be a set of triangles that are seen from one side along an axis. Let
 // its contour be the edges of its triangles that are passed once, and not back. In the projection
-// along the axis let no two edges of the contour meet but at a common vertex, and let there be
-// outside of each of them, beside it, no triangle of S. Then triangles of S are in no contact.*
+// along the axis let no two edges of the contour meet except at a common vertex, and let no
+// triangle of S lie beside an edge of the contour on its outer side. Then triangles of S are in no
+// contact.*
 //
 // Proof. Almost every point of the plane lies in as many projected triangles of S as the contour
 // winds around it. That number changes only at the contour, there by one, and on both sides of each
@@ -23,8 +24,8 @@
 //
 // The number beside an edge is counted below its left end, a little to the right of it: of the
 // edges of the contour that pass below, those that run right add one, those that run left take one
-// away. An edge that runs right has to have 0 below, one that runs left 1. Edges that stand upright
-// pass below nothing, and need no look: each bounded region has others beside it.
+// away. An edge that runs right has to have 0 below, one that runs left 1. Vertical edges pass
+// below nothing and need no check: each bounded region has other edges beside it.
 //
 // Sides are those of sure_side: where doubles cannot tell, nothing is proved.
 #pragma once
@@ -42,8 +43,8 @@ class Sheets {
  public:
   // Looks for sheets in the whole mesh, then in each of the regions below the root of the tree,
   // then in those below these: six in each, one for either side along each axis. 25 ns a triangle,
-  // if the whole mesh has them. If `pace` was stopped, they must not be used. Memory: 5 bytes a
-  // triangle.
+  // if the whole mesh has sheets. If `pace` was stopped, the object must not be used. Memory: 5
+  // bytes a triangle.
   Sheets(const Topology& mesh, const WideTree& tree, const PositionsView& x, PacedStop* pace);
 
   // Whether nearly all triangles lie in some sheet.
@@ -58,14 +59,15 @@ class Sheets {
   }
 
  private:
-  // The sheets that hold a triangle, or all triangles of a node. The lowest six bits are the region
-  // that they are of: the upper three the child of the root, the lower three the child of that.
-  // Then six bits each are the sheets of the whole mesh, and of the regions at these two levels.
+  // The sheets that hold a triangle, or all triangles of a node. The lowest six bits name the
+  // region: the upper three the child of the root, the lower three the child of that child. Above
+  // them are three groups of six bits: the sheets of the whole mesh, and those of the region at
+  // either level.
   using Places = std::uint32_t;
   static constexpr int directions = 6, levels = 3, region_bits = 6, of_lower = 3;
   static constexpr Places sheets_bit = 1 << region_bits;
   static constexpr Places sheets_above(int level) { return (sheets_bit << directions * level) - 1; }
-  // What two have in common.
+  // Returns the sheets that `a` and `b` have in common.
   static Places common(Places a, Places b) {
     const Places other = (a ^ b) & (sheets_bit - 1);
     return (a & b & sheets_above(other == 0 ? levels : other >> of_lower == 0 ? 2 : 1));

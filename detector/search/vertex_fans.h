@@ -1,6 +1,6 @@
 // Vertices whose neighbours are proved apart, so that their pairs of features need not be compared.
 //
-// Most candidates of a mesh that hardly moves share a vertex. The fan of a vertex v are all
+// Most candidates of a mesh that hardly moves share a vertex. The fan of a vertex v consists of all
 // triangles that hold v. Two of them are in no contact during the step if
 //   every edge at v is passed as often toward v as away from it;
 //   along one axis, all triangles of the fan are seen from one side throughout the step;
@@ -13,14 +13,15 @@
 // one of them ends, at q, another one begins, because the edge (v, q) is passed both ways equally
 // often. So every direction is covered by the same number of triangles, if each is taken without
 // its first direction. This number is an integer, and it changes continuously as long as no
-// projected triangle loses its area: it is that at t=0. If it is 1, two triangles of the fan have
+// projected triangle loses its area: it stays as at t=0. If it is 1, two triangles of the fan have
 // at most an end of their angles in common, and there they have the same edge, because what begins
 // at the end of one of them is a single triangle, which shares that edge. The projection of a
 // triangle is one to one, so the two triangles have v or that edge in common, and nothing else.
-// Faces of theirs without a common vertex do not meet in it.
+// Faces of theirs without a common vertex do not meet there.
 //
-// Counted are the triangles whose p is below v along another axis, and whose q is not: those that
-// cover the level direction on the one side (as they turn, on the other side none ends so).
+// The number is found by counting the triangles whose p is below v along another axis, and whose q
+// is not. These cover the level direction on one side (on the other side none ends so, because all
+// turn in one sense).
 //
 // Positions are the floats of FeaturePoint, each off by e = 2^-23 at most (moving_box.h). Let S_k
 // be the greatest size of an edge along axis k, at most 4, as computed. An edge is off by twice e
@@ -30,8 +31,8 @@
 // such components: it is off by twice that, and by its rounding, 2^-22 S_i S_j once more: less than
 // 2^-17 (S_i + S_j) + 2^-39, which holds for all three coefficients and leaves a third of itself
 // for its own roundings. Beyond it the sign is that of the true positions, of the floats, and of
-// all between the two. So no triangle loses its area between them either, and what is counted of
-// floats, exactly, is true.
+// all positions between these two. So no triangle loses its area between them either, and the
+// number, which is exact for the floats, is true.
 #pragma once
 
 #include <cstdint>
@@ -47,8 +48,8 @@ class FeaturePoints;
 
 class VertexFans {
  public:
-  // Looks at the fans of all vertices, over the step that the points are of. 25 ns a triangle. If
-  // `pace` was stopped, none is proved. Memory: 16 bytes a triangle.
+  // Looks at the fans of all vertices, over the step of the points. 25 ns a triangle. If `pace` was
+  // stopped, no fan is proved. Memory: 16 bytes a triangle.
   void prove(const Topology& mesh, const FeaturePoints& points, PacedStop* pace);
 
   // Whether two triangles have a vertex in common whose fan is proved apart.
@@ -61,8 +62,8 @@ class VertexFans {
   }
 
  private:
-  // The corners of a triangle whose fans are proved; for others, and in the fourth place, a number
-  // that no other triangle has.
+  // The corners of a triangle whose fans are proved. In place of its other corners, and in the
+  // fourth place, stands a number that no other triangle has.
   using Corners = std::int32_t __attribute__((vector_size(16)));
   using Halves = std::int64_t __attribute__((vector_size(16)));
   std::unique_ptr<Corners[]> proved_;  // by triangle; null before prove()

@@ -1,5 +1,5 @@
-// L9: which triangles of a component are clean at an instant, found piece by piece; the triangles
-// of a piece have one layer.
+// Finds which triangles of a component are clean at an instant (L9). It goes piece by piece; the
+// triangles of a piece have one layer.
 #pragma once
 
 #include <cstdint>
@@ -19,12 +19,12 @@ struct TouchedSurface {
   PositionsView x;
   const std::vector<std::uint8_t>& touched;
   Arithmetic arithmetic = Arithmetic::exact;
-  PacedStop* pace = nullptr;  // if it was stopped, what was set clean must not be used
+  PacedStop* pace = nullptr;  // if it was stopped, clean[] must not be used
 };
 
 // A few clean triangles of the mesh's component `c`, ascending. Any one of them tells the common
-// layer of all clean ones. There are several because doubles may fail at one and not at the next.
-// There are none only if no triangle of the component is clean.
+// layer of all clean triangles. Several are returned because doubles may fail at one and not at the
+// next. None is returned only if no triangle of the component is clean.
 std::vector<std::int32_t> layer_witnesses(const Topology& mesh, std::size_t c,
                                           const std::vector<std::uint8_t>& clean);
 
@@ -38,8 +38,8 @@ std::vector<std::int32_t> layer_witnesses(const Topology& mesh, std::size_t c,
 // any other piece one exact winding number is counted (in bounded arithmetic a piece whose number
 // doubles cannot tell stays dirty), and it is released if its layer is the common one: that of
 // `witnesses` or, if there are none, the layer with most untouched triangles (tie: the one that
-// holds the lowest triangle index). To be connected would not be enough: two tetrahedra, one
-// inside the other, may share an edge (case L9_shared_edge_two_layers).
+// holds the lowest triangle index). It would not be enough that a piece is connected: two
+// tetrahedra, one inside the other, may share an edge (case L9_shared_edge_two_layers).
 //
 // `is_seen` is scratch by triangle of the mesh, 0 for those of the component. The cost is that of
 // the triangles in doubt and, if some piece holds no clean triangle, a few passes over the

@@ -1,4 +1,4 @@
-// What the detector knows of its mesh between steps (L8).
+// The state that the detector has of its mesh between steps (L8).
 #pragma once
 
 #include <memory>
@@ -17,33 +17,34 @@
 
 namespace assay::detector {
 
-// What the cost model (step/culling_policy.h) keeps from step to step: where components are seen
+// The state of the cost model (step/culling_policy.h) between steps: where components are seen
 // from, and whether using views has paid.
 struct PolicyState {
   // One anchor for each component. Null: those of the detector's preprocessing.
   std::shared_ptr<const std::vector<ViewAnchor>> anchors;
   bool anchors_are_due = false;         // the anchors are chosen again when views are next due
   std::uint64_t anchor_age = 0;         // steps since the anchors were chosen
-  std::uint64_t least_anchor_age = 16;  // they are kept for at least so many steps
+  std::uint64_t least_anchor_age = 16;  // they are kept for at least this many steps
   double best_share = 0;   // the greatest share of pairs that the signs from these anchors saved
-  double replaced_at = 0;  // the share to which the anchors before them had come down
+  double replaced_at = 0;  // the share of the previous anchors when they were replaced
 
-  std::uint64_t pause = 0;       // so many steps to come do without views
+  std::uint64_t pause = 0;       // this many of the next steps do without views
   std::uint64_t next_pause = 1;  // the pause if views do not pay when they are next due
   std::uint64_t candidates = 0;  // of the last search that proved nothing apart; 0: there was none
-  // What closure, ghost sweep and release cost, in candidates, when views were last used in a
-  // search. It is halved by each step since in which views were due.
+  // The cost of closure, ghost sweep and release, in candidates, when views were last used in a
+  // search. It was halved by each later step in which views were due.
   double overhead = 0;
 
-  // Of culling automatic, in box tests of 5 ns. What it may take more than culling bvh would have
-  // taken; it starts with 0.04 ms.
+  // The account of culling automatic, in box tests of 5 ns: how much more than culling bvh it may
+  // still take. It starts with 0.04 ms.
   double credit = 8'000;
-  double tried = 0;        // so much work was too little to make views
-  bool has_views = false;  // they are paid for
+  double tried = 0;        // this much work was too little to make views
+  bool has_views = false;  // views are made and paid for
 };
 
 struct StepState {
-  // The end of the step. The rest holds at these positions alone, compared in every bit.
+  // The positions at the end of the step. The other members hold at these positions alone, compared
+  // bit by bit.
   Positions positions;
   // By triangle: 1 if it is clean by L8, that is, clean when the step began, in no contact with
   // its own component and touched by no ghost during it. The others may be released by the next
@@ -59,16 +60,16 @@ struct StepState {
   // be 1. The number stays 1 while all triangles stay positive, so L5 need not count it again.
   std::vector<std::optional<std::array<Point, 2>>> inside;
 
-  // Evaluations leave the next member as it was when the last step was committed.
+  // Evaluations leave `policy` as it was when the last step was committed.
   PolicyState policy;
 
-  // `keep` makes `x` the positions; `holds_at` says whether `x` equals them in every bit. The
+  // `keep` stores `x` as the positions; `holds_at` says whether `x` equals them in every bit. The
   // workers of the pace share the work; it is not asked to stop.
   void keep(const PositionsView& x, const PacedStop& pace = PacedStop(never_stops));
   bool holds_at(const PositionsView& x, const PacedStop& pace = PacedStop(never_stops)) const;
 };
 
-// What a SavedState (detector.h) holds.
+// The contents of a SavedState (detector.h).
 struct StateFields {
   std::uint64_t mesh = 0;  // digest of the triangles and the number of vertices
   Culling culling = Culling::view_point;
@@ -77,15 +78,15 @@ struct StateFields {
   // to the state because an apex must not jump between steps (cases D7, D9).
   std::vector<ApexRule> apex_rules;
   std::vector<ViewAnchor> anchors;
-  double view_work = 0;  // what it took to choose them, in box tests
+  double view_work = 0;  // the work of choosing these, in box tests
 };
 
 // The digest of a mesh: equal for equal triangles in the same order and equal vertex counts. O(M).
 std::uint64_t digest_of(const Topology& mesh, std::int32_t vertex_count);
 
-// Whether all sizes and indices of the state fit a detector of this surface that has so many
-// anchors of its own. REQUIRES as many apex rules as that detector has. What the state says of its
-// triangles is not checked. O(M).
+// Returns whether all sizes and indices of the state fit a detector of this surface that has
+// `anchors` anchors of its own. REQUIRES as many apex rules as that detector has. Whether the
+// triangles that the state calls clean are so is not checked. O(M).
 bool fits(const StateFields& state, const Surface& surface, std::size_t anchors);
 
 // A saved state as bytes, to be kept in a file or handed to another program.
@@ -102,12 +103,13 @@ inline constexpr std::uint64_t state_version = 3;
 // contact, and some for its components and holes. O(M).
 std::size_t state_size(const StateFields& state);
 
-// Writes these bytes. REQUIRES that `bytes` has state_size(state) bytes. Allocates nothing. O(M).
+// Writes the state as bytes. REQUIRES that `bytes` has state_size(state) bytes. Allocates nothing.
+// O(M).
 void write_state(const StateFields& state, std::span<std::uint8_t> bytes);
 
-// The state that was written. Errors: damaged_state, other_state_version. Whether the state is of
-// the right mesh is checked by Detector::restore. Reading takes no more memory than a few times
-// the bytes that are there, whatever lengths they claim. O(M).
+// Reads a state from its bytes. Errors: damaged_state, other_state_version. It is Detector::restore
+// that checks whether the state is of the right mesh. Reading takes no more memory than a few times
+// the size of `bytes`, whatever lengths the bytes claim. O(M).
 Expected<StateFields> read_state(std::span<const std::uint8_t> bytes);
 
 }  // namespace assay::detector

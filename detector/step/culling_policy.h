@@ -1,9 +1,9 @@
-// What a step asks of its culling: whether it is seen from view primitives, whether it goes on with
-// what was seen, and whether patches are worth proving apart.
+// Answers the questions that a step asks of its culling: whether it is seen from view primitives,
+// whether it goes on with the signs found there, and whether patches are worth proving apart.
 //
 // Every answer is a matter of cost alone, so a policy cannot make a step wrong: a step without
 // views tests every pair, and a proof leaves out pairs that are not in contact (L14). A step asks
-// in the order of the functions below. After the first no it does without views.
+// in the order of the functions below. After the first no the step does without views.
 #pragma once
 
 #include <limits>
@@ -19,27 +19,28 @@
 
 namespace assay::detector {
 
-// How a verified start finds out what is clean: by view (L5) and then by layers (L9), or by view
-// alone.
+// How a verified start finds out which triangles are clean: by view (L5) and then by layers (L9),
+// or by view alone.
 enum class StartBy : std::uint8_t { view_and_layers, view_alone };
 
 class CullingPolicy {
  public:
   virtual ~CullingPolicy() = default;
 
-  // Whether steps of this culling may have views. Then each step follows what is clean, so that a
-  // later step with views can rely on it.
+  // Whether steps of this culling may have views. Then each step keeps track of clean triangles, so
+  // that a later step with views can rely on that.
   virtual bool may_use_views() const = 0;
-  // Told first: the motion of the mesh, the state that the step goes on from, or null, and whether
-  // the step would need the views that the detector makes (FirstViews).
+  // Is called first, with the motion of the mesh, the state that the step goes on from (or null),
+  // and whether the step would need the views that the detector makes (FirstViews).
   virtual void begin(const SteppedMesh&, const StepState*, bool) {}
   // Whether view primitives are placed in this step.
   virtual bool is_due() const = 0;
-  // The work that views may take to be made, in box tests. Afterwards it is told whether they are
-  // there, and what they took. If they are not, the step is done without.
+  // Returns how much work making views may take, in box tests. pay_for_views is called afterwards
+  // with whether they are made, and the work done. If they are not made, the step does without
+  // views.
   virtual double most_for_views() const { return std::numeric_limits<double>::infinity(); }
   virtual void pay_for_views(bool /*are_made*/, double /*work*/) {}
-  // Where each component is seen from. `first`: the anchors of preprocessing.
+  // Returns the places that components are seen from. `first`: the anchors of preprocessing.
   virtual const std::vector<ViewAnchor>& anchors(const std::vector<ViewAnchor>& first,
                                                  const PositionsView& vertices_t0,
                                                  PacedStop& pace) = 0;
@@ -47,25 +48,25 @@ class CullingPolicy {
   virtual bool worth_classifying(const GivenStep& step, const StepMarks& marks) = 0;
   // Whether the ghosts are swept. REQUIRES that the triangles are classified.
   virtual bool worth_sweeping(const GivenStep& step, const StepMarks& marks, PacedStop& pace) = 0;
-  // How it is found out which triangles are clean at the start.
+  // Returns how to find out which triangles are clean at the start.
   virtual StartBy start_by() const = 0;
-  // Whether the search goes by views. REQUIRES that it is known which triangles are clean.
-  // `counts`: of the step so far.
+  // Returns whether the search uses views. REQUIRES that it is known which triangles are clean.
+  // `counts`: those of the step so far.
   virtual bool worth_using(const GivenStep& step, const StepMarks& marks,
                            const StepCounts& counts) = 0;
 
   // Whether the search proves patches apart. REQUIRES that types are marked.
   virtual bool worth_proving(const StepMarks& marks, CandidateSearch& candidates) = 0;
-  // Told after a search with views, unless a first contact has cut it short. `candidates_of_k`:
-  // those before the closure.
+  // Is called after a search with views, unless a first contact has cut it short.
+  // `candidates_of_k`: the number of candidates before the closure.
   virtual void record_cost(const StepCounts& counts, std::uint64_t candidates_of_k) = 0;
 
   // Whether views were used, as far as that is decided.
   virtual ViewUse use() const = 0;
-  // What the policy of the next step begins with. `counts`, and `contacts`, how many pairs are in
-  // contact: none of a search that a first contact has cut short, because they depend on the tree.
-  // has_own_primitives: the primitives were placed at the policy's anchors; otherwise the caller
-  // gave them.
+  // Returns the state that the policy of the next step begins with. `contacts`: how many pairs are
+  // in contact. After a search that a first contact has cut short, it is 0, and so are the counts
+  // of the search, because they depend on the tree. has_own_primitives: the primitives were placed
+  // at the policy's anchors; otherwise the caller gave them.
   virtual PolicyState next(const StepCounts& counts, std::size_t contacts,
                            bool has_own_primitives) const = 0;
 };
@@ -102,10 +103,10 @@ std::uint64_t adjacent_pairs(const Topology& mesh);
 
 // The policy of the cullings automatic and view_auto: a cost model of views and of proofs.
 //
-// It weighs what views are expected to save against what they are expected to cost. All of it is
-// computed from the numbers of triangles and pairs of this step and of the steps committed
-// before, never from a clock: the same input gives the same bytes. A step may be seen from
-// anywhere (L3), so each step may have primitives of its own.
+// It weighs what views are expected to save against what they are expected to cost. Both are
+// computed from the numbers of triangles and pairs of this step and of the steps committed before,
+// never from a clock: the same input gives the same bytes. A step may be seen from anywhere (L3),
+// so each step may have primitives of its own.
 //
 // The unit of cost is one candidate pair of culling bvh with all that belongs to it (box tests,
 // axis order, elementary tests, its share of the refit): 0.15 to 0.2 us.
@@ -123,22 +124,22 @@ std::uint64_t adjacent_pairs(const Topology& mesh);
 // A step after one in which most triangles were in contact does not try to release them: they will
 // likely be in contact again. Then views do not pay either.
 //
-// Culling automatic keeps an account beside that, of counted work in box tests
-// (work_of_candidate and the constants beside it; the benches account/ hold it against times).
-// Each step without views earns a share of what it takes. A step with views earns what culling
-// bvh would at least have taken more, and pays for what views take. Views are made and tried
-// only if they can be paid for. So after any number of steps, automatic has spent little more
-// than culling bvh would have spent. A mesh that is seen to be positive from its middle, at a
-// glance, may spend beforehand what that saves within the step. A start of which only a first
-// contact is known would have to be verified anew, which costs more than views save: it is done
-// without them. What depends on the tree is not counted, so that a restored detector, whose
-// tree is another one, decides alike; nor is anything saved while the mesh rests.
+// In addition, culling automatic keeps an account of counted work in box tests (work_of_candidate
+// and the constants beside it; the benches account/ hold it against times). Each step without views
+// earns a share of what it takes. A step with views earns the least work that culling bvh would
+// have done beyond it, and pays for the work of views. Views are made and tried only if they can be
+// paid for. So after any number of steps, automatic has spent little more than culling bvh would
+// have spent. A mesh that is seen to be positive from its middle, at a glance, may spend beforehand
+// what that saves within the step. If only a first contact is known of a start, it would have to be
+// verified anew, which costs more than views save: such a step is done without them. Work that
+// depends on the tree is not counted, so that a restored detector, whose tree is another one,
+// decides alike. A mesh at rest earns nothing.
 //
 // Example: on a sheet seen along itself views do not pay in steps 1, 3, 6, 11, 20; the pauses
 // between these are of 1, 2, 4 and 8 steps.
 class CostModel : public CullingPolicy {
  public:
-  // Of what a step without views takes, the share that may be lost later. A tenth is promised.
+  // The share of the work of a step without views that may be lost later. A tenth is promised.
   static constexpr double earned_share = 0.05;
 
   // adjacent: adjacent_pairs of the mesh. The surface must outlive this object.
@@ -149,7 +150,7 @@ class CostModel : public CullingPolicy {
 
   bool may_use_views() const override { return true; }
   void begin(const SteppedMesh& motion, const StepState* last_state, bool needs_views) override;
-  // Not while a pause lasts, nor while they cost more than may be spent.
+  // Views are due unless a pause lasts or they cost more than may be spent.
   bool is_due() const override { return state_.pause == 0 && !waits_; }
   double most_for_views() const override;
   void pay_for_views(bool are_made, double work) override;
@@ -158,9 +159,9 @@ class CostModel : public CullingPolicy {
                                          const PositionsView& vertices_t0,
                                          PacedStop& pace) override;
 
-  // Classifies a few triangles of each large component, in doubles alone. No where doubles can tell
-  // few of their signs, as on a sheet that is seen along itself: integers would have to decide the
-  // others, and the view test would cost more than the rest of the step.
+  // Classifies a few triangles of each large component, in doubles alone. Returns false if doubles
+  // can tell few of their signs, as on a sheet that is seen along itself: integers would have to
+  // decide the others, and the view test would cost more than the rest of the step.
   bool worth_classifying(const GivenStep& step, const StepMarks& marks) override;
   // Whether the signs would save enough if all triangles were clean, and few enough triangles are
   // near ghosts. Refits the tree of an unclosed mesh.
@@ -174,7 +175,7 @@ class CostModel : public CullingPolicy {
 
   bool worth_proving(const StepMarks& marks, CandidateSearch& candidates) override;
   // Whether normal cones and contours are expected to save more than they cost (L14).
-  // asked_share: of the pairs of neighbours, the share that K asks for and that fans leave open.
+  // asked_share: the share of pairs of neighbours that K asks for and that fans leave open.
   bool worth_proving(const ProvableShares& provable, double asked_share, std::size_t triangles);
 
   // Views have paid if release, ghost sweep and closure cost less than the pairs they left out.
@@ -190,15 +191,16 @@ class CostModel : public CullingPolicy {
   // Notes that views would not pay in this step, and why. Returns false.
   bool does_without(ViewUse because);
   std::uint64_t expected_candidates() const;
-  // What release and ghost sweep have cost, in candidates.
+  // Returns the cost of release and ghost sweep, in candidates.
   double cost_beside_search(const StepCounts& counts) const;
   void update_anchors(PolicyState& next) const;
-  // What views save at once in a step that is seen from the middle of its components, at a glance.
+  // Estimates what views save at once in a step that is seen from the middle of its components.
   double hoped_at_a_glance(const SteppedMesh& motion) const;
-  // Whether the counts of the search tell what bvh takes. What proofs leave out, and of a mesh at
-  // rest what its sheets leave out, depends on the tree, and so on where the detector was made.
+  // Returns whether the counts of the search tell what bvh takes. They do not if proofs, or the
+  // sheets of a mesh at rest, leave out pairs: these depend on the tree, and so on the positions
+  // that the detector was made from.
   bool counts_tell() const { return !proves_ && !is_at_rest_; }
-  // What may be spent after this step.
+  // Returns how much may be spent after this step.
   double credit_after(const StepCounts& counts, std::size_t contacts) const;
 
   const Surface& surface_;
@@ -215,7 +217,7 @@ class CostModel : public CullingPolicy {
   bool saves_up_ = false, waits_ = false, is_at_rest_ = false;
   double most_for_views_ = 0;
   double spent_ = 0;                   // of this step, on views and on the view test, in box tests
-  std::optional<std::uint64_t> of_k_;  // its candidates before the closure, once they are told
+  std::optional<std::uint64_t> of_k_;  // its candidates before the closure, once known
 };
 
 }  // namespace assay::detector

@@ -1,13 +1,13 @@
-// Which triangles are clean, as a stage of the detector: by view (L5), by layers (L9), and from
-// step to step (L8).
+// The stage of the detector that finds which triangles are clean: by view (L5), by layers (L9), and
+// from step to step (L8).
 //
-// Let a step go on from a committed one. A triangle is in doubt at the instant between the two if
-// it was dirty at the start of the committed step, or if a ghost touched it or it was in contact
-// with its own component during that step. After a collision found by K alone all triangles are in
-// doubt, and after a step without views all triangles of a component with ghosts are (L15). Of
-// those in doubt, the triangles that touch nothing of S at that instant and have the common layer
-// of their component are released. Exactly the rest is dirty at the start of the new step. A step
-// without views releases nothing.
+// Let a step go on from a committed one. A triangle is in doubt at the instant between the two
+// steps if it was dirty at the start of the committed step, or if a ghost touched it or it was in
+// contact with its own component during that step. After a collision found by K alone all triangles
+// are in doubt, and after a step without views all triangles of a component with ghosts are (L15).
+// A triangle in doubt is released if it touches nothing of S at that instant and has the common
+// layer of its component. Exactly those in doubt that are not released are dirty at the start of
+// the new step. A step without views releases nothing.
 //
 // The common layer of a component is that of its triangles that are not in doubt. If there are
 // none, it is the layer that most untouched triangles of the component have (tie: the layer that
@@ -23,7 +23,7 @@ namespace assay::detector {
 
 class ReleaseRule {
  public:
-  // In bounded arithmetic a triangle of which doubles cannot tell is not released.
+  // In bounded arithmetic a triangle is not released if doubles cannot tell.
   explicit ReleaseRule(Arithmetic arithmetic = Arithmetic::exact) : arithmetic_(arithmetic) {}
   virtual ~ReleaseRule() = default;
 
@@ -43,20 +43,22 @@ class ReleaseRule {
   virtual bool released_at_start(const GivenStep& step, const StepMarks& marks, StepCost& cost,
                                  std::size_t component) const;
 
-  // L9 at t=0 of a new start, for the components listed: looks for static contacts of mesh and
-  // ghosts, then at layers by piece, and sets marks.clean of their triangles. False if stopped.
+  // Applies L9 at t=0 of a new start to the components listed. It looks for static contacts of mesh
+  // and ghosts, then at layers by piece, and sets marks.clean for triangles of these components.
+  // Returns false if stopped.
   virtual bool verify_start(const GivenStep& step, StepMarks& marks, StepCost& cost,
                             const std::vector<std::int32_t>& components) const;
 
-  // L9 at t=0 of a step that goes on from step.last_state, for the components listed. Their
-  // triangles whose marks.clean is 0 are in doubt by L8; it is set to 1 for those released. False
-  // if stopped. The cost is that of the triangles in doubt (layers.h).
+  // Applies L9 at t=0 of a step that goes on from step.last_state to the components listed. Their
+  // triangles whose marks.clean is 0 are in doubt by L8; marks.clean is set to 1 for those that are
+  // released. Returns false if stopped. The cost is that of the triangles in doubt (layers.h).
   virtual bool release(const GivenStep& step, StepMarks& marks, StepCost& cost,
                        const std::vector<std::int32_t>& components) const;
 
-  // L8: sets which triangles are clean in the state at the end of the step, and the pairs met,
-  // from marks.clean of its start and from `pairs`, the contacts found. `complete` says that these
-  // are all contacts. If they are not, no triangle is clean after a collision.
+  // Sets the clean triangles and the pairs in contact of `state`, which is that at the end of the
+  // step (L8). They follow from marks.clean at its start and from `pairs`, the contacts found.
+  // `complete` says that these are all contacts. If they are not, no triangle is clean after a
+  // collision.
   virtual void settle(const GivenStep& step, const StepMarks& marks,
                       const std::vector<PairContact>& pairs, bool complete, StepState& state) const;
 
@@ -65,15 +67,15 @@ class ReleaseRule {
   virtual std::vector<std::int32_t> witnesses(const GivenStep& step, const StepMarks& marks,
                                               std::size_t component) const;
 
-  // L15, after a step without views: whether the triangles of the component that settle called
-  // clean are known to be so. They are if the component has no ghosts. If it has some, nobody
-  // swept these, and none of its triangles is clean, whatever the pairs were.
+  // Returns, after a step without views (L15), whether the triangles of the component that settle
+  // called clean are known to be so. They are if the component has no ghosts. If it has ghosts,
+  // nobody swept these, and none of its triangles is clean, whatever the pairs were.
   virtual bool knows_clean(const GivenStep& step, const std::vector<PairContact>& pairs,
                            std::size_t component) const;
 
-  // Which of the triangles in doubt may touch a ghost of their component at t=0 of a step that
-  // goes on from step.last_state: all of them. Being in no pair says nothing, because a triangle
-  // may hang out of a hole, with a ghost through it, and be in no pair.
+  // Returns those triangles in doubt that may touch a ghost of their component at t=0 of a step
+  // that goes on from step.last_state: all of them. Being in no pair says nothing, because a
+  // triangle may hang out of a hole, with a ghost through it, and be in no pair.
   virtual std::vector<std::int32_t> may_touch_ghosts(
       const GivenStep& step, const std::vector<std::int32_t>& in_doubt) const;
 
@@ -87,7 +89,8 @@ class ReleaseRule {
   Arithmetic arithmetic_;
 };
 
-// What the triangles in doubt touch at the start of a step that goes on from a committed one (L9).
+// Finds what the triangles in doubt touch at the start of a step that goes on from a committed one
+// (L9).
 //
 // Only triangles in doubt need to be looked at, because clean ones touch nothing (L8), and what
 // they may touch is known from the committed step:
@@ -99,14 +102,14 @@ class ReleaseRule {
 //   it was pierced since before the step and so was dirty (L11). Either way it is in doubt.
 //
 // Sets touched[t] for the triangles of those pairs in step.last_state->contacts that still meet at
-// t=0. False if stopped. Costs at most 15 elementary tests a pair.
+// t=0. Returns false if stopped. Costs at most 15 elementary tests a pair.
 bool add_lasting_contacts(const GivenStep& step, StepCost& cost,
                           std::vector<std::uint8_t>& touched);
 
-// Sets touched[t] for those triangles in doubt of component c that a ghost of it meets or pierces
-// at t=0. False if stopped. For each triangle it descends the tree of each hole. REQUIRES the grid
-// of the mesh at rest at t=0, which the caller makes once for all components, because that takes a
-// pass over all vertices.
+// Sets touched[t] for those triangles in doubt of component c that a ghost of c meets or pierces at
+// t=0. Returns false if stopped. For each triangle it descends the tree of each hole. REQUIRES the
+// grid of the mesh at rest at t=0, which the caller makes once for all components, because that
+// takes a pass over all vertices.
 bool add_ghost_touches(const GivenStep& step, StepCost& cost, const FloatGrid& grid, std::size_t c,
                        std::span<const std::int32_t> in_doubt, std::vector<std::uint8_t>& touched);
 

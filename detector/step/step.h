@@ -13,26 +13,26 @@ namespace assay::detector {
 
 struct StepContext;
 
-// What only steps with views need: where each component is seen from, and the rules that place
-// apexes. They are made when views are first due and not when the detector is created, because
-// they take longer than everything else there.
+// The data that only steps with views need: where each component is seen from, and the rules that
+// place apexes. They are made when views are first due and not when the detector is created,
+// because they take longer than all other work of creation.
 //
-// They rest on the positions that the detector was created with, which are kept until then. So it
-// does not show when they were made: an evaluation leaves the state as it was.
+// They are made from the positions that the detector was created with, which are kept until then.
+// So results do not depend on when they are made: an evaluation leaves the state as it was.
 class FirstViews {
  public:
-  // Of a culling without views: there is nothing to make.
+  // For a culling without views: there is nothing to make.
   FirstViews() = default;
   explicit FirstViews(const PositionsView& x) : x_(x) {}
 
   enum class Making : std::uint8_t { yes, too_dear, stopped };
-  // Makes them, unless that was done before. It leaves the boxes of the tree fitted to other
-  // positions. They are too dear if they take more than `most` work, in box tests; it does not show
-  // then whether they were made before. If they are not made nothing is kept of them.
+  // Makes the anchors and rules, unless they are made. It leaves the boxes of the tree fitted to
+  // other positions. The result is too_dear if they take more than `most` work, in box tests,
+  // whether or not they were made before. If they are not made, nothing of them is kept.
   Making make(StepContext& context, PacedStop& pace, double most);
-  // Others in their place, from a saved state.
+  // Puts others in their place, from a saved state.
   void replace(std::vector<ViewAnchor> anchors, std::vector<ApexRule> rules, double work);
-  // What they took, once they are made. It is counted in one thread.
+  // Returns the work that making them took, once they are made. It is counted in one thread.
   double work() const { return work_; }
 
   // By component and by loop. Empty before they are made, and with a culling without views.
@@ -46,7 +46,8 @@ class FirstViews {
   double work_ = 0;  // until they are made, less than they take
 };
 
-// What a detector keeps of its mesh: what preprocessing made, and what steps work in.
+// The data that a detector keeps for its mesh: the results of preprocessing, and the working memory
+// of steps.
 struct StepContext {
   Options options;
   Stages stages;
@@ -60,7 +61,7 @@ struct StepContext {
   PairRelation relation;
 };
 
-// What a step is asked for.
+// The question that a step answers.
 struct StepQuestion {
   Pairs pairs;
   double until = 1;  // with Pairs::first: a later contact is of no interest
@@ -68,7 +69,7 @@ struct StepQuestion {
 
 // Answers the step, going on from `state`, the state of the last commit if there is one. If the
 // answer is free or collision, and the step is asked about to its end, `next` is set to the state
-// at that end. REQUIRES that `next` is empty; otherwise it stays so.
+// at that end. REQUIRES that `next` is empty; without such an answer it stays empty.
 StepResult evaluate_step(StepContext& context, const std::optional<StepState>& state,
                          const SteppedMesh& mesh, const StepQuestion& question,
                          std::span<const ViewPrimitive> primitives, const StopFunction& stop,

@@ -1,5 +1,4 @@
-// What the stages of one step read and write: what they are given, what they mark and what they
-// count.
+// The data that the stages of one step read and write: their input, their marks and their counts.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +13,8 @@
 
 namespace assay::detector {
 
-// What a step starts from. No stage changes it, except that the tree is working memory: whoever
-// searches it fits its boxes to the motion that is searched.
+// The input of a step. No stage changes it, except that the tree is working memory: each search
+// fits the boxes of the tree to the motion that it searches.
 struct GivenStep {
   const Surface& surface;
   BoundingVolumeTree& tree;  // of the mesh
@@ -28,7 +27,7 @@ struct GivenStep {
 
   // The component together with its ghosts, which is a cycle.
   const Component& component(std::size_t c) const { return surface.all().components[c]; }
-  // Its own triangles, without its ghosts.
+  // The component's own triangles, without its ghosts.
   std::span<const std::int32_t> own_triangles(std::size_t c) const {
     return surface.mesh.components[c].triangles;
   }
@@ -39,8 +38,9 @@ struct GivenStep {
   std::span<const std::int32_t> ghosts(std::size_t c) const {
     return std::span(component(c).triangles).subspan(own_triangles(c).size());
   }
-  // Whether contacts are looked for within the component. If its body does not meet itself none of
-  // them counts: it needs no view, no ghosts and no state (L19).
+  // Whether contacts are looked for within the component. If the component's body does not meet
+  // itself, none of these contacts counts, and the component needs no view, no ghosts and no state
+  // (L19).
   bool looks_within(std::size_t c) const {
     const auto number = static_cast<std::int32_t>(c);
     return !relation || relation->components_meet(number, number);

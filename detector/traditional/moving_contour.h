@@ -19,7 +19,7 @@
 // q is. But the boundary is projected one to one. So there are no such p and q. Two faces without
 // a common vertex that meet would hold such points.
 //
-// L13 need not require that P is connected or a manifold, because a set that is not has no such
+// L13 need not require that P is connected and a manifold, because any other set has no such
 // boundary (Contour).
 //
 // If doubles cannot tell whether the contour crosses itself, it is taken to do so.
@@ -75,7 +75,8 @@ class ContourMaker {
 // it. Memory: about 50 bytes a triangle on even meshes.
 class PatchContours {
  public:
-  // O(M log M); more if partial boundaries are long. If `pace` was stopped they are of no use.
+  // O(M log M); more if partial boundaries are long. If `pace` was stopped, the object must not be
+  // used.
   PatchContours(const Topology& mesh, const BoundingVolumeTree& tree, ContourMaker& maker,
                 PacedStop* pace = nullptr);
 
@@ -98,9 +99,9 @@ class PatchContours {
 class ContourUnion {
  public:
   explicit ContourUnion(std::size_t vertex_count) : place_(vertex_count, none) {}
-  // The contour of both patches together, empty if they have none. They have one if they share one
-  // run of edges, oppositely directed, and no vertex beside it. Valid until the next call.
-  // O(length).
+  // The contour of both patches together, empty if they have none. There is one if the patches
+  // share one run of edges, oppositely directed, and no vertex outside that run. Valid until the
+  // next call. O(length).
   Contour join(Contour a, Contour b);
 
  private:
@@ -109,7 +110,7 @@ class ContourUnion {
   std::vector<std::int32_t> joined_;
 };
 
-// A few patches of a mesh, spread over it, of which a step asks how many can be proved free (L13).
+// A few patches, spread over a mesh. A step asks how many of them can be proved free (L13).
 //
 // They depend on the mesh alone and not on a tree. So what a step decides by them does not depend
 // on the positions that the detector was made with.
@@ -126,13 +127,13 @@ struct SamplePatches {
 // smaller where its component ends. O(M) to clear marks, and 20 us at most.
 SamplePatches sample_patches(const Topology& mesh, ContourMaker& maker);
 
-// Which of a fixed set of directions a triangle faces over a whole step: N(t).d > 0 at every t.
+// The directions d of a fixed set that a triangle faces over a whole step: N(t).d > 0 at every t.
 //
 // A normal cone of [VMT94] serves one purpose: to show that there is a direction d with N.d > 0
 // for all triangles of a patch. Instead of a cone, this file keeps the set of such directions d
 // themselves, out of 50 fixed ones. Two patches are merged by the intersection of their sets. That
-// is exact, it needs no normalizations as the thesis does, and a merged set is never looser than
-// its triangles. A patch has a normal cone if its set is not empty.
+// is exact, it needs none of the thesis's normalizations, and a merged set is never looser than its
+// triangles. A patch has a normal cone if its set is not empty.
 //
 // Bit 2i stands for axis i, bit 2i+1 for its opposite.
 using DirectionSet = std::uint64_t;
@@ -144,8 +145,8 @@ inline constexpr int facing_directions = 2 * facing_axes;
 using Direction = std::array<double, 3>;
 Direction direction(int bit);
 
-// The directions that a triangle faces at every t of the step. A direction of which doubles cannot
-// tell this is left out. Empty for a triangle that has no area at some time. 0.1 us.
+// The directions that a triangle faces at every t of the step. A direction is left out if doubles
+// cannot tell. The set is empty for a triangle that has no area at some time. 0.1 us.
 DirectionSet faced_directions(const std::array<MovingPoint, 3>& triangle);
 
 // The bit of the direction in `set` that is nearest to `vector`. REQUIRES that `set` is not empty.
@@ -164,7 +165,7 @@ class MovingContour {
   // only to choose a direction.
   Vector area(Contour contour) const;
 
-  // From now on `pace` is asked during long contours. If it stops, stays_simple() returns false.
+  // Makes long contours ask `pace` from now on. If it stops, stays_simple() returns false.
   void ask(PacedStop* pace) { pace_ = pace; }
 
  private:
@@ -195,7 +196,7 @@ class MovingContour {
 
   const SteppedMesh motion_;
   PacedStop* pace_ = nullptr;
-  // Of the present call of stays_simple().
+  // The contour of the present call of stays_simple().
   Contour contour_;
   Direction d_ = {0, 0, 0};
   std::array<Eigen::Index, 3> axis_ = {0, 0, 0};

@@ -8,7 +8,7 @@
 
 namespace assay::detector {
 
-// What all lanes share. view_bounds.cpp derives the error bounds.
+// The input that all lanes share. view_bounds.cpp derives the error bounds.
 struct LaneInput {
   const double *x_t0, *x_t1;            // rows of three coordinates
   std::ptrdiff_t stride_t0, stride_t1;  // doubles from row to row

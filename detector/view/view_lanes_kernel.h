@@ -52,7 +52,7 @@ ASSAY_INLINE void dot(Lanes& out, const LaneVector& a, const double (&b)[3]) {
   out = a.x * b[0] + a.y * b[1] + a.z * b[2];
 }
 
-// The nearest number of [0,1].
+// Replaces s by the nearest number of [0,1].
 ASSAY_INLINE void clamp_to_unit(Lanes& s) {
   lesser(s, all(1));
   greater(s, Lanes{});

@@ -34,11 +34,11 @@ class ViewPlanes {
   Point normal(std::size_t plane) const { return {nx_[plane], ny_[plane], nz_[plane]}; }
   Point middle(std::size_t plane) const;
 
-  // The score of the point q: it counts the triangles that are positive seen from q, a little more
-  // for those that are so by more than `margin`. If far more triangles are negative it counts
-  // these, for less each. One sign for all triangles is what pays (L4); positive pays also if
-  // nothing is known of the start (L5). Compare scores of points with scores of points, and scores
-  // of lines with scores of lines.
+  // Returns the score of the point q. It counts the triangles that are positive seen from q, and a
+  // little more for those that are positive by more than `margin`. If far more triangles are
+  // negative, it counts the negative ones instead, each for less. One sign for all triangles is
+  // what pays (L4); positive pays also if nothing is known of the start (L5). Compare scores of
+  // points with scores of points, and scores of lines with scores of lines.
   std::int64_t score(const Point& q) const;
   // The score of the line q0 q1. It is counted in the same way, and triangles without a sign are
   // subtracted, because they cost most.

@@ -1,5 +1,5 @@
-// The view test: the sign of a triangle over a step, in doubles and in integers, and of whole
-// components their view sets V+, V-, V0.
+// The view test: the sign of a triangle over a step, in doubles and in integers, and the view sets
+// V+, V-, V0 of whole components.
 #pragma once
 
 #include <array>
@@ -51,23 +51,24 @@ inline constexpr int max_view_depth = 5;
 // numbers 1 ms, rarely 20 ms.
 ViewSign exact_view_sign(const MovingTriangle& triangle, const ViewPrimitive& primitive);
 
-// The sign of a triangle over the step. The filter comes first. What it leaves open is decided by
-// integers in exact arithmetic, and is zero in bounded arithmetic, so that it is never wrongly
-// positive or negative. In double and float the sign is as computed, and nothing is promised.
+// The sign of a triangle over the step. The filter comes first. A sign that it leaves open is
+// decided by integers in exact arithmetic; in bounded arithmetic it is zero, so that no sign is
+// wrongly positive or negative. In double and float the sign is as computed, and nothing is
+// promised.
 ViewSign view_sign(const MovingTriangle& triangle, const ViewPrimitive& primitive,
                    ViewCounts& counts, Arithmetic arithmetic = Arithmetic::exact);
 
 // Writes the signs over the step of the component's triangles to signs[triangle]. Lanes come first
-// (except in float), then view_sign for what they leave open. Counts and signs do not depend on
-// `set`. The workers of `pace` share the work if it has some. False if it was stopped.
+// (except in float), then view_sign for the signs that they leave open. Counts and signs do not
+// depend on `set`. The workers of `pace` share the work if it has some. False if it was stopped.
 bool classify(const Topology& mesh, const Component& component, const SteppedMesh& motion,
               const ViewPrimitive& primitive, std::vector<ViewSign>& signs, ViewCounts& counts,
               InstructionSet set = best_instruction_set(),
               Arithmetic arithmetic = Arithmetic::exact, PacedStop* pace = nullptr);
 
 // Whether all triangles of the component are positive at one instant, seen from the segment q0 q1.
-// It ends soon after the first triangle that is not. Also false once `pace` says to end. In
-// bounded arithmetic true is certain, and false may mean that doubles cannot tell.
+// It ends soon after the first triangle that is not positive. It also returns false once `pace`
+// says to end. In bounded arithmetic true is certain, and false may mean that doubles cannot tell.
 bool all_positive_at(const Topology& mesh, const Component& component, const PositionsView& x,
                      const Point& q0, const Point& q1, Arithmetic arithmetic = Arithmetic::exact,
                      PacedStop* pace = nullptr);
@@ -93,11 +94,11 @@ class ViewClassifier {
 };
 
 // Error bounds of the view test in lanes. All triangles of a component have the same bound, which
-// comes from the box around the component's vertices. In units of 2^-53 times the scales named in
-// view_bounds.cpp.
+// comes from the box around the component's vertices. The bounds are in units of 2^-53 times the
+// scales named in view_bounds.cpp.
 inline constexpr double lane_cubic_units = 64, lane_value_units = 112;
 
-// Fills in everything of `input` but `corners`, for triangles whose corners are among `vertices`.
+// Fills in all members of `input` but `corners`, for triangles whose corners are among `vertices`.
 // False if the coordinates are out of the range in which the bounds hold. It reads each vertex
 // once, and the workers of `pace` share the work if it has some.
 bool make_lane_input(std::span<const std::int32_t> vertices, const SteppedMesh& motion,

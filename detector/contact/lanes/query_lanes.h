@@ -17,33 +17,33 @@ struct QueryVertices {
   std::int32_t v[5];
 };
 
-// What all lanes share. The error bounds are those of contact_pieces.h and orientation.h.
+// The input that all lanes share. The error bounds are those of contact_pieces.h and orientation.h.
 struct QueryInput {
   const double *x_t0, *x_t1;            // rows of three coordinates
   std::ptrdiff_t stride_t0, stride_t1;  // doubles from row to row
   double cubic_error, dependency_error, orientation_error;
-  double least_magnitude, greatest_magnitude;  // of the range in which they hold
+  double least_magnitude, greatest_magnitude;  // the range in which the bounds hold
 };
 // Refers to the positions of `motion`, which must outlive the result.
 QueryInput query_input(const SteppedMesh& motion);
 
-// What a lane found: the groups are strictly ordered along an axis, or doubles show that there is
-// no contact (no piercing), or neither.
+// The result of a lane: the groups are strictly ordered along an axis, or doubles show that there
+// is no contact (no piercing), or neither.
 enum class LaneRung : std::uint8_t { open, axis, filter };
 
 // Writes rungs[i] for queries[i], for all i < count. No allocation.
 using QueryKernel = void (*)(const QueryInput& input, const QueryVertices* queries,
                              std::size_t count, LaneRung* rungs);
 
-// 15 to 25 ns a query of contact with AVX2.
+// A contact query takes 15 to 25 ns with AVX2.
 struct QueryKernels {
   QueryKernel vertex_face, edge_edge;
-  QueryKernel piercing;  // at t=0; never says axis
+  QueryKernel piercing;  // at t=0; never returns `axis`
 };
 
-// Those of the best instruction set that this machine has.
+// Returns the kernels for the best instruction set that this machine has.
 const QueryKernels& query_kernels();
-// The plain ones, which every machine has.
+// Returns the plain kernels, which every machine can run.
 const QueryKernels& plain_query_kernels();
 
 }  // namespace assay::detector

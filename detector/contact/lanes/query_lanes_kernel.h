@@ -24,7 +24,7 @@ struct LaneCross {
   LaneVector b0, b1, b2;
 };
 
-// Raises `magnitude` to the size of x where it is less.
+// Raises `magnitude` to the size of x where that is greater.
 ASSAY_INLINE void grow(Lanes& magnitude, const Lanes& x) {
   const Lanes size = x < Lanes{} ? -x : x;
   greater(magnitude, size);
@@ -66,8 +66,8 @@ ASSAY_INLINE void gather(LaneVector& out, const double* x, std::ptrdiff_t stride
   }
 }
 
-// The first `split` points are one group, the others the other one. Whether the groups are strictly
-// ordered along an axis, in the same sense at both ends of the step.
+// Sets `out` to whether two groups of points are strictly ordered along an axis, in the same sense
+// at both ends of the step. The first `split` points are one group, the rest the other.
 ASSAY_INLINE void ordered(Mask& out, const LaneMotion (&p)[4], std::size_t split) {
   out = Mask{};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -92,7 +92,7 @@ ASSAY_INLINE void ordered(Mask& out, const LaneMotion (&p)[4], std::size_t split
   }
 }
 
-// Whether the magnitudes are in the range in which the bounds hold.
+// Sets `out` to whether the magnitudes are in the range in which the bounds hold.
 ASSAY_INLINE void in_range(Mask& out, const QueryInput& in, const LaneVector& magnitude,
                            bool zero_too) {
   out = ~Mask{};
@@ -109,7 +109,7 @@ ASSAY_INLINE bool everywhere(const Mask& mask) {
   return result;
 }
 
-// Whether all coefficients of the coplanarity cubic F are surely of one sign.
+// Sets `out` to whether all coefficients of the coplanarity cubic F are surely of one sign.
 ASSAY_INLINE void never_coplanar(Mask& out, const QueryInput& in, const LaneMotion& w,
                                  const LaneCross& n, const LaneVector& magnitude) {
   Lanes first, middle, f[4];
@@ -130,7 +130,8 @@ ASSAY_INLINE void never_coplanar(Mask& out, const QueryInput& in, const LaneMoti
   out = (least > bound) | (greatest < -bound);
 }
 
-// Whether along some axis two of the dependencies surely have opposite signs over the step.
+// Sets `out` to whether along some axis two of the dependencies surely have opposite signs over the
+// step.
 ASSAY_INLINE void never_meet(Mask& out, const QueryInput& in, const LaneCross (&lam)[3],
                              const LaneVector& magnitude, std::size_t split) {
   out = Mask{};
