@@ -1,5 +1,5 @@
-// Files, read and written whole: the bytes of one, decompressed when they are a gzip stream, and
-// one that is written whole or not at all.
+// Reads and writes whole files. A gzip stream is decompressed when it is read; a file is written
+// whole or not at all.
 #pragma once
 
 #include <cstddef>
@@ -23,20 +23,21 @@ struct CloseFile {
 };
 using OpenFile = std::unique_ptr<std::FILE, CloseFile>;
 
-// Reads the whole file. Refuses what cannot be opened, a folder, an empty file, a damaged gzip
-// stream, and what is larger than `limit`. A gzip stream of nothing is an empty file too.
+// Reads the whole file. Refuses a path that cannot be opened, a folder, an empty file, a damaged
+// gzip stream, and content larger than `limit`. A gzip stream of nothing is an empty file too.
 Expected<std::string> read_bytes(const std::filesystem::path& path,
                                  std::size_t limit = largest_file);
 
 // Reads the first `count` bytes of the content, or all if there are fewer, at the same cost for a
 // file of any size. Refuses what read_bytes refuses, as far as the start of the file shows it.
-// Nothing is read of a gzip stream whose first 256 KiB hold fewer bytes and that goes on.
+// A gzip stream that goes on after 256 KiB, but whose first 256 KiB hold fewer bytes, gives
+// nothing.
 Expected<std::string> read_start(const std::filesystem::path& path, std::size_t count);
 
 // Writes PATH.part beside `path` and then renames it, so a reader sees the old file or the whole
 // new one, and several writers may write the same file at the same time. If any of this fails, the
-// problem states the system's reason, and nothing is left behind. What a killed writer leaves
-// beside `path`, the next writer takes up. REQUIRES a file system that locks files (flock).
+// problem states the system's reason, and nothing is left behind. The next writer takes up the file
+// that a killed writer leaves beside `path`. REQUIRES a file system that locks files (flock).
 Expected<void> write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace assay::corpus

@@ -1,6 +1,6 @@
-// JSON text to values, with the parser's exceptions turned into problems, and values to text; and
-// typed access to the fields of a value, in which each error names the file and the field; and
-// readers of types that list their fields.
+// Turns JSON text into values, with the parser's exceptions turned into problems, and values into
+// text. Gives typed access to the fields of a value; each error names the file and the field. Reads
+// types that list their fields.
 #pragma once
 
 #include <fmt/format.h>
@@ -26,16 +26,16 @@ namespace assay::corpus {
 using Json = nlohmann::ordered_json;
 
 // Refuses what is not JSON (the message names the byte), a number beyond the doubles, and an object
-// in which a key stands twice, because the parser would take the last one without a word. A value
-// nested more than 64 levels deep is refused too, because what prints or copies it descends level
-// by level, and a stack ends somewhere. `file` stands for the text in messages.
+// in which a key stands twice, because the parser would silently take the last one. A value nested
+// more than 64 levels deep is refused too, because code that prints or copies it descends level by
+// level, and the stack is finite. `file` stands for the text in messages.
 Expected<Json> parse_json(std::string_view text, const std::filesystem::path& file);
 // The same, for values that sort their keys by name.
 Expected<nlohmann::json> parse_sorted_json(std::string_view text,
                                            const std::filesystem::path& file);
 
-// The text of a value, in one line or with each level indented by so many spaces. Never fails:
-// bytes that are no UTF-8, as file names and the words of a plug-in may hold, become U+FFFD.
+// Returns the text of a value, in one line or with each level indented by `indent` spaces. Never
+// fails: bytes that are no UTF-8, as file names and the words of a plug-in may hold, become U+FFFD.
 std::string json_text(const Json& value, int indent = -1);
 std::string json_text(const nlohmann::json& value, int indent = -1);
 
@@ -70,8 +70,9 @@ class JsonField {
   std::string place_;
 };
 
-// The rest reads types that list their fields from the objects of a JSON file. The list is written
-// once, in the file that knows the form, and serves who writes the object as well:
+// The rest of this file reads types that list their fields from the objects of a JSON file. The
+// list is written once, in the file that knows the form, and code that writes the object uses it
+// too:
 //
 //   template <class Archive>
 //   void fields(Archive& archive, StratumPlan& stratum) {
@@ -79,9 +80,9 @@ class JsonField {
 //     archive.may("bound", stratum.wanted_bound, is_bound);  // it stays as it is if it is missing
 //   }
 //
-// Behind the member stand rules, which say what a value has to be.
+// Rules may follow the member; they say which values are allowed.
 
-// Thrown by a reader; who reads the file catches it.
+// Thrown by a reader; the function that reads the file catches it.
 struct Refused {
   Problem problem;
 };
@@ -93,7 +94,8 @@ T want(Expected<T> expected) {
   return std::move(expected).value();
 }
 
-// Rules: a whole number from 0 on, and an array of so many items, whose own rules may follow.
+// Rules: a whole number from 0 to below `end`, and an array of `count` items. Rules for the items
+// may follow.
 struct Below {
   std::int64_t end;
 };

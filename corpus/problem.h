@@ -1,4 +1,4 @@
-// What kept the harness from doing what it was asked, as a value: one type for this room,
+// The reason why the harness could not do what it was asked, as a value: one type for this room,
 // properties/ and reports/. No exception leaves this room.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace assay::corpus {
 
-// The few kinds of problem that the program acts upon. All else is said by the message.
+// The few kinds of problem that the program acts upon. The message says everything else.
 enum class ProblemKind {
   other,
   out_of_memory,    // a plug-in had too little memory for a step: the step is undecided
@@ -36,14 +36,14 @@ Problem problem_in(const std::filesystem::path& file, std::string_view detail);
 template <class T>
 using Expected = boost::outcome_v2::basic_result<T, Problem, boost::outcome_v2::policy::terminate>;
 
-// Which of several words is meant by who misspells one.
+// Guesses which of several words a misspelled one stands for.
 
-// The word that is nearest to what was written, at most two slips away (one, if at most three
+// Returns the word that is nearest to `written`, at most two slips away (one, if at most three
 // letters were written). A slip is a letter too many, too few or exchanged, or two letters that
-// changed places. Empty if no word is that near, or if one of them is what was written.
+// changed places. Empty if no word is that near, or if `written` is one of the words.
 std::string meant_word(const std::vector<std::string>& words, std::string_view written);
 
-// "; did you mean WORD?", for the end of a line that refuses what was written; or empty.
+// Returns "; did you mean WORD?", for the end of a line that refuses `written`; or nothing.
 std::string did_you_mean(const std::vector<std::string>& words, std::string_view written);
 
 // The names of things that have one, such as scenes.

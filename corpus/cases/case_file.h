@@ -33,8 +33,8 @@ struct CaseGhosts {
 };
 
 // One evaluation of a detector, from frame `from` to frame `to`. With `commit` the detector's
-// state advances to the end of the step, else it stays as it is. A step that starts elsewhere than
-// the last commit ended is a new start.
+// state advances to the end of the step, else it stays as it is. A step that does not start where
+// the last committed step ended is a new start.
 struct CaseStep {
   std::int32_t from = 0, to = 1;
   bool commit = true;
@@ -63,8 +63,9 @@ struct ExpectedFacts {
   std::vector<ExpectedStep> steps;  // one for each step of the case, or none
 };
 
-// Which pairs count, and what then holds. The `expected` facts of a case speak of all pairs,
-// whatever counts, because laws and state do (L19); `steps` speaks of those that count.
+// The relation of counted pairs, and the facts under it. The `expected` facts of a case speak of
+// all pairs, whatever counts, because laws and state do (L19); `steps` speaks of counted pairs
+// only.
 struct CaseRelation {
   detector::CountedPairs pairs;
   std::vector<ExpectedStep> steps;  // one for each step of the case, without signs, or none
@@ -76,7 +77,7 @@ struct Case {
   std::string source;  // where it comes from
   detector::Triangles triangles;
   std::vector<detector::Positions> frames;  // at least one
-  // The steps in order; if the caller responds to a collision, it shows here. Empty: the
+  // The steps in order. The caller's responses to collisions show here. If empty, the steps are the
   // consecutive_steps().
   std::vector<CaseStep> script;
   std::optional<CaseView> view;
@@ -90,26 +91,27 @@ struct Case {
   std::string pending = "{}";
 };
 
-// Which pairs count; null: all of them.
+// Returns which pairs count; null: all of them.
 inline const detector::CountedPairs* counted_of(const Case& c) {
   return c.counted ? &c.counted->pairs : nullptr;
 }
 
-// A committed step for each two consecutive frames; of one frame alone, one that does not move.
+// Returns a committed step for each two consecutive frames; for a single frame, one step in which
+// nothing moves.
 std::vector<CaseStep> consecutive_steps(std::size_t frames);
 
 // The script of the case or, if it is empty, the consecutive steps.
 std::vector<CaseStep> steps_of(const Case& c);
 
-// Where the vertices are when the step starts and when it ends. REQUIRES a step of this case.
+// The places of the vertices at the start and at the end of the step. REQUIRES a step of this case.
 const detector::Positions& start_of(const Case& c, const CaseStep& step);
 const detector::Positions& end_of(const Case& c, const CaseStep& step);
 
 // The view primitive during steps_of(c)[step]; nothing when the case states none.
 std::optional<detector::ViewPrimitive> view_of_step(const Case& c, std::size_t step);
 
-// A step as a case by itself. `rest`: the frame that a detector is made from, which then is the
-// first one; null: where the step starts. `counted`: which pairs count; null: all of them.
+// Makes a case of one step. `rest`: the frame that a detector is made from, which becomes the first
+// frame; null: the start of the step. `counted`: which pairs count; null: all of them.
 Case case_of_step(const detector::Triangles& triangles, const detector::CountedPairs* counted,
                   const detector::Positions* rest, const detector::Positions& x_t0,
                   const detector::Positions& x_t1);
@@ -125,8 +127,9 @@ std::string case_text(const Case& c);
 Expected<Case> parse_case(std::string_view text, std::string_view name);
 
 Expected<Case> read_case(const std::filesystem::path& path);
-// Refuses what read_case would refuse, with the same problem, because a file that was written has
-// to be readable. A coordinate that is not finite has no JSON form, so it is refused too.
+// Refuses every case that read_case would refuse, with the same problem, because a file that was
+// written has to be readable. A coordinate that is not finite has no JSON form, so it is refused
+// too.
 Expected<void> write_case(const std::filesystem::path& path, const Case& c);
 
 // The case files of a folder (*.json), sorted by name.

@@ -36,7 +36,7 @@ struct FacePlaces {
 struct Mesh {
   detector::Positions positions;
   detector::Triangles triangles;
-  // A line each on what was split, is not looked at, or is suspect.
+  // One line for each kind of content that was split, is ignored, or is suspect.
   std::vector<std::string> remarks = {};
   FacePlaces places = {};
 };
@@ -45,15 +45,15 @@ struct Mesh {
 // does (.obj, .obj.gz).
 Expected<Mesh> read_mesh(const std::filesystem::path& path);
 
-// Refuses what is known of a file without reading all of it: that it is not there, may not be
-// read, is empty or of no format. The problem is that of read_mesh.
+// Refuses a file by what can be known without reading all of it: the file is missing, may not be
+// read, is empty or has no known format. The problem is that of read_mesh.
 Expected<void> look_at_mesh(const std::filesystem::path& path);
 
 // Returns where in the file two faces have the same three vertices: "lines 12 and 16"; empty if
 // none have, or the file cannot be read.
 std::string places_of_same_faces(const std::filesystem::path& file);
 
-// The formats, each from the bytes of a file; `file` stands for it in messages.
+// The readers of the formats. Each takes the bytes of a file; `file` stands for it in messages.
 
 // OBJ: `v` and `f` (v, v/vt, v//vn, v/vt/vn, negative indices, polygons) make the mesh; texture
 // coordinates, normals, groups and materials are passed over; lines, points, curves and surfaces
@@ -62,7 +62,7 @@ std::string places_of_same_faces(const std::filesystem::path& file);
 Expected<Mesh> read_obj(std::string_view text, const std::filesystem::path& file);
 
 // Whether the text begins as an OFF file: OFF after the optional letters ST, C, N, 4, n, capital or
-// not. A file of that name may lack the word.
+// not. A file whose name ends so may lack the word.
 bool looks_like_off(std::string_view text);
 // OFF in text form: a header word, the counts, one vertex a line and one polygon a line; `#` starts
 // a comment. Normals, colours and texture coordinates are passed over, faces of one or two corners
@@ -82,7 +82,8 @@ std::string shown(const Place& place);
 // REQUIRES: every call gets the place that a reader of the message should look at.
 class MeshBuilder {
  public:
-  // first_number: of a vertex, as the file counts; messages count so too.
+  // first_number: the number of the first vertex, as the file counts; messages count in the same
+  // way.
   explicit MeshBuilder(const std::filesystem::path& file, int first_number = 0)
       : file_(file), first_number_(first_number) {}
 
@@ -94,16 +95,16 @@ class MeshBuilder {
   // of any range, and a triangle that names one vertex twice.
   Expected<void> add_polygon(std::span<const std::int64_t> vertices, const Place& place);
 
-  // Counts what is no part of the mesh, in the singular: "line (l)".
+  // Counts content that is no part of the mesh. `what` names it in the singular: "line (l)".
   void skip(const std::string& what, std::size_t count = 1);
-  // Something in the file that its author should know of, in words.
+  // Adds a remark on something in the file that its author should know of.
   void remark(std::string line) { remarks_.push_back(std::move(line)); }
 
   std::size_t vertex_count() const { return coordinates_.size() / 3; }
 
   Problem problem(const Place& place, std::string_view detail) const;
 
-  // The mesh, with remarks on what was split or skipped. Refuses one without a triangle, and an
+  // The mesh, with remarks on what was split or skipped. Refuses a mesh without a triangle, and an
   // index beyond its vertices.
   Expected<Mesh> finish();
 

@@ -20,21 +20,21 @@ namespace assay::corpus {
 //
 //   sim_1.obj sim_10.obj sim_2.obj  ->  sim_1.obj sim_2.obj sim_10.obj
 //
-// A shell lists names letter by letter, in some languages without a look at marks such as _. If the
-// files came in such an order, they are taken in the order of their numbers. Any other order is the
+// A shell lists names letter by letter; in some languages it ignores marks such as _. If the files
+// came in such an order, they are taken in the order of their numbers. Any other order is the
 // user's own and stays. Files whose names differ in more than numbers are not compared. 0.25 beside
 // 0.5 may be decimals or two numbers each: where this matters, the order stays too.
 
 struct FrameOrder {
   std::vector<std::filesystem::path> files;
-  // A line each, where the files were put in order, where they are not in the order of their
-  // numbers, and on numbers that are left out or repeated.
+  // One line each if the files were put in order, if they are not in the order of their numbers,
+  // and if numbers are left out or repeated.
   std::vector<std::string> remarks;
 };
 
 FrameOrder in_order_of_numbers(const std::vector<std::filesystem::path>& files);
 
-// Two files for a message: their names alone if these differ.
+// Returns the names of two files for a message: without their folders if these names differ.
 std::pair<std::string, std::string> short_names(const std::filesystem::path& a,
                                                 const std::filesystem::path& b);
 
@@ -42,12 +42,12 @@ std::pair<std::string, std::string> short_names(const std::filesystem::path& a,
 struct Sequence {
   detector::Triangles triangles;
   std::vector<detector::Positions> frames;
-  // A line each on the order of the files, and on what was changed or is not looked at.
+  // One line each on the order of the files, and on content that was changed or is ignored.
   std::vector<std::string> remarks = {};
 };
 
-// Reads a frame when it is asked for, each file once, and keeps of all that it read the triangles
-// alone. So a sequence of any length takes the memory of the frames that the caller keeps.
+// Reads a frame when it is asked for, each file once, and keeps only the triangles. So a sequence
+// of any length takes the memory of the frames that the caller keeps.
 class SequenceReader {
  public:
   explicit SequenceReader(std::vector<std::filesystem::path> files) : files_(std::move(files)) {}
@@ -61,17 +61,17 @@ class SequenceReader {
   // REQUIRES !at_end().
   Expected<detector::Positions> next();
 
-  // Refuses what is known of the frames that are left without reading them (look_at_mesh).
+  // Refuses the frames that are left by what can be known without reading them (look_at_mesh).
   Expected<void> look_ahead() const;
 
-  // Those of every frame. REQUIRES that a frame was read.
+  // The triangles and the number of vertices of every frame. REQUIRES that a frame was read.
   const detector::Triangles& triangles() const { return triangles_; }
   std::size_t vertices() const { return static_cast<std::size_t>(vertices_); }
-  // Those of the first frame.
+  // The remarks on the first frame.
   const std::vector<std::string>& remarks() const { return remarks_; }
 
  private:
-  // The frame that is to be read next has another mesh than the first one.
+  // Returns the problem that the next frame has another mesh than the first one.
   Problem other_mesh(std::string_view how) const;
 
   std::vector<std::filesystem::path> files_;
@@ -90,10 +90,11 @@ Expected<Sequence> read_sequence(std::span<const std::filesystem::path> paths);
 // frame stands still.
 class BodiesReader {
  public:
-  // The files of each body, a frame each. REQUIRES a body, and a file of each.
+  // Takes the files of each body, one for each frame. REQUIRES a body, and a file of each.
   explicit BodiesReader(std::vector<std::vector<std::filesystem::path>> bodies);
 
-  // Nothing if each body has as many frames as the others, or one; else the problem names both.
+  // Returns nothing if each body has as many frames as the others, or one; else a problem that
+  // names both numbers of frames.
   Expected<void> fit() const;
   std::size_t frames() const;
   bool at_end() const { return read_ == frames(); }
@@ -102,10 +103,11 @@ class BodiesReader {
   Expected<detector::Positions> next();
   Expected<void> look_ahead() const;
 
-  // Both REQUIRE that a frame was read. By vertex, the number of its body.
+  // triangles() and bodies() REQUIRE that a frame was read. bodies() gives the number of each
+  // vertex's body.
   const detector::Triangles& triangles() const { return triangles_; }
   std::vector<std::int32_t> bodies() const;
-  // Those on the first file of each body, with its name if there are several.
+  // The remarks on the first file of each body, with its name if there are several.
   std::vector<std::string> remarks() const;
 
  private:
@@ -118,21 +120,22 @@ class BodiesReader {
   detector::Triangles triangles_;
 };
 
-// Finds vertices that stand at one place in every frame: where a format or an exporter doubles the
-// corners of neighbours (STL, seams of textures), these share no vertex, so they touch.
+// Finds vertices that stand at one place in every frame. If a format or an exporter doubles the
+// corners of neighbouring triangles (STL, seams of textures), these share no vertex, so they touch.
 class DoubledCorners {
  public:
   // `body`: the number of each vertex's body; vertices of two bodies are never counted together.
   // Vertices of no triangle do not count.
   DoubledCorners(const detector::Triangles& triangles, const std::vector<std::int32_t>& body);
 
-  // Parts what stands apart in this frame. Two places are equal if all coordinates are (0 = -0).
+  // Separates vertices that stand apart in this frame. Two places are equal if all coordinates are
+  // (0 = -0).
   void add(const detector::Positions& x);
 
-  // What is to be said of the frames that were added; empty if no two vertices stand together.
+  // Returns a remark on the frames that were added; empty if no two vertices stand together.
   std::string remark(bool is_welded) const;
 
-  // The triangles with the first vertex of each place for all that stand there.
+  // Returns the triangles with each vertex replaced by the first one of its place.
   detector::Triangles welded(detector::Triangles triangles) const;
 
  private:

@@ -20,10 +20,10 @@
 
 namespace assay::corpus {
 
-// The bytes with which a log begins, and each of its records.
+// The bytes with which a log, and each of its records, begins.
 inline constexpr std::string_view mark_of_log("\x83\x44\x41\x53\x52\x31", 6);
 
-// What holds for all steps.
+// The part of a log that holds for all steps.
 struct LogHead {
   std::string name, version;      // of the detector
   assay_description description;  // its name and version are NULL
@@ -32,12 +32,12 @@ struct LogHead {
   std::optional<detector::CountedPairs> counted;
 };
 
-// What the detector answered, as in assay_result.
+// The detector's answer, as in assay_result.
 struct LoggedAnswer {
   std::int32_t answer = ASSAY_UNDECIDED;
   double first_lo = 0, first_hi = 0;
-  std::vector<std::int32_t> pairs;  // two of each
-  std::vector<double> pair_times;   // two of each; or empty
+  std::vector<std::int32_t> pairs;  // the two triangles of each pair
+  std::vector<double> pair_times;   // lo and hi of each pair; or empty
   std::string message;
 };
 
@@ -52,15 +52,16 @@ struct LogStep {
   detector::Positions x_t0, x_t1;
   std::optional<LoggedAnswer> answer;
   std::optional<LoggedLimit> limit;
-  // Why it is not known which step this is; empty if it is known. Then the positions mean nothing.
+  // Why it is not known which step this is; empty if it is known. If it is not, positions mean
+  // nothing.
   std::string why_unknown;
 };
 
-// The end of a file, of which nothing is read.
+// The end of a file that is not read, because it begins with damage.
 struct LogDamage {
   std::uint64_t from = 0, to = 0;  // bytes of the file
-  std::string what;                // begins there
-  bool is_cut = false;  // one record, of which the end is missing: it was cut, or is being written
+  std::string what;                // the damage that begins there
+  bool is_cut = false;             // one record without its end: it was cut, or is being written
 };
 
 class StepLog {
@@ -73,17 +74,17 @@ class StepLog {
   std::size_t count() const { return steps_.size(); }
   std::uint64_t number_of(std::size_t i) const { return steps_[i].number; }
   std::optional<std::size_t> place_of(std::uint64_t number) const;
-  // Step i < count(). Its cost is that of one step, if steps are asked for in order.
+  // Reads step i < count(). The cost is that of one step, if steps are asked for in order.
   Expected<LogStep> step(std::size_t i);
 
-  // Nothing if the file was read to its end.
+  // Returns nothing if the file was read to its end.
   std::optional<LogDamage> damage() const;
-  // The recorder was told to end.
+  // Returns whether the recorder was ended.
   bool is_ended() const { return is_ended_; }
-  // What the caller noted before each step.
+  // The caller's notes, each by the number of the step that follows it.
   const std::multimap<std::uint64_t, std::string>& notes() const { return notes_; }
 
-  // Reads what was appended since.
+  // Reads the records that were appended since.
   Expected<void> go_on();
 
  private:

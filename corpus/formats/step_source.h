@@ -1,6 +1,5 @@
-// The steps of one mesh, one after another, wherever they come from: a case that is at hand as a
-// whole, or files, of which two frames at a time are in memory. Every input of steps is one of
-// these.
+// The steps of one mesh, one after another, from any input: a case that is in memory as a whole, or
+// files, with two frames in memory at a time. Every input of steps is a StepSource.
 #pragma once
 
 #include <array>
@@ -15,7 +14,8 @@
 
 namespace assay::corpus {
 
-// Where the vertices are when a step starts and when it ends, and what the input states of it.
+// The places of the vertices at the start and the end of a step, and the facts that the input
+// states.
 struct SourceStep {
   const detector::Positions& x_t0;
   const detector::Positions& x_t1;
@@ -23,7 +23,7 @@ struct SourceStep {
   bool commit = true;
 };
 
-// What an input is, in words.
+// A description of an input in words.
 struct InputText {
   std::string title = {};                 // "one mesh moving from a.obj to b.obj"; may be empty
   std::vector<std::string> files = {};    // in the order in which they are taken; empty: as given
@@ -35,55 +35,55 @@ class StepSource {
   virtual ~StepSource() = default;
 
   virtual std::size_t count() const = 0;
-  // Whether there is a step s, which comes after those that were asked for. An input that still
-  // grows may wait for it.
+  // Returns whether there is a step s. It comes after all steps that were asked for; an input that
+  // still grows may wait for it.
   virtual Expected<bool> has(std::size_t s) { return s < count(); }
   // The number of step s in the whole that the input is a part of, from 0.
   virtual std::uint64_t number_of(std::size_t s) const { return s; }
   virtual InputText text() const { return {}; }
-  // A line each: what was noted before the step that was asked for last, and, after all steps, what
-  // of the input is lost, so that nothing is known of it, and what else is to be said.
+  // Texts, one line each: the notes before the step that was asked for last, and, after all steps,
+  // the parts of the input that are lost, so that nothing is known of them, and other remarks.
   virtual std::vector<std::string> notes() const { return {}; }
   virtual std::vector<std::string> lost() const { return {}; }
   virtual std::vector<std::string> last_remarks() const { return {}; }
   // The number of frames, in memory or not.
   virtual std::size_t frames() const = 0;
-  // Whether there is one frame alone: its one step ends where it starts.
+  // Returns whether there is a single frame, whose one step ends where it starts.
   bool is_at_rest() const { return frames() == 1 && count() == 1; }
   virtual const detector::Triangles& triangles() const = 0;
   // The frame that a detector is made from. REQUIRES that no step after the first was asked for.
   virtual const detector::Positions& first_frame() const = 0;
 
-  // Step s < count(). Its frames may be gone when the next step is asked for. Problems: those of
-  // a file whose frame is read now. REQUIRES that steps are asked for in order, and none after a
-  // problem.
+  // Step s < count(). The frames of the step may be gone when the next step is asked for. Problems:
+  // those of a file whose frame is read now. REQUIRES that steps are asked for in order, and none
+  // after a problem.
   virtual Expected<SourceStep> step(std::size_t s) = 0;
 
   // Which pairs count; null: all of them. The same for all steps.
   virtual const detector::CountedPairs* counted() const { return nullptr; }
 
-  // The case, if it is at hand as a whole; else null.
+  // Returns the case, if it is in memory as a whole; else null.
   virtual std::shared_ptr<const Case> whole() const { return nullptr; }
-  // The same if it states options and facts; null if it is but triangles and frames.
+  // Returns the same case if it states options and facts; null if it is only triangles and frames.
   virtual const Case* case_file() const { return nullptr; }
 
-  // The same steps, of a case that is at hand as a whole: reads all frames that are left. REQUIRES
-  // that no step was asked for, and that nothing is asked of these steps any more.
+  // Reads all frames that are left, and returns the same steps of a case that is in memory as a
+  // whole. REQUIRES that no step was asked for, and that this object is not used any more.
   virtual Expected<std::unique_ptr<StepSource>> read_whole() = 0;
 };
 
-// A problem of these steps' triangles, with the places in their file of two faces on the same three
-// vertices. `file` is named for other problems.
+// Returns a problem of these steps' triangles as a Problem. If two faces have the same three
+// vertices, it names their places in their file; for other problems it names `file`.
 Problem problem_of_triangles(const StepSource& steps, const std::filesystem::path& file,
                              const detector::Problem& problem);
 
-// `is_case_file`: the options and facts that the case states count.
+// If `is_case_file`, the options and facts that the case states count.
 std::unique_ptr<StepSource> steps_of_case(std::shared_ptr<const Case> c, bool is_case_file,
                                           InputText text = {});
 
-// Each file is a frame, and is read once: the first two now, the others when their step is asked
-// for. One file alone is a mesh at rest. Those that are not there or of no known format are refused
-// now. REQUIRES a file.
+// Makes steps of files. Each file is a frame, and is read once: the first two now, the others when
+// their step is asked for. One file alone is a mesh at rest. Files that are missing or of no known
+// format are refused now. REQUIRES a file.
 Expected<std::unique_ptr<StepSource>> steps_of_files(std::vector<std::filesystem::path> files);
 
 // Several meshes as bodies of one: their vertices and triangles follow each other. A body has a
@@ -99,16 +99,16 @@ struct BodyFiles {
   // twice. The vertices keep their numbers.
   bool weld = false;
 };
-// As steps_of_files, the files of each body in the order of their numbers. The relation of
+// The same for bodies, with the files of each body in the order of their numbers. The relation of
 // the steps has the bodies. REQUIRES a body, and a file of each.
 Expected<std::unique_ptr<StepSource>> steps_of_bodies(const BodyFiles& bodies);
 
-// What a file is for: by the bytes that it begins with, and by its name where these do not tell, or
-// cannot be read. `frames`, too, if nothing tells: the reader of frames says what it found.
+// The purpose of a file. The bytes that it begins with tell, or its name if these do not tell or
+// cannot be read. If nothing tells, it is `frames`: the reader of frames then says what it found.
 enum class InputKind { frames, case_file, log, queries, answers };
 InputKind kind_of_file(const std::filesystem::path& file);
 
-// What these files hold: one case file, or frames of one mesh. REQUIRES a file.
+// Reads the steps of these files: of one case file, or of frames of one mesh. REQUIRES a file.
 Expected<std::unique_ptr<StepSource>> read_steps(const std::vector<std::filesystem::path>& files);
 
 }  // namespace assay::corpus

@@ -18,8 +18,8 @@ namespace assay::corpus {
 // character.
 std::optional<double> parse_double(std::string_view word);
 
-// The decimal integer that the whole of `word` is, if it fits into 64 bits; else nothing. A
-// leading + is allowed.
+// Returns the value of `word` if all of it is a decimal integer that fits into 64 bits; else
+// nothing. A leading + is allowed.
 std::optional<std::int64_t> parse_integer(std::string_view word);
 
 // The text behind the mark of UTF-8 (EF BB BF) that editors and spreadsheets put first.
@@ -37,7 +37,7 @@ class Lines {
   // The next line that is not blank; nothing at the end. Valid until the next call.
   std::optional<std::string_view> next();
 
-  // The number, counted from 1, of the line that next() gave; of its first line if it was joined.
+  // The number, counted from 1, of the line that next() gave; for joined lines, that of the first.
   std::size_t number() const { return number_; }
 
  private:

@@ -5,7 +5,7 @@
 // 2^(exponent_at_0 + slope * s); what that measures depends on the family: a gap in units of the
 // grid, an offset over the size, a scale, a number. One unit of the grid is an ulp of a coordinate
 // of 2^52 units; coordinates are below 2^53. If things in a family can touch, one strength after
-// the strongest ends the scale: exact touching, a gap of 0. What the cases are made of stands
+// the strongest ends the scale: exact touching, a gap of 0. The parts that cases are made of come
 // first.
 #pragma once
 
@@ -65,7 +65,7 @@ class Variation {
   std::uint64_t state_ = 0xcbf29ce484222325u;
 };
 
-// In units of the grid.
+// A point in units of the grid.
 struct GridPoint {
   std::int64_t x = 0, y = 0, z = 0;
   friend GridPoint operator+(const GridPoint& a, const GridPoint& b) {
@@ -111,7 +111,7 @@ struct GridMap {
   GridPoint operator()(GridPoint p) const;
 };
 
-// What the construction tells of a case; first_time and view_signs only if it tells them.
+// The facts that the construction of a case tells; first_time and view_signs only if it tells them.
 using KnownFacts = ExpectedStep;
 
 // One step of the mapped mesh, with coordinate i multiplied by 2^exponents[i]. If that is not
@@ -128,8 +128,8 @@ Case sheared_case(const GridMesh& mesh, Variation& vary, KnownFacts facts);
 // The two solids of most hard cases: a block with a face in the plane z = 0, and a spike above it.
 //
 // Why their answers are plain: the block lies in z <= 0 and the spike above its tip (or its lower
-// edge), so nothing meets before the tip or edge reaches z = 0. In a case that is to miss beside
-// the block, a plane of constant x or y lies between the two all the time.
+// edge), so nothing meets before the tip or edge reaches z = 0. In a case where the spike misses
+// the block beside it, a plane of constant x or y lies between the two all the time.
 
 // 2^exponent units.
 inline std::int64_t two_to(int exponent) { return std::int64_t{1} << exponent; }
@@ -146,7 +146,7 @@ std::array<GridPoint, 3> wide_face(Variation& vary, std::int64_t reach);
 // Adds the block under a wide face; its fourth corner is `depth` deep, near the axis.
 void add_block(GridMesh& mesh, Variation& vary, std::int64_t reach, std::int64_t depth);
 
-// To which side of its tip a spike may reach.
+// The side of its tip that a spike may reach to.
 enum class Side { all_around, positive_y, negative_y };
 
 // Adds a tetrahedron that moves along with its tip. The other corners are up to `reach` away along
@@ -161,14 +161,15 @@ GridPoint under_the_face(Variation& vary, std::int64_t reach, std::int64_t z);
 GridVertex falling(const GridPoint& p, std::int64_t z_t0, std::int64_t z_t1);
 
 KnownFacts known_free();
-// A collision at this first time, which is a double; without it, the first time is not stated.
+// The facts of a collision at this first time, which is a double; without an argument, the first
+// time is not stated.
 KnownFacts known_collision(double first);
 KnownFacts known_collision();
 
 struct HardFamily {
   std::string_view name;
   std::string_view about;  // one line
-  std::string_view knob;   // what stands at 2^exponent(s)
+  std::string_view knob;   // the quantity that is 2^exponent(s)
   std::string_view unit;   // of the knob; may be empty
   int exponent_at_0;
   int slope;
@@ -186,8 +187,8 @@ struct HardFamily {
 
 std::span<const HardFamily> hard_families();
 
-// A case with id (such as "grazing-s12-v3"), about, one step and its expected answer; first time
-// and view signs are stated if the construction tells them. REQUIRES 0 <= strength <=
+// Makes a case with id (such as "grazing-s12-v3"), about, one step and its expected answer; first
+// time and view signs are stated if the construction tells them. REQUIRES 0 <= strength <=
 // last_strength(), variant >= 0. Cases are small: at most 4,100 triangles, mostly 8.
 Case hard_case(const HardFamily& family, int strength, int variant);
 

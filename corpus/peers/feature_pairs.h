@@ -1,8 +1,7 @@
-// What the peers that test features have in common. Two triangles have six pairs of a vertex and a
-// face and nine of two edges. The peer's elementary tests are put to all of these that share no
-// vertex, as FCL's own traversal of meshes does, and the first time of the two triangles is the
-// least of the tests. Features that several pairs of triangles have are tested again for each
-// pair.
+// The common part of the peers that test features. Two triangles have six pairs of a vertex and a
+// face and nine of two edges. The peer's elementary tests are asked about all of these that share
+// no vertex, as FCL's own traversal of meshes does, and the first time of the two triangles is the
+// least of the tests. Features that several pairs of triangles have are tested again for each pair.
 #pragma once
 
 #include <type_traits>
@@ -30,8 +29,8 @@ auto ask_points(const Test& test, const FourPaths& paths, More&&... more) {
               std::forward<More>(more)...);
 }
 
-// What a peer tells that knows the time, one that knows when it is not before, and one that knows
-// nothing of it.
+// The times of a peer that knows the time, of one that knows a time before which there is no
+// contact, and of one that knows nothing about it.
 inline Time at_time(bool found, double time) {
   return found ? Time(plugin::Interval{{time, time}}) : std::nullopt;
 }
@@ -40,8 +39,9 @@ inline Time not_before(bool found, double time) {
 }
 inline Time some_time(bool found) { return not_before(found, 0); }
 
-// What most peers have in common: they want a free start and coordinates of usual sizes, because
-// their tolerances are lengths, and they are functions of their arguments that return a bool.
+// The description that most peers have in common: they want a free start and coordinates of usual
+// sizes, because their tolerances are lengths, and they are functions of their arguments that
+// return a bool.
 inline plugin::Description usual_description(const char* name, const char* version,
                                              std::uint32_t claims) {
   plugin::Description d;
@@ -117,7 +117,7 @@ class FeaturePairs : public TrianglePairs<FeatureTests<Tests>> {
   }
 };
 
-// The peer of `Tests` that have, besides, `static plugin::Description describe()`.
+// The peer of a `Tests` that also has `static plugin::Description describe()`.
 template <class Tests>
 struct PeerOf : FeaturePairs<Tests> {
   explicit PeerOf(const plugin::Mesh& mesh) : FeaturePairs<Tests>(mesh, describe().separation) {}

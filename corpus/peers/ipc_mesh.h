@@ -1,6 +1,6 @@
-// What the peers of the IPC Toolkit share: its collision mesh, how many threads it uses, and their
-// contract: no contact at the start, and coordinates of usual sizes, because the toolkit's
-// tolerances are lengths. It tells no pairs.
+// The common part of the peers of the IPC Toolkit: its collision mesh, the number of its threads,
+// and the contract: no contact at the start, and coordinates of usual sizes, because the toolkit's
+// tolerances are lengths. The toolkit reports no pairs.
 //
 // Version: 1.6.0, commit b40e9c07 of its public sources. Version 1.5.0 has no planar filter
 // (ipc_filter.cpp).
@@ -28,7 +28,7 @@ class IpcMesh {
     static std::unique_ptr<tbb::global_control> limit;
     limit =
         std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, count);
-    ipc::logger().set_level(spdlog::level::err);  // a warning a pair would be read by nobody
+    ipc::logger().set_level(spdlog::level::err);  // nobody would read a warning a pair
   }
 
   static plugin::Description description() {
@@ -46,8 +46,9 @@ class IpcMesh {
  protected:
   explicit IpcMesh(const plugin::Mesh& mesh) : used_(used_of(mesh)), mesh_(made(mesh)) {}
 
-  // The rows of the vertices that triangles have. The toolkit takes the others for points that
-  // collide, and its own choice of vertices (build_from_full_mesh) rounds their positions.
+  // Returns the rows of the vertices that triangles have. The toolkit takes other vertices for
+  // points that collide, and its own choice of vertices (build_from_full_mesh) rounds their
+  // positions.
   Eigen::MatrixXd rows_of(plugin::Positions positions) const {
     return plugin::eigen(positions)(used_, Eigen::all);
   }

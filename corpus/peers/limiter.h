@@ -1,5 +1,5 @@
-// A peer that tells when a step touches first, as a limiter: one that says how far the step may be
-// gone. Each such peer is built twice: NAME with ASSAY_PEER_LIMIT 0, and NAME_limit with 1.
+// Makes a limiter, which says how far a step may be gone, of a peer that tells when the step first
+// touches. Each such peer is built twice: NAME with ASSAY_PEER_LIMIT 0, and NAME_limit with 1.
 #pragma once
 
 #include <type_traits>
@@ -8,9 +8,9 @@
 
 namespace assay::peers {
 
-// `Peer` is a detector that has, besides, `static constexpr double part_of_time`, the part of the
-// first time that a caller goes, and `static constexpr std::uint32_t limit_claims`. The caller
-// stops at x_t0 + share (x_t1 - x_t0), as the IPC Toolkit's Getting started writes it.
+// `Peer` is a detector that also has `static constexpr double part_of_time`, the part of the first
+// time that a caller goes, and `static constexpr std::uint32_t limit_claims`. The caller stops at
+// x_t0 + share (x_t1 - x_t0), as the IPC Toolkit's Getting started writes it.
 template <class Peer>
 class LimiterOf {
  public:

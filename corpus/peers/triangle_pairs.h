@@ -1,7 +1,7 @@
-// What the peers that test two triangles at a time have in common. Their test is put to every pair
-// of triangles whose swept boxes meet, and the step's first time is the least of the pairs'. One
-// that is asked for a distance is asked of triangles that share no vertex, and of boxes that may be
-// as far apart as that.
+// The common part of the peers that test two triangles at a time. They test every pair of triangles
+// whose swept boxes meet, and the step's first time is the least of the pairs' times. If a peer is
+// asked for a distance, it tests only triangles that share no vertex, and boxes count up to that
+// distance.
 #pragma once
 
 #include <algorithm>

@@ -2,10 +2,11 @@
 //
 // A row is x, y and z, each as numerator,denominator, which must equal a double, or as one decimal,
 // which becomes the double nearest to it. Columns are separated by commas, or, where a row has
-// none, by blanks. One column more is the query's truth (1: contact, 0: none). A further one is the
-// query's separation, a decimal: the truth is then whether the features come within it, and its
-// column may be empty. Blank lines and comments (#) are passed over. Rows of an edge-edge query:
-// ea0 ea1 eb0 eb1 at t0, the same at t1; of a vertex-face query: v f0 f1 f2 at t0, the same at t1.
+// none, by blanks. A further column is the query's truth (1: contact, 0: none). A column after that
+// is the query's separation, a decimal: the truth then says whether the features come within it,
+// and the column of the truth may be empty. Blank lines and comments (#) are passed over. Rows of
+// an edge-edge query: ea0 ea1 eb0 eb1 at t0, the same at t1; of a vertex-face query: v f0 f1 f2 at
+// t0, the same at t1.
 #pragma once
 
 #include <filesystem>
@@ -29,14 +30,14 @@ struct LabelledQuery {
 
 // The path tells whether a file holds vertex-face or edge-edge queries: it has a folder named
 // `vertex-face` or `edge-edge`, or a name that begins so or ends in vf or ee (3036vf.csv,
-// 3036ee.csv.gz); an underscore does for the hyphen. Otherwise the file is refused.
+// 3036ee.csv.gz); an underscore may stand for the hyphen. Otherwise the file is refused.
 // `truth_json` is a file with an array of booleans, one a query, which replace labels in the rows.
 Expected<std::vector<LabelledQuery>> read_queries(
     const std::filesystem::path& csv,
     const std::optional<std::filesystem::path>& truth_json = std::nullopt);
 
-// Truths of a query set: a JSON array of booleans.
-// Refuses what read_bytes and parse_json refuse, and what is not an array of booleans.
+// Reads the truths of a query set, a JSON array of booleans. Refuses what read_bytes and parse_json
+// refuse, and any other JSON.
 Expected<std::vector<bool>> read_truths(const std::filesystem::path& path);
 
 // Turns exact rationals into doubles.
@@ -50,7 +51,7 @@ struct RationalValue {
 
 // The double that equals numerator/denominator, two decimal integers of any sign and length.
 // not_a_number: one of them has letters, blanks inside, or more than 20,000 digits (no double
-// needs them). not_a_double: no double is equal, overflow included.
+// needs them). not_a_double: no double equals the fraction, overflow included.
 RationalValue exact_double(std::string_view numerator, std::string_view denominator);
 
 }  // namespace assay::corpus

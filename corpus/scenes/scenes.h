@@ -1,9 +1,8 @@
 // Kinematic scenes: deforming meshes of any size and number of frames. No physics.
 //
-// They are deterministic: the same name and options give the same doubles on every platform,
-// because sines and cosines are the room's own (see shapes.h) and all else is + - * / and
-// sqrt. Closed scenes are cycles with outward normals, and frame 0 of every scene is free of
-// contact.
+// Scenes are deterministic: the same name and options give the same doubles on every platform,
+// because sines and cosines are the room's own (see shapes.h) and all else is + - * / and sqrt.
+// Closed scenes are cycles with outward normals, and frame 0 of every scene is free of contact.
 #pragma once
 
 #include <optional>
@@ -22,8 +21,8 @@ struct SceneInfo {
   int default_frames;
   bool closed;      // of its own shape: every edge is matched
   bool takes_mesh;  // may be applied to a user's mesh
-  // With at least so many frames, what is said of contacts holds; with fewer, steps cut corners of
-  // the motion.
+  // With at least this many frames, the statements about contacts hold; with fewer, steps cut
+  // corners of the motion.
   int least_frames = 5;
 };
 
@@ -39,7 +38,7 @@ struct SceneOptions {
 };
 
 // Refuses an unknown name (the message lists the names), options that the scene does not take, and
-// what is too large.
+// too large a size.
 Expected<Sequence> make_scene(std::string_view name, const SceneOptions& options);
 
 }  // namespace assay::corpus

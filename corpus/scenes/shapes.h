@@ -1,6 +1,6 @@
-// Shapes of the scenes: at rest, and as meshes that move. Of a rest shape `size` is the wanted
-// number of triangles, and each takes the nearest number that it can have. Closed shapes are cycles
-// with outward normals. What shapes and motions compute with stands last: sine and cosine.
+// Shapes of the scenes: at rest, and as meshes that move. For a rest shape, `size` is the wanted
+// number of triangles; the shape takes the nearest number that it can have. Closed shapes are
+// cycles with outward normals. Sine and cosine, which shapes and motions use, come last.
 #pragma once
 
 #include <algorithm>
@@ -58,7 +58,7 @@ std::int32_t add_sheet(Maker& maker, int columns, int rows, const Place& place) 
   return first;
 }
 
-// The cells of a cubic grid that has room for so many bodies.
+// The cells of a cubic grid that has room for a number of bodies.
 class CubicGrid {
  public:
   CubicGrid(int bodies, double pitch)
@@ -108,14 +108,14 @@ class MeshMaker {
 
 // Scenes that are a mesh for every s in [0,1], the scene's own time, or for every place of a tip.
 //
-// The first are of the kinds that fill a collision detector with work: many layers, many bodies, a
-// body wound about itself, many thin strips. At s = 0 nothing touches. How far anything moves, and
-// how thick and close it is, does not depend on `size`, which is the wanted number of triangles;
-// where a shape has a number of parts, a larger size has more of them. Fields for the scenes that
-// move the vertices of one mesh follow.
+// Scenes of the first kind fill a collision detector with work: many layers, many bodies, a body
+// wound about itself, many thin strips. At s = 0 nothing touches. How far anything moves, and how
+// thick and close it is, does not depend on `size`, which is the wanted number of triangles; where
+// a shape has a number of parts, a larger size has more of them. Fields for the scenes that move
+// the vertices of one mesh follow.
 
-// Square sheets one over the other, in the same folds, and nearer than they are moved: each slides
-// and bulges in its own way. 50 of them from 1,600 triangles on, else fewer.
+// Square sheets one over the other, in the same folds, and nearer to each other than they move:
+// each slides and bulges in its own way. 50 of them from 1,600 triangles on, else fewer.
 Mesh layered_cloth(int size, double s);
 
 // Spheres of 80 triangles and several radii on a cubic grid, which draws together while they turn.
@@ -123,7 +123,7 @@ Mesh layered_cloth(int size, double s);
 Mesh pile_of_bodies(int size, double s);
 
 // A closed tube along a trefoil knot. The knot is drawn together while the tube stays as thick as
-// it is. It is twelve times as many pieces long as around.
+// it is. The tube has twelve times as many pieces along its length as around it.
 Mesh tightening_knot(int size, double s);
 
 // Strips of 48 triangles that hang down side by side, all bent alike, and are combed: the columns
@@ -174,7 +174,7 @@ using Field = detector::Point (*)(const detector::Point& x, double s, const Exte
 // inward. A mesh that is positive from the centre stays so, between the frames too.
 detector::Point breathe(const detector::Point& x, double s, const Extent& extent);
 
-// Bends the long axis into an arc, at the end of 1.02 turns of a circle, so that a tube's ends
+// Bends the long axis into an arc. At the end the arc is 1.02 turns of a circle, so a tube's ends
 // meet.
 detector::Point bend(const detector::Point& x, double s, const Extent& extent);
 
