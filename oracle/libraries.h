@@ -10,9 +10,9 @@ namespace assay::oracle {
 // headers, the others are those of the libraries as loaded.
 std::string library_versions();
 
-// Registers what ends the program: from now on `end` is called when GMP finds no memory, in place
-// of GMP's abort. `end` must not return, and it must not throw because an exception cannot leave
-// GMP's code. REQUIRES that no exact number has been made yet.
+// Registers the function that ends the program: from now on `end` is called when GMP finds no
+// memory, in place of GMP's abort. `end` must not return, and it must not throw because an
+// exception cannot leave GMP's code. REQUIRES that no exact number has been made yet.
 void end_without_memory(void (*end)());
 
 }  // namespace assay::oracle

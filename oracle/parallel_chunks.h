@@ -15,10 +15,10 @@ namespace assay::oracle {
 class StopGate {
  public:
   explicit StopGate(detector::StopFunction stop);
-  // True once the stop function has said so. Asks it if it is time to ask again; cheap enough to
-  // be called for every query.
+  // Returns whether the stop function has asked for an end. Asks it if it is time to ask again;
+  // cheap enough to be called for every query.
   bool stopped();
-  // Whether the stop function has said so until now; does not ask it.
+  // Returns whether the stop function has asked for an end until now; does not ask it.
   bool was_stopped() const { return stopped_.load(std::memory_order_relaxed); }
 
  private:

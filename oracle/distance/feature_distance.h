@@ -1,4 +1,5 @@
-// When two moving features first come within a distance of each other, and how near they come.
+// Finds when two moving features first come within a distance of each other, and how near they
+// come.
 //
 // Guarantee: as in query/contact.h, the answer is that of exact arithmetic on the doubles given,
 // for every finite input, degenerate features and features at rest included. Within d means a
@@ -25,8 +26,8 @@ struct FirstNear {
   bool near = false;
   // The first time within d; set only when near is true and a time was wanted.
   detector::TimeEnclosure first;
-  // The rung that decided: axis, interval, or integers (Regions), which count as quadratic. The
-  // time of what interval found near is then computed in integers.
+  // The rung that decided: axis, interval, or integers (Regions), which count as quadratic. If
+  // interval found the features near, the time is then computed in integers.
   Rung rung = Rung::axis;
 };
 
@@ -34,16 +35,16 @@ struct FirstNear {
 FirstNear first_time_within(const detector::FourPoints& q, const Separation& d,
                             detector::Want want = detector::Want::first_time);
 
-// The least double d that the features come within during the step. The least distance is at most d
-// and greater than the double before d; it is 0 where d is 0. Infinity where no double is so large.
-// 1 ms; 25 ms where it is next to 0 but not 0.
+// Returns the least double d that the features come within during the step. So the least distance
+// is at most d and greater than the double before d; if d is 0, it is 0. Returns infinity if no
+// double is so large. 1 ms; 25 ms where it is next to 0 but not 0.
 double least_distance(const detector::FourPoints& q);
 
 // The nearest places of two features at one time, in plain doubles: a guess that nothing rests on.
 
 // Vertex-face: the second place is b0 + first (b1 - b0) + second (b2 - b0) of the face b.
-// Edge-edge: the places are a0 + first (a1 - a0) and b0 + second (b1 - b0). The shares are >= 0,
-// and at most 1; of a face also their sum.
+// Edge-edge: the places are a0 + first (a1 - a0) and b0 + second (b1 - b0). The shares are >= 0 and
+// at most 1; for a face their sum is at most 1, too.
 struct ClosestPlaces {
   double first = 0, second = 0;
   detector::Point apart{};  // from the second place to the first
@@ -52,15 +53,16 @@ struct ClosestPlaces {
 
 ClosestPlaces closest_places(const detector::FourPoints& q, double t);
 
-// When are two features near each other? A union over regions, one for each pair of closed faces of
-// the two: point and point, point and edge, point and face, edge and edge.
+// Two features are near each other if they are so in one of several regions. There is a region for
+// each pair of closed faces of the two: point and point, point and edge, point and face, edge and
+// edge.
 //
 // In each region the squared distance of the two faces' lines or planes is compared with d^2 by one
 // polynomial f of time, without a division. Conditions g >= 0 say that the feet of the
-// perpendicular lie in the faces. A strict condition says that the line or plane is one, for where
-// an edge or a normal N is zero, f is zero, too. The features are within d at t exactly when some
-// region has f <= 0 with its conditions at t: where the strict one fails, the distance is that of
-// lower faces, which are regions themselves.
+// perpendicular lie in the faces. A strict condition says that the line or plane is not degenerate,
+// because where an edge or a normal N is zero, f is zero, too. The features are within d at t
+// exactly when some region has f <= 0 with its conditions at t: where the strict condition fails,
+// the distance is that of lower faces, which have regions themselves.
 //
 // So the first time within d is the least over the regions of
 //   0, if f <= 0 with the conditions at t=0;
@@ -76,13 +78,14 @@ struct Region {
   IntegerPolynomial positive{{1}};              // the strict condition
 };
 
-// Makes the regions of one query, one by one. All polynomials are of integers in one unit, d too,
-// so d^2 is exact.
+// Makes the regions of one query, one by one. All polynomials have integers in one unit, and d is
+// in that unit too, so d^2 is exact.
 class Regions {
  public:
   Regions(const detector::FourPoints& q, const Separation& d);
 
-  // 3 points, 3 edges and the face, or 4 pairs of points, 4 of an end and an edge, and the edges.
+  // The regions are 3 points, 3 edges and the face; or 4 pairs of ends, 4 of an end and an edge,
+  // and 1 of the edges.
   int size() const { return first_group_ == 1 ? 7 : 9; }
   Region operator[](int i) const;
 

@@ -1,5 +1,5 @@
-// Which triangles of a mesh come within a distance of each other during a step, when, and how near
-// any two of them come.
+// Finds which triangles of a mesh come within a distance of each other during a step, when, and how
+// near any two of them come.
 //
 // It is built as the exact pair set (mesh/step.h) is: boxes, grown by the distance, find candidate
 // pairs of features; feature_distance.h judges them as they are found; and features within d count
@@ -24,17 +24,17 @@ struct DistanceOptions : JudgeOptions {
   // do not share.
   bool neighbours = false;
   WantedPair also_asked{};  // says of a pair whether it counts; empty: every pair does
-  // By vertex. If it is not empty, the distance asked for is not one for all: it is the exact sum
-  // of the offsets of the two features, whatever `d` is. REQUIRES finite ones of 0 or more, the
-  // same for all vertices of a triangle.
+  // An offset for each vertex. If not empty, the distance is not the same for all pairs: it is the
+  // exact sum of the offsets of the two features, whatever `d` is. REQUIRES finite offsets of 0 or
+  // more, the same for all vertices of a triangle.
   std::vector<double> offsets{};
 };
 
-// As of judge_step, with `within d` in place of `in contact`: collision says that a counted pair
-// comes within d, and feature_candidates are the feature pairs whose boxes do, of triangles that
-// may count by their bodies and their vertices. REQUIRES indices in range, finite positions, equal
-// row counts. Triangles with the same three vertices, which are neighbours, are within every d at
-// t=0. 3 us a candidate in the mean.
+// Judges a step like judge_step, with `within d` in place of `in contact`: collision says that a
+// counted pair comes within d, and feature_candidates are the feature pairs whose boxes come within
+// d, of triangles that may count by their bodies and their vertices. REQUIRES indices in range,
+// finite positions, equal row counts. Triangles with the same three vertices, which are neighbours,
+// are within every d at t=0. 3 us a candidate in the mean.
 StepJudgement judge_distance(const detector::SteppedMesh& motion,
                              const detector::TrianglesView& triangles, const Separation& d,
                              const DistanceOptions& options = {});
@@ -44,11 +44,11 @@ struct LeastDistance {
   // The least double that some counted pair comes within, as in feature_distance.h; infinity if
   // none.
   double distance = std::numeric_limits<double>::infinity();
-  // Of the pairs that come within it the first by their triangles, with the time and the features.
+  // The first, by triangles, of the pairs that come within `distance`, with its time and features.
   std::optional<detector::PairContact> where;
 };
 
-// Takes the options but for the offsets.
+// Finds the least distance of a step. Takes all options except the offsets.
 LeastDistance least_distance(const detector::SteppedMesh& motion,
                              const detector::TrianglesView& triangles,
                              const DistanceOptions& options = {});

@@ -58,7 +58,7 @@ class Instant {
 
 // Whether features at rest meet, decided by signs of integer determinants alone. The tests are as
 // complete as those of contact.h: they decide degenerate, coplanar, collinear and coinciding
-// features too. On degenerate ones they are faster, 1 to 5 us, because no time has to be found.
+// features too. On degenerate features they are faster, 1 to 5 us, because no time has to be found.
 
 IntegerPoint operator-(const IntegerPoint& a, const IntegerPoint& b);
 IntegerPoint cross(const IntegerPoint& a, const IntegerPoint& b);
@@ -89,18 +89,19 @@ std::vector<std::uint8_t> touched_at(const Instant& instant,
 // Says whether a pair of triangles, the lower index first, is to be looked at.
 using WantedPair = std::function<bool(std::int32_t, std::int32_t)>;
 
-// A pair of triangles that `counts` accepts and that is in contact at rest (detector/LAWS.md says
-// what that is), or holds a vertex and a face, or two edges, that share no vertex and are nearer to
-// each other than `distance`; nothing if there is none. The comparison is exact, of squared
-// distances in rationals. With distance 0 the question is whether there is a contact. REQUIRES
-// indices in range, finite positions, distance finite and not negative. 5 to 20 us for each pair of
-// features whose boxes are that near; stops at the first that it finds.
+// Returns a pair of triangles that `counts` accepts and that is near, or nothing if there is none.
+// A pair is near if it is in contact at rest (detector/LAWS.md defines that), or if it holds a
+// vertex and a face, or two edges, that share no vertex and are nearer to each other than
+// `distance`. The comparison is exact, of squared distances in rationals. With distance 0 the
+// question is whether there is a contact. REQUIRES indices in range, finite positions, distance
+// finite and not negative. 5 to 20 us for each pair of features whose boxes are that near; stops at
+// the first that it finds.
 std::optional<detector::TrianglePair> any_nearer_than(const detector::PositionsView& x,
                                                       const detector::TrianglesView& triangles,
                                                       double distance, const WantedPair& counts);
 
 // Whether two triangles at rest cross: no plane has one on each of its closed sides. Triangles that
-// meet and do not cross touch, also if they lie on each other in one plane. Exact, 10 to 30 us.
+// meet and do not cross touch, even if they lie on each other in one plane. Exact, 10 to 30 us.
 bool triangles_cross(const detector::PositionsView& x, const detector::TrianglesView& triangles,
                      const detector::TrianglePair& pair);
 

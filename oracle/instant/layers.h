@@ -53,8 +53,8 @@ class WindingField {
 
 // Each list has one element for each triangle of the mesh, unless its comment says otherwise.
 struct LayerState {
-  // The component of each triangle, then of each ghost. A component is what is connected through
-  // shared vertices, ghosts included. Components are numbered in the order of their lowest
+  // The component of each triangle, then of each ghost. A component is a set of triangles connected
+  // through shared vertices, ghosts included. Components are numbered in the order of their lowest
   // triangle.
   std::vector<std::int32_t> component;
   // 1: the triangle meets another triangle of its own component, or a ghost of that component.

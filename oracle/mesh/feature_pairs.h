@@ -81,8 +81,8 @@ class FeatureIndex {
   mutable std::unique_ptr<BoxTree> faces_, edges_;
 };
 
-// Takes the place of each of the two features in its list of the MeshFeatures; `worker` is as in
-// parallel_chunks.h.
+// Is called with the place of each of the two features in its list of the MeshFeatures; `worker` is
+// as in parallel_chunks.h.
 using VisitFeatures = std::function<void(std::size_t item, std::size_t other, int worker)>;
 
 struct Workers {
@@ -115,9 +115,9 @@ struct FeatureTests {
 };
 
 struct PairVisitor {
-  // Says whether a contact of these two triangles matters. Two features are tested only if it does
-  // for some pair of triangles that hold them. With several jobs both functions are called from
-  // several threads.
+  // Says whether a contact of these two triangles matters. Two features are tested only if a
+  // contact of some pair of triangles that hold them matters. With several jobs both functions are
+  // called from several threads.
   std::function<bool(std::int32_t of_a, std::int32_t of_b)> matters;
   // Called for each wanted pair in contact; often several times, because different features meet.
   std::function<void(std::int32_t of_a, std::int32_t of_b, int worker)> meet;

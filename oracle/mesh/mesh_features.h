@@ -47,7 +47,7 @@ inline bool share_vertex(const Edge& a, const Edge& b) {
   return a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1];
 }
 
-// What keeps a mesh from being a cycle, its unmatched edges; and the ghosts that close it.
+// The unmatched edges of a mesh, which keep it from being a cycle, and the ghosts that close it.
 //
 // A directed edge (u,v) that is used k times more than (v,u) is unmatched k times. Every vertex
 // has as many unmatched edges that enter it as leave it (the boundary of any set of triangles is a
@@ -72,8 +72,8 @@ detector::Triangles ghost_triangles(const std::vector<Loop>& loops, std::int32_t
 
 // True when the given fans close the mesh with one ghost for each unmatched edge: triangles and
 // ghosts together are a cycle, and each ghost holds one unmatched edge of the triangles, reversed,
-// and one apex that no triangle holds. Any split of the edges into fans is valid, so it is not
-// asked which walks the fans follow.
+// and one apex that no triangle holds. Any split of the edges into fans is valid, so the walks that
+// the fans follow are not checked.
 bool closes(const detector::TrianglesView& triangles, const detector::TrianglesView& ghosts);
 
 }  // namespace assay::oracle

@@ -1,5 +1,5 @@
-// Which pairs count (detector/mesh/counted_pairs.h says what that means), as the oracle decides it:
-// by its own code, in rational numbers.
+// Decides for the oracle which pairs count (detector/mesh/counted_pairs.h says what that means): by
+// code of its own, in rational numbers.
 #pragma once
 
 #include <optional>
@@ -14,8 +14,8 @@
 namespace assay::oracle {
 
 // Answers for features and faces of one mesh, faces by their numbers. Both references must outlive
-// it. Several threads may ask at the same time. It keeps nothing of what it was asked: 1 us, and 5
-// to 20 us for each two features whose places at rest are compared.
+// it. Several threads may ask at the same time. No answers are kept, so each costs 1 us, and 5 to
+// 20 us for each two features whose places at rest are compared.
 class PairRelation {
  public:
   // REQUIRES a relation without errors (detector/mesh/mesh_checks.h).
@@ -25,9 +25,10 @@ class PairRelation {
   bool is_of_features() const { return counted_.level == detector::CountedLevel::features; }
   // Whether the bodies of two vertices meet. This is cheap, and needs no triangle that holds them.
   bool bodies_meet(std::int32_t u, std::int32_t v) const;
-  // Whether a pair of faces counts; of features, whether some feature pair of theirs does.
+  // Returns whether a pair of faces counts; in a relation of features, whether some feature pair of
+  // the two counts.
   bool counts_faces(std::int32_t a, std::int32_t b) const;
-  // REQUIRES a relation of features, and two that share no vertex.
+  // REQUIRES a relation of features, and two features that share no vertex.
   bool counts_vertex_face(std::int32_t vertex, std::size_t face) const;
   bool counts_edges(const Edge& a, const Edge& b) const;
 

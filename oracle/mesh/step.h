@@ -24,15 +24,15 @@ struct JudgeOptions {
   int jobs = 1;                 // threads; the result does not depend on it
   detector::StopFunction stop;  // asked from one thread at a time
   AskedFeatures features = AskedFeatures::all;
-  // Which pairs count; null: all do. The judgement speaks of what counts alone. REQUIRES a relation
-  // without errors (detector/mesh/mesh_checks.h) that outlives the call.
+  // Which pairs count; null: all do. The judgement speaks of counted pairs alone. REQUIRES a
+  // relation without errors (detector/mesh/mesh_checks.h) that outlives the call.
   const detector::CountedPairs* counted = nullptr;
-  // Which of these asked_pairs tells apart, beside `features`; null: all. The same is required.
+  // Which of the counted pairs asked_pairs holds, beside `features`; null: all. REQUIRES the same.
   const detector::CountedPairs* tested = nullptr;
 };
 
 struct StepJudgement {
-  // free or collision; undecided when the judgement was stopped, and then `pairs` holds what was
+  // free or collision; undecided when the judgement was stopped, and then `pairs` holds the pairs
   // found until then.
   detector::Answer answer = detector::Answer::undecided;
   bool complete = false;                     // false: the judgement was stopped
@@ -43,8 +43,9 @@ struct StepJudgement {
   // edges that pierce a face at t=0 and triangles with the same three vertices do not count here.
   // Empty if JudgeOptions names neither.
   std::vector<detector::PairContact> asked_pairs;
-  // Not by judge_step. Pairs that a detector with a slack may report, ascending, each with the time
-  // from which it may: a question about distance may be asked a second time, with a greater one.
+  // Not set by judge_step. The pairs that a detector with a slack may report, ascending, each with
+  // the time from which it may. They answer the same question about distance with a greater
+  // distance.
   std::optional<std::vector<detector::PairContact>> within_slack;
   // Feature pairs (VF, EE) whose boxes meet, of bodies that meet.
   std::uint64_t feature_candidates = 0;
@@ -59,7 +60,8 @@ StepJudgement judge_step(const detector::SteppedMesh& motion,
 // Pairs of triangles, each with the first of its times that were found.
 //
 // Keeps one contact for each pair of triangles: the least by time, then feature kind, then feature
-// vertices. That is a total order, so what is kept does not depend on the order of add().
+// vertices. That is a total order, so the contact that is kept does not depend on the order of
+// add().
 class PairStore {
  public:
   // REQUIRES a != b. Their order does not matter.
@@ -74,17 +76,17 @@ class PairStore {
   void keep_least();
 
   std::vector<detector::PairContact> contacts_;
-  std::size_t tidy_at_ = 1 << 16;  // when so many are held, only the least of each pair stay
+  std::size_t tidy_at_ = 1 << 16;  // when it holds so many, only the least of each pair stay
 };
 
-// What one thread has found. Candidates are judged as they are met and never stored.
+// The findings of one thread. Candidates are judged as they are met and never stored.
 struct FoundPairs {
   PairStore pairs, asked_pairs;
   RungCounts rungs;
   std::uint64_t candidates = 0;
 };
 
-// Puts together what all threads have found. REQUIRES one thread or more. Relations of triangles
+// Puts together the findings of all threads. REQUIRES one thread or more. Relations of triangles
 // are asked here, once for each pair.
 StepJudgement judgement_of(std::vector<FoundPairs>& found,
                            const std::optional<PairRelation>& counted,

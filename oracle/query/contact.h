@@ -51,7 +51,7 @@ std::optional<detector::TimeEnclosure> first_time_by_kernel(const detector::Four
 bool segment_pierces_triangle(const detector::Point& e0, const detector::Point& e1,
                               const std::array<detector::Point, 3>& face);
 
-// What is special about a contact: the ways in which a careless test misses one. A contact has the
+// The shape of a contact: a special property for which a careless test misses it. A contact has the
 // first of these shapes that holds. F is the cubic whose zeros are the times at which the four
 // points lie in a plane (contact_events.h).
 enum class ContactShape : std::uint8_t {

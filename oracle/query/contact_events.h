@@ -1,5 +1,5 @@
-// The polynomials of a query, when a contact can begin, and whether it does: what all exact rungs
-// share.
+// The common part of all exact rungs: the polynomials of a query, the times at which a contact can
+// begin, and whether one does.
 //
 // Notation of this room: x_0..x_3 are the four moving points of a query, S is the first group of
 // them and S' the second (vertex-face {0}|{1,2,3}, edge-edge {0,1}|{2,3}), and u_j = x_j - x_0 for
@@ -51,7 +51,7 @@ class ContactPolynomials {
   std::array<std::optional<std::array<IntegerPolynomial, 4>>, 3> sides_;
 };
 
-// What an exact rung answers.
+// The answer of an exact rung.
 struct ExactAnswer {
   bool contact = false;
   detector::TimeEnclosure first;  // set when there is a contact and a time was wanted
@@ -61,9 +61,9 @@ struct ExactAnswer {
 // identically zero.
 // - These times are the zeros of F, if F is not identically zero.
 // - Else t=0 and the zeros of the L of an axis whose L are not all identically zero.
-// - If all L are, t=0 and the zeros of the D of an axis whose D are not all; else t=0 alone.
-// Between these times nothing changes, and the set of contact times is closed, so the first of
-// them with a contact is the first time of all.
+// - If all L are, t=0 and the zeros of the D of an axis whose D are not all identically zero; if
+// there is no such axis, t=0 alone. Between these times nothing changes, and the set of contact
+// times is closed, so the first of them with a contact is the first time of all.
 std::vector<IntegerPolynomial> event_polynomials(ContactPolynomials& polynomials);
 
 // Whether there is a contact at the i-th time. REQUIRES that F is zero at that time.

@@ -1,5 +1,5 @@
-// Polynomials in time with integer coefficients of any size, their divisors, and how a query's
-// doubles become such.
+// Polynomials in time with integer coefficients of any size, their divisors, and the conversion of
+// a query's doubles into integers.
 #pragma once
 
 #include <gmpxx.h>
@@ -42,8 +42,9 @@ int sign_at(const IntegerPolynomial& p, double t);
 // are p(0) and p(1). Empty for the zero polynomial.
 std::vector<Integer> bernstein_over_unit(const IntegerPolynomial& p);
 
-// How often the sign changes in a sequence, zeros left out. Of Bernstein coefficients (Descartes'
-// rule): 0 says that there is no zero in the open interval, 1 that there is exactly one.
+// Returns how often the sign changes in a sequence, zeros left out. For Bernstein coefficients
+// (Descartes' rule), 0 says that there is no zero in the open interval, 1 that there is exactly
+// one.
 int sign_changes(const std::vector<Integer>& sequence);
 
 // True: p has no zero in [0,1], by Descartes' rule in Bernstein form. False: nothing is known.
@@ -54,8 +55,8 @@ bool surely_no_zero_in_unit(const IntegerPolynomial& p);
 // coefficients of 300 to 12,000 bits.
 IntegerPolynomial common_divisor(const IntegerPolynomial& p, const IntegerPolynomial& q);
 
-// p divided by a divisor of it, such as a greatest one above. REQUIRES that the coefficients of the
-// divisor have no common divisor.
+// Returns p divided by a divisor of p, such as a common_divisor. REQUIRES that the coefficients of
+// the divisor have no common divisor.
 IntegerPolynomial quotient(const IntegerPolynomial& p, const IntegerPolynomial& divisor);
 
 // p(lo + (hi - lo) x) as a polynomial of x, up to a positive factor. REQUIRES lo and hi in [0,1];

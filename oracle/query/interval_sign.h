@@ -118,16 +118,16 @@ Bernstein<Number, 2> dot(const LinearVector<Number>& u, const LinearVector<Numbe
 // Intervals of doubles that hold exact results, without another rounding mode.
 //
 // A result r, rounded to nearest, differs from the exact one by at most 2^-53 |r|, and by half of
-// the least double where it is denormal. It is widened by `slack(r)` = 2^-52 |r| plus the least
-// double. That is more than twice as much, so what is lost when the widening itself is rounded, at
-// most half a unit in the last place of r or of its neighbour, is made up for. REQUIRES rounding to
-// nearest, denormals, and results below the greatest double.
+// the least double where it is denormal. The result is widened by `slack(r)` = 2^-52 |r| plus the
+// least double. That is more than twice as much, so what is lost when the widening itself is
+// rounded, at most half a unit in the last place of r or of its neighbour, is made up for. REQUIRES
+// rounding to nearest, denormals, and results below the greatest double.
 struct Enclosure {
   double lo = 0, hi = 0;
 
   Enclosure() = default;
   explicit Enclosure(double x) : lo(x), hi(x) {}
-  // What lies between two rounded results, with their errors.
+  // All numbers between two rounded results, with their errors.
   Enclosure(double least, double greatest)
       : lo(least - slack(least)), hi(greatest + slack(greatest)) {}
 

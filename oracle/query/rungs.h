@@ -1,5 +1,5 @@
 // The rungs of a query, from the cheapest on: each either is certain or passes the query on. Beside
-// them stands what the last one is compared with.
+// them stands the method that the last rung is compared with.
 #pragma once
 
 #include "oracle/query/contact_events.h"
@@ -16,8 +16,8 @@ namespace assay::oracle {
 bool separated_by_axis(const FourPoints& q);
 
 // The rung "interval" finds signs in interval arithmetic on pieces of the step, each piece
-// computed from the original coordinates. 1 to 2 us a query. It never guesses: what it cannot
-// prove is unknown.
+// computed from the original coordinates. 1 to 2 us a query. It never guesses: an answer that it
+// cannot prove is unknown.
 
 struct IntervalAnswer {
   detector::Decision decision = detector::Decision::open;
@@ -43,8 +43,8 @@ IntervalAnswer interval_answer(const FourPoints& q, detector::Want want);
 // (times/times.h), and these are signs of a few integers.
 ExactAnswer quadratic_answer(ContactPolynomials& polynomials, detector::Want want);
 
-// The answer of quadratic_answer by other means: CGAL's algebraic kernel. No rung, but what that
-// rung is compared with. 0.1 to 0.4 ms; if the exponents of the coordinates spread over all
+// Finds the answer of quadratic_answer by other means: CGAL's algebraic kernel. It is no rung; the
+// last rung is compared with it. 0.1 to 0.4 ms; if the exponents of the coordinates spread over all
 // doubles, 7 ms on average and up to 0.1 s.
 
 // Tests the contact condition at each time at which a contact can begin (contact_events.h). It

@@ -22,13 +22,14 @@ struct RefereeOptions {
   // The step is halved this often at most, 0 to 61. 17 halvings confirm every no of random
   // queries; neighbours of a touch need about the number of bits in which they differ from it.
   int depth = 60;
-  // At most so many pieces of the step are looked at.
+  // At most this many pieces of the step are looked at.
   std::uint64_t max_boxes = 1000;
   // The question is about [0,until] instead of the whole step: above 0, at most 1.
   double until = 1;
 };
 
-// A greater depth may decide what was open; it never turns a no into a yes or a yes into a no.
+// A greater depth may decide a query that was open; it never turns a no into a yes or a yes into a
+// no.
 detector::Decision referee(const detector::VertexFace& query, const RefereeOptions& options = {});
 detector::Decision referee(const detector::EdgeEdge& query, const RefereeOptions& options = {});
 detector::Decision referee(const detector::FourPoints& query, const RefereeOptions& options = {});

@@ -1,4 +1,4 @@
-// Which triangles of a mesh its moving ghosts touch (L11, detector/LAWS.md).
+// Finds which triangles of a mesh its moving ghosts touch (L11, detector/LAWS.md).
 #pragma once
 
 #include <vector>
@@ -21,8 +21,8 @@ struct GhostSweepOptions {
 //
 // In the numbering of the ghosts the vertices of the mesh come first: apex k is motion.size() + k.
 // It moves linearly from apexes_t0.row(k) at t=0 to apexes_t1.row(k) at t=1. REQUIRES indices in
-// range, finite positions. Features of which nothing moves are judged by integers. Each other pair
-// of features whose swept boxes meet costs what contact.h says, until the triangle is known to be
+// range, finite positions. Features that do not move are judged by integers. Each other pair of
+// features whose swept boxes meet costs what contact.h says, until the triangle is known to be
 // touched.
 std::vector<std::uint8_t> touched_by_ghosts(const detector::SteppedMesh& motion,
                                             const detector::TrianglesView& triangles,

@@ -72,8 +72,8 @@ struct PairSplit {
 
 PairSplit split(const std::vector<detector::PairContact>& pairs, const Candidates& candidates);
 
-// What L3 promises: some pair of `pairs` with the least time is in `candidates`. True if there are
-// no pairs.
+// Returns whether L3 holds: some pair of `pairs` with the least time is in `candidates`. True if
+// there are no pairs.
 bool holds_a_first_contact(const std::vector<detector::PairContact>& pairs,
                            const Candidates& candidates);
 

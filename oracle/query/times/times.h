@@ -1,5 +1,5 @@
-// Times of the closed step as exact numbers, in each of the ways in which they are held, and the
-// doubles between which they are.
+// Times of the closed step as exact numbers, in each of their representations, and the doubles that
+// enclose them.
 #pragma once
 
 #include <algorithm>
@@ -83,8 +83,8 @@ detector::TimeEnclosure simple_zero_time(const IntegerPolynomial& f, double s, d
 // Times whose signs are closed formulas: a zero of a polynomial of degree 1 or 2, as an exact
 // number, and the zeros of one cubic in the closed step, between those of its derivative.
 
-// Held is r = -c/b, or r = (-b -+ sqrt(b^2 - 4ac)) / 2a with a > 0, by its integers and by which of
-// the two zeros it is. No root is ever taken, and nothing is isolated or refined.
+// The time is r = -c/b, or r = (-b -+ sqrt(b^2 - 4ac)) / 2a with a > 0. It is held by its integers
+// and by which of the two zeros it is. No root is ever taken, and nothing is isolated or refined.
 class QuadraticTime {
  public:
   // Appends the distinct real zeros of p, ascending. REQUIRES degree 1 or 2.
