@@ -76,7 +76,7 @@ class HoleTree {
   std::vector<MovingBox> boxes_;
 };
 
-// A tree for each hole of a component, whose ghosts are given.
+// Returns a tree for each hole of a component, whose ghosts are given.
 std::vector<HoleTree> make_hole_trees(const Topology& all, std::span<const std::int32_t> ghosts,
                                       const FloatGrid& grid, const SteppedMesh& motion);
 

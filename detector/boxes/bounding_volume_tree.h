@@ -67,10 +67,10 @@ class WideTree {
   // The binary node of a child, and the child itself: a node of this tree, or a triangle.
   std::int32_t binary(std::size_t slot) const { return slots_[slot].binary; }
   std::int32_t child(std::size_t slot) const { return slots_[slot].child; }
-  // The binary node that holds the same triangles.
+  // Returns the binary node that holds the same triangles.
   std::int32_t binary_of(std::int32_t n) const { return binary_of_[at(n)]; }
 
-  // The boxes of the last refit.
+  // Returns the boxes of the last refit.
   BoxRows children(std::int32_t n) const {
     const Node& node = nodes_[at(n)];
     return {boxes_.get() + rows() * node.first_slot, node.count, end_};
@@ -117,14 +117,14 @@ class BoundingVolumeTree {
   bool is_leaf(std::int32_t node) const { return child_[at(node)] < 0; }
   std::int32_t triangle(std::int32_t leaf) const { return ~child_[at(leaf)]; }
   std::int32_t leaf_of(std::int32_t triangle) const { return leaf_[at(triangle)]; }
-  // The first child; the second is the next node.
+  // Returns the first child; the second is the next node.
   std::int32_t child(std::int32_t node) const { return child_[at(node)]; }
   std::int32_t parent(std::int32_t node) const { return parent_[at((node - 1) / 2)]; }
-  // The component of all triangles below the node, or mixed_components.
+  // Returns the component of all triangles below the node, or mixed_components.
   std::int32_t component(std::int32_t node) const {
     return component_.empty() ? 0 : component_[at(node)];
   }
-  // The node that holds all triangles of the component, and no others.
+  // Returns the node that holds all triangles of the component, and no others.
   std::int32_t root_of(std::int32_t component) const { return component_root_[at(component)]; }
 
   // Calls body(node) for each node: for children before their parents, otherwise in any order. The
@@ -150,7 +150,7 @@ class BoundingVolumeTree {
   const WideTree& wide() const { return wide_; }
 
   const FloatGrid& grid() const { return grid_; }
-  // The box over the step of the last refit. REQUIRES join_boxes() since then.
+  // Returns the box over the step of the last refit. REQUIRES join_boxes() since then.
   const MovingBox& box(std::int32_t node) const {
     assert(boxes_are_joined_);
     return boxes_[at(node)];

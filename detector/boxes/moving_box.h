@@ -180,7 +180,7 @@ class RoundedPositions {
     PacedStop pace(never_stops);
     assign(motion, pace);
   }
-  // False if `pace` was stopped; some points are then not those of this step.
+  // Returns false if `pace` was stopped; some points are then not those of this step.
   bool assign(const SteppedMesh& motion, PacedStop& pace);
 
   const FloatGrid& grid() const { return grid_; }

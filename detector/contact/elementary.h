@@ -49,8 +49,8 @@ class ElementaryTest {
   // The same, but a contact later than `until` is of no interest: the answer to it may be no.
   // REQUIRES until in [0,1], and a test whose times are unique enclosures.
   virtual ContactResult test_until(const FourPoints& query, Want want, double until) const;
-  // Whether the open segment strictly pierces the open triangle at one instant. In this way the
-  // detector finds two triangles that met before the step began.
+  // Returns whether the open segment strictly pierces the open triangle at one instant. In this way
+  // the detector finds two triangles that met before the step began.
   virtual bool pierces(const Point& e0, const Point& e1, const std::array<Point, 3>& face) const {
     return segment_pierces_triangle(e0, e1, face);
   }
@@ -61,7 +61,7 @@ class ElementaryTest {
   }
 };
 
-// The stage for this arithmetic.
+// Returns the stage for this arithmetic.
 std::shared_ptr<const ElementaryTest> make_elementary_test(Arithmetic arithmetic);
 
 // Says whether the two features of an elementary query stay apart up to a time `until`. It serves

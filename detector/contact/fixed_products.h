@@ -55,8 +55,8 @@ class QueryIntegers {
   // Every integer is below 2^bits() in size.
   int bits() const { return bits_; }
 
-  // The coordinate of point i along axis k, at t=0 (end 0) or t=1 (end 1). REQUIRES bits() < 64
-  // limbs.
+  // Returns the coordinate of point i along axis k, at t=0 (end 0) or t=1 (end 1). REQUIRES bits()
+  // < 64 limbs.
   template <std::size_t limbs>
   FixedInteger<limbs> at(std::size_t i, std::size_t end, std::size_t k) const {
     const Coordinate& c = coordinates_[i][end][k];
@@ -81,7 +81,7 @@ class QueryIntegers {
     bool negative;
   };
 
-  // A finite double as its sign and mantissa times 2^exponent.
+  // Returns a finite double as its sign and mantissa times 2^exponent.
   static Coordinate split(double value) {
     const auto pattern = std::bit_cast<std::uint64_t>(value);
     constexpr unsigned fraction_bits = 52;
@@ -239,15 +239,15 @@ struct FixedPiece {
   std::array<std::optional<Dependency>, 3> dependencies;  // computed when asked for
   double lo, hi;                                          // dyadic, and so exact
 
-  // The dependency of this axis, computed now if it is not there yet. Only a piece that is the
-  // whole step can lack one, because halves() hands all of them on.
+  // Returns the dependency of this axis, computed now if it is not there yet. Only a piece that is
+  // the whole step can lack one, because halves() hands all of them on.
   const Dependency& dependency(std::size_t axis, const FixedProducts<W>& products) {
     auto& l = dependencies[axis];
     if (!l) l = products.dependency(axis);
     return *l;
   }
 
-  // The two halves. REQUIRES that all dependencies have been computed.
+  // Returns the two halves. REQUIRES that all dependencies have been computed.
   std::array<FixedPiece, 2> halves() const {
     std::array<FixedPiece, 2> out;
     auto& [left, right] = out;
@@ -267,7 +267,7 @@ struct FixedPiece {
   }
 };
 
-// The coefficients b0, b1, b2, b3, times 3, of the quadratic q0, q1, q2 written as a cubic.
+// Returns the coefficients b0, b1, b2, b3, times 3, of the quadratic q0, q1, q2 written as a cubic.
 template <std::size_t W>
 FixedCubic<FixedInteger<3 * W>> raised(const FixedQuadratic<FixedInteger<2 * W>>& quadratic) {
   using Triple = FixedInteger<3 * W>;

@@ -46,7 +46,7 @@ class FixedRoot {
                         sharpened(guess, lo, hi));
   }
 
-  // The exact sign of the cubic at a double in [0,1].
+  // Returns the exact sign of the cubic at a double in [0,1].
   int sign_at(double time) const {
     const Binary t = binary_of(time);
     return -t.exponent <= 64    ? scaled_value_at<3 * W + 3>(t).sign()
@@ -84,7 +84,7 @@ class FixedRoot {
     return next > lo && next < hi ? next : guess;
   }
 
-  // The sign at times so near 0 that their powers do not fit into integers of fixed width.
+  // Returns the sign at times so near 0 that their powers do not fit into integers of fixed width.
   int unbounded_sign_at(double time) const {
     Polynomial f;
     const Polynomial t = Polynomial::linear(0, 1);
@@ -96,7 +96,7 @@ class FixedRoot {
   FixedCubic<Coefficient> c_;
 };
 
-// The sign of a quadratic Q at the root p of a quadratic L in (0,1), both in Bernstein
+// Returns the sign of a quadratic Q at the root p of a quadratic L in (0,1), both in Bernstein
 // coefficients. REQUIRES that L has exactly one root in (0,1), and the sign l_before before that
 // root.
 //
@@ -211,7 +211,7 @@ class SignAtRoot {
   using Step2 = FixedInteger<7 * W + 1>;
   using Value = FixedInteger<16 * W + 3>;
 
-  // The sign of F at the root p of L.
+  // Returns the sign of F at the root p of L.
   int sign_at_root_of(const FixedQuadratic<L>& l, int l_before) const {
     const Quadratic near_l = {l[0].approximate(2 * bits_), l[1].approximate(2 * bits_),
                               l[2].approximate(2 * bits_)};
@@ -266,7 +266,7 @@ class SignAtRoot {
                 std::abs(terms[0]) + std::abs(terms[1]) + std::abs(terms[2]) + std::abs(terms[3]));
   }
 
-  // The sign of the remainder R if it surely has one sign on (0,1), else 0.
+  // Returns the sign of the remainder R if it surely has one sign on (0,1), else 0.
   int sure_remainder(const Quadratic& l) const {
     const Cubic& f = near_f_;
     const double a[] = {l[2] * l[2] * f[1], -l[2] * l[0] * f[3], -l[1] * l[2] * f[2],

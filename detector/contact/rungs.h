@@ -77,9 +77,9 @@ ContactResult plain_contact(const FourPoints& query, Want want);
 // for all finite inputs. 0.2 to 1 us for coordinates of similar magnitude.
 ContactResult exact_contact(const FourPoints& query, Want want = Want::first_time);
 
-// The time of a contact that the filter has bracketed. REQUIRES that this time is the only root of
-// the coplanarity cubic in (lo, hi), and that the cubic changes its sign there. `guess` is about
-// that time. 0.4 us for coordinates of similar magnitude.
+// Returns the time of a contact that the filter has bracketed. REQUIRES that this time is the only
+// root of the coplanarity cubic in (lo, hi), and that the cubic changes its sign there. `guess` is
+// about that time. 0.4 us for coordinates of similar magnitude.
 TimeEnclosure exact_bracketed_time(const FourPoints& query, double lo, double hi, double guess);
 
 // Returns the first contact time, if there is a contact, by integers without bound alone. The
@@ -88,7 +88,7 @@ TimeEnclosure exact_bracketed_time(const FourPoints& query, double lo, double hi
 std::optional<TimeEnclosure> general_first_contact(const FourPoints& query);
 TimeEnclosure general_bracketed_time(const FourPoints& query, double lo, double hi, double guess);
 
-// Whether the four points are coplanar at all times, which means that the coplanarity cubic
+// Returns whether the four points are coplanar at all times, which means that the coplanarity cubic
 // vanishes identically.
 bool coplanar_throughout(const FourPoints& query);
 
@@ -105,7 +105,7 @@ struct FixedResult {
 // 0.2 to 1 us for coordinates of similar magnitude.
 FixedResult fixed_contact(const FourPoints& query, Want want);
 
-// The only root of the coplanarity cubic in (lo, hi), with the preconditions of
+// Returns the only root of the coplanarity cubic in (lo, hi), with the preconditions of
 // exact_bracketed_time; nothing if exponents spread too far. 0.4 us.
 std::optional<TimeEnclosure> fixed_bracketed_time(const FourPoints& query, double lo, double hi,
                                                   double guess);

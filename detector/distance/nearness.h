@@ -18,7 +18,7 @@ namespace assay::detector {
 // 0.1 us for a candidate that stays apart or begins near; a first time after t=0 costs 30 us more.
 ContactResult test_near(const FourPoints& query, double d, Want want);
 
-// The stage of the detector.
+// Returns the stage of the detector.
 std::shared_ptr<const ElementaryTest> make_near_test(double d);
 
 // The rung of integers (geometry/near_regions.h). Returns the first time within d, if there is one.

@@ -104,7 +104,7 @@ class Ball {
     return product;
   }
 
-  // The sign of the number, or nothing if the bound leaves it open.
+  // Returns the sign of the number, or nothing if the bound leaves it open.
   std::optional<int> sign() const {
     if (middle_ > radius_) return 1;
     if (-middle_ > radius_) return -1;
@@ -134,9 +134,9 @@ class Ball {
     return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52);
   }
 
-  // The sum. REQUIRES that neither is 0 and that a has the greater exponent. The middle and the
-  // radius of b are each below 2 of b's units. If b's unit is less than 2^-200 of a's, b is below
-  // 4 2^-200 in a's units, and is added to the radius alone.
+  // Returns the sum. REQUIRES that neither is 0 and that a has the greater exponent. The middle and
+  // the radius of b are each below 2 of b's units. If b's unit is less than 2^-200 of a's, b is
+  // below 4 2^-200 in a's units, and is added to the radius alone.
   static Ball sum_of(const Ball& a, const Ball& b) {
     constexpr std::int64_t far = 200;
     const std::int64_t shift = a.exponent_ - b.exponent_;

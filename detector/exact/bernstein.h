@@ -168,21 +168,22 @@ void grow(std::array<T, 3>& magnitude, const MovingVectorOf<T>& v) {
   }
 }
 
-// Whether the error bounds hold for vectors with coordinates of these magnitudes.
+// Returns whether the error bounds hold for vectors with coordinates of these magnitudes.
 inline bool in_range(const Vector& magnitude) {
   return std::all_of(magnitude.begin(), magnitude.end(), [](double m) {
     return m == 0 || (m > least_magnitude && m < greatest_magnitude);
   });
 }
 
-// 1 if value > bound, -1 if value < -bound, else 0.
+// Returns 1 if value > bound, -1 if value < -bound, else 0.
 template <class T>
 int sign_beyond(T value, T bound) {
   return value > bound ? 1 : value < -bound ? -1 : 0;
 }
 
-// 1 or -1 if all coefficients are beyond the bound on that side, else 0. If the coefficients are
-// off by at most `bound`, 1 and -1 are the sign of the polynomial over the whole interval.
+// Returns 1 or -1 if all coefficients are beyond the bound on that side, else 0. If the
+// coefficients are off by at most `bound`, 1 and -1 are the sign of the polynomial over the whole
+// interval.
 template <class T, std::size_t n>
 int sure_sign(const std::array<T, n>& b, T bound) {
   // By values and not by places, which would take branches.

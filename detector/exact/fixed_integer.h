@@ -85,7 +85,8 @@ class FixedInteger {
     return out;
   }
 
-  // The value divided by 2^scale, off by some units in the last place. It serves for guesses.
+  // Returns the value divided by 2^scale, off by some units in the last place. It serves for
+  // guesses.
   double approximate(int scale) const {
     const FixedInteger size = negative() ? -*this : *this;
     std::size_t top = limbs - 1;

@@ -44,7 +44,7 @@ class Polynomial {
  public:
   Polynomial() = default;  // zero
   static Polynomial constant(const Integer& value);
-  // The polynomial value_t0 + t (value_t1 - value_t0).
+  // Returns the polynomial value_t0 + t (value_t1 - value_t0).
   static Polynomial linear(const Integer& value_t0, const Integer& value_t1);
 
   bool is_zero() const { return coefficients_.empty(); }
@@ -60,10 +60,10 @@ class Polynomial {
   Polynomial operator-() const;
 
   Polynomial derivative() const;
-  // A positive multiple of f(lo + s (hi - lo)) as a polynomial in s. REQUIRES lo < hi.
+  // Returns a positive multiple of f(lo + s (hi - lo)) as a polynomial in s. REQUIRES lo < hi.
   Polynomial over(const Dyadic& lo, const Dyadic& hi) const;
 
-  // The exact sign (-1, 0, 1) at a time. 0.1 us unless the terms cancel nearly wholly there
+  // Returns the exact sign (-1, 0, 1) at a time. 0.1 us unless the terms cancel nearly wholly there
   // (ball.h).
   int sign_at(const Dyadic& time) const;
   // The signs at t = 0 and t = 1. They need no Dyadic.
@@ -74,9 +74,9 @@ class Polynomial {
   void divide_exactly(const Integer& divisor);
   // Divides all coefficients by the greatest power of two that divides every one of them.
   void take_out_powers_of_two();
-  // The pseudo-remainder by `divisor`: the remainder of this polynomial times |leading coefficient
-  // of divisor|^(difference of degrees + 1). If the degree of this polynomial is lower than that
-  // of `divisor`, it is this polynomial itself. REQUIRES that `divisor` is not zero.
+  // Returns the pseudo-remainder by `divisor`: the remainder of this polynomial times |leading
+  // coefficient of divisor|^(difference of degrees + 1). If the degree of this polynomial is lower
+  // than that of `divisor`, it is this polynomial itself. REQUIRES that `divisor` is not zero.
   Polynomial remainder(const Polynomial& divisor) const;
   // This polynomial divided by `divisor`, up to a non-zero constant factor. REQUIRES that
   // `divisor` divides this polynomial up to a constant. The result's integers are longer than

@@ -26,8 +26,8 @@ class RealRoot {
   RealRoot(const Polynomial& f, const Dyadic& lo, const Dyadic& hi, int sign_after_lo,
            TimeEnclosure doubles);
 
-  // The exact sign of q at this root. If q has a degree above 2 and roots close to this one, all of
-  // these are told apart first: 50 us and more.
+  // Returns the exact sign of q at this root. If q has a degree above 2 and roots close to this
+  // one, all of these are told apart first: 50 us and more.
   int sign_of(const Polynomial& q) const;
   const TimeEnclosure& enclosure() const { return enclosure_; }
 
@@ -45,15 +45,16 @@ class RealRoot {
   TimeEnclosure enclosure_;
 };
 
-// The roots, ascending. REQUIRES that f is not zero. Cost: a few us for a cubic with 200-bit
-// coefficients.
+// Returns the roots, ascending. REQUIRES that f is not zero. Cost: a few us for a cubic with
+// 200-bit coefficients.
 std::vector<RealRoot> roots_in_unit_interval(const Polynomial& f);
 
-// Whether f has a root in [0,1]. This costs less than to find the roots.
+// Returns whether f has a root in [0,1]. This costs less than to find the roots.
 bool has_root_in_unit_interval(const Polynomial& f);
 
-// The enclosure of the root of f in (lo, hi). REQUIRES that f has one root there, that f(lo) f(hi)
-// < 0, and that lo and hi are in [0,1]. `guess` may be any value; a good one saves time.
+// Returns the enclosure of the root of f in (lo, hi). REQUIRES that f has one root there, that
+// f(lo) f(hi) < 0, and that lo and hi are in [0,1]. `guess` may be any value; a good one saves
+// time.
 TimeEnclosure enclose_single_root(const Polynomial& f, double lo, double hi, double guess);
 
 }  // namespace assay::detector

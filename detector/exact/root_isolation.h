@@ -25,9 +25,9 @@ inline std::uint64_t ordinal(double time) { return std::bit_cast<std::uint64_t>(
 inline double from_ordinal(std::uint64_t n) { return std::bit_cast<double>(n); }
 inline bool adjacent(double lo, double hi) { return ordinal(hi) == ordinal(lo) + 1; }
 
-// The enclosure of the one root of a function in the open interval (lo, hi). REQUIRES doubles lo
-// and hi in [0,1], and that the sign of the function is sign_lo (1 or -1) between lo and the root,
-// and the opposite between the root and hi. sign_at(t) is asked only for times t inside.
+// Returns the enclosure of the one root of a function in the open interval (lo, hi). REQUIRES
+// doubles lo and hi in [0,1], and that the sign of the function is sign_lo (1 or -1) between lo and
+// the root, and the opposite between the root and hi. sign_at(t) is asked only for times t inside.
 //
 // The search starts at the guess and goes towards the root in growing strides of doubles until it
 // has passed the root; then it halves. A guess outside (lo, hi) is ignored. If the guess is next
@@ -83,10 +83,10 @@ struct SignChanges {
   int first = 0;
 };
 
-// The changes over (lo,hi). REQUIRES 0 <= lo < hi <= 1. 0.5 us if balls can tell.
+// Returns the changes over (lo,hi). REQUIRES 0 <= lo < hi <= 1. 0.5 us if balls can tell.
 SignChanges sign_changes_over(const Polynomial& f, const Dyadic& lo, const Dyadic& hi);
 
-// The changes over (0,1).
+// Returns the changes over (0,1).
 SignChanges sign_changes_over_unit(const Polynomial& f);
 
 // Either a known time, or an open interval that holds exactly one root, a simple one.
@@ -100,7 +100,7 @@ struct IsolatedRoot {
 
 enum class Roots : std::uint8_t { all, any };
 
-// The roots, ascending; with Roots::any, one of them if there is one. REQUIRES that `f` is
+// Returns the roots, ascending; with Roots::any, one of them if there is one. REQUIRES that `f` is
 // square-free and has the sign changes over_unit over (0,1).
 std::vector<IsolatedRoot> isolate_roots(const Polynomial& f, SignChanges over_unit, Roots scope);
 

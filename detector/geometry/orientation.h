@@ -25,7 +25,7 @@ namespace assay::detector {
 template <class Bounds>
 inline constexpr typename Bounds::Number orientation_error = 48 * Bounds::unit;
 
-// The sign of det(b-a, c-a, d-a). With proved bounds 0 means that it is zero or not known.
+// Returns the sign of det(b-a, c-a, d-a). With proved bounds 0 means that it is zero or not known.
 template <class Bounds>
 int filtered_orientation(const Point& a, const Point& b, const Point& c, const Point& d) {
   using Number = typename Bounds::Number;
@@ -49,8 +49,8 @@ int filtered_orientation(const Point& a, const Point& b, const Point& c, const P
   return sign_beyond(det, orientation_error<Bounds> * (magnitude[0] * magnitude[1] * magnitude[2]));
 }
 
-// The sign of det(b-a, c-a, d-a): 1 if a, b, c, d are oriented like 0, e_x, e_y, e_z. Exact for
-// all finite inputs. 10 ns; 1 us if the determinant is near zero.
+// Returns the sign of det(b-a, c-a, d-a): 1 if a, b, c, d are oriented like 0, e_x, e_y, e_z. Exact
+// for all finite inputs. 10 ns; 1 us if the determinant is near zero.
 int orientation(const Point& a, const Point& b, const Point& c, const Point& d);
 
 // Error bound of a side in the projection along axis k. With p and q the other two axes, and M_p
@@ -58,7 +58,7 @@ int orientation(const Point& a, const Point& b, const Point& c, const Point& d);
 // (bernstein.h). side_error is this and one u more.
 inline constexpr double side_error = 9 * unit_roundoff;
 
-// The sign of (b-a) x (c-a) in the projection along `axis`, or 0 if it is not sure.
+// Returns the sign of (b-a) x (c-a) in the projection along `axis`, or 0 if it is not sure.
 inline int sure_side(const Point& a, const Point& b, const Point& c, std::size_t axis) {
   const std::size_t p = (axis + 1) % 3, q = (axis + 2) % 3;
   const double bp = b[p] - a[p], bq = b[q] - a[q], cp = c[p] - a[p], cq = c[q] - a[q];
@@ -70,12 +70,12 @@ inline int sure_side(const Point& a, const Point& b, const Point& c, std::size_t
   return sign_beyond(bp * cq - bq * cp, side_error * mp * mq);
 }
 
-// Whether the open segment e0e1 strictly pierces the open triangle, both at rest: its ends are
-// strictly on opposite sides of the triangle's plane, and its line passes strictly inside the
+// Returns whether the open segment e0e1 strictly pierces the open triangle, both at rest: its ends
+// are strictly on opposite sides of the triangle's plane, and its line passes strictly inside the
 // three edges. Exact for all finite inputs.
 bool segment_pierces_triangle(const Point& e0, const Point& e1, const std::array<Point, 3>& face);
 
-// Whether a segment strictly pierces a triangle at an instant, in doubles or floats alone.
+// Returns whether a segment strictly pierces a triangle at an instant, in doubles or floats alone.
 //
 // With proved bounds: `no` and `yes` are never wrong, and `open` means that doubles cannot tell.
 // 40 ns, no allocation.

@@ -72,7 +72,7 @@ struct CountedPairs {
   std::vector<VertexAndFace> vertex_faces;
   std::vector<TwoEdges> edge_pairs;
 
-  // Whether nothing is left out.
+  // Returns whether nothing is left out.
   bool count_all() const {
     return apart.empty() && rings == 0 && rest_distance == 0 && triangle_pairs.empty() &&
            vertex_faces.empty() && edge_pairs.empty();

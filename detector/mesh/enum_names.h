@@ -51,7 +51,7 @@ inline constexpr Enum last_value = [] {
   return last;
 }();
 
-// The value with this number; nothing if there is none.
+// Returns the value with this number; nothing if there is none.
 template <Listed Enum>
 constexpr std::optional<Enum> from_number(std::int64_t number) {
   const bool is_value = static_cast<std::int64_t>(first_value<Enum>) <= number &&
@@ -59,7 +59,7 @@ constexpr std::optional<Enum> from_number(std::int64_t number) {
   return is_value ? std::optional(static_cast<Enum>(number)) : std::nullopt;
 }
 
-// The name of a value; "unknown" for a number that is no value.
+// Returns the name of a value; "unknown" for a number that is no value.
 template <Listed Enum>
 constexpr const char* name_of(Enum value) {
   for (const auto& row : names_of(value)) {
@@ -68,7 +68,7 @@ constexpr const char* name_of(Enum value) {
   return "unknown";
 }
 
-// The value with this name; nothing if there is none.
+// Returns the value with this name; nothing if there is none.
 template <Listed Enum>
 constexpr std::optional<Enum> from_name(std::string_view name) {
   for (const auto& row : names_of(Enum{})) {
@@ -77,7 +77,7 @@ constexpr std::optional<Enum> from_name(std::string_view name) {
   return std::nullopt;
 }
 
-// All names, as a user reads them: "verified, clean, unknown".
+// Returns all names, as a user reads them: "verified, clean, unknown".
 template <Listed Enum>
 std::string all_names() {
   std::string text;

@@ -52,11 +52,11 @@ class PacedStop {
     spent_ += std::exchange(done_, 0);
     return stopped_ = stopped_ || static_cast<double>(spent_) > most_ || (stop_ && stop_());
   }
-  // The work that was done. REQUIRES that no workers shared it.
+  // Returns the work that was done. REQUIRES that no workers shared it.
   double spent() const { return static_cast<double>(spent_ + done_); }
   bool stopped() const { return stopped_; }
 
-  // A pace with the same workers that asks nobody and is never stopped.
+  // Returns a pace with the same workers that asks nobody and is never stopped.
   PacedStop unasked() const {
     PacedStop pace(never_stops, usual_interval);
     pace.workers_ = workers_;

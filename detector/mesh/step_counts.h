@@ -95,9 +95,9 @@ struct GhostCounts {
   // The triangles of those pairs that the sweep of the step itself met, each counted once.
   std::uint64_t near_triangles = 0;
 
-  // The work in units of a box test (5 ns). For one pair up to 15 feature pairs are tested by axis
-  // order, and up to 6 orientations are computed. An elementary test of a feature pair that axis
-  // order left open takes 0.1 to 2 us.
+  // Returns the work in units of a box test (5 ns). For one pair up to 15 feature pairs are tested
+  // by axis order, and up to 6 orientations are computed. An elementary test of a feature pair that
+  // axis order left open takes 0.1 to 2 us.
   std::uint64_t work() const { return box_tests + 32 * pairs + 64 * elementary_tests; }
 
   GhostCounts& operator+=(const GhostCounts& other) {

@@ -51,7 +51,7 @@ struct SteppedMesh {
   Point start(std::int32_t vertex) const { return point_of(vertices_t0, vertex); }
   Point end(std::int32_t vertex) const { return point_of(vertices_t1, vertex); }
   MovingPoint path(std::int32_t vertex) const { return {start(vertex), end(vertex)}; }
-  // Whether both ends are one array: nothing moves.
+  // Returns whether both ends are one array: nothing moves.
   bool is_at_rest() const {
     return vertices_t0.data() == vertices_t1.data() && vertices_t0.rows() == vertices_t1.rows() &&
            vertices_t0.outerStride() == vertices_t1.outerStride();
@@ -60,7 +60,7 @@ struct SteppedMesh {
   SteppedMesh at_start() const { return {vertices_t0, vertices_t0}; }
 };
 
-// The place in an array of the vertex, triangle or component with this number.
+// Returns the place in an array of the vertex, triangle or component with this number.
 constexpr std::size_t at(std::int32_t number) { return static_cast<std::size_t>(number); }
 
 }  // namespace assay::detector

@@ -53,7 +53,7 @@ class Workers {
   // arena, and two lanes or more.
   Workers(std::unique_ptr<ThreadArena> arena, std::size_t lanes);
 
-  // How many pieces may be worked on at once, which is also the number of lanes.
+  // Returns how many pieces may be worked on at once, which is also the number of lanes.
   std::size_t count() const { return count_; }
   bool is_alone() const { return count_ == 1; }
 

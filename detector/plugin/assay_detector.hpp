@@ -28,9 +28,8 @@
 // - Refused, thrown by the constructor, means that the detector does not take this mesh.
 // - BeyondCapacity, thrown by the constructor, evaluate(), candidates() or limit(), means that this
 //   is more than the detector holds (ASSAY_BEYOND_CAPACITY).
-// - Any other exception is a failure, reported with its text. If the constructor throws it, the
-// mesh
-//   has no handle. If evaluate() throws it, the answer of the step is ASSAY_ERROR. If another
+// - Any other exception is a failure, reported with its text. If the constructor throws it, there
+//   is no handle. If evaluate() throws it, the answer of the step is ASSAY_ERROR. If another
 //   function throws it, the call returns ASSAY_FAILED and error_text() has the text.
 //
 // Results are kept until the next call of the same function of the same handle. An evaluate()

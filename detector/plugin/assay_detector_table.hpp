@@ -63,7 +63,8 @@ std::int32_t guarded(Line& line, const Work& work) noexcept {
   return ASSAY_FAILED;
 }
 
-// The text of the call that failed last in this thread, whichever function of the table it was.
+// Returns the text of the call that failed last in this thread, whichever function of the table it
+// was.
 template <class D>
 Line& last_line() {
   static thread_local Line line;
@@ -232,8 +233,8 @@ std::int32_t limit(assay_handle* handle, const double* x_t0, const double* x_t1,
   });
 }
 
-// The table of a class. A member whose name is that of an optional function has to be callable as
-// such: else the function would be left out in silence.
+// Returns the table of a class. A member whose name is that of an optional function has to be
+// callable as such: else the function would be left out in silence.
 template <class D>
 const assay_detector_api* table() {
   static_assert(has_evaluate<D>::value || !names_evaluate<D>::value,

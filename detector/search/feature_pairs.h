@@ -79,12 +79,12 @@ class Representatives {
   RepresentedFeatures of(std::int32_t triangle, const Topology& mesh) const {
     return features_.empty() ? lowest_of(triangle, mesh) : features_[at(triangle)];
   }
-  // The types of all triangles that hold the feature.
+  // Returns the types of all triangles that hold the feature.
   TypeSet types_of_vertex(std::int32_t vertex) const { return vertex_types_[at(vertex)]; }
   TypeSet types_of_edge(std::int32_t edge) const { return edge_types_[at(edge)]; }
 
  private:
-  // The features whose lowest triangle is this one.
+  // Returns the features whose lowest triangle is this one.
   static RepresentedFeatures lowest_of(std::int32_t triangle, const Topology& mesh);
   bool choose_all(const Topology& mesh, const std::vector<TriangleType>& types, PacedStop* pace);
   bool choose_between_types(const Topology& mesh, const std::vector<TriangleType>& types,
@@ -270,7 +270,7 @@ class FeaturePairs {
       sheets_.emplace(mesh_, tree, motion.vertices_t0, pace);
     if (!sheets_ || !sheets_->hold_most()) fans_.prove(mesh_, points_, pace);
   }
-  // Whether sheets leave so few pairs that each may look up what it stands for.
+  // Returns whether sheets leave so few pairs that each may look up what it stands for.
   bool find_few() const { return sheets_ && sheets_->hold_most() && !asks_by_types_; }
   bool are_proved_apart(std::int32_t a, std::int32_t b) const {
     return fans_.are_apart(a, b) || (sheets_ && sheets_->are_apart(a, b));

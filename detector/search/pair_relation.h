@@ -31,7 +31,7 @@ class PairRelation {
 
   bool count_all() const { return counted_ == nullptr; }
   bool is_of_features() const { return counted_ && counted_->level == CountedLevel::features; }
-  // Whether pairs that do not count may be among those that a search finds.
+  // Returns whether pairs that do not count may be among those that a search finds.
   bool sorts_contacts() const { return sorts_contacts_; }
 
   // Returns whether the bodies of c and d let pairs of these components count; c may be d. 20 ns.

@@ -40,9 +40,9 @@ class PairTable {
   PairTable& remove(std::uint8_t a, std::uint8_t b);
   static PairTable everything();
 
-  // Whether some flag of `a` is asked for together with some flag of `b`.
+  // Returns whether some flag of `a` is asked for together with some flag of `b`.
   bool asks(std::uint8_t a, std::uint8_t b) const { return (partners_[a] & b) != 0; }
-  // The flags that some flag of `a` asks for.
+  // Returns the flags that some flag of `a` asks for.
   std::uint8_t partners(std::uint8_t a) const { return partners_[a]; }
   // Returns the table that asks for every pair that one of the two tables asks for.
   PairTable joined_with(const PairTable& other) const;
@@ -67,8 +67,8 @@ class PairRule {
   // For a round of the closure: every triangle that has joined H, against its whole component
   // (U,H). No pair of two components is asked for, because the first search looked at all of them.
   virtual PairTables closure() const;
-  // Whether triangle `t` of this contact, which is within one component, joins H. In L7 both of
-  // its triangles do.
+  // Returns whether triangle `t` of this contact, which is within one component, joins H. In L7
+  // both of its triangles do.
   virtual bool joins_closure(const TrianglePair& contact, std::int32_t t) const;
 };
 
@@ -108,7 +108,7 @@ enum class TriangleType : std::uint8_t {
 };
 inline constexpr std::size_t triangle_types = 9;
 
-// Whether all triangles have one type.
+// Returns whether all triangles have one type.
 inline bool are_of_one_type(std::span<const TriangleType> types) {
   return std::adjacent_find(types.begin(), types.end(), std::not_equal_to<>()) == types.end();
 }

@@ -31,8 +31,8 @@ struct Hunt {
         either(within.joined_with(across)),
         sink(taker) {}
 
-  // The table for pairs of these two components, neither of them mixed_components; an empty one if
-  // they do not meet.
+  // Returns the table for pairs of these two components, neither of them mixed_components; an empty
+  // one if they do not meet.
   const PairTable& table_of(std::int32_t c, std::int32_t d) const {
     if (!input.components_meet(c, d)) return nothing;
     return c == d ? within : across;

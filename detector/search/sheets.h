@@ -47,13 +47,13 @@ class Sheets {
   // bytes a triangle.
   Sheets(const Topology& mesh, const WideTree& tree, const PositionsView& x, PacedStop* pace);
 
-  // Whether nearly all triangles lie in some sheet.
+  // Returns whether nearly all triangles lie in some sheet.
   bool hold_most() const { return hold_most_; }
-  // Whether two triangles lie in one sheet.
+  // Returns whether two triangles lie in one sheet.
   bool are_apart(std::int32_t a, std::int32_t b) const {
     return common(of_triangle_[at(a)], of_triangle_[at(b)]) >= sheets_bit;
   }
-  // Whether all triangles below two nodes of the tree lie in one sheet.
+  // Returns whether all triangles below two nodes of the tree lie in one sheet.
   bool nodes_are_apart(std::int32_t a, std::int32_t b) const {
     return common(of_node_[at(a)], of_node_[at(b)]) >= sheets_bit;
   }

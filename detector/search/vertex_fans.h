@@ -52,7 +52,7 @@ class VertexFans {
   // stopped, no fan is proved. Memory: 16 bytes a triangle.
   void prove(const Topology& mesh, const FeaturePoints& points, PacedStop* pace);
 
-  // Whether two triangles have a vertex in common whose fan is proved apart.
+  // Returns whether two triangles have a vertex in common whose fan is proved apart.
   bool are_apart(std::int32_t a, std::int32_t b) const {
     if (!proved_) return false;
     const Corners &p = proved_[at(a)], &q = proved_[at(b)];

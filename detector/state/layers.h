@@ -22,9 +22,9 @@ struct TouchedSurface {
   PacedStop* pace = nullptr;  // if it was stopped, clean[] must not be used
 };
 
-// A few clean triangles of the mesh's component `c`, ascending. Any one of them tells the common
-// layer of all clean triangles. Several are returned because doubles may fail at one and not at the
-// next. None is returned only if no triangle of the component is clean.
+// Returns a few clean triangles of the mesh's component `c`, ascending. Any one of them tells the
+// common layer of all clean triangles. Several are returned because doubles may fail at one and not
+// at the next. None is returned only if no triangle of the component is clean.
 std::vector<std::int32_t> layer_witnesses(const Topology& mesh, std::size_t c,
                                           const std::vector<std::uint8_t>& clean);
 

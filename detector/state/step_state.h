@@ -81,7 +81,8 @@ struct StateFields {
   double view_work = 0;  // the work of choosing these, in box tests
 };
 
-// The digest of a mesh: equal for equal triangles in the same order and equal vertex counts. O(M).
+// Returns the digest of a mesh: equal for equal triangles in the same order and equal vertex
+// counts. O(M).
 std::uint64_t digest_of(const Topology& mesh, std::int32_t vertex_count);
 
 // Returns whether all sizes and indices of the state fit a detector of this surface that has
@@ -99,8 +100,8 @@ bool fits(const StateFields& state, const Surface& surface, std::size_t anchors)
 
 inline constexpr std::uint64_t state_version = 3;
 
-// How many bytes the state takes: 24 for each vertex, 1 for each triangle, 16 for each pair in
-// contact, and some for its components and holes. O(M).
+// Returns how many bytes the state takes: 24 for each vertex, 1 for each triangle, 16 for each pair
+// in contact, and some for its components and holes. O(M).
 std::size_t state_size(const StateFields& state);
 
 // Writes the state as bytes. REQUIRES that `bytes` has state_size(state) bytes. Allocates nothing.

@@ -27,13 +27,13 @@ class CullingPolicy {
  public:
   virtual ~CullingPolicy() = default;
 
-  // Whether steps of this culling may have views. Then each step keeps track of clean triangles, so
-  // that a later step with views can rely on that.
+  // Returns whether steps of this culling may have views. Then each step keeps track of clean
+  // triangles, so that a later step with views can rely on that.
   virtual bool may_use_views() const = 0;
   // Is called first, with the motion of the mesh, the state that the step goes on from (or null),
   // and whether the step would need the views that the detector makes (FirstViews).
   virtual void begin(const SteppedMesh&, const StepState*, bool) {}
-  // Whether view primitives are placed in this step.
+  // Returns whether view primitives are placed in this step.
   virtual bool is_due() const = 0;
   // Returns how much work making views may take, in box tests. pay_for_views is called afterwards
   // with whether they are made, and the work done. If they are not made, the step does without
@@ -44,9 +44,9 @@ class CullingPolicy {
   virtual const std::vector<ViewAnchor>& anchors(const std::vector<ViewAnchor>& first,
                                                  const PositionsView& vertices_t0,
                                                  PacedStop& pace) = 0;
-  // Whether the triangles are classified. REQUIRES that primitives are placed.
+  // Returns whether the triangles are classified. REQUIRES that primitives are placed.
   virtual bool worth_classifying(const GivenStep& step, const StepMarks& marks) = 0;
-  // Whether the ghosts are swept. REQUIRES that the triangles are classified.
+  // Returns whether the ghosts are swept. REQUIRES that the triangles are classified.
   virtual bool worth_sweeping(const GivenStep& step, const StepMarks& marks, PacedStop& pace) = 0;
   // Returns how to find out which triangles are clean at the start.
   virtual StartBy start_by() const = 0;
@@ -55,13 +55,13 @@ class CullingPolicy {
   virtual bool worth_using(const GivenStep& step, const StepMarks& marks,
                            const StepCounts& counts) = 0;
 
-  // Whether the search proves patches apart. REQUIRES that types are marked.
+  // Returns whether the search proves patches apart. REQUIRES that types are marked.
   virtual bool worth_proving(const StepMarks& marks, CandidateSearch& candidates) = 0;
   // Is called after a search with views, unless a first contact has cut it short.
   // `candidates_of_k`: the number of candidates before the closure.
   virtual void record_cost(const StepCounts& counts, std::uint64_t candidates_of_k) = 0;
 
-  // Whether views were used, as far as that is decided.
+  // Returns whether views were used, as far as that is decided.
   virtual ViewUse use() const = 0;
   // Returns the state that the policy of the next step begins with. `contacts`: how many pairs are
   // in contact. After a search that a first contact has cut short, it is 0, and so are the counts
@@ -97,8 +97,8 @@ class FixedPolicy : public CullingPolicy {
   PolicyState state_;
 };
 
-// The number of pairs of triangles that share a vertex. Culling bvh has them as candidates in every
-// step, because their boxes touch. O(M).
+// Returns the number of pairs of triangles that share a vertex. Culling bvh has them as candidates
+// in every step, because their boxes touch. O(M).
 std::uint64_t adjacent_pairs(const Topology& mesh);
 
 // The policy of the cullings automatic and view_auto: a cost model of views and of proofs.
@@ -163,18 +163,18 @@ class CostModel : public CullingPolicy {
   // can tell few of their signs, as on a sheet that is seen along itself: integers would have to
   // decide the others, and the view test would cost more than the rest of the step.
   bool worth_classifying(const GivenStep& step, const StepMarks& marks) override;
-  // Whether the signs would save enough if all triangles were clean, and few enough triangles are
-  // near ghosts. Refits the tree of an unclosed mesh.
+  // Returns whether the signs would save enough if all triangles were clean, and few enough
+  // triangles are near ghosts. Refits the tree of an unclosed mesh.
   bool worth_sweeping(const GivenStep& step, const StepMarks& marks, PacedStop& pace) override;
   // Leaves out layers, which cost about a step of culling bvh.
   StartBy start_by() const override { return StartBy::view_alone; }
-  // Whether the signs save enough among the triangles that are clean. If nothing was known of the
-  // start, a no begins no pause.
+  // Returns whether the signs save enough among the triangles that are clean. If nothing was known
+  // of the start, a no begins no pause.
   bool worth_using(const GivenStep& step, const StepMarks& marks,
                    const StepCounts& counts) override;
 
   bool worth_proving(const StepMarks& marks, CandidateSearch& candidates) override;
-  // Whether normal cones and contours are expected to save more than they cost (L14).
+  // Returns whether normal cones and contours are expected to save more than they cost (L14).
   // asked_share: the share of pairs of neighbours that K asks for and that fans leave open.
   bool worth_proving(const ProvableShares& provable, double asked_share, std::size_t triangles);
 

@@ -62,8 +62,8 @@ class ReleaseRule {
   virtual void settle(const GivenStep& step, const StepMarks& marks,
                       const std::vector<PairContact>& pairs, bool complete, StepState& state) const;
 
-  // A few triangles of the component that are clean at t=0 by L8. `release` takes the common layer
-  // from them.
+  // Returns a few triangles of the component that are clean at t=0 by L8. `release` takes the
+  // common layer from them.
   virtual std::vector<std::int32_t> witnesses(const GivenStep& step, const StepMarks& marks,
                                               std::size_t component) const;
 

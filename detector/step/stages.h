@@ -24,7 +24,7 @@ struct Stages {
   std::shared_ptr<const ReleaseRule> release;
 };
 
-// The stages that these options ask for.
+// Returns the stages that these options ask for.
 Stages standard_stages(const Options& options);
 
 }  // namespace assay::detector

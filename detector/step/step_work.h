@@ -25,9 +25,9 @@ struct GivenStep {
   const StepState* last_state;  // the state of the last commit if this step starts there, else null
   const PairRelation* relation = nullptr;  // null: every pair counts
 
-  // The component together with its ghosts, which is a cycle.
+  // Returns the component together with its ghosts, which is a cycle.
   const Component& component(std::size_t c) const { return surface.all().components[c]; }
-  // The component's own triangles, without its ghosts.
+  // Returns the component's own triangles, without its ghosts.
   std::span<const std::int32_t> own_triangles(std::size_t c) const {
     return surface.mesh.components[c].triangles;
   }
@@ -38,9 +38,9 @@ struct GivenStep {
   std::span<const std::int32_t> ghosts(std::size_t c) const {
     return std::span(component(c).triangles).subspan(own_triangles(c).size());
   }
-  // Whether contacts are looked for within the component. If the component's body does not meet
-  // itself, none of these contacts counts, and the component needs no view, no ghosts and no state
-  // (L19).
+  // Returns whether contacts are looked for within the component. If the component's body does not
+  // meet itself, none of these contacts counts, and the component needs no view, no ghosts and no
+  // state (L19).
   bool looks_within(std::size_t c) const {
     const auto number = static_cast<std::int32_t>(c);
     return !relation || relation->components_meet(number, number);

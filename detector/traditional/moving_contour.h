@@ -80,7 +80,7 @@ class PatchContours {
   PatchContours(const Topology& mesh, const BoundingVolumeTree& tree, ContourMaker& maker,
                 PacedStop* pace = nullptr);
 
-  // The contour of the node, empty if it has none.
+  // Returns the contour of the node, empty if it has none.
   Contour of(std::int32_t node) const {
     const Range& range = ranges_[static_cast<std::size_t>(node)];
     return {vertices_.data() + range.begin, static_cast<std::size_t>(range.count)};
@@ -99,9 +99,9 @@ class PatchContours {
 class ContourUnion {
  public:
   explicit ContourUnion(std::size_t vertex_count) : place_(vertex_count, none) {}
-  // The contour of both patches together, empty if they have none. There is one if the patches
-  // share one run of edges, oppositely directed, and no vertex outside that run. Valid until the
-  // next call. O(length).
+  // Returns the contour of both patches together, empty if they have none. There is one if the
+  // patches share one run of edges, oppositely directed, and no vertex outside that run. Valid
+  // until the next call. O(length).
   Contour join(Contour a, Contour b);
 
  private:
@@ -145,11 +145,12 @@ inline constexpr int facing_directions = 2 * facing_axes;
 using Direction = std::array<double, 3>;
 Direction direction(int bit);
 
-// The directions that a triangle faces at every t of the step. A direction is left out if doubles
-// cannot tell. The set is empty for a triangle that has no area at some time. 0.1 us.
+// Returns the directions that a triangle faces at every t of the step. A direction is left out if
+// doubles cannot tell. The set is empty for a triangle that has no area at some time. 0.1 us.
 DirectionSet faced_directions(const std::array<MovingPoint, 3>& triangle);
 
-// The bit of the direction in `set` that is nearest to `vector`. REQUIRES that `set` is not empty.
+// Returns the bit of the direction in `set` that is nearest to `vector`. REQUIRES that `set` is not
+// empty.
 int nearest_direction(DirectionSet set, const Vector& vector);
 
 class MovingContour {
@@ -157,12 +158,13 @@ class MovingContour {
   explicit MovingContour(const SteppedMesh& motion) : motion_(motion) {}
   const SteppedMesh& motion() const { return motion_; }
 
-  // True only if it is proved that the contour, projected along the direction of this bit, is a
-  // simple polygon at every t. O(length) if the contour is nearly convex, at worst O(length^2).
+  // Returns true only if it is proved that the contour, projected along the direction of this bit,
+  // is a simple polygon at every t. O(length) if the contour is nearly convex, at worst
+  // O(length^2).
   bool stays_simple(Contour contour, int direction_bit);
 
-  // The vector of the area that the contour encloses at t=0.5, up to rounding errors. It serves
-  // only to choose a direction.
+  // Returns the vector of the area that the contour encloses at t=0.5, up to rounding errors. It
+  // serves only to choose a direction.
   Vector area(Contour contour) const;
 
   // Makes long contours ask `pace` from now on. If it stops, stays_simple() returns false.

@@ -20,7 +20,7 @@ struct AffineWeights {
   std::vector<double> weights;         // by place in `vertices`; their sum is 1
 };
 
-// The weights of the nearest vertex in each of 54 directions around the point. They are the
+// Returns the weights of the nearest vertex in each of 54 directions around the point. They are the
 // inverses of the squared distances, corrected by the least (weighted) change that makes the
 // combination equal the point. There is no correction in directions in which the vertices do not
 // extend, and none at all if it would make the weights large. `points` holds the positions of
@@ -52,10 +52,10 @@ enum class Effort : std::uint8_t {
   least,
 };
 
-// The effort for a component: `least` for a small one if the mesh has many components, as a soup
-// of triangles has, `effort` for all others. A search takes 0.1 ms and more, however small the
-// component is. For many small components that would be more than their steps take. In this way
-// the searches take at most 6 us a triangle beside what large components take.
+// Returns the effort for a component: `least` for a small one if the mesh has many components, as a
+// soup of triangles has, `effort` for all others. A search takes 0.1 ms and more, however small the
+// component is. For many small components that would be more than their steps take. In this way the
+// searches take at most 6 us a triangle beside what large components take.
 Effort effort_for(const Component& component, const Topology& mesh, Effort effort);
 
 // Returns the best place that a search (view_search.h) finds for the component of `mesh`, ghosts
@@ -77,7 +77,7 @@ ViewAnchor choose_view_anchor(const Topology& mesh, const Component& component,
                               Eigen::Index vertex_count, const PositionsView& x,
                               Effort effort = Effort::thorough, PacedStop* pace = nullptr);
 
-// The view primitive over a step. Computed in double, with the same bytes on every machine.
+// Returns the view primitive over a step. Computed in double, with the same bytes on every machine.
 ViewPrimitive place_view(const ViewAnchor& anchor, const SteppedMesh& motion);
 
 }  // namespace assay::detector

@@ -43,11 +43,12 @@ struct LaneKernels {
 // With 2, 4 and 8 lanes.
 enum class InstructionSet : std::uint8_t { baseline, avx2, avx512 };
 
-// Whether the set was compiled in and this machine has it. The baseline is always available.
+// Returns whether the set was compiled in and this machine has it. The baseline is always
+// available.
 bool is_available(InstructionSet set);
 InstructionSet best_instruction_set();
 
-// The kernels for `set`, or those of the baseline if `set` is not available.
+// Returns the kernels for `set`, or those of the baseline if `set` is not available.
 const LaneKernels& lane_kernels(InstructionSet set);
 
 }  // namespace assay::detector

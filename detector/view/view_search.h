@@ -26,8 +26,8 @@ class ViewPlanes {
   // chosen.
   ViewPlanes thinned(std::size_t most) const;
 
-  // The vertices in the order of component.vertices, with coordinates in [-1,1] (in [-2,2] if the
-  // component is only a few denormals wide, so that there may be no double in the middle).
+  // Returns the vertices in the order of component.vertices, with coordinates in [-1,1] (in [-2,2]
+  // if the component is only a few denormals wide, so that there may be no double in the middle).
   std::span<const Point> points() const { return points_; }
   std::size_t size() const { return offset_.size(); }
   Point to_unit(const Point& x) const;
@@ -40,8 +40,8 @@ class ViewPlanes {
   // what pays (L4); positive pays also if nothing is known of the start (L5). Compare scores of
   // points with scores of points, and scores of lines with scores of lines.
   std::int64_t score(const Point& q) const;
-  // The score of the line q0 q1. It is counted in the same way, and triangles without a sign are
-  // subtracted, because they cost most.
+  // Returns the score of the line q0 q1. It is counted in the same way, and triangles without a
+  // sign are subtracted, because they cost most.
   std::int64_t score(const Point& q0, const Point& q1) const;
   // What one triangle adds to a score.
   static constexpr std::int64_t for_positive = 8, for_margin = 1, for_negative = 6, for_zero = -4;

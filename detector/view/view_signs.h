@@ -21,8 +21,8 @@ namespace assay::detector {
 // Corners in the triangle's order.
 using MovingTriangle = std::array<MovingPoint, 3>;
 
-// The sign over the whole step (L1, L2), or nothing if doubles cannot tell. `zero` is certified
-// too: it means that two values of strictly different sign were found. 20 to 500 ns, no
+// Returns the sign over the whole step (L1, L2), or nothing if doubles cannot tell. `zero` is
+// certified too: it means that two values of strictly different sign were found. 20 to 500 ns, no
 // allocation.
 std::optional<ViewSign> filter_view_sign(const MovingTriangle& triangle,
                                          const ViewPrimitive& primitive);
@@ -51,8 +51,8 @@ inline constexpr int max_view_depth = 5;
 // numbers 1 ms, rarely 20 ms.
 ViewSign exact_view_sign(const MovingTriangle& triangle, const ViewPrimitive& primitive);
 
-// The sign of a triangle over the step. The filter comes first. A sign that it leaves open is
-// decided by integers in exact arithmetic; in bounded arithmetic it is zero, so that no sign is
+// Returns the sign of a triangle over the step. The filter comes first. A sign that it leaves open
+// is decided by integers in exact arithmetic; in bounded arithmetic it is zero, so that no sign is
 // wrongly positive or negative. In double and float the sign is as computed, and nothing is
 // promised.
 ViewSign view_sign(const MovingTriangle& triangle, const ViewPrimitive& primitive,
@@ -60,15 +60,17 @@ ViewSign view_sign(const MovingTriangle& triangle, const ViewPrimitive& primitiv
 
 // Writes the signs over the step of the component's triangles to signs[triangle]. Lanes come first
 // (except in float), then view_sign for the signs that they leave open. Counts and signs do not
-// depend on `set`. The workers of `pace` share the work if it has some. False if it was stopped.
+// depend on `set`. The workers of `pace` share the work if it has some. Returns false if it was
+// stopped.
 bool classify(const Topology& mesh, const Component& component, const SteppedMesh& motion,
               const ViewPrimitive& primitive, std::vector<ViewSign>& signs, ViewCounts& counts,
               InstructionSet set = best_instruction_set(),
               Arithmetic arithmetic = Arithmetic::exact, PacedStop* pace = nullptr);
 
-// Whether all triangles of the component are positive at one instant, seen from the segment q0 q1.
-// It ends soon after the first triangle that is not positive. It also returns false once `pace`
-// says to end. In bounded arithmetic true is certain, and false may mean that doubles cannot tell.
+// Returns whether all triangles of the component are positive at one instant, seen from the segment
+// q0 q1. It ends soon after the first triangle that is not positive. It also returns false once
+// `pace` says to end. In bounded arithmetic true is certain, and false may mean that doubles cannot
+// tell.
 bool all_positive_at(const Topology& mesh, const Component& component, const PositionsView& x,
                      const Point& q0, const Point& q1, Arithmetic arithmetic = Arithmetic::exact,
                      PacedStop* pace = nullptr);
@@ -80,8 +82,8 @@ class ViewClassifier {
   virtual ~ViewClassifier() = default;
   // Writes the signs over the step (L1, L2) of the triangles of a component of `surface`, ghosts
   // included, to signs[triangle]. REQUIRES of overriding functions that no triangle is wrongly
-  // called positive or negative. It may be wrongly called zero, which only costs time. False if
-  // stopped: then the signs are of no use.
+  // called positive or negative. It may be wrongly called zero, which only costs time. Returns
+  // false if stopped: then the signs are of no use.
   virtual bool classify(const Topology& surface, const Component& component,
                         const SteppedMesh& motion, const ViewPrimitive& primitive,
                         std::vector<ViewSign>& signs, ViewCounts& counts, PacedStop& pace) const {
@@ -99,8 +101,8 @@ class ViewClassifier {
 inline constexpr double lane_cubic_units = 64, lane_value_units = 112;
 
 // Fills in all members of `input` but `corners`, for triangles whose corners are among `vertices`.
-// False if the coordinates are out of the range in which the bounds hold. It reads each vertex
-// once, and the workers of `pace` share the work if it has some.
+// Returns false if the coordinates are out of the range in which the bounds hold. It reads each
+// vertex once, and the workers of `pace` share the work if it has some.
 bool make_lane_input(std::span<const std::int32_t> vertices, const SteppedMesh& motion,
                      const ViewPrimitive& primitive, LaneInput& input, PacedStop* pace = nullptr);
 
