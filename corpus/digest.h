@@ -9,7 +9,7 @@
 
 namespace assay::corpus {
 
-// The digest as 64 hexadecimal digits, lower case.
+// Returns the digest as 64 hexadecimal digits, lower case.
 std::string sha256_of(std::string_view bytes);
 
 // The same for a file, which is read in pieces. The problem states why it cannot be read.

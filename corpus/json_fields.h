@@ -48,9 +48,9 @@ class JsonField {
 
   bool has(std::string_view key) const;
 
-  // The field `key`. Fails when it is missing, and when this is no object.
+  // Returns the field `key`. Fails when it is missing, and when this is no object.
   Expected<JsonField> at(std::string_view key) const;
-  // The number of items. Fails when this is no array.
+  // Returns the number of items. Fails when this is no array.
   Expected<std::size_t> size() const;
   // REQUIRES: an array with more than `i` items.
   JsonField item(std::size_t i) const;
@@ -59,7 +59,7 @@ class JsonField {
   Expected<double> number() const;                                             // finite
   Expected<std::int32_t> integer(std::int64_t least, std::int64_t end) const;  // in [least, end)
 
-  // A problem whose message names this field.
+  // Returns a problem whose message names this field.
   Problem problem(std::string_view detail) const;
 
   const Json& json() const { return *value_; }

@@ -26,10 +26,11 @@ struct Problem {
   ProblemKind kind = ProblemKind::other;
 };
 
-// The text with control characters, which a path or a quoted word may hold, replaced.
+// Returns the text with control characters, which a path or a quoted word may hold, replaced.
 std::string in_one_line(std::string text);
 
-// A problem whose message is `file: detail` (only `detail` when the file is empty), in one line.
+// Returns a problem whose message is `file: detail` (only `detail` when the file is empty), in one
+// line.
 Problem problem_in(const std::filesystem::path& file, std::string_view detail);
 
 // A value or a Problem. Asking for the side that is not there ends the program.
@@ -46,7 +47,7 @@ std::string meant_word(const std::vector<std::string>& words, std::string_view w
 // Returns "; did you mean WORD?", for the end of a line that refuses `written`; or nothing.
 std::string did_you_mean(const std::vector<std::string>& words, std::string_view written);
 
-// The names of things that have one, such as scenes.
+// Returns the names of things that have one, such as scenes.
 template <class Things>
 std::vector<std::string> names_among(const Things& things) {
   std::vector<std::string> names;

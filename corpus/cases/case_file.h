@@ -100,14 +100,15 @@ inline const detector::CountedPairs* counted_of(const Case& c) {
 // nothing moves.
 std::vector<CaseStep> consecutive_steps(std::size_t frames);
 
-// The script of the case or, if it is empty, the consecutive steps.
+// Returns the script of the case or, if it is empty, the consecutive steps.
 std::vector<CaseStep> steps_of(const Case& c);
 
-// The places of the vertices at the start and at the end of the step. REQUIRES a step of this case.
+// Returns the places of the vertices at the start and at the end of the step. REQUIRES a step of
+// this case.
 const detector::Positions& start_of(const Case& c, const CaseStep& step);
 const detector::Positions& end_of(const Case& c, const CaseStep& step);
 
-// The view primitive during steps_of(c)[step]; nothing when the case states none.
+// Returns the view primitive during steps_of(c)[step]; nothing when the case states none.
 std::optional<detector::ViewPrimitive> view_of_step(const Case& c, std::size_t step);
 
 // Makes a case of one step. `rest`: the frame that a detector is made from, which becomes the first
@@ -116,10 +117,10 @@ Case case_of_step(const detector::Triangles& triangles, const detector::CountedP
                   const detector::Positions* rest, const detector::Positions& x_t0,
                   const detector::Positions& x_t1);
 
-// The vertices of a frame as points.
+// Returns the vertices of a frame as points.
 std::vector<detector::Point> points_of(const detector::Positions& x);
 
-// The canonical text of a case.
+// Returns the canonical text of a case.
 std::string case_text(const Case& c);
 
 // Reads a case from its text, and checks shape, lengths and index ranges. A mesh triangle may
@@ -132,7 +133,7 @@ Expected<Case> read_case(const std::filesystem::path& path);
 // too.
 Expected<void> write_case(const std::filesystem::path& path, const Case& c);
 
-// The case files of a folder (*.json), sorted by name.
+// Returns the case files of a folder (*.json), sorted by name.
 Expected<std::vector<std::filesystem::path>> case_files(const std::filesystem::path& folder);
 
 }  // namespace assay::corpus

@@ -61,8 +61,8 @@ std::string places_of_same_faces(const std::filesystem::path& file);
 // mesh.
 Expected<Mesh> read_obj(std::string_view text, const std::filesystem::path& file);
 
-// Whether the text begins as an OFF file: OFF after the optional letters ST, C, N, 4, n, capital or
-// not. A file whose name ends so may lack the word.
+// Returns whether the text begins as an OFF file: OFF after the optional letters ST, C, N, 4, n,
+// capital or not. A file whose name ends so may lack the word.
 bool looks_like_off(std::string_view text);
 // OFF in text form: a header word, the counts, one vertex a line and one polygon a line; `#` starts
 // a comment. Normals, colours and texture coordinates are passed over, faces of one or two corners
@@ -104,8 +104,8 @@ class MeshBuilder {
 
   Problem problem(const Place& place, std::string_view detail) const;
 
-  // The mesh, with remarks on what was split or skipped. Refuses a mesh without a triangle, and an
-  // index beyond its vertices.
+  // Returns the mesh, with remarks on what was split or skipped. Refuses a mesh without a triangle,
+  // and an index beyond its vertices.
   Expected<Mesh> finish();
 
  private:

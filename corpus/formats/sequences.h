@@ -52,7 +52,7 @@ class SequenceReader {
  public:
   explicit SequenceReader(std::vector<std::filesystem::path> files) : files_(std::move(files)) {}
 
-  // The number of frames, read or not.
+  // Returns the number of frames, read or not.
   std::size_t frames() const { return files_.size(); }
   bool at_end() const { return next_ == files_.size(); }
 
@@ -64,10 +64,11 @@ class SequenceReader {
   // Refuses the frames that are left by what can be known without reading them (look_at_mesh).
   Expected<void> look_ahead() const;
 
-  // The triangles and the number of vertices of every frame. REQUIRES that a frame was read.
+  // Returns the triangles and the number of vertices of every frame. REQUIRES that a frame was
+  // read.
   const detector::Triangles& triangles() const { return triangles_; }
   std::size_t vertices() const { return static_cast<std::size_t>(vertices_); }
-  // The remarks on the first frame.
+  // Returns the remarks on the first frame.
   const std::vector<std::string>& remarks() const { return remarks_; }
 
  private:
@@ -98,8 +99,8 @@ class BodiesReader {
   Expected<void> fit() const;
   std::size_t frames() const;
   bool at_end() const { return read_ == frames(); }
-  // The next frame of all bodies. Problems: those of SequenceReader::next(). REQUIRES fit() and
-  // !at_end().
+  // Returns the next frame of all bodies. Problems: those of SequenceReader::next(). REQUIRES fit()
+  // and !at_end().
   Expected<detector::Positions> next();
   Expected<void> look_ahead() const;
 
@@ -107,7 +108,7 @@ class BodiesReader {
   // vertex's body.
   const detector::Triangles& triangles() const { return triangles_; }
   std::vector<std::int32_t> bodies() const;
-  // The remarks on the first file of each body, with its name if there are several.
+  // Returns the remarks on the first file of each body, with its name if there are several.
   std::vector<std::string> remarks() const;
 
  private:

@@ -81,7 +81,7 @@ class StepLog {
   std::optional<LogDamage> damage() const;
   // Returns whether the recorder was ended.
   bool is_ended() const { return is_ended_; }
-  // The caller's notes, each by the number of the step that follows it.
+  // Returns the caller's notes, each by the number of the step that follows it.
   const std::multimap<std::uint64_t, std::string>& notes() const { return notes_; }
 
   // Reads the records that were appended since.

@@ -38,7 +38,7 @@ class StepSource {
   // Returns whether there is a step s. It comes after all steps that were asked for; an input that
   // still grows may wait for it.
   virtual Expected<bool> has(std::size_t s) { return s < count(); }
-  // The number of step s in the whole that the input is a part of, from 0.
+  // Returns the number of step s in the whole that the input is a part of, from 0.
   virtual std::uint64_t number_of(std::size_t s) const { return s; }
   virtual InputText text() const { return {}; }
   // Texts, one line each: the notes before the step that was asked for last, and, after all steps,
@@ -46,12 +46,13 @@ class StepSource {
   virtual std::vector<std::string> notes() const { return {}; }
   virtual std::vector<std::string> lost() const { return {}; }
   virtual std::vector<std::string> last_remarks() const { return {}; }
-  // The number of frames, in memory or not.
+  // Returns the number of frames, in memory or not.
   virtual std::size_t frames() const = 0;
   // Returns whether there is a single frame, whose one step ends where it starts.
   bool is_at_rest() const { return frames() == 1 && count() == 1; }
   virtual const detector::Triangles& triangles() const = 0;
-  // The frame that a detector is made from. REQUIRES that no step after the first was asked for.
+  // Returns the frame that a detector is made from. REQUIRES that no step after the first was asked
+  // for.
   virtual const detector::Positions& first_frame() const = 0;
 
   // Step s < count(). The frames of the step may be gone when the next step is asked for. Problems:
@@ -59,7 +60,7 @@ class StepSource {
   // after a problem.
   virtual Expected<SourceStep> step(std::size_t s) = 0;
 
-  // Which pairs count; null: all of them. The same for all steps.
+  // Returns which pairs count; null: all of them. The same for all steps.
   virtual const detector::CountedPairs* counted() const { return nullptr; }
 
   // Returns the case, if it is in memory as a whole; else null.

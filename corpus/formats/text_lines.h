@@ -12,17 +12,17 @@ namespace assay::corpus {
 
 // Numbers in text, independent of the locale.
 
-// The double nearest to a decimal number, ties to even, denormals included: infinity for a number
-// beyond the largest double, zero for one below half the least denormal. A leading + is allowed;
-// "nan" and "inf" are read as such. Nothing when `word` is not a number from its first to its last
-// character.
+// Returns the double nearest to a decimal number, ties to even, denormals included: infinity for a
+// number beyond the largest double, zero for one below half the least denormal. A leading + is
+// allowed; "nan" and "inf" are read as such. Returns nothing when `word` is not a number from its
+// first to its last character.
 std::optional<double> parse_double(std::string_view word);
 
 // Returns the value of `word` if all of it is a decimal integer that fits into 64 bits; else
 // nothing. A leading + is allowed.
 std::optional<std::int64_t> parse_integer(std::string_view word);
 
-// The text behind the mark of UTF-8 (EF BB BF) that editors and spreadsheets put first.
+// Returns the text behind the mark of UTF-8 (EF BB BF) that editors and spreadsheets put first.
 std::string_view without_mark(std::string_view text);
 
 // Lines of a text that end in \n, \r\n, \r or at the end of the text. Blanks at either end of a
@@ -34,10 +34,11 @@ class Lines {
   Lines(std::string_view text, char comment, bool continued)
       : text_(without_mark(text)), comment_(comment), continued_(continued) {}
 
-  // The next line that is not blank; nothing at the end. Valid until the next call.
+  // Returns the next line that is not blank; nothing at the end. Valid until the next call.
   std::optional<std::string_view> next();
 
-  // The number, counted from 1, of the line that next() gave; for joined lines, that of the first.
+  // Returns the number, counted from 1, of the line that next() gave; for joined lines, that of the
+  // first.
   std::size_t number() const { return number_; }
 
  private:
@@ -54,7 +55,7 @@ class Lines {
 // Splits at blanks; `words` is cleared first (passed in to be used again without allocation).
 void split_words(std::string_view line, std::vector<std::string_view>& words);
 
-// A word for a message: in quotes, and cut if it is long.
+// Returns a word for a message: in quotes, and cut if it is long.
 std::string excerpt(std::string_view word);
 
 }  // namespace assay::corpus

@@ -47,7 +47,7 @@ class Variation {
     state_ ^= static_cast<std::uint64_t>(variant + 1) * variant_stride;
     next();
   }
-  // A number in lo .. hi; the bias of the remainder does no harm here.
+  // Returns a number in lo .. hi; the bias of the remainder does no harm here.
   std::int64_t between(std::int64_t lo, std::int64_t hi) {
     const auto n = static_cast<std::uint64_t>(hi - lo) + 1;
     return lo + static_cast<std::int64_t>(next() % n);
@@ -77,7 +77,7 @@ struct GridVertex {
   GridPoint t0, t1;
 };
 inline GridVertex at_rest(const GridPoint& p) { return {p, p}; }
-// The vertex at a constant offset from `tip`, which moves along with it.
+// Returns the vertex at a constant offset from `tip`, which moves along with it.
 inline GridVertex carried(const GridVertex& tip, const GridPoint& offset) {
   return {tip.t0 + offset, tip.t1 + offset};
 }
@@ -104,9 +104,10 @@ struct GridMap {
   int turns = 0;                                        // how often C turns the axes by one
   GridPoint shift;
 
-  // A map whose shears have no coefficient 0.
+  // Returns a map whose shears have no coefficient 0.
   static GridMap any(Variation& vary);
-  // A change of axes alone. It is for view-lines, because no shear keeps their nearest points.
+  // Returns a change of axes alone. It is for view-lines, because no shear keeps their nearest
+  // points.
   static GridMap of_axes(Variation& vary);
   GridPoint operator()(GridPoint p) const;
 };
@@ -114,8 +115,8 @@ struct GridMap {
 // The facts that the construction of a case tells; first_time and view_signs only if it tells them.
 using KnownFacts = ExpectedStep;
 
-// One step of the mapped mesh, with coordinate i multiplied by 2^exponents[i]. If that is not
-// exact the process ends; the tests make every case.
+// Returns one step of the mapped mesh, with coordinate i multiplied by 2^exponents[i]. If that is
+// not exact the process ends; the tests make every case.
 Case grid_case(const GridMesh& mesh, const GridMap& map, const std::array<int, 3>& exponents,
                KnownFacts facts);
 
@@ -139,8 +140,8 @@ inline std::int64_t two_to(int exponent) { return std::int64_t{1} << exponent; }
 inline constexpr int usual_exponent = 45;
 inline constexpr std::int64_t usual_size = std::int64_t{1} << usual_exponent;
 
-// A triangle in z = 0 whose inside holds all points within reach / 8 of the origin. Its corners
-// are at most `reach` away along each axis. REQUIRES reach >= 32.
+// Returns a triangle in z = 0 whose inside holds all points within reach / 8 of the origin. Its
+// corners are at most `reach` away along each axis. REQUIRES reach >= 32.
 std::array<GridPoint, 3> wide_face(Variation& vary, std::int64_t reach);
 
 // Adds the block under a wide face; its fourth corner is `depth` deep, near the axis.
@@ -154,10 +155,10 @@ enum class Side { all_around, positive_y, negative_y };
 void add_spike(GridMesh& mesh, Variation& vary, const GridVertex& tip, std::int64_t reach,
                std::int64_t height, Side side);
 
-// A place at height z, straight over or under the inside of every wide face of this reach.
+// Returns a place at height z, straight over or under the inside of every wide face of this reach.
 GridPoint under_the_face(Variation& vary, std::int64_t reach, std::int64_t z);
 
-// A vertex at (p.x, p.y) that goes from height z_t0 to z_t1.
+// Returns a vertex at (p.x, p.y) that goes from height z_t0 to z_t1.
 GridVertex falling(const GridPoint& p, std::int64_t z_t0, std::int64_t z_t1);
 
 KnownFacts known_free();

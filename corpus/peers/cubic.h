@@ -68,7 +68,7 @@ class CubicTests {
     return share >= -Solver::tolerance && share <= 1 + Solver::tolerance;
   }
 
-  // Whether the point lies over the triangle.
+  // Returns whether the point lies over the triangle.
   static bool point_meets(const V& p, const V& a, const V& b, const V& c) {
     const V normal = cross(b - a, c - a);
     const Number area = dot(normal, normal);
@@ -78,7 +78,7 @@ class CubicTests {
     return is_inside(v) && is_inside(w) && is_inside(1 - v - w);
   }
 
-  // Whether the nearest points of the two lines lie on the edges.
+  // Returns whether the nearest points of the two lines lie on the edges.
   static bool edges_meet(const V& a, const V& b, const V& c, const V& d) {
     const V normal = cross(b - a, d - c);
     const Number area = dot(normal, normal);
@@ -88,7 +88,7 @@ class CubicTests {
     return is_inside(s) && is_inside(t);
   }
 
-  // The first time at which the four points lie in one plane and `meets` holds.
+  // Returns the first time at which the four points lie in one plane and `meets` holds.
   template <class Meets>
   static Time first_time(const FourPaths& paths, const Meets& meets) {
     V x[4], v[4];  // place at t = 0 and motion, relative to the first point
@@ -111,7 +111,7 @@ class CubicTests {
   }
 };
 
-// The description that all peers of this method share, but for their names.
+// Returns the description that all peers of this method share, but for their names.
 inline plugin::Description cubic_description() {
   plugin::Description d;
   d.version = "1";

@@ -49,9 +49,9 @@ struct RationalValue {
   double value;  // when exact
 };
 
-// The double that equals numerator/denominator, two decimal integers of any sign and length.
-// not_a_number: one of them has letters, blanks inside, or more than 20,000 digits (no double
-// needs them). not_a_double: no double equals the fraction, overflow included.
+// Returns the double that equals numerator/denominator, two decimal integers of any sign and
+// length. not_a_number: one of them has letters, blanks inside, or more than 20,000 digits (no
+// double needs them). not_a_double: no double equals the fraction, overflow included.
 RationalValue exact_double(std::string_view numerator, std::string_view denominator);
 
 }  // namespace assay::corpus

@@ -26,7 +26,7 @@ struct SceneInfo {
   int least_frames = 5;
 };
 
-// All scenes, in the order in which they are listed.
+// Returns all scenes, in the order in which they are listed.
 std::span<const SceneInfo> scenes();
 
 // Frames are equally spaced in the scene's own time. Two frames are one step; one is the rest

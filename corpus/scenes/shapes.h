@@ -30,7 +30,7 @@ Mesh ribbon_shape(int size);
 // Both meshes as one; b is moved by `offset` along x. Triangles of a come first.
 Mesh side_by_side(const Mesh& a, const Mesh& b, double offset);
 
-// The n >= least whose count(n) is nearest to size. REQUIRES that count rises with n.
+// Returns the n >= least whose count(n) is nearest to size. REQUIRES that count rises with n.
 template <class Count>
 int nearest_resolution(int size, int least, Count count) {
   int n = least;
@@ -143,8 +143,8 @@ struct BoxWithArm {
 
   Mesh mesh;  // with the arm at `tip_outside`
 
-  // The positions when the tip of the arm is at height z over the hole's middle. The arm touches
-  // nothing for deepest_tip <= z <= tip_outside.
+  // Returns the positions when the tip of the arm is at height z over the hole's middle. The arm
+  // touches nothing for deepest_tip <= z <= tip_outside.
   detector::Positions with_tip(double z) const;
 
   static constexpr double tip_outside = 1.25;
@@ -215,7 +215,8 @@ detector::Point bite_tail(const detector::Point& x, double s, const Extent& exte
 // lies right across it.
 detector::Point wind(const detector::Point& x, double s, const Extent& extent);
 
-// The height of a ball over the tube's middle: it goes along the axis from -4.5 to 4.5 and back.
+// Returns the height of a ball over the tube's middle: it goes along the axis from -4.5 to 4.5 and
+// back.
 double ball_height(double s);
 
 // Sine and cosine of a part of a turn, from + - * / and floor only. Libraries differ in the last
