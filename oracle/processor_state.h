@@ -6,8 +6,8 @@
 
 namespace assay::oracle {
 
-// True when doubles round to nearest and denormals are neither flushed nor read as zero. It takes
-// about 10 ns.
+// Returns true when doubles round to nearest and denormals are neither flushed nor read as zero. It
+// takes about 10 ns.
 bool processor_state_is_exact();
 
 // Ends the process with a message, in every build type, if the state is not exact.

@@ -30,12 +30,12 @@ class Instant {
   Instant(const detector::SteppedMesh& motion, const RationalTime& t);
 
   const std::vector<IntegerPoint>& points() const { return points_; }
-  // A coordinate, given as a double or a rational, in the units of points().
+  // Returns a coordinate, given as a double or a rational, in the units of points().
   mpq_class in_units(double coordinate) const;
   mpq_class in_units(const mpq_class& coordinate) const;
 
-  // A box of doubles that holds the place of a vertex. If a coordinate of the place is a double,
-  // both bounds are that double.
+  // Returns a box of doubles that holds the place of a vertex. If a coordinate of the place is a
+  // double, both bounds are that double.
   const Box& box(std::int32_t vertex) const { return boxes_[vertex]; }
   template <class Vertices>
   Box box_of(const Vertices& vertices) const {
@@ -69,8 +69,8 @@ using StaticPoints = std::span<const IntegerPoint>;
 using StaticEdge = std::array<std::int32_t, 2>;
 using StaticFace = std::array<std::int32_t, 3>;
 
-// Whether two closed features have a point in common. A zero-area triangle is the segment or point
-// that it has become.
+// Returns whether two closed features have a point in common. A zero-area triangle is the segment
+// or point that it has become.
 bool vertex_meets_face(StaticPoints x, std::int32_t vertex, const StaticFace& face);
 bool edges_meet(StaticPoints x, const StaticEdge& a, const StaticEdge& b);
 
@@ -100,8 +100,9 @@ std::optional<detector::TrianglePair> any_nearer_than(const detector::PositionsV
                                                       const detector::TrianglesView& triangles,
                                                       double distance, const WantedPair& counts);
 
-// Whether two triangles at rest cross: no plane has one on each of its closed sides. Triangles that
-// meet and do not cross touch, even if they lie on each other in one plane. Exact, 10 to 30 us.
+// Returns whether two triangles at rest cross: no plane has one on each of its closed sides.
+// Triangles that meet and do not cross touch, even if they lie on each other in one plane. Exact,
+// 10 to 30 us.
 bool triangles_cross(const detector::PositionsView& x, const detector::TrianglesView& triangles,
                      const detector::TrianglePair& pair);
 

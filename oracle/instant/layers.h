@@ -31,13 +31,13 @@ class WindingField {
   // has to outlive the field.
   WindingField(const Instant& instant, detector::Triangles cycle);
 
-  // The winding number at the point; nothing when the point is on a triangle. Exact for every
-  // finite double and every rational.
+  // Returns the winding number at the point; nothing when the point is on a triangle. Exact for
+  // every finite double and every rational.
   std::optional<int> at(const detector::Point& point) const;
   std::optional<int> at(const RationalPoint& point) const;
 
-  // The layer of a triangle of the cycle. REQUIRES that its area is not zero and that no other
-  // triangle contains its centroid; none does when the triangle is in no contact.
+  // Returns the layer of a triangle of the cycle. REQUIRES that its area is not zero and that no
+  // other triangle contains its centroid; none does when the triangle is in no contact.
   Layer layer_of(std::int32_t triangle) const;
 
  private:

@@ -34,8 +34,8 @@ inline Place along(const Place& from, const Place& direction, const mpq_class& s
           from[2] + share * direction[2]};
 }
 
-// Whether two features, each given by its vertices, are nearer to each other than `distance` at
-// these places, compared exactly. A vertex and a face that holds it have distance 0.
+// Returns whether two features, each given by its vertices, are nearer to each other than
+// `distance` at these places, compared exactly. A vertex and a face that holds it have distance 0.
 // REQUIRES distance finite and greater than 0.
 bool vertex_nearer_than(const std::vector<detector::Point>& places, std::int32_t vertex,
                         const Face& face, double distance);

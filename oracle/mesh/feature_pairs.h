@@ -18,8 +18,8 @@ struct Box {
   detector::Point min, max;
 };
 
-// The box that holds some vertices over the whole step. Their places at the two ends suffice,
-// because each path is the segment between these.
+// Returns the box that holds some vertices over the whole step. Their places at the two ends
+// suffice, because each path is the segment between these.
 template <class Vertices>
 Box swept_box(const detector::SteppedMesh& motion, const Vertices& vertices) {
   Box box{motion.start(vertices[0]), motion.start(vertices[0])};

@@ -36,7 +36,7 @@ struct MeshFeatures {
 // A triangle that repeats an index has only its edges between different vertices. n log n.
 MeshFeatures mesh_features(const detector::TrianglesView& triangles);
 
-// All pairs of triangles with the same three vertices.
+// Returns all pairs of triangles with the same three vertices.
 std::vector<detector::TrianglePair> same_vertices_pairs(const std::vector<Face>& faces);
 
 inline bool holds(const Face& face, std::int32_t vertex) {
@@ -57,7 +57,7 @@ inline bool share_vertex(const Edge& a, const Edge& b) {
 using DirectedEdge = std::array<std::int32_t, 2>;  // from, to
 using Loop = std::vector<std::int32_t>;            // in order; the last vertex leads to the first
 
-// Each unmatched edge, as often as it is unmatched; ascending. n log n.
+// Returns each unmatched edge, as often as it is unmatched; ascending. n log n.
 std::vector<DirectedEdge> unmatched_edges(const detector::TrianglesView& triangles);
 
 // Splits the unmatched edges into closed walks that use each once. A walk starts with the lowest
@@ -66,14 +66,14 @@ std::vector<DirectedEdge> unmatched_edges(const detector::TrianglesView& triangl
 // cycle. n log n.
 std::vector<Loop> boundary_loops(const detector::TrianglesView& triangles);
 
-// One ghost for each edge (u,v) of each loop: (v, u, first_apex + number of the loop). Together
-// with the triangles whose loops these are, the ghosts make a cycle.
+// Returns one ghost for each edge (u,v) of each loop: (v, u, first_apex + number of the loop).
+// Together with the triangles whose loops these are, the ghosts make a cycle.
 detector::Triangles ghost_triangles(const std::vector<Loop>& loops, std::int32_t first_apex);
 
-// True when the given fans close the mesh with one ghost for each unmatched edge: triangles and
-// ghosts together are a cycle, and each ghost holds one unmatched edge of the triangles, reversed,
-// and one apex that no triangle holds. Any split of the edges into fans is valid, so the walks that
-// the fans follow are not checked.
+// Returns true when the given fans close the mesh with one ghost for each unmatched edge: triangles
+// and ghosts together are a cycle, and each ghost holds one unmatched edge of the triangles,
+// reversed, and one apex that no triangle holds. Any split of the edges into fans is valid, so the
+// walks that the fans follow are not checked.
 bool closes(const detector::TrianglesView& triangles, const detector::TrianglesView& ghosts);
 
 }  // namespace assay::oracle

@@ -23,7 +23,8 @@ class PairRelation {
   PairRelation(const detector::CountedPairs& counted, MeshFeatures&& features) = delete;
 
   bool is_of_features() const { return counted_.level == detector::CountedLevel::features; }
-  // Whether the bodies of two vertices meet. This is cheap, and needs no triangle that holds them.
+  // Returns whether the bodies of two vertices meet. This is cheap, and needs no triangle that
+  // holds them.
   bool bodies_meet(std::int32_t u, std::int32_t v) const;
   // Returns whether a pair of faces counts; in a relation of features, whether some feature pair of
   // the two counts.

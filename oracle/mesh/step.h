@@ -69,7 +69,7 @@ class PairStore {
            const detector::Feature& feature);
   // Moves all contacts of another store into this one.
   void merge(PairStore& other);
-  // The kept contacts, ascending by pair; the store is empty afterwards.
+  // Returns the kept contacts, ascending by pair; the store is empty afterwards.
   std::vector<detector::PairContact> take();
 
  private:

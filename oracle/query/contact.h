@@ -40,8 +40,8 @@ ContactAnswer contact_of(const detector::FourPoints& query, detector::Want want)
 ContactAnswer vertex_face_contact(const detector::VertexFace& query, detector::Want want);
 ContactAnswer edge_edge_contact(const detector::EdgeEdge& query, detector::Want want);
 
-// The first contact time, or nothing where there is no contact, by CGAL's algebraic kernel and
-// without the rungs: a second opinion of 0.1 to 0.4 ms (7 ms when exponents spread over all
+// Returns the first contact time, or nothing where there is no contact, by CGAL's algebraic kernel
+// and without the rungs: a second opinion of 0.1 to 0.4 ms (7 ms when exponents spread over all
 // doubles).
 std::optional<detector::TimeEnclosure> first_time_by_kernel(const detector::FourPoints& query);
 
@@ -62,7 +62,7 @@ enum class ContactShape : std::uint8_t {
   generic,
 };
 
-// The shape of the first contact of a query. REQUIRES that the query has a contact and that
+// Returns the shape of the first contact of a query. REQUIRES that the query has a contact and that
 // `first` encloses its first time. About 50 us; in degenerate queries a few ms.
 ContactShape shape_of(const detector::VertexFace& query, const detector::TimeEnclosure& first);
 ContactShape shape_of(const detector::EdgeEdge& query, const detector::TimeEnclosure& first);

@@ -38,7 +38,7 @@ class ContactPolynomials {
   const IntegerPolynomial& coplanarity();
   // L_0..L_3, of the points projected along this axis.
   const std::array<IntegerPolynomial, 4>& sides(int axis);
-  // All D of this axis.
+  // Returns all D of this axis.
   std::vector<IntegerPolynomial> gaps(int axis) const;
 
  private:
@@ -57,19 +57,20 @@ struct ExactAnswer {
   detector::TimeEnclosure first;  // set when there is a contact and a time was wanted
 };
 
-// The polynomials whose zeros in [0,1] are the times at which a contact can begin; none is
+// Returns the polynomials whose zeros in [0,1] are the times at which a contact can begin; none is
 // identically zero.
 // - These times are the zeros of F, if F is not identically zero.
 // - Else t=0 and the zeros of the L of an axis whose L are not all identically zero.
-// - If all L are, t=0 and the zeros of the D of an axis whose D are not all identically zero; if
-// there is no such axis, t=0 alone. Between these times nothing changes, and the set of contact
-// times is closed, so the first of them with a contact is the first time of all.
+// - If all L are, t=0 and the zeros of the D of an axis whose D are not all identically zero. If
+//   there is no such axis, t=0 alone.
+// Between these times nothing changes, and the set of contact times is closed, so the first of
+// them with a contact is the first time of all.
 std::vector<IntegerPolynomial> event_polynomials(ContactPolynomials& polynomials);
 
-// Whether there is a contact at the i-th time. REQUIRES that F is zero at that time.
+// Returns whether there is a contact at the i-th time. REQUIRES that F is zero at that time.
 bool contact_at(ContactPolynomials& polynomials, const ExactTimes& times, int i);
 
-// The answer, given all times at which a contact can begin.
+// Returns the answer, given all times at which a contact can begin.
 ExactAnswer first_contact(ContactPolynomials& polynomials, const ExactTimes& times,
                           detector::Want want);
 

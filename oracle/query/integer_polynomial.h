@@ -27,7 +27,7 @@ IntegerPolynomial operator-(const IntegerPolynomial& a, const IntegerPolynomial&
 IntegerPolynomial operator-(const IntegerPolynomial& a);
 IntegerPolynomial operator*(const IntegerPolynomial& a, const IntegerPolynomial& b);
 
-// The linear polynomial with these values at t=0 and t=1.
+// Returns the linear polynomial with these values at t=0 and t=1.
 IntegerPolynomial linear(const Integer& at_t0, const Integer& at_t1);
 
 IntegerPolynomial derivative(const IntegerPolynomial& p);
@@ -35,11 +35,11 @@ IntegerPolynomial derivative(const IntegerPolynomial& p);
 // Zero exactly when p has a root of multiplicity 2 or more. REQUIRES a degree of at most 3.
 Integer discriminant(const IntegerPolynomial& p);
 
-// The exact sign of p at t. REQUIRES t finite and >= 0.
+// Returns the exact sign of p at t. REQUIRES t finite and >= 0.
 int sign_at(const IntegerPolynomial& p, double t);
 
-// The scaled Bernstein coefficients of p over [0,1] (interval_sign.h): the first and the last
-// are p(0) and p(1). Empty for the zero polynomial.
+// Returns the scaled Bernstein coefficients of p over [0,1] (interval_sign.h): the first and the
+// last are p(0) and p(1). Empty for the zero polynomial.
 std::vector<Integer> bernstein_over_unit(const IntegerPolynomial& p);
 
 // Returns how often the sign changes in a sequence, zeros left out. For Bernstein coefficients
@@ -50,8 +50,8 @@ int sign_changes(const std::vector<Integer>& sequence);
 // True: p has no zero in [0,1], by Descartes' rule in Bernstein form. False: nothing is known.
 bool surely_no_zero_in_unit(const IntegerPolynomial& p);
 
-// The greatest common divisor, with coefficients without a common divisor; 1 if the two have no
-// zero in common. REQUIRES neither to be zero. A few us if it is 1; else 10 us to 10 ms for
+// Returns the greatest common divisor, with coefficients without a common divisor; 1 if the two
+// have no zero in common. REQUIRES neither to be zero. A few us if it is 1; else 10 us to 10 ms for
 // coefficients of 300 to 12,000 bits.
 IntegerPolynomial common_divisor(const IntegerPolynomial& p, const IntegerPolynomial& q);
 

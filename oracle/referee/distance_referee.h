@@ -81,12 +81,12 @@ DoubleReach double_reach(const Query& query, const detector::Separation& d);
 template <class Query>
 IntegerReach integer_reach(const Query& query, const detector::Separation& d);
 
-// Whether the hull is within d at t: yes is proved. no says that the hull, as doubles see it, is
-// further away than d by more than `slack` (in the hull's unit); it is no proof.
+// Returns whether the hull is within d at t: yes is proved. no says that the hull, as doubles see
+// it, is further away than d by more than `slack` (in the hull's unit); it is no proof.
 // REQUIRES a usable hull and t in [0,1], a multiple of 2^-53. 0.2 us.
 detector::Decision near_in_double(const DoubleReach& reach, double t, double slack);
 
-// Whether the hull is within d at time p/q. Exact, for degenerate hulls too. 5 us.
+// Returns whether the hull is within d at time p/q. Exact, for degenerate hulls too. 5 us.
 bool near_in_integers(const IntegerReach& reach, const Fraction& time);
 
 // On [s,e]. REQUIRES 0 <= s < e <= 1, both multiples of 2^-52. 0.3 to 0.6 us.

@@ -65,8 +65,8 @@ struct DoubleHull {
   int exponent = 0;
   bool usable = false;
 
-  // The corners at t in [0,1], a multiple of 2^-53. Wrong by at most 3.01 u size[k] + 2^-1072
-  // (derived in existence.cpp).
+  // Returns the corners at t in [0,1], a multiple of 2^-53. Wrong by at most 3.01 u size[k] +
+  // 2^-1072 (derived in existence.cpp).
   Hull<double> at(double t) const;
 };
 
@@ -84,8 +84,8 @@ DoubleHull double_hull(const detector::EdgeEdge& query);
 IntegerHull integer_hull(const detector::VertexFace& query);
 IntegerHull integer_hull(const detector::EdgeEdge& query);
 
-// A hull of doubles that is near a positive multiple of the integer hull: all coordinates are
-// divided by one power of two, and each is rounded once. For guesses only.
+// Returns a hull of doubles that is near a positive multiple of the integer hull: all coordinates
+// are divided by one power of two, and each is rounded once. For guesses only.
 Hull<double> rounded(const Hull<mpz_class>& hull);
 
 // The point of the hull nearest to the origin, as doubles compute it: a guess, never a verdict.
@@ -116,7 +116,7 @@ SeparationProof separated_in_double(const DoubleHull& hull, double s, double e);
 // known.
 bool separated_in_integers(const IntegerHull& hull, std::int64_t k, int depth);
 
-// Whether the hull contains the origin. Exact, for degenerate hulls too. A few us.
+// Returns whether the hull contains the origin. Exact, for degenerate hulls too. A few us.
 bool contains_origin(const Hull<mpz_class>& hull);
 
 // A fraction p/q in lowest terms.
@@ -125,7 +125,7 @@ struct Fraction {
   friend bool operator==(const Fraction&, const Fraction&) = default;
 };
 
-// The fraction with the least denominator in [k/2^depth, (k+1)/2^depth], depth <= 61.
+// Returns the fraction with the least denominator in [k/2^depth, (k+1)/2^depth], depth <= 61.
 Fraction simplest_fraction(std::int64_t k, int depth);
 
 // A guess at a time and place where the origin lies in the hull.
@@ -134,8 +134,8 @@ struct Crossing {
   int base = 0;  // the corner that plays P: u and v are counted from it
 };
 
-// Newton's method in double, started in the middle of [s,e]. Nothing when it does not converge to
-// a place of the hull, up to rounding errors.
+// Newton's method in double, started in the middle of [s,e]. Returns nothing when it does not
+// converge to a place of the hull, up to rounding errors.
 std::optional<Crossing> guess_crossing(const DoubleHull& hull, double s, double e);
 
 // True: by the theorem of Poincare-Miranda some box about the guess holds a time and place at

@@ -18,11 +18,11 @@ using StaticTime = std::variant<RationalTime, double>;
 // -1, 0 or 1 as time is less than, equal to or greater than t. Exact. REQUIRES t finite.
 int compare(const StaticTime& time, double t);
 
-// True when some closed face (vertex, edge or triangle) of triangle a meets one of triangle b that
-// shares no vertex index with it. If the two have no common vertex, they are tested themselves;
-// with one, each edge opposite it is tested against the other triangle; with two, each third
-// vertex against the other triangle and the crosswise edges against each other. A face that has
-// become a segment or a point is tested as that; a repeated index counts once.
+// Returns true when some closed face (vertex, edge or triangle) of triangle a meets one of triangle
+// b that shares no vertex index with it. If the two have no common vertex, they are tested
+// themselves; with one, each edge opposite it is tested against the other triangle; with two, each
+// third vertex against the other triangle and the crosswise edges against each other. A face that
+// has become a segment or a point is tested as that; a repeated index counts once.
 // Two triangles with the same three vertices are in contact at t=0 by convention, whatever their
 // places: for them the answer at t=0 is true, and at later times geometry decides.
 // REQUIRES a != b, indices in range, finite positions, a time in [0,1]. 1 us if the boxes are

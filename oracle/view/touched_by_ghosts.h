@@ -31,7 +31,7 @@ std::vector<std::uint8_t> touched_by_ghosts(const detector::SteppedMesh& motion,
                                             const detector::TrianglesView& ghosts,
                                             const GhostSweepOptions& options = {});
 
-// The rows of the mesh, followed by those of the apexes: the numbering that ghosts use.
+// Returns the rows of the mesh, followed by those of the apexes: the numbering that ghosts use.
 detector::Positions with_apexes(const detector::PositionsView& x,
                                 const detector::PositionsView& apexes);
 

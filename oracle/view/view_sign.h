@@ -13,9 +13,9 @@ namespace assay::oracle {
 
 using MovingTriangle = std::array<detector::MovingPoint, 3>;
 
-// The view sign of a triangle in interval arithmetic, on pieces of the step. For a view-point it
-// takes 0.2 us over a small motion and 2 us over a large one, for a segment 7 us. Its answers are
-// certain. Empty when intervals cannot tell.
+// Returns the view sign of a triangle in interval arithmetic, on pieces of the step. For a
+// view-point it takes 0.2 us over a small motion and 2 us over a large one, for a segment 7 us. Its
+// answers are certain. Empty when intervals cannot tell.
 // Notation, with N = (p1 - p0) x (p2 - p0) and d = q1 - q0:
 //   h0 = (p - q0).N, h1 = (p - q1).N (the same for every p in the triangle's plane),
 //   g0 = (p - q0).d, g1 = (p - q1).d = g0 - |d|^2, hm = h1 g0 - h0 g1 = h0 |d|^2 - g0 (d.N).
@@ -23,8 +23,8 @@ using MovingTriangle = std::array<detector::MovingPoint, 3>;
 std::optional<detector::ViewSign> interval_view_sign(const MovingTriangle& triangle,
                                                      const detector::ViewPrimitive& primitive);
 
-// The view sign of a triangle by exact polynomials and the algebraic kernel. 0.2 to 0.4 ms; up to
-// 0.1 s when the exponents of the coordinates spread over all doubles.
+// Returns the view sign of a triangle by exact polynomials and the algebraic kernel. 0.2 to 0.4 ms;
+// up to 0.1 s when the exponents of the coordinates spread over all doubles.
 // The triangle is positive or negative over the step exactly when the view function of no vertex
 // is ever zero and the three signs at t=0 agree, because the view function of a vertex is
 // continuous.
@@ -72,8 +72,8 @@ struct PairSplit {
 
 PairSplit split(const std::vector<detector::PairContact>& pairs, const Candidates& candidates);
 
-// Returns whether L3 holds: some pair of `pairs` with the least time is in `candidates`. True if
-// there are no pairs.
+// Returns whether L3 holds: some pair of `pairs` with the least time is in `candidates`. Returns
+// true if there are no pairs.
 bool holds_a_first_contact(const std::vector<detector::PairContact>& pairs,
                            const Candidates& candidates);
 

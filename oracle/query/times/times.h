@@ -24,15 +24,15 @@ class ExactTimes {
   ExactTimes& operator=(const ExactTimes&) = delete;
 
   virtual int size() const = 0;
-  // The exact sign of q at the i-th time.
+  // Returns the exact sign of q at the i-th time.
   virtual int sign(const IntegerPolynomial& q, int i) const = 0;
   virtual detector::TimeEnclosure enclosure(int i) const = 0;
 };
 
-// The canonical enclosure of a time in [lo,hi] that can only be compared with doubles. REQUIRES 0
-// <= lo <= hi, and that compare(t) is the exact sign of (time - t); it is asked of doubles in
-// [lo,hi] only. A wrong guess costs only work: when it is n units in the last place away, about 2
-// log2 n comparisons.
+// Returns the canonical enclosure of a time in [lo,hi] that can only be compared with doubles.
+// REQUIRES 0 <= lo <= hi, and that compare(t) is the exact sign of (time - t); it is asked of
+// doubles in [lo,hi] only. A wrong guess costs only work: when it is n units in the last place
+// away, about 2 log2 n comparisons.
 template <class Compare>
 detector::TimeEnclosure enclose_time(double guess, double lo, double hi, Compare compare) {
   // Doubles >= 0 are ordered as their bit patterns.
@@ -71,8 +71,8 @@ detector::TimeEnclosure enclose_time(double guess, double lo, double hi, Compare
   return {value(below), value(above)};
 }
 
-// A zero of f in [s,e] in plain doubles: only a guess, so it has no error bound. f is of degree 6
-// at most, and `sign_at_s` is its sign at s, opposite to that at e.
+// Returns a zero of f in [s,e] in plain doubles: only a guess, so it has no error bound. f is of
+// degree 6 at most, and `sign_at_s` is its sign at s, opposite to that at e.
 double guess_zero(const IntegerPolynomial& f, double s, double e, int sign_at_s);
 
 // Encloses the zero of f in (s,e) by exact integer signs of f at doubles, without the algebraic
@@ -90,11 +90,11 @@ class QuadraticTime {
   // Appends the distinct real zeros of p, ascending. REQUIRES degree 1 or 2.
   static void append_zeros(const IntegerPolynomial& p, std::vector<QuadraticTime>& to);
 
-  // The exact sign of q(r). Some 10 products of integers where q has degree 2.
+  // Returns the exact sign of q(r). Some 10 products of integers where q has degree 2.
   int sign(const IntegerPolynomial& q) const;
-  // The exact sign of r - other.
+  // Returns the exact sign of r - other.
   int compare(const QuadraticTime& other) const;
-  // The exact sign of r - t. REQUIRES 0 <= t <= 1.
+  // Returns the exact sign of r - t. REQUIRES 0 <= t <= 1.
   int compare(double t) const;
   // REQUIRES 0 <= r <= 1.
   detector::TimeEnclosure enclosure() const;
@@ -103,7 +103,7 @@ class QuadraticTime {
   enum class Zero : signed char { lesser = -1, only = 0, greater = 1 };
 
   QuadraticTime(Integer a, Integer b, Integer c, Zero zero);
-  // The exact sign of u r + v.
+  // Returns the exact sign of u r + v.
   int sign_of_linear(const Integer& u, const Integer& v) const;
   double guess() const;
 
@@ -147,7 +147,7 @@ class CubicTimes final : public ExactTimes {
     std::size_t bound;    // where it is, or where its piece begins
     bool inside = false;  // of the piece
   };
-  // The exact sign of the zero minus another time or a double in [0,1].
+  // Returns the exact sign of the zero minus another time or a double in [0,1].
   template <class Time>
   int compare(const Zero& zero, const Time& other) const;
 
