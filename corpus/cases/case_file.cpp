@@ -1,4 +1,4 @@
-// The fields of a case are listed once, for who reads and who writes.
+// The fields of a case are listed once, for the code that reads and the code that writes.
 #include "corpus/cases/case_file.h"
 
 #include <fmt/format.h>

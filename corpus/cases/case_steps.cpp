@@ -1,5 +1,5 @@
-// The steps of a case. They stand apart from reading and writing, so that who only runs cases
-// needs none of that.
+// The steps of a case. They stand apart from reading and writing, so that code that only runs cases
+// needs neither.
 #include "corpus/cases/case_file.h"
 
 namespace assay::corpus {

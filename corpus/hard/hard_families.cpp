@@ -1,5 +1,5 @@
-// The families of all files of hard/ together, how a case of one is made, the meshes on grids that
-// they are made of, and view_families().
+// Puts together the families of all files of hard/, makes a case of a family, makes the meshes on
+// grids that cases are made of, and holds view_families().
 #include "corpus/hard/hard_families.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // Additive continuous collision detection (Li et al. 2021) of two simulators, in doubles, on the
-// host; ASSAY_PEER_CODIM_IPC says whether the first.
+// host; ASSAY_PEER_CODIM_IPC says whether it is the first.
 //
 //   CodimIpc  Point_Triangle_CCD and Edge_Edge_CCD of Math/Distance/CCD, commit 9c6cbe3a
 //             (2022-11-01) of ipc-sim/Codim-IPC: eta 0.1, thickness 0, after its test of boxes, as
@@ -11,16 +11,16 @@
 //
 // Contract: 1e-6 apart at the start ("we ensured other place that all dist smaller than dHat are
 // positive", both say, and a distance of 0 by rounding gives NaN), and coordinates of usual sizes;
-// the time is a lower bound. Claims: free-sound and not-late, because who has the method says of
-// it: C-IPC "interpenetration-free" (its paper's abstract), libuipc "penetration-free frictional
-// contact" (README, line 18). None says that what it reports is a contact: what comes near may be
-// reported. As limiters (limiter.h) their share is the time. Claim: path-free.
+// the time is a lower bound. Claims: free-sound and not-late, because the authors of both claim it:
+// C-IPC "interpenetration-free" (its paper's abstract), libuipc "penetration-free frictional
+// contact" (README, line 18). Neither says that it reports contacts only: features that come near
+// may be reported. As limiters (limiter.h) their share is the time. Claim: path-free.
 //
-// Expected before the first run: both stop before contacts, and announce what comes near. Parallel
-// edges: where the lines' distance is rounded to 0, both go by the corners ("this must be some far
-// away nearly parallel edges"), which may be farther apart than the edges are: a miss. (That start
-// was not yet left out then. It gave what was expected, and besides, that CodimIpc goes on for ever
-// from a vertex at a face.)
+// Expected before the first run: both stop before contacts, and announce features that come near.
+// Parallel edges: where the lines' distance is rounded to 0, both go by the corners ("this must be
+// some far away nearly parallel edges"), which may be farther apart than the edges are: a miss.
+// (Starts at less than that distance were not yet left out then. They gave what was expected;
+// besides, CodimIpc goes on for ever from a vertex at a face.)
 #if ASSAY_PEER_CODIM_IPC
 #include <Eigen/Dense>
 #include <vector>

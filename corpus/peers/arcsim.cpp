@@ -2,12 +2,12 @@
 //
 // Version: commit e17d93b5 (2022-07-17) of kaist-silab/arcsim, which calls itself 0.3.1. Function:
 // collision_test of its source collision, which is no part of a header, so that file is included as
-// it is; find_impacts calls it for pairs that share no node and whose boxes meet. Settings: what is
-// fixed there (a distance below 1e-6, weights above -1e-6, Newton's method to 1e-6 of the step).
-// Contract: no contact at the start, and coordinates of usual sizes. Claims: free-sound, because
-// collision_response moves until find_impacts is empty, and its header mesh calls what comes of it
-// the "collision-free position" of the next step; not-late is not claimed, because Newton's method
-// ends within 1e-6 on either side.
+// it is; find_impacts calls it for pairs that share no node and whose boxes meet. Settings: the
+// values that are fixed there (a distance below 1e-6, weights above -1e-6, Newton's method to 1e-6
+// of the step). Contract: no contact at the start, and coordinates of usual sizes. Claims:
+// free-sound, because collision_response moves until find_impacts is empty, and its header mesh
+// calls the result the "collision-free position" of the next step; not-late is not claimed, because
+// Newton's method ends within 1e-6 on either side.
 //
 // Expected before the first run: four points that start within a millionth of one plane are skipped
 // ("initially coplanar"), so that edges of one plane that fold through each other are missed. The

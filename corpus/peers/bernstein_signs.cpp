@@ -5,12 +5,12 @@
 // Continuous-Collision-Detection/Root-Parity-and-Bernstein-Sign-Classification, and 366384ba
 // (2020-09-23) of Continuous-Collision-Detection/TightCCD. Functions: Intersect_VF_robust (the
 // vertex stands last, as in CCD-Wrapper) and Intersect_EE_robust of the headers bsc and
-// bsc_tightbound; they tell no time. What BSC throws ("Inflection points are not handled exactly in
-// BSC!") is a collision, as CCD-Wrapper has it ("Conservative answer upon failure"). Settings:
-// none. Contract: no contact at the start; coordinates of usual sizes. Claims: free-sound from the
-// abstracts of their papers: BSC offers "a geometrically exact CCD algorithm ... to perform
-// reliable Boolean collision queries", TightCCD "eliminates all the false negatives and 90 - 95% of
-// the false positives". No-spurious is claimed of neither.
+// bsc_tightbound; they tell no time. An exception of BSC ("Inflection points are not handled
+// exactly in BSC!") counts as a collision, as CCD-Wrapper has it ("Conservative answer upon
+// failure"). Settings: none. Contract: no contact at the start; coordinates of usual sizes. Claims:
+// free-sound from the abstracts of their papers: BSC offers "a geometrically exact CCD algorithm
+// ... to perform reliable Boolean collision queries", TightCCD "eliminates all the false negatives
+// and 90 - 95% of the false positives". No-spurious is claimed for neither.
 //
 // Expected before the first run: both are in doubt where the cubic has an inflection in the step
 // (bsc_tightbound says of its own line "here has false negatives"); motion within a plane, where

@@ -9,8 +9,8 @@
 // and no time, because the function tells none. Claims: free-sound from the change that brought it
 // in ("Add continuous collision detection for triangle vertex vs. face", pull request 2612 of
 // bulletphysics/bullet3); total and deterministic, because it is a function of its arguments that
-// returns a bool. Nothing in it says how near a float has to come, so what it misses by rounding
-// is held against that sentence.
+// returns a bool. Nothing in it says how near a float has to come, so the contacts that it misses
+// by rounding are judged by that sentence.
 #include <BulletSoftBody/btSoftBody.h>
 #include <BulletSoftBody/btSoftBodyInternals.h>
 

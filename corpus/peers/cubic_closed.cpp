@@ -8,12 +8,13 @@
 // Fedkiw and Anderson, Robust treatment of collisions, contact and friction for cloth animation
 // (2002), section 6.1, offer the same test ("we check for interference at the roots") as one that
 // finds all collisions of a step; total and deterministic, because it is a function of its
-// arguments. The book promises all of this without a word on rounding, and speaks of no arithmetic.
+// arguments. The paper promises all of this without a word on rounding, and speaks of no
+// arithmetic.
 //
 // As a limiter (limiter.h) it stops at 0.9 of the first time, the part that solvers with a line
 // search keep (Li et al., Incremental potential contact, 2020, scale the time of a collision
-// before they step). Claims: commit-free and path-free, from the same place: who finds every
-// collision and stops a tenth before the first is free.
+// before they step). Claims: commit-free and path-free, from the same place: a step that stops a
+// tenth before the first of all collisions is free.
 #include "corpus/peers/cubic.h"
 #include "corpus/peers/limiter.h"
 

@@ -6,8 +6,8 @@
 // cubic_closed.cpp. The solver divides by the leading coefficient, so leading coefficients that
 // are 0 are left away, as its users do. Contract and claims: those of cubic_closed.cpp, from the
 // same place, because they are the method's. Eigen promises less: its solver is "guaranteed to
-// provide a correct result only when the complex roots have distinct moduli", so what is missed
-// when two have the same is no fault of Eigen's.
+// provide a correct result only when the complex roots have distinct moduli", so a contact that is
+// missed when two roots have the same modulus is no fault of Eigen's.
 #include <Eigen/Core>
 #include <unsupported/Eigen/Polynomials>
 

@@ -2,12 +2,12 @@
 //
 // Version: commit 5579391e (2025-05-22) of tysonbrochu/eltopo. Functions: point_triangle_collision
 // and segment_segment_collision of its ccd_wrapper, called as its collisionpipeline calls them;
-// they tell no time. Settings: USE_CUBIC_SOLVER_CCD, its default, with what is fixed there
-// (coplanarity to 1e-8 of the sum of the coefficients, distance below 1e-6). Contract: no contact
-// at the start; coordinates of usual sizes, because 1e-6 is a length. Claim: free-sound, because
-// its readme says that el_topo_integrate "moves the surface vertices while guaranteeing no
-// self-intersections", and the wrapper "If there is a collision, returns true". What comes within
-// 1e-6 may be announced, so no-spurious is not claimed.
+// they tell no time. Settings: USE_CUBIC_SOLVER_CCD, its default, with the values that are fixed
+// there (coplanarity to 1e-8 of the sum of the coefficients, distance below 1e-6). Contract: no
+// contact at the start; coordinates of usual sizes, because 1e-6 is a length. Claim: free-sound,
+// because its readme says that el_topo_integrate "moves the surface vertices while guaranteeing no
+// self-intersections", and the wrapper "If there is a collision, returns true". Features that come
+// within 1e-6 may be announced, so no-spurious is not claimed.
 //
 // Expected before the first run: motion within a plane is missed, because the cubic is 0 throughout
 // and then t = 0 and t = 1 alone are looked at. Large coordinates and long ways are missed, because

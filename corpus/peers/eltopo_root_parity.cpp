@@ -5,13 +5,13 @@
 // Settings: none; -O2, as its makefile has it. Contract: no contact at the start; coordinates of
 // usual sizes. Claim: no-spurious, because its header says "Returns true if there is an odd number
 // of ray intersections (corresponding to an odd number of roots of F in the domain)", and an odd
-// number is not none. That an even number is answered "no" it says too, so free-sound is not
-// claimed; what it misses stands in brackets, and where the number is odd it is looked into. Nor is
-// it deterministic: culled rays are drawn by rand().
+// number is not none. It also says that an even number is answered "no", so free-sound is not
+// claimed; contacts that it misses stand in brackets, and are looked into where the number is odd.
+// Deterministic is not claimed either: culled rays are drawn by rand().
 //
-// Expected before the first run: what passes twice is missed, as promised. Motion within a plane
-// maps the domain into a plane, where crossings of the ray are degenerate: there it gives up or
-// answers at random. It rounds differences of coordinates before it is exact, so near misses and
+// Expected before the first run: features that pass twice are missed, as promised. Motion within a
+// plane maps the domain into a plane, where crossings of the ray are degenerate: there it gives up
+// or answers at random. It rounds differences of coordinates before it is exact, so near misses and
 // contacts of coordinates that are not small whole numbers may be wrong by that.
 #include <rootparitycollisiontest.h>
 

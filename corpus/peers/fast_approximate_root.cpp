@@ -5,14 +5,14 @@
 // ccd::point_triangle_ccd and ccd::edge_edge_ccd. Settings: none (Newton's method ends when a step
 // is below 1e-6), assertions off, as its own Release build. Contract: no contact at the start,
 // coordinates of usual sizes. Claims: deterministic and total alone, because its README says "this
-// method can produce false negatives (i.e., miss collisions)" and prints two. What it misses is
-// therefore told in brackets, and nothing is held against it.
+// method can produce false negatives (i.e., miss collisions)" and prints two. Contacts that it
+// misses are therefore told in brackets, and not held against it.
 //
 // Expected before the first run: the two of its README. A cubic without extrema (4 b b - 12 a c
-// below 0) is answered "no" though it has a root. Of several roots one alone is looked at, so that
-// what meets at a later one is missed. Newton's method stops short of the root, where a contact at
-// the end of a feature or of the step is not inside yet. A motion within a plane is answered "yes":
-// alarms. Below lengths of 1e-5 coefficients count as zero.
+// below 0) is answered "no" though it has a root. Of several roots only one is looked at, so that
+// features that meet at a later one are missed. Newton's method stops short of the root, where a
+// contact at the end of a feature or of the step is not inside yet. A motion within a plane is
+// answered "yes": alarms. Below lengths of 1e-5 coefficients count as zero.
 #include <ccd.hpp>
 
 #include "corpus/peers/feature_pairs.h"

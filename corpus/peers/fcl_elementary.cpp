@@ -8,8 +8,8 @@
 // from its README ("continuous collision detection: detecting whether the two moving models
 // overlap during the movement, and optionally, the time of contact"); total and deterministic,
 // because they are functions of their arguments that return a bool. Its public function for meshes
-// takes rigid motions alone, so the two are called directly; that neighbours share vertices is the
-// adapter's care.
+// takes rigid motions alone, so the two are called directly; the adapter takes care of neighbours
+// that share vertices.
 #include <fcl/narrowphase/detail/traversal/collision/intersect.h>
 
 #include "corpus/peers/feature_pairs.h"

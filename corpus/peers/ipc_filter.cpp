@@ -19,7 +19,7 @@
 // between elements"; deterministic and total, because they are functions of their arguments. They
 // leave the path, so nothing is claimed of it, nor of how far they go. A start at which
 // features of neighbours are nearer than min_distance, which compute_per_vertex_safe_distances
-// refuses in an assertion, is not put to them: the mesh stays.
+// refuses in an assertion, is not given to them: the mesh stays.
 #include <ipc/ogc/trust_region.hpp>
 
 #include "corpus/peers/ipc_mesh.h"

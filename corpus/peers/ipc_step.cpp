@@ -5,8 +5,8 @@
 // tutorial "Getting started" calls them. Settings: the defaults of each, and min_distance
 // ASSAY_PEER_SEPARATION: 0, or 1e-3 ("The minimum distance allowable between any two elements";
 // "CCD with a minimum separation distance"). Contract of both narrow phases: that of ipc_mesh.h
-// ("Assumes vertices_t0 is intersection free"). It promises nothing of how near what it takes for a
-// collision is.
+// ("Assumes vertices_t0 is intersection free"). It promises nothing about how near the features are
+// that it takes for a collision.
 //
 // ASSAY_PEER_NARROW says by which one:
 //
@@ -14,17 +14,17 @@
 // conservative (i.e., never misses collisions)", Getting started, section "Narrow phase"; "Computes
 // a maximal step size that is collision free", ipc.hpp); deterministic and total, because it is a
 // function of its arguments that returns a number. The step it gives stays clear of the contact on
-// purpose. How early it is is shown, and not held against it. As a limiter (limiter.h): path-free
-// and commit-free, from the same places, for the caller of Getting started goes to
-// "(vertices_t1 - vertices_t0) * max_step_size + vertices_t0" and is then "collision-free". Not
-// progress: "maximal" cannot be meant of a step that stays clear.
+// purpose. The report shows how early it is, and does not hold that against it. As a limiter
+// (limiter.h): path-free and commit-free, from the same places, for the caller of Getting started
+// goes to "(vertices_t1 - vertices_t0) * max_step_size + vertices_t0" and is then "collision-free".
+// Not progress: "maximal" cannot be meant of a step that stays clear.
 //
 // additive: additive CCD (Li et al. 2021). Claims: deterministic and total. Not free-sound:
 // additive_ccd.hpp says of it that it "is not provably conservative and so can potentially produce
-// false negatives (i.e., miss collisions) due to floating-point rounding error". What it misses is
-// shown, and held against nobody. As a limiter: path-free and commit-free, from ipc.hpp ("A
-// step-size in [0, 1] that is collision free"), which excepts no narrow phase. The exception above
-// stays: what rounding breaks is shown, and held against nobody.
+// false negatives (i.e., miss collisions) due to floating-point rounding error". Contacts that it
+// misses are shown, and not held against it. As a limiter: path-free and commit-free, from ipc.hpp
+// ("A step-size in [0, 1] that is collision free"), which excepts no narrow phase. The exception
+// above stays: failures by rounding are shown, and not held against it.
 #include <ipc/ccd/additive_ccd.hpp>
 #include <ipc/ccd/tight_inclusion_ccd.hpp>
 #include <ipc/ipc.hpp>

@@ -7,8 +7,8 @@
 // none but the number of samples. Contract: no contact at the start; no neighbours, because the
 // function says nothing of triangles that share a vertex; coordinates as the others have them. A
 // triangle without area is not tested, as the function demands. Claims: deterministic and total
-// alone, because nobody promises that samples see everything. The time told is that between a
-// sample with a contact and the one before.
+// alone, because nobody promises that samples see everything. The time told is the interval between
+// a sample with a contact and the sample before.
 #include "corpus/peers/triangle_pairs.h"
 
 extern "C" int assay_triangles_meet_now(const double* a, const double* b);

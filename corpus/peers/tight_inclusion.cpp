@@ -13,19 +13,20 @@
 // their arguments that return a bool. It announces a collision when features only come nearer to
 // each other than tolerance, so of ms 0 no-spurious is not claimed.
 //
-// With ms the same is claimed of what comes within ms ("We guarantee a collision will be reported
-// if the distance between the two primitives is less than ms"), and no-spurious too: a false alarm
-// happens "only if the minimal distance ... is no larger than tolerance + ms + err". Which distance
-// it does not say. The code compares each coordinate (interval_root_finder,
+// With ms the same is claimed of features that come within ms ("We guarantee a collision will be
+// reported if the distance between the two primitives is less than ms"), and no-spurious too: a
+// false alarm happens "only if the minimal distance ... is no larger than tolerance + ms + err".
+// It does not say which distance that is. The code compares each coordinate (interval_root_finder,
 // evaluate_bbox_one_dimension_vector), so it is the greatest difference along an axis, and the
-// slack is given for that: sqrt(3) (ms + tolerance + err) - ms. What ends by max_itr is excepted
-// there ("the solving precision may not reach the target precision"), and is not told apart here.
+// slack is given for that: sqrt(3) (ms + tolerance + err) - ms. Queries that end by max_itr are
+// excepted there ("the solving precision may not reach the target precision"), and are not told
+// apart here.
 //
 // As a limiter its share is toi. Claim: path-free, because toi is the time of a conservative test
-// (README.md: "it will return the earliest collision time"). Not commit-free: that a step of a
-// simulator is "intersection-free" it says only of those that take ms above 0 to keep clear, and
-// nothing of the rounding of positions. Not progress, nor whole-when-safe, for what comes within
-// tolerance, ms and err may stop it.
+// (README.md: "it will return the earliest collision time"). Not commit-free: it calls a step
+// "intersection-free" only for simulators that keep clear by an ms above 0, and it says nothing
+// about the rounding of positions. Not progress, nor whole-when-safe, because features that come
+// within tolerance, ms and err may stop it.
 #include <cmath>
 #include <tight_inclusion/ccd.hpp>
 
