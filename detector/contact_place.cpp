@@ -2,7 +2,7 @@
 // both triangles at both ends is in [0.5, 1), or below if it is less than 2^-1000 unscaled.
 // - A place at t, (1 - t) x0 + t x1, is off by at most 4 u; a sum of three weighted places by at
 //   most 8 u, and its difference from the point, as computed, by at most 10 u. `error` is that
-//   difference and 16 u. What the place is computed from plays no part in it.
+//   difference and 16 u. How the place was computed plays no part in it.
 // - An edge at t is computed from its differences at both ends, of at most D in each coordinate,
 //   and is off by at most 5 u D. A product of two edges is then off by at most 26 u D E in each
 //   coordinate, so its direction by at most 2 sqrt(3) 26 u D E / |N|; dividing by the length adds 4

@@ -11,7 +11,7 @@
 // largest |r_k| and X, Y, Z the largest coordinates, two products and a difference are off by less
 // than 2.1 u S and 2^-1074, and an origin's (2 u0 + u1 + u2) / 4 by less than 4 u S and 2^-1073
 // (two more sums and a quarter): a margin of 8 u S + 2^-1071 around the boxes rejects no triangle
-// that the line meets. What is not rejected is decided by crossing_signs.
+// that the line meets. The triangles that are not rejected are decided by crossing_signs.
 
 #include "detector/geometry/winding.h"
 

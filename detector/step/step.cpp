@@ -1,9 +1,9 @@
-// Algorithm 3 of the thesis, self-collision detection with the view-based approach; without what
-// it does about holes it is Algorithm 1. The excerpts state most steps in words (3.6, 4.3, 4.4)
-// and print no listing. So (r) marks a line that is reconstructed, and + one that the laws of
-// detector/LAWS.md add or put in its place. On the right stands the function that does it, or
-// the stage that this function asks. evaluate_step() moves the ghosts and keeps the state at the
-// end; run_stages() does what is between, in this order.
+// Algorithm 3 of the thesis, self-collision detection with the view-based approach. Without its
+// steps for holes it is Algorithm 1. The excerpts state most steps in words (3.6, 4.3, 4.4) and
+// print no listing. So (r) marks a line that is reconstructed, and + one that the laws of
+// detector/LAWS.md add or put in its place. On the right stands the function that does it, or the
+// stage that this function asks. evaluate_step() moves the ghosts and keeps the state at the end;
+// run_stages() does the rest, in this order.
 //
 //   in preprocessing                                             assemble
 //     (r) build a BVH of the mesh

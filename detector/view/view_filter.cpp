@@ -1,9 +1,9 @@
 // L1: with N = (p1-p0) x (p2-p0), h0 = (p-q0).N and h1 = (p-q1).N (the same for every point p of
 // the triangle's plane), d = q1 - q0 and s = clamp((p-q0).d / d.d, 0, 1), the view value at p is
 //   (p - n(p)).N = (1-s) h0 + s h1.
-// Affine in s, and s is monotone along the triangle: its extremes over the triangle are at the
-// three vertices, each with its own s. So the triangle is positive when the value is positive at
-// the three vertices; h0, h1 > 0 together suffice.
+// This is affine in s, and s is monotone along the triangle: the extremes over the triangle are at
+// the three vertices, each with its own s. So the triangle is positive when the value is positive
+// at the three vertices; h0, h1 > 0 together suffice.
 // L2: h0 and h1 are cubics in t. Over a piece of time this file bounds them by their Bernstein
 // coefficients, bounds each vertex's s likewise, and bounds the value from these. Pieces that stay
 // open are halved. Ends of the segment that move need no other treatment.
