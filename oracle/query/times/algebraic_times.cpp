@@ -1,7 +1,7 @@
 // The kernel's own isolation of zeros (Descartes' rule) calls itself once a halving: 1,190 deep
 // where two zeros are told apart by that many bits, on half a megabyte of stack. So zeros are
-// isolated here, with the pieces that are left on the heap; of the kernel come square-free parts,
-// and what compares numbers and takes them nearer, which are loops.
+// isolated here, and the pieces that are left lie on the heap. The kernel gives square-free parts,
+// and functions that compare numbers and refine them, which are loops.
 #include "oracle/query/times/times.h"
 
 // g++ 12 takes two handles of CGAL that share a number, when they are swapped, for one that is used
