@@ -48,7 +48,7 @@ Positions with_apexes(const PositionsView& x, const std::vector<MovingPoint>& ap
 // of its ghosts and triangles all hold a place near the hub, so n^2 pairs come up. A step of this
 // mesh under bvh is quadratic for the same reason (34 s at n = 20,000), because candidates are
 // found by boxes of triangles. With boxes of edges and vertices the n vertices would be apart from
-// the n faces, because an edge at the rim is as short as its triangle is narrow, but the edges at
+// the n faces, because an edge at the rim is as short as its triangle is narrow. But the edges at
 // the hub would still meet in one place.
 class ApexChoice {
  public:
@@ -60,7 +60,7 @@ class ApexChoice {
 
   // The work that the choice may take, in the units of GhostCounts::work (box tests):
   // work_per_triangle for each triangle and ghost, and base_work (1 ms) once. A step of bvh takes
-  // 0.8 to 1.4 us a triangle, as 160 to 280 box tests do.
+  // 0.8 to 1.4 us a triangle, as much as 160 to 280 box tests.
   static constexpr std::uint64_t work_per_triangle = 200, base_work = 200'000;
 
   // The stop function is asked each time the choice has done this much work.

@@ -27,7 +27,7 @@ namespace assay::detector {
 
 class BoundingVolumeTree;
 
-// Box i of the rows.
+// Returns box i of the rows.
 inline MovingBox box_of(const BoxRows& rows, std::size_t i) {
   const auto three = [&](std::size_t row) {
     const float* const first = rows.first + row * rows.count + i;
@@ -77,7 +77,7 @@ class WideTree {
   }
   const float* box(std::int32_t n) const { return own_.get() + rows() * at(n); }
 
-  // Allocates memory for the boxes. A mesh that is only looked at at rest takes half as much.
+  // Allocates memory for the boxes. A mesh that is looked at only at rest takes half as much.
   void make_room(bool at_rest);
   // Fits the boxes to the triangles, each grown by `by` on all sides. Returns false if `pace` was
   // stopped. REQUIRES room for a motion like that of the points.
@@ -108,8 +108,9 @@ inline constexpr std::int32_t mixed_components = -1;
 class BoundingVolumeTree {
  public:
   // Splits the components, then the triangles of each, at the median of their centres along the
-  // longest side of the box of these centres; both are rounded to a billionth of the component. A
-  // leaf holds one triangle. O(M log M). If `pace` was stopped, the tree must not be used.
+  // longest side of the box of these centres. Centres of triangles are rounded to 2^-26 of their
+  // component. A leaf holds one triangle. O(M log M). If `pace` was stopped, the tree must not be
+  // used.
   BoundingVolumeTree(const Topology& mesh, const PositionsView& x, PacedStop* pace = nullptr);
 
   static constexpr std::int32_t root = 0;

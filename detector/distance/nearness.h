@@ -45,8 +45,8 @@ TimeEnclosure exact_near_time_between(const FourPoints& query, double d, double 
 // (the secant rule), or the end of the step. If a piece up to there cannot be proved, the next
 // instant is the time until which the n of this instant keeps the features apart.
 //
-// Two places of the features, on the other hand, that are nearer than d prove that the features
-// are within d at that instant.
+// On the other hand, two places of the features that are nearer than d prove that the features are
+// within d at that instant.
 //
 // Error bounds, in the notation of exact/bernstein.h. M bounds the size of every coordinate of the
 // points as they are seen from the first one, at t=0 and t=1. Everything is multiplied by M.
@@ -68,8 +68,8 @@ TimeEnclosure exact_near_time_between(const FourPoints& query, double d, double 
 //
 // Lengths themselves (a dot product and a root: 2.5), their product with d and a slack (2), a sum
 // and a mean (2) are off by less than 7 u of their size. gap_error and place_error are larger than
-// 32 and 66, which covers that the rows have errors of first order only. Underflows are far below:
-// M is at least 2^-300 (in_range).
+// 32 and 66, so they cover errors of second order, which the rows leave out. Underflows are far
+// below: M is at least 2^-300 (in_range).
 
 inline constexpr double gap_error = 36 * unit_roundoff;    // times M |n|
 inline constexpr double place_error = 72 * unit_roundoff;  // times M

@@ -19,7 +19,7 @@ class RealRoot {
  public:
   // A root at a known time.
   explicit RealRoot(const Dyadic& exact_time);
-  // The same with `doubles`, the double that the time is or the two doubles around it.
+  // The same, where `doubles` encloses the time: it is that double, or the two doubles around it.
   RealRoot(const Dyadic& exact_time, TimeEnclosure doubles);
   // The root of f in the open interval (lo, hi). REQUIRES that f has one root there, a simple one,
   // and the sign sign_after_lo between lo and the root. f may vanish at lo and hi.

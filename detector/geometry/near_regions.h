@@ -17,11 +17,12 @@
 // of the perpendicular lie in the faces, and the strict one that the edge, the face or the pair of
 // edges is not degenerate. Where it is degenerate, f vanishes, and lower faces tell the distance.
 //
-// The first time within d is the least of the regions' times: 0, if f <= 0 with the conditions at
-// t=0, and the zeros of f at which the conditions hold, unless f is identically zero. Let tau > 0
-// be the first time, in a region of least dimension. Nothing is near before, so the distance at tau
-// is d, and f vanishes there. If f is identically zero, some condition fails just before tau, so
-// its g vanishes at tau: the foot is on a lower face, and the region was not of least dimension.
+// The times of a region are 0, if f <= 0 with the conditions at t=0, and the zeros of f at which
+// the conditions hold, unless f is identically zero. The first time within d is the least time of
+// all regions. Let tau > 0 be the first time, in a region of least dimension. Nothing is near
+// before, so the distance at tau is d, and f vanishes there. If f is identically zero, some
+// condition fails just before tau, so its g vanishes at tau: the foot is on a lower face, and the
+// region was not of least dimension.
 //
 // The table is written once, as a template over the kind of number: integers at an instant,
 // polynomials over the step, balls over a piece of it.

@@ -1,7 +1,7 @@
 // Asks a stop function once for every so many units of work: often enough to end in time, and so
 // seldom that asking costs next to nothing.
 //
-// The unit of work is what a box test costs, about 5 ns. Callers count their work roughly. A stop
+// The unit of work is the cost of a box test, about 5 ns. Callers count their work roughly. A stop
 // function may ask the system how much memory there is, which takes 10 us. Once it has returned
 // true it is not asked again. The result of stopped work must not be used:
 //

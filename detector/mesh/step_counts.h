@@ -64,8 +64,8 @@ struct MarkingCounts {
 
 struct NarrowCounts {
   std::uint64_t elementary_tests = 0;  // feature pairs that the axis rung left open, each once
-  // By the rung that decided. `axis` counts feature pairs whose boxes met only because boxes are
-  // rounded to floats.
+  // Feature pairs by the rung that decided. `axis` counts feature pairs whose boxes met only
+  // because boxes are rounded to floats.
   ContactRungCounts rungs;
 
   NarrowCounts& operator+=(const NarrowCounts& other) {

@@ -15,9 +15,9 @@
  *
  * ERRORS. A function that takes an `error` returns ASSAY_OK, ASSAY_REFUSED or ASSAY_OUT_OF_MEMORY.
  * A call that does not return ASSAY_OK has changed nothing, with one exception: after a failed
- * evaluate there is nothing to commit. `error` may be NULL. If it is not, the function fills it
- * in; with ASSAY_OK it then holds ASSAY_BUILTIN_NO_ERROR and an empty message. Handles and arrays
- * must not be NULL unless a function says that they may be.
+ * evaluate there is nothing to commit. `error` may be NULL. Otherwise the function fills it in;
+ * with ASSAY_OK it then holds ASSAY_BUILTIN_NO_ERROR and an empty message. Handles and arrays must
+ * not be NULL unless a function says that they may be.
  *
  * THE PROCESSOR. Answers are the same whatever state the caller has set: flushing of denormals,
  * another rounding mode, or traps. Each call puts that state back, and stop() runs in it. */

@@ -177,10 +177,10 @@ static inline void assay_record_sum_few_(assay_recorder* r, const unsigned char*
   r->crc = c;
 }
 
-/* The sum is the remainder of the bytes, as a polynomial, by one of degree 32. So it is that of
- * their remainder by any multiple of that polynomial, such as the one with the powers 300, 155,
- * 117, 89 and 0 of x^64. To divide by that one takes four additions a word of 64 bits, whatever the
- * order of its bytes, and leaves 300 words. It is several times as fast as tables. */
+/* The sum is the remainder of the bytes, taken as a polynomial, by a polynomial of degree 32. Their
+ * remainder by any multiple of that polynomial has the same sum; one such multiple has the powers
+ * 300, 155, 117, 89 and 0 of x^64. To divide by that one takes four additions a word of 64 bits,
+ * whatever the order of its bytes, and leaves 300 words. It is several times as fast as tables. */
 enum { ASSAY_RECORD_LEFT_ = 300, ASSAY_RECORD_BLOCK_ = 1024 }; /* words */
 
 /* The next words of the quotient, behind the last 300 ones. */

@@ -5,9 +5,9 @@
 //   the two share no vertex, and their boxes are not apart;
 //   no earlier search has asked for them;
 //   of all triangles that hold these features, the two have the first types that it asks for.
-// Over the candidates of all searches this takes each feature pair once. Types are enough to
-// decide it: triangles that hold features whose boxes meet have boxes that meet too, so every pair
-// of them whose types are asked for is a candidate (or was proved apart, L14).
+// Over the candidates of all searches this takes each feature pair once. Types are enough to decide
+// it: if the boxes of two features meet, so do those of triangles that hold them. So every pair of
+// such triangles whose types are asked for is a candidate (or was proved apart, L14).
 #pragma once
 
 #include <algorithm>
@@ -270,7 +270,8 @@ class FeaturePairs {
       sheets_.emplace(mesh_, tree, motion.vertices_t0, pace);
     if (!sheets_ || !sheets_->hold_most()) fans_.prove(mesh_, points_, pace);
   }
-  // Returns whether sheets leave so few pairs that each may look up what it stands for.
+  // Returns whether sheets leave so few pairs that each may look up the features that it stands
+  // for.
   bool find_few() const { return sheets_ && sheets_->hold_most() && !asks_by_types_; }
   bool are_proved_apart(std::int32_t a, std::int32_t b) const {
     return fans_.are_apart(a, b) || (sheets_ && sheets_->are_apart(a, b));

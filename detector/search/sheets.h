@@ -9,11 +9,11 @@
 // triangle of S lie beside an edge of the contour on its outer side. Then triangles of S are in no
 // contact.*
 //
-// Proof. Almost every point of the plane lies in as many projected triangles of S as the contour
-// winds around it. That number changes only at the contour, there by one, and on both sides of each
-// edge of the contour it is 0 or 1. Every bounded region between edges has some of them beside it,
-// so the number is 0 or 1 everywhere: no two projected triangles overlap. Now let a point of one
-// triangle of S and a point of another be projected to one place.
+// Proof. For almost every point of the plane, the number of projected triangles of S that hold it
+// is how often the contour winds around it. That number changes only at the contour, by one, and it
+// is 0 or 1 on both sides of each edge of the contour. Every bounded region between edges has some
+// of them beside it, so the number is 0 or 1 everywhere: no two projected triangles overlap. Now
+// let a point of one triangle of S and a point of another be projected to one place.
 //   If the one point is inside its triangle, inside an edge that two of S share, or at a vertex
 //   that is not of the contour, the triangles of S around it cover all places nearby. The other
 //   triangle covers some of these, so it is one of those around it, and projects one to one: the
@@ -22,9 +22,9 @@
 //   or it is one edge, and again the points are one, in a feature that both triangles have.
 // So faces, edges and vertices of S that share no vertex do not meet.
 //
-// The number beside an edge is counted below its left end, a little to the right of it: of the
-// edges of the contour that pass below, those that run right add one, those that run left take one
-// away. An edge that runs right has to have 0 below, one that runs left 1. Vertical edges pass
+// The number beside an edge is counted below its left end, a little to the right of it: among the
+// edges of the contour that pass below, each that runs right adds one, each that runs left takes
+// one away. An edge that runs right has to have 0 below, one that runs left 1. Vertical edges pass
 // below nothing and need no check: each bounded region has other edges beside it.
 //
 // Sides are those of sure_side: where doubles cannot tell, nothing is proved.

@@ -14,10 +14,10 @@
 // often. So every direction is covered by the same number of triangles, if each is taken without
 // its first direction. This number is an integer, and it changes continuously as long as no
 // projected triangle loses its area: it stays as at t=0. If it is 1, two triangles of the fan have
-// at most an end of their angles in common, and there they have the same edge, because what begins
-// at the end of one of them is a single triangle, which shares that edge. The projection of a
-// triangle is one to one, so the two triangles have v or that edge in common, and nothing else.
-// Faces of theirs without a common vertex do not meet there.
+// at most an end of their angles in common, and there they have the same edge, because a single
+// triangle begins at the end of one of them, and it shares that edge. The projection of a triangle
+// is one to one, so the two triangles have v or that edge in common, and nothing else. Faces of
+// theirs without a common vertex do not meet there.
 //
 // The number is found by counting the triangles whose p is below v along another axis, and whose q
 // is not. These cover the level direction on one side (on the other side none ends so, because all
@@ -28,11 +28,11 @@
 // and by its own rounding, 2^-24 S_k: by d = 2^-21 at most. A component a_i b_j - a_j b_i of the
 // normal is off by 2 d (S_i + S_j) + 2 d^2, and by its roundings, 2^-22 S_i S_j <= 2^-20 S_i: by
 // less than 2^-19 (S_i + S_j) + 2^-41. Twice the middle Bernstein coefficient is the sum of two
-// such components: it is off by twice that, and by its rounding, 2^-22 S_i S_j once more: less than
-// 2^-17 (S_i + S_j) + 2^-39, which holds for all three coefficients and leaves a third of itself
-// for its own roundings. Beyond it the sign is that of the true positions, of the floats, and of
-// all positions between these two. So no triangle loses its area between them either, and the
-// number, which is exact for the floats, is true.
+// such components. It is off by twice that, and by its rounding, 2^-22 S_i S_j once more: by less
+// than 2^-17 (S_i + S_j) + 2^-39. This bound holds for all three coefficients, and leaves a third
+// of itself for its own roundings. Beyond it the sign is that of the true positions, of the floats,
+// and of all positions between these two. So no triangle loses its area between them either, and
+// the number, which is exact for the floats, is true.
 #pragma once
 
 #include <cstdint>

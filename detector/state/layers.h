@@ -36,15 +36,15 @@ std::vector<std::int32_t> layer_witnesses(const Topology& mesh, std::size_t c,
 // directions, because mesh and ghosts form a cycle). Layers continue across links; the classes are
 // the pieces. A flood along links finds them. A piece that holds a clean triangle is released. For
 // any other piece one exact winding number is counted (in bounded arithmetic a piece whose number
-// doubles cannot tell stays dirty), and it is released if its layer is the common one: that of
+// doubles cannot tell stays dirty). It is released if its layer is the common one: that of
 // `witnesses` or, if there are none, the layer with most untouched triangles (tie: the one that
 // holds the lowest triangle index). It would not be enough that a piece is connected: two
 // tetrahedra, one inside the other, may share an edge (case L9_shared_edge_two_layers).
 //
-// `is_seen` is scratch by triangle of the mesh, 0 for those of the component. The cost is that of
-// the triangles in doubt and, if some piece holds no clean triangle, a few passes over the
-// component for the winding numbers of all such pieces together. Returns how many winding numbers
-// that were.
+// `is_seen` is working memory by triangle of the mesh, 0 for triangles of the component. The cost
+// is that of the triangles in doubt and, if some piece holds no clean triangle, a few passes over
+// the component for the winding numbers of all such pieces together. Returns how many winding
+// numbers that were.
 std::uint64_t release_pieces(const TouchedSurface& at_instant, std::size_t c,
                              std::span<const std::int32_t> in_doubt,
                              const std::vector<std::int32_t>& witnesses,

@@ -118,19 +118,20 @@ std::uint64_t adjacent_pairs(const Topology& mesh);
 //   views are due  views do not pay    a pause of next_pause steps; that doubles, to 32 at most
 //   pause          its last step ends  views are due
 //
-// When views are due, anchors are chosen again first if they have worn: they had served for
-// least_anchor_age steps, and views did not pay or saved an eighth of the pairs less than at best.
+// When views are due, anchors are chosen again first if they have worn: they have served for
+// least_anchor_age steps, and either views did not pay or the share of pairs that they save has
+// fallen by an eighth from its best.
 //
 // A step after one in which most triangles were in contact does not try to release them: they will
 // likely be in contact again. Then views do not pay either.
 //
 // In addition, culling automatic keeps an account of counted work in box tests (work_of_candidate
 // and the constants beside it; the benches account/ hold it against times). Each step without views
-// earns a share of what it takes. A step with views earns the least work that culling bvh would
-// have done beyond it, and pays for the work of views. Views are made and tried only if they can be
-// paid for. So after any number of steps, automatic has spent little more than culling bvh would
-// have spent. A mesh that is seen to be positive from its middle, at a glance, may spend beforehand
-// what that saves within the step. If only a first contact is known of a start, it would have to be
+// earns a share of what it takes. A step with views earns the work by which culling bvh would at
+// least have exceeded it, and pays for the work of views. Views are made and tried only if they can
+// be paid for. So after any number of steps, automatic has spent little more than culling bvh would
+// have spent. A mesh that a glance from its middle shows to be positive may spend beforehand what
+// this saves within the step. If only a first contact is known of a start, it would have to be
 // verified anew, which costs more than views save: such a step is done without them. Work that
 // depends on the tree is not counted, so that a restored detector, whose tree is another one,
 // decides alike. A mesh at rest earns nothing.

@@ -92,8 +92,8 @@ class ReleaseRule {
 // Finds what the triangles in doubt touch at the start of a step that goes on from a committed one
 // (L9).
 //
-// Only triangles in doubt need to be looked at, because clean ones touch nothing (L8), and what
-// they may touch is known from the committed step:
+// Only triangles in doubt need to be looked at, because clean ones touch nothing (L8). The
+// triangles that those in doubt may touch are known from the committed step:
 //   Mesh against mesh: a pair that meets at the end of a step was in contact during it, so it is
 //   in that step's complete pair set (L7). If one triangle pierces the other there without any
 //   contact of features, it did so at the start of that step too. Both were dirty then, and the

@@ -4,11 +4,11 @@
 // t of the step. Let P's boundary be one closed walk whose projection along d is a simple polygon
 // at every t. Then no two triangles of P are in contact during the step.*
 //
-// Proof. At a time t project P along d. All triangles keep their orientation, so almost every
-// point y of the plane lies in as many projected triangles as the projected boundary winds around
-// y (the boundary of the sum of P's triangles is P's boundary, because edges inside cancel). A
-// simple polygon winds around a point once or not at all (and not -1 times, because counts are not
-// negative). So the projected triangles do not overlap.
+// Proof. At a time t project P along d. All triangles keep their orientation, so for almost every
+// point y of the plane, the number of projected triangles that hold y is how often the projected
+// boundary winds around y (the boundary of the sum of P's triangles is P's boundary, because edges
+// inside cancel). A simple polygon winds around a point once or not at all (and not -1 times,
+// because counts are not negative). So the projected triangles do not overlap.
 //
 // Take P as a set of triangles joined at their common vertices. Suppose that two different points
 // p and q of P have the same projection y. If p is not on the boundary, the triangles around p
@@ -112,8 +112,8 @@ class ContourUnion {
 
 // A few patches, spread over a mesh. A step asks how many of them can be proved free (L13).
 //
-// They depend on the mesh alone and not on a tree. So what a step decides by them does not depend
-// on the positions that the detector was made with.
+// They depend on the mesh alone and not on a tree. So the decisions of a step that rest on them do
+// not depend on the positions that the detector was made with.
 struct SamplePatch {
   std::vector<std::int32_t> triangles;
   std::vector<std::int32_t> contour;  // empty if it has none
@@ -123,8 +123,8 @@ struct SamplePatches {
   std::vector<SamplePatch> small, medium, large;
 };
 
-// 4 to 32 patches of 12 triangles, half as many of 36 and a quarter as many of 96. A patch is
-// smaller where its component ends. O(M) to clear marks, and 20 us at most.
+// Returns 4 to 32 patches of 12 triangles, half as many of 36 and a quarter as many of 96. A patch
+// is smaller where its component ends. O(M) to clear marks, and 20 us at most.
 SamplePatches sample_patches(const Topology& mesh, ContourMaker& maker);
 
 // The directions d of a fixed set that a triangle faces over a whole step: N(t).d > 0 at every t.

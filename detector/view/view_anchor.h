@@ -52,10 +52,10 @@ enum class Effort : std::uint8_t {
   least,
 };
 
-// Returns the effort for a component: `least` for a small one if the mesh has many components, as a
-// soup of triangles has, `effort` for all others. A search takes 0.1 ms and more, however small the
-// component is. For many small components that would be more than their steps take. In this way the
-// searches take at most 6 us a triangle beside what large components take.
+// Returns the effort for a component: `least` for a small component of a mesh with many components,
+// such as a soup of triangles; otherwise `effort`. A search takes 0.1 ms and more, however small
+// the component is. For many small components that would be more than their steps take. In this way
+// the searches take at most 6 us a triangle beside what large components take.
 Effort effort_for(const Component& component, const Topology& mesh, Effort effort);
 
 // Returns the best place that a search (view_search.h) finds for the component of `mesh`, ghosts

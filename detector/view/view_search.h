@@ -36,9 +36,9 @@ class ViewPlanes {
 
   // Returns the score of the point q. It counts the triangles that are positive seen from q, and a
   // little more for those that are positive by more than `margin`. If far more triangles are
-  // negative, it counts the negative ones instead, each for less. One sign for all triangles is
-  // what pays (L4); positive pays also if nothing is known of the start (L5). Compare scores of
-  // points with scores of points, and scores of lines with scores of lines.
+  // negative, it counts the negative ones instead, each for less. The gain comes from one sign for
+  // all triangles (L4); with the sign positive, it comes even if nothing is known of the start
+  // (L5). Compare scores of points with scores of points, and scores of lines with scores of lines.
   std::int64_t score(const Point& q) const;
   // Returns the score of the line q0 q1. It is counted in the same way, and triangles without a
   // sign are subtracted, because they cost most.

@@ -44,7 +44,7 @@ constexpr auto view_axial_error(int depth) {
 }
 inline constexpr int max_view_depth = 5;
 
-// The view test in exact integers. It decides what the filter leaves open.
+// The view test in exact integers. It decides every sign that the filter leaves open.
 //
 // The exact sign over the whole step (L1, L2), for every finite input. The middle piece of a
 // view-line whose ends move apart is a quintic. 10 to 100 us; if denormals stand beside ordinary
