@@ -25,10 +25,10 @@ namespace assay::corpus {
 // Keeps the order of an object's keys.
 using Json = nlohmann::ordered_json;
 
-// Refuses what is not JSON (the message names the byte), a number beyond the doubles, and an object
-// in which a key stands twice, because the parser would silently take the last one. A value nested
-// more than 64 levels deep is refused too, because code that prints or copies it descends level by
-// level, and the stack is finite. `file` stands for the text in messages.
+// Refuses text that is not JSON (the message names the byte), a number beyond the doubles, and an
+// object in which a key stands twice, because the parser would silently take the last one. A value
+// nested more than 64 levels deep is refused too, because code that prints or copies it descends
+// level by level, and the stack is finite. `file` stands for the text in messages.
 Expected<Json> parse_json(std::string_view text, const std::filesystem::path& file);
 // The same, for values that sort their keys by name.
 Expected<nlohmann::json> parse_sorted_json(std::string_view text,

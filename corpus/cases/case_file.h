@@ -63,9 +63,9 @@ struct ExpectedFacts {
   std::vector<ExpectedStep> steps;  // one for each step of the case, or none
 };
 
-// The relation of counted pairs, and the facts under it. The `expected` facts of a case speak of
-// all pairs, whatever counts, because laws and state do (L19); `steps` speaks of counted pairs
-// only.
+// The relation of counted pairs, and the facts that hold with it. The `expected` facts of a case
+// speak of all pairs, whatever counts, because laws and state do (L19); `steps` speaks of counted
+// pairs only.
 struct CaseRelation {
   detector::CountedPairs pairs;
   std::vector<ExpectedStep> steps;  // one for each step of the case, without signs, or none

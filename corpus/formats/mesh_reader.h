@@ -75,7 +75,7 @@ bool looks_like_ply(std::string_view bytes);
 // (with a remark) and properties are skipped.
 Expected<Mesh> read_ply(std::string_view bytes, const std::filesystem::path& file);
 
-// Collects the vertices and polygons of one mesh file and refuses what no mesh may hold.
+// Collects the vertices and polygons of one mesh file and refuses content that no mesh may hold.
 
 std::string shown(const Place& place);
 
@@ -104,8 +104,8 @@ class MeshBuilder {
 
   Problem problem(const Place& place, std::string_view detail) const;
 
-  // Returns the mesh, with remarks on what was split or skipped. Refuses a mesh without a triangle,
-  // and an index beyond its vertices.
+  // Returns the mesh, with remarks on content that was split or skipped. Refuses a mesh without a
+  // triangle, and an index beyond its vertices.
   Expected<Mesh> finish();
 
  private:

@@ -1,5 +1,5 @@
 // Logs of steps, as a simulator recorded them (detector/plugin/assay_record.h; the format is in
-// corpus/README.md): a mesh, what its detector claims, and steps with the detector's answers.
+// corpus/README.md): a mesh, its detector's claims, and steps with the detector's answers.
 //
 // A log may be cut anywhere, and any of its bytes may be wrong. It is read up to its first damage.
 #pragma once

@@ -27,7 +27,7 @@ struct SourceStep {
 struct InputText {
   std::string title = {};                 // "one mesh moving from a.obj to b.obj"; may be empty
   std::vector<std::string> files = {};    // in the order in which they are taken; empty: as given
-  std::vector<std::string> remarks = {};  // a line each on what was changed or is not looked at
+  std::vector<std::string> remarks = {};  // one line each on what was changed or is ignored
 };
 
 class StepSource {
@@ -91,8 +91,8 @@ Expected<std::unique_ptr<StepSource>> steps_of_files(std::vector<std::filesystem
 // file for each frame, or one file: then it stands still.
 struct BodyFiles {
   std::vector<std::vector<std::filesystem::path>> frames;  // by body
-  // Which pairs count (detector/mesh/counted_pairs.h): bodies that do not meet, and what is left
-  // out by rings of edges and by the distance in the first frame.
+  // Which pairs count (detector/mesh/counted_pairs.h): bodies that do not meet, and the pairs that
+  // rings of edges and the distance in the first frame leave out.
   std::vector<std::array<std::int32_t, 2>> apart = {};
   std::int32_t rings = 0;
   double rest_distance = 0;

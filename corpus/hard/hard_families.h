@@ -26,7 +26,7 @@ namespace assay::corpus {
 // comes down on it. There double arithmetic would be right for free, because most products are 0.
 // So an integer map of determinant 1 (three shears, a cyclic change of axes, a shift) is applied
 // at the end. As an affine map it changes neither contacts nor their times nor the view signs of a
-// point, and the coordinates stay integers below 2^53, that is exact doubles that fill the
+// point, and the coordinates stay integers below 2^53, so they are exact doubles that fill the
 // mantissa. At last each axis is scaled by a power of two.
 
 // The free choices of a hard case: integers that depend on its family, strength and variant alone.

@@ -58,7 +58,7 @@ class CubicTests {
     return {static_cast<Number>(p[0]), static_cast<Number>(p[1]), static_cast<Number>(p[2])};
   }
 
-  // Where point i is at time t.
+  // Returns the place of point i at time t.
   static V place(const FourPaths& paths, int i, Number t) {
     const V p = vector_of(paths.at[0][i]), q = vector_of(paths.at[1][i]);
     return {p.x + t * (q.x - p.x), p.y + t * (q.y - p.y), p.z + t * (q.z - p.z)};
