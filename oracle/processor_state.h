@@ -1,7 +1,7 @@
-// Whether the processor's arithmetic is what exact methods need.
+// Tells whether the processor's arithmetic is fit for exact methods.
 //
 // A library that was built for speed can change it for a whole thread or process; loading one that
-// sets flush-to-zero is enough. Every bound and sign of this room would then be worth nothing.
+// sets flush-to-zero is enough. Every bound and sign of this room would then be worthless.
 #pragma once
 
 namespace assay::oracle {

@@ -1,5 +1,5 @@
-// Whether features and faces at rest are nearer to each other than a distance, compared exactly in
-// rational numbers: 5 to 20 us for two features whose boxes are not apart.
+// Tells whether features and faces at rest are nearer to each other than a distance, compared
+// exactly in rational numbers: 5 to 20 us for two features whose boxes are not apart.
 #pragma once
 
 #include <gmpxx.h>

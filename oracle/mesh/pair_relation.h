@@ -14,8 +14,8 @@
 namespace assay::oracle {
 
 // Answers for features and faces of one mesh, faces by their numbers. Both references must outlive
-// it. Several threads may ask at the same time. No answers are kept, so each costs 1 us, and 5 to
-// 20 us for each two features whose places at rest are compared.
+// it. Several threads may ask at the same time. No answers are kept, so each costs 1 us, and in
+// addition 5 to 20 us for each two features whose places at rest are compared.
 class PairRelation {
  public:
   // REQUIRES a relation without errors (detector/mesh/mesh_checks.h).

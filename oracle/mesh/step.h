@@ -76,7 +76,7 @@ class PairStore {
   void keep_least();
 
   std::vector<detector::PairContact> contacts_;
-  std::size_t tidy_at_ = 1 << 16;  // when it holds so many, only the least of each pair stay
+  std::size_t tidy_at_ = 1 << 16;  // at this size, only the least of each pair stay
 };
 
 // The findings of one thread. Candidates are judged as they are met and never stored.

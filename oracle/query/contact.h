@@ -45,15 +45,15 @@ ContactAnswer edge_edge_contact(const detector::EdgeEdge& query, detector::Want 
 // doubles).
 std::optional<detector::TimeEnclosure> first_time_by_kernel(const detector::FourPoints& query);
 
-// Whether, without motion, the open segment e0e1 strictly pierces the open triangle f0f1f2: the
-// ends lie strictly on opposite sides of its plane, and the line passes strictly inside all three
-// edges.
+// Returns whether, without motion, the open segment e0e1 strictly pierces the open triangle f0f1f2:
+// the ends lie strictly on opposite sides of its plane, and the line passes strictly inside all
+// three edges.
 bool segment_pierces_triangle(const detector::Point& e0, const detector::Point& e1,
                               const std::array<detector::Point, 3>& face);
 
-// The shape of a contact: a special property for which a careless test misses it. A contact has the
-// first of these shapes that holds. F is the cubic whose zeros are the times at which the four
-// points lie in a plane (contact_events.h).
+// The shape of a contact: a special property because of which a careless test misses it. A contact
+// has the first of these shapes that holds. F is the cubic whose zeros are the times at which the
+// four points lie in a plane (contact_events.h).
 enum class ContactShape : std::uint8_t {
   parallel_edges,       // the two edges are parallel, or one is a point, throughout the step
   coplanar_throughout,  // F is zero throughout

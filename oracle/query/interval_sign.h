@@ -120,9 +120,9 @@ Bernstein<Number, 2> dot(const LinearVector<Number>& u, const LinearVector<Numbe
 //
 // A result r, rounded to nearest, differs from the exact one by at most 2^-53 |r|, and by half of
 // the least double where it is denormal. The result is widened by `slack(r)` = 2^-52 |r| plus the
-// least double. That is more than twice as much, so what is lost when the widening itself is
-// rounded, at most half a unit in the last place of r or of its neighbour, is made up for. REQUIRES
-// rounding to nearest, denormals, and results below the greatest double.
+// least double. That is more than twice as much, so the loss when the widening itself is rounded,
+// at most half a unit in the last place of r or of its neighbour, is made up for. REQUIRES rounding
+// to nearest, denormals, and results below the greatest double.
 struct Enclosure {
   double lo = 0, hi = 0;
 
