@@ -18,7 +18,7 @@ class StopGate {
   // Returns whether the stop function has asked for an end. Asks it if it is time to ask again;
   // cheap enough to be called for every query.
   bool stopped();
-  // Returns whether the stop function has asked for an end until now; does not ask it.
+  // Returns whether the stop function has asked for an end so far; does not ask it.
   bool was_stopped() const { return stopped_.load(std::memory_order_relaxed); }
 
  private:

@@ -50,7 +50,8 @@ struct ContactPiece {
   Number lo, hi;  // dyadic: exact
 };
 
-// Visits pieces of the step in time order. `Search` says what to do with them by three functions:
+// Visits pieces of the step in time order. `Search` says what to do with a piece by three
+// functions:
 //
 //   bool may_halve(int depth, bool ends_are_sure);
 //   bool open(const Piece&);

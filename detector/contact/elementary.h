@@ -3,8 +3,8 @@
 // passes the query on.
 //
 // Guarantee of exact arithmetic: for every finite input the answer is that of exact arithmetic on
-// the doubles given. Touching counts, and so do t=0 and t=1. A time is the unique enclosure of
-// TimeEnclosure. For the other arithmetics see rungs.h.
+// the doubles given. Touching counts, and so do t=0 and t=1. A time is given by its unique
+// enclosure (TimeEnclosure). For the other arithmetics see rungs.h.
 #pragma once
 
 #include <memory>

@@ -76,7 +76,8 @@ class Polynomial {
   void take_out_powers_of_two();
   // Returns the pseudo-remainder by `divisor`: the remainder of this polynomial times |leading
   // coefficient of divisor|^(difference of degrees + 1). If the degree of this polynomial is lower
-  // than that of `divisor`, it is this polynomial itself. REQUIRES that `divisor` is not zero.
+  // than that of `divisor`, the result is this polynomial itself. REQUIRES that `divisor` is not
+  // zero.
   Polynomial remainder(const Polynomial& divisor) const;
   // This polynomial divided by `divisor`, up to a non-zero constant factor. REQUIRES that
   // `divisor` divides this polynomial up to a constant. The result's integers are longer than

@@ -37,9 +37,9 @@ struct DistanceRefereeOptions {
 
 struct DistanceVerdict {
   detector::Decision within = detector::Decision::open;
-  // The features are within d at no time up to and including `after`, unless the verdict is yes and
-  // `by` is 0 too: then the first time is 0. So a yes has its first time in (after, by], or at 0.
-  // With an open verdict, features that come within d do so later than `after`.
+  // The features are farther apart than d at all times up to and including `after`. The one
+  // exception is a yes with `by` 0: its first time is 0. So a yes has its first time in (after,
+  // by], or at 0. With an open verdict, features that come within d do so later than `after`.
   RationalTime after{0, 1}, by{1, 1};
   std::uint64_t cells = 0;  // that were looked at
 };
