@@ -19,9 +19,9 @@ namespace {
 // the signs of the values there. Inside a piece, known signs may decide: both strict signs along
 // one axis mean no contact. Otherwise a contact is decided if the cubic has only one root there
 // and each dependency at most one. SignAtRoot then says which sign the dependency has at the root
-// of the cubic. What is still undecided when a piece is max_fixed_depth halvings deep stays open:
-// roots that are close together, and double roots inside a piece. Where all dependencies vanish the
-// points are collinear, and their differences along an axis decide.
+// of the cubic. A question that is still undecided when a piece is max_fixed_depth halvings deep
+// stays open: roots that are close together, and double roots inside a piece. Where all
+// dependencies vanish the points are collinear, and their differences along an axis decide.
 //
 // Points that are coplanar throughout have no cubic. Suppose that there is no contact where the
 // piece begins. Then each axis whose dependencies do not all vanish identically has both strict

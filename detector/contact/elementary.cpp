@@ -133,7 +133,7 @@ bool stays_off_plane(const QueryIntegers& integers, int first_group, const Weigh
   return b[1].sign() != -sign && b[2].sign() != -sign;
 }
 
-// What doubles have left open.
+// The parts of a query that doubles have left open.
 struct Open {
   std::array<int, 3> order = {0, 0, 0};  // by axis; 0: not open
   bool off_plane = false;

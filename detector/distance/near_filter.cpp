@@ -59,7 +59,8 @@ Vector between_edges(const Vector& b, const Vector& c, const Vector& e) {
 
 double length(const Vector& v) { return std::sqrt(dot(v, v)); }
 
-// What one vector n says of the corners at an instant: n.x for each point, that of the first is 0.
+// The heights of the corners along one vector n at an instant: n.x for each point; that of the
+// first is 0.
 using Heights = std::array<double, 4>;
 
 // The filter of one query; FirstGroup is its first_group.

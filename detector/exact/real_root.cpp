@@ -183,11 +183,11 @@ int RealRoot::sign_by_order(const Polynomial& q, int after_lo, int before_hi) co
   return f_there == sign_after_lo_ ? before_hi : after_lo;
 }
 
-// Of the roots of f and q in the gap of doubles around (lo,hi) each gets an interval of its own, or
-// its exact time. The part in (lo,hi) of one of these intervals holds the root of f: there f
-// changes its sign. No other root of q is in that part. So q vanishes at the root of f if and only
-// if q, with its multiple roots made simple, changes its sign over the part; and if not, q has one
-// sign there.
+// Gives each root of f and of q in the gap of doubles around (lo,hi) an interval of its own, or its
+// exact time. The part in (lo,hi) of one of these intervals holds the root of f: there f changes
+// its sign. No other root of q is in that part. So q vanishes at the root of f if and only if q,
+// with its multiple roots made simple, changes its sign over the part; and if not, q has one sign
+// there.
 int RealRoot::sign_beside_roots(const Polynomial& q) const {
   std::vector<IsolatedRoot> roots;
   isolate_in_gap(square_free_part(f_ * q), enclosure_, Roots::all, roots);

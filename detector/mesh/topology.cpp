@@ -165,7 +165,8 @@ std::int32_t root_of(std::vector<std::int32_t>& parent, std::int32_t v) {
   return v;
 }
 
-// As mostly: nothing has to be looked up. number: 0 for each of its `vertices` vertices.
+// Makes the only component, which is the usual case: nothing has to be looked up. number: 0 for
+// each of its `vertices` vertices.
 bool make_only_component(Topology& mesh, const std::vector<std::int32_t>& number,
                          std::size_t vertices, PacedStop& pace) {
   auto& all = mesh.components.emplace_back();

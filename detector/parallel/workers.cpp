@@ -24,7 +24,7 @@ void put_needed() {
   if (!is_needed(state_now())) put(needed);
 }
 #else
-// The environment as a program starts with it. On ARM it holds what becomes of denormals, too.
+// The environment as a program starts with it. On ARM it also holds the treatment of denormals.
 State state_now() {
   State state;
   std::fegetenv(&state);
@@ -36,8 +36,8 @@ void put_needed() { std::fesetenv(FE_DFL_ENV); }
 #endif
 
 // oneTBB orders what happens before, in and after a piece. It is not compiled for ThreadSanitizer,
-// so that has to be told of this order. It is not told of any order among pieces, so it still
-// finds what two of them do to the same place.
+// which therefore has to be told of this order. ThreadSanitizer is not told of any order among
+// pieces, so it still finds two pieces that use the same place.
 #ifdef __SANITIZE_THREAD__
 std::atomic<unsigned> loops_begun = 0, pieces_done = 0;
 void begins_loop() { loops_begun.fetch_add(1, std::memory_order_release); }

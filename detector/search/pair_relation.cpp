@@ -95,7 +95,7 @@ bool PairRelation::bodies_meet(std::int32_t b, std::int32_t c) const {
   return !lists(apart_, {std::min(b, c), std::max(b, c)});
 }
 
-// As far as bodies and rings tell.
+// Returns whether two features may count, as far as bodies and rings tell.
 bool PairRelation::may_count(const Topology& mesh, Vertices a, Vertices b) const {
   const auto& body = counted_->body;
   const auto body_of = [&](std::int32_t v) { return body.empty() ? 0 : body[at(v)]; };
@@ -103,8 +103,8 @@ bool PairRelation::may_count(const Topology& mesh, Vertices a, Vertices b) const
   return counted_->rings == 0 || !are_joined(mesh, a, b);
 }
 
-// Whether a path of fewer than `rings` edges joins a vertex of one to a vertex of the other. None
-// does of two components. It is looked for from both, because the vertices reached grow with the
+// Whether a path of fewer than `rings` edges joins a vertex of one to a vertex of the other. No
+// path joins two components. It is looked for from both, because the vertices reached grow with the
 // square of the steps.
 bool PairRelation::are_joined(const Topology& mesh, Vertices a, Vertices b) const {
   const std::int32_t steps = counted_->rings - 1;

@@ -6,9 +6,9 @@
 namespace assay::detector {
 namespace {
 
-// What a triangle says of the fans of its corners: bit k, that it is seen from above along axis k;
-// bit 3 + k, from below; bit 6 + 3 i + k, that along axis k the corner after i is below corner i,
-// and the one before i is not.
+// The bits that a triangle contributes to the fans of its corners: bit k, that it is seen from
+// above along axis k; bit 3 + k, from below; bit 6 + 3 i + k, that along axis k the corner after i
+// is below corner i, and the one before i is not.
 using Sides = std::uint16_t;
 constexpr unsigned axes = 7;
 

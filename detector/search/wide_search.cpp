@@ -15,7 +15,7 @@ struct WidePair {
   std::int32_t a, b;
 };
 
-// What the lanes of this search share besides.
+// The other data that the lanes of this search share.
 struct WideHunt : Hunt {
   WideHunt(const SearchInput& searched, const PairSink& taker)
       : Hunt(searched, taker),

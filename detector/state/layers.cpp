@@ -8,7 +8,7 @@
 namespace assay::detector {
 namespace {
 
-// So many triangles of a piece are tried, because doubles may fail at one and not at the next.
+// This many triangles of a piece are tried, because doubles may fail at one and not at the next.
 constexpr std::size_t most_attempts = 4;
 
 struct Piece {

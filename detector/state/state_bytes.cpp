@@ -10,9 +10,8 @@
 namespace assay::detector {
 namespace {
 
-// Turns numbers, flags, values of enums and lists into bytes and back. Writer and Reader
-// take the same calls, so one description of a form serves both, and what is written is what is
-// read.
+// Turns numbers, flags, values of enums and lists into bytes and back. Writer and Reader take the
+// same calls, so one description of a form serves both, and they cannot differ.
 
 constexpr std::size_t word = 8;  // bytes of a number, little-endian
 

@@ -9,8 +9,8 @@
 namespace assay::detector {
 namespace {
 
-// What a step with views may save and cost, estimated before it is known. The cost model decides by
-// these numbers (culling_policy.h).
+// The estimate of what a step with views may save and cost. The cost model decides by these numbers
+// (culling_policy.h).
 
 // The share of pairs that are left out because both triangles lie in V+ or both in V-. Near pairs
 // have equal signs more often than far ones, so of a component with p positive and n negative
@@ -43,7 +43,7 @@ std::vector<std::uint8_t> untouched_before(const GivenStep& step) {
   return untouched;
 }
 
-// What a sample of a component's triangles has shown.
+// The findings of a sample of a component's triangles.
 struct SampledSigns {
   std::size_t count = 0, positive = 0, negative = 0;
   ViewCounts rungs = {};
@@ -138,10 +138,11 @@ constexpr double worth_beside_views = 0.4;
 
 constexpr std::uint64_t longest_pause = 32;
 
-// What steps take, in box tests of 5 ns, fitted to steps of bvh and of views. Box tests themselves
-// are not counted, because they depend on the tree, and so on where the detector was made: a
-// candidate of bvh stands for the boxes above it and for its share of the triangle. Beside views
-// the triangle counts apart, and a candidate stands for more boxes, because those left lie apart.
+// The work of steps, in box tests of 5 ns, fitted to steps of bvh and of views. Box tests
+// themselves are not counted, because they depend on the tree, and so on where the detector was
+// made: a candidate of bvh stands for the boxes above it and for its share of the triangle. Beside
+// views the triangle counts apart, and a candidate stands for more boxes, because those left lie
+// apart.
 constexpr double work_of_candidate = 4.4, work_of_triangle = 5, work_beside_views = 22,
                  work_of_test = 48, work_of_contact = 155;
 
@@ -159,8 +160,8 @@ double work_of_pairs(std::uint64_t pairs, std::uint64_t tests) {
 // at the others, and, of an unclosed mesh, a tree of boxes.
 constexpr double work_of_plane = 25, work_of_look = 6, work_of_boxes = 10;
 constexpr std::size_t planes_of_search = 1024;
-// Of what a glance hopes for, some is left to chance. Holes, and places that are not in the middle,
-// take some times that, and what is spent on views that are too dear is lost.
+// Part of the saving that a glance hopes for is left to chance. Holes, and places that are not in
+// the middle, take several times as much, and work on views that are too dear is lost.
 constexpr double share_of_hope = 0.7, with_holes = 1.5, without_hope = 2;
 
 double least_work_of_views(const Surface& surface) {

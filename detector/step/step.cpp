@@ -96,8 +96,8 @@ bool is_whole(const PositionsView& x, Eigen::Index vertex_count, const PacedStop
 }
 
 // Checks the input of a step. Errors: wrong_frame_size, non_finite_coordinate,
-// wrong_primitive_count (neither none, nor one, nor one for each component). Of `pace` only the
-// workers are used; it is not asked to stop.
+// wrong_primitive_count (neither none, nor one, nor one for each component). Only the workers of
+// `pace` are used; it is not asked to stop.
 std::optional<Problem> check_step_input(const Surface& surface, const SteppedMesh& motion,
                                         std::span<const ViewPrimitive> primitives,
                                         PacedStop& pace) {

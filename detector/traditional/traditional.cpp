@@ -50,7 +50,7 @@ namespace {
 // a vertex of a contour that is tested, and on one of a contour that is joined.
 constexpr std::uint64_t work_of_cone = 12, work_of_vertex = 6, work_to_join = 3;
 
-// What a search by normal cones keeps of its mesh.
+// The data that a search by normal cones keeps for its mesh.
 struct KeptPatches {
   PatchContours contours;
   std::vector<ContourUnion> joined;  // working memory of each lane
