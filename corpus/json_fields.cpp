@@ -59,8 +59,8 @@ namespace {
 
 constexpr int deepest = 64;
 
-// Looks at a text while it is parsed, for what the value does not show afterwards: a key that
-// stands twice, of which the parser takes the last.
+// Looks at a text while it is parsed, for a fault that the value does not show afterwards: a key
+// that stands twice (the parser takes the last one).
 template <class Value>
 class Watch {
  public:

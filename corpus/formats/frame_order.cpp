@@ -68,8 +68,8 @@ std::vector<std::string> paths_of(const Names& names) {
   return paths;
 }
 
-// What is said of numbers that are not evenly spaced. REQUIRES names of one shape, in the order of
-// their numbers.
+// Returns the remark on numbers that are not evenly spaced. REQUIRES names of one shape, in the
+// order of their numbers.
 std::string unevenness(const Names& names) {
   std::size_t varying = 0, place = 0;
   for (std::size_t k = 0; k < names[0].numbers.size(); ++k) {

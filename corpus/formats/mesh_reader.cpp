@@ -100,7 +100,7 @@ Expected<Format> format_of(std::string_view bytes, const std::filesystem::path& 
   return unknown_format(path, bytes);
 }
 
-// A folder is refused with a word on what is in it.
+// Refuses a folder with a word on its contents.
 Expected<void> refuse_folder(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::is_directory(path, ignored)) return boost::outcome_v2::success();

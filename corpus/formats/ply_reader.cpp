@@ -290,7 +290,7 @@ class PlyBody {
   std::size_t line_;
 };
 
-// What becomes of a property: a coordinate, the corners of a face, or nothing.
+// The use of a property: a coordinate, the corners of a face, or nothing.
 enum class Role { x = 0, y = 1, z = 2, corners, skipped };
 
 Role role_of(const PlyElement& element, const PlyProperty& property) {

@@ -21,7 +21,7 @@ using detector::Positions;
 
 using FramesOfBodies = std::vector<std::vector<std::filesystem::path>>;
 
-// What these files are, for the first line that a user sees.
+// Describes these files for the first line that a user sees.
 std::string title_of(const FramesOfBodies& bodies) {
   const bool stands = std::ranges::all_of(bodies, [](const auto& one) { return one.size() == 1; });
   if (bodies.size() > 1) return fmt::format("{} bodies{}", bodies.size(), stands ? " at rest" : "");

@@ -25,7 +25,7 @@ using std::max;
 #include "corpus/peers/feature_pairs.h"
 #include "corpus/peers/limiter.h"
 
-// What the solver reads after a step.
+// The data that the solver reads after a step.
 namespace accd {
 unsigned g_ccd_overlap, g_ccd_overlap_v0, g_ccd_overlap_v1, g_ccd_overlap_kind;
 float g_ccd_overlap_d2, g_ccd_overlap_offset;

@@ -14,8 +14,8 @@ namespace {
 
 using detector::Point;
 
-// Numbers in [0,1) that are spread evenly, another series for each `salt`: what is alike all over
-// would meet everywhere at one time.
+// Numbers in [0,1) that are spread evenly, another series for each `salt`: parts that are alike all
+// over would meet everywhere at one time.
 double spread(int i, int salt) {
   constexpr double steps[] = {0.61803398874989485, 0.7548776662466927, 0.56984029099805327,
                               0.81917251339616438};

@@ -48,8 +48,8 @@ Point on_sphere(const Weights& weights) {
   return {x[0] / length, x[1] / length, x[2] / length};
 }
 
-// What neighbouring faces know the vertices of their common edge by: the weights without those
-// that are zero.
+// The key by which neighbouring faces know the vertices of their common edge: the weights without
+// those that are zero.
 using Shared = std::vector<Weighted>;
 
 // The rectangle between two corners in the plane z = 0: columns x rows squares of two triangles.
