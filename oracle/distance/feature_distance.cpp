@@ -133,7 +133,7 @@ Point scaled(const Point& n) {
 // Most pairs need one or two.
 constexpr int most_stops = 24;
 
-// What the rung "interval" proved.
+// The findings of the rung "interval".
 struct Approach {
   // no: farther apart than d at all times. yes: within d at `near`. open: neither is known.
   Decision decision = Decision::open;

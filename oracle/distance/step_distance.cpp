@@ -34,7 +34,7 @@ double half_of(const Separation& d) {
 }
 
 // The box over the step, grown: boxes of features within d meet if each is grown by half of d, or
-// by its own offset. What no coordinate is beyond needs no more.
+// by its own offset. No box reaches beyond the greatest double, because no coordinate does.
 BoxOfVertices grown_boxes(const SteppedMesh& motion, double half,
                           const std::vector<double>& offsets) {
   return [boxes = swept_boxes(motion), half, &offsets](std::span<const std::int32_t> vertices) {

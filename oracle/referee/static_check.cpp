@@ -30,7 +30,7 @@ using Segment = Kernel::Segment_3;
 using Triangle = Kernel::Triangle_3;
 using Vertices = std::vector<std::int32_t>;  // distinct, ascending
 
-// What is left of a face: never degenerate, as do_intersect requires.
+// The shape that a face has become: never degenerate, as do_intersect requires.
 using Shape = std::variant<Point, Segment, Triangle>;
 
 Rational value_of(const StaticTime& time) {

@@ -12,8 +12,8 @@ namespace assay::oracle {
 
 namespace {
 
-// The exact tests over the step. Features of which nothing moves go to the integer tests, because
-// flat sheets at rest have many that are coplanar, and finding times for those is slow.
+// The exact tests over the step. Features that do not move go to the integer tests, because flat
+// sheets at rest have many coplanar ones, and finding times for these is slow.
 class SweptTests {
  public:
   explicit SweptTests(const detector::SteppedMesh& motion)
