@@ -1,6 +1,5 @@
 /* The built-in detector in C. It is for programs in C, and for programs that use any detector
- * through the interface of assay_detector.h. C99 or C++; link assay::detector. A program makes one
- * like this:
+ * through the interface of assay_detector.h. C99 or C++; link assay::detector. Made like this:
  *
  *   assay_builtin_options options = ASSAY_BUILTIN_DEFAULTS;
  *   assay_builtin_error error;
@@ -119,8 +118,7 @@ typedef struct assay_builtin_options {
 #define ASSAY_BUILTIN_DEFAULTS \
   { sizeof(assay_builtin_options), ASSAY_CULLING_AUTO, 0, 0, 0, 1, 0 }
 
-/* Does what the table's create does. If options is NULL, the defaults are used. *handle is set only
- * with ASSAY_OK. */
+/* The table's create, with options (NULL: the defaults). *handle is set only with ASSAY_OK. */
 int32_t assay_builtin_create(const int32_t* triangles, uint64_t triangle_count,
                              const double* positions, uint64_t vertex_count,
                              const assay_builtin_options* options, assay_handle** handle,
@@ -151,12 +149,11 @@ int32_t assay_builtin_first_contact(assay_handle* handle, const double* x_t0, co
                                     double until, int32_t (*stop)(void* stop_data), void* stop_data,
                                     assay_builtin_error* error);
 
-/* Does what the table's limit does: it says how far the step may be gone, rounding included. A free
- * step has share 1. Any other step has 0.95 of the first contact time, or less if rounding brings
- * that place into contact (detector/detector.h says how much; assay_builtin_limit_is_short tells).
- * Share 0 means that the mesh stays: there is a contact at the start or at every place that was
- * tried, or stop() ended the work. A commit then goes to *limit; after share 0 it is refused. stop
- * may be NULL. */
+/* Does what the table's limit does, rounding included. A free step has share 1. Any other step has
+ * 0.95 of the first contact time, or less if rounding brings that place into contact
+ * (detector/detector.h says how much; assay_builtin_limit_is_short tells). Share 0 means that the
+ * mesh stays: there is a contact at the start or at every place that was tried, or stop() ended the
+ * work. A commit then goes to *limit; after share 0 it is refused. stop may be NULL. */
 int32_t assay_builtin_limit(assay_handle* handle, const double* x_t0, const double* x_t1,
                             assay_limit* limit, int32_t (*stop)(void* stop_data), void* stop_data,
                             assay_builtin_error* error);
@@ -165,8 +162,7 @@ int32_t assay_builtin_limit(assay_handle* handle, const double* x_t0, const doub
  * brought every farther place that was tried into contact; else 0. */
 int32_t assay_builtin_limit_is_short(const assay_handle* handle);
 
-/* The place where a pair of the last result meets, at the lower end of its time. See
- * detector/contact_place.h. */
+/* Where a pair of the last result meets, at the lower end of its time: detector/contact_place.h. */
 typedef struct assay_contact_place {
   double point[3];
   double barycentric[2][3]; /* the weights of the corners of each of the two triangles */

@@ -1,7 +1,6 @@
 /* The C interface of a detector that wants to be certified: a shared library with one symbol,
  * assay_detector(), which returns a table of functions. C99 or C++; no library is needed to build
- * one. tests/plugins/example.c is an example; README.md here has one in C++. A host calls a
- * detector like this:
+ * one. tests/plugins/example.c is an example; README.md here has one in C++. A host calls it so:
  *
  *   const assay_detector_api* detector = assay_detector();
  *   if (detector->create(triangles, m, positions, n, &handle, &message)) return report(message);
@@ -15,8 +14,7 @@
  * which triangles meet. Two triangles are in contact when a vertex, edge or face of one meets one
  * of the other that shares no vertex with it; touching counts, and so do t = 0 and t = 1. The
  * doubles given are exact numbers, in the user's units of length. Times are fractions of the step.
- * A detector that keeps a distance is asked which triangles come within it (separation, in the
- * description).
+ * A detector that keeps a distance is asked which triangles come within it (separation, below).
  *
  * MEMORY. Nothing allocated on one side is freed on the other. Arrays that the host passes are
  * valid during the call and must not be written. Arrays and texts that the detector returns are
@@ -147,16 +145,14 @@ enum {
  * two triangles does. */
 enum { ASSAY_COUNTS_TRIANGLES = 0, ASSAY_COUNTS_FEATURES = 1 };
 
-/* How a detector is given the end of a step. With displacements, every function that has an x_t1 is
- * given x_t1 - x_t0 in its place, and vertex i moves from x to x + d, the exact sum of two float32
- * numbers. Its coordinates are float32. A limiter's share 1 means the float32 nearest to that
- * sum. */
+/* How a step's end is given. With displacements, every function that has an x_t1 is given x_t1 -
+ * x_t0 in its place, and vertex i moves from x to x + d, the exact sum of two float32 numbers. Its
+ * coordinates are float32. A limiter's share 1 means the float32 nearest to that sum. */
 enum { ASSAY_MOTION_ENDS = 0, ASSAY_MOTION_DISPLACEMENT = 1 };
 
 /* Where the caller stops if a limiter states a share of the step: at positions that the limiter
- * gives itself, or at positions that the caller's own code computes from the share. The host
- * computes the latter as that code does, in the contract's coordinates, one rounding an
- * operation. */
+ * gives itself, or at those that the caller's own code computes from the share. The host computes
+ * these as that code does, in the contract's coordinates, one rounding an operation. */
 enum {
   ASSAY_LIMIT_POSITIONS = 0,  /* it gives them */
   ASSAY_LIMIT_START_PLUS = 1, /* x_t0 + share * (x_t1 - x_t0) */
@@ -184,9 +180,8 @@ typedef struct assay_description {
   /* The sizes that the detector takes, user's units. No coordinate has a magnitude above largest,
    * because rounding goes by coordinates. No edge and no extent that has a length at all is shorter
    * than least_nonzero, because thresholds go by lengths; a length is the greatest difference along
-   * an axis. Single coordinates may be as small as they like. Both 0: it takes every finite number.
-   * Else 0 <= least_nonzero <= largest and largest is above 0. Meshes beyond the range are left
-   * out. */
+   * an axis. Single coordinates may be as small as they like. Both 0: every finite number. Else 0
+   * <= least_nonzero <= largest and largest is above 0. Meshes beyond the range are left out. */
   double least_nonzero;
   double largest;
   int32_t features;      /* ASSAY_FEATURES_... */
@@ -200,16 +195,14 @@ typedef struct assay_description {
                         separation` wherever a claim says `in contact`. It wants
                         ASSAY_ADJACENCY_NO_SHARED_VERTEX, as neighbours are near throughout. The
                         elementary query is asked the same of two features. */
-  /* What the detector leaves out by itself, besides neighbours. The mesh at rest is that given to
-   * create. */
+  /* What the detector leaves out, besides neighbours. The mesh at rest is that given to create. */
   int32_t counts;       /* ASSAY_COUNTS_...: what rings and rest_distance are of */
   int32_t rings;        /* pairs joined by a path of fewer edges of the mesh; 0: none */
   double rest_distance; /* pairs nearer to each other at rest, user's units; 0: none */
   int32_t limit_gives;  /* ASSAY_LIMIT_...: where the caller stops who is told a share alone */
   double progress;      /* what ASSAY_CLAIM_PROGRESS promises: above 0, at most 1; else 0 */
   int32_t motion;       /* ASSAY_MOTION_... */
-  /* How much the detector holds; 0: any amount. Beyond one of these it may answer
-   * ASSAY_BEYOND_CAPACITY. */
+  /* How much it holds; 0: any amount. Beyond one of these it may answer ASSAY_BEYOND_CAPACITY. */
   uint64_t capacity_triangles;  /* of the mesh */
   uint64_t capacity_contacts;   /* pairs of triangles in contact during the step that its contract
                                    does not leave out */
@@ -341,21 +334,19 @@ typedef struct assay_detector_api {
   int32_t (*candidates)(assay_handle* handle, const double* x_t0, const double* x_t1,
                         assay_candidates* candidates);
 
-  /* Returns why the last failed call of this thread failed, whichever of these functions it was:
-   * one line, valid until the next call, or NULL. The host asks at once after a return code other
-   * than ASSAY_OK, after an ASSAY_ERROR without a message, and after a describe() that returns
-   * NULL. */
+  /* Returns why the last failed call of this thread failed, whichever function it was: one line,
+   * valid until the next call, or NULL. The host asks at once after a return code other than
+   * ASSAY_OK, after an ASSAY_ERROR without a message, and after a describe() that returns NULL. */
   const char* (*error_text)(void);
 
   /* Since version 3. Each of these functions may be NULL. */
 
-  /* Is called with the pairs that count, once and before the first step, if not all pairs do. The
-   * detector must copy what it needs of `counted` later. A library without this function is asked
-   * about all pairs. */
+  /* Is called with the pairs that count, once and before the first step, if not all do. The
+   * detector must copy what it needs later. A library without this function is asked about all
+   * pairs. */
   int32_t (*count)(assay_handle* handle, const assay_counted_pairs* counted);
 
-  /* Says how far the step may be gone. This is a part of its own (PARTS): it carries nothing
-   * between steps. */
+  /* Says how far the step may be gone. A part of its own (PARTS), without a state between steps. */
   int32_t (*limit)(assay_handle* handle, const double* x_t0, const double* x_t1,
                    assay_limit* limit);
 } assay_detector_api;

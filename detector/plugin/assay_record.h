@@ -66,8 +66,7 @@ typedef struct assay_record_array {
   int32_t is_float32; /* 0: double */
 } assay_record_array;
 
-/* A step, in the user's units. Set the whole struct to 0, and then the members that the simulator
- * has. */
+/* A step, in the user's units. Set the struct to 0, then the members that the simulator has. */
 typedef struct assay_record_step_data {
   assay_record_array x0;        /* where it starts. Absent: where the last step ended, which are its
                                    committed positions, or else its x1 */
