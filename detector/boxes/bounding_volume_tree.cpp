@@ -262,7 +262,9 @@ struct BoundingVolumeTree::Builder {
     std::uint32_t counts[1 << most_bits][2];
     std::memset(counts, 0, sizeof(*counts) << bits);
     const std::int32_t* const along = reinterpret_cast<const std::int32_t*>(from) + axis;
-    const auto part_of = [&](std::size_t i) { return unsigned(along[4 * i] - lo) >> shift; };
+    const auto part_of = [along, shift, lo = lo](std::size_t i) {
+      return unsigned(along[4 * i] - lo) >> shift;
+    };
     for (std::size_t i = 0; i < count; ++i) ++counts[part_of(i)][i % 2];
     // The part that holds the first spot of the second half.
     unsigned part = 0;
