@@ -175,9 +175,11 @@ Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView&
   }
   BoundingVolumeTree tree(surface.mesh, positions, &pace);
   if (pace.now()) return stopped();
+  // Where times are not unique, it would depend on what is kept which pairs are found.
+  const bool keeps_near = options.keeps_near && options.arithmetic == Arithmetic::exact;
   // What is kept needs a margin (L20).
-  tree.grow_boxes(std::max(stages.elementary->separation(),
-                           options.keeps_near ? FloatGrid::least_distance : 0));
+  tree.grow_boxes(
+      std::max(stages.elementary->separation(), keeps_near ? FloatGrid::least_distance : 0));
   SearchMemory search(tree);
   auto mesh_search = stages.pair_search->prepare(surface.mesh, tree, pace);
   if (pace.now()) return stopped();
@@ -192,6 +194,7 @@ Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView&
                       std::move(workers),
                       {}};
   context.relation = PairRelation(options.counted, context.surface.mesh);
+  context.options.keeps_near = keeps_near;
   context.options.counted = nullptr;  // the user's own, who may let it go
   return Detector(
       std::unique_ptr<Detector::Parts>(new Detector::Parts{std::move(context), {}, {}}));

@@ -1,4 +1,4 @@
-// What a user of the detector chooses. Whatever is not set has its default:
+// The options of a detector. An option that is not set has its default:
 //
 //   Options options;
 //   options.pairs = Pairs::first;
@@ -35,21 +35,21 @@ constexpr auto names_of(Culling) {
                                         {none, "none"}});
 }
 
-// Whether each step decides for itself if it uses views.
+// Returns whether each step decides for itself if it uses views.
 constexpr bool chooses_views(Culling culling) {
   return culling == Culling::view_auto || culling == Culling::automatic;
 }
 
-// Whether steps may use view primitives at all.
+// Returns whether steps may use view primitives at all.
 constexpr bool uses_views(Culling culling) {
   return chooses_views(culling) || culling == Culling::view_point || culling == Culling::view_line;
 }
 
-// What is known to be clean at a new start: at the first step, and after a jump of positions. Of a
-// verified start, automatic and view_auto leave out the layers, and steps without views look at
-// nothing: their pairs tell the next step what is clean (L15).
+// The triangles that are known to be clean at a new start: at the first step, and after a jump of
+// positions. At a verified start, automatic and view_auto leave out the layers, and steps without
+// views verify nothing: their pairs tell the next step which triangles are clean (L15).
 enum class Start : std::uint8_t {
-  verified,  // what L5 shows to be clean; elsewhere what static contacts and layers show (L9)
+  verified,  // those that L5 shows; elsewhere those that static contacts and layers show (L9)
   clean,     // the caller vouches that nothing is in contact and that layers are common
   unknown,   // everything is dirty
 };
@@ -59,7 +59,7 @@ constexpr auto names_of(Start) {
       {{verified, "verified"}, {clean, "clean"}, {unknown, "unknown"}});
 }
 
-// Which pairs in contact a step reports.
+// The pairs in contact that a step reports.
 enum class Pairs : std::uint8_t {
   all,  // the complete pair set of the step (K with closure, L7)
   // Pairs in contact by the upper end of the first time: each connected part of the contact graph
@@ -85,16 +85,17 @@ struct Options {
   // a copy. A pair that does not count is not reported; its contacts are still found where the
   // state has to know them.
   const CountedPairs* counted = nullptr;
-  // What is looked for: contacts if it is 0, else pairs of triangles that come within this
-  // distance, in the units of the positions (L16). Pairs that share a vertex do not count then.
-  // REQUIRES, else create() refuses it with wrong_separation: it is finite and not negative; with
-  // one above 0 the culling is bvh or none, and the arithmetic exact.
+  // If 0, contacts are looked for, else pairs of triangles that come within this distance, in the
+  // units of the positions (L16). Pairs that share a vertex do not count then. REQUIRES, else
+  // create() refuses it with wrong_separation: it is finite and not negative; with one above 0 the
+  // culling is bvh or none, and the arithmetic exact.
   double separation = 0;
-  // Whether evaluate, first_contact and limit keep the pairs of features that they found near. A
-  // shorter step from the same start, asked next, is then answered from these, in 0.03 to 0.4 of
-  // the time, where the arithmetic is exact and the step has no views (L20). Answers, pairs and
-  // times are the same; counts are not, nor what `automatic` decides by them. Up to 300 bytes a
-  // triangle, and up to 2 % of a first question.
+  // Whether evaluate, first_contact and limit keep the pairs of features that they found near. If
+  // the next question is about a shorter step from the same start, it is answered from these in
+  // 0.03 to 0.4 of the time, provided that the arithmetic is exact and the step has no views (L20).
+  // Answers, pairs and times are the same; counts, and decisions of `automatic` that rest on them,
+  // are not. Takes up to 300 bytes a triangle, 550 while it is found, and up to 2 % of a first
+  // question.
   bool keeps_near = false;
 };
 

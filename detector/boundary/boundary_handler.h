@@ -41,7 +41,8 @@ Positions with_apexes(const PositionsView& x, const std::vector<MovingPoint>& ap
 // ghosts that close the loops, wherever they stand. So the choice may take no more work than a
 // step of culling bvh. It counts its work and looks at no clock. Loops are handled from the
 // shortest to the longest. Each loop gets a share of the work that is left, in proportion to its
-// length, and its rules divide the share evenly. A rule that does not finish within its part is
+// length, but no less than 4,000 box tests, so a mesh of many tiny holes may take several times as
+// much. The rules of a loop divide its share evenly. A rule that does not finish within its part is
 // passed over. If no rule finishes, the loop keeps the first one, its centroid.
 //
 // An example where no rule finishes is the loop around a fan of n triangles at one hub. The boxes

@@ -203,7 +203,7 @@ int32_t assay_builtin_save(const assay_handle* handle, void* buffer, uint64_t ca
 
 /* Goes on from a saved state. If both handles were created with the same options from the same
  * positions, later results equal those of the saved handle bit by bit. If the positions were
- * others, the view sets may differ and, unless arithmetic is exact, the false alarms too. A step
+ * others, counts may differ and, unless arithmetic is exact, the false alarms too. A step
  * that was evaluated and not committed is dropped. REQUIRES, else the call is refused: the handle
  * is of the same mesh and culling. Damaged bytes are noticed, but forged ones are not. */
 int32_t assay_builtin_restore(assay_handle* handle, const void* bytes, uint64_t size,

@@ -88,14 +88,14 @@ void CandidateSearch::look_for_first(const TimeBound& bound, BoundingVolumeTree&
   contacts_.leave_out_later_than(bound);
 }
 
-void CandidateSearch::lower_bound() {
+void CandidateSearch::take_earliest() {
   first_->bound.until = std::min(first_->bound.until, contacts_.least_end());
   contacts_.leave_out_later_than(first_->bound);
 }
 
 bool CandidateSearch::tighten() {
   auto& [bound, tree, asked_until, fitted] = *first_;
-  lower_bound();
+  take_earliest();
   // If times are not unique, what is found depends on which pairs are tested: those that doubles
   // cannot tell from a contact. So it must not depend on which contact was found before.
   const double useful = bound.has_unique_times ? bound.until : asked_until;
@@ -111,9 +111,10 @@ bool CandidateSearch::tighten() {
 
 bool CandidateSearch::search(const PairTables& tables, bool uses_proofs) {
   const auto& types = memory_.marks.types;
-  if (!contacts_.find_few() &&
-      !(memory_.is_whole = memory_.representatives.make(mesh_, types, &pace_))) {
-    return false;
+  if (!contacts_.find_few()) {
+    memory_.is_whole = false;  // nor is it if memory ends
+    if (!memory_.representatives.make(mesh_, types, &pace_)) return false;
+    memory_.is_whole = true;
   }
   if (first_ && !tighten()) return false;
   struct alignas(64) Asking {
@@ -153,20 +154,19 @@ bool CandidateSearch::collect(bool uses_proofs, bool keeps) {
   if (!has_proofs) prove_apart();
   fit_features();
   memory_.near.forget();
-  const std::size_t most = KeptFeatures::most(mesh_);
   keeps = keeps && !has_proofs && !motion_.is_at_rest();
-  if (keeps) contacts_.list_keys(most, memory_.near.take_room());
+  if (keeps) contacts_.list_keys(KeptFeatures::most_features(mesh_), memory_.near.take_room());
   if (pace_.stopped() || !search(k, uses_proofs)) return false;
   const double until = first_ ? first_->fitted : 1;
   if (!keeps || until == 0) return true;
-  if (auto keys = contacts_.take_keys(); keys.size() <= most)
-    memory_.near.keep(motion_, until, contacts_.grid(), std::move(keys), pace_);
+  if (auto keys = contacts_.take_keys())
+    memory_.near.keep(motion_, until, contacts_.grid(), std::move(*keys), pace_);
   return !pace_.stopped();
 }
 
 bool CandidateSearch::collect_kept() {
   for (std::size_t i = 0; i < KeptFeatures::parts; ++i) {
-    if (first_) lower_bound();
+    if (first_) take_earliest();
     if (!contacts_.run(memory_.near.part(i), stop_, &pace_)) return false;
   }
   return true;

@@ -17,8 +17,8 @@ struct SearchStages {
   const PairRelation* relation = nullptr;  // null: everything counts
 };
 
-// What is kept from one search to the next. Marks and representatives depend on the mesh and on the
-// types that were marked last, on nothing else of the steps before.
+// The memory from one search to the next. Marks and representatives depend only on the mesh and on
+// the types that were marked last.
 struct SearchMemory {
   explicit SearchMemory(const BoundingVolumeTree& tree) : marks(tree) {}
   Marks marks;
@@ -35,42 +35,47 @@ class CandidateSearch {
   CandidateSearch(const SearchStages& stages, const Topology& mesh, const BoundingVolumeTree& tree,
                   SearchMemory& memory, const SteppedMesh& motion, const PacedStop& pace);
 
-  // From now on only the first contact is looked for, and none later than the bound. As soon as a
-  // contact is found that counts, those later than it are left out, and boxes need to cover no
-  // more of the step. What is found then holds the first contact, and the pairs in contact at that
-  // time which the whole search would hold. `tree`: that of the constructor, which is refitted.
-  // REQUIRES that nothing was collected yet.
+  // Looks, from now on, only for the first contact, and for none later than the bound. As soon as a
+  // counted contact is found, later ones are left out, and boxes cover the step only up to it. The
+  // contacts found then include the first one and, of the pairs in contact at that time, those that
+  // the whole search would find. `tree`: that of the constructor, which is refitted. REQUIRES that
+  // nothing was collected yet.
   void look_for_first(const TimeBound& bound, BoundingVolumeTree& tree);
 
-  // A step calls mark; then collect, or collect_kept if all that may meet is kept; and close, if it
-  // closes the set of pairs. Each returns false if it was stopped.
+  // A step calls mark; then collect, or collect_kept if all pairs that may meet are kept; and
+  // close, if it closes the set of pairs. Each returns false if it was stopped.
 
-  // Sets the marks of the tree to these types, by triangle. REQUIRES none of those of the closure.
+  // Sets the marks of the tree to these types, by triangle. REQUIRES that no type is one of the
+  // closure.
   bool mark(std::span<const TriangleType> types);
   // Finds the candidates and tests their feature pairs. With uses_proofs the search leaves out the
-  // pairs that it can prove apart (PatchProofs). With `keeps` it keeps what was near for a later
-  // question (L20). REQUIRES a search that was fitted to the step, with its tree.
+  // pairs that it can prove apart (PatchProofs). With `keeps` it keeps the near feature pairs for a
+  // later question (L20). REQUIRES a search that was fitted to the step, with its tree.
   bool collect(bool uses_proofs = true, bool keeps = false);
-  // Whether an earlier search of the same types has kept all that may meet. REQUIRES mark().
-  bool is_kept() { return memory_.near.cover(motion_, first_ ? first_->asked_until : 1, pace_); }
-  // Tests what is kept. REQUIRES is_kept().
+  // Returns whether an earlier search of the same types has kept all feature pairs that may meet.
+  // REQUIRES mark().
+  bool prepare_kept() {
+    return memory_.near.cover(motion_, first_ ? first_->asked_until : 1, pace_);
+  }
+  // Tests the feature pairs that are kept. REQUIRES that prepare_kept() returned true.
   bool collect_kept();
   // See MeshSearch.
   ProvableShares provable_shares() const { return stages_.search.provable_shares(mesh_); }
-  // An estimate, from a few hundred edges spread over the mesh: the share of pairs of triangles at
-  // an edge that the rule asks for. REQUIRES that types are marked.
+  // Estimates, from a few hundred edges spread over the mesh, the share of pairs of triangles at an
+  // edge that the rule asks for. REQUIRES that types are marked.
   double asked_share() const { return share_of_edges(false); }
-  // The same of those pairs that are not proved apart by fans or sheets, which is done for that.
+  // The same for the pairs that fans and sheets, which are looked for now, do not prove apart.
   double open_share() {
     prove_apart();
     return share_of_edges(true);
   }
-  // The closure of L7. H starts as the triangles found in contact with their own component. Each
-  // round tests (U,H) for the triangles that joined H last, and adds what is found, until H is
-  // stable. Contacts of two components add nothing to H, because their pairs were all tested, and
-  // layers count the own component only (L10). Triangles of V0 and Vv need no round, because they
-  // were tested against everything already. A round costs the marks, search and tests around the
-  // triangles that joined. It uses no proofs, because these would cost more than the round.
+  // Does the closure of L7. H starts as the triangles found in contact with their own component.
+  // Each round tests (U,H) for the triangles that joined H last, and adds the triangles found in
+  // contact, until H is stable. Contacts of two components add nothing to H, because their pairs
+  // were all tested, and layers count the own component only (L10). Triangles of V0 and Vv need no
+  // round, because they were tested against everything already. A round costs the marks, search and
+  // tests around the triangles that joined. It uses no proofs, because these would cost more than
+  // the round.
   bool close();
 
   // See FeatureContacts.
@@ -91,10 +96,9 @@ class CandidateSearch {
   // Proves pairs apart, once, if enough pairs of neighbours are asked for.
   void prove_apart();
   double share_of_edges(bool open_alone) const;
-  // Takes the earliest contact so far for the bound. REQUIRES that all candidates so far were
-  // tested.
-  void lower_bound();
-  // The same, and fits boxes to what is left of the step. False if it was stopped.
+  // Sets the bound to the earliest contact so far. REQUIRES that all candidates so far were tested.
+  void take_earliest();
+  // The same, and fits boxes to the rest of the step. Returns false if it was stopped.
   bool tighten();
   bool change_types(std::span<const Marking::Change> changes);
   // Brings the representatives up to the marks.
@@ -113,7 +117,7 @@ class CandidateSearch {
   MarkingCounts marking_counts_;
   std::uint64_t closure_rounds_ = 0;
   bool has_features_ = false, has_proved_apart_ = false;
-  // Where the first contact is looked for: what it is found by.
+  // The data of a search for the first contact.
   struct First {
     TimeBound bound;
     BoundingVolumeTree& tree;

@@ -288,10 +288,12 @@ void FeatureContacts::settle_in_lanes(const QueryKernels& kernels, Lane& lane) c
 }
 
 template <class Lists>
-void FeatureContacts::list(Lane& lane, Lists lists) const {
-  if (most_keys_ == 0 || lane.listed.size() > most_keys_) return;
+void FeatureContacts::list(Lane& lane, Lists lists) {
+  if (most_keys_ == 0 || listed_ > most_keys_) return;
+  const std::size_t before = lane.listed.size();
   std::copy_if(lane.untested.begin(), lane.untested.end(), std::back_inserter(lane.listed),
                [&](FeatureKey key) { return lists(kind_of(key)); });
+  listed_ += lane.listed.size() - before;
 }
 
 bool FeatureContacts::run(Lane& lane, const StopFunction& stop) {
@@ -349,7 +351,8 @@ bool FeatureContacts::run(std::span<const FeatureKey> keys, const StopFunction& 
   return completed && run(stop, pace);
 }
 
-std::vector<FeatureKey> FeatureContacts::take_keys() {
+std::optional<std::vector<FeatureKey>> FeatureContacts::take_keys() {
+  if (listed_ > most_keys_) return std::nullopt;
   std::vector<FeatureKey> keys = std::move(lanes_[0]->listed);
   for (std::size_t i = 1; i < lanes_.size(); ++i)
     keys.insert(keys.end(), lanes_[i]->listed.begin(), lanes_[i]->listed.end());

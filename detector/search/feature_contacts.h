@@ -12,6 +12,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <deque>
 #include <limits>
@@ -34,8 +35,8 @@ namespace assay::detector {
 //
 // The contacts come from feature pairs, so one triangle pair may come up to 21 times. If all
 // triangles lie upon each other there are M^2 / 2 pairs. To keep memory small, each pair is kept
-// once: the contacts that came lately are merged into the sorted rest as soon as they are a
-// quarter of it. A pair takes 70 bytes, 48 of them the result, and 118 bytes while the list grows.
+// once: the latest contacts are merged into the sorted others as soon as they are a quarter of
+// these. A pair takes 70 bytes, 48 of them the result, and 118 bytes while the list grows.
 //
 // Memory in proportion to the list's length is taken only where the stop function is asked
 // meanwhile. So if the stop function watches a limit of memory, the limit is kept. Cost: O(log n)
@@ -50,21 +51,21 @@ class PairContacts {
     constexpr std::size_t a_few = 64;
     return !all_.empty() && all_.capacity() - all_.size() < a_few;
   }
-  // Makes room for a quarter more. False if `stop` asked for an end; all contacts are kept then,
-  // too.
+  // Makes room for a quarter more. Returns false if `stop` asked for an end; all contacts are kept
+  // then, too.
   bool make_room(const StopFunction& stop);
 
-  // The pairs that came for the first time since the last call, each once.
+  // Returns the pairs that came for the first time since the last call, each once.
   std::deque<TrianglePair> take_new_pairs();
-  // All pairs, ascending, each with its first contact. If several contacts of a pair have the same
-  // first time, the one with the least feature kind is taken, then the one with the least
+  // Returns all pairs, ascending, each with its first contact. If several contacts of a pair have
+  // the same first time, the one with the least feature kind is taken, then the one with the least
   // vertices. The list is empty afterwards.
   std::vector<PairContact> take();
 
-  // Those that are held, in any order; some pairs come several times.
+  // Returns the contacts that are held, in any order; some pairs come several times.
   std::span<const PairContact> held() const { return all_; }
 
-  // The memory that is held, in bytes.
+  // Returns the memory that is held, in bytes.
   std::size_t bytes() const {
     return (all_.capacity() + late_.capacity()) * sizeof(PairContact) +
            new_.size() * sizeof(TrianglePair) + recent_.capacity() * sizeof(std::uint32_t);
@@ -78,8 +79,8 @@ class PairContacts {
   // The first settled_ contacts of all_ are ascending, with each pair once; the late ones follow.
   std::size_t settled_ = 0;
   std::vector<PairContact> late_;  // working memory of settle()
-  // Where pairs that came lately lie in all_, by a hash of the pair; 16 KB. By now a place may hold
-  // another pair, so it is only a guess.
+  // The places in all_ of the latest pairs, by a hash of the pair; 16 KB. A place may hold another
+  // pair by now, so it is only a guess.
   std::vector<std::uint32_t> recent_;
   std::deque<TrianglePair> new_;
 };
@@ -99,27 +100,27 @@ class FeatureContacts {
   FeatureContacts(const FeatureContacts&) = delete;
   FeatureContacts& operator=(const FeatureContacts&) = delete;
 
-  // Says which types the search asks for whose candidates come next.
+  // Sets the types that the search asks for whose candidates come next.
   void ask(const AskedTypes& relations) { pairs_.ask(relations); }
 
-  // Sorts what is found by this relation, which must outlive this object; null: everything counts.
+  // Sorts the contacts by this relation, which must outlive this object; null: everything counts.
   // REQUIRES that no candidate has come yet.
   void sort_by(const PairRelation* relation) { relation_ = relation; }
 
-  // From now on what is found later than this is dropped. REQUIRES that no lane works.
+  // Drops, from now on, contacts later than this. REQUIRES that no lane works.
   void leave_out_later_than(const TimeBound& bound) { bound_ = bound; }
-  // The least upper end of the times of the contacts that count and were found under a bound;
-  // infinity if there is none. REQUIRES that no lane works.
+  // Returns the least upper end of the times of all contacts that count and were found under a
+  // bound; infinity if there is none. REQUIRES that no lane works.
   double least_end() const;
-  // From now on pairs of features are taken that come near in this motion, of the same vertices,
-  // by as much more than the separation as the slack. They are tested over the whole step. The
-  // second constructor has done it; after the first it is REQUIRED before candidates come.
+  // Takes, from now on, pairs of features that come within the separation and the slack in this
+  // motion of the same vertices. They are tested over the whole step. The second constructor calls
+  // this; after the first one it is REQUIRED before candidates come.
   void take_near_in(const SteppedMesh& motion, double slack, PacedStop* pace) {
     pairs_.fit(motion, pace, elementary_.separation() + slack);
   }
 
-  // Proves pairs apart, where contacts are looked for in exact arithmetic by the detector's own
-  // rungs: neither a stage of one's own nor an arithmetic of other errors is spared a test. They
+  // Proves pairs apart, if contacts are looked for in exact arithmetic by the detector's own rungs.
+  // Any other stage, and any other arithmetic, still gets every test. Pairs that are proved apart
   // need not be added. REQUIRES ask(), if types are asked for.
   void prove_apart(const WideTree& tree, PacedStop* pace) {
     if (elementary_.first_rungs() && neighbours_count_) pairs_.prove_apart(motion_, tree, pace);
@@ -130,7 +131,7 @@ class FeatureContacts {
     return pairs_.are_proved_apart(a, b);
   }
 
-  // How many lanes candidates come in (parallel/workers.h): one until this is called.
+  // Sets how many lanes candidates come in (parallel/workers.h). Before this is called it is one.
   void make_lanes(std::size_t count);
 
   // Takes the feature pairs of a candidate pair, and tests those of its lane whenever enough have
@@ -144,35 +145,35 @@ class FeatureContacts {
   // false if `stop` asked for an end; the contacts found until then are kept.
   bool run(const StopFunction& stop, const PacedStop* pace = nullptr);
 
-  // From now on the feature pairs that are taken are listed, one lane's in this room, but edges
-  // that are seen at once to pierce nothing at t=0. take_keys() gives them, in any order; if there
-  // are more than `most` it gives more than that. REQUIRES that no candidate has come yet.
+  // Lists, from now on, the feature pairs that are taken, except edges that are seen at once to
+  // pierce nothing at t=0. One lane lists them in `room`. take_keys() gives them, in any order, or
+  // nothing if there are more than `most`. REQUIRES that no candidate has come yet.
   void list_keys(std::size_t most, std::vector<FeatureKey> room) {
     most_keys_ = most;
     lanes_[0]->listed = std::move(room);
   }
-  std::vector<FeatureKey> take_keys();
-  // The grid of the motion in which they are near.
+  std::optional<std::vector<FeatureKey>> take_keys();
+  // Returns the grid of the motion in which the feature pairs are near.
   const FloatGrid& grid() const { return pairs_.grid(); }
-  // Tests these feature pairs, whatever is near. As run().
+  // Tests these feature pairs, whether or not they are near, and otherwise does what run() does.
   bool run(std::span<const FeatureKey> keys, const StopFunction& stop, const PacedStop* pace);
 
-  // The triangle pairs in contact that were found since the last call, each once.
+  // Returns the triangle pairs in contact that were found since the last call, each once.
   std::deque<TrianglePair> take_new_pairs() { return contacts_.take_new_pairs(); }
   NarrowCounts counts() const;
-  // What the tests have taken, in milliseconds; with several lanes their mean.
+  // Returns the time that the tests have taken, in milliseconds; with several lanes their mean.
   double test_time() const;
 
   // Hands out the first contact of each triangle pair, ascending by pair, and keeps none. With
   // Want::yes_no every time is {0, 0}.
   std::vector<PairContact> take() { return contacts_.take(); }
 
-  // Whether a contact within one component was found that does not count. REQUIRES that run() has
-  // tested all candidates. Nothing if `stop` asked for an end.
+  // Returns whether a contact within one component was found that does not count; nothing if `stop`
+  // asked for an end. REQUIRES that run() has tested all candidates.
   std::optional<bool> found_ignored(const StopFunction& stop) const;
-  // Appends to `counted` those of `contacts`, which take() has given, that count; with a relation
-  // of features the first contact that counts of each pair. REQUIRES a relation. False if `stop`
-  // asked for an end; some may then be left out.
+  // Appends to `counted` the contacts that count. `contacts` are those that take() gave. With a
+  // relation of features it appends the first contact of each pair that counts. REQUIRES a
+  // relation. Returns false if `stop` asked for an end; some may then be left out.
   bool take_counted(const std::vector<PairContact>& contacts, const StopFunction& stop,
                     std::vector<PairContact>& counted);
 
@@ -180,7 +181,7 @@ class FeatureContacts {
   struct OneType;  // the types and representatives that the short constructor makes for itself
   FeatureContacts(const Topology& mesh, const SteppedMesh& motion, const ElementaryTest& elementary,
                   Want want, std::unique_ptr<OneType> own, PacedStop* pace);
-  // What one lane has taken and found.
+  // The feature pairs that one lane has taken, and its contacts.
   struct Lane {
     std::vector<FeatureKey> untested, listed;
     // Room for the queries of one kind on their way through the first rungs.
@@ -196,10 +197,10 @@ class FeatureContacts {
     double test_time = 0;
   };
   bool run(Lane& lane, const StopFunction& stop);
-  // Lists those of the untested whose kind lists(kind) takes.
+  // Lists the untested feature pairs whose kind lists(kind) takes.
   template <class Lists>
-  void list(Lane& lane, Lists lists) const;
-  // Drops from the untested what the first rungs settle.
+  void list(Lane& lane, Lists lists);
+  // Drops the untested feature pairs that the first rungs settle.
   void settle_in_lanes(const QueryKernels& kernels, Lane& lane) const;
   void test(FeatureKey key, Lane& lane) const;
   void sort_features(FeatureKey key, std::size_t found_before, Lane& lane) const;
@@ -222,6 +223,7 @@ class FeatureContacts {
   FeaturePairs pairs_;
   std::vector<std::unique_ptr<Lane>> lanes_;
   std::size_t most_keys_ = 0;  // 0: they are not listed
+  std::atomic<std::size_t> listed_ = 0;
   std::mutex handing_over_;
   PairContacts contacts_;
   const PairRelation* relation_ = nullptr;

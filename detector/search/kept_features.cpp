@@ -9,9 +9,10 @@
 namespace assay::detector {
 namespace {
 
-constexpr std::uint64_t work_of_vertex = 2;
+constexpr std::uint64_t work_to_compare = 2;
 
-// Parts as run_in_rounds makes them: of 64 shares, 1, then 3, 12, 16 and 32.
+// Parts of growing sizes, as a search for the first contact has them (search_lanes.h): of 64
+// shares, 1, then 3, 12, 16 and 32.
 std::size_t part_of(FeatureKey key) {
   constexpr std::uint64_t mixer = 0x9e3779b97f4a7c15;
   const std::uint64_t share = key * mixer >> 58;
@@ -28,16 +29,21 @@ void KeptFeatures::keep(const SteppedMesh& step, double until, const FloatGrid& 
   found_ = std::move(found);
   begins_ = {};
   fastest_.reset();
-  until_ = pace.after(work_of_vertex * static_cast<std::uint64_t>(x_t0_.rows())) ? 0 : until;
+  until_ = pace.after(work_to_compare * static_cast<std::uint64_t>(x_t0_.rows())) ? 0 : until;
 }
 
-void KeptFeatures::make_parts() {
-  begins_ = {};
-  for (const FeatureKey key : found_) ++begins_[part_of(key) + 1];
-  for (std::size_t i = 0; i < parts; ++i) begins_[i + 1] += begins_[i];
+// False if it was stopped; the next question then makes them.
+bool KeptFeatures::make_parts(PacedStop& pace) {
+  constexpr std::uint64_t work_of_key = 1;
+  std::array<std::size_t, parts + 1> begins{};
   keys_.resize(found_.size());
-  auto next = begins_;
-  for (const FeatureKey key : found_) keys_[next[part_of(key)]++] = key;
+  for (const FeatureKey key : found_) ++begins[part_of(key) + 1];
+  for (std::size_t i = 0; i < parts; ++i) begins[i + 1] += begins[i];
+  auto next = begins;
+  const auto put = [&](std::size_t i) { keys_[next[part_of(found_[i])]++] = found_[i]; };
+  if (!for_each_paced(found_.size(), work_of_key, &pace, put)) return false;
+  begins_ = begins;
+  return true;
 }
 
 bool KeptFeatures::cover(const SteppedMesh& other, double until, PacedStop& pace) {
@@ -49,13 +55,12 @@ bool KeptFeatures::cover(const SteppedMesh& other, double until, PacedStop& pace
   const auto [row, axis] = *fastest_;
   const double from = x_t0_(row, axis),
                share = (other.vertices_t1(row, axis) - from) / (x_t1_(row, axis) - from);
-  if (!(share >= 0 && share * until <= until_) || !begins_like(other, share, pace)) return false;
-  if (begins_.back() != found_.size()) make_parts();
-  return true;
+  if (!(share >= 0 && share * until <= until_) || !follows(other, share, pace)) return false;
+  return begins_.back() == found_.size() || make_parts(pace);
 }
 
 // Whether it begins at the same places, and ends where the kept step was after this share of it.
-bool KeptFeatures::begins_like(const SteppedMesh& other, double share, PacedStop& pace) const {
+bool KeptFeatures::follows(const SteppedMesh& other, double share, PacedStop& pace) const {
   std::atomic<bool> is_near = true;
   const auto compare = [&](std::size_t begin, std::size_t end, std::size_t) {
     if (!is_near.load(std::memory_order_relaxed)) return;
@@ -71,7 +76,7 @@ bool KeptFeatures::begins_like(const SteppedMesh& other, double share, PacedStop
     if (!near) is_near = false;
   };
   constexpr std::size_t vertices_of_piece = 1024;
-  return for_all_pieces(static_cast<std::size_t>(other.size()), vertices_of_piece, work_of_vertex,
+  return for_all_pieces(static_cast<std::size_t>(other.size()), vertices_of_piece, work_to_compare,
                         &pace, compare) &&
          is_near;
 }

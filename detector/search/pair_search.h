@@ -23,9 +23,9 @@ class PatchProofs {
   // True only if no two triangles below the node are in contact during the step.
   virtual bool is_free(std::int32_t node) = 0;
   // True only if no two triangles of all those below a and b are in contact during the step.
-  // Asked if the boxes of a and b meet.
+  // It is asked if the boxes of a and b meet.
   virtual bool are_free(std::int32_t a, std::int32_t b) = 0;
-  // Whether the search has to end; the two functions above are then false.
+  // Returns whether the search has to end; the two functions above then return false.
   virtual bool is_stopped() const { return false; }
   // The same proofs for one lane of several (parallel/workers.h). A lane has counts and a pace of
   // its own.
@@ -33,8 +33,8 @@ class PatchProofs {
                                                PacedStop& pace) const = 0;
 };
 
-// Of patches of a dozen triangles, of three dozen and of a hundred, the share that is proved free
-// over the step.
+// The shares of patches that are proved free over the step: of patches of a dozen triangles, of
+// three dozen and of a hundred.
 struct ProvableShares {
   double of_small = 0, of_medium = 0, of_large = 0;
 };
@@ -85,17 +85,18 @@ struct SearchInput {
   // search. Null: nothing is asked, and the calling thread searches alone.
   PacedStop* pace = nullptr;
   bool uses_proofs = true;  // whether proofs, if the search has any, are worth their cost
-  // Null: everything counts. Else the search leaves out the pairs of components that do not meet.
+  // If not null, the search leaves out the pairs of components that do not meet; null: everything
+  // counts.
   const PairRelation* relation = nullptr;
-  // Null: none. Else the search may leave out the pairs that lie in one of them.
+  // If not null, the search may leave out the pairs that lie in one of these sheets.
   const Sheets* sheets = nullptr;
-  // Empty: the search is done in one go. Else it is done in rounds (search_lanes.h), and this is
-  // called between two of them, when the sink has all that was found and no lane works. It may
+  // If this is empty, the search is done in one go. Else it is done in rounds (search_lanes.h), and
+  // this is called between two rounds, when the sink has all pairs found and no lane works. It may
   // refit the tree, to a shorter part of the step. If it returns false the search stops. A search
-  // may leave this out; the first contact is then found at the cost of all.
+  // may ignore this; finding the first contact then costs as much as finding all.
   std::function<bool()> between = {};
 
-  // Whether pairs of two components, or those of one, are searched.
+  // Returns whether pairs of the components c and d are searched; c may be d.
   bool components_meet(std::int32_t c, std::int32_t d) const {
     return !relation || relation->components_meet(c, d);
   }
@@ -103,7 +104,7 @@ struct SearchInput {
 
 class MeshSearch;
 
-// How candidates are found; a stage of the detector. It keeps nothing from one call to the next,
+// The stage of the detector that finds candidates. It keeps nothing from one call to the next,
 // because several detectors may share it. `fit` and `search` return false if they were stopped, by
 // the sink or by `pace`.
 class PairSearch {
@@ -119,14 +120,18 @@ class PairSearch {
                    PacedStop& pace) const {
     return tree.fit_once(mesh, motion, pace);
   }
+  // Hands out all pairs that may be in contact and that the tables ask for. It may leave out those
+  // whose grown boxes are apart, those that the input names, and those that it has proved apart if
+  // proofs are wanted. Without proofs it leaves out no others: later questions rest on that (L20).
   virtual bool search(const SearchInput& input, SearchCounts& counts,
                       const PairSink& sink) const = 0;
 };
 
-// A search for one mesh, with what it keeps. Each detector has its own. This one keeps nothing: it
-// does what its PairSearch does. A search derives from it if it makes something once for the mesh,
-// or if it keeps something from `fit` for the searches of that step. For example, the search by
-// normal cones keeps the contours of the mesh, and where its vertices are during the step.
+// A search for one mesh, with the data that it keeps. Each detector has its own. This one keeps
+// nothing: it does what its PairSearch does. A search derives from it if it makes something once
+// for the mesh, or if it keeps something from `fit` for the searches of that step. For example, the
+// search by normal cones keeps the contours of the mesh, and where its vertices are during the
+// step.
 class MeshSearch {
  public:
   explicit MeshSearch(const PairSearch& by) : by_(by) {}
@@ -141,10 +146,10 @@ class MeshSearch {
   virtual bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) {
     return by_.search(input, counts, sink);
   }
-  // Whether it proves patches apart where proofs are worth their cost (SearchInput).
+  // Returns whether it proves patches apart when proofs are worth their cost (SearchInput).
   virtual bool has_proofs() const { return false; }
-  // An estimate from a few patches, the same for every tree. Zero if the search has no proofs.
-  // REQUIRES that `fit` was called for the step.
+  // Estimates the shares from a few patches, the same for every tree. They are zero if the search
+  // has no proofs. REQUIRES that `fit` was called for the step.
   virtual ProvableShares provable_shares(const Topology&) const { return {}; }
 
  private:
@@ -156,11 +161,12 @@ class MeshSearch {
 // pair.
 //
 // If only one child of a node may hold a partner of the other node, the search goes on with that
-// child before it tests any box. The child's box lies inside the node's, so a test of the node's
-// would have told less. This passes over the nodes that the compact vBVH of the thesis leaves out.
+// child before it tests any box. The child's box lies inside the node's box, so a test of the
+// node's box would have told less. This passes over the nodes that the compact vBVH of the thesis
+// leaves out.
 //
-// What patch proofs show to be apart is left out (L14). They are asked only after flags and boxes
-// have left a pair possible, because they cost more.
+// Pairs that patch proofs show to be apart are left out (L14). Proofs are asked for only if flags
+// and boxes leave a pair possible, because they cost more.
 //
 // If the pace has workers, the descent is cut into pairs of nodes near the root, and each worker
 // takes one of these after the other. The work for a pair of nodes does not depend on other pairs,
@@ -189,8 +195,8 @@ class ExhaustiveSearch : public PairSearch {
 };
 
 // Gives the sink each triangle whose box is not apart from `box`, in a single descent. REQUIRES a
-// box of tree.box_of_triangle, and joined boxes (BoundingVolumeTree::join_boxes). False if the sink
-// stopped it by returning false.
+// box of tree.box_of_triangle, and joined boxes (BoundingVolumeTree::join_boxes). Returns false if
+// the sink returned false.
 bool search_box(const BoundingVolumeTree& tree, const MovingBox& box, SearchCounts& counts,
                 const std::function<bool(std::int32_t)>& sink);
 
@@ -199,7 +205,7 @@ bool search_box(const BoundingVolumeTree& tree, const MovingBox& box, SearchCoun
 // Descends the wide tree against itself. The flags of two nodes say which pairs of their children
 // may hold a pair that is asked for; of these, vector instructions compare the boxes of one child
 // with up to eight others at once. No single-child node is passed over: a comparison costs less
-// than to find out.
+// than finding out which nodes these are.
 //
 // If the pace has workers, the descent is cut into pairs of nodes near the root, and each worker
 // takes one of these after the other (TreeSearch). Candidates and counts are the same for any

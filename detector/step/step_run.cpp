@@ -277,8 +277,8 @@ bool StepRun::find_pairs() {
   bool completed = true;
   {
     Stopwatch watch(times.broad_phase);
-    const bool keeps = keeps_near();
-    completed = keeps && search_->is_kept()
+    const bool keeps = context_.options.keeps_near && !marks_.has_views();
+    completed = keeps && search_->prepare_kept()
                     ? search_->collect_kept()
                     : context_.pair_search->fit(step_.tree, mesh_, step_.motion, cost_.pace) &&
                           search_->collect(policy_.worth_proving(marks_, *search_), keeps);

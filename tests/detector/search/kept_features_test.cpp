@@ -31,8 +31,8 @@ class AskedAgain : public testing::TestWithParam<Culling> {
     for (std::size_t k = 0; k < 3; ++k) off_[k] = grid.tolerance()[k] / 4;
   }
 
-  Detector detector(Options options) const {
-    options.keeps_near = true;
+  Detector detector(Options options, bool keeps_near = true) const {
+    options.keeps_near = keeps_near;
     return std::move(Detector::create(triangles_, x_t0_, options).value());
   }
 
@@ -64,6 +64,11 @@ TEST_P(AskedAgain, L20_AShorterStepIsAnsweredAsIfItWereTheFirst) {
     Options options{GetParam(), Start::verified, i % 5 < 2 ? Pairs::first : Pairs::all};
     options.threads = i % 7 == 0 ? 3 : 1;
     if (!chooses_views(GetParam()) && i % 6 == 1) options.separation = .05 * std::abs(x_t0_(0, 0));
+    CountedPairs counted;
+    for (std::int32_t t = 0; t < triangles_.rows() / 2; t += 2)
+      counted.triangle_pairs.push_back({t, static_cast<std::int32_t>(triangles_.rows()) - 1 - t});
+    counted.rings = 2;
+    if (i % 4 == 3) options.counted = &counted;
     Detector older = detector(options);
     const StepResult whole = older.evaluate(x_t0_, x_t1_);
     for (const double part : {1., .99, .7, .5, 1e-3}) {
@@ -71,7 +76,7 @@ TEST_P(AskedAgain, L20_AShorterStepIsAnsweredAsIfItWereTheFirst) {
       const double share = part * (is_bounded ? whole.first.lo : 1);
       const Positions x = end_at(share, i % 2);
       const StepResult again = older.evaluate(x_t0_, x);
-      Detector fresh = detector(options);
+      Detector fresh = detector(options, false);
       const StepResult expected = fresh.evaluate(x_t0_, x);
       ASSERT_EQ(again.answer, expected.answer) << i << " " << part;
       tests::expect_same_contacts(again, expected);
@@ -94,7 +99,7 @@ TEST_P(AskedAgain, WhatLeavesTheStepIsSearched) {
     Detector older = detector({GetParam()});
     EXPECT_FALSE(was_kept(older.evaluate(x_t0_, x_t1_)));
     const StepResult again = older.evaluate(from, to);
-    tests::expect_same_contacts(again, detector({GetParam()}).evaluate(from, to));
+    tests::expect_same_contacts(again, detector({GetParam()}, false).evaluate(from, to));
     return !was_kept(again);
   };
   EXPECT_FALSE(is_searched(x_t0_, x_t1_));
@@ -103,7 +108,7 @@ TEST_P(AskedAgain, WhatLeavesTheStepIsSearched) {
   EXPECT_TRUE(is_searched(x_t0_, end_at(-.1, 0))) << "back";
   EXPECT_TRUE(is_searched(x_t0_, end_at(.5, 9))) << "beside the way";
   EXPECT_TRUE(is_searched(end_at(.1, 0), end_at(.5, 0))) << "from another place";
-  Detector older = std::move(Detector::create(triangles_, x_t0_, {GetParam()}).value());
+  Detector older = detector({GetParam()}, false);
   older.evaluate(x_t0_, x_t1_);
   EXPECT_FALSE(was_kept(older.evaluate(x_t0_, end_at(.5, 0)))) << "unless it is asked for";
 }
@@ -145,10 +150,71 @@ TEST_P(AskedAgain, L20_BeyondAFirstContactNothingIsKept) {
     const StepResult first = older.first_contact(x_t0_, x_t1_, 1);
     if (first.answer != Answer::collision || first.first.hi >= .25) continue;
     const StepResult all = older.evaluate(x_t0_, end_at(.75, 0));
-    tests::expect_same_contacts(all, detector({GetParam()}).evaluate(x_t0_, end_at(.75, 0)));
+    tests::expect_same_contacts(all, detector({GetParam()}, false).evaluate(x_t0_, end_at(.75, 0)));
     beyond += !was_kept(all);
   }
   EXPECT_GT(beyond, 3);
+}
+
+// The first contact of a part of the step, after the whole step and after a part.
+TEST_P(AskedAgain, L20_APartOfTheStepIsAnsweredAsIfItWereTheFirst) {
+  int kept_steps = 0, collisions = 0;
+  for (int i = 0; i < 40; ++i) {
+    make(i);
+    Detector older = detector({GetParam(), Start::verified, Pairs::all});
+    i % 2 ? older.evaluate(x_t0_, x_t1_) : older.first_contact(x_t0_, x_t1_, .6);
+    for (const double until : {.5, .25}) {
+      const StepResult again = older.first_contact(x_t0_, x_t1_, until);
+      Detector fresh = detector({GetParam(), Start::verified, Pairs::all}, false);
+      const StepResult expected = fresh.first_contact(x_t0_, x_t1_, until);
+      ASSERT_EQ(again.answer, expected.answer) << i << " " << until;
+      EXPECT_EQ(again.first, expected.first);
+      kept_steps += was_kept(again);
+      collisions += again.answer == Answer::collision;
+    }
+  }
+  EXPECT_GT(kept_steps, 20);
+  EXPECT_GT(collisions, 20);
+}
+
+// What changes the state, or the mesh's place, between two questions.
+TEST_P(AskedAgain, L20_WhatIsBetweenTwoQuestionsChangesNoAnswer) {
+  for (int i = 0; i < 60; ++i) {
+    make(i);
+    Detector older = detector({GetParam(), Start::verified, Pairs::all});
+    const auto before = older.state();
+    older.evaluate(x_t0_, x_t1_);
+    const Positions x = end_at(.5, 1);
+    Positions start = x_t0_;
+    if (i % 4 == 0) older.reset();
+    if (i % 4 == 1) {
+      ASSERT_FALSE(older.restore(before).has_value());
+    }
+    if (i % 4 == 2 && !older.commit()) start = x_t1_;
+    if (i % 4 == 3) older.evaluate(x_t1_, x_t0_);
+    Detector fresh = detector({GetParam(), Start::verified, Pairs::all}, false);
+    if (start == x_t1_) {
+      fresh.evaluate(x_t0_, x_t1_);
+      ASSERT_FALSE(fresh.commit().has_value());
+    }
+    const StepResult again = older.evaluate(start, x), expected = fresh.evaluate(start, x);
+    ASSERT_EQ(again.answer, expected.answer) << i;
+    tests::expect_same_contacts(again, expected);
+  }
+}
+
+// Bounded doubles have doubts, which depend on the pairs that are tested. So nothing is kept.
+TEST_P(AskedAgain, WithoutExactArithmeticNothingIsKept) {
+  make(9);
+  Options options{GetParam()};
+  options.arithmetic = Arithmetic::bounded;
+  Detector older = detector(options);
+  older.evaluate(x_t0_, x_t1_);
+  const Positions half = end_at(.5, 0);
+  const StepResult again = older.evaluate(x_t0_, half);
+  const StepResult expected = detector(options, false).evaluate(x_t0_, half);
+  EXPECT_EQ(again.counts.search.candidate_pairs, expected.counts.search.candidate_pairs);
+  EXPECT_EQ(again.doubts, expected.doubts);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cullings, AskedAgain,

@@ -8,8 +8,9 @@ namespace {
 
 using tests::octahedron, tests::octahedron_positions, tests::tip_at;
 
-Detector make(const Triangles& triangles, const Positions& x, Options options) {
-  options.keeps_near = true;
+Detector make(const Triangles& triangles, const Positions& x, Options options,
+              bool keeps_near = false) {
+  options.keeps_near = keeps_near;
   return std::move(Detector::create(triangles, x, options).value());
 }
 
@@ -54,24 +55,30 @@ class Stop : public testing::TestWithParam<Culling> {};
 
 TEST_P(Stop, InAClosedMeshThatCollides) {
   const Positions x = octahedron_positions(2);
-  auto detector = make(octahedron(), x, {GetParam()});
-  stop_everywhere(detector, x, tip_at({.5, .25, 3}));
+  for (const bool keeps_near : {false, true}) {
+    auto detector = make(octahedron(), x, {GetParam()}, keeps_near);
+    stop_everywhere(detector, x, tip_at({.5, .25, 3}));
+  }
 }
 
 TEST_P(Stop, WhereContactsLastFromTheStepBefore) {
   const Positions x = octahedron_positions(2), through = tip_at({.5, .25, 3});
-  auto detector = make(octahedron(), x, {GetParam()});
-  ASSERT_EQ(detector.step(x, through).answer, Answer::collision);
-  stop_everywhere(detector, through, tip_at({.5, .25, 2.5}));
+  for (const bool keeps_near : {false, true}) {
+    auto detector = make(octahedron(), x, {GetParam()}, keeps_near);
+    ASSERT_EQ(detector.step(x, through).answer, Answer::collision);
+    stop_everywhere(detector, through, tip_at({.5, .25, 2.5}));
+  }
 }
 
 TEST_P(Stop, WhereGhostsAreSweptAndDoubtIsReleased) {
   const Positions in = octahedron_positions(2), out = tip_at(1.5);
   // Without its triangle at +x +y +z.
-  auto detector = make(octahedron().bottomRows(7), in, {GetParam()});
-  stop_everywhere(detector, in, out);
-  detector.step(in, out);
-  stop_everywhere(detector, out, in);
+  for (const bool keeps_near : {false, true}) {
+    auto detector = make(octahedron().bottomRows(7), in, {GetParam()}, keeps_near);
+    stop_everywhere(detector, in, out);
+    detector.step(in, out);
+    stop_everywhere(detector, out, in);
+  }
 }
 
 // Each component is too small to ask by itself; together their view tests take integers, 3 us each.

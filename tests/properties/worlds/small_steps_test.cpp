@@ -136,13 +136,13 @@ TEST(SmallSteps, L20_AskedAgainIsAnsweredAlike) {
     const double share = static_cast<double>(i % 16 + 1) / 16;
     const detector::Positions x = step.x_t0 + share * (step.x_t1 - step.x_t0);
     const auto pairs = i % 3 == 0 ? detector::Pairs::first : detector::Pairs::all;
-    const auto make = [&] {
+    const auto make = [&](bool keeps_near) {
       const auto culling = i % 2 == 0 ? Culling::bvh : Culling::automatic;
       detector::Options options{culling, detector::Start::verified, pairs};
-      options.keeps_near = true;
+      options.keeps_near = keeps_near;
       return std::move(detector::Detector::create(step.triangles, step.x_t0, options).value());
     };
-    auto asked = make(), fresh = make();
+    auto asked = make(true), fresh = make(false);
     asked.evaluate(step.x_t0, step.x_t1);
     const auto again = asked.evaluate(step.x_t0, x), expected = fresh.evaluate(step.x_t0, x);
     ASSERT_EQ(again.answer, expected.answer) << "seed " << seed << ", case " << i;
