@@ -30,8 +30,8 @@ Expected<std::string> read_bytes(const std::filesystem::path& path,
 
 // Reads the first `count` bytes of the content, or all if there are fewer, at the same cost for a
 // file of any size. Refuses what read_bytes refuses, as far as the start of the file shows it.
-// A gzip stream that goes on after 256 KiB, but whose first 256 KiB hold fewer bytes, gives
-// nothing.
+// Returns nothing for a gzip stream whose first `count` + 256 KiB hold fewer bytes, or are damaged,
+// and that goes on after them.
 Expected<std::string> read_start(const std::filesystem::path& path, std::size_t count);
 
 // Writes PATH.part beside `path` and then renames it, so a reader sees the old file or the whole

@@ -1,7 +1,6 @@
 // A lane of the search: it depends on its name alone, fills an archive, and finds what is wrong in
 // far fewer cases than the trials need. A race of the search against random cases, the trials of
-// the strata, goes until the first defect of a detector. Both run in this process, so that
-// processor time is that of the cases alone.
+// the strata, goes until the first defect of a detector.
 #include "properties/search/search.h"
 
 #include <fmt/format.h>
@@ -63,7 +62,6 @@ std::optional<Runner> runner_of_peer(const std::string& name) {
 struct FirstDefect {
   bool found = false;
   std::uint64_t cases = 0;
-  double seconds = 0;            // of processor time
   std::uint64_t candidates = 0;  // of the oracle, in all cases: a measure of work that is no clock
 
   void count(const Examined& judged) {
@@ -72,50 +70,20 @@ struct FirstDefect {
   }
 };
 
-// How long a racer may run.
-struct RaceLimits {
-  std::uint64_t cases = 0;
-  double seconds = 1e9;
-};
-
-class ProcessorClock {
- public:
-  double seconds() const { return now() - begin_; }
-
- private:
-  static double now() {
-    timespec t{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-  }
-  double begin_ = now();
-};
-
-// Case i of these families by turns, as the trials have it, if the contract takes one.
-std::optional<corpus::Case> random_case(const Runner& runner, std::span<const Family> known,
-                                        const std::string& name, std::uint64_t i) {
-  const auto& family = known[i % known.size()];
-  return case_within(runner.detector.contract, family,
-                     fmt::format("{}:{}:{}", name, family.name, i / known.size()))
-      .seen;
-}
-
-FirstDefect race_at_random(const Runner& runner, int seed, const RaceLimits& limits) {
+FirstDefect race_at_random(const Runner& runner, int seed, std::uint64_t most_cases) {
   FirstDefect first;
-  const ProcessorClock clock;
   // But for everyday numbers: trials find the racing peer there at once, and nothing is left to
   // search.
   std::vector<Family> known(families().begin(), families().end());
   std::erase_if(known, [](const Family& family) { return family.name.ends_with("-everyday"); });
-  while (first.cases < limits.cases && clock.seconds() < limits.seconds) {
-    const auto c = random_case(runner, known, fmt::format("race:{}", seed), first.cases);
+  while (!first.found && first.cases < most_cases) {
+    const auto& family = known[first.cases % known.size()];
+    const auto name = fmt::format("race:{}:{}:{}", seed, family.name, first.cases / known.size());
+    const auto c = case_within(runner.detector.contract, family, name).seen;
     const auto judged = c ? judged_by(runner, *c) : Examined{};
     first.count(judged);
-    if (!c || !judged.verdicts[0].failure) continue;
-    first.found = true;
-    break;
+    first.found = c && judged.verdicts[0].failure;
   }
-  first.seconds = clock.seconds();
   return first;
 }
 
@@ -127,68 +95,25 @@ SearchSpace racing_space(const Runner& runner) {
           runner.detector.built_in};
 }
 
-// Lanes until `stop`. Once `take` says that a case is the last one, no other is judged.
-void search_lanes(const Runner& runner, const SearchSpace& space, const std::string& name,
-                  const std::function<bool(const Examined&)>& take,
-                  const std::function<bool()>& stop) {
-  bool is_done = false;
+// Lanes, until a defect is found; no case after it is judged.
+FirstDefect race_by_search(const Runner& runner, int seed, std::uint64_t most_cases) {
+  FirstDefect first;
+  const SearchSpace space = racing_space(runner);
   const ExamineCases examine = [&](const std::vector<corpus::Case>& cases) {
     std::vector<Examined> judged(cases.size());
     for (std::size_t i = 0; i < cases.size(); ++i) {
       judged[i].c = cases[i];
-      if (!is_done) judged[i] = judged_by(runner, cases[i]);
-      is_done = is_done || take(judged[i]);
+      if (first.found) continue;
+      judged[i] = judged_by(runner, cases[i]);
+      first.count(judged[i]);
+      first.found = judged[i].verdicts[0].failure.has_value();
     }
     return judged;
   };
+  const auto stop = [&] { return first.found || first.cases >= most_cases; };
   for (int lane = 1; !stop(); ++lane)
-    search({fmt::format("{}:{}", name, lane), 500}, space, examine, stop);
-}
-
-FirstDefect race_by_search(const Runner& runner, int seed, const RaceLimits& limits) {
-  FirstDefect first;
-  const SearchSpace space = racing_space(runner);
-  const ProcessorClock clock;
-  const auto take = [&](const Examined& judged) {
-    first.count(judged);
-    first.found = judged.verdicts[0].failure.has_value();
-    if (first.found) first.seconds = clock.seconds();
-    return first.found;
-  };
-  search_lanes(runner, space, fmt::format("race:{}", seed), take, [&] {
-    return first.found || first.cases >= limits.cases || clock.seconds() >= limits.seconds;
-  });
-  if (!first.found) first.seconds = clock.seconds();
+    search({fmt::format("race:{}:{}", seed, lane), 500}, space, examine, stop);
   return first;
-}
-
-// The distinct signatures of defects that are met in so many seconds of processor time.
-using Signatures = std::set<std::string>;
-
-void take_signature(const Examined& judged, Signatures& met) {
-  if (const auto& failure = judged.verdicts[0].failure) met.insert(failure->signature());
-}
-
-Signatures signatures_at_random(const Runner& runner, double seconds) {
-  Signatures met;
-  const ProcessorClock clock;
-  for (std::uint64_t i = 0; clock.seconds() < seconds; ++i) {
-    const auto c = random_case(runner, families(), "causes", i);
-    if (c) take_signature(judged_by(runner, *c), met);
-  }
-  return met;
-}
-
-Signatures signatures_by_search(const Runner& runner, double seconds) {
-  Signatures met;
-  const SearchSpace space = racing_space(runner);
-  const ProcessorClock clock;
-  const auto take = [&](const Examined& judged) {
-    take_signature(judged, met);
-    return false;
-  };
-  search_lanes(runner, space, "causes", take, [&] { return clock.seconds() >= seconds; });
-  return met;
 }
 
 ExamineCases examine_by(const Runner& runner) {
@@ -266,13 +191,13 @@ TEST(Search, AStoppedLaneIsNotComplete) {
 
 // In the candidates of the oracle, over some seeds: a case of the search has few triangles.
 void expect_less_work(const Runner& runner, int seeds, double least_ratio) {
-  const RaceLimits limits{1500};
+  constexpr std::uint64_t most_cases = 1500;
   double by_search = 0, at_random = 0;
   for (int seed = 1; seed <= seeds; ++seed) {
-    const auto found = race_by_search(runner, seed, limits);
+    const auto found = race_by_search(runner, seed, most_cases);
     EXPECT_TRUE(found.found) << seed;
     by_search += static_cast<double>(found.candidates);
-    at_random += static_cast<double>(race_at_random(runner, seed, limits).candidates);
+    at_random += static_cast<double>(race_at_random(runner, seed, most_cases).candidates);
   }
   fmt::print("{} candidates by search, {} at random\n", by_search, at_random);
   EXPECT_GE(at_random, least_ratio * by_search);
@@ -296,7 +221,7 @@ TEST(Search, FindsWhatRestsOnTheStateAlone) {
     double cases = 0;
     constexpr int seeds = 8;
     for (int seed = 1; seed <= seeds; ++seed) {
-      const auto found = race_by_search(runner, seed, {2000});
+      const auto found = race_by_search(runner, seed, 2000);
       EXPECT_TRUE(found.found) << name << " " << seed;
       cases += static_cast<double>(found.cases) / seeds;
     }
@@ -352,97 +277,6 @@ TEST_F(Swarms, AreDrawnByTheirNames) {
     elsewhere.push_back(Swarm("other", of_views, begin).theme);
   }
   EXPECT_NE(here, elsewhere);
-}
-
-// The search against random cases, until the first defect of planted faults and of detectors of
-// others.
-//
-// ASSAY_RACE_SEEDS=15 ASSAY_RACE_SECONDS=20 properties_search_tests --gtest_filter=*Table* prints
-// the table, of the faults in ASSAY_RACE_FAULTS (names with commas; "all") and of the peers. The
-// seeds begin with ASSAY_RACE_FIRST, or with 1.
-//
-// ASSAY_CAUSES_SECONDS=60 with --gtest_filter=*Causes* counts the distinct causes on each peer, or
-// on those in ASSAY_RACE_PEERS.
-
-double median_of(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
-struct Racers {
-  std::vector<double> random, search, random_cases, search_cases;
-  int random_missed = 0, search_missed = 0;
-};
-
-std::string word_from(const char* name) {
-  const char* word = std::getenv(name);
-  return word ? word : "";
-}
-
-Racers race(const Runner& runner, int seeds, const RaceLimits& limits) {
-  Racers racers;
-  const auto first = word_from("ASSAY_RACE_FIRST");
-  const int begin = first.empty() ? 1 : std::stoi(first);
-  for (int seed = begin; seed < begin + seeds; ++seed) {
-    const auto by_search = race_by_search(runner, seed, limits);
-    const auto at_random = race_at_random(runner, seed, limits);
-    racers.random.push_back(at_random.seconds);
-    racers.search.push_back(by_search.seconds);
-    racers.random_cases.push_back(static_cast<double>(at_random.cases));
-    racers.search_cases.push_back(static_cast<double>(by_search.cases));
-    racers.random_missed += at_random.found ? 0 : 1;
-    racers.search_missed += by_search.found ? 0 : 1;
-  }
-  return racers;
-}
-
-// Whether the list of the variable, names with commas, holds a name or says "all".
-bool is_named(const char* variable, std::string_view name) {
-  const auto names = word_from(variable);
-  return names == "all" || ("," + names + ",").find(fmt::format(",{},", name)) != std::string::npos;
-}
-
-void print_row(const std::string& name, const Racers& racers) {
-  const double random = median_of(racers.random), search = median_of(racers.search);
-  fmt::print("{:40} {:>8.0f} {:>9.3f} {:>3} {:>8.0f} {:>9.3f} {:>3} {:>7.2f}\n", name,
-             median_of(racers.random_cases), random, racers.random_missed,
-             median_of(racers.search_cases), search, racers.search_missed, random / search);
-  std::fflush(stdout);
-}
-
-TEST(Power, Table) {
-  const auto seeds = word_from("ASSAY_RACE_SEEDS");
-  if (seeds.empty()) GTEST_SKIP() << "ASSAY_RACE_SEEDS is not set";
-  const auto limit = word_from("ASSAY_RACE_SECONDS");
-  const RaceLimits limits{1'000'000'000, limit.empty() ? 20 : std::stod(limit)};
-  fmt::print("{:40} {:>8} {:>9} {:>3} {:>8} {:>9} {:>3} {:>7}\n", "detector", "random", "s", "no",
-             "search", "s", "no", "ratio");
-  for (const char* peer : {"cubic_double", "cubic_float", "fcl_elementary", "bullet_bernstein"}) {
-    if (const auto runner = runner_of_peer(peer))
-      print_row(peer, race(*runner, std::stoi(seeds), limits));
-  }
-  for (const auto& fault : faults()) {
-    if (fault.status != FaultStatus::planted || fault.is_disturbed) continue;
-    if (is_named("ASSAY_RACE_FAULTS", fault.name))
-      print_row(std::string(fault.name), race(runner_of(fault), std::stoi(seeds), limits));
-  }
-}
-
-TEST(Power, Causes) {
-  const auto seconds = word_from("ASSAY_CAUSES_SECONDS");
-  if (seconds.empty()) GTEST_SKIP() << "ASSAY_CAUSES_SECONDS is not set";
-  for (const char* peer :
-       {"cubic_double", "cubic_float", "cubic_eigen", "fcl_elementary", "bullet_bernstein"}) {
-    const bool is_asked =
-        word_from("ASSAY_RACE_PEERS").empty() || is_named("ASSAY_RACE_PEERS", peer);
-    const auto runner = is_asked ? runner_of_peer(peer) : std::nullopt;
-    if (!runner) continue;
-    const auto by_search = signatures_by_search(*runner, std::stod(seconds));
-    const auto at_random = signatures_at_random(*runner, std::stod(seconds));
-    fmt::print("{:20} {:>5} causes by search {:>5} at random\n", peer, by_search.size(),
-               at_random.size());
-    std::fflush(stdout);
-  }
 }
 
 }  // namespace

@@ -266,44 +266,5 @@ TEST(Worker, HoldsNoOracle) {
   EXPECT_EQ(symbols.find("CGAL"), std::string::npos);
 }
 
-TEST(Worker, RoundTripsASecond) {
-  // A bipyramid of 20 triangles that bulges: free.
-  constexpr std::int32_t sides = 10;
-  corpus::Case c;
-  c.triangles.resize(2 * sides, 3);
-  detector::Positions x(sides + 2, 3);
-  for (std::int32_t i = 0; i < sides; ++i) {
-    const double angle = 2 * 3.14159265358979323846 * i / sides;
-    x.row(i) << std::cos(angle), std::sin(angle), 0;
-    const std::int32_t j = (i + 1) % sides;
-    c.triangles.row(2 * i) << i, j, sides;
-    c.triangles.row(2 * i + 1) << j, i, sides + 1;
-  }
-  x.row(sides) << 0, 0, 1;
-  x.row(sides + 1) << 0, 0, -1;
-  c.frames = {x, 1.125 * x};
-  WorkerProcess worker(ASSAY_WORKER, std::nullopt);
-  worker.run(c, four);
-  // The best of several batches: the machine may be busy.
-  const auto seconds = [](auto work) {
-    constexpr int batches = 10, repeats = 30;
-    double best = 1;
-    for (int batch = 0; batch < batches; ++batch) {
-      const auto begin = std::chrono::steady_clock::now();
-      for (int i = 0; i < repeats; ++i) work();
-      const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-      best = std::min(best, took.count() / repeats);
-    }
-    return best;
-  };
-  const double through_worker = seconds([&] { worker.run(c, four); });
-  const double here = seconds([&] {
-    for (const auto& configuration : four) run_case(c, configuration);
-  });
-  std::printf("a case of 20 triangles in 4 configurations: %.0f a second, %.0f in this process\n",
-              1 / through_worker, 1 / here);
-  EXPECT_LT(through_worker - here, 1e-3);
-}
-
 }  // namespace
 }  // namespace assay::properties
